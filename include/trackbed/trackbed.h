@@ -1,13 +1,13 @@
 #pragma once
 
-/// Everything that running a scenario takes, in one include:
+/// All headers for running a scenario, in one include:
 ///
 ///     const trackbed::Scenario scenario = trackbed::ReadScenario("corner.yaml");
 ///     const trackbed::CarModel car = trackbed::LoadCar(scenario);
 ///     const trackbed::Plan plan = trackbed::PlanMission(scenario, car);
 ///     const trackbed::RunLog log = trackbed::DrivePlant(scenario, car, plan, "mujoco");
 ///
-/// SimulateClosedLoop runs plants and controllers of your own; RunMission measures and judges a
+/// SimulateClosedLoop runs user-defined plants and controllers; RunMission measures and judges a
 /// run as the program does; Main is the program. Modules have further headers.
 
 #include "trackbed/analysis/run.h"                // IWYU pragma: export

@@ -27,8 +27,8 @@ struct Trial {
 
 struct Bisection {
   BisectStatus status = BisectStatus::kInterrupted;
-  double value = 0.0;         ///< the highest that was seen to pass; with kFound or kPassesAtTo
-  std::vector<Trial> trials;  ///< in the order in which they were tried
+  double value = 0.0;         ///< highest value that passed; set with kFound or kPassesAtTo
+  std::vector<Trial> trials;  ///< in order of evaluation
 };
 
 /// Bisects for the highest value that passes, between `from`, which should pass, and `to`, which
@@ -36,7 +36,7 @@ struct Bisection {
 ///
 /// Guarantees: with kFound, `value` passed and a value at most `tolerance` above it failed (or the
 /// next double, if that is further). If passing is not monotonic, it finds one of the boundaries.
-/// Cost: at most 2 + ceil(log2((to - from)/tolerance)) trials. `passes` returns nothing if
+/// Cost: at most 2 + ceil(log2((to - from)/tolerance)) trials. `passes` returns nothing when
 /// interrupted. InternalError unless from < to and tolerance > 0.
 Bisection Bisect(double from, double to, double tolerance,
                  const std::function<std::optional<bool>(double value)>& passes);

@@ -16,12 +16,12 @@
 /// Symbols: s station [m]: that of the nearest point of the path, or without a path the distance
 /// traveled; p position of the rear axle [m]; psi yaw [rad]; psi' yaw rate [rad/s]; delta steering
 /// of the road wheels as measured [rad]. Indices 1 and 2 are the first and second run, compared at
-/// equal s, whatever the times. Signed differences are those of the second from the first: positive
-/// when the second one is further to the left.
+/// equal s, whatever the times. Signed differences are second minus first: positive when the second
+/// run is further to the left.
 namespace trackbed {
 
-/// A run over increasing station: rows without progress are left out, so that a standing car is at
-/// its stopping point, and so are those after the first contact with an obstacle. All of equal
+/// A run over increasing station. Omits rows without progress, so that a standing car stays at its
+/// stopping point, and rows after the first contact with an obstacle. All vectors have equal
 /// length.
 struct Trace {
   std::string name;  ///< the plant's, or a label of the run
@@ -30,11 +30,11 @@ struct Trace {
   std::vector<Pose2> pose;  ///< yaw is not wrapped
   std::vector<double> yaw_rate;
   std::vector<double> steering;
-  std::vector<bool> valid{};  ///< whether a row is in no gap of a record; empty: none is in one
+  std::vector<bool> valid{};  ///< false for rows within a gap of a record; empty: no gaps
 
   /// The pose at a station, linear between rows. Needs at least two rows.
   [[nodiscard]] Pose2 PoseAt(double at) const;
-  /// The time at a station [s], likewise.
+  /// The time at a station [s], linear between rows. Needs at least two rows.
   [[nodiscard]] double TimeAt(double at) const;
 };
 
@@ -85,8 +85,8 @@ const std::vector<ComparedQuantity>& ComparedQuantities();
 
 /// Compares two runs, interpolated linearly between rows.
 ///
-/// Guarantees: exact for drives that are, at any spacing of the rows, equal or not; the largest
-/// differences are those at the rows of either. Exchanging the two changes `max_t` alone.
+/// Guarantees: exact for runs that are linear between rows, at any spacing of the rows; the largest
+/// differences are those at the rows of either run. Exchanging the runs changes `max_t` alone.
 /// Cost: linear in the rows.
 PlantComparison CompareTraces(const Trace& first, const Trace& second);
 

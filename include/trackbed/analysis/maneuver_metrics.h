@@ -39,7 +39,7 @@
 /// lane_change (ISO 3888): the four corners of the footprint between the edges of each gate.
 ///   margin  smallest distance of a corner inside an edge [m], negative outside; margin_gate the
 ///   section's number; margin_1, margin_3, margin_5; entry_speed, speed_loss [m/s]
-/// braking (ISO 21994, ISO 7975), from the first period that asks for more than 0.5 m/s^2, against
+/// braking (ISO 21994, ISO 7975), from the first period that commands more than 0.5 m/s^2, against
 /// the circle (or straight line) that the rear axle was on then:
 ///   initial_speed [m/s]; distance to `to_speed` [m]; mean_fully_developed_deceleration
 ///   (v_b^2 - v_e^2)/(2 (s_e - s_b)) between 80 % and 10 % of the initial speed [m/s^2];
@@ -52,14 +52,14 @@ namespace trackbed {
 
 struct ManeuverMetrics {
   std::string method;
-  double begin = 0.0;  ///< of what was evaluated [s]
-  double end = 0.0;    ///< [s]
-  /// Of the control periods in between, as PlantMetrics::steering_saturated_fraction.
+  double begin = 0.0;  ///< start of the evaluated part [s]
+  double end = 0.0;    ///< its end [s]
+  /// As PlantMetrics::steering_saturated_fraction, over the control periods from `begin` to `end`.
   double steering_saturated_fraction = 0.0;
   std::vector<std::pair<std::string, double>> values;  ///< by name; SI units
-  /// Where the standard has limits; false for every maneuver in which the car rolls over.
+  /// Set if the standard has limits; false for every maneuver in which the car rolls over.
   std::optional<bool> passed;
-  std::string missing;  ///< what could not be measured, and why; else empty
+  std::string missing;  ///< unmeasured quantities and the reason; else empty
 
   /// A value by its name.
   [[nodiscard]] std::optional<double> Find(std::string_view name) const;
@@ -74,10 +74,10 @@ ManeuverMetrics EvaluateManeuver(const ManeuverOptions& options, const RunLog& l
 /// All metrics of an evaluation, each 0.
 ManeuverMetrics AllMetrics(const ManeuverOptions& options);
 
-/// Every value of the section `maneuver` of metrics.json, by its name in there, in its order.
+/// Every value of the section `maneuver` of metrics.json, with its name there, in file order.
 std::vector<Metric> ListMetrics(const ManeuverMetrics& metrics);
 
-/// The label of a name in that section, for any maneuver; none for an unknown one.
+/// The label of a name in that section, for any maneuver; nullopt for an unknown name.
 std::optional<MetricInfo> DescribeManeuverMetric(std::string_view name);
 
 }  // namespace trackbed

@@ -4,7 +4,7 @@
 
 #include "trackbed/analysis/run.h"
 
-/// Export of runs as MCAP, the container format of Foxglove and others.
+/// Export of runs as MCAP, the container format of Foxglove and other viewers.
 namespace trackbed {
 
 /// A run as an MCAP file (mcap.dev/spec, version 0): chunks of 1 MB with index, statistics and

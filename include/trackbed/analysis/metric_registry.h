@@ -28,7 +28,7 @@ struct MetricInput {
 struct MetricEntry {
   std::string path;   ///< in metrics.json: words of a-z, 0-9 and '_', sections joined by '.'
   std::string label;  ///< on a report: "Maximum cross-track error"
-  std::string unit;   ///< SI, "m/s^2"; empty for what has none
+  std::string unit;   ///< SI, "m/s^2"; empty for dimensionless values
   std::function<std::optional<MetricReading>(const PlantMetrics&)> read = {};
   std::function<std::optional<MetricReading>(const MetricInput&)> measure = {};
   bool headline = false;  ///< shown first in a report
@@ -40,21 +40,21 @@ struct MetricEntry {
 /// All metrics, in the order of metrics.json.
 const std::vector<MetricEntry>& Metrics();
 
-/// Adds a metric of your own to metrics.json, `expect.metrics`, studies and reports. Call it before
-/// any run, from one thread, such as at the start of main. InputError when the path is malformed or
-/// taken, there is no label, or not exactly one of `read` and `measure`.
+/// Adds a user-defined metric to metrics.json, `expect.metrics`, studies and reports. Call it
+/// before any run, from one thread, such as at the start of main. InputError when the path is
+/// malformed or taken, the label is empty, or not exactly one of `read` and `measure` is set.
 void RegisterMetric(MetricEntry entry);
 
 /// Every value of a plant's entry in metrics.json, in its order.
 std::vector<Metric> ListMetrics(const PlantMetrics& metrics);
 
-/// Every value of an entry of `between`, but for the plants' names.
+/// Every value of an entry of `between`, except the plants' names.
 std::vector<Metric> ListMetrics(const PlantComparison& comparison);
 
-/// Label and unit of a path in a plant's entry; none for an unknown path.
+/// Label and unit of a path in a plant's entry; nullopt for an unknown path.
 std::optional<MetricInfo> DescribeMetric(std::string_view path);
 
-/// The same of an entry of `between`: "position.max".
+/// Label and unit of a path in an entry of `between`, such as "position.max"; nullopt if unknown.
 std::optional<MetricInfo> DescribeComparisonMetric(std::string_view path);
 
 }  // namespace trackbed

@@ -24,7 +24,7 @@ enum class MetricSpan {
 struct MetricPlace {
   MetricSpan span = MetricSpan::kRun;
   double s = 0.0;       ///< station of the moment; with kRun, kEnd and kSince, of the run's end [m]
-  double t = 0.0;       ///< time of the moment, or of the end of the part [s]
+  double t = 0.0;       ///< time of the moment, or of the interval's end [s]
   double from_t = 0.0;  ///< [s]
 };
 
@@ -41,7 +41,7 @@ struct Metric {
   MetricPlace at;
 };
 
-/// What a standard asks of a quantity.
+/// A limit that a standard sets for a quantity.
 struct StandardLimit {
   enum class Relation { kAtMost, kAtLeast };
   Relation relation = Relation::kAtMost;
@@ -62,7 +62,7 @@ struct MetricInfo {
 
 nlohmann::ordered_json ToJson(const MetricValue& value);
 
-/// As text in the table of a study: numbers with the shortest round-trip digits, texts unchanged.
+/// Text for the table of a study: numbers with the shortest round-trip digits, texts unchanged.
 std::string ToText(const MetricValue& value);
 
 }  // namespace trackbed

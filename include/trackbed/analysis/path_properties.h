@@ -7,10 +7,10 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/world/world.h"
 
-/// What a planned path is by itself, before it is driven: what planners are usually compared by.
+/// Properties of a planned path before it is driven, the usual measures for comparing planners.
 namespace trackbed {
 
-/// A plan that is ok, and where it leads.
+/// A successful plan, with its world and vehicle.
 struct PlannedPath {
   const Plan& plan;
   const World& world;
@@ -22,7 +22,7 @@ struct PathProperty {
   const char* name;   ///< with its unit: "curvature_max_radpm"
   const char* label;  ///< on a report
   const char* unit;   ///< SI
-  /// Nothing where the path has no such value.
+  /// None if the path has no such value.
   std::optional<double> (*measure)(const PlannedPath& path);
 };
 

@@ -14,8 +14,8 @@ struct RecoveryMetrics {
   std::optional<double> time;  ///< from then until the car stays near its path [s]; none: never
 };
 
-/// Near its path is a car within `disturb.recovered_within`; looked at once per control period.
-/// None without a path, or if no temporary disturbance ended before the run.
+/// A car is near its path within `disturb.recovered_within`, checked once per control period. None
+/// without a path, or if no temporary disturbance ended during the run.
 std::optional<RecoveryMetrics> MeasureRecovery(const RunLog& log, const Disturbances& disturb,
                                                const Wind& wind);
 

@@ -8,11 +8,11 @@
 /// Requirements of `expect`, evaluated on the log of a plant (trackbed/requirement/formula.h).
 namespace trackbed {
 
-/// Evaluates a formula over the whole log, whose columns are its signals. Never throws: what is
-/// wrong with the formula or the log is RequirementMetrics::problem.
+/// Evaluates a formula over the whole log, whose columns are its signals. Never throws: errors in
+/// the formula or the log are reported in RequirementMetrics::problem.
 RequirementMetrics MeasureRequirement(const RequirementExpectation& requirement, const RunLog& log);
 
-/// The requirements on all plants and on the log's own.
+/// Evaluates the requirements on all plants, then those on the log's plant.
 std::vector<RequirementMetrics> MeasureRequirements(const Expectations& expect, const RunLog& log);
 
 /// The path of the robustness in the plant's entry in metrics.json:

@@ -22,7 +22,7 @@ const char* ToString(Relation relation);
 enum class CheckReason {
   kExpected,      ///< the scenario's `expect` says so
   kArrival,       ///< every run must arrive
-  kNoContact,     ///< and touch no obstacle
+  kNoContact,     ///< every run must touch no obstacle
   kCorridor,      ///< on a path, stay within one car width of it
   kSteeringRate,  ///< steering rate within the actuator's limit
   kCollision,     ///< `expect.collision`
@@ -34,18 +34,19 @@ enum class CheckReason {
 /// A bound and the value compared with it.
 struct Check {
   std::string plant;
-  std::string other;   ///< the second one of a pair that is compared; else empty
+  std::string other;   ///< the second plant of a compared pair; else empty
   std::string metric;  ///< its path in metrics.json: "cross_track.max", "position.max"
   Relation relation = Relation::kAtMost;
   MetricValue bound;  ///< with kEquals, a text as the scenario has it: "true", "arrived", "3"
-  MetricValue value;  ///< monostate: there was none, and the check is not met
+  MetricValue value;  ///< monostate: not measured, and the check is not met
   MetricPlace at;     ///< where the value was
   bool met = false;
 
   CheckReason reason = CheckReason::kExpected;
-  std::string name;     ///< of the metric, in messages
-  std::string unit;     ///< of bound and value; empty for none
-  std::string detail;   ///< additional text of the message: why there is no value, why it stopped
+  std::string name;  ///< of the metric, in messages
+  std::string unit;  ///< of bound and value; empty if dimensionless
+  std::string
+      detail;  ///< additional text of the message: why there is no value, why the car stopped
   std::string formula;  ///< of a requirement; its value is the robustness, its bound 0
 };
 
@@ -65,16 +66,15 @@ struct Verdict {
 Check CheckMetric(const PlantMetrics& plant, const std::string& path, Relation relation,
                   const MetricValue& bound);
 
-/// Checks a requirement: whether it is satisfied, which its robustness alone does not tell if it is
-/// 0. One without robustness is not met.
+/// Checks whether a requirement is satisfied; a robustness of 0 alone does not decide that. A
+/// requirement without robustness is not met.
 Check CheckRequirement(const std::string& plant, const RequirementMetrics& requirement);
 
-/// A check for each bound that is given. Plants without common stations have a single check, which
-/// is not met.
+/// One check per given bound. Plants without common stations give a single check, which is not met.
 std::vector<Check> CheckBounds(const DifferenceBounds& bounds, const PlantComparison& comparison);
 
-/// The message of a check that is not met: metric, value, bound, station and time. Empty where
-/// another check reports the same: a contact also sets the end status.
+/// The message of a check that is not met: metric, value, bound, station and time. Empty if another
+/// check reports the same fault: a contact also sets the end status.
 std::string FailureMessage(const Check& check);
 
 /// The messages of CheckBounds.
@@ -85,14 +85,14 @@ std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
 void AddCheck(Check check, Verdict& verdict);
 
 /// Checks the scenario's expectations and, unless these say otherwise, for every plant:
-///   * that it arrives; another `status` among the metrics or `collision: true` replaces that,
+///   * that it arrives; an expected `status` or `collision: true` replaces that,
 ///   * that it touches no obstacle,
 ///   * on a path, that it stays within one car width of it (`max_cross_track` replaces that),
-///   * that its wheels turned no faster than its actuator can, but for what their compliance adds
-///     (3 %): faster ones mean that the timestep is too long for the car.
-/// A run without a path, obstacles and expectations is not judged, and has not passed. A note is
-/// added for a maneuver in which the steering did not reach its command for more than 2 % of the
-/// time.
+///   * that its wheels turned no faster than the actuator allows, plus 3 % for their compliance;
+///     faster wheels mean that the timestep is too long for the car.
+///
+/// A run without a path, obstacles and expectations is not judged, and has not passed. Adds a note
+/// for a maneuver in which the steering did not reach its command for more than 2 % of the time.
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons);
 

@@ -8,7 +8,7 @@
 /// The registry of steering controllers.
 namespace trackbed {
 
-/// All steering controllers, those of Trackbed first.
+/// All steering controllers, the built-in ones first.
 const std::vector<ControllerEntry>& Controllers();
 
 /// Adds a controller to the registry, for scenarios, `trackbed list`, messages and reports. Call it
@@ -16,10 +16,10 @@ const std::vector<ControllerEntry>& Controllers();
 /// PreconditionError when the name or the type of the options is taken.
 void RegisterController(ControllerEntry entry);
 
-/// The entry of the controller that `options` belong to. InternalError for options of none.
+/// The entry of the controller that `options` belong to. InternalError for empty options.
 const ControllerEntry& ControllerFor(const ControllerOptions& options);
 
-/// The controller that `options` select. Its Steer rejects a state with NaN or infinity:
+/// Makes the controller that `options` select. Its Steer rejects a state with NaN or infinity:
 /// InternalError. PreconditionError for options out of their keys' ranges.
 std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options);
 

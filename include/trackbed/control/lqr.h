@@ -17,20 +17,19 @@ namespace trackbed {
 /// g_k how the path's curvature changes k periods ahead; K, P gain and solution of the discrete
 /// Riccati equation; A_c = A - B K.
 ///   w = -K z - (R + B'PB)^-1 B' sum_k (A_c')^k P g_k
-/// The car is the dynamic single-track one at the present speed with the axles of TyreForces, or
-/// the kinematic one if it has no tyre coefficients, behind its steering actuator and lag. Gains
-/// are computed anew in each period, for the present speed and direction: nothing is scheduled
-/// between grid points.
+/// The car is the dynamic single-track model at the present speed with the axles of TyreForces, or
+/// the kinematic model if it has no tyre coefficients, behind its steering actuator and lag. Gains
+/// are computed in each period for the present speed and direction: there is no gain schedule.
 ///
 /// The rate integrates from the last commanded angle, initially that of the actuator, so that
 /// delay, backlash or a gain error of the actuator are compensated.
 ///
 /// On a path of constant curvature without error it steers delta_0. Rate and angle are clipped to
 /// the car's limits afterwards; the regulator does not account for them: see MpcOptions. The weight
-/// of the rate grows with the distance from the path, so that the rate-limited steering can follow;
-/// the car and approaches the path at 0.6 rad at most. Reverse paths are the same model with u < 0.
-/// Cost: about 55 us with 100 periods of preview on the path, some 0.5 ms meters beside it; no heap
-/// memory.
+/// of the rate grows with the distance from the path, so that the rate-limited steering can follow
+/// and the car approaches the path at 0.6 rad at most. Reverse paths are the same model with u < 0.
+/// Cost: about 55 us with 100 periods of preview for a car on its path, some 0.5 ms for a car
+/// meters off it; no heap memory.
 struct LqrOptions {
   std::optional<double> cross_track;    ///< [1/m^2], > 0; none: (2.7 m/L)^2 per m^2
   double heading = 1.0;                 ///< [1/rad^2], >= 0

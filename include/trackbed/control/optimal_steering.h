@@ -10,9 +10,9 @@
 #include "trackbed/vehicle/params.h"
 
 /// Steering found by a search at every control step (Skackauskas et al. 2017). The primary model is
-/// the reference motion; the car, the secondary model, is disturbed. While the car's deviation (9)
-/// from the primary exceeds a limit, now or after the horizon if the plan's curvature were steered,
-/// the angle is steered that minimizes
+/// the reference motion; the car, the secondary model, is disturbed. The plan's curvature is
+/// steered while the car's deviation (9) from the primary stays within a limit, now and predicted
+/// over the horizon. Otherwise the search finds the angle that minimizes
 ///   (1)  F = (x_i - x_i0)^2 + (y_i - y_i0)^2 + (psi_i - psi_i0)^2,  (2)  |delta| <= delta_max
 /// over a prediction of both.
 ///
@@ -20,7 +20,7 @@
 /// [rad], positive to the left; S horizon [m]; v speed of the car, v_0 of the primary [m/s].
 namespace trackbed {
 
-/// The primary's pose that the car's pose is compared with.
+/// The pose of the primary with which the car's pose is compared.
 enum class Matching {
   kArcLength,  ///< at the car's own station, S meters further when predicted
   kTime,       ///< at the same time, however far behind the car is: the published first stage
@@ -43,28 +43,28 @@ struct Deviation {
 /// q_e = R(psi_0)^T (q - q_0).
 Deviation ComputeDeviation(const Pose2& actual, const Pose2& wanted);
 
-/// The weighted (1) of a deviation; its root is the norm that `deviation_limit` bounds.
+/// The weighted (1) of a deviation; `deviation_limit` bounds its square root.
 double DeviationCost(const Deviation& deviation, const DeviationWeights& weights);
 
-/// The controller. `search.evaluations` 0 stands for ControlEvaluations. Random searches draw the
-/// same numbers at every update.
+/// The options of the controller. `search.evaluations` = 0 selects ControlEvaluations. Random
+/// searches draw the same numbers at every update.
 struct OptimalSteeringOptions {
   Matching matching = Matching::kArcLength;
-  /// Shortest S [m], > 0; none: the distance of PreviewOptions; of the primary: with kTime the
-  /// car's is S v/v_0. With kArcLength never shorter than 1.5 cbrt(e L v/omega) for a car e beside
-  /// its path, as for PreviewOptions.
+  /// Shortest horizon S of the primary [m], > 0; none: the distance of PreviewOptions. With kTime
+  /// the car's horizon is S v/v_0. With kArcLength, S is at least 1.5 cbrt(e L v/omega) for a car
+  /// with the offset e from its path, as in PreviewOptions.
   std::optional<double> horizon;
   double time = 0.0;  ///< S is at least time |v|, with kTime time v_0 [s], >= 0
   SearchOptions search{.method = SearchMethod::kNelderMead, .population = 20, .tolerance = 1e-6};
   DeviationWeights weights;
-  double deviation_limit = 0.01;       ///< epsilon, on the norm: up to it the plan's curvature is
-                                       ///< steered
+  /// Limit epsilon on the norm of the deviation; within it, the plan's curvature is steered.
+  double deviation_limit = 0.01;
   std::optional<double> max_steering;  ///< delta_max [rad], > 0; default and at most the car's
 };
 void Visit(KeyVisitor& keys, OptimalSteeringOptions& options);
 
-/// Evaluations of one update when none are given: 60 of a search that converges, 600 of one that
-/// draws random numbers.
+/// The default number of evaluations per update: 60 for a search that converges, 600 for a search
+/// that draws random numbers.
 int ControlEvaluations(SearchMethod method);
 
 /// The pose that the rear axle of a kinematic car reaches from the origin, heading along x, over
@@ -75,7 +75,7 @@ int ControlEvaluations(SearchMethod method);
 Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, double speed,
                   double distance);
 
-/// What one search found.
+/// The result of a search.
 struct SteeringMatch {
   double steering = 0.0;  ///< [rad]
   double cost = 0.0;      ///< the weighted (1) there
@@ -92,17 +92,18 @@ struct SteeringProblem {
   double start = 0.0;         ///< where the search begins [rad]
 };
 
-/// The deviation from the wanted pose, in axes of the car's, where `steering` [rad] would lead.
+/// The deviation from the target pose, in the car's axes, that results from `steering` [rad].
 Deviation DeviationAhead(const VehicleParams& vehicle, const SteeringProblem& problem,
                          double steering);
 
-/// The search variable: the fraction q of the heading change that is reachable, turning at their
-/// full rate from where they are (+-1). With R the angle they can turn by,
+/// The search variable: the fraction q of the heading change that can be reached by turning the
+/// wheels at their full rate from their present angle (q = +-1). With R the angle by which the
+/// wheels can turn,
 ///   delta = delta_now +- R (1 - sqrt(1 - abs(q))).
-/// The pose reached is nearly linear in q; in delta it is not, since an angle that is reached late
+/// The reached pose is nearly linear in q. It is not linear in delta: an angle that is reached late
 /// has almost no effect, and searches would stall on that plateau.
 double SteeringOfShare(const VehicleParams& vehicle, const SteeringProblem& problem, double share);
-/// The inverse, +-1 for angles out of reach.
+/// The inverse of SteeringOfShare; +-1 for angles out of reach.
 double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, double steering);
 
 /// The angle whose end pose is nearest to the target, within delta_max and within what the actuator
@@ -111,14 +112,14 @@ double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, d
 SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
                              const DeviationWeights& weights, const SearchOptions& search);
 
-/// The experiment of Skackauskas et al. 2017: the primary drives one lap on a constant angle, the
-/// car another constant angle at another speed; both begin in one pose with their wheels turned.
-/// Compared are the ends: with kTime after the lap's time, with kArcLength where the primary had
-/// come as far as the car.
+/// The experiment of Skackauskas et al. 2017: the primary drives one lap at a constant angle, the
+/// car at another constant angle and another speed. Both begin at the same pose with their wheels
+/// already turned. The end poses are compared: with kTime after the duration of the lap, with
+/// kArcLength after equal distances.
 struct CircleExperiment {
   double primary_steering = 0.0;  ///< [rad], not 0
   double primary_speed = 0.0;     ///< v_0 of the reference point [m/s], > 0
-  double speed = 0.0;             ///< v likewise
+  double speed = 0.0;             ///< v of the reference point [m/s], > 0
   double max_steering = 0.0;      ///< delta_max [rad]
   Matching matching = Matching::kArcLength;
   ReferencePoint reference = ReferencePoint::kCenterOfGravity;

@@ -15,7 +15,7 @@ enum class PlaybackAxis {
   kDistance,  ///< that the car has driven [m]
 };
 
-/// The inputs of a run, all over the same axis. At most one of speed and acceleration is given;
+/// The inputs of a run, all over the same axis. At most one of speed and acceleration may be given;
 /// empty signals have no effect.
 struct Recording {
   Signal steering{{{0.0, 0.0}}};  ///< bicycle angle [rad], positive to the left; not empty
@@ -23,8 +23,8 @@ struct Recording {
   Signal acceleration;            ///< dv/dt [m/s^2]
 };
 
-/// The names of a recording's columns in its file. Those that are not given have the default name:
-/// `t_s`, `s_m`, `steering_rad`, `speed_mps`, `acceleration_mps2`.
+/// The names of a recording's columns in its file. Defaults: `t_s`, `s_m`, `steering_rad`,
+/// `speed_mps`, `acceleration_mps2`.
 struct RecordingColumns {
   std::optional<std::string> time;
   std::optional<std::string> distance;
@@ -38,22 +38,22 @@ void Visit(KeyVisitor& keys, RecordingColumns& columns);
 ///   steering      the recorded angle where the period ends, at t + T or D + abs(v) T
 ///   speed         its change over the period by T, plus gain times the speed error (SpeedAlong)
 ///   acceleration  its mean over the period
-/// so that a car that follows commands exactly reproduces the recording at every control period.
-/// Before the first row and after the last the values are held. By distance, the car stays where
+/// A car that follows commands exactly thus reproduces the recording at every control period.
+/// Values are constant before the first row and after the last. By distance, the car stays where
 /// the recorded speed is zero.
 struct PlaybackOptions {
-  std::string file;  ///< where the recording was read; empty for one of a scenario's record, or
-                     ///< that was filled in by hand
+  /// The file that was read; empty for the recording of a scenario's record, or one made in code.
+  std::string file;
   PlaybackAxis by = PlaybackAxis::kTime;
   RecordingColumns columns;
   Recording recording;
 };
 void Visit(KeyVisitor& keys, PlaybackOptions& options);
 
-/// The angle [rad] that is wanted after `period` [s] of a car with `speed` [m/s] that is at `x`.
+/// The commanded angle [rad] after `period` [s], for a car with `speed` [m/s] at `x` on the axis.
 double PlaybackSteering(const PlaybackOptions& options, double x, double speed, double period);
 
-/// The acceleration [m/s^2] wanted over the period; none where the recording has neither speed nor
+/// The commanded acceleration [m/s^2] over the period; none if the recording has neither speed nor
 /// acceleration.
 std::optional<double> PlaybackAcceleration(const PlaybackOptions& options, double x, double speed,
                                            double gain, double period);

@@ -15,8 +15,8 @@ enum class PreviewLaw {
 
 /// MacAdam's preview (MacAdam 1981) with a single point: the point P of the path at distance R from
 /// the rear-axle center O, the first after the nearest one; u is the signed angle from the
-/// direction of motion to OP. Beyond its end the path continues along its tangent. A car further
-/// than R from the path heads for the point R ahead of its nearest one.
+/// direction of motion to OP. Beyond its end the path continues along its tangent. A car that is
+/// further than R from the path steers toward the point R ahead of its nearest point.
 ///
 /// The distance trades corner cutting, R^2/(8 r), against robustness to the limited steering rate.
 /// Unless `distance` is given, R follows from the car, its speed and the path:
@@ -27,13 +27,12 @@ enum class PreviewLaw {
 ///          v abs(delta(s_2) - delta(s_1))/omega - (s_2 - s_1) of any two
 ///          stations s_1 < s_2 within R, with delta = atan(L kappa) of the path
 /// with L wheelbase [m], v speed [m/s], omega steering rate [rad/s], C_f, C_r cornering stiffness
-/// of the axles [N/rad], m mass [kg]. A car and its path of another size, at the same v/(L omega)
-/// and v T/L, are driven with the same relative error. Derivation and sources:
-/// docs/algorithms/control.md.
+/// of the axles [N/rad], m mass [kg]. A car and a path of another size, with the same v/(L omega)
+/// and v T/L, give the same relative error. Derivation and sources: docs/algorithms/control.md.
 ///
-/// That distance suits a car on its path. Back to the path from an offset e, it would ask for
-/// steering at more than the limited rate, and the car would oscillate about the path. So R is
-/// never shorter than 1.5 cbrt(e L v/omega), which is 0 for a car on its path.
+/// This distance suits a car on its path. To return from an offset e, it would require steering
+/// faster than the limited rate, and the car would oscillate about the path. Therefore R is at
+/// least 1.5 cbrt(e L v/omega), which is 0 for a car on its path.
 struct PreviewOptions {
   std::optional<double> distance;  ///< shortest R [m], > 0; default: the law above
   double time = 0.0;               ///< R is at least time |v| [s]

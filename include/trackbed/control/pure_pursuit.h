@@ -10,14 +10,14 @@ namespace trackbed {
 /// point at the distance l = max(distance, time |v|), delta = atan(2 L sin(u)/l) with u the angle
 /// from the direction of motion to that point.
 ///
-/// On a circle it steers atan(L/R) exactly. With the wheels' rate omega limited, a car at speed v
-/// needs l of about 1.5 cbrt(e L v/omega) to return from an offset e without oscillation.
-/// PreviewOptions lengthens its distance for the car's offset; this law does not. Unless `distance`
-/// is given, l is the distance of PreviewOptions, and long enough for an offset of an eighth of the
-/// wheelbase: 3/4 L cbrt(v/(L omega)).
+/// On a circle of radius R it steers atan(L/R) exactly. If the wheels' rate omega is limited, a car
+/// at speed v needs l of about 1.5 cbrt(e L v/omega) to return from an offset e without
+/// oscillation. Unlike PreviewOptions, this law does not lengthen l for the car's offset. Unless
+/// `distance` is given, l is the distance of PreviewOptions, and at least 3/4 L cbrt(v/(L omega)),
+/// enough for an offset of an eighth of the wheelbase.
 ///
-/// Reverse paths: the point lies behind, the same circle. Beyond its end the path continues along
-/// its tangent. Ignores slip: an understeering car runs outside of its circle.
+/// On reverse paths, the circle passes through a point behind the car. Beyond its end the path
+/// continues along its tangent. Ignores slip: an understeering car runs outside of its circle.
 struct PurePursuitOptions {
   std::optional<double> distance;  ///< shortest l [m], > 0; default: the law above
   double time = 0.0;               ///< l is at least time |v| [s], >= 0

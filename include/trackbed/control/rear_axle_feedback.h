@@ -16,15 +16,15 @@ namespace trackbed {
 /// The command is the steering of the steady turn with curvature kappa_c: atan(L kappa_c) for a car
 /// without slip, with the understeer of the linear single-track car if it has tyre coefficients.
 ///
-/// A car without slip whose wheels obey at once returns to the path from any errors with
-/// kappa e < 1: (e/d)^2 + psi^2 never grows. Small errors decay as exp(-s/d), critically damped,
-/// where s is the distance driven.
+/// For a car without slip whose wheels follow the command at once, (e/d)^2 + psi^2 never grows: it
+/// returns to the path from any errors with kappa e < 1. Small errors decay as exp(-s/d),
+/// critically damped, where s is the distance driven.
 ///
 /// The default d is long enough for the rate limit of the wheels and for the response time of the
 /// car: the largest of ReturnDistance for the offset e, ReturnDistance for L/8, and 3 |v| T
 /// (src/control/preview_distance.h).
 ///
-/// Has no preview: it is late on a step of curvature by the time in which the wheels turn.
+/// Has no preview: it lags a step of curvature by the time that the wheels need to turn.
 struct RearAxleFeedbackOptions {
   std::optional<double> distance;  ///< d [m], >= 0.01; none: from car, speed and cross-track error
 };

@@ -4,8 +4,8 @@
 
 namespace trackbed {
 
-/// Open loop: the plan's steering schedule at the distance the car will have driven at the end of
-/// the period, so that a rate-limited actuator reproduces the schedule whatever the period is.
+/// Open loop: steers the plan's schedule at the distance that the car will have driven by the end
+/// of the period, so that a rate-limited actuator reproduces the schedule for any period.
 struct ScheduleOptions {};
 void Visit(KeyVisitor& keys, ScheduleOptions& options);
 

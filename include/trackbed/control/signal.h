@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// A quantity known at some points: linear between knots (x, value), held before the first and
+/// A quantity given at some points: linear between knots (x, value), constant before the first and
 /// after the last. x is strictly increasing. Evaluating a signal without knots is an InternalError.
 struct Signal {
   std::vector<Vec2> knots;
@@ -16,8 +16,8 @@ struct Signal {
   /// Exact at the knots. Cost O(log knots).
   [[nodiscard]] double At(double x) const;
 
-  /// Mean over [from, to], exact to rounding; the value at `from` unless `to` lies beyond it. Cost
-  /// O(log knots + knots between).
+  /// Mean over [from, to], exact to rounding; the value at `from` if to <= from. Cost O(log knots +
+  /// knots between).
   [[nodiscard]] double Mean(double from, double to) const;
 
   /// Whether x is strictly increasing and all values are finite.

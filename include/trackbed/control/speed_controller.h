@@ -9,31 +9,31 @@
 
 namespace trackbed {
 
-/// Wanted acceleration [m/s^2] of a car at station `s` with `speed` (along the path; negative when
-/// it rolls back) that follows `profile`: the mean acceleration that has the profile's speed at the
-/// end of the coming `period`, plus gain times the speed error, within [-2 deceleration,
-/// acceleration]. In the period in which a profile comes to rest, it is the profile's own
-/// acceleration.
+/// Commanded acceleration [m/s^2] of a car at station `s` with `speed` (along the path; negative
+/// when it rolls back) that follows `profile`: the mean acceleration that reaches the profile's
+/// speed at the end of the coming `period`, plus gain times the speed error, within [-2
+/// deceleration, acceleration]. In the period in which the profile comes to rest, it is the
+/// profile's acceleration.
 ///
-/// Where a profile brakes more than 1.1 times as hard as `deceleration`, the lower bound is that
-/// of the options, at least 1.05 times the profile's own deceleration; likewise the upper one where
-/// it accelerates more than 1.1
-/// times as hard as `acceleration`. Past the end of a profile that ends at rest, the car
-/// brakes as hard as the profile last did, at least comfortably. Never harder than
-/// `max_deceleration` [m/s^2], that of the car on its road (0: not known).
+/// Where the profile brakes more than 1.1 times as hard as `deceleration`, the lower bound is that
+/// of the options, at least 1.05 times the profile's deceleration; the upper bound is extended in
+/// the same way where the profile accelerates more than 1.1 times as hard as `acceleration`. Past
+/// the end of a profile that ends at rest, the car brakes as hard as the profile last did, at least
+/// at `deceleration`. Braking never exceeds `max_deceleration` [m/s^2], that of the car on its road
+/// (0: unknown).
 double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& profile, double s,
                     double speed, double period, double max_deceleration = 0.0);
 
 /// Commanded acceleration [m/s^2] from `time` [s] on if the options prescribe the speed over time:
-/// the braking once it has begun, else along `over_time` (SpeedAlong). Limited only by the car.
-/// None if they do not prescribe it.
+/// the braking once it has begun, before that along `over_time` (SpeedAlong). Limited only by the
+/// car. None if the options do not prescribe it.
 std::optional<double> TimedSpeedControl(const SpeedControlOptions& options, double time,
                                         double speed, double period);
 
 /// Whether the car coasts at `time` [s]: its braking has begun, with a deceleration of 0.
 bool Coasts(const SpeedControlOptions& options, double time);
 
-/// Wanted acceleration [m/s^2] of a car with `speed` that follows a speed which goes from wanted(x)
+/// Commanded acceleration [m/s^2] of a car with `speed` whose desired speed changes from wanted(x)
 /// to wanted(x + ahead) within `period`: that change over the period, plus gain [1/s] times the
 /// speed error. A car without error that follows commands exactly reaches wanted(x + ahead).
 double SpeedAlong(const Signal& wanted, double x, double ahead, double gain, double speed,

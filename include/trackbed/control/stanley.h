@@ -16,16 +16,16 @@ namespace trackbed {
 ///   backwards  delta = delta_0 + (psi - psi_0) - atan(k e/(k_s + |v|))
 /// The offset is that of the leading axle: forwards, e + L sin(psi - psi_0) is the distance of the
 /// front axle from the path it follows when the rear axle is on its path. Without slip and with k_s
-/// = 0 it shrinks as exp(-k t) when it is small, and at no more than |v| when it is large.
+/// = 0 it shrinks as exp(-k t) when it is small, and at a rate of at most |v| when it is large.
 /// Backwards the rear axle leads but does not steer: e oscillates with the damping ratio sqrt((k_s
 /// + |v|)/(k L))/2, 0.6 at 3 m/s and 0.4 at 1 m/s for the Prius.
 ///
-/// The defaults, with omega the steering rate [rad/s], are 1/s and 1 m/s for the Prius.
+/// The defaults, with omega the steering rate [rad/s], give 1/s and 1 m/s for the Prius.
 ///
-/// Has no preview, so that it follows a curvature step late by the steering ramp time, and no
-/// damping: above some 10 m/s with the default k, where the yaw response lags, it oscillates, the
-/// more the larger k is. It ignores the steering rate limit: the Prius at 3 m/s returns from an
-/// offset of 1.5 m, and is unstable from 4 m.
+/// Has no preview, so that it lags a step of curvature by the steering ramp time, and no damping:
+/// above some 10 m/s with the default k, where the yaw response lags, it oscillates, the more the
+/// larger k is. It ignores the steering rate limit: the Prius at 3 m/s returns from an offset of
+/// 1.5 m, but is unstable from an offset of 4 m.
 struct StanleyOptions {
   std::optional<double> gain;       ///< k [1/s], > 0; none: 6.64 omega
   std::optional<double> softening;  ///< k_s [m/s], >= 0; none: 2.46 L omega

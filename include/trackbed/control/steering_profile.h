@@ -17,8 +17,8 @@ struct ConstantSteeringOptions {
 };
 void Visit(KeyVisitor& keys, ConstantSteeringOptions& options);
 
-/// A step to A (ISO 7401, step input). With a rate r delta = A min(1, r tau/abs(A)), without one it
-/// jumps after t0, limited by the car's actuator.
+/// A step to A (ISO 7401, step input). With a rate r, delta = A min(1, r tau/abs(A)); without one,
+/// it jumps after t0, limited by the car's actuator.
 struct StepSteeringOptions {
   double amplitude = 0.0;      ///< A [rad]
   double at = 1.0;             ///< t0 [s]
@@ -34,7 +34,7 @@ struct RampSteeringOptions {
 };
 void Visit(KeyVisitor& keys, RampSteeringOptions& options);
 
-/// delta = A sin(2 pi f tau) for a number of cycles, then 0; half cycles end at 0 too.
+/// delta = A sin(2 pi f tau) for a number of cycles, then 0; half cycles also end at 0.
 struct SineSteeringOptions {
   double amplitude = 0.0;  ///< A [rad]
   double frequency = 0.4;  ///< f [Hz], > 0

@@ -9,12 +9,12 @@
 #include <vector>
 
 /// Four kinds of failure, by who has to act:
-///  * InputError: the user's input is wrong (a file, an option, a model). Exit code 2.
-///  * RunError: the environment failed (a full disk, an unwritable folder, no encoder). Exit
-///  code 2.
-///  * PreconditionError: a program called a function of the library with an argument that the
-///  function does not take; a bug in the calling program.
-///  * InternalError: an internal check failed; a bug in Trackbed. Exit code 1.
+///   * InputError: the user's input is wrong (a file, an option, a model). Exit code 2.
+///   * RunError: the environment failed (a full disk, an unwritable folder, no encoder). Exit code
+///     2.
+///   * PreconditionError: the calling program passed an invalid argument to a function of the
+///     library; a bug in the calling program.
+///   * InternalError: an internal check failed; a bug in Trackbed. Exit code 1.
 /// A plan that is not found or a run that ends early is an outcome, not an error: see PlanStatus
 /// and DriveStatus.
 namespace trackbed {
@@ -27,10 +27,10 @@ struct Problem {
   std::string key{};      ///< dotted key, such as "mission.waypoints[2]"; may be empty
   std::string message{};  ///< what was found and what is allowed
 
-  /// "file:line:column: key: message", leaving out what is unknown, WithoutControls, on one line.
-  /// Of a key or message of more than 4000 bytes the rest is left out.
+  /// "file:line:column: key: message", without unknown parts, WithoutControls, on one line.
+  /// Truncates a key or message after 4000 bytes.
   [[nodiscard]] std::string ToString() const;
-  /// "key: message" likewise, the same wherever the file lies.
+  /// "key: message", in the form of ToString; independent of the file's location.
   [[nodiscard]] std::string WithoutPlace() const;
 };
 
@@ -64,9 +64,9 @@ class InternalError : public std::logic_error {
   using std::logic_error::logic_error;
 };
 
-/// The text as a terminal and a file of text may be given it: control characters but tabs and line
-/// feeds are named, "<U+001B>", and bytes that are not UTF-8, "<0xFF>". Names of files and keys
-/// come from anybody.
+/// Makes text safe for terminals and text files: control characters except tabs and line feeds
+/// become "<U+001B>", and bytes that are not UTF-8 become "<0xFF>". File names and keys may come
+/// from untrusted sources.
 std::string WithoutControls(std::string_view text);
 
 [[noreturn]] void ThrowPreconditionError(const std::string& message);
@@ -84,7 +84,8 @@ std::string WithoutControls(std::string_view text);
       ::trackbed::ThrowPreconditionError(::fmt::format(__VA_ARGS__)); \
   } while (false)
 
-/// Throws InternalError when `condition` is false, in every build type. The rest is an fmt message.
+/// Throws InternalError when `condition` is false, in every build type. The remaining arguments are
+/// an fmt message.
 #define TRACKBED_CHECK(condition, ...)                                                            \
   do {                                                                                            \
     if (!(condition))                                                                             \

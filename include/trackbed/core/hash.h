@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// SHA-256 of bytes that come in parts. Cost: about 2 ns a byte.
+/// SHA-256 of bytes added in parts. Cost: about 2 ns a byte.
 class Sha256Sum {
  public:
   Sha256Sum();
@@ -15,7 +15,7 @@ class Sha256Sum {
   ~Sha256Sum();
 
   void Add(std::string_view content);
-  /// Of all that was added, hexadecimal. Call once, last.
+  /// The hash of all that was added, hexadecimal. Call once, last.
   [[nodiscard]] std::string Finish();
 
  private:

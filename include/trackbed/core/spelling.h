@@ -6,9 +6,9 @@
 
 namespace trackbed {
 
-/// The word of `known` that takes the fewest single-character edits to become `word`, or an empty
-/// string when none is near (more than a third of the word, at least two, or all of it would have
-/// to change). Ties go to the earlier word. Cost O(|word| x total length of known).
+/// The word of `known` with the smallest edit distance to `word`. Empty if that distance is more
+/// than a third of the word (at least two edits are allowed), or would change all of it. Ties go to
+/// the earlier word. Cost O(|word| x total length of known).
 std::string NearestSpelling(std::string_view word, const std::vector<std::string>& known);
 
 /// "'word'; did you mean 'near'?" or "'word'; allowed: a, b, c", for messages about unknown names.

@@ -21,22 +21,22 @@ struct MovingBox {
   OrientedBox box;          ///< at time 0
   Vec2 velocity{0.0, 0.0};  ///< [m/s]
 
-  /// Where it is at a time [s].
+  /// The rectangle at a time [s].
   [[nodiscard]] OrientedBox At(double time) const;
 };
 
 /// Whether a point lies within a rectangle or on its border.
 bool Contains(const OrientedBox& box, const Vec2& point);
 
-/// Shortest distance between two rectangles [m]; negative if they overlap: minus the shortest
-/// translation that separates them. Exact to rounding; NaN if one of their numbers is.
+/// Shortest distance between two rectangles [m]. If they overlap, minus the shortest translation
+/// that separates them. Exact to rounding; NaN if a coordinate is NaN.
 double Separation(const OrientedBox& a, const OrientedBox& b);
 
 /// Shortest distance between two rectangles [m]; 0 when they touch or overlap.
 double Distance(const OrientedBox& a, const OrientedBox& b);
 
-/// Shortest distance from the line between two points to a rectangle [m]; 0 when they touch, cross,
-/// or the line lies within. Exact to rounding.
+/// Shortest distance from the segment between two points to a rectangle [m]; 0 if they touch or
+/// cross, or the segment lies within. Exact to rounding.
 double Distance(const Vec2& from, const Vec2& to, const OrientedBox& box);
 
 }  // namespace trackbed

@@ -31,8 +31,8 @@ inline double Cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// X_WB = X_WA * X_AB: the pose of B in W, given the pose of A in W and of B in A. The yaw is the
-/// plain sum: it is not wrapped, so that a heading can be followed over several turns.
+/// X_WB = X_WA * X_AB: the pose of B in W, given the pose of A in W and of B in A. The yaws are
+/// added without wrapping, so that a heading can be followed over several turns.
 Pose2 Compose(const Pose2& X_WA, const Pose2& X_AB);
 
 /// p_WQ of a point whose coordinates in the frame A are p_AQ.

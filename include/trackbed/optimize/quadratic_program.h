@@ -6,7 +6,7 @@
 ///   minimize x^T H x/2 + f^T x  subject to  G x <= h
 namespace trackbed {
 
-/// Sizes are bounded so that solving takes no heap memory but NLopt's.
+/// Sizes are bounded, so that only NLopt allocates heap memory.
 struct QuadraticProgram {
   static constexpr int kMaxVariables = 40;
   static constexpr int kMaxConstraints = 4 * kMaxVariables;
@@ -27,17 +27,17 @@ struct QuadraticSolution {
   bool ok = false;  ///< the constraints are met
   QuadraticProgram::Vector x;
   double violation = 0.0;  ///< largest G x - h, 0 if met
-  int solves = 0;          ///< by SLSQP; 0: the unconstrained minimum keeps the constraints
+  int solves = 0;          ///< by SLSQP; 0: the unconstrained minimum meets the constraints
 };
 
-/// Solves by Cholesky decomposition if no constraint is active, else with NLopt's SLSQP on an
+/// Solves by Cholesky decomposition if no constraint is active; otherwise with NLopt's SLSQP on an
 /// active set of constraints, extended until none is violated. SLSQP works in variables in which H
 /// is the identity, its initial Hessian: its first step is the solution, from any start.
 ///
-/// Guarantees: constraints kept to `tolerance`, absolute; the same program gives the same bits. Not
-/// ok if they are infeasible; x is then the least-violating point that was tried. InternalError
+/// Guarantees: constraints met to `tolerance`, absolute; the same program gives the same bits. Not
+/// ok if they are infeasible; x is then the least-violating point that was evaluated. InternalError
 /// unless H is positive definite, the sizes agree and all numbers are finite. Cost: 20 variables
-/// about 10 us without, 0.1 to 1 ms with active constraints.
+/// take about 10 us without active constraints, 0.1 to 1 ms with them.
 QuadraticSolution Solve(const QuadraticProgram& program, double tolerance = 1e-9);
 
 }  // namespace trackbed

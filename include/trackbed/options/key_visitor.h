@@ -15,7 +15,7 @@
 
 /// Declares the keys of an options struct, once for reading, writing and listing.
 ///
-/// Beside the struct stands a function
+/// Each struct has a function
 ///
 ///     void Visit(KeyVisitor& keys, MyOptions& options) {
 ///       keys.Field({"distance", "m", "lookahead distance"}, options.distance,
@@ -33,29 +33,29 @@ struct Key {
   const char* text;  ///< one line, for users
 };
 
-/// The key that selects one of several methods, each with keys of its own.
+/// The key that selects one of several methods, each with separate keys.
 inline constexpr Key kMethod{"method", "", "name of the method; each has its own keys"};
 
 enum class Need { kRequired, kOptional };
 
-/// Allowed values of a number. `above` is exclusive, the others are inclusive. Where there is no
-/// bound, readers set one by the unit: see WithinReason.
+/// Allowed values of a number. `above` is exclusive, `min` and `max` are inclusive. If a bound is
+/// missing, readers set one by the unit: see WithinReason.
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   double above = -std::numeric_limits<double>::infinity();
-  bool is_direction = false;  ///< [rad]; whole turns do not matter: read as within (-pi, pi]
+  bool is_direction = false;  ///< [rad]; read modulo whole turns, into (-pi, pi]
 };
 
 inline constexpr Range kPositive{.above = 0.0};
 inline constexpr Range kNonNegative{.min = 0.0};
 
 inline constexpr Range kDirection{.is_direction = true};       ///< [rad]
-inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< [m]; beyond any route
+inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< [m]; larger than any route
 inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  ///< [m/s]
 inline constexpr Range kSteering{.min = -1.5, .max = 1.5};     ///< [rad]
 
-/// A list of pairs of numbers: the names of one and of many pairs, and the allowed values.
+/// A list of pairs of numbers: names of a single pair and of several, and the allowed values.
 struct PairShape {
   const char* one;
   const char* many;
@@ -65,11 +65,11 @@ struct PairShape {
 
 inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
 
-/// The range with a bound on either side: where it has none, one for the key's unit that is beyond
-/// anything a car meets, such as 1e5 m, 1e6 s or 1e3 m/s, and 1e12 for other units.
+/// The range with bounds on both sides. A missing bound is set by the key's unit, beyond any
+/// realistic value: 1e5 m, 1e6 s or 1e3 m/s, for example, and 1e12 for other units.
 Range WithinReason(const Key& key, Range range);
 
-/// "above 0 and at most 10"; empty when everything is allowed.
+/// "above 0 and at most 10"; empty if all values are allowed.
 std::string AllowedBy(Range range);
 
 using Names = std::vector<std::string>;
@@ -119,21 +119,20 @@ class KeyVisitor {
   template <typename Struct>
   void Section(const Key& key, std::optional<Struct>& value);
 
-  /// A list of such sections.
+  /// A list of sections with the keys of a struct.
   template <typename Struct>
   void List(const Key& key, std::vector<Struct>& values);
 
-  /// A section whose key `method` selects an entry of `table` by its `name`, and has the keys of
-  /// the options that this entry has as its `defaults`; `rest` are keys that it has whichever is
-  /// selected.
+  /// A section whose key `method` selects an entry of `table` by its `name`. The section's keys are
+  /// those of the entry's options (`defaults`), and `rest`, which are the same for all methods.
   template <typename Options, typename Entry>
   void Method(const Key& key, std::optional<Options>& value, const std::vector<Entry>& table,
               Need need, const Inside& rest = {});
 
-  /// Lists a key whose meaning is described by its text alone; does nothing in other modes.
+  /// Lists a key that is described only by its text; does nothing in other modes.
   virtual void Mention(const Key&, const char* /*type*/) {}
 
-  /// In mode kRead: whether `key` is a section that has one of `inner` and no method of its own.
+  /// In mode kRead: whether `key` is a section that has a key of `inner` but no `method`.
   [[nodiscard]] virtual bool HasAny(const char* /*key*/, const Names& /*inner*/) const {
     return false;
   }
@@ -153,11 +152,11 @@ class KeyVisitor {
     Inside rest;
   };
 
-  /// Visits the keys inside if there is such a section: the writer asks `present`, the reader its
-  /// file. Returns whether there was one.
+  /// Visits the keys inside if the section exists: the writer decides by `present`, the reader by
+  /// its file. Returns whether it existed.
   virtual bool VisitSection(const Key& key, Need need, bool present, const Inside& inside) = 0;
-  /// Resizes the list (the reader) and visits each element. The lister visits the one at `size`,
-  /// which stands for a new one.
+  /// Resizes the list (the reader) and visits each element. The lister visits the element at
+  /// `size`, which stands for a new one.
   virtual void VisitList(const Key& key, std::size_t size,
                          const std::function<void(std::size_t size)>& resize,
                          const std::function<void(KeyVisitor& keys, std::size_t i)>& visit) = 0;
@@ -167,13 +166,13 @@ class KeyVisitor {
 /// The number at `key` among the keys that `visit` declares; none if there is no such key.
 std::optional<double> FindNumber(const std::string& key, const KeyVisitor::Inside& visit);
 
-/// PreconditionError unless every number among the keys is finite and within the range of its key;
-/// it names the key after `owner`, the function that was called. For options that a program filled
-/// in by hand: what is read from files has been checked.
+/// PreconditionError unless every number among the keys is finite and within its key's range; the
+/// message names `owner`, the called function, and the key. For options that a program filled in:
+/// options read from files have been checked.
 void RequireInRange(const std::string& owner, const KeyVisitor::Inside& visit);
 
-/// Whether two options are of the same method, and their keys, for variants of options; types that
-/// hold the options of registered methods have functions of the same names (method_options.h).
+/// Whether two options belong to the same method, and their keys, for variants of options. Types
+/// that hold the options of registered methods have functions of the same names (method_options.h).
 template <typename... Options>
 bool AreOfOneMethod(const std::variant<Options...>& a, const std::variant<Options...>& b) {
   return a.index() == b.index();

@@ -38,7 +38,7 @@ class MethodOptions {
     return std::any_cast<Options>(&value_);
   }
 
-  /// The options, which must be of this type: InternalError.
+  /// The options; InternalError if they are of another type.
   template <typename Options>
   [[nodiscard]] const Options& Get() const {
     TRACKBED_CHECK(Is<Options>(), "options of another method: {}", value_.type().name());

@@ -10,18 +10,18 @@
 
 namespace trackbed {
 
-/// The methods of one kind, such as the planners. `Entry` has a `name` and, if its methods have
-/// options, `defaults`.
+/// The registered methods of one kind, such as the planners. `Entry` has a `name` and, if its
+/// methods have options, `defaults`.
 template <typename Entry>
 class Registry {
  public:
-  /// `kind` is for messages: "planner".
+  /// `kind` is used in messages: "planner".
   Registry(const char* kind, std::vector<Entry> entries)
       : kind_(kind), entries_(std::move(entries)) {}
 
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
-  /// PreconditionError when the name is empty or taken, or another entry has options of its type.
+  /// PreconditionError when the name is empty or taken, or another entry has the same options type.
   void Add(Entry entry) {
     const std::string name = entry.name;
     TRACKBED_REQUIRE(!name.empty(), "a {} without a name", kind_);
@@ -36,7 +36,7 @@ class Registry {
     entries_.push_back(std::move(entry));
   }
 
-  /// InputError with the nearest spelling when there is no such entry.
+  /// InputError with the nearest spelling if there is no such entry.
   [[nodiscard]] const Entry& Find(const std::string& name) const {
     std::vector<std::string> names;
     for (const Entry& entry : entries_) {
@@ -48,7 +48,7 @@ class Registry {
     throw InputError(Problem{.message = "unknown " + (kind_ + (" " + UnknownName(name, names)))});
   }
 
-  /// The entry that the options belong to. InternalError when there is none.
+  /// The entry that the options belong to. InternalError for unregistered options.
   template <typename Options>
   [[nodiscard]] const Entry& For(const Options& options) const {
     const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {

@@ -8,7 +8,7 @@
 namespace trackbed {
 
 /// A Bezier curve P(u) = sum C(n,i) (1-u)^(n-i) u^i P_i over u in [0, 1], of degree n = number of
-/// control points - 1. The local path of Skackauskas, dissertation, listing F.2 has degree 7.
+/// control points - 1. The local path of Skackauskas, dissertation, listing F.2, has degree 7.
 ///
 /// Evaluation and derivatives are exact to rounding (Bernstein form, no differences). Curvature is
 /// positive to the left, and not finite where the curve has no direction (P'(u) = 0).
@@ -27,21 +27,22 @@ class BezierCurve {
   [[nodiscard]] double Curvature(double u) const;
   /// dkappa/ds at u [1/m^2].
   [[nodiscard]] double Sharpness(double u) const;
-  /// Arc length between two parameters [m], to 1e-10 of it for the curves of a car.
+  /// Arc length between two parameters [m], to a relative error of 1e-10 for curves that a car
+  /// drives.
   [[nodiscard]] double Length(double from = 0.0, double to = 1.0) const;
 
-  /// The curve as points at most `spacing` [m] apart along it, both ends included, headings
-  /// followed without jumps from `start_yaw`, that of the first one's tangent up to full turns.
-  /// InternalError if one of them has no direction; a cusp between two of them is not seen.
-  /// PreconditionError for more than 10^6.
+  /// Points at most `spacing` [m] apart along the curve, including both ends. Headings are
+  /// continuous, starting at `start_yaw`, which must be that of the first tangent up to full turns.
+  /// InternalError if a point has no direction; a cusp between two points is not detected.
+  /// PreconditionError for more than 10^6 points.
   [[nodiscard]] std::vector<CurvePoint> Points(double spacing, double start_yaw) const;
 
  private:
   std::array<std::vector<Vec2>, 4> polygons_;  // of the curve and its derivatives
 };
 
-/// kappa [1/m] and dkappa/ds [1/m^2] of a curve with the derivatives P', P'', P''' by any
-/// parameter.
+/// kappa [1/m] and dkappa/ds [1/m^2] of a curve from the derivatives P', P'', P''' with respect to
+/// any parameter.
 double CurvatureFromDerivatives(const Vec2& first, const Vec2& second);
 double SharpnessFromDerivatives(const Vec2& first, const Vec2& second, const Vec2& third);
 

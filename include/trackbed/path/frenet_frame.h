@@ -16,9 +16,8 @@
 ///         + (1 - kappa_r d)/cos^2 Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
 ///   a = s_tt (1 - kappa_r d)/cos Dtheta + s_t^2/cos Dtheta
 ///       [(1 - kappa_r d) tan Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
-///        - (kappa_r' d + kappa_r d')]
-/// (Werling et al. 2010). In d(s) they hold at standstill too; by time,
-/// d_t = d' s_t and d_tt = d'' s_t^2 + d' s_tt.
+/// (Werling et al. 2010). As functions of s, d' and d'' also hold at standstill; over time, d_t =
+/// d' s_t and d_tt = d'' s_t^2 + d' s_tt.
 namespace trackbed {
 
 /// The state of a car in path coordinates.
@@ -39,7 +38,7 @@ struct FrenetState {
   bool operator==(const FrenetState&) const = default;
 };
 
-/// A car in the world: its rear-axle center.
+/// The motion of a car's rear-axle center in the world.
 struct MotionState {
   Pose2 pose;
   double curvature = 0.0;     ///< kappa, of its steering [1/m]
@@ -49,21 +48,22 @@ struct MotionState {
   bool operator==(const MotionState&) const = default;
 };
 
-/// The car seen from the nearest point of the path within the stations. None where there is no
-/// frame: the car is at or beyond the path's center of curvature (1 - kappa_r d <= 0), looks across
-/// or back (|Dtheta| >= 90 degrees), or the path is driven backwards there. Cost: a projection.
+/// Path coordinates of a car, relative to the nearest point of the path within the stations. None
+/// if the frame is undefined: the car is at or beyond the path's center of curvature (1 - kappa_r d
+/// <= 0), faces across or against the path (|Dtheta| >= 90 degrees), or the path is driven
+/// backwards there. Cost: a projection.
 std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
                                     Stations within = {});
 
-/// The other way round: None where 1 - kappa_r d <= 0 or the path is driven backwards. The yaw goes
-/// on from the path's, not wrapped. Round trips are exact to 1e-9 where the path's curvature is
-/// continuous, some steps of rounding for lines and arcs.
+/// The inverse of ToFrenet. None if 1 - kappa_r d <= 0 or the path is driven backwards. The yaw
+/// continues that of the path, not wrapped. Round trips are exact to 1e-9 where the path's
+/// curvature is continuous, and to rounding for lines and arcs.
 ///
-/// Along a motion, what the path's curvature jumps by the heading does where d d' is not 0, and
-/// what its sharpness jumps by the curvature does: motions need a path of continuous curvature.
+/// Use a path of continuous curvature for motions: a jump of the path's curvature makes the heading
+/// jump unless d d' is 0, and a jump of its sharpness makes the curvature jump.
 std::optional<MotionState> FromFrenet(const Path& path, const FrenetState& state);
 
-/// The same with the path's point at `state.s` at hand.
+/// As above, with the path's point at `state.s` already evaluated.
 std::optional<MotionState> FromFrenet(const PathPoint& at, const FrenetState& state);
 
 }  // namespace trackbed

@@ -5,7 +5,7 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// A path for a car: poses of its rear-axle center over arc length.
+/// Paths of a car: poses of its rear-axle center over arc length.
 ///
 /// Symbols: s station, the distance along the path [m], growing in the direction of motion;
 /// yaw heading of the car [rad]; kappa = tan(steering)/wheelbase curvature [1/m], positive to the
@@ -40,13 +40,13 @@ struct PathPoint {
   double sharpness = 0.0;  ///< dkappa/ds [1/m^2]
 };
 
-/// How a path bends at one station.
+/// Curvature and direction of a path at one station.
 struct PathBend {
   double curvature = 0.0;  ///< [1/m]
   int direction = 1;
 };
 
-/// The point of a path nearest to a pose, and the errors of the pose against it.
+/// The point of a path nearest to a pose, and the errors of the pose relative to it.
 struct Projection {
   double s = 0.0;              ///< station of the nearest point [m]; see Path::Project
   double cross_track = 0.0;    ///< [m], positive left of the path
@@ -59,14 +59,14 @@ struct Stations {
   double to = std::numeric_limits<double>::infinity();
 };
 
-/// A chain of segments from a start pose. Continuous in position and heading by construction (each
-/// segment starts where the one before ends, to rounding: below 1e-9 m over 10 km); curvature may
-/// jump between segments. Immutable value.
+/// A chain of segments from a start pose. Position and heading are continuous by construction (each
+/// segment starts at the end of the previous one, to rounding: below 1e-9 m over 10 km); curvature
+/// may jump between segments. Immutable.
 ///
-/// Before its start and after its end a path continues straight along its end tangents, with
-/// stations below 0 and above length(): a car near the end of its path still has a path to follow.
+/// Beyond its start and end a path continues straight along its end tangents, with stations below 0
+/// and above length(): a car near the end of its path still has a path to follow.
 ///
-/// Does not know time or speed (see Reference), nor whether a car can follow it.
+/// Has no time or speed (see Reference), and does not know whether a car can follow it.
 class Path {
  public:
   /// A path of length 0 at the origin.
@@ -87,22 +87,21 @@ class Path {
   /// The curvature and direction of At(s), without the cost of its pose.
   [[nodiscard]] PathBend BendAt(double s) const;
 
-  /// The nearest point to `pose` among the stations of `within`, which may reach beyond the ends.
-  /// Exact for lines and arcs, to 1e-9 m along the path for other segments; only from within a
-  /// tenth of the radius of their centers of curvature, from where much of them is about equally
-  /// far, may it be a point other than the nearest. Searching near the last known station keeps a
-  /// car from jumping to a later crossing or over a cusp. Of equally near points the one with the
+  /// The nearest point to `pose` among the stations of `within`, which may extend beyond the ends.
+  /// Exact for lines and arcs, to 1e-9 m along the path for other segments. For a pose within a
+  /// tenth of the radius from a center of curvature of such a segment, most of which is then about
+  /// equally far, the result may not be the nearest point. Limiting the search to stations near the
+  /// last known one keeps a car from jumping to a later crossing or over a cusp. Ties go to the
   /// smallest station. Cost O(segments within the stations). InternalError when `within` is empty,
   /// PreconditionError for a pose that is not finite.
   [[nodiscard]] Projection Project(const Pose2& pose, Stations within = {}) const;
 
-  /// Points at most `spacing` [m] apart, evenly over the whole path, both ends included.
-  /// PreconditionError for more than 2e7.
+  /// Evenly spaced points, at most `spacing` [m] apart, over the whole path including both ends.
+  /// PreconditionError for more than 2e7 points.
   [[nodiscard]] std::vector<PathPoint> Sample(double spacing) const;
 
-  /// The segments between two stations, cut at them: what a path from At(from).pose needs to lead
-  /// along this one up to `to`. Stations beyond the ends count as the ends; none when nothing is
-  /// left.
+  /// The segments between two stations, cut there: starting at At(from).pose, they follow this path
+  /// up to `to`. Stations are clamped to the ends; empty if nothing remains.
   [[nodiscard]] std::vector<Segment> Cut(Stations within) const;
 
  private:
@@ -114,9 +113,8 @@ class Path {
   double length_ = 0.0;
 };
 
-/// The segments of a path between stops: its cusps, where a car stops and changes gear, and the
-/// `stops` [m]. One segment of length 0 for a path of length 0. Stops at or beyond the ends of the
-/// path are ignored.
+/// Splits a path at its cusps, where a car stops and changes gear, and at the `stops` [m]. Returns
+/// one leg of length 0 for a path of length 0. Ignores stops at or beyond the ends of the path.
 std::vector<Stations> SplitIntoLegs(const Path& path, const std::vector<double>& stops = {});
 
 /// A point that a curve passes through.
@@ -126,11 +124,11 @@ struct CurvePoint {
   double curvature = 0.0;  ///< [1/m]
 };
 
-/// Segments that follow a smooth curve forwards: one between each two neighbors, with the curve's
-/// own heading and curvature at both. With points h apart and k the largest third derivative of the
-/// curvature, headings in between are off by at most h^4 k/384, and the end by h^4 k/720 times the
-/// length: about 1e-7 m over the bends of a car, 0.1 m apart. InternalError unless the distances
-/// rise.
+/// Segments that follow a smooth curve forwards: one between each two neighbors, matching the
+/// curve's heading and curvature at both. With points h apart and k the largest third derivative of
+/// the curvature, headings between points are off by at most h^4 k/384, and the end by h^4 k/720
+/// times the length: about 1e-7 m for points 0.1 m apart on bends that a car drives. InternalError
+/// unless the distances rise.
 std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points);
 
 }  // namespace trackbed

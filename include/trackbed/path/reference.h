@@ -23,22 +23,22 @@ class SpeedProfile {
   };
 
   SpeedProfile() = default;
-  /// InternalError unless stations are finite and rise strictly, speeds are >= 0 and finite.
+  /// InternalError unless stations are finite and strictly increasing, and speeds finite and >= 0.
   explicit SpeedProfile(std::vector<Knot> knots);
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
 
-  // Of a station or time that is NaN they are NaN.
+  // The functions below return NaN for a station or time that is NaN.
 
-  /// [m/s]; before the first knot its speed, after the last one its speed.
+  /// Speed [m/s] at a station; constant before the first knot and after the last one.
   [[nodiscard]] double SpeedAt(double s) const;
-  /// dv/dt [m/s^2] of a car that keeps the profile, on the side of larger s; 0 outside the knots.
+  /// dv/dt [m/s^2] of a car that follows the profile, of the interval after s; 0 outside the knots.
   [[nodiscard]] double AccelerationAt(double s) const;
-  /// Time [s] from the first knot to s when driven exactly; infinite where the profile stands
-  /// still.
+  /// Time [s] from the first knot to s for a car that follows the profile; infinite past a
+  /// standstill.
   [[nodiscard]] double TimeAt(double s) const;
-  /// The station [m] of a car that has followed the profile exactly for `time` [s] from its first
-  /// knot: the inverse of TimeAt. Where the profile comes to rest, it stays.
+  /// The station [m] of a car that has followed the profile for `time` [s] from its first knot: the
+  /// inverse of TimeAt. Stays where the profile comes to rest.
   [[nodiscard]] double StationAt(double time) const;
 
  private:
@@ -54,15 +54,16 @@ struct SpeedCap {
   double speed = 0.0;  ///< [m/s], > 0
 };
 
-/// Leaves s = 0 at `start_speed`, drives as fast as limits and caps allow, and stops at s = length.
-/// Where there is no length to reach the limit the profile peaks below it; where there is none to
-/// brake from the start speed at the limit's deceleration, it brakes harder, evenly. A start above
-/// the limit, or within a cap and above it, comes down at the limit's deceleration.
-/// PreconditionError for numbers that are not finite; those of a cap may be infinite.
+/// A profile that leaves s = 0 at `start_speed`, drives as fast as limits and caps allow, and stops
+/// at s = length. If the length is too short to reach the limit, the profile peaks below it. If it
+/// is too short to brake from the start speed at the limit's deceleration, the profile brakes
+/// harder, at a constant deceleration. A start above the limit or a cap slows down at the limit's
+/// deceleration. PreconditionError for numbers that are not finite; the numbers of a cap may be
+/// infinite.
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps = {});
 
-/// The same for a path that may have cusps: stops at each of them, and at `stops` [m], too.
+/// As StopAtEnd, for a path that may have cusps: also stops at each of them, and at `stops` [m].
 SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
                          const std::vector<SpeedCap>& caps = {},
                          const std::vector<double>& stops = {});
@@ -73,11 +74,11 @@ struct Reference {
   SpeedProfile speed;
 };
 
-/// The speeds between two stations, which then count from the first of them; the knots in between
-/// stay what they are.
+/// The speeds between two stations, shifted so that the first station becomes 0; the knots in
+/// between keep their speeds.
 SpeedProfile Excerpt(const SpeedProfile& profile, Stations within);
 
-/// A section of a path and its speeds, likewise.
+/// A section of a path and its speeds; stations count from the start of the section.
 Reference Excerpt(const Reference& reference, Stations within);
 
 }  // namespace trackbed

@@ -4,16 +4,16 @@
 
 namespace trackbed {
 
-/// The path averaged over `window` [m] around each of its points: where its curvature jumps (lines
-/// joined to arcs) it then changes steadily over the window, which is what motions along a path
-/// need (path/frenet_frame.h), and which a car with a limited steering rate can follow.
+/// Averages a path over `window` [m] around each of its points, so that a curvature jump (a line
+/// joined to an arc) becomes a ramp over the window. Motions along a path need that
+/// (path/frenet_frame.h), and a car with a limited steering rate can follow it.
 ///
-/// Guarantees: continuous curvature; nowhere further from the path than window^2/24 times its
-/// largest curvature k within the window, toward the inside of bends; lines stay where they are,
-/// but for half a window beside a bend; arcs get tighter by (k window)^2/24 of their curvature, the
-/// path shorter by as much of theirs. Stations are its own, about those of the path. Errors:
+/// Guarantees: continuous curvature; a deviation of at most window^2/24 times the largest curvature
+/// k within the window, toward the inside of bends. Lines stay unchanged except within half a
+/// window of a bend; the curvature of arcs grows by a fraction (k window)^2/24, and their length
+/// shrinks by that fraction. Stations of the result differ slightly from those of the path. Errors:
 /// InternalError unless the window is positive and the path is driven forwards and longer than 0.
-/// Cost: about 10 us a meter.
+/// Cost: about 10 us per meter.
 Path SmoothCurvature(const Path& path, double window);
 
 }  // namespace trackbed

@@ -7,19 +7,20 @@
 
 #include "trackbed/options/key_visitor.h"
 
-/// How to read a path that another program wrote.
+/// How to read a path from another program.
 namespace trackbed {
 
 enum class PathFormat {
-  kAuto,        ///< by the file's ending and first characters
+  kAuto,        ///< by file extension and first characters
   kCsv,         ///< a table with named columns; racing lines of TUM, with their header behind '#'
   kNavPath,     ///< nav_msgs/Path of ROS as YAML or JSON
   kCommonRoad,  ///< a solution of CommonRoad, XML
   kGeoJson,     ///< a line string, RFC 7946
 };
 
-/// The columns of a CSV file. Those without a name are found by the usual ones (PathColumnNames),
-/// in any case of letters; units without a name by the ending of the column's, else SI.
+/// The columns of a CSV file. Columns without a given name are found by their usual names
+/// (PathColumnNames), ignoring case. Units that are not given follow from the suffix of the
+/// column's name, else SI.
 struct PathColumns {
   std::optional<std::string> x;
   std::optional<std::string> y;
@@ -33,7 +34,7 @@ struct PathColumns {
 };
 void Visit(KeyVisitor& keys, PathColumns& columns);
 
-/// What the coordinates of a GeoJSON file are.
+/// The meaning of the coordinates of a GeoJSON file.
 enum class PathCoordinates {
   kAuto,    ///< WGS 84, or meters if its member `crs` names another reference system
   kWgs84,   ///< longitude and latitude in degrees
@@ -45,11 +46,11 @@ struct PathMap {
   PathColumns columns;
   PathCoordinates coordinates = PathCoordinates::kAuto;
   std::optional<double> origin_latitude;   ///< of WGS 84 [deg]; none: the first point
-  std::optional<double> origin_longitude;  ///< [deg]; likewise
+  std::optional<double> origin_longitude;  ///< of WGS 84 [deg]; none: the first point
 };
 void Visit(KeyVisitor& keys, PathMap& map);
 
-/// Problems that concern more than one key, each with the key to change.
+/// Problems that concern more than one key, as pairs of the key to change and the message.
 std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& map);
 
 /// A usual name of a column, and its unit.
@@ -58,7 +59,7 @@ struct PathColumnName {
   const char* unit;
 };
 
-/// The usual names, the best first, of "x", "y", "yaw", "curvature", "speed" or "time".
+/// The usual names of "x", "y", "yaw", "curvature", "speed" or "time", in order of preference.
 const std::vector<PathColumnName>& PathColumnNames(std::string_view quantity);
 
 }  // namespace trackbed

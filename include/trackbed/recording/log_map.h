@@ -12,41 +12,41 @@
 /// reader of YAML files is ReadLogMap (scenario/log_map_file.h).
 namespace trackbed {
 
-/// The kinds of quantities in a log; each has units of its own.
+/// The kinds of quantities in a log; each has separate units.
 enum class LogQuantity { kAngle, kSpeed, kYawRate, kSteeringAngle, kThrottle };
 
 /// The names of the units of a quantity, the SI unit first: "rad", "deg".
 Names UnitsOf(LogQuantity quantity);
 
-/// The SI value of one of a unit, such as pi/180 for "deg". InternalError for an unknown one.
+/// The SI value of one unit, such as pi/180 for "deg". InternalError for an unknown unit.
 double UnitInSi(const std::string& unit);
 
 /// One column: the value is curve(scale * number in SI units + offset), measured `delay` before it
 /// was logged.
 struct LogColumn {
   std::string column;
-  std::optional<std::string> file{};  ///< beside the log; none: the log itself
+  std::optional<std::string> file{};  ///< in the same folder as the log; none: the log itself
   std::string unit;
   double scale = 1.0;
   double offset = 0.0;        ///< in the SI unit
-  std::vector<Vec2> curve{};  ///< linear between points, held beyond; empty: none
+  std::vector<Vec2> curve{};  ///< linear between points, constant beyond; empty: none
   double delay = 0.0;         ///< [s]
-  /// Of the slower loop whose values the rows repeat [s]: the value is linear from one of its
-  /// updates to the next. None: linear between rows.
+  /// Period of the slower loop whose values the rows repeat [s]: the value is linear between
+  /// updates of that loop. None: linear between rows.
   std::optional<double> period{};
 };
 
-/// A column of that quantity, with its units.
+/// A column of the given quantity, with its units.
 template <LogQuantity quantity>
 struct LogColumnOf : LogColumn {
   LogColumnOf() { unit = UnitsOf(quantity).front(); }
 };
 
-/// When the rows were logged.
+/// The times of the rows.
 struct LogTime {
   std::string column;
   std::string unit = "s";
-  std::optional<std::string> nanoseconds{};  ///< a column that is added, of ROS stamps
+  std::optional<std::string> nanoseconds{};  ///< a column to be added, for ROS stamps
 };
 
 struct LogPosition {
@@ -55,7 +55,7 @@ struct LogPosition {
   std::string unit = "m";
 };
 
-/// The columns of a unit quaternion, of which the yaw is taken.
+/// The columns of a unit quaternion, from which the yaw is computed.
 struct LogOrientation {
   std::string x;
   std::string y;
@@ -77,8 +77,8 @@ struct LogSensor {
   double yaw = 0.0;  ///< [rad]
 };
 
-/// An accelerometer along the axes of the vehicle. Its readings are moved to the rear axle by the
-/// yaw rate and its derivative; gravity that roll and pitch let into it stays.
+/// An accelerometer along the axes of the vehicle. Its readings are transferred to the rear axle by
+/// the yaw rate and its derivative; gravity due to roll and pitch is not removed.
 struct LogAccelerometer {
   std::string x;
   std::string y;
@@ -89,7 +89,7 @@ struct LogAccelerometer {
   double left = 0.0;   ///< of the vehicle's middle [m]
 };
 
-/// Rows count only if the number in the column is so.
+/// A row is used only if the number in the column meets the condition.
 struct LogCondition {
   std::string column;
   std::optional<double> equals{};
@@ -97,7 +97,7 @@ struct LogCondition {
   std::optional<double> max{};
 };
 
-/// The grid, and the local polynomials that give values and derivatives there.
+/// The time grid, and the local polynomials that give values and derivatives there.
 struct LogResample {
   double rate = 100.0;      ///< [1/s]
   double half_width = 0.1;  ///< of the polynomials' window [s]
@@ -105,11 +105,11 @@ struct LogResample {
 };
 
 struct LogMap {
-  std::string name;  ///< in RecordedDrive::notes
+  std::string name;  ///< used in RecordedDrive::notes
   LogDelimiter delimiter = LogDelimiter::kComma;
   LogTime time;
   LogPosition position;
-  std::optional<LogColumnOf<LogQuantity::kAngle>> yaw{};  ///< this or
+  std::optional<LogColumnOf<LogQuantity::kAngle>> yaw{};  ///< either this or `orientation`
   std::optional<LogOrientation> orientation{};
   LogFrame frame = LogFrame::kEnu;
   LogSensor sensor{};
@@ -121,16 +121,16 @@ struct LogMap {
   std::optional<LogColumnOf<LogQuantity::kThrottle>> throttle{};
   std::vector<LogCondition> valid{};
   LogResample resample{};
-  double gap = 0.2;            ///< longest time between rows that is bridged [s]
-  double from = 0.0;           ///< since the log's first row [s]
-  std::optional<double> to{};  ///< likewise
-  double trim = 0.0;           ///< left out at both ends [s]
-  bool check = true;           ///< refuse columns that contradict each other
+  double gap = 0.2;            ///< longest time between rows that is interpolated [s]
+  double from = 0.0;           ///< start, since the log's first row [s]
+  std::optional<double> to{};  ///< end, since the log's first row [s]
+  double trim = 0.0;           ///< removed at both ends [s]
+  bool check = true;           ///< reject columns that contradict each other
 };
 
 void Visit(KeyVisitor& keys, LogMap& map);
 
-/// Problems that concern more than one key, each with the key to change.
+/// Problems that concern more than one key, as pairs of the key to change and the message.
 std::vector<std::pair<std::string, std::string>> LogMapProblems(const LogMap& map);
 
 }  // namespace trackbed

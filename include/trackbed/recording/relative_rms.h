@@ -2,9 +2,9 @@
 
 namespace trackbed {
 
-/// Root mean square of the differences between what is predicted and what is measured, over the
-/// root mean square of what is measured: 0 for a perfect prediction, 1 for that of zero. Without
-/// any difference 0, else infinite where only zeros were measured.
+/// Root mean square of the differences between predicted and measured values, relative to the root
+/// mean square of the measured values: 0 for a perfect prediction, 1 for a prediction of zeros. 0
+/// without any difference; otherwise infinite if all measured values are zero.
 class RelativeRms {
  public:
   void Add(double predicted, double measured);
@@ -12,7 +12,7 @@ class RelativeRms {
 
  private:
   double differences_ = 0.0;  // sum of squares
-  double measured_ = 0.0;     // likewise
+  double measured_ = 0.0;     // sum of squares
 };
 
 }  // namespace trackbed

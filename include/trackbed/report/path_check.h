@@ -7,20 +7,20 @@
 
 namespace trackbed {
 
-/// What a check of a path is of, for its reader.
+/// Texts in the title of a path check.
 struct PathCheckTitle {
   std::string name;     ///< of the file
-  std::string vehicle;  ///< of the model
-  std::string notes;    ///< what was found in the file, a line for each remark
+  std::string vehicle;  ///< name of the model
+  std::string notes;    ///< remarks on the file, one per line
 };
 
-/// A check as JSON, without what depends on the station: verdict, largest speed, limits, fit and
-/// faults. Speeds that nothing limits are null.
+/// A check as JSON, without values over the station: verdict, largest speed, limits, fit and
+/// faults. Speeds without a limit are null.
 nlohmann::ordered_json PathCheckJson(const PathCheckTitle& title, const FittedPath& fitted,
                                      const PathCheck& check, const PathCheckOptions& options);
 
-/// The same with what the path asks over its stations, for ReportPage: a page with a map, the
-/// faults and charts of curvature, steering, lateral acceleration and possible speed.
+/// As PathCheckJson, with the path's demands over its stations, for ReportPage: a page with a map,
+/// the faults, and charts of curvature, steering, lateral acceleration and possible speed.
 nlohmann::ordered_json PathCheckReport(const PathCheckTitle& title, const FittedPath& fitted,
                                        const PathCheck& check, const PathCheckOptions& options);
 

@@ -18,10 +18,10 @@ namespace trackbed {
 
 /// The painted line at the outer border of a lane, or on the center lane.
 struct RoadMark {
-  double s = 0.0;      ///< where it begins, from the start of its lane section [m]
+  double s = 0.0;      ///< start, from the start of its lane section [m]
   std::string type;    ///< "solid", "broken", "solid solid", "none", ... as in the file
   std::string color;   ///< "standard", "white", "yellow", ... as in the file
-  double width = 0.0;  ///< [m]; 0: not given
+  double width = 0.0;  ///< [m]; 0: unknown
 };
 
 struct Lane {
@@ -31,27 +31,27 @@ struct Lane {
   /// t coordinate of its outer border.
   PiecewiseCubic extent;
   bool has_border = false;
-  /// Lanes that it is linked with at the start and end of its section, in growing s.
+  /// Linked lanes at the start and end of the section, in growing s.
   std::vector<int> predecessors;
   std::vector<int> successors;
   std::vector<RoadMark> marks;
 };
 
-/// Lanes that do not change in number.
+/// A stretch of road with a constant number of lanes.
 struct LaneSection {
-  double s = 0.0;           ///< where it begins [m]
-  std::vector<Lane> lanes;  ///< from left to right, their numbers falling by one from each to next
+  double s = 0.0;           ///< station of its start [m]
+  std::vector<Lane> lanes;  ///< from left to right; numbers fall by one
 
-  /// Null when there is none of that number.
+  /// Null if there is no lane of that number.
   [[nodiscard]] const Lane* Find(int lane) const;
 };
 
 enum class RoadEnd { kStart, kEnd };
 
-/// What lies beyond an end of a road.
+/// The road or junction beyond an end of a road.
 struct RoadLink {
   bool is_junction = false;
-  std::string id;                     ///< of the road or the junction
+  std::string id;                     ///< of that road or junction
   RoadEnd contact = RoadEnd::kStart;  ///< the end of that road; unused for junctions
   int line = 0;                       ///< in the file
 };
@@ -60,7 +60,7 @@ struct Road {
   std::string id;
   std::string name;
   double length = 0.0;                  ///< [m], > 0
-  std::optional<std::string> junction;  ///< that it is part of
+  std::optional<std::string> junction;  ///< the junction that it is part of
   bool left_hand_traffic = false;
   ReferenceLine reference;
   PiecewiseCubic elevation;       ///< z of the reference line [m] over s
@@ -69,18 +69,18 @@ struct Road {
   std::vector<LaneSection> sections;  ///< at least one, in growing s, the first at 0
   std::optional<RoadLink> predecessor;
   std::optional<RoadLink> successor;
-  /// Heights that the file has besides and that are not read: "shape", "crossfall", "lane height",
+  /// Additional heights in the file that are not supported: "shape", "crossfall", "lane height",
   /// "level lane".
   std::vector<std::string> unread_heights;
   int line = 0;  ///< in the file
 
-  /// The index of the section at s; at a border, of the one that begins there.
+  /// The index of the section at s; at a border, of the section that begins there.
   [[nodiscard]] std::size_t SectionAt(double s) const;
-  /// Where a section ends [m].
+  /// Station of a section's end [m].
   [[nodiscard]] double SectionEnd(std::size_t section) const;
 };
 
-/// Leads from an incoming road onto a road of the junction.
+/// A connection from an incoming road to a road of the junction.
 struct JunctionConnection {
   std::string incoming;
   std::string connecting;
@@ -98,7 +98,7 @@ struct Junction {
 struct RoadNetwork {
   std::map<std::string, Road, std::less<>> roads;          ///< by id
   std::map<std::string, Junction, std::less<>> junctions;  ///< by id
-  std::vector<std::string> notes;  ///< what of the file was not used, for people
+  std::vector<std::string> notes;                          ///< unused parts of the file
 };
 
 /// The borders of a lane at one station, as t coordinates [m] with their derivatives over s.
@@ -107,20 +107,20 @@ struct LaneBorders {
   CubicValue outer;
 
   [[nodiscard]] CubicValue Center() const;
-  /// [m]; 0 for the center lane.
+  /// Width [m]; 0 for the center lane.
   [[nodiscard]] double Width() const;
 };
 
-/// PreconditionError for a lane that the section does not have. `piece_of` [m] chooses, where
-/// pieces of the file's functions meet, whose values count: those in force at that station. Cost
-/// O(lanes log pieces).
+/// PreconditionError for a lane that the section does not have. At the border of two pieces of the
+/// file's functions, `piece_of` [m] selects the applicable pieces. Cost O(lanes log
+/// pieces).
 LaneBorders LaneBordersAt(const Road& road, std::size_t section, int lane, double s,
                           double piece_of);
 LaneBorders LaneBordersAt(const Road& road, int lane, double s);
 
 /// The unit vector across a road's surface to the left of its reference line: the level normal of
-/// the line, turned by `roll` about its tangent in space. `tangent` is the derivative of the line
-/// by the station, as seen from above, `slope` that of its elevation.
+/// the line, rotated by `roll` about its tangent in space. `tangent` is the derivative of the line
+/// over the station, as seen from above, `slope` that of its elevation.
 Eigen::Vector3d AcrossSurface(const Vec2& tangent, double slope, double roll);
 
 /// A point on the surface of a road.
@@ -131,24 +131,24 @@ struct RoadPosition {
   double heading = 0.0;  ///< of the reference line, towards growing s [rad]; not wrapped
 };
 
-/// The point beside the reference line by t [m] along the surface: the left normal of the line,
-/// turned by the superelevation about the line's tangent in space. Heights of Road::unread_heights
-/// are not in it. PreconditionError for a station outside of the road by more than 1 mm, or numbers
-/// that are not finite.
+/// The point at the distance t [m] from the reference line along the surface: along the left normal
+/// of the line, rotated by the superelevation about the line's tangent in space. Excludes the
+/// heights of Road::unread_heights. PreconditionError for a station outside of the road by more
+/// than 1 mm, or numbers that are not finite.
 RoadPosition PositionAt(const Road& road, double s, double t);
 
-/// The same beside the center of a lane by `offset` [m], positive to the left of growing s.
-/// PreconditionError also for a lane that is not there.
+/// As PositionAt, at the distance `offset` [m] from the center of a lane, positive to the left of
+/// growing s. PreconditionError also for a missing lane.
 RoadPosition LanePositionAt(const Road& road, int lane, double s, double offset = 0.0);
 
-/// Whether the road lies level at one height: no slope, no superelevation, no unread heights.
+/// Whether the road is level at constant height: no slope, no superelevation, no unread heights.
 bool IsLevel(const Road& road);
 
-/// Whether vehicles drive on lanes of the type: "driving", "entry", "exit", "onRamp", "offRamp",
+/// Whether vehicles use lanes of this type: "driving", "entry", "exit", "onRamp", "offRamp",
 /// "connectingRamp", "slipLane", "bidirectional", "bus", "taxi", "HOV", "mwyEntry", "mwyExit".
 bool IsDrivable(const Lane& lane);
 
-/// Whether traffic on the lane goes towards growing s: right lanes in right-hand traffic, left
+/// Whether traffic on the lane moves towards growing s: right lanes in right-hand traffic, left
 /// lanes in left-hand traffic.
 bool FollowsRoad(const Road& road, int lane);
 

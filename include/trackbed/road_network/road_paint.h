@@ -7,7 +7,7 @@
 
 namespace trackbed {
 
-/// A line of paint on a road, seen from above. Dashes are lines of their own.
+/// A line of paint on a road, seen from above. Each dash is a separate line.
 struct PaintedLine {
   std::vector<Vec2> points;  ///< [m], at least two
   double width = 0.0;        ///< [m], > 0
@@ -20,18 +20,18 @@ struct PavedBand {
   std::vector<Vec2> right;
 };
 
-/// What a road network looks like.
+/// The visible parts of a road network.
 struct RoadPaint {
   std::vector<PavedBand> bands;
   std::vector<PaintedLine> lines;
 };
 
 /// The lanes' surface and road marks of a network, for pictures: points at most `spacing` [m]
-/// apart, or so far that there are some 10^5 of them. Neighboring lanes of each section that are
-/// paved (all but sidewalks, borders, curbs and "none") are one band. Solid lines and dashes of 3 m
-/// every 9 m; double lines are two, 0.1 m apart; marks of other types ("grass", "curb", "edge",
-/// "custom", "botts dots") are solid lines, "none" is none. Heights and superelevation are left
-/// out. InternalError unless the spacing is positive.
+/// apart, or further, so that there are at most some 10^5 of them. Neighboring paved lanes of each
+/// section (all types except sidewalks, borders, curbs and "none") form one band. Broken lines are
+/// dashes of 3 m every 9 m; double lines are two lines, 0.1 m apart; marks of other types ("grass",
+/// "curb", "edge", "custom", "botts dots") are solid lines; "none" is not drawn. Ignores heights
+/// and superelevation. InternalError unless the spacing is positive.
 RoadPaint PaintRoads(const RoadNetwork& network, double spacing);
 
 }  // namespace trackbed

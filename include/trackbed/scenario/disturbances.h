@@ -11,9 +11,9 @@
 /// Each is off by default. Wind and friction patches are in world/world.h.
 namespace trackbed {
 
-/// Loss of speed: a speed limit from a time or station on, below any commanded speed.
+/// Loss of speed: a speed limit from a time or station on, which overrides any commanded speed.
 struct SpeedLoss {
-  std::optional<double> from;  ///< [s]; this or
+  std::optional<double> from;  ///< [s]; either this or `station`
   std::optional<double>
       station;  ///< along the path, without one the distance traveled [m]; neither: from the start
   double speed = 0.0;  ///< [m/s]
@@ -28,7 +28,7 @@ struct MeasurementNoise {
 /// A lateral kick, positive to the left.
 struct Kick {
   double at = 0.0;                     ///< [s]
-  std::optional<double> displacement;  ///< instantaneous [m]; this or
+  std::optional<double> displacement;  ///< instantaneous [m]; either this or `impulse`
   std::optional<double> impulse;       ///< at the center of gravity [N s]
   std::optional<double> duration;      ///< of the impulse's constant force [s]; none: kKickDuration
 };
@@ -45,8 +45,8 @@ struct Disturbances {
   double recovered_within = 0.05;  ///< of the path [m]
 };
 
-/// End of the last temporary disturbance, kick or gust, that ends by `before` [s]. None if there is
-/// none.
+/// End of the last temporary disturbance, kick or gust, that ends by `before` [s]; nullopt without
+/// one.
 std::optional<double> DisturbedUntil(const Disturbances& disturbances, const Wind& wind,
                                      double before);
 

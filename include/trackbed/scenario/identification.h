@@ -8,37 +8,38 @@
 
 #include "trackbed/scenario/scenario.h"
 
-/// What `trackbed identify` reads: which numbers of a car are to be estimated from which records.
+/// The input of `trackbed identify`: the parameters of a car to estimate, and the records to use.
 namespace trackbed {
 
-/// A normal distribution of what is known of a parameter beforehand.
+/// A normal prior distribution of a parameter.
 struct ParameterPrior {
   double mean = 0.0;
   double deviation = 0.0;  ///< > 0
 };
 
-/// A parameter to estimate, in its own unit.
+/// A parameter to estimate, in the unit of the model.
 struct IdentifiedParameter {
-  std::string name;               ///< of sim/car_parameters.h
-  double from = 0.0;              ///< lower bound
-  double to = 0.0;                ///< upper bound, above it
-  std::optional<double> start{};  ///< within the bounds; none: the model's own value, cut to them
+  std::string name;   ///< of sim/car_parameters.h
+  double from = 0.0;  ///< lower bound
+  double to = 0.0;    ///< upper bound, above it
+  /// Within the bounds; none: the model's value, clamped to the bounds.
+  std::optional<double> start{};
   std::optional<ParameterPrior> prior{};
   int line = 0;  ///< in the study's file
   int column = 0;
 };
 
-/// How large the residuals of each signal are expected to be; those without are not fitted.
+/// Expected sizes of the residuals of each signal; signals without one are not fitted.
 struct ResidualDeviations {
   std::optional<double> yaw_rate{};              ///< [rad/s]
   std::optional<double> lateral_acceleration{};  ///< at the center of gravity [m/s^2]
-  std::optional<double> lateral_speed{};         ///< there [m/s]
+  std::optional<double> lateral_speed{};         ///< at the center of gravity [m/s]
   std::optional<double> position{};              ///< along each axis [m]
   std::optional<double> heading{};               ///< [rad]
   std::optional<double> speed{};                 ///< [m/s]
 };
 
-/// What a residual r, over its deviation, adds to the cost.
+/// The contribution to the cost of a residual r in units of its deviation.
 enum class RobustLoss {
   kSquared,  ///< r^2/2
   kHuber,    ///< r^2/2 up to `loss_scale`, linear beyond (Huber 1964)
@@ -48,26 +49,29 @@ enum class RobustLoss {
 struct Identification {
   std::string name;
   std::string plant = "single_track";
-  std::vector<std::string> fit;       ///< scenarios with a record, relative to the folder
-  std::vector<std::string> held_out;  ///< likewise; they take no part in the fit
-  double horizon = 2.0;  ///< of the windows; the plant restarts at the record after it [s]
-  ResidualDeviations residuals{};  ///< none at all: yaw_rate alone, 0.1 rad/s
+  std::vector<std::string> fit;  ///< scenarios with a record, relative to the folder
+  /// Scenarios with a record that are not used for the fit, relative to the folder.
+  std::vector<std::string> held_out;
+  /// Of the windows [s]; the plant restarts at the record after each.
+  double horizon = 2.0;
+  ResidualDeviations residuals{};  ///< if all are empty: yaw_rate only, 0.1 rad/s
   RobustLoss loss = RobustLoss::kHuber;
   double loss_scale = 2.0;  ///< in deviations
   std::vector<IdentifiedParameter> parameters;
-  int starts = 2;         ///< of the search: the first at `start`, the others random in the bounds
-  int evaluations = 400;  ///< of the cost, about, from each start
+  /// Of the search: the first at `start`, the others random within the bounds.
+  int starts = 2;
+  int evaluations = 400;  ///< of the cost, approximately, per start
   std::uint64_t seed = 1;
 
-  std::filesystem::path file{};           ///< where it was read
-  std::vector<Scenario> fit_scenarios{};  ///< those of `fit`, read
+  std::filesystem::path file{};           ///< the file that was read
+  std::vector<Scenario> fit_scenarios{};  ///< the scenarios of `fit`
   std::vector<Scenario> held_out_scenarios{};
 };
 
 /// Reads a study and its scenarios strictly. InputError with every problem of single keys, each
-/// with file, line, column and dotted key; without any, with those of how the keys fit together; or
-/// with those of the first scenario that cannot be used. Each scenario must have a record and the
-/// first one's vehicle.
+/// with file, line, column and dotted key; if there are none, with the problems of combinations of
+/// keys; or with the problems of the first scenario that cannot be used. Each scenario must have a
+/// record, and the same vehicle as the first one.
 Identification ReadIdentification(const std::filesystem::path& file,
                                   const std::vector<std::filesystem::path>& asset_folders = {});
 

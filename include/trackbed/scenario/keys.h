@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-/// All keys of scenarios, studies and maps of logs, listed by the code that reads them.
+/// All keys of scenarios, studies and log maps, listed by the code that reads them.
 namespace trackbed {
 
 struct KeyInfo {
@@ -26,13 +26,13 @@ struct KeySection {
 /// The sections in the order of the file, each before those inside it.
 std::vector<KeySection> ScenarioKeys();
 
-/// The same of a study.
+/// The sections of a study.
 std::vector<KeySection> StudyKeys();
 
-/// The same of a map of logs (recording/log_map.h).
+/// The sections of a log map (recording/log_map.h).
 std::vector<KeySection> LogMapKeys();
 
-/// Those of an identification.
+/// The sections of an identification.
 std::vector<KeySection> IdentificationKeys();
 
 }  // namespace trackbed

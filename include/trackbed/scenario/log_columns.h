@@ -8,21 +8,21 @@
 /// The columns of a run log, `<plant>.csv` (docs/conventions.md).
 namespace trackbed {
 
-/// What a log has besides the car's state.
+/// Optional contents of a log, in addition to the car's state.
 struct LogContents {
-  bool path = false;                      ///< errors against one
+  bool path = false;                      ///< errors relative to a path
   bool obstacles = false;                 ///< clearance and contact force
   bool noise = false;                     ///< the measured pose
   bool wheels = false;                    ///< tyre forces and slip
-  bool gaps = false;                      ///< of a recorded drive: whether a row is valid
+  bool gaps = false;                      ///< of a recorded drive: the validity of each row
   std::vector<std::string> controller{};  ///< SteeringController::Columns
 };
 
 /// The names of the columns, in their order. Names carry their units.
 std::vector<std::string> LogColumns(const LogContents& contents);
 
-/// The columns that the log of a plant can have in a run of the scenario. Those of wheels are among
-/// them for every plant but `kinematic`, `single_track` and `recorded`, which have none.
+/// The columns that the log of a plant can have in a run of the scenario. They include wheel
+/// columns, except for `kinematic`, `single_track` and `recorded`, which have no wheels.
 std::vector<std::string> LogColumns(const Scenario& scenario, const std::string& plant);
 
 }  // namespace trackbed

@@ -15,8 +15,8 @@ struct SteadyStateCircleOptions {
   double fit_to = 4.0;    ///< [m/s^2]
 };
 
-/// SAE J266, method 2: slowly increasing steer at constant speed; the same metrics, and the
-/// steering angle at 0.3 g.
+/// SAE J266, method 2: slowly increasing steer at constant speed; the metrics of
+/// SteadyStateCircleOptions, and the steering angle at 0.3 g.
 struct SlowlyIncreasingSteerOptions {
   double settle = 2.0;    ///< [s]
   double fit_from = 0.5;  ///< [m/s^2]
@@ -45,7 +45,7 @@ struct DisturbanceOptions {
   double yaw_rate_bound = 0.02;  ///< recovered once the yaw rate stays below this [rad/s], > 0
 };
 
-/// The alternative that it holds selects the maneuver.
+/// The selected maneuver, with its options.
 using ManeuverOptions = std::variant<SteadyStateCircleOptions, SlowlyIncreasingSteerOptions,
                                      StepSteerOptions, SineWithDwellTestOptions, LaneChangeOptions,
                                      BrakingTestOptions, DisturbanceOptions>;

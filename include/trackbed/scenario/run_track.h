@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// The track of a run, from the `track.csv` of its folder, smoothed as the run's scenario says.
+/// The track of a run, from `track.csv` in its folder, with the smoothing of the run's scenario.
 /// Errors: those of ReadTrack and ReadScenario.
 Track ReadRunTrack(const std::filesystem::path& track_csv, const std::filesystem::path& scenario);
 

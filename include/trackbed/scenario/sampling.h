@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-/// Samples of the parameters of a study: points of the unit cube, and distributions that turn each
-/// coordinate into a value.
+/// Samples of the parameters of a study: points of the unit cube, and distributions that map each
+/// coordinate to a value.
 namespace trackbed {
 
 enum class SampleMethod {
@@ -16,7 +16,7 @@ enum class SampleMethod {
   kSobol,           ///< a low-discrepancy sequence, shifted at random
 };
 
-/// "latin_hypercube", as files name it.
+/// The spelling in files, "latin_hypercube".
 const char* ToString(SampleMethod method);
 
 struct SampleSpec {
@@ -27,10 +27,10 @@ struct SampleSpec {
 
 /// One point per row and one coordinate per column, all in (0, 1).
 ///
-/// Guarantees: the same bits for the same arguments on every machine. The coordinates of a column
-/// do not depend on the number of columns, so that a parameter that is added leaves the others as
-/// they were; those of kRandom and kSobol do not depend on `count` either. Each column is uniformly
-/// distributed, whatever the seed.
+/// Guarantees: the same arguments give the same bits on every machine. The coordinates of a column
+/// do not depend on the number of columns, so that adding a parameter leaves the others unchanged;
+/// those of kRandom and kSobol do not depend on `count` either. Each column is uniformly
+/// distributed for any seed.
 ///
 /// kLatinHypercube: McKay, Beckman and Conover (1979), a random permutation of the intervals and a
 /// random place in each. kSobol: Sobol' (1967) with the direction numbers of Joe and Kuo (2008)
@@ -45,32 +45,33 @@ enum class DistributionKind {
   kUniform,     ///< from `from` to `to`
   kLogUniform,  ///< its logarithm is uniform
   kInteger,     ///< a whole number from `from` to `to`, both included
-  kNormal,      ///< `mean` and `deviation`; truncated where there are `min` or `max`
-  kChoice,      ///< one of `values`, with `weights` where there are some
+  kNormal,      ///< `mean` and `deviation`; truncated at `min` or `max` if given
+  kChoice,      ///< one of `values`, with `weights` if given
 };
 
-/// "log_uniform", as files name it.
+/// The spelling in files, "log_uniform".
 const char* ToString(DistributionKind kind);
 
-/// How a parameter is distributed.
+/// The distribution of a parameter.
 struct Distribution {
   DistributionKind kind = DistributionKind::kUniform;
   double from = 0.0;
   double to = 1.0;
-  double step = 0.0;  ///< of kUniform: values are `from` + k `step`, all as likely; 0: any value
+  /// Of kUniform: values are `from` + k `step`, equally likely; 0: any value.
+  double step = 0.0;
   double mean = 0.0;
   double deviation = 1.0;  ///< standard deviation before truncation
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
-  std::vector<std::string> values;  ///< YAML on one line each
-  std::vector<double> weights;      ///< as many as values, or none: equal
+  std::vector<std::string> values;  ///< each as YAML on one line
+  std::vector<double> weights;      ///< one per value; empty: equal weights
 };
 
-/// `from` + k `step`, to 15 digits, so that 12 + 7 * 0.2 is 13.4.
+/// `from` + k `step`, rounded to 15 digits, so that 12 + 7 * 0.2 is 13.4.
 double SteppedValue(double from, double step, double k);
 
-/// The value below which a share `u` in (0, 1) of the distribution lies, as YAML: numbers in the
-/// shortest form that reads back to the same double.
+/// The quantile of the distribution for `u` in (0, 1), as YAML: numbers in the shortest form that
+/// reads back to the same double.
 std::string Quantile(const Distribution& distribution, double u);
 
 }  // namespace trackbed

@@ -28,7 +28,7 @@ namespace trackbed {
 
 struct Recording;
 
-/// The planner and the controller of a scenario that names none: fillet and preview.
+/// The default planner and controller of a scenario: fillet and preview.
 PlannerOptions DefaultPlanner();
 ControllerOptions DefaultController();
 
@@ -43,20 +43,21 @@ struct StartSpec {
   std::optional<double> x;    ///< [m]; default: the first waypoint, or 0
   std::optional<double> y;    ///< [m]
   std::optional<double> yaw;  ///< [rad]; default: the first heading, along the first leg, or 0
-  /// [m/s]; default: that of the recording or of the speed over time, or the mission's speed
+  /// [m/s]; default: that of the recording or of the speed over time, or the mission's speed.
   std::optional<double> speed;
   /// Bicycle angle of wheels and actuator [rad]; default: with prescribed steering the recorded
-  /// one, else 0
+  /// angle, else 0.
   std::optional<double> steering;
 };
 
 struct MissionSpec {
-  double speed = 0.0;              ///< [m/s]; 0: not given, for missions without a plan
-  std::vector<Vec2> waypoints;     ///< [m]
-  std::vector<double> headings;    ///< of the car at each of them [rad]; none: along the legs
+  double speed = 0.0;           ///< [m/s]; 0: not set, for missions without a plan
+  std::vector<Vec2> waypoints;  ///< [m]
+  /// Heading of the car at each waypoint [rad]; empty: along the legs.
+  std::vector<double> headings;
   std::vector<LanePlace> route;    ///< on the world's road network, instead of waypoints
   std::optional<double> duration;  ///< [s]; ends the run, for missions without a goal
-  /// How the speeds of the plan are chosen; none: ConstantAccelerationOptions.
+  /// Speeds of the plan; none: ConstantAccelerationOptions.
   std::optional<SpeedProfileOptions> speed_profile;
   std::optional<TrackSpec> track;  ///< laps to drive, instead of waypoints
   StartSpec start;
@@ -85,7 +86,8 @@ struct DriveSpec {
   double time_limit = 600.0;         ///< simulated [s]
   /// Distance to the goal within which a car at rest has arrived, as a fraction of its length.
   double goal_tolerance = 0.1;
-  double goal_heading_tolerance = 0.2;  ///< likewise [rad]; where the mission gives headings
+  /// Heading tolerance at the goal [rad], if the mission gives headings.
+  double goal_heading_tolerance = 0.2;
 };
 
 /// A bound on any metric of a plant's entry in metrics.json.
@@ -102,7 +104,7 @@ struct RequirementExpectation {
   std::string formula;
 };
 
-/// Bounds on one plant's metrics; only those given are checked.
+/// Bounds on one plant's metrics; checked if given.
 struct PlantExpectation {
   std::optional<double> reach_goal;         ///< maximum distance to the goal at the end [m]
   std::optional<double> max_cross_track;    ///< [m]
@@ -114,7 +116,7 @@ struct PlantExpectation {
   std::vector<RequirementExpectation> requirements;
 };
 
-/// Bounds on the differences between two runs at equal station; only those given are checked.
+/// Bounds on the differences between two runs at equal station; checked if given.
 struct DifferenceBounds {
   std::optional<double> position_max;  ///< [m]
   std::optional<double> heading_max;   ///< [rad]
@@ -161,32 +163,32 @@ struct Scenario {
   RenderSpec render;
 
   // Not keys.
-  std::filesystem::path folder;  ///< relative paths start here
-  /// Whose files may be read, too, when a recording or the assets of a model lie there: without
-  /// them a recording must lie in `folder` or below, and a model's assets in the model's.
+  std::filesystem::path folder;  ///< base of relative paths
+  /// Folders from which a recording or the assets of a model may also be read. Without them, a
+  /// recording must lie in or below `folder`, and a model's assets in or below the model's folder.
   std::vector<std::filesystem::path> asset_folders{};
 };
 
-/// `key=value`: replaces a key of the file before it is read; the value is YAML. With drive.plants,
-/// the file's expectations on other plants are ignored.
+/// `key=value`: replaces a key of the file before it is read; the value is YAML. An override of
+/// drive.plants drops the file's expectations on other plants.
 using Override = std::string;
 
-/// The paths that a plant's entry in metrics.json can have in a run of the scenario.
+/// Returns the paths that a plant's entry in metrics.json can have in a run of the scenario.
 using MetricPaths = std::function<std::vector<std::string>(const Scenario& scenario)>;
 
 /// Reads a scenario file strictly. InputError with **every** problem of the file: unknown key (with
 /// the nearest known one), missing or repeated key, wrong type, NaN or infinity, out of range,
 /// unknown name; each with file, line, column and dotted key. Problems of an override name the
-/// override. `cameras` are the names that render.camera may have; none: it is not checked. Likewise
-/// `metrics` for `expect.metrics`, called if there are no other problems. `asset_folders` become
-/// the scenario's.
+/// override. `cameras` are the allowed values of render.camera; empty: not checked. `metrics` are
+/// those of `expect.metrics`, called if there are no other problems; empty: not checked.
+/// `asset_folders` become the scenario's.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {},
                       const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {},
                       const std::vector<std::filesystem::path>& asset_folders = {});
 
-/// The same from text; `name` stands for the file in messages, `folder` is where relative paths
-/// start.
+/// As ReadScenario, from text; `name` is the file's name in messages, `folder` the base of relative
+/// paths.
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const std::filesystem::path& folder,
                        const std::vector<Override>& overrides = {},
@@ -194,28 +196,28 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const MetricPaths& metrics = {},
                        const std::vector<std::filesystem::path>& asset_folders = {});
 
-/// The `render` section of a scenario file alone, for videos of runs whose model may be missing.
-/// InputError.
+/// Reads only the `render` section of a scenario file, for videos of runs whose model may be
+/// missing. InputError.
 RenderSpec ReadRenderSpec(const std::filesystem::path& file);
 
-/// The `vehicle` section alone, likewise.
+/// Reads only the `vehicle` section of a scenario file. InputError.
 VehicleSpec ReadVehicleSpec(const std::filesystem::path& file);
 
-/// The `world` section alone, likewise; what a film shows of it.
+/// Reads only the `world` section of a scenario file, for films. InputError.
 World ReadWorld(const std::filesystem::path& file);
 
-/// The `expect` section alone, likewise; what a report shows of it.
+/// Reads only the `expect` section of a scenario file, for reports. InputError.
 Expectations ReadExpectations(const std::filesystem::path& file);
 
-/// Checks that involve several keys; ReadScenario makes them, callers that fill the struct by hand
-/// call this. InputError.
+/// Checks combinations of keys. ReadScenario calls it; programs that fill the struct must call it
+/// themselves. InputError.
 void CheckScenario(const Scenario& scenario);
 
-/// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal one
-/// from any folder: a model given by its path is written with its absolute path, a recording is
-/// `recording.csv`, which must lie beside the YAML with the content of RecordingCsv, and a recorded
-/// drive likewise `record.csv` with that of RecordCsv, a track `track.csv` with that of TrackCsv, a
-/// map `map.yaml` and `map.pgm` (map_file.h), and a road network `road_network.xodr`.
+/// The scenario with every default filled in, as YAML that ReadScenario reads back to an equal
+/// scenario from any folder. A model given by its path is written with its absolute path. Data from
+/// other files must lie beside the YAML: a recording as `recording.csv` (RecordingCsv), a recorded
+/// drive as `record.csv` (RecordCsv), a track as `track.csv` (TrackCsv), a map as `map.yaml` and
+/// `map.pgm` (map_file.h), and a road network as `road_network.xodr`.
 std::string ResolvedYaml(const Scenario& scenario);
 
 /// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".
@@ -224,10 +226,10 @@ std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
 std::string OptionDefaults(const ManeuverOptions& options);
 
-/// A scenario whose run is the record itself, and which replays it if drive.plants names others:
-/// named after the drive, with windows of 1, 2 and 5 s that fit in, a control period of the
-/// record's if that is a whole number of timesteps, and a gain of the speed control of 20/s.
-/// `model` as in VehicleSpec.
+/// A scenario whose run is the record itself, and which replays it on the plants in drive.plants if
+/// that is overridden. It has the drive's name, those windows of 1, 2 and 5 s that fit in, the
+/// record's period as control period if that is a whole number of timesteps, and a speed control
+/// gain of 20/s. `model` as in VehicleSpec.
 Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::string& model);
 
 /// The replayed recording, if any; owned by the scenario.
@@ -237,10 +239,10 @@ const Recording* FindRecording(const Scenario& scenario);
 StartState InitialState(const Scenario& scenario);
 
 /// End of the run [s]: the mission's duration, or without a plan the end of a recording over time.
-/// None: at the goal.
+/// None: the run ends at the goal.
 std::optional<double> RunDuration(const Scenario& scenario);
 
-/// The speed to keep [m/s]: the mission's, or that of the start if it gives none.
+/// The speed to keep [m/s]: the mission's, or the start speed if the mission gives none.
 double MissionSpeed(const Scenario& scenario);
 
 }  // namespace trackbed

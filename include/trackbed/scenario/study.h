@@ -36,84 +36,87 @@ struct OutputSpec {
   int column = 0;
 };
 
-/// Of which rows the run folders are kept.
+/// The rows whose run folders are kept.
 struct KeepSpec {
   enum class Rows {
     kNone,
-    kFailed,  ///< that did not pass
+    kFailed,  ///< rows that did not pass
     kAll,
     kHighest,  ///< the `count` with the highest values of the output `by`
-    kLowest,   ///< likewise, the lowest
+    kLowest,   ///< the `count` with the lowest values of the output `by`
   };
   Rows rows = Rows::kNone;
   int count = 0;
   std::string by{};
 };
 
-/// "worst 10 by metrics.mujoco.cross_track.max", as files have it.
+/// The spelling in files, "worst 10 by metrics.mujoco.cross_track.max".
 std::string ToString(const KeepSpec& keep);
 
-/// Holds at the points where a key of the study has one of some values.
+/// Holds at points at which a key of the study has one of the given values.
 struct Condition {
   std::string key;
-  std::vector<std::string> values;  ///< YAML on one line each
+  std::vector<std::string> values;  ///< each as YAML on one line
 };
 
-/// A key that is not the same in all runs.
+/// A key that varies between runs.
 struct Variation {
   std::string key;  ///< dotted
   int line = 0;
   int column = 0;
-  std::vector<Setting> alternatives{};         ///< of the grid; none where it is sampled
-  std::optional<Distribution> distribution{};  ///< where it is sampled
-  std::string rows_of{};  ///< the CSV file of its values; keys of one file take them of one row
-  std::vector<Condition> when{};  ///< all of them; where one does not hold the key is not set
+  std::vector<Setting> alternatives{};         ///< of the grid; empty if the key is sampled
+  std::optional<Distribution> distribution{};  ///< if the key is sampled
+  /// The CSV file of its values; keys of the same file take their values from the same row.
+  std::string rows_of{};
+  /// The key is set only if all of them hold.
+  std::vector<Condition> when{};
 };
 
-/// A key whose value follows from those of others.
+/// A key whose value is computed from other keys.
 struct DerivedKey {
   std::string key;      ///< dotted
-  std::string formula;  ///< of keys of the study
+  std::string formula;  ///< over keys of the study
   int line = 0;
   int column = 0;
 };
 
-/// How `trackbed falsify` searches the keys that have distributions for a run that fails.
+/// How `trackbed falsify` searches the keys with distributions for a run that fails.
 struct SearchSpec {
   std::string method = "surrogate";  ///< one of StudySearches()
-  int runs = 200;                    ///< of the search at most
-  int restarts = 0;                  ///< searches of NLopt side by side, each with its share of the
-                                     ///< runs; 0: two, of direct one
-  int population = 0;                ///< of crs2, esch and isres; 0: 4 n + 4 for n keys
-  std::string finish = "none";       ///< "nelder_mead", "cobyla": for the last quarter of the runs
+  int runs = 200;                    ///< maximum number of runs of the search
+  /// Number of parallel NLopt searches, which share the runs; 0: two, or one for `direct`.
+  int restarts = 0;
+  int population = 0;  ///< of crs2, esch and isres; 0: 4 n + 4 for n keys
+  /// Method for the last quarter of the runs: "none", "nelder_mead" or "cobyla".
+  std::string finish = "none";
   std::uint64_t seed = 1;
-  bool stop = true;         ///< with the first violation
-  int shrink_runs = 200;    ///< at most, to make the counterexample smaller
-  double tolerance = 0.01;  ///< of that, as a share of each key's range
+  bool stop = true;         ///< at the first violation
+  int shrink_runs = 200;    ///< maximum number of runs to shrink the counterexample
+  double tolerance = 0.01;  ///< of shrinking, as a fraction of each key's range
 };
 
-/// The names that SearchSpec::method may have: "random", "latin_hypercube", "sobol", "surrogate"
-/// (dlib), and the searches of NLopt that take no gradients.
+/// The allowed values of SearchSpec::method: "random", "latin_hypercube", "sobol", "surrogate"
+/// (dlib), and NLopt's searches that need no gradients.
 const std::vector<std::string>& StudySearches();
 
-/// Every run of a grid sets one alternative of each key of `vary` and one point of `list`. Where
-/// keys are sampled there are `sample.count` runs at each point of the grid, which is the same
-/// sample for each, so that what the grid compares meets the same conditions.
+/// Every run of a grid sets one alternative of each key of `vary` and one point of `list`. Sampled
+/// keys give `sample.count` runs at each point of the grid. All points of the grid use the same
+/// sample, so that the grid compares equal conditions.
 struct Study {
   std::string name;
-  std::string file;                                  ///< as the user named it
-  std::filesystem::path scenario;                    ///< found from the study's folder
-  std::string scenario_text;                         ///< its content when the study was read
-  std::vector<Override> overrides;                   ///< from the command line; they replace `set`
-  std::vector<std::string> cameras;                  ///< as for ReadScenario
-  MetricPaths metrics;                               ///< likewise
-  std::vector<std::filesystem::path> asset_folders;  ///< likewise
+  std::string file;                  ///< as the user named it
+  std::filesystem::path scenario;    ///< resolved from the study's folder
+  std::string scenario_text;         ///< its content at the time of reading the study
+  std::vector<Override> overrides;   ///< from the command line; they take precedence over `set`
+  std::vector<std::string> cameras;  ///< as for ReadScenario
+  MetricPaths metrics;               ///< as for ReadScenario
+  std::vector<std::filesystem::path> asset_folders;  ///< as for ReadScenario
   std::vector<Setting> set;                          ///< the same in every run
   std::vector<Variation> vary;                       ///< in the file's order
-  std::vector<std::vector<Setting>> list;            ///< points of several keys; empty: none
-  std::optional<SampleSpec> sample;  ///< with keys of `vary` that have distributions
-  std::optional<SearchSpec> search;  ///< likewise
-  std::vector<Setting> nominal;      ///< toward which a counterexample is made smaller
+  std::vector<std::vector<Setting>> list;            ///< points that set several keys; empty: none
+  std::optional<SampleSpec> sample;                  ///< for the keys of `vary` with distributions
+  std::optional<SearchSpec> search;                  ///< for the keys of `vary` with distributions
+  std::vector<Setting> nominal;      ///< the point toward which a counterexample is shrunk
   std::vector<DerivedKey> derive;    ///< in the file's order
   int repeat = 1;                    ///< runs per point, with consecutive seeds
   std::optional<BisectSpec> bisect;  ///< at every point of the grid
@@ -125,7 +128,7 @@ struct Study {
 struct StudyPoint {
   std::vector<Setting> settings;  ///< of `vary`, `list` and `derive`
   Scenario scenario;              ///< with these settings, and the bisected key at `from`
-  std::string refused{};          ///< why there is no such scenario; empty: there is
+  std::string refused{};          ///< why the scenario is invalid; empty: it is valid
 };
 
 /// Whether the file has the key `scenario`, which studies have and scenarios do not. False when it
@@ -133,30 +136,29 @@ struct StudyPoint {
 bool IsStudy(const std::filesystem::path& file);
 
 /// Reads a study as strictly as ReadScenario reads a scenario, and the text of its scenario.
-/// InputError with **every** problem of the study's own keys, including keys that overwrite each
-/// other.
+/// InputError with **every** problem of the study's keys, including keys that overwrite each other.
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                 const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {},
                 const std::vector<std::filesystem::path>& asset_folders = {});
 
-/// The scenario at a point, with the bisected key at `bisected`. InputError as ReadScenario,
-/// problems of the study's settings with their position there.
+/// The scenario at a point, with the bisected key at `bisected`. InputError as ReadScenario;
+/// problems of the study's settings are placed in the study's file.
 Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
                    std::optional<double> bisected = {});
 
-/// The point that sets these keys, with the derived ones added; refused with the first problem
-/// where there is no such scenario.
+/// The point with these settings and the derived keys; refused with the first problem if the
+/// scenario is invalid.
 StudyPoint PointWith(const Study& study, std::vector<Setting> settings);
 
-/// The number that a key has in a scenario with all defaults filled in; none if it has no such key.
+/// The number at a key of a scenario with all defaults filled in; none if there is no such key.
 std::optional<double> NumberAt(const Scenario& scenario, const std::string& key);
 
-/// The points of a study, one at a time: none is kept, however many there are. The last key of the
-/// grid changes fastest, points of the list faster than all keys of `vary`, and those of the sample
+/// The points of a study, computed on demand and not stored. The last key of the grid changes
+/// fastest, points of the list change faster than all keys of `vary`, and those of the sample
 /// faster than the list.
 ///
-/// Guarantees: a point depends on the study alone. Immutable: several threads may read points at a
-/// time. Points of the grid that differ only in a key whose condition does not hold are one.
+/// Guarantees: a point depends only on the study. Immutable: several threads may read points at a
+/// time. Points of the grid that differ only in a key whose condition does not hold are merged.
 class StudyPoints {
  public:
   /// InputError when keys have distributions and there is no `sample`.
@@ -164,9 +166,9 @@ class StudyPoints {
 
   [[nodiscard]] const Study& study() const { return study_; }
   [[nodiscard]] std::size_t size() const { return combinations_ * samples(); }
-  /// What the point `i` of `size()` sets. InputError when a formula has no value there.
+  /// The settings of the point `i` of `size()`. InputError if a formula has no value there.
   [[nodiscard]] std::vector<Setting> Settings(std::size_t i) const;
-  /// The point `i`, refused with the first problem where there is no such scenario.
+  /// The point `i`; refused with the first problem if its scenario is invalid.
   [[nodiscard]] StudyPoint Read(std::size_t i) const;
 
  private:
@@ -176,21 +178,21 @@ class StudyPoints {
 
   Study study_;
   std::size_t combinations_ = 1;         // of the grid
-  std::vector<std::size_t> distinct_{};  // of all combinations; empty: all of them
-  Eigen::MatrixXd unit_sample_;          // a row for each point of the sample
-  std::vector<int> dimensions_;          // of each key of `vary` in it; -1: not sampled
+  std::vector<std::size_t> distinct_{};  // indices among all combinations; empty: all are distinct
+  Eigen::MatrixXd unit_sample_;          // one row per point of the sample
+  std::vector<int> dimensions_;          // column of each key of `vary`; -1: not sampled
 };
 
-/// The points that tell whether a study makes sense: all, or 1000 from the first to the last,
-/// evenly spaced.
+/// The points that are checked before a study runs: all, or 1000 evenly spaced points, including
+/// the first and the last.
 std::vector<std::size_t> PointsToCheck(const StudyPoints& points);
 
-/// InputError with the problems of PointsToCheck, each once, with one point that has it unless all
-/// do; bisections are checked at both ends and at a value in between. Unless `all` must be good, it
-/// is enough that one is.
+/// InputError with the problems of PointsToCheck, each reported once, with one point that has it
+/// unless all do. Bisections are checked at both ends and at a value in between. With `all`, every
+/// point must be valid; otherwise one valid point is enough.
 void CheckPoints(const StudyPoints& points, bool all);
 
-/// A value as text in a table: numbers in shortest form, all else as YAML.
+/// A value as text in a table: numbers in their shortest form, other values as YAML.
 std::string CellText(const std::string& value);
 
 }  // namespace trackbed

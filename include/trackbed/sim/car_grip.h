@@ -9,13 +9,14 @@ namespace trackbed {
 /// The tyres, springs, brakes and drive of a car without its payload, for its g-g-v diagram.
 ///
 /// The roll stiffness of an axle is that of the slide joints between its wheels and the chassis and
-/// of the fixed tendons over them, in series with the springs of Magic Formula tyres; of an axle
-/// without springs on contact tyres, which has none to give, 1e7 N m/rad for each ton.
-/// `law` is resolved by SelectTyreLaw. InternalError for a vehicle without steered front wheels.
+/// of the fixed tendons over them, in series with the springs of Magic Formula tyres. An axle
+/// without springs on contact tyres has no stiffness in the model, and gets 1e7 N m/rad for each
+/// ton. `law` must be resolved by SelectTyreLaw. InternalError for a vehicle without steered front
+/// wheels.
 GripModel MakeGripModel(const CarModel& car, TyreLaw law);
 
-/// The diagram of a vehicle on roads of the given factors: ComputeGgv of a car, FrictionGgv of a
-/// vehicle with differential drive. It brakes with MaxDeceleration at most, which no command
+/// The diagram of a vehicle on roads of the given factors: ComputeGgv for a car, FrictionGgv for a
+/// vehicle with differential drive. Braking is limited to MaxDeceleration, which no command
 /// exceeds.
 GgvDiagram ComputeGgv(const CarModel& car, TyreLaw law, const std::vector<double>& roads);
 

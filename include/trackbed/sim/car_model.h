@@ -21,24 +21,25 @@ inline constexpr std::array<const char*, 4> kWheels{"fl", "fr", "rl", "rr"};
 
 /// The tyre parameters in a car's file.
 struct CarTyres {
-  std::array<MagicFormula, 2> axle;     ///< front, rear
-  std::array<double, 2> camber_gain{};  ///< front, rear: of the left wheel, to the left, per meter
-                                        ///< of spring travel up [rad/m]; mirrored on the right
-  double vertical_stiffness = 0.0;      ///< [N/m]
-  double vertical_damping = 0.0;        ///< [N s/m]
+  std::array<MagicFormula, 2> axle;  ///< front, rear
+  /// Camber of the left wheel, to the left, per meter of upward spring travel, front and rear
+  /// [rad/m]; mirrored on the right.
+  std::array<double, 2> camber_gain{};
+  double vertical_stiffness = 0.0;  ///< [N/m]
+  double vertical_damping = 0.0;    ///< [N s/m]
 };
 
 inline constexpr double kAirDensity = 1.225;  ///< ISO 2533 at sea level [kg/m^3]
 
-/// Aerodynamic force on the car: 1/2 rho |v| v times an area, longitudinal and lateral. Zero: none.
+/// Aerodynamic force on the car: 1/2 rho |v| v times an area, longitudinal and lateral. No force if
+/// the areas are 0.
 struct CarAerodynamics {
   double drag_area = 0.0;                      ///< C_d A [m^2], of wind along x
   double side_area = 0.0;                      ///< C_s A [m^2], of wind along y
   std::array<double, 2> center_of_pressure{};  ///< x and z of its point of application [m]
 };
 
-/// Indices of a vehicle's parts in the compiled model (MJCF names: docs/models.md). These are
-/// common to all vehicles.
+/// Indices of the parts that all vehicles have, in the compiled model (MJCF names: docs/models.md).
 struct ChassisParts {
   int chassis = -1;       ///< body
   int chassis_qpos = -1;  ///< of its free joint
@@ -47,7 +48,7 @@ struct ChassisParts {
   CarAerodynamics aerodynamics;
 };
 
-/// Those of a car with steered front wheels.
+/// Indices of the parts of a car with steered front wheels.
 struct CarParts : ChassisParts {
   std::array<int, 4> tyre{};     ///< collision geom of each wheel
   std::array<int, 4> wheel{};    ///< body
@@ -62,15 +63,15 @@ struct CarParts : ChassisParts {
   int steer_state = -1;     ///< index into act
   int drive_actuator = -1;
   double drive_limit = 0.0;              ///< of the drive torque, both wheels together [N m]
-  double drive_power = 0.0;              ///< largest [W]; 0: not limited
+  double drive_power = 0.0;              ///< largest [W]; 0: no limit
   double brake_torque_front = 0.0;       ///< largest, per wheel [N m]
   double brake_torque_rear = 0.0;        ///< largest, per wheel [N m]
   std::array<double, 4> spin_inertia{};  ///< [kg m^2]
   std::array<double, 4> hub_height{};    ///< of the wheel centers at rest, in the car's frame [m]
-  std::optional<CarTyres> tyres;         ///< none when the file has no coefficients
+  std::optional<CarTyres> tyres;         ///< none if the file has no coefficients
 };
 
-/// Those of a vehicle with differential drive; of the wheels left, right.
+/// Indices of the parts of a vehicle with differential drive; wheels in the order left, right.
 struct WheelPairParts : ChassisParts {
   std::array<int, 2> tyre{};   ///< collision geom
   std::array<int, 2> wheel{};  ///< body
@@ -86,10 +87,10 @@ struct WheelPairParts : ChassisParts {
 
 /// A compiled vehicle with its scene. Immutable, and safe to share between threads once made.
 ///
-/// The model is compiled without its looks (MuJoCo's `discardvisual`): geoms that collide with
-/// nothing and that nothing in the MJCF refers to are in scene() alone. Masses and motion are those
-/// of the whole model, to the last bit; a step takes less time. Not so for a model that has a
-/// density of the medium and ellipsoid fluid forces on such geoms: these are lost.
+/// The model is compiled without visual geoms (MuJoCo's `discardvisual`): geoms that collide with
+/// nothing and that nothing in the MJCF refers to are only in scene(). Masses and motion equal
+/// those of the whole model to the last bit, and a step takes less time. Exception: in a model with
+/// a density of the medium, ellipsoid fluid forces on such geoms are lost.
 ///
 /// Errors: InputError naming the file and, all at once, what is missing or wrong, when the MJCF
 /// does not compile, lacks a needed name, or has a part that violates docs/models.md.
@@ -101,18 +102,18 @@ class CarModel {
   ~CarModel();
 
   [[nodiscard]] const VehicleParams& params() const { return params_; }
-  /// Parameters without the payload of the scene, as used by planners and controllers; else the
-  /// same.
+  /// Parameters without the scene's payload, as used by planners and controllers; equal to params()
+  /// without a payload.
   [[nodiscard]] const VehicleParams& unladen() const { return unladen_; }
-  /// Of a vehicle of either kind.
+  /// Parts of a vehicle of either kind.
   [[nodiscard]] const ChassisParts& chassis() const;
-  /// Of a car with steered front wheels; InternalError for other vehicles.
+  /// Parts of a car with steered front wheels; InternalError for other vehicles.
   [[nodiscard]] const CarParts& parts() const;
-  /// Of a vehicle with differential drive; InternalError for other vehicles.
+  /// Parts of a vehicle with differential drive; InternalError for other vehicles.
   [[nodiscard]] const WheelPairParts& wheel_pair() const;
-  /// The collision geoms of the wheels, in the order of the vehicle's parts: four, or two.
+  /// The collision geoms of the wheels, four or two, in the order of the vehicle's parts.
   [[nodiscard]] std::span<const int> tyres() const;
-  /// Their bodies.
+  /// The bodies of the wheels, in the order of tyres().
   [[nodiscard]] std::span<const int> wheels() const;
   [[nodiscard]] const Scene& scene() const { return scene_; }
   /// The car's file, as named in messages.
@@ -124,23 +125,24 @@ class CarModel {
   /// joint by name with its unit.
   [[nodiscard]] std::vector<std::string> configuration_columns() const;
 
-  /// A configuration out of a full qpos.
+  /// Extracts a configuration from a full qpos.
   [[nodiscard]] std::vector<double> ExtractConfiguration(std::span<const double> qpos) const;
 
   /// qpos of the car standing on `ground`, its rear-axle center at `pose` as seen from above, its
-  /// wheels at `steering` (bicycle angle) and turned by `spin` [rad], one for each of wheels() or
-  /// none. Its frame V lies on the plane that fits the heights under the four wheels best, moved up
-  /// until no wheel is in the ground; a payload's weight on the springs moves it from there. With
-  /// differential drive, the front corners of its footprint take the front wheels' place.
+  /// wheels at `steering` (bicycle angle) and rotated by `spin` [rad], which is empty or has one
+  /// value for each of wheels(). The frame V lies on the plane that best fits the heights under the
+  /// four wheels, raised until no wheel is in the ground; the weight of a payload on the springs
+  /// displaces the car from there. With differential drive, the front corners of the footprint
+  /// replace the front wheels.
   [[nodiscard]] std::vector<double> StandingPosition(const Pose2& pose, double steering,
                                                      const std::vector<double>& spin,
                                                      const Ground& ground) const;
 
-  /// The unit vector ahead of that car along the ground, in the world: a laden car's own x axis
-  /// leans away from it.
+  /// The unit vector along the ground in the direction in which that car points, in the world. The
+  /// x axis of a laden car is tilted relative to it.
   [[nodiscard]] Eigen::Vector3d AheadOnGround(const Pose2& pose, const Ground& ground) const;
 
-  /// A configuration of the car standing on its scene's ground, as above.
+  /// A configuration of the car standing on its scene's ground, as StandingPosition.
   [[nodiscard]] std::vector<double> FlatConfiguration(const Pose2& pose, double steering,
                                                       const std::vector<double>& spin) const;
 
@@ -154,18 +156,18 @@ class CarModel {
   MujocoModel model_;
   VehicleParams params_;
   VehicleParams unladen_;
-  int laden_keyframe_ = -1;  // of the car with its payload; -1: none
+  int laden_keyframe_ = -1;  // of the car with its payload; -1: no payload
   std::variant<CarParts, WheelPairParts> parts_;
 };
 
 /// One for each of CarModel::wheels() [m/s]; takes no heap memory.
 using WheelSpeeds = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kWheels.size(), 1>;
 
-/// Speed along each wheel's own direction when the car's rear axle moves at `speed` with its wheels
-/// at `steering` and does not slip.
+/// Speed of each wheel along its direction, without slip, when the car's rear axle moves at `speed`
+/// with its wheels at `steering`.
 WheelSpeeds RollingSpeeds(const VehicleParams& params, double speed, double steering);
 
-/// "MuJoCo 2.2.2"; InternalError when the library is not the one the headers were made for.
+/// "MuJoCo 2.2.2"; InternalError if the library does not match the headers.
 std::string PhysicsVersion();
 
 }  // namespace trackbed

@@ -7,7 +7,7 @@ struct mjData_;
 
 namespace trackbed {
 
-/// MuJoCo's models and data that free themselves.
+/// Owning pointers to MuJoCo's models and data.
 struct MujocoDeleter {
   void operator()(mjModel_* model) const;
   void operator()(mjData_* data) const;
@@ -15,10 +15,10 @@ struct MujocoDeleter {
 using MujocoModel = std::unique_ptr<mjModel_, MujocoDeleter>;
 using MujocoData = std::unique_ptr<mjData_, MujocoDeleter>;
 
-/// A copy of the model; RunError when there is no memory for it.
+/// A copy of the model; RunError if there is not enough memory.
 MujocoModel CopyMujocoModel(const mjModel_& model);
 
-/// Data for the model, in its initial configuration; RunError when there is no memory for it.
+/// Data for the model, in its initial configuration; RunError if there is not enough memory.
 MujocoData MakeMujocoData(const mjModel_& model);
 
 }  // namespace trackbed

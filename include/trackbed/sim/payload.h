@@ -7,10 +7,10 @@
 
 namespace trackbed {
 
-/// Puts the payload into the car: a body `payload` fixed to `chassis`, and a keyframe `laden`, the
-/// laden equilibrium pose. `car` must have no payload, and its scene flat ground without obstacles.
-/// InputError naming the car's file when it does not come to rest on its four wheels. Cost: a
-/// second of MuJoCo's time at most.
+/// Adds the payload to the car: a body `payload` fixed to `chassis`, and a keyframe `laden`, the
+/// laden equilibrium pose. `car` must have no payload, and a scene with flat ground and without
+/// obstacles. InputError naming the car's file if the car does not come to rest on its four wheels.
+/// Cost: at most a second of simulated time in MuJoCo.
 Scene WithPayload(const CarModel& car, const Payload& payload);
 
 }  // namespace trackbed

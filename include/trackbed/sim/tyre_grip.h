@@ -8,12 +8,12 @@
 
 namespace trackbed {
 
-/// The largest forces of a tyre over its load, along and across, on a road of factor 1:
+/// The largest longitudinal and lateral forces of a tyre over its load, on a road of factor 1:
 /// PeakFriction of the Magic Formula at `load` [N], or the coefficient of MuJoCo's contact, which
-/// is the same at every load. `wheel` is an index of kWheels, and `law` is resolved by
+/// does not depend on the load. `wheel` is an index of kWheels; `law` must be resolved by
 /// SelectTyreLaw.
 ///
-/// Errors: InternalError for a vehicle without steered front wheels, or a wheel that there is not.
+/// Errors: InternalError for a vehicle without steered front wheels, or an invalid wheel.
 TyreFriction FindTyreFriction(const CarModel& car, TyreLaw law, std::size_t wheel, double load);
 
 }  // namespace trackbed

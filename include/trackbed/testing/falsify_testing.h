@@ -8,7 +8,7 @@
 
 #include "trackbed/falsify/falsify.h"
 
-/// Searches for failing runs in your own GoogleTest:
+/// Searches for failing runs in GoogleTest:
 ///
 ///     EXPECT_THAT(trackbed::FalsifyStudy("studies/lane_change.yaml"), trackbed::IsNotFalsified());
 ///
@@ -20,11 +20,11 @@ namespace trackbed {
 FalsifyResult FalsifyStudy(const std::filesystem::path& file,
                            const std::vector<Override>& overrides = {});
 
-/// What GoogleTest prints of a search: "broken in 12 runs at mission.speed = 17.2, …" or "not
-/// falsified in 61 runs".
+/// Prints a search in GoogleTest: "broken in 12 runs at mission.speed = 17.2, …" or "not falsified
+/// in 61 runs".
 void PrintTo(const FalsifyResult& result, std::ostream* out);
 
-/// No run of the search failed, and none met a bug of the program. That is no proof.
+/// Matches if no run of the search failed or hit a bug of the program. That is not a proof.
 testing::Matcher<const FalsifyResult&> IsNotFalsified();
 
 }  // namespace trackbed

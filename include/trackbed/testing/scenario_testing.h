@@ -10,7 +10,7 @@
 #include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/run.h"
 
-/// Scenarios in your own GoogleTest: run one, then state expectations.
+/// Scenarios in GoogleTest: run one, then state expectations.
 ///
 ///     const RunResult run = trackbed::RunScenario("scenarios/three_turns.yaml");
 ///     EXPECT_THAT(run, trackbed::ReachesGoal(0.5));
@@ -30,25 +30,25 @@ namespace trackbed {
 RunResult RunScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {});
 
-/// The same for a scenario that was filled in or changed in code.
+/// As above, for a scenario made or changed in code.
 RunResult RunScenario(const Scenario& scenario);
 
-/// The differences between two plants of a run. InputError when the run does not have both.
+/// The differences between two plants of a run. InputError unless the run has both.
 PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second);
 
-/// The differences of a plant between two runs, such as with different controllers; the two are
-/// named "<run>/<plant>". InputError when one of the runs does not have it.
+/// The differences of a plant between two runs, for example with different controllers; the two are
+/// named "<run>/<plant>". InputError unless both runs have the plant.
 PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant);
 
-/// What GoogleTest prints of a comparison: "kinematic and mujoco from 0 m to 138.2 m: maximum
-/// difference in position 0.02108 m, heading 0.01 rad, yaw rate 0.02 rad/s, steering 0.004 rad".
+/// Prints a comparison in GoogleTest: "kinematic and mujoco from 0 m to 138.2 m: maximum difference
+/// in position 0.02108 m, heading 0.01 rad, yaw rate 0.02 rad/s, steering 0.004 rad".
 void PrintTo(const PlantComparison& comparison, std::ostream* out);
 
 /// The differences never exceed the bounds; plants without common stations do not match.
 testing::Matcher<const PlantComparison&> DiffersByAtMost(const DifferenceBounds& bounds);
 
-/// What GoogleTest prints of a run: "three_turns: kinematic arrived at 47.12 s, mujoco arrived at
-/// 47.13 s; expectations met".
+/// Prints a run in GoogleTest: "three_turns: kinematic arrived at 47.12 s, mujoco arrived at 47.13
+/// s; expectations met".
 void PrintTo(const RunResult& run, std::ostream* out);
 
 /// Largest cross-track error of every plant is at most `limit` [m].
@@ -66,11 +66,11 @@ testing::Matcher<const RunResult&> ReachesGoal(double distance);
 
 /// The log of every plant satisfies a formula of temporal logic over its columns
 /// (trackbed/requirement/formula.h): "always abs(cross_track_m) < 0.5". A failure names the
-/// robustness, station and time of the sample that decides. A formula that is wrong, or that no
-/// sample decides, does not match.
+/// robustness, station and time of the decisive sample. An invalid formula does not match, nor does
+/// one without a decisive sample.
 testing::Matcher<const RunResult&> Satisfies(const std::string& formula);
 
-/// The run meets its own scenario's `expect`.
+/// The run meets the `expect` section of its scenario.
 testing::Matcher<const RunResult&> MeetsItsExpectations();
 
 }  // namespace trackbed

@@ -24,17 +24,17 @@ struct KinematicState {
   double distance = 0.0;  ///< integral of |v| [m]
 };
 
-/// Guarantees: exact while the steering angle is constant (to rounding, whatever the step and the
+/// Guarantees: exact while the steering angle is constant (to rounding, for any step and
 /// acceleration); while it moves, the error of a step is that of a fourth-order method on a smooth
 /// right-hand side: below 1e-10 m for steps up to 20 ms at 3 m/s. Steps are split where the
-/// steering arrives and where the car comes to rest, so the result does not depend on the step
-/// size. Does not slip, roll or feel forces; acceleration is obeyed exactly.
+/// steering reaches its target and where the car comes to rest, so that the result does not depend
+/// on the step size. No slip, roll or forces; the acceleration follows its command exactly.
 class KinematicCar {
  public:
   KinematicCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start);
 
-  /// Advances by `duration` [s] >= 0 under a constant command. PreconditionError unless all of it
-  /// is finite.
+  /// Advances by `duration` [s] >= 0 under a constant command. PreconditionError unless all
+  /// arguments are finite.
   void Step(const Command& command, double duration);
 
   /// Displaces the car instantaneously by `left` [m] to its left.
@@ -42,8 +42,8 @@ class KinematicCar {
 
   [[nodiscard]] const KinematicState& state() const { return state_; }
 
-  /// The full state, rear-axle pose and speed whatever the reference point is; accelerations are
-  /// those at the end of the last step. `time` is the sum of the steps.
+  /// The full state, with pose and speed of the rear axle for either reference point; accelerations
+  /// are those at the end of the last step. `time` is the sum of the steps.
   [[nodiscard]] VehicleState FullState() const;
 
  private:
@@ -61,7 +61,7 @@ class KinematicCar {
   KinematicState state_;
   double time_ = 0.0;
   double steering_rate_ = 0.0;  // at the end of the last step [rad/s]
-  double acceleration_ = 0.0;   // likewise [m/s^2]
+  double acceleration_ = 0.0;   // at the end of the last step [m/s^2]
 };
 
 }  // namespace trackbed

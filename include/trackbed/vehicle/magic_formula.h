@@ -18,7 +18,8 @@
 /// other slip (coefficients r_*).
 namespace trackbed {
 
-/// Coefficients under their standard names. Those not given are 0 and have no effect.
+/// Coefficients under their standard names. Coefficients that are not given are 0 and have no
+/// effect.
 struct MagicFormula {
   double p_cx1 = 0.0;  ///< shape, > 0
   double p_dx1 = 0.0;  ///< friction mu_x, > 0
@@ -67,7 +68,7 @@ struct MagicFormulaField {
   bool required;
 };
 
-/// Every coefficient there is.
+/// All coefficients.
 const std::vector<MagicFormulaField>& MagicFormulaFields();
 
 struct TyreSlip {
@@ -85,24 +86,24 @@ struct TyreForce {
 };
 
 /// The force at steady slip. `road` > 0 is the factor of the road on both friction coefficients; it
-/// leaves stiffness alone.
+/// does not affect stiffness.
 ///
-/// Guarantees: no force without load (F_z <= 0). F_y is odd in (alpha, gamma), up to the r_*
-/// shifts, which are a tyre's own asymmetry. With r_* the combined force may exceed the friction
-/// ellipse, a property of the model (CommonRoad's BMW: 12 %); without them it is scaled onto the
-/// ellipse. The sign of gamma in the shifts is smoothed over half a mrad: a jump there would be an
-/// unphysical force. Aligning moment and turn slip are not part of it. Cost: about 0.2 us.
+/// Guarantees: no force without load (F_z <= 0). F_y is odd in (alpha, gamma), except for the r_*
+/// shifts, which represent the asymmetry of a tyre. With r_* the combined force may exceed the
+/// friction ellipse, a property of the model (CommonRoad's BMW: 12 %); without them it is scaled
+/// onto the ellipse. The sign of gamma in the shifts is smoothed over half a mrad, because a jump
+/// would be unphysical. Excludes aligning moment and turn slip. Cost: about 0.2 us.
 TyreForce EvaluateTyreForce(const MagicFormula& tyre, double load, double road,
                             const TyreSlip& slip);
 
-/// The largest forces over the load, along and across, on a road of factor 1.
+/// The largest longitudinal and lateral forces over the load, on a road of factor 1.
 struct TyreFriction {
   double longitudinal = 0.0;
   double lateral = 0.0;
 };
 
-/// The peaks D/F_z of pure slip at `load`, without camber and shifts; a shape C below 1 does not
-/// reach D but D sin(C pi/2).
+/// The peaks D/F_z of pure slip at `load`, without camber and shifts; with a shape C below 1 the
+/// peak is D sin(C pi/2) instead of D.
 TyreFriction PeakFriction(const MagicFormula& tyre, double load);
 
 /// C_alpha = -dF_y/dalpha at zero slip [N/rad], > 0.

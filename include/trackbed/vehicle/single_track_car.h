@@ -4,8 +4,8 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
 
-/// The linear dynamic single-track car (Riekert and Schunck 1940; Mitschke and Wallentowitz
-/// 2014) behind a rate-limited steering actuator, speed prescribed.
+/// The linear dynamic single-track car (Riekert and Schunck 1940; Mitschke and Wallentowitz 2014)
+/// behind a rate-limited steering actuator, with prescribed speed.
 ///
 /// Symbols (ISO 8855): u speed along the car's x axis [m/s], signed, the same at every point of
 /// that axis; v lateral speed at the center of gravity [m/s]; r yaw rate [rad/s]; delta steering;
@@ -13,13 +13,13 @@
 /// axles' cornering stiffness [N/rad]; F_f, F_r their lateral forces [N], left positive.
 ///   m (v' + u r) = F_f + F_r         F_f = C_f (u tan(delta) - v - l_f r)/|u|
 ///   I r' = l_f F_f - l_r F_r         F_r = -C_r (v - l_r r)/|u|
-/// Slip angles and their forces are small: tan(alpha) is alpha, and all of F_f is along y. The
-/// steering angle need not be small, nor is the pose: with tan(delta) the car without slip is the
-/// kinematic one. The forces oppose the axles' lateral motion whichever way the car rolls.
+/// Small slip angles: tan(alpha) is alpha, and all of F_f is along y. The steering angle and the
+/// pose need not be small: with tan(delta), the car without slip is the kinematic one. The forces
+/// oppose the axles' lateral motion in either direction of rolling.
 ///
-/// Steady state: r = u tan(delta)/(L + K u |u|) with K = m (l_r/C_f - l_f/C_r)/L [s^2/m]. With
-/// K < 0 driving forwards, K > 0 backwards, it is unstable above the speed sqrt(L/|K|), as the
-/// linear car is.
+/// Steady state: r = u tan(delta)/(L + K u |u|) with K = m (l_r/C_f - l_f/C_r)/L [s^2/m]. Like the
+/// linear car, it is unstable above the speed sqrt(L/|K|) for K < 0 driving forwards, and for K > 0
+/// driving backwards.
 namespace trackbed {
 
 struct SingleTrackState {
@@ -31,27 +31,27 @@ struct SingleTrackState {
   double distance = 0.0;       ///< integral of |u| [m]
 };
 
-/// The state of a car that rolls without slip, as a KinematicCar with its reference at the rear
-/// axle.
+/// The state of a car that rolls without slip, from that of a KinematicCar with the rear axle as
+/// reference.
 SingleTrackState RollingWithoutSlip(const VehicleParams& params, const KinematicState& state);
 
-/// Guarantees: steering and speed run exactly as KinematicCar's, with its rules of rest and gears.
-/// Radau IIA of fifth order over at most 2 ms at a time, in v/u and r/u. These have a finite limit
-/// where u passes through zero, where v and r themselves have infinitely fast decays: no blending
-/// or switching is needed, and a slow car equals the kinematic one to O(u^2) and O(u'). Steps are
-/// split where the steering arrives and where the car comes to rest; the step size changes the
-/// result by less than 1e-9 m and rad over seconds of driving. Braking harder than tyres hold (some
-/// 50 m/s^2) is outside the model. Linear tyres know no friction limit, wheel loads, roll, wind or
-/// grades.
+/// Guarantees: steering and speed are exactly those of KinematicCar, including its rules of
+/// standstill and gears. Integrates v/u and r/u by Radau IIA of fifth order, over at most 2 ms at a
+/// time. These ratios have a finite limit where u passes through zero, where v and r themselves
+/// decay infinitely fast: no blending or switching is needed, and a slow car equals the kinematic
+/// one to O(u^2) and O(u'). Steps are split where the steering reaches its target and where the car
+/// comes to rest; the step size changes the result by less than 1e-9 m and rad over seconds of
+/// driving. Braking harder than tyres allow (some 50 m/s^2) is outside the model. Linear tyres have
+/// no friction limit, wheel loads, roll, wind or grades.
 ///
-/// Needs mass, yaw inertia and both cornering stiffnesses above zero (InternalError).
-/// Cost: about 2 us per 2 ms.
+/// Needs mass, yaw inertia and both cornering stiffnesses above zero (InternalError). Cost: about 2
+/// us per 2 ms.
 class SingleTrackCar {
  public:
   SingleTrackCar(const VehicleParams& params, const SingleTrackState& start);
 
-  /// Advances by `duration` [s] >= 0 under a constant command. PreconditionError unless all of it
-  /// is finite.
+  /// Advances by `duration` [s] >= 0 under a constant command. PreconditionError unless all
+  /// arguments are finite.
   void Step(const Command& command, double duration);
 
   /// Displaces the car instantaneously by `left` [m] to its left.
@@ -63,8 +63,8 @@ class SingleTrackCar {
 
   [[nodiscard]] const SingleTrackState& state() const { return state_; }
 
-  /// As KinematicCar's: accelerations are those at the end of the last step, `time` is the sum of
-  /// the steps. Without wheel forces, which are the axles' here.
+  /// As KinematicCar::FullState: accelerations are those at the end of the last step, `time` is the
+  /// sum of the steps. Without wheel forces, since the model only has axle forces.
   [[nodiscard]] VehicleState FullState() const;
 
  private:
@@ -77,8 +77,8 @@ class SingleTrackCar {
 
   VehicleParams params_;
   SingleTrackState state_;
-  Eigen::Matrix2d slip_rate_;  // of v and r, per unit of 1/|u|: what the tyres take [m/s^2]
-  Vec2 steer_gain_;            // of tan(delta), likewise
+  Eigen::Matrix2d slip_rate_;  // decay of v and r by the tyres, per unit of 1/|u| [m/s^2]
+  Vec2 steer_gain_;            // of v and r, per unit of tan(delta)
   double time_ = 0.0;
   double acceleration_ = 0.0;  // at the end of the last step [m/s^2]
 };

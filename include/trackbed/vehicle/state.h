@@ -7,10 +7,10 @@
 
 namespace trackbed {
 
-/// Slower than this, a vehicle counts as at rest [m/s].
+/// Speed below which a vehicle is considered at rest [m/s].
 inline constexpr double kAtRestSpeed = 0.01;
 
-/// One wheel of a car with tyres. Tyre axes as in ISO 8855: x where the wheel points, y to its
+/// One wheel of a car with tyres. Tyre axes as in ISO 8855: x along the wheel's heading, y to its
 /// left.
 struct WheelState {
   double normal_force = 0.0;        ///< [N], >= 0
@@ -21,10 +21,10 @@ struct WheelState {
   double slip_ratio = 0.0;  ///< (Omega R - v_x)/|v_x|, driving positive
 };
 
-/// The state of a car that every plant reports. Axes x forward, y left, z up; angles positive to
+/// The state of a car, reported by every plant. Axes x forward, y left, z up; angles positive to
 /// the left (roll: right side down; pitch: nose down). Speeds along x and y are those of points on
-/// the ground, turning with the car's yaw; accelerations are those of the center of gravity itself,
-/// at its height, along the same axes: rolling and pitching are in them.
+/// the ground that turn with the car's yaw. Accelerations are those of the center of gravity, at
+/// its height, along the same axes, and include the effects of roll and pitch.
 struct VehicleState {
   double time = 0.0;           ///< [s]
   Pose2 pose;                  ///< rear-axle center on the ground, in the world; yaw is not wrapped
@@ -51,8 +51,8 @@ struct Command {
   int gear =
       1;  ///< +1: never rolls backwards, -1: never forwards. Slowing down ends in standstill,
           ///< held by the brakes until the acceleration points along the gear again
-  /// Neither motor nor brakes: the acceleration is what drag, rolling resistance and slope leave,
-  /// and `acceleration` is not looked at. Plants that know no such forces keep their speed.
+  /// Coasts, without motor and brakes: drag, rolling resistance and slope determine the
+  /// acceleration, and `acceleration` is ignored. Plants without such forces keep their speed.
   bool coast = false;
 };
 

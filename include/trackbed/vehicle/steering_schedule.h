@@ -21,8 +21,8 @@ struct TurnSteering {
 };
 
 /// delta(D) as a continuous, piecewise linear function: toward the present target at the slope
-/// omega_delta/v, then constant. A turn that fits is a trapezoid; one whose hold is shorter than
-/// its ramp stays below its target; a turn that starts while another one returns takes effect
+/// omega_delta/v, then constant. A turn that fits is a trapezoid; a turn whose hold is shorter than
+/// its ramp stays below its target; a turn that starts while the previous one returns takes effect
 /// immediately.
 class SteeringSchedule {
  public:
@@ -35,24 +35,24 @@ class SteeringSchedule {
   SteeringSchedule() = default;
 
   /// Turns in the order of their starts; `slope` = omega_delta/v [rad/m] > 0, one for all turns or
-  /// one for each; `neutral` is d_0. InternalError when they are out of order.
+  /// one for each; `neutral` is d_0. InternalError if they are out of order.
   SteeringSchedule(const std::vector<TurnSteering>& turns, double slope, double neutral = 0.0);
   SteeringSchedule(const std::vector<TurnSteering>& turns, const std::vector<double>& slopes,
                    double neutral = 0.0);
 
-  /// Through the knots, at least one, in strictly increasing order of distance. InternalError
-  /// otherwise, PreconditionError unless they are finite.
+  /// A schedule through the knots, at least one, in strictly increasing order of distance.
+  /// InternalError otherwise, PreconditionError unless they are finite.
   static SteeringSchedule Through(std::vector<Knot> knots);
 
   /// Constant `steering` [rad].
   static SteeringSchedule Constant(double steering);
 
-  /// [rad]; constant before the first and after the last knot, NaN of NaN.
+  /// Steering [rad]; constant before the first and after the last knot, NaN for NaN.
   [[nodiscard]] double At(double distance) const;
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
 
-  /// The remainder beyond `distance` [m], which becomes D = 0.
+  /// The part beyond `distance` [m], which becomes D = 0.
   [[nodiscard]] SteeringSchedule From(double distance) const;
 
  private:
@@ -66,12 +66,12 @@ double SteeringDistance(const VehicleParams& params, double steering, double spe
 /// `steering` at the full rate: (v/(L omega)) (-ln cos delta), signed like the steering.
 double RampHeading(const VehicleParams& params, double steering, double speed);
 
-/// The rear axle's pose after that ramp, begun at the origin straight along x: exact to rounding,
-/// by quadrature of the heading above.
+/// The rear axle's pose after that ramp, starting at the origin straight along x: exact to
+/// rounding, by quadrature of the heading above.
 Pose2 RampPose(const VehicleParams& params, double steering, double speed);
 
-/// The end state of an open-loop run: the kinematic car from `start` over `distance` [m], its
-/// wheels following the schedule exactly, as at any speed within the steering rate limit. A start
+/// The end state of an open-loop run: the kinematic car from `start` over `distance` [m]. Its
+/// wheels follow the schedule exactly, as at any speed within the steering rate limit. A start
 /// speed < 0 means backwards. `start` and the result are states of the reference point. Fourth
 /// order in `step` [m], split at the schedule's knots. InternalError for a start speed of 0.
 KinematicState RollOut(const VehicleParams& params, const KinematicState& start,

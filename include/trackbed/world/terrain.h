@@ -8,8 +8,8 @@
 
 namespace trackbed {
 
-/// Ground of any smooth shape over a rectangle of square blocks, level around it: a coarse surface
-/// plus, in some blocks, fine differences from it.
+/// Smooth ground over a rectangle of square blocks, level around it: a coarse surface plus, in some
+/// blocks, fine differences from it.
 ///
 /// The coarse surface is a uniform cubic B-spline of its control heights; the differences are
 /// interpolated by cubic convolution (Keys 1981), which is exact for quadratic polynomials. Height
@@ -22,7 +22,7 @@ class Terrain {
   static constexpr double kCoarseCell = 8.0;  ///< between control heights [m]
   static constexpr double kCell = 0.5;        ///< between differences [m]
 
-  /// The blocks, and how many cells of either kind a block has along its side.
+  /// Numbers of cells of either kind along a side of a block.
   static constexpr int kCoarseCells = static_cast<int>(kBlock / kCoarseCell);
   static constexpr int kCells = static_cast<int>(kBlock / kCell);
 
@@ -30,9 +30,9 @@ class Terrain {
     Vec2 low{0.0, 0.0};  ///< corner with the smallest x and y [m]
     int columns = 1;     ///< blocks along x, > 0
     int rows = 1;        ///< along y, > 0
-    double base = 0.0;   ///< height around the rectangle [m]
+    double base = 0.0;   ///< height outside of the rectangle [m]
 
-    /// Of the control heights along x and y: one at each corner of a coarse cell.
+    /// Number of control heights along x and y: one at each corner of a coarse cell.
     [[nodiscard]] int CoarseColumns() const { return columns * kCoarseCells + 1; }
     [[nodiscard]] int CoarseRows() const { return rows * kCoarseCells + 1; }
   };
@@ -42,31 +42,32 @@ class Terrain {
     Vec2 slope = {0.0, 0.0};  ///< dz/dx and dz/dy
   };
 
-  /// `coarse` [m] in rows along x. Those within two cells of the rectangle's border are taken to be
-  /// `base`. InternalError unless their number is that of `size`.
+  /// `coarse` [m] in rows along x; heights within two cells of the rectangle's border are replaced
+  /// by `base`. InternalError unless their number matches `size`.
   Terrain(const Size& size, std::vector<double> coarse);
 
-  /// Gives a block the differences from the coarse surface at its cells' corners and one cell
-  /// beyond. To be called for every block where one of them is not 0, or there will be steps.
+  /// Sets the differences from the coarse surface at the corners of a block's cells and one cell
+  /// beyond. Must be called for every block with a nonzero difference, otherwise the surface has
+  /// steps.
   void Refine(int column, int row,
               const std::function<double(const Vec2& point_W, double coarse)>& difference);
 
   [[nodiscard]] const Size& size() const { return size_; }
   [[nodiscard]] bool IsRefined(int column, int row) const;
 
-  /// Height and slope anywhere; around the rectangle, and for points that are not finite, `base`.
-  /// Cost: about 0.1 us.
+  /// Height and slope at any point; `base` outside of the rectangle, and for points that are not
+  /// finite. Cost: about 0.1 us.
   [[nodiscard]] Point At(const Vec2& point_W) const;
 
  private:
-  static constexpr int kNodes = kCells + 3;  // along a side, with one beyond at either end
+  static constexpr int kNodes = kCells + 3;  // along a side, plus one beyond each end
 
   [[nodiscard]] Point CoarseAt(const Vec2& place) const;
   [[nodiscard]] double Control(int column, int row) const;
 
   Size size_;
   std::vector<double> coarse_;
-  std::vector<int> index_;  // of each block in fine_; -1: none
+  std::vector<int> index_;  // of each block in fine_; -1: not refined
   std::vector<std::vector<double>> fine_;
 };
 

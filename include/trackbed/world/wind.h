@@ -28,13 +28,13 @@ struct Wind {
   std::vector<Gust> gusts{};
 };
 
-/// Fraction of its peak velocity that a gust has at `time`, in [0, 1].
+/// The fraction of its peak velocity that a gust has at `time`, in [0, 1].
 double GustStrength(const Gust& gust, double time);
 
 /// Velocity of the air at a point and time [m/s]. Cost O(gusts).
 Vec2 WindAt(const Wind& wind, const Vec2& point_W, double time);
 
-/// Whether there is ever any wind.
+/// Whether there is no wind at any time.
 bool IsCalm(const Wind& wind);
 
 }  // namespace trackbed

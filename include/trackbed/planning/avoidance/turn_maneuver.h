@@ -13,8 +13,8 @@
 #include "trackbed/planning/sampling/rrt_star.h"
 #include "trackbed/vehicle/params.h"
 
-/// The local planner's geometry: one Bezier curve of degree seven past an obstacle that stands in a
-/// turn (Skackauskas, dissertation, listing F.2; below, "the listing").
+/// The local planner's geometry: one Bezier curve of degree seven past an obstacle in a turn
+/// (Skackauskas, dissertation, listing F.2; below, "the listing").
 ///
 /// Maneuver frame M: origin where the maneuver starts, x along the heading there, y to the left.
 /// The turn's arc begins the distance S ahead.
@@ -44,7 +44,7 @@ struct TurnManeuver {
   double outer_width = 0.0;      ///< free on the other side [m], >= 0
   LiteralTurn literal;
 
-  /// The side with more room; the inner one if there is the same on both.
+  /// The side with more room; the inner one if both are equal.
   [[nodiscard]] PassingSide passing_side() const {
     return inner_width >= outer_width ? PassingSide::kInner : PassingSide::kOuter;
   }
@@ -52,10 +52,10 @@ struct TurnManeuver {
   [[nodiscard]] double straight() const { return radius + speed * delay; }
 };
 
-/// How laying out a maneuver ended.
+/// The result of laying out a maneuver.
 enum class TurnStatus {
   kOk,
-  kNoTurn,       ///< the reduction leaves nothing of the turn, or too little for its grid
+  kNoTurn,       ///< the reduction leaves no turn, or too little for the grid
   kNoSafePoint,  ///< r_k <= 0: the turn is too tight to pass the obstacle on the inside
 };
 
@@ -65,11 +65,10 @@ struct ArcPoint {
   Vec2 position{0.0, 0.0};
 };
 
-/// What follows from the problem alone, in M. With any status but kOk there is a reason and nothing
-/// else that counts.
+/// The layout of a maneuver, in M. If the status is not kOk, only the reason is valid.
 struct TurnLayout {
   TurnStatus status = TurnStatus::kOk;
-  std::string reason;           ///< for people; empty when ok
+  std::string reason;           ///< empty when ok
   std::vector<ArcPoint> arc;    ///< from A to E; V_L points, at most 0.01 rad apart
   std::size_t obstacle_at = 0;  ///< Padetis_k, as an index from 1: the arc's point nearest to it
   OrientedBox obstacle;         ///< along the axes of M
@@ -82,36 +81,36 @@ struct TurnLayout {
 
 /// r_k on either side [m], of any sign: r_1 - need - inner_width on the inside, 1.5 (r_1 + need +
 /// outer_width) on the outside, with need = 2 SD + 2 IS_k + 2 w_a, IS_k being half the obstacle's
-/// diagonal and w_a the car's width. The factor makes up for a curve that only leans toward its
+/// diagonal and w_a the car's width. The factor 1.5 compensates for the curve not reaching its
 /// control point.
 double SafeRadius(const TurnManeuver& maneuver, double vehicle_width, PassingSide passing_side);
 
-/// Arc, obstacle and safe point. Errors: InternalError for a number out of the range that
-/// TurnManeuver gives it, or not finite.
+/// Computes arc, obstacle and safe point. Errors: InternalError for a number that is not finite or
+/// outside the range stated in TurnManeuver.
 TurnLayout LayOutTurn(const TurnManeuver& maneuver, const VehicleParams& vehicle);
 
-/// P_0 to P_7 in M, for a layout that is ok. `final_y` [m] is q_final.y: the height of P_3.
+/// P_0 to P_7 in M, for a layout that is ok. `final_y` [m] is q_final.y: the y coordinate of P_3.
 ///
 /// P_0 to P_2 lie on the straight before the turn (P_2 at A if the obstacle is past the arc's
-/// middle, else at two thirds of the way), P_3 above A, P_4 is the safe point, P_5 to P_7 lie on
-/// the tangent at E, 0, S/2 and S from it.
+/// middle, else at two thirds of the way), P_3 above A, P_4 at the safe point, and P_5 to P_7 on
+/// the tangent at E, at the distances 0, S/2 and S from it.
 std::array<Vec2, 8> ControlPoints(const TurnManeuver& maneuver, const TurnLayout& layout,
                                   const VehicleParams& vehicle, double final_y);
 
 /// The tree of the listing's search.
 struct LiteralTree {
-  std::vector<TreeNode> nodes;  ///< costs by way of the nearest node, not the parent (L10)
-  std::size_t final_node = 0;   ///< the one nearest to the safe point
+  std::vector<TreeNode> nodes;  ///< costs through the nearest node, not the parent (L10)
+  std::size_t final_node = 0;   ///< index of the node nearest to the safe point
   double goal_distance = 0.0;   ///< from there to the safe point [m]
-  double final_y = 0.0;         ///< q_final.y [m]: all that the curve takes from the tree
+  double final_y = 0.0;         ///< q_final.y [m]: the only value that the curve uses
 };
 
-/// The listing's search as it stands, defects and all (L5-L13): floor(S/2) samples, rounded down to
-/// whole meters, in the box between the start and the obstacle's center (below the start, where the
-/// other side is taken); steps of 1 m; free if the whole line to the sample crosses no side of the
-/// obstacle; the cheapest parent within 10 m; nothing rewired. It does not look at the car's width,
-/// never reaches its goal (that lies outside the box, and beyond its steps) and serves as a
-/// reference only: PlanRrtStar is the search to use.
+/// The listing's search as printed, including its defects (L5-L13): floor(S/2) samples, rounded
+/// down to whole meters, in the box between the start and the obstacle's center (below the start
+/// for the other side); steps of 1 m; free if the whole line to the sample crosses no side of the
+/// obstacle; the cheapest parent within 10 m; no rewiring. It ignores the car's width and never
+/// reaches its goal, which lies outside the box and beyond its steps. It is a reference only: use
+/// PlanRrtStar.
 LiteralTree LiteralRrtStar(const TurnManeuver& maneuver, const TurnLayout& layout,
                            std::uint64_t seed);
 
@@ -125,18 +124,18 @@ struct ManeuverSample {
   double steering = 0.0;   ///< delta = atan(L K) [rad]
 };
 
-/// What driving along a curve comes to. Largest and smallest values are those of the samples.
+/// The result of driving along a curve. Largest and smallest values are those of the samples.
 struct ManeuverRun {
   std::vector<ManeuverSample> samples;  ///< (time, steering) are the listing's steering signal
-  double length = 0.0;                  ///< ARC_L: of all chords [m]
+  double length = 0.0;                  ///< ARC_L: total length of the chords [m]
   double duration = 0.0;                ///< length/v_a [s]
   double steering_max = 0.0;            ///< largest |delta| [rad]
   double steering_rate_max = 0.0;       ///< largest |d delta/dt| [rad/s]
   Vec2 test_point{0.0, 0.0};            ///< beside the obstacle, by the listing's rule
-  Vec2 test_corner{0.0, 0.0};           ///< the corner of the obstacle that it is held against
-  double test_distance = 0.0;           ///< the listing's safety check: between the two [m]
-  double clearance = 0.0;               ///< smallest distance from footprint to obstacle [m]; 0 for
-                                        ///< a collision
+  Vec2 test_corner{0.0, 0.0};           ///< the obstacle's corner used in the test
+  double test_distance = 0.0;  ///< the listing's safety check: from test point to corner [m]
+  double clearance = 0.0;      ///< smallest distance from footprint to obstacle [m]; 0 for
+                               ///< a collision
 
   bool test_passed = false;  ///< test_distance >= SD + w_a/2
   bool keeps_clear = false;  ///< clearance >= SD
@@ -144,15 +143,16 @@ struct ManeuverRun {
   [[nodiscard]] bool ok() const { return test_passed && keeps_clear && steerable; }
 };
 
-/// Drives along a curve at constant speed: 501 samples, some 0.15 ms. The test point is two samples
-/// before the first whose s reaches n/6 of the length less 2 m: one point against one corner, which
-/// passes although the car comes close elsewhere; hence the clearance besides. `steerable` is about
-/// the way between the curve's ends, not about how the wheels get to the angle that it starts with.
-/// A curve that has no direction at a sample is not steerable.
+/// Simulates driving along a curve at constant speed: 501 samples, some 0.15 ms. The test point is
+/// two samples before the first sample with s >= n/6 of the length minus 2 m. The listing tests
+/// this one point against one corner, which can pass although the car comes close elsewhere;
+/// `clearance` is therefore computed in addition. `steerable` covers the curve between its ends,
+/// but not how the wheels reach their initial angle. A curve without a direction at a sample is not
+/// steerable.
 ManeuverRun SimulateManeuver(const TurnManeuver& maneuver, const TurnLayout& layout,
                              const VehicleParams& vehicle, const BezierCurve& curve);
 
-/// X_WM, for a turn whose arc begins at X_WA: S back along the heading there.
+/// X_WM of a turn whose arc begins at X_WA: S behind that point, with the same heading.
 Pose2 ManeuverFrame(const TurnManeuver& maneuver, const Pose2& X_WA);
 
 }  // namespace trackbed

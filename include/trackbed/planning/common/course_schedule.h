@@ -9,13 +9,13 @@
 
 namespace trackbed {
 
-/// The sharpest curvature of a segment that is linear in the distance [1/m].
+/// The largest curvature of a segment that is linear in the distance [1/m].
 double SharpestCurvature(const Segment& segment);
 
-/// The steering over the distance that leads a kinematic car along the segments: atan(L kappa).
-/// Steps of curvature are driven as the ramps of RampsOfSteps (curvature_steps.h) for a car that
-/// goes at `speed` [m/s], more slowly within `caps`. Where the car stands, at changes of direction
-/// and at `stops`, the step lies in the last micrometer before.
+/// The steering over distance with which a kinematic car follows the segments: atan(L kappa). Steps
+/// of curvature become the ramps of RampsOfSteps (curvature_steps.h) for a car that drives at
+/// `speed` [m/s], slower within `caps`. At changes of direction and at `stops`, where the car
+/// stands, the step is placed in the last micrometer before the stop.
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed, const std::vector<SpeedCap>& caps = {},
                                 const std::vector<double>& stops = {});

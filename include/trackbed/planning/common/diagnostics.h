@@ -15,17 +15,17 @@
 #include "trackbed/geometry/pose.h"
 #include "trackbed/path/path.h"
 
-/// How a planner reports what it found, typed, without a file format.
+/// Typed diagnostics of planners, independent of a file format.
 ///
-/// The diagnostics of a planner are any copyable struct. Beside it stands a function that names its
-/// fields, found by argument-dependent lookup:
+/// The diagnostics of a planner are any copyable struct. A function beside it, found by
+/// argument-dependent lookup, names its fields:
 ///
 ///     void Visit(DiagnosticsVisitor& out, const MyDiagnostics& own) {
 ///       out.Integer("expansions", own.expansions);
 ///       out.Number("cost_m", own.cost);
 ///     }
 ///
-/// The writer of plan.json and the printer of `trackbed plan` are visitors. Names carry units, as
+/// The writer of plan.json and the printer of `trackbed plan` are visitors. Names include units, as
 /// columns do: "cost_m".
 namespace trackbed {
 
@@ -33,8 +33,8 @@ class DiagnosticsVisitor {
  public:
   virtual ~DiagnosticsVisitor() = default;
 
-  /// Whether everything is asked for, as in plan.json; otherwise a summary for people, without
-  /// points, histories and what follows from other fields.
+  /// Whether to visit all fields, as for plan.json; otherwise only a summary, without points,
+  /// histories and values derived from other fields.
   [[nodiscard]] virtual bool full() const = 0;
 
   virtual void Number(const char* name, double value) = 0;  ///< not finite: null in plan.json
@@ -50,7 +50,7 @@ class DiagnosticsVisitor {
     Integer(name, static_cast<std::int64_t>(value));
   }
 
-  /// The fields of a struct, under a name of their own.
+  /// Visits the fields of a nested struct under `name`.
   template <typename Struct>
   void Section(const char* name, const Struct& value) {
     VisitSection(name, [&](DiagnosticsVisitor& inner) { Visit(inner, value); });
@@ -71,13 +71,13 @@ class DiagnosticsVisitor {
   virtual void VisitList(const char* name, std::size_t size, const Element& element) = 0;
 };
 
-/// The diagnostics of one method: a value of any copyable struct that names its fields, or nothing.
+/// The diagnostics of one method: empty, or a value of any copyable struct that names its fields.
 ///
 /// Diagnostics that contain stations of the path may also have
 ///
 ///     void ReplaceStretch(MyDiagnostics& own, const Stations& replaced, double shift);
 ///
-/// which is called when the path between two stations is replaced: what lies beyond moves on by
+/// which is called when the path between two stations is replaced: stations beyond are shifted by
 /// `shift` [m].
 class MethodDiagnostics {
  public:
@@ -106,7 +106,7 @@ class MethodDiagnostics {
     return std::any_cast<Struct>(&value_);
   }
 
-  /// The struct, which must be of this type: InternalError.
+  /// The struct; InternalError if it is of another type.
   template <typename Struct>
   [[nodiscard]] const Struct& Get() const {
     TRACKBED_CHECK(As<Struct>() != nullptr, "diagnostics of another method: {}",
@@ -114,7 +114,7 @@ class MethodDiagnostics {
     return *As<Struct>();
   }
 
-  /// Names no field when there is nothing.
+  /// Visits no field if there is no value.
   friend void Visit(DiagnosticsVisitor& out, const MethodDiagnostics& own) {
     if (own.visit_ != nullptr) {
       own.visit_(out, own.value_);

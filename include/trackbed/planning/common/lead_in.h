@@ -4,19 +4,19 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// The first meters of a plan for a car that rolls.
+/// The first meters of a plan for a rolling car.
 namespace trackbed {
 
-/// A way that a rolling car can drive whatever its wheels' angle is: straight on, once they are
-/// straight.
+/// A path that a rolling car can drive from any steering angle: it straightens the wheels, then
+/// continues straight.
 struct LeadIn {
-  std::vector<Segment> segments;  ///< from the car's start; none for one that stands
-  Pose2 end;                      ///< where they lead
+  std::vector<Segment> segments;  ///< from the car's start; empty for a car at rest
+  Pose2 end;                      ///< their end pose
   double length = 0.0;            ///< [m]
 };
 
-/// The wheels turn straight at the start speed; then the car goes on straight for as long as it
-/// takes to slow down comfortably to `speed` [m/s] and for another `beyond` [m].
+/// The wheels straighten at the start speed; then the car continues straight while it slows down
+/// comfortably to `speed` [m/s], and for another `beyond` [m].
 LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond);
 
 }  // namespace trackbed

@@ -6,10 +6,10 @@
 #include "trackbed/path/path.h"
 #include "trackbed/vehicle/params.h"
 
-/// What a path asks of the steering, piece by piece.
+/// Steering demands of a path, piece by piece.
 namespace trackbed {
 
-/// A short piece of a path, and the most it asks of the steering.
+/// A short piece of a path, and its largest steering demands.
 struct PathPiece {
   Stations stations;
   double curvature = 0.0;  ///< largest |kappa| [1/m]
@@ -19,8 +19,8 @@ struct PathPiece {
 /// |d delta/ds| [rad/m]: L |kappa'|/(1 + (L kappa)^2).
 double SteeringSlope(const VehicleParams& vehicle, double curvature, double sharpness);
 
-/// Calls with each segment divided into equal pieces of at most `spacing` [m], so that short
-/// segments are looked at, too.
+/// Calls `call` for each segment divided into equal pieces of at most `spacing` [m], so that short
+/// segments are included.
 template <typename Call>
 void ForEachPiece(const Path& path, const VehicleParams& vehicle, double spacing,
                   const Call& call) {

@@ -4,23 +4,24 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// Stretches of a plan, in stations of another that they become part of.
+/// Stretches of a plan, shifted to the stations of another plan that they become part of.
 namespace trackbed {
 
-/// Open-loop steering strictly between two distances, moved along by `shift`.
+/// The schedule's knots strictly between two distances, shifted by `shift`.
 std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
                                           double shift);
 
-/// What lies of each cap within.
+/// The parts of the caps that lie within two stations, shifted by `shift`.
 std::vector<SpeedCap> Moved(const std::vector<SpeedCap>& caps, Stations within, double shift);
 
-/// The turns that lie within as far as they are looked at, from the first ramp to their middle.
+/// The turns whose measured part, from the first ramp to the middle, lies within two stations,
+/// shifted by `shift`.
 std::vector<IsolatedTurn> Moved(const std::vector<IsolatedTurn>& turns, Stations within,
                                 double shift);
 
-/// The segments between two stations, the straight continuations before the start and beyond the
-/// end included: a car that was thrown off the ends of its path has a way to go on. None where
-/// nothing is left.
+/// The segments between two stations, including the straight continuations before the start and
+/// beyond the end: a car that was pushed beyond an end of its path still has a path. Empty if
+/// nothing remains.
 std::vector<Segment> SegmentsBetween(const Path& path, Stations within);
 
 template <typename T>
@@ -28,12 +29,12 @@ void Append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// The plan's caps; of a plan at the car's limit its speeds as caps, each at most 0.5 m long.
+/// The plan's caps. For a plan at the car's limit, its speeds as caps, each at most 0.5 m long.
 std::vector<SpeedCap> CapsOf(const Plan& plan);
 
-/// What lies ahead of `station`, its stations counted from there, left at `start_speed` [m/s]. What
-/// the method told of its turns stays as it was. A plan at the car's limit keeps its speeds; a car
-/// that is slower there comes up to them at the limits' acceleration.
+/// The plan ahead of `station`, with stations counted from there, starting at `start_speed` [m/s].
+/// Diagnostics of the method about its turns stay unchanged. A plan at the car's limit keeps its
+/// speeds; a slower car accelerates to them with the limits' acceleration.
 Plan RemainingPlan(const Plan& plan, double station, double start_speed, const SpeedLimits& speed);
 
 }  // namespace trackbed

@@ -6,11 +6,11 @@ namespace trackbed {
 
 struct Plan;
 
-/// What becomes of a plan that asks more of the car than it can do; see feasibility.h.
+/// How to treat a plan that exceeds the car's limits; see feasibility.h.
 enum class InfeasiblePolicy {
-  kSlowDown,  ///< driven more slowly where that helps, else refused
+  kSlowDown,  ///< driven more slowly if that helps, else rejected
   kRefuse,    ///< no plan
-  kAllow,     ///< driven as it is, to see what happens
+  kAllow,     ///< driven unchanged
 };
 
 /// The options of a planner. The type of the struct that it holds identifies the planner.

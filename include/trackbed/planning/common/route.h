@@ -10,50 +10,51 @@
 #include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/plan.h"
 
-/// What the planners share that lead from stop to stop and keep clear of obstacles.
+/// Functions shared by the planners that plan from stop to stop and avoid obstacles.
 namespace trackbed {
 
-/// Where a route leads through: the car's start, then every waypoint but the first, with its
-/// heading; without given ones along the last leg at the goal, and from the stop before to the stop
-/// after on the way.
+/// The stops of a route with their headings: the car's start, then every waypoint except the first.
+/// Without given headings, the goal's is that of the last leg, and that of a waypoint in between
+/// points from the stop before to the stop after.
 std::vector<Pose2> PlannedStops(const PlanRequest& request);
 
 namespace route {
 
-/// A plan that is none, with its reason.
+/// A rejected plan, with its reason.
 Plan Refused(PlanStatus status, std::string reason);
 
-/// What is wrong with the route itself, if anything.
+/// The problem with the route itself, if any.
 Plan CheckRoute(const PlanRequest& request);
 
-/// Whether the car can turn on the radius that is asked for, if any.
+/// Whether the car can turn on the requested radius, if one is given.
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
 
 /// Whether the car can stand at every stop.
 Plan CheckStops(const std::vector<Pose2>& stops, const CollisionChecker& clear);
 
-/// The radius to plan with [m]: the one asked for, or a tenth more than the car's smallest.
+/// The radius to plan with [m]: the requested one, or 1.1 times the car's smallest.
 double RadiusFor(const VehicleParams& vehicle, const std::optional<double>& radius);
 
 /// Whether segments that begin at `pose` are clear.
 bool IsFree(const CollisionChecker& clear, const Pose2& pose, const std::vector<Segment>& segments);
 
-/// Where a rolling car's curves begin: after it has slowed down for the first step of curvature.
+/// The lead-in of a rolling car: its curves begin after it has slowed down for the first step of
+/// curvature.
 LeadIn LeadInForCurves(const PlanRequest& request, double radius, double min_speed);
 
-/// Fills in what follows from the path and the caps.
+/// Sets the members that follow from the path and the caps.
 void Complete(Plan& plan, const PlanRequest& request);
 
 /// Completes a plan along arcs and straights.
 Plan AlongSegments(Plan plan, const PlanRequest& request, std::vector<Segment> segments,
                    double min_speed);
 
-/// Completes a plan along a polyline whose corners are to be rounded, or that is to have none.
-/// `plan` has the diagnostics of how it was found.
+/// Completes a plan along a polyline, with corners treated by `corners`. `plan` has the diagnostics
+/// of the search.
 Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
                    Corners corners, double safe_distance, double min_speed);
 
-// Keys that several of them have.
+// Keys shared by several of these planners.
 
 inline constexpr Key kFootprintDistance{"safe_distance", "m",
                                         "minimum distance of the car's footprint from obstacles"};

@@ -6,22 +6,22 @@
 
 #include "trackbed/options/key_visitor.h"
 
-/// How the speeds of a plan are chosen: the key mission.speed_profile.
+/// How to choose the speeds of a plan: the key mission.speed_profile.
 namespace trackbed {
 
-/// Up to the mission's speed with control.speed.acceleration and down with its deceleration, slower
-/// where the car could not follow (feasibility.h).
+/// Accelerates to the mission's speed with control.speed.acceleration and brakes with its
+/// deceleration, and drives slower where the car could not follow (feasibility.h).
 struct ConstantAccelerationOptions {};
 void Visit(KeyVisitor& keys, ConstantAccelerationOptions& options);
 
-/// As fast as the car's g-g-v diagram allows (limit_profile.h), at most with the mission's speed.
+/// As fast as the car's g-g-v diagram allows (limit_profile.h), at most the mission's speed.
 struct LimitProfileOptions {
-  double share = 0.9;            ///< of the forces of tyres, motor and brakes, in (0, 1]
-  std::optional<double> jerk{};  ///< largest |da/dt| [m/s^3], > 0; none: not limited
+  double share = 0.9;  ///< usable fraction of the forces of tyres, motor and brakes, in (0, 1]
+  std::optional<double> jerk{};  ///< largest |da/dt| [m/s^3], > 0; none: no limit
 };
 void Visit(KeyVisitor& keys, LimitProfileOptions& options);
 
-/// The alternative that it holds selects the method.
+/// The selected method, with its options.
 using SpeedProfileOptions = std::variant<ConstantAccelerationOptions, LimitProfileOptions>;
 
 struct SpeedProfileEntry {

@@ -10,8 +10,8 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
 
-/// An exact course of straights, arcs and curvature ramps, as given piece by piece: proving grounds
-/// and steps of curvature for controllers, not a way around anything.
+/// Exact courses of straights, arcs and curvature ramps, given piece by piece: proving grounds and
+/// steps of curvature for controllers. They do not avoid obstacles.
 ///
 /// Symbols: kappa curvature [1/m], positive to the left; a ramp is a clothoid, kappa linear in the
 /// distance.
@@ -21,7 +21,7 @@ namespace trackbed {
 struct CoursePiece {
   double length = 0.0;                   ///< [m], > 0
   std::optional<double> curvature;       ///< kappa of a straight (0) or an arc [1/m]
-  std::optional<double> curvature_from;  ///< of a ramp [1/m]; none: where the piece before ended
+  std::optional<double> curvature_from;  ///< of a ramp [1/m]; none: the end of the previous piece
   std::optional<double> curvature_to;    ///< of a ramp [1/m]
 };
 void Visit(KeyVisitor& keys, CoursePiece& piece);
@@ -41,12 +41,12 @@ struct CourseSegmentFindings {
   double length = 0.0;                ///< [m]
   double curvature_from = 0.0;        ///< [rad/m]
   double curvature_to = 0.0;          ///< [rad/m]
-  double lateral_acceleration = 0.0;  ///< at the mission's speed, where it is sharpest [m/s^2]
+  double lateral_acceleration = 0.0;  ///< largest, at the mission's speed [m/s^2]
 };
 void Visit(DiagnosticsVisitor& out, const CourseSegmentFindings& own);
 
 struct CourseDiagnostics {
-  std::optional<std::size_t> failed_segment;  ///< that the car cannot steer
+  std::optional<std::size_t> failed_segment;  ///< the first one that the car cannot steer
   std::vector<CourseSegmentFindings> segments;
 };
 void Visit(DiagnosticsVisitor& out, const CourseDiagnostics& own);

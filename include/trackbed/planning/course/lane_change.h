@@ -8,7 +8,7 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/vehicle/params.h"
 
-/// The double lane changes of ISO 3888: three gates, and a way through them.
+/// The double lane changes of ISO 3888: three gates, and a path through them.
 ///
 /// Sections along the course, w the car's width without mirrors; sections 2 and 4 are free:
 ///
@@ -32,10 +32,10 @@ struct LaneChangePlannerOptions {
   LaneChangeStandard standard = LaneChangeStandard::kIso3888_1;
   Side first = Side::kLeft;  ///< where section 3 lies
   double lead_in = 30.0;     ///< from the start to section 1 [m], > 0
-  double lead_out = 20.0;    ///< straight on after section 5, before the car is stopped [m], > 0
-  /// The rear axle leaves the middle of a gate so far before its end, and is on the middle of the
-  /// next one so far after its beginning [m]: the longer the way across, the less it bends, and the
-  /// nearer the car comes to the cones.
+  double lead_out = 20.0;    ///< straight after section 5, before the car stops [m], > 0
+  /// The rear axle leaves the middle of a gate `leave` before its end, and is on the middle of the
+  /// next one `join` after its beginning [m]. Larger values lengthen the transition: it bends less,
+  /// and the car comes nearer to the cones.
   double leave = 0.0;
   double join = 0.0;
 };
@@ -45,20 +45,21 @@ void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options);
 std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, double vehicle_width,
                                   const Pose2& start);
 
-/// Where its cones stand [m]: five along either edge, from end to end, their inner sides on it.
+/// The cones of a gate [m]: five along each edge, from end to end, with their inner sides on the
+/// edge.
 std::vector<Vec2> GateCones(const Gate& gate);
 
-/// From `start` along the middles of the gates, in between by y = h (10 u^3 - 15 u^4 + 6 u^5): its
-/// curvature has no jumps, is 0 at both ends and at most 5.77 h/length^2 (in arcs of at most 0.1 m,
-/// so it goes in steps of less than 6 m h/length^3). Ends `lead_out` after the last gate plus
-/// `stop`.
+/// The path from `start` along the middles of the gates, with transitions y = h (10 u^3 - 15 u^4 +
+/// 6 u^5), whose curvature is continuous, 0 at both ends and at most 5.77 h/length^2 (as arcs of at
+/// most 0.1 m, so that it has steps of less than 6 m h/length^3). Ends `lead_out` after the last
+/// gate plus `stop`.
 std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
                                     const std::vector<Gate>& gates, const Pose2& start,
                                     double stop);
 
-/// The smallest distance [m] by which a corner of the car's footprint was inside an edge while it
-/// was between a gate's ends; one per gate, negative outside, infinite for a gate that no corner
-/// reached. The car moves through the poses of its rear axle, straight in between.
+/// The smallest distance [m] from a corner of the car's footprint to an edge, while the corner was
+/// between a gate's ends; one per gate, negative outside, infinite for a gate that no corner
+/// reached. The car moves straight between the poses of its rear axle.
 std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
                                 const std::vector<Pose2>& poses);
 

@@ -7,18 +7,18 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// The planners whose paths are the shortest curves between poses.
+/// Planners whose paths are the shortest curves between poses.
 namespace trackbed {
 
-/// The shortest curves between the stops of a route, of Dubins (dubins.h).
+/// Options of `dubins`: Dubins curves between the stops of a route (dubins.h).
 struct DubinsOptions {
-  std::optional<double> radius;  ///< of every arc [m]; none: a tenth more than the car's smallest
+  std::optional<double> radius;  ///< of every arc [m]; none: 1.1 times the car's smallest
   double safe_distance = 0.3;    ///< of the footprint from obstacles [m], >= 0
-  double min_speed = 0.3;        ///< no step of curvature is taken more slowly [m/s]
+  double min_speed = 0.3;        ///< lowest speed at a step of curvature [m/s]
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);
 
-/// And of Reeds and Shepp (reeds_shepp.h).
+/// Options of `reeds_shepp`, with the same meaning (reeds_shepp.h).
 struct ReedsSheppOptions {
   std::optional<double> radius;
   double safe_distance = 0.3;
@@ -28,14 +28,15 @@ void Visit(KeyVisitor& keys, ReedsSheppOptions& options);
 
 /// The curve from one stop to the next.
 struct CurveFindings {
-  std::string word;                         ///< such as "LSR"
-  double length = 0.0;                      ///< [m]
-  double radius = 0.0;                      ///< of its arcs [m]
-  std::ptrdiff_t shorter_ones_blocked = 0;  ///< by obstacles, or by how the car rolls
+  std::string word;     ///< such as "LSR"
+  double length = 0.0;  ///< [m]
+  double radius = 0.0;  ///< of its arcs [m]
+  /// Number of shorter curves rejected because of obstacles or the car's initial motion.
+  std::ptrdiff_t shorter_ones_blocked = 0;
 };
 void Visit(DiagnosticsVisitor& out, const CurveFindings& own);
 
-/// Of both planners.
+/// Diagnostics of both planners.
 struct CurveDiagnostics {
   std::vector<CurveFindings> curves;
 };

@@ -4,19 +4,18 @@
 
 #include "trackbed/planning/curves/shortest_curve.h"
 
-/// The shortest path of a car that turns on a radius of r or more and only goes forwards, between
-/// two poses and without obstacles (Dubins 1957): one of the six words LSL, RSR, LSR, RSL, LRL and
-/// RLR, of which the middle arc of the last two turns by more than pi.
+/// The shortest path, between two poses and without obstacles, of a car that only drives forwards
+/// with a turning radius of at least r (Dubins 1957): one of the six words LSL, RSR, LSR, RSL, LRL
+/// and RLR. The middle arc of the last two turns by more than pi.
 namespace trackbed {
 
-/// The shortest of the six. There always is one. `radius` [m] > 0 (InternalError), poses
-/// finite (PreconditionError). Exact: the end
-/// is met to 1e-9 m. Mirrored poses give the mirrored word; poses that change places and are turned
-/// by pi give the word backwards: the same length. Cost: a third of a microsecond.
+/// The shortest of the six words; it always exists. `radius` [m] > 0 (InternalError), poses finite
+/// (PreconditionError). Exact: the end is met to 1e-9 m. Mirrored poses give the mirrored word;
+/// exchanging the poses and turning both by pi gives the reversed word, of the same length. Cost: a
+/// third of a microsecond.
 ShortestCurve Dubins(const Pose2& from, const Pose2& to, double radius);
 
-/// Every word that there is between two poses, at most six, the shortest first: for ways around
-/// obstacles.
+/// All words between two poses, at most six, shortest first: alternatives to pass obstacles.
 std::vector<ShortestCurve> DubinsWords(const Pose2& from, const Pose2& to, double radius);
 
 }  // namespace trackbed

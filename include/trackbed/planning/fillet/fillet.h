@@ -26,43 +26,45 @@
 ///   r    radius of the rear axle's arc [m]
 ///   K    tangent length r/tan(phi/2) [m], from the waypoint to either end of the arc (C.11)
 ///   q_S  the shorter one of the two legs [m]
-///   d_0  neutral steering: where the wheels stand between turns [rad]
-///   S_delta = v |delta - d_0|/omega_delta: rolled while the wheels turn to the arc's angle,
+///     d_0  neutral steering: the wheels' angle between turns [rad]
+///   S_delta = v |delta - d_0|/omega_delta: distance rolled while the wheels turn to the arc's
+///   angle,
 ///        delta = sgn(h) atan(L/r) [m]
 ///   D_{2k-1}, D_2k  distances at which the wheels start into and out of turn k [m]
 ///   D_end  distance at which the car stops [m]
 namespace trackbed {
 
-/// What a radius has to satisfy.
+/// The constraint on a radius.
 enum class RadiusConstraint {
   kSteeringRoom,  ///< C.40: K <= q_S/2 - S_delta; the turn leaves the distance to turn the wheels
   kHalfLeg,       ///< C.34: K <= q_S/2; turns do not overlap
   kNone,          ///< only that the arcs fit on their legs; for given radii
 };
 
-/// What to do about a turn for which C.40 has no radius at the mission's speed.
+/// How to treat a turn for which C.40 has no radius at the mission's speed.
 enum class InfeasibleTurnPolicy {
-  /// Take it as fast as C.40 allows. Below `min_speed`: at that, if half a ramp, which is what lies
-  /// on the leg, fits into half of it besides the arc's tangent; else refuse.
+  /// Take it as fast as C.40 allows. If that is below `min_speed`, take it at `min_speed`, provided
+  /// that the part of the ramp on the leg, which is half of it, fits into half the leg beside the
+  /// arc's tangent; otherwise reject the plan.
   kSlowDown,
-  kHalfLeg,  ///< take it under C.34: the wheels turn on the arc of the neighbors
+  kHalfLeg,  ///< take it under C.34: the wheels turn on the arcs of the neighboring turns
   kRefuse,   ///< no plan
 };
 
-/// By what the radii are chosen.
+/// The criterion by which radii are chosen.
 enum class RadiusObjective {
-  /// The largest that keeps the constraint. Closed form; no search.
+  /// The largest radius that meets the constraint. Closed form; no search.
   kLargest,
   /// The two passes of Skackauskas, dissertation, listing F.1: a first run on the smallest radii
-  /// tells the time t and the heading dpsi from the return of one turn to the return of the next;
-  /// the search minimizes (psi'(r) t - dpsi)^2. That time holds the straight before the turn too,
-  /// so the optimum of a first turn always lies on the constraint.
+  /// gives the time t and the heading change dpsi from the return of one turn to the return of the
+  /// next; the search minimizes (psi'(r) t - dpsi)^2. That time includes the straight before the
+  /// turn, so that the optimum of a first turn always lies on the constraint.
   kLiteral,
-  /// The same over the turn alone, from D_{2k-1} to D_2k: the radius that the rate-limited car
-  /// really drove.
+  /// As kLiteral, over the turn only, from D_{2k-1} to D_2k: the radius that the rate-limited car
+  /// actually drove.
   kTurnLocal,
-  /// Radii, D_{2k-1}, D_2k and D_end together, for the driven car to stay with the planned path
-  /// at equal arc length and to end at the goal (C.20 in full).
+  /// Optimizes radii, D_{2k-1}, D_2k and D_end together, so that the driven car stays on the
+  /// planned path at equal arc length and ends at the goal (C.20 in full).
   kDriven,
 };
 
@@ -75,26 +77,28 @@ struct DrivenWeights {
 void Visit(KeyVisitor& keys, DrivenWeights& weights);
 
 struct FilletOptions {
-  /// [m], for every turn; none: chosen by the objective.
+  /// Radius of every turn [m]; none: chosen by the objective.
   std::optional<double> radius;
   RadiusConstraint constraint = RadiusConstraint::kSteeringRoom;
-  /// d_0 [rad], positive to the left: from here the wheels turn into a turn, and to here they
-  /// return. It is an angle of the road wheels like delta, which stays that of the arc: a kinematic
-  /// car leaves its straight legs on a circle of radius L/tan(d_0) unless it is 0.
+  /// d_0 [rad], positive to the left: the wheels leave this angle at the start of a turn, and
+  /// return to it at its end. It is an angle of the road wheels, as is delta, which remains the
+  /// arc's angle. Unless d_0 is 0, a kinematic car leaves its straight legs on a circle of radius
+  /// L/tan(d_0).
   double neutral_steering = 0.0;
   double max_radius = 154.0;  ///< upper bound of the search [m]; listing F.1's, one degree
   InfeasibleTurnPolicy without_room = InfeasibleTurnPolicy::kSlowDown;
-  double min_speed = 0.5;  ///< no turn is taken more slowly [m/s]
+  double min_speed = 0.5;  ///< lowest speed in a turn [m/s]
   RadiusObjective objective = RadiusObjective::kLargest;
-  SearchOptions search;               ///< of every objective but kLargest
-  bool resimulate_each_turn = false;  ///< kLiteral, kTurnLocal: a first run before every turn
-  /// The point of the car that drives along the path in first runs and verification.
+  SearchOptions search;  ///< for every objective except kLargest
+  /// kLiteral, kTurnLocal: repeats the first run before every turn.
+  bool resimulate_each_turn = false;
+  /// The point of the car that follows the path in first runs and verification.
   ReferencePoint reference = ReferencePoint::kRearAxle;
   DrivenWeights weights;  ///< of kDriven
 };
 void Visit(KeyVisitor& keys, FilletOptions& options);
 
-/// What kept a radius from being another one.
+/// The constraint or option that determines a radius.
 enum class ActiveConstraint {
   kGiven,         ///< FilletOptions::radius
   kNone,          ///< the objective alone: an interior optimum
@@ -110,9 +114,9 @@ const char* ToString(ActiveConstraint constraint);
 /// How the radius of one turn was found.
 struct TurnSearch {
   double first_radius = 0.0;  ///< of the first run [m]
-  double time = 0.0;          ///< t: over the window of the first run [s]
-  double heading = 0.0;       ///< dpsi: turned in it [rad], signed
-  /// r*: where the objective is zero [m]; infinite for a car that did not turn in the window.
+  double time = 0.0;          ///< t: duration of the window of the first run [s]
+  double heading = 0.0;       ///< dpsi: heading change in that window [rad], signed
+  /// r*: zero of the objective [m]; infinite for a car that did not turn in the window.
   double free_radius = 0.0;
   SearchResult result;  ///< x = {r [m]}
 };
@@ -134,24 +138,24 @@ struct FilletTurn {
   Vec2 arc_end{0.0, 0.0};            ///< H_{i+1} (C.15)
   double arc_start_s = 0.0;          ///< station of H_i [m]
   double arc_length = 0.0;           ///< r |h| [m]
-  double neutral = 0.0;              ///< d_0: of the wheels before and after it [rad]
+  double neutral = 0.0;              ///< d_0: wheel angle before and after the turn [rad]
   double steering = 0.0;             ///< signed delta of the arc [rad]
   double ramp_time = 0.0;            ///< |delta - d_0|/omega_delta [s]
   double ramp_distance = 0.0;        ///< S_delta [m]
   double steer_start = 0.0;          ///< D_{2k-1}: half a ramp before H_i unless optimized [m]
   double steer_return = 0.0;         ///< D_{2k}: half a ramp before H_{i+1} unless optimized [m]
-  bool ramp_truncated = false;       ///< the wheels turn back before they have reached `steering`
+  bool ramp_truncated = false;       ///< the wheels turn back before they reach `steering`
 };
 
 struct FilletPlan {
   PlanStatus status = PlanStatus::kOk;
-  int waypoint = -1;   ///< where it failed: index into the route
-  std::string reason;  ///< for people; empty when ok
+  int waypoint = -1;   ///< waypoint of the failure: index into the route
+  std::string reason;  ///< empty when ok
   std::vector<FilletTurn> turns;
   Path path;
   SteeringSchedule schedule;
   double stop_distance = 0.0;          ///< D_end [m]; the path's length unless optimized
-  OpenLoopRun verification;            ///< the final drive
+  OpenLoopRun verification;            ///< of the final plan
   std::optional<SearchResult> search;  ///< of kDriven
 };
 
@@ -161,9 +165,9 @@ struct RadiusInterval {
   double high = 0.0;
 };
 
-/// Radii in [r_min, r_max] with g(r) = r/tan(phi/2) + v/omega_delta |atan(L/r) - n| - q_S/2 <= 0
-/// (C.40), or none; `neutral` is n = sgn(h) d_0 [rad], positive toward the turn. g falls and then
-/// rises, so they are one interval; its ends are found to the last few bits.
+/// The radii in [r_min, r_max] with g(r) = r/tan(phi/2) + v/omega_delta |atan(L/r) - n| - q_S/2 <=
+/// 0 (C.40), or none; `neutral` is n = sgn(h) d_0 [rad], positive toward the turn. g falls and then
+/// rises, so that the radii form one interval; its ends are accurate to the last few bits.
 std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
                                                 double interior_angle, double shorter_leg,
                                                 RadiusInterval bounds, double neutral = 0.0);
@@ -174,7 +178,7 @@ struct SpeedInterval {
   double high = 0.0;
 };
 
-/// The highest of `speeds` at which C.40 leaves a radius within `bounds`, or none.
+/// The highest of `speeds` at which C.40 allows a radius within `bounds`, or none.
 std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
                                         double shorter_leg, RadiusInterval bounds,
                                         SpeedInterval speeds, double neutral = 0.0);
@@ -186,40 +190,40 @@ std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter
 inline constexpr std::size_t kMinFilletWaypoints = 3;
 
 /// Plans a route of N >= 3 waypoints (collinear ones make no turn) for a car that keeps `speed`,
-/// but for the turns that are slowed down. `seed` is of the search's random numbers.
+/// except in turns that are slowed down. `seed` initializes the search's random numbers.
 ///
 /// Guarantees: the path is continuous in position and heading to 1e-9, starts at the first waypoint
-/// along the first leg and ends at the last one; every radius keeps the constraint that its turn
-/// claims, to rounding (kLargest) or to 1e-9 m of the leg (searched). A mirrored or moved route
-/// gives the mirrored or moved plan, a searched one to the tolerance of its search. Does not make
-/// the steering continuous: at tangent points the curvature jumps, which is why the schedule starts
-/// half a ramp early. Does not look at obstacles. Heading changes below 1e-9 rad count as none.
-/// Cost: tens of microseconds for kLargest; with a search that of its evaluations, per turn about
-/// 0.2 us each plus NLopt's own, for kDriven some 20 us each.
+/// along the first leg and ends at the last one; every radius meets the constraint stated for its
+/// turn, to rounding (kLargest) or to 1e-9 m of the leg (searched). A mirrored or moved route gives
+/// the mirrored or moved plan, to the tolerance of its search, if any. The steering is not
+/// continuous: the curvature jumps at tangent points, so that the schedule starts half a ramp
+/// early. Ignores obstacles. Heading changes below 1e-9 rad are ignored. Cost: tens of microseconds
+/// for kLargest; with a search that of its evaluations, about 0.2 us each per turn plus NLopt's,
+/// for kDriven some 20 us each.
 FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& waypoints,
                        double speed, const FilletOptions& options, std::uint64_t seed = 0);
 
-/// A turn of a plan: PlanDiagnostics::turns.
+/// Diagnostics of a turn of a plan: PlanDiagnostics::turns.
 struct FilletTurnFindings {
   FilletTurn turn;
-  std::string search_method;           ///< of `turn.search`, if there is one
-  std::optional<TurnError> predicted;  ///< of the open loop, for a turn that stands alone
+  std::string search_method;           ///< of `turn.search`, if any
+  std::optional<TurnError> predicted;  ///< open-loop error of an isolated turn
 };
 void Visit(DiagnosticsVisitor& out, const FilletTurnFindings& own);
-/// Moves a turn that lies beyond a replaced stretch of the path, and marks one within it.
+/// Shifts a turn beyond a replaced stretch of the path, and marks a turn within it.
 void ReplaceStretch(FilletTurnFindings& own, const Stations& replaced, double shift);
 
-/// What else there is to know of a plan or why there is none: PlanDiagnostics::planner.
+/// Diagnostics of a plan or of its failure: PlanDiagnostics::planner.
 struct FilletDiagnostics {
   std::optional<int> failed_waypoint;    ///< of a plan that failed
   double neutral_steering = 0.0;         ///< d_0 [rad]
   double neutral_curvature = 0.0;        ///< of a kinematic car that steers d_0 [rad/m]
-  std::string search_method;             ///< of `search`, if there is one
+  std::string search_method;             ///< of `search`, if any
   std::optional<SearchResult> search{};  ///< of all turns together (kDriven)
 };
 void Visit(DiagnosticsVisitor& out, const FilletDiagnostics& own);
 
-/// The radii of a search of all turns together, x of `search` or of its history [m].
+/// The radii [m] in x of a search of all turns together, from `search` or its history.
 std::vector<double> DrivenRadii(const std::vector<double>& x);
 
 /// The planner `fillet`.

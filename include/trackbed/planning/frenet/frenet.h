@@ -19,10 +19,10 @@
 #include "trackbed/vehicle/params.h"
 
 /// Optimal motions in the Frenet frame of a reference path (Werling et al. 2010; the weights are
-/// named as in the Frenet lecture): polynomials to many ends, ranked by their cost; the first one
-/// that the car can drive is taken.
+/// named as in the Frenet lecture): polynomials to many end states, ranked by cost. The first one
+/// that the car can drive is chosen.
 ///
-/// Symbols: those of path/frenet_frame.h; T duration [s]; S_1, V_1 wanted station [m] and speed
+/// Symbols: those of path/frenet_frame.h; T duration [s]; S_1, V_1 desired station [m] and speed
 /// [m/s] at the end.
 ///   C_d = K_dj int d_ttt^2 dt + K_d d(T)^2 + K_dt T
 ///   C_s = K_sj int s_ttt^2 dt + K_s (s(T) - S_1)^2 + K_v (s_t(T) - V_1)^2 + K_st T
@@ -34,9 +34,8 @@ struct KeepSpeed {
   double speed = 0.0;  ///< V_1 [m/s], >= 0
 };
 
-/// Keep behind something that goes on at a constant speed:
-/// S_1(t) = station + speed t - front - gap - time_gap speed, with the car's front ahead of its
-/// rear axle; V_1 = speed.
+/// Follow a leader with constant speed: S_1(t) = station + speed t - front - gap - time_gap speed,
+/// with `front` the distance from the car's rear axle to its front; V_1 = speed.
 struct FollowLeader {
   double station = 0.0;   ///< of the leader's rear end now [m]
   double speed = 0.0;     ///< along the path [m/s], >= 0
@@ -53,12 +52,12 @@ using FrenetGoal = std::variant<KeepSpeed, FollowLeader, StopAt>;
 
 struct FrenetRequest {
   VehicleParams vehicle;
-  SpeedLimits speed;  ///< no faster, no harder
+  SpeedLimits speed;  ///< upper limits on speed and accelerations
   RoadWidths road;
   FrenetState start;  ///< the car against the reference path
   FrenetGoal goal;
   std::vector<MovingBox> obstacles;
-  /// Where the road ends, too, over the station; none: `road` alone.
+  /// Edges of the road over the station, in addition to `road`; none: `road` alone.
   std::shared_ptr<const RoadEdges> edges{};
 };
 
@@ -68,17 +67,17 @@ struct FrenetCost {
   double total = 0.0;         ///< C
 };
 
-/// What is wanted at the end of a motion.
+/// The desired end state of a motion.
 struct FrenetTarget {
-  std::optional<double> station;  ///< S_1 [m]; none: K_s does not count
+  std::optional<double> station;  ///< S_1 [m]; none: K_s has no effect
   double speed = 0.0;             ///< V_1 [m/s]
 };
 
-/// S_1 and V_1 of a goal at a time [s] after the start.
+/// S_1 and V_1 of a goal, `time` [s] after the start.
 FrenetTarget TargetAt(const FrenetGoal& goal, const VehicleParams& vehicle, double time);
 
-/// C of one piece. Over the station, the integral of d is that of a car which drives the piece at
-/// its mean speed v: v^5 int d'''^2 ds (of order 2: v^3 int d''^2 ds). Both forms are one at
+/// C of one piece. Over the station, the integral of d is that of a car that drives the piece at
+/// its mean speed v: v^5 int d'''^2 ds (of order 2: v^3 int d''^2 ds). Both forms are equal at
 /// constant speed.
 FrenetCost PieceCost(const FrenetPiece& piece, const FrenetTarget& target,
                      const FrenetWeights& weights);
@@ -88,19 +87,20 @@ struct FrenetCandidate {
   FrenetCost cost;
 };
 
-/// All candidates, cheapest first; of equal ones, as their ends are listed.
+/// All candidates, cheapest first; equal costs keep the order of the options.
 std::vector<FrenetCandidate> FrenetCandidates(const FrenetRequest& request,
                                               const FrenetOptions& options);
 
-/// Why a candidate cannot be driven.
+/// The reason why a candidate cannot be driven.
 enum class Rejection {
-  kSpeed,         ///< faster than allowed, or backwards, or d(t) without motion
-  kAcceleration,  ///< along or across
+  kSpeed,         ///< too fast, or backwards, or d(t) without motion
+  kAcceleration,  ///< longitudinal or lateral
   kCurvature,     ///< tighter than the car can steer
-  kSteeringRate,  ///< the steering would have to turn faster than it can
-  kFrame,         ///< the path is bent too much, or driven backwards, for a frame there
-  kRoad,          ///< the footprint leaves the road, or reaches beyond its edges
-  kCollision,  ///< the footprint comes closer than the safe distance to an obstacle, now or later
+  kSteeringRate,  ///< exceeds the car's steering rate
+  kFrame,         ///< the path bends too much, or is driven backwards, for a frame
+  kRoad,          ///< the footprint leaves the road, or exceeds its edges
+  /// The footprint comes closer than the safe distance to an obstacle, now or later.
+  kCollision,
 };
 
 /// "speed", "acceleration", "curvature", "steering_rate", "frame", "road", "collision".
@@ -112,37 +112,37 @@ struct RejectionCounts {
   [[nodiscard]] int Of(Rejection rejection) const;
   void Add(Rejection rejection);
   [[nodiscard]] int total() const;
-  /// "3 collision, 1 speed"; empty when there is none.
+  /// "3 collision, 1 speed"; empty if there are none.
   [[nodiscard]] std::string ToString() const;
 
   bool operator==(const RejectionCounts&) const = default;
 };
 
-/// What planning in the frame gives back, here and in planning/lattice.h.
+/// The result of planning in the frame, here and in planning/lattice.h.
 struct FrenetPlan {
-  /// kStartBlocked: the start has no frame or overlaps an obstacle. kSearchFailed: no candidate, or
-  /// none that can be driven within the budget.
+  /// kStartBlocked: the start has no frame or overlaps an obstacle. kSearchFailed: there is no
+  /// candidate, or no drivable one within the budget.
   PlanStatus status = PlanStatus::kSearchFailed;
-  std::string reason;                   ///< for people; empty when ok
+  std::string reason;                   ///< empty when ok
   FrenetMotion motion;                  ///< empty unless ok, as are the points
   std::vector<TrajectoryPoint> points;  ///< at most `spacing` apart; for ToReference
   double cost = 0.0;                    ///< C, of all pieces together
-  int candidates = 0;                   ///< there were (edges of a lattice)
-  int checked = 0;                      ///< of them; a lattice may check an edge again
-  int passed = 0;                       ///< of these
-  RejectionCounts rejected;             ///< the others
+  int candidates = 0;                   ///< total number (edges of a lattice)
+  int checked = 0;                      ///< checked ones; a lattice may check an edge again
+  int passed = 0;                       ///< checked ones that passed
+  RejectionCounts rejected;             ///< checked ones that failed
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };
 
 /// The cheapest candidate that can be driven.
 ///
-/// Guarantees: the points keep every limit; between them, `spacing` apart, the clearance can be
-/// less by half of what car and obstacle move toward each other from point to point. checked =
-/// passed + rejected.total(). Same input, same bytes. Beyond the end of the motion only collisions
-/// are looked for, every `time_step`, up to the horizon. Errors: InternalError for options out of
-/// range or a start that is not finite. Cost: 0.3 ms for 525 candidates, 1 ms when
-/// all of them are rejected.
+/// Guarantees: the points meet every limit; between them, `spacing` apart, the clearance can be
+/// smaller by half the distance that car and obstacle approach each other from point to point.
+/// checked = passed + rejected.total(). The same input gives the same bytes. Beyond the end of the
+/// motion only collisions are checked, every `time_step`, up to the horizon. Errors: InternalError
+/// for options out of range or a start that is not finite. Cost: 0.3 ms for 525 candidates, 1 ms
+/// when all of them are rejected.
 FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
                       const FrenetOptions& options);
 

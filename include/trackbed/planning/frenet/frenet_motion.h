@@ -7,36 +7,37 @@
 #include "trackbed/path/reference.h"
 #include "trackbed/planning/frenet/polynomial.h"
 
-/// Motions along a path as polynomials in its Frenet frame, and what a controller can follow of
-/// them.
+/// Motions along a path as polynomials in its Frenet frame, and their conversion to references for
+/// controllers.
 namespace trackbed {
 
-/// s(t), and d over time or over the way along the path.
+/// s(t), and d over time or over the station.
 struct FrenetPiece {
   double duration = 0.0;      ///< [s]
-  Polynomial s;               ///< of the time since the piece began
-  Polynomial d;               ///< of that time, or of s - s(0)
-  bool over_station = false;  ///< which of both
+  Polynomial s;               ///< over the time since the piece began
+  Polynomial d;               ///< over that time, or over s - s(0)
+  bool over_station = false;  ///< selects d over s - s(0)
 
-  /// `t` [s] since the piece began. Over time, d' = d_t/s_t and d'' are not finite where s_t = 0.
+  /// The state `t` [s] after the start of the piece. If d is over time, d' = d_t/s_t and d'' are
+  /// not finite where s_t = 0.
   [[nodiscard]] FrenetState At(double t) const;
 
   bool operator==(const FrenetPiece&) const = default;
 };
 
-/// Pieces one after the other.
+/// Consecutive pieces.
 struct FrenetMotion {
   std::vector<FrenetPiece> pieces;
 
   [[nodiscard]] double duration() const;
-  /// `t` [s] since the start; before it the start's state, after the end the end's. InternalError
-  /// without pieces.
+  /// The state `t` [s] after the start; clamped to the start's and the end's. InternalError without
+  /// pieces.
   [[nodiscard]] FrenetState At(double t) const;
 
   bool operator==(const FrenetMotion&) const = default;
 };
 
-/// A moment of a motion along a path.
+/// A point of a motion along a path.
 struct TrajectoryPoint {
   double t = 0.0;         ///< since the start [s]
   double distance = 0.0;  ///< driven since the start [m]
@@ -46,18 +47,18 @@ struct TrajectoryPoint {
   bool operator==(const TrajectoryPoint&) const = default;
 };
 
-/// The motion at the ends of its pieces and evenly between them, at most `time_step` [s] and about
-/// `spacing` [m] apart. The distance is integrated to fourth order. None where there is no frame
-/// (see FromFrenet) or d(t) stands still.
+/// Samples the motion at the ends of its pieces and evenly between them, at most `time_step` [s]
+/// and about `spacing` [m] apart. The distance is integrated to fourth order. None if there is no
+/// frame (see FromFrenet) or d(t) has no forward motion.
 std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
                                                          const FrenetMotion& motion,
                                                          double time_step, double spacing);
 
-/// What a controller follows: a path through the points, with their headings and curvatures, and
-/// the speed over its stations. Between points 0.1 m apart the path stays within 1e-5 m and 1e-5
-/// rad of a motion over a path with smooth curvature. Points closer than a millimeter to the one
-/// before (a car that starts or stops) are left out. A car that does not move at all gets a path of
-/// length 0. InternalError without points.
+/// Makes the reference of a controller: a path through the points, with their headings and
+/// curvatures, and the speed over its stations. Between points 0.1 m apart, the path stays within
+/// 1e-5 m and 1e-5 rad of a motion over a path with smooth curvature. Points closer than a
+/// millimeter to the previous one (when a car starts or stops) are left out. A car that does not
+/// move gets a path of length 0. InternalError without points.
 Reference ToReference(const std::vector<TrajectoryPoint>& points);
 
 }  // namespace trackbed

@@ -5,7 +5,8 @@
 
 #include "trackbed/options/key_visitor.h"
 
-/// The options of motions in the Frenet frame (frenet.h and lattice.h, with their symbols).
+/// The options of motions in the Frenet frame (frenet.h and lattice.h, which also define the
+/// symbols).
 namespace trackbed {
 
 struct FrenetWeights {
@@ -13,44 +14,46 @@ struct FrenetWeights {
   double k_d = 1.0;    ///< of the offset at the end [1/m^2]
   double k_dt = 0.1;   ///< of time [1/s]
   double k_sj = 0.1;   ///< of longitudinal jerk [s^5/m^2]
-  double k_s = 1.0;    ///< of the station missed [1/m^2]
-  double k_v = 1.0;    ///< of the speed missed [s^2/m^2]
+  double k_s = 1.0;    ///< of the error of the end station [1/m^2]
+  double k_v = 1.0;    ///< of the error of the end speed [s^2/m^2]
   double k_st = 0.1;   ///< of time [1/s]
   double k_lat = 1.0;  ///< of C_d
   double k_lon = 1.0;  ///< of C_s
-  /// Of the integrals: 3 is jerk; 2 is acceleration, as the Frenet lecture has it.
+  /// Order of the derivative in the integrals: 3 is jerk; 2 is acceleration, as in the Frenet
+  /// lecture.
   int derivative_order = 3;
 };
 void Visit(KeyVisitor& keys, FrenetWeights& weights);
 
-/// What a motion must keep to. Where the start breaks one of these already, or is closer to an
-/// obstacle than the safe distance, the motion may do so as far as the start does, and no further.
+/// Limits on a motion. If the start already violates a limit, or is closer to an obstacle than the
+/// safe distance, the motion may violate it as much as the start does, but no more.
 struct FrenetLimits {
   double safe_distance = 0.5;  ///< from the car's footprint to every obstacle [m], >= 0
-  /// Of the speed limit, that v may be above it: a car that keeps its speed along the path is
-  /// faster than that as it moves aside.
+  /// Fraction by which v may exceed the speed limit: a car that keeps its speed along the path is
+  /// faster while it moves sideways.
   double speed_tolerance = 0.05;
   double max_lateral_acceleration = 3.0;    ///< v^2 |kappa| [m/s^2]
   double max_steering_rate_fraction = 1.0;  ///< of the car's steering rate
-  double time_step = 0.2;                   ///< between the points of the first check [s], > 0
-  double spacing = 0.1;  ///< between those of the last one, the result's [m], > 0
+  double time_step = 0.2;                   ///< of the first check [s], > 0
+  double spacing = 0.1;  ///< of the last check and of the result's points [m], > 0
 };
 
-/// How far the road reaches from the reference path to either side [m], for the car's footprint.
+/// Width of the road on either side of the reference path [m], for the car's footprint.
 struct RoadWidths {
   double left = std::numeric_limits<double>::infinity();
   double right = std::numeric_limits<double>::infinity();
 };
 
-/// How d moves: over time, which needs motion, or over the station, for a car that starts or stops.
+/// How d varies: over time, which needs motion, or over the station, for a car that starts or
+/// stops.
 enum class LateralMotion {
-  kAuto,  ///< over the station when the motion begins or ends below `low_speed`
+  kAuto,  ///< over the station if the motion begins or ends below `low_speed`
   kOverTime,
   kOverStation,
 };
 
-/// The ends that are tried: each duration with each offset, and each speed factor (KeepSpeed) or
-/// each station offset (FollowLeader, StopAt).
+/// The end states to try: each duration with each offset, and each speed factor (KeepSpeed) or each
+/// station offset (FollowLeader, StopAt).
 struct FrenetOptions {
   FrenetWeights weights;
   FrenetLimits limits;
@@ -62,10 +65,10 @@ struct FrenetOptions {
   std::vector<double> station_offsets{0.0, -0.5, -1.0, -2.0, -4.0};  ///< s(T) - S_1 [m]
   LateralMotion lateral = LateralMotion::kAuto;
   double low_speed = 2.0;  ///< [m/s]
-  /// Up to when a motion must stay clear if it goes on at its end's offset and speed [s]; else
-  /// short motions, which are cheap, lead up to obstacles until it is too late for long ones.
+  /// Time for which a motion must stay clear, continued at its final offset and speed [s]. Without
+  /// it, short motions, which are cheap, approach obstacles until it is too late for longer ones.
   double horizon = 8.0;
-  int budget = 10000;  ///< candidates checked at most, >= 0
+  int budget = 10000;  ///< maximum number of candidates to check, >= 0
 };
 void Visit(KeyVisitor& keys, FrenetOptions& options);
 
@@ -77,9 +80,9 @@ struct LatticeOptions {
   /// d_k [m].
   std::vector<double> end_offsets{0.0, 0.5,  -0.5, 1.0,  -1.0, 1.5, -1.5,
                                   2.0, -2.0, 2.5,  -2.5, 3.0,  -3.0};
-  /// v_m over the goal's speed, that of the limits when it stops.
+  /// v_m over the goal's speed; if the goal is to stop, over the limits' speed.
   std::vector<double> speed_factors{1.0, 0.75, 0.5};
-  int budget = 100000;  ///< edges checked at most, >= 0
+  int budget = 100000;  ///< maximum number of edges to check, >= 0
 };
 void Visit(KeyVisitor& keys, LatticeOptions& options);
 

@@ -17,18 +17,18 @@ struct Polynomial {
   bool operator==(const Polynomial&) const = default;
 };
 
-/// How something moves along a line at one moment.
+/// The state of a motion along a line at one moment.
 struct LineMotion {
   double position = 0.0;
   double velocity = 0.0;
   double acceleration = 0.0;
 };
 
-/// From one motion to another within `duration` > 0: of all motions the one whose jerk has the
-/// least integral of its square.
+/// The motion between two states within `duration` > 0 with the smallest integral of the squared
+/// jerk.
 Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration);
 
-/// The same where the end's position is free: that of `to` is not looked at.
+/// As QuinticBetween, with a free end position: ignores that of `to`.
 Polynomial QuarticBetween(const LineMotion& from, const LineMotion& to, double duration);
 
 }  // namespace trackbed

@@ -16,7 +16,7 @@
 /// d is a closed spline with as many knots as the track has points. Each step replaces
 /// kappa sqrt(dl/ds) by its linearization about the last line, exact in d, d' and d''
 /// (Gauss-Newton), and solves the quadratic program for d. Braghin et al. 2008 minimize curvature
-/// so; Heilmeier et al. 2020 repeat the linearization.
+/// in this way; Heilmeier et al. 2020 repeat the linearization.
 namespace trackbed {
 
 struct MinimumCurvatureOptions {
@@ -25,19 +25,19 @@ struct MinimumCurvatureOptions {
 void Visit(KeyVisitor& keys, MinimumCurvatureOptions& options);
 
 struct MinimumCurvatureLine {
-  std::string refused;  ///< why there is none; empty otherwise
+  std::string refused;  ///< why there is no line; else empty
   TrackLine line;
-  int iterations = 0;  ///< quadratic programs that were solved
+  int iterations = 0;  ///< number of quadratic programs solved
 };
 
-/// The line that keeps its points `beside` [m], b, away from the edges. Refused where the track is
-/// not that wide.
+/// The line whose points stay at least `beside` [m], b, away from the edges. Refused if the track
+/// is too narrow for that.
 ///
-/// Guarantees: the bounds are kept to 1e-6 m at two points per knot; the last step changed the
-/// integral by less than 1e-6 of it. A local minimum: the problem is not convex. The rear axle
-/// follows the line: in bends a front corner of the car is farther out than its side is at the rear
-/// axle, by about l^2/(2 r), l from the rear axle to the front, r the radius. RunError in a build
-/// without IPOPT. Cost: 0.6 s a kilometer of points 5 m apart.
+/// Guarantees: the bounds are met to 1e-6 m at two points per knot; the last step changed the
+/// integral by a fraction of less than 1e-6. A local minimum: the problem is not convex. The rear
+/// axle follows the line: in bends, a front corner of the car is farther out than its side at the
+/// rear axle, by about l^2/(2 r), with l the distance from the rear axle to the front, and r the
+/// radius. RunError in a build without IPOPT. Cost: 0.6 s per kilometer of points 5 m apart.
 MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside);
 
 struct MinimumCurvatureDiagnostics {

@@ -15,61 +15,62 @@
 ///
 ///   minimize T(c)   subject to   right(s) + b <= d(s) <= left(s) - b,   |kappa| <= kappa_max
 ///
-/// A trust-region method from the line of least curvature. Each step linearizes curvature and
-/// length of the line and the boundary of the g-g-v diagram about the last line and its limit
+/// A trust-region method that starts at the line of least curvature. Each step linearizes curvature
+/// and length of the line and the boundary of the g-g-v diagram about the last line and its limit
 /// profile, and solves a quadratic program for changes of c and of the speeds at all stations. The
-/// new line gets its own limit profile, and is kept only if that is faster. The problem is that of
-/// Casanova 2000 and of Christ et al. 2021 for a point mass with a g-g-v diagram, speeds
+/// new line gets a new limit profile, and is kept only if it is faster. The problem is that of
+/// Casanova 2000 and of Christ et al. 2021 for a point mass with a g-g-v diagram, with the speeds
 /// eliminated.
 namespace trackbed {
 
-/// What limits the speed on a lap, on a level road that is the same everywhere.
+/// The limits on the speed of a lap, on a level road with uniform friction.
 struct LapLimits {
   GgvDiagram diagram;
   LimitOptions options{};
   double road = 1.0;           ///< factor on the tyres' friction [1], > 0
-  double wheelbase = 0.0;      ///< L [m]; of steering angles atan(L kappa)
-  double steering_rate = 0.0;  ///< the largest [rad/s]; 0: not limited
-  double curvature_max = 0.0;  ///< kappa_max [1/m]; 0: not limited
+  double wheelbase = 0.0;      ///< L [m]; for steering angles atan(L kappa)
+  double steering_rate = 0.0;  ///< the largest [rad/s]; 0: no limit
+  double curvature_max = 0.0;  ///< kappa_max [1/m]; 0: no limit
 };
 
-/// The limits of a request with limits.
+/// The lap's limits in a request with limits.
 LapLimits LimitsOfLap(const PlanRequest& request);
 
-/// The lap time [s] of a line, by its limit profile over stations that are a quarter as far apart
-/// as the points of the track, at most 1.3 m. PreconditionError where the line folds over.
+/// The lap time [s] of a line by its limit profile, over stations spaced at a quarter of the
+/// spacing of the track's points, at most 1.3 m. PreconditionError if the line folds over.
 double LapTime(const Track& track, const TrackLine& line, const LapLimits& limits);
 
 enum class MinimumTimeEnd {
-  kConverged,       ///< no step promises more than 1e-4 of the lap time, or no part of one that
-                    ///< promises up to 5e-4 gains anything
+  /// No step promises more than 1e-4 of the lap time, or no part of a step that promises up to 5e-4
+  /// gains anything.
+  kConverged,
   kNoGain,          ///< no step is faster, down to changes of a millimeter
-  kIterationLimit,  ///< of steps
+  kIterationLimit,  ///< the iterations are used up
   kProgramNotSolved,
 };
 /// "converged", "no_gain", "iteration_limit", "program_not_solved": the spelling of plan.json.
 const char* ToString(MinimumTimeEnd end);
 
 struct MinimumTimeLine {
-  std::string refused;  ///< why there is none; empty otherwise
+  std::string refused;  ///< why there is no line; else empty
   TrackLine line;
   double time = 0.0;        ///< its LapTime [s]
-  double start_time = 0.0;  ///< likewise of the line of least curvature [s]
+  double start_time = 0.0;  ///< LapTime of the line of least curvature [s]
   bool improved = false;    ///< false: `line` is the line of least curvature
   MinimumTimeEnd end = MinimumTimeEnd::kConverged;
-  int iterations = 0;      ///< quadratic programs that were solved
-  double last_gain = 0.0;  ///< of the last step that was kept [s]
+  int iterations = 0;      ///< number of quadratic programs solved
+  double last_gain = 0.0;  ///< of the last accepted step [s]
 };
 
-/// The fastest line that keeps its points `beside` [m], b, away from the edges. Refused where the
-/// track is not that wide, where no line within kappa_max was found, and where the car cannot keep
+/// The fastest line whose points stay at least `beside` [m], b, away from the edges. Refused if the
+/// track is too narrow for that, if no line within kappa_max was found, or if the car cannot keep
 /// moving.
 ///
-/// Guarantees: never slower than the line of least curvature for the same b, by LapTime; bounds
-/// kept to 1e-6 m at two points or more per knot; the same arguments give the same bits on one
-/// machine. A local minimum: the problem is not convex. Does not know slopes, banks and changes of
-/// friction. RunError in a build without IPOPT. Cost: 5 to 20 programs, each 1.4 s a kilometer of
-/// points 5 m apart.
+/// Guarantees: by LapTime, never slower than the line of least curvature for the same b; bounds met
+/// to 1e-6 m at two points or more per knot; the same arguments give the same bits on one machine.
+/// A local minimum: the problem is not convex. Ignores slopes, banks and changes of friction.
+/// RunError in a build without IPOPT. Cost: 5 to 20 programs, each 1.4 s per kilometer of points 5
+/// m apart.
 MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
                                 int iterations = 40);
 

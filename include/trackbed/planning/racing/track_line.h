@@ -24,8 +24,7 @@ struct LineOffset {
 class TrackLine {
  public:
   TrackLine() = default;
-  /// d as a closed spline over the station; one column of coefficients, the period is that of the
-  /// track.
+  /// d as a closed spline over the station: one column of coefficients, with the track's period.
   TrackLine(const ClosedSplineBasis& basis, Eigen::MatrixXd coefficients);
 
   [[nodiscard]] LineOffset At(double s) const;
@@ -37,7 +36,7 @@ class TrackLine {
   Eigen::MatrixXd coefficients_;
 };
 
-/// A closed line, once around.
+/// Measures of a closed line, once around.
 struct LineFindings {
   double length = 0.0;            ///< [m]
   double curvature_square = 0.0;  ///< integral of kappa^2 over the line [1/m]
@@ -45,29 +44,28 @@ struct LineFindings {
 };
 LineFindings MeasureLine(const Track& track, const TrackLine& line);
 
-/// What plan.json says of a plan on a track.
+/// Diagnostics of a plan on a track, for plan.json.
 struct TrackPlanDiagnostics {
   double track_length = 0.0;   ///< of the center line [m]
   double smoothing = 0.0;      ///< wavelength below which the center line was smoothed [m]
-  double deviation_max = 0.0;  ///< by which that moved a point of the track [m]
-  double deviation_rms = 0.0;  ///< likewise, of all points [m]
-  double join = 0.0;           ///< distance in which the car comes onto the line [m]
-  double run_out = 0.0;        ///< to brake in, behind the finish line [m]
+  double deviation_max = 0.0;  ///< largest displacement of a track point by smoothing [m]
+  double deviation_rms = 0.0;  ///< root mean square displacement of all points [m]
+  double join = 0.0;           ///< distance over which the car joins the line [m]
+  double run_out = 0.0;        ///< braking distance behind the finish line [m]
   LineFindings lap;            ///< of the line, once around
 };
 void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 
-/// A plan along a line: from the car onto the line, TrackLaps::laps times around, and so far beyond
-/// the line that the car can brake from the mission's speed.
+/// A plan along a line: from the car onto the line, TrackLaps::laps times around, and beyond the
+/// finish line as far as the car needs to brake from the mission's speed.
 ///
-/// The car may start anywhere on the track, and looks along it. Up to half a lap before the start
-/// line it first drives up to it; a car that starts on the line or after it does so in its first
-/// lap. Its offset from the line is taken back by a polynomial of degree 5 over three seconds at
-/// the mission's speed, ten times the offset or four wheelbases, whichever is the longest, at most
-/// half a lap.
+/// The car may start anywhere on the track, facing along it. A car up to half a lap before the
+/// start line first drives up to it; a car on or after the start line begins in its first lap. A
+/// polynomial of degree 5 removes the offset from the line over the longest of three seconds at the
+/// mission's speed, ten times the offset and four wheelbases, but at most half a lap.
 ///
-/// Guarantees: continuous curvature. Does not look for obstacles. Refused, with a reason, without a
-/// track and where the car is off the track or looks across it. Cost: 50 us a meter.
+/// Guarantees: continuous curvature. Ignores obstacles. Refused, with a reason, without a track,
+/// and if the car is off the track or faces across it. Cost: 50 us per meter.
 Plan FollowLine(const PlanRequest& request, const TrackLine& line);
 
 }  // namespace trackbed

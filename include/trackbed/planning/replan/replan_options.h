@@ -11,31 +11,32 @@
 /// The options of replanning (replan.h, along_route.h).
 namespace trackbed {
 
-/// How motions are found: PlanFrenet or PlanLattice. Their safe distance is not looked at: that of
-/// AlongSettings holds.
+/// How motions are found: PlanFrenet or PlanLattice. Their safe distance is ignored: that of
+/// AlongSettings applies.
 using AlongOptions = std::variant<FrenetOptions, LatticeOptions>;
 
 struct AlongSettings {
   double safe_distance = 0.3;  ///< of the car's footprint from obstacles [m], >= 0
   RoadWidths road;
-  double gap = 3.0;       ///< from bumper to bumper behind what is in the way, at rest [m]
-  double time_gap = 1.5;  ///< besides, behind what moves [s]
-  /// For how long the way must be clear, if the car goes on as its motion ends [s]: a method's own
-  /// horizon is made no shorter.
+  double gap = 3.0;       ///< behind an obstacle, between the bumpers at rest [m]
+  double time_gap = 1.5;  ///< additional, behind a moving obstacle [s]
+  /// Time for which the way must be clear, with the motion continued after its end [s]. A longer
+  /// horizon of the method takes precedence.
   double look_ahead = 12.0;
 };
 
 /// How a detour is chosen (detour.h).
 struct DetourChoice {
-  int attempts = 4;          ///< of a random planner, with seeds of their own, >= 1
+  int attempts = 4;          ///< attempts of a random planner, with different seeds, >= 1
   double wind_weight = 1.0;  ///< k_w, see WindScoring
   ComparatorOptions comparator;
 };
 void Visit(KeyVisitor& keys, DetourChoice& choice);
 
 struct ReplanOptions {
-  double period = 0.5;     ///< between two looks [s], > 0
-  AlongSettings settings;  ///< its look-ahead, at the planned speeds, for plans that are kept too
+  double period = 0.5;  ///< between two checks [s], > 0
+  /// Its look-ahead also applies, at the planned speeds, to plans that are kept.
+  AlongSettings settings;
   std::optional<AlongOptions> along;
   std::optional<PlannerOptions> detour;      ///< a planner that fits PlanDetour
   std::optional<DetourChoice> comparator{};  ///< none: the defaults

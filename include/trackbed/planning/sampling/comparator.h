@@ -6,28 +6,29 @@
 #include "trackbed/planning/sampling/comparator_options.h"
 #include "trackbed/planning/sampling/smoothing.h"
 
-/// Which of two ways to go on with ("Comparator" of the wind-aware RRT): the shorter one, where a
-/// collision and the wind count in meters.
+/// Chooses between two paths ("Comparator" of the wind-aware RRT): the shorter one, with collisions
+/// and wind converted to meters.
 namespace trackbed {
 
-/// What a path has left for a car.
+/// The score of the rest of a path, for a car.
 struct PathScore {
   double length = 0.0;    ///< L: to the path's nearest point, and along it from there [m]
-  bool collides = false;  ///< what is left of it comes too close to an obstacle
-  double wind = 0.0;      ///< W of what is left of it [m]
-  double total = 0.0;     ///< L - W, and the penalty [m]
+  bool collides = false;  ///< the rest of the path comes too close to an obstacle
+  double wind = 0.0;      ///< W of the rest of the path [m]
+  double total = 0.0;     ///< L - W, plus the penalty [m]
 };
 
 void Visit(DiagnosticsVisitor& out, const PathScore& score);
 
-/// The score of a path for a car at `position`. That listing counts from the path's nearest corner,
-/// which may lie behind the car or far ahead; here it is the nearest point. `inflation` [m]: how
-/// close to an obstacle is too close. InternalError for a path without points.
+/// The score of a path for a car at `position`, from the path's nearest point on. The listing
+/// counts from the nearest corner, which may lie behind the car or far ahead. `inflation` [m] is
+/// the distance from an obstacle that counts as a collision. InternalError for a path without
+/// points.
 PathScore ScorePath(const std::vector<Vec2>& way, const Vec2& position,
                     const std::vector<OrientedBox>& obstacles, double inflation,
                     const WindScoring& wind, const ComparatorOptions& options);
 
-/// Whether to leave the current way for another: if that is better; on ties it is kept.
+/// Whether another path is better than the current one; ties keep the current path.
 inline bool IsBetter(const PathScore& other, const PathScore& current) {
   return other.total < current.total;
 }

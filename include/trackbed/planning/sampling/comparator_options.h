@@ -3,7 +3,7 @@
 namespace trackbed {
 
 struct ComparatorOptions {
-  double collision_penalty = 1000.0;  ///< [m], >= 0: added to a path that runs into something
+  double collision_penalty = 1000.0;  ///< [m], >= 0: added to a path that collides
 };
 
 }  // namespace trackbed

@@ -7,47 +7,48 @@
 #include "trackbed/world/wind.h"
 
 /// Smoothing of a path with corners ("Smoothing" of the wind-aware RRT; Thrun 2012): each inner
-/// point is drawn toward where it was and toward the middle of its neighbors, as long as nothing
-/// stands in the way and the wind does not get worse.
+/// point moves toward its original position and toward the middle of its neighbors, as long as no
+/// obstacle is in the way and the wind score does not fall.
 ///
-/// Symbols: x_i given points, y_i smoothed ones, both ends fixed; alpha weight of the data, beta
-/// weight of smoothness; w wind [m/s]; V speed through the air [m/s].
+/// Symbols: x_i given points, y_i smoothed points, both ends fixed; alpha weight of the data, beta
+/// weight of smoothness; w wind [m/s]; V airspeed [m/s].
 namespace trackbed {
 
 /// How wind counts in the length of a path.
 struct WindScoring {
   Wind wind;
-  double time = 0.0;    ///< the moment of its gusts [s]
+  double time = 0.0;    ///< at which gusts are evaluated [s]
   double speed = 1.0;   ///< V [m/s], > 0
   double weight = 1.0;  ///< k_w; 0: wind does not count
 };
 
-/// W = k_w sum over segments of w(middle) . dx / V [m], positive with the wind: how much shorter
-/// the way is, to first order, for what moves at V through the air. In uniform wind it depends on
-/// the ends alone. 0 for fewer than two points.
+/// W = k_w sum over segments of w(middle) . dx / V [m], positive with the wind: to first order, the
+/// length that the wind saves for a vehicle with airspeed V. In uniform wind it depends only on the
+/// ends. 0 for fewer than two points.
 double WindScore(const std::vector<Vec2>& path, const WindScoring& scoring);
 
 struct SmoothingOptions {
   double data = 0.5;        ///< alpha, >= 0
   double smoothness = 0.1;  ///< beta, >= 0; 0 < alpha + 2 beta < 1: converges without overshoot
-  double tolerance = 1e-6;  ///< ends when a sweep moves all coordinates by less in sum [m], > 0
-  int sweeps = 1000;        ///< at most, >= 0
+  /// Ends when the sum over all coordinates of the changes in a sweep is smaller [m], > 0.
+  double tolerance = 1e-6;
+  int sweeps = 1000;  ///< at most, >= 0
 };
 
 struct SmoothingResult {
   std::vector<Vec2> path;
-  int sweeps = 0;          ///< used, the last one too
-  bool converged = false;  ///< the last one moved less than the tolerance
+  int sweeps = 0;          ///< number of sweeps, including the last one
+  bool converged = false;  ///< the last sweep moved less than the tolerance
 };
 
 /// y_i <- y_i + alpha (x_i - y_i) + beta (y_{i-1} + y_{i+1} - 2 y_i), point by point and coordinate
-/// by coordinate. A move is taken if both edges at the point keep further than `inflation` [m] from
-/// every obstacle, and the wind score of the two does not fall.
+/// by coordinate. A move is accepted if both edges at the point keep further than `inflation` [m]
+/// from every obstacle, and the wind score of the two edges does not fall.
 ///
-/// Guarantees: ends do not move; a path that is free stays free; without obstacles and wind it
-/// converges to (alpha + 2 beta) y_i - beta (y_{i-1} + y_{i+1}) = alpha x_i. Obstacles may stop a
-/// point in one coordinate and not in the other. Rounds no corners: points stay points.
-/// Errors: InternalError for options out of range. Cost O(sweeps x points x obstacles).
+/// Guarantees: ends do not move; a free path stays free; without obstacles and wind it converges to
+/// (alpha + 2 beta) y_i - beta (y_{i-1} + y_{i+1}) = alpha x_i. Obstacles may stop a point in one
+/// coordinate only. Does not round corners: the result is a polyline. Errors: InternalError for
+/// options out of range. Cost O(sweeps x points x obstacles).
 SmoothingResult SmoothPath(const std::vector<Vec2>& path, const std::vector<OrientedBox>& obstacles,
                            double inflation, const WindScoring& wind,
                            const SmoothingOptions& options);
