@@ -4,8 +4,8 @@
 
 namespace trackbed {
 
-/// Every tolerance of a test goes through here: the environment variable TRACKBED_TOLERANCE scales
-/// them all, and 0 makes each test print its true residual as it fails.
+/// Scales a test's tolerance by the environment variable TRACKBED_TOLERANCE; every tolerance uses
+/// this function. With 0, each test fails and prints its actual residual.
 inline double Tolerance(double derived) {
   const char* scale = std::getenv("TRACKBED_TOLERANCE");
   return scale == nullptr ? derived : derived * std::atof(scale);

@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// Passes up to and with `limit`.
+/// Passes for values up to and including `limit`.
 std::function<std::optional<bool>(double)> UpTo(double limit) {
   return [limit](double value) { return value <= limit; };
 }
@@ -28,7 +28,7 @@ TEST(Bisect, FindsTheHighestValueThatPasses) {
     SCOPED_TRACE(testing::Message() << from << " to " << to << ", limit " << limit);
     ASSERT_EQ(found.status, BisectStatus::kFound);
     EXPECT_LE(found.value, limit);
-    // Halves are exact but for the rounding of their ends, 1 ulp of at most 150.
+    // Halving is exact except for the rounding of the interval's ends, 1 ulp of at most 150.
     EXPECT_GE(found.value, limit - tolerance - 3e-14);
     EXPECT_LE(static_cast<double>(found.trials.size()),
               2.0 + std::max(0.0, std::ceil(std::log2((to - from) / tolerance))));

@@ -26,15 +26,15 @@ using nlohmann::json;
 const fs::path kScenarios = fs::path(TRACKBED_SOURCE_DIR) / "scenarios";
 const fs::path kGolden = fs::path(TRACKBED_SOURCE_DIR) / "tests/data/golden/metrics";
 
-/// File of the golden metrics of a scenario. A major version of MuJoCo that changes them has its
-/// own file (docs/how-to/mujoco-versions.md).
+/// File of the golden metrics of a scenario. A major version of MuJoCo that changes the metrics has
+/// a separate file (docs/how-to/mujoco-versions.md).
 fs::path GoldenFile(const std::string& scenario, const std::string& physics) {
   const std::string major = physics.substr(physics.find(' ') + 1, 1);  // of "MuJoCo 2.2.2"
   const fs::path own = kGolden.string() + "_mujoco_" + major + "/" + scenario + ".csv";
   return fs::exists(own) ? own : kGolden / (scenario + ".csv");
 }
 
-/// What lies in a folder and below, without extensions: "maneuvers/gust".
+/// Paths of the files in `folder` and its subfolders, without extensions: "maneuvers/gust".
 std::vector<std::string> NamesBelow(const fs::path& folder, const std::string& extension) {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -50,8 +50,8 @@ std::vector<std::string> NamesBelow(const fs::path& folder, const std::string& e
 
 class Golden : public testing::TestWithParam<std::string> {};
 
-// The tolerances are measured, each for its metric; scripts/golden and docs/reproducibility.md say
-// how.
+// Each metric has a measured tolerance; scripts/golden and docs/reproducibility.md describe the
+// measurement.
 TEST_P(Golden, MetricsAreWithinTheirTolerances) {
   const TempFolder folder;
   WriteRunFolder(RunMission(ReadScenario(kScenarios / (GetParam() + ".yaml"))), folder.path());

@@ -31,7 +31,7 @@ std::map<std::string, std::string> RunAndRead(const fs::path& out) {
   return files;
 }
 
-// A program that has Trackbed in it may have set the locale of its users, for C and for C++.
+// A program that embeds Trackbed may set its user's locale, for C and for C++.
 TEST(RunMission, WritesTheSameBytesInALocaleWithADecimalComma) {
   const TempFolder folder;
   const auto expected = RunAndRead(folder.path() / "point");
@@ -43,7 +43,7 @@ TEST(RunMission, WritesTheSameBytesInALocaleWithADecimalComma) {
   } catch (const std::runtime_error& error) {
     GTEST_SKIP() << "localedef, with Debian's package locales, cannot make de_DE.UTF-8";
   }
-  const std::locale before = std::locale::global(comma);  // that of C, too
+  const std::locale before = std::locale::global(comma);  // also sets the C locale
   ASSERT_STREQ(std::localeconv()->decimal_point, ",");
   const auto files = RunAndRead(folder.path() / "comma");
   EXPECT_STREQ(std::localeconv()->decimal_point, ",") << "it is left as it was";

@@ -12,13 +12,14 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/plan.h"
 
-// Every evaluation on logs whose answers are known in closed form.
+// Checks every maneuver evaluation on logs with closed-form results.
 namespace trackbed {
 namespace {
 
 constexpr double kStep = 0.01;  // of all logs [s]
 constexpr double kWheelbase = 2.5;
-// What is linear between rows is exact, to sums of some thousand terms.
+// Quantities that are linear between rows are exact except for the rounding of sums of some
+// thousand terms.
 constexpr double kRounding = 1e-10;
 
 VehicleParams Car() {
@@ -32,7 +33,7 @@ VehicleParams Car() {
   return car;
 }
 
-/// A log of `duration` [s] whose states `fill` sets from their time.
+/// A log of `duration` [s]; `fill` sets each row's state from its time.
 RunLog Log(double duration, const std::function<void(double t, LogRow& row)>& fill) {
   RunLog log{.plant = "test",
              .status = DriveStatus::kArrived,
@@ -59,7 +60,7 @@ double Of(const ManeuverMetrics& metrics, const char* name) {
   return value.value_or(std::nan(""));
 }
 
-/// A linear car in steady states: delta = L/R + K a_y, on a circle of radius R or at speed v.
+/// A linear car in steady state: delta = L/R + K a_y, on a circle of radius R or at speed v.
 void SteadyState(double lateral_acceleration, double speed, double understeer, double side,
                  VehicleState& state) {
   state.speed = speed;
@@ -102,7 +103,8 @@ TEST(SteadyStateCircle, CountsQuasiSteadySamplesAlone) {
     }
   });
   const ManeuverMetrics metrics = Evaluated(SteadyStateCircleOptions{}, log);
-  // Rows half a period apart differ little around the sine's zeros: a few of 4500 rows are let in.
+  // Rows half a period apart differ little near the sine's zeros, so a few of the 4500 rows pass
+  // the steady-state filter.
   EXPECT_NEAR(Of(metrics, "understeer_gradient"), 0.003, Tolerance(0.003));
 }
 
@@ -129,7 +131,7 @@ TEST(SlowlyIncreasingSteer, GivesGainAndSteeringAtThreeTenths) {
               (kWheelbase / (kSpeed * kSpeed) + kUndersteer) * 0.3 * 9.81, Tolerance(kRounding));
 }
 
-/// Steers from 0 to `steering` at t = 1 to 1.1 s: half-way at 1.05 s.
+/// Ramps the steering from 0 to `steering` between t = 1 s and 1.1 s; half is reached at 1.05 s.
 void StepSteering(double t, double steering, LogRow& row) {
   row.state.steering_actuator = steering * std::clamp((t - 1.0) / 0.1, 0.0, 1.0);
   row.state.steering = row.state.steering_actuator;
@@ -148,16 +150,18 @@ TEST(StepSteer, OfFirstOrder) {
       row.state.sideslip = -side * 0.02 * share;
     });
     const ManeuverMetrics metrics = Evaluated(StepSteerOptions{}, log);
-    // Linear between rows: h^2/(8 tau^2) of the rest, 0.1, over its slope 0.1/tau: 6e-5 s.
+    // Linear interpolation between rows deviates by h^2/(8 tau^2) of the remaining 0.1; divided by
+    // the slope 0.1/tau, that is 6e-5 s.
     const double response = kTau * std::log(10.0);
     EXPECT_NEAR(Of(metrics, "yaw_rate_response_time"), response, Tolerance(7e-5));
     EXPECT_NEAR(Of(metrics, "lateral_acceleration_response_time"), response, Tolerance(7e-5));
-    // The mean of the last second lacks tau e^(-3.95/tau) = 5e-10.
+    // The mean over the last second deviates by tau e^(-3.95/tau) = 5e-10.
     EXPECT_NEAR(Of(metrics, "yaw_rate_steady"), side * 0.3, Tolerance(1e-9));
     EXPECT_NEAR(Of(metrics, "yaw_rate_gain"), 6.0, Tolerance(1e-7));
     EXPECT_NEAR(Of(metrics, "yaw_rate_overshoot"), 0.0, Tolerance(1e-8));
     EXPECT_EQ(Of(metrics, "speed"), 25.0);
-    // 10 periods of the 4.99 s that are evaluated end short of the command: the last one does not.
+    // In each of 10 control periods of the evaluated 4.99 s the actuator moves toward the command;
+    // only the last one reaches it.
     EXPECT_NEAR(metrics.steering_saturated_fraction, 9.0 / 500.0, Tolerance(1.1 / 500.0));
   }
 }
@@ -178,7 +182,7 @@ TEST(StepSteer, OfSecondOrder) {
   });
   const ManeuverMetrics metrics = Evaluated(StepSteerOptions{}, log);
   const double overshoot = std::exp(-kPi * kZeta / std::sqrt(1.0 - kZeta * kZeta));
-  // On a row at most h/2 from the peak: the parabola there loses omega^2/2 (h/2)^2 of it.
+  // A row lies at most h/2 from the peak, where the parabola is lower by omega^2/2 (h/2)^2.
   EXPECT_NEAR(Of(metrics, "yaw_rate_overshoot"), overshoot,
               Tolerance(0.5 * kOmega * kOmega * 0.25 * kStep * kStep));
   EXPECT_NEAR(Of(metrics, "yaw_rate_peak_time"), kPi / damped, Tolerance(0.5 * kStep + 1e-9));
@@ -190,8 +194,8 @@ TEST(StepSteer, WithoutAStepSaysSo) {
             "the steering angle does not change");
 }
 
-/// To the left from 1 s on at 0.5 rad/s, to the right at 1.2 s, back at zero at 2.4 s. The yaw rate
-/// falls off from the completion on; across goes y.
+/// Steers left from 1 s on with 0.5 rad/s and right at 1.2 s, and is straight again at 2.4 s. The
+/// yaw rate decays exponentially from then on; y is the lateral displacement.
 RunLog SineWithDwellLog(double side, double tau, double lateral_acceleration, double duration) {
   return Log(duration, [=](double t, LogRow& row) {
     double steering = 0.0;
@@ -212,13 +216,14 @@ TEST(SineWithDwell, GivesRatiosAndDisplacement) {
   for (const double side : {1.0, -1.0}) {
     const ManeuverMetrics metrics =
         Evaluated(SineWithDwellTestOptions{}, SineWithDwellLog(side, 0.5, 4.0, 5.0));
-    // Peak on the completion's row; rows 1.00 and 1.75 s after it are rows too.
+    // The peak is on the row of the completion of steer; the times 1.00 s and 1.75 s later are
+    // rows, too.
     EXPECT_NEAR(Of(metrics, "yaw_rate_ratio_1_00"), std::exp(-2.0), Tolerance(0.002));
     EXPECT_NEAR(Of(metrics, "yaw_rate_ratio_1_75"), std::exp(-3.5), Tolerance(0.002));
     EXPECT_NEAR(Of(metrics, "yaw_rate_peak"), 0.6, Tolerance(kRounding));
     const double begin = 1.0 + 5.0 * kPi / 180.0 / 20.0 / 0.5;
     const auto across = [](double t) { return 2.0 * (t - 1.0) * (t - 1.0); };
-    // Linear between rows: a h^2/8 at either time.
+    // Linear interpolation between rows deviates by a h^2/8 at either time.
     EXPECT_NEAR(Of(metrics, "lateral_displacement"), across(begin + 1.07) - across(begin),
                 Tolerance(2.0 * 4.0 * kStep * kStep / 8.0));
     EXPECT_EQ(metrics.passed, true);
@@ -228,7 +233,7 @@ TEST(SineWithDwell, GivesRatiosAndDisplacement) {
 TEST(SineWithDwell, FailsWhatTurnsOnOrHardlyMoves) {
   EXPECT_EQ(Evaluated(SineWithDwellTestOptions{}, SineWithDwellLog(1.0, 2.0, 4.0, 5.0)).passed,
             false);
-  // 0.5 a 1.07^2 = 1.83 m at 3.2 m/s^2.
+  // The displacement is 0.5 a 1.07^2, which reaches the required 1.83 m only at 3.2 m/s^2.
   EXPECT_EQ(Evaluated(SineWithDwellTestOptions{}, SineWithDwellLog(1.0, 0.5, 3.0, 5.0)).passed,
             false);
   const ManeuverMetrics cut =
@@ -243,7 +248,7 @@ TEST(EveryManeuver, FailsACarThatTurnsOver) {
     row.state.roll = t < 2.0 ? 0.7 : -0.8;  // pi/4 is in between
   });
   RunLog rolled = log;
-  rolled.status = DriveStatus::kRolledOver;  // ended the run, and so at its last row
+  rolled.status = DriveStatus::kRolledOver;  // the run ended there, at its last row
   const std::string end = fmt::format("the car rolls over at {:.2f} s", log.rows.back().state.time);
   for (const ManeuverEntry& entry : Maneuvers()) {
     const ManeuverMetrics metrics = Evaluated(entry.defaults, log);
@@ -256,7 +261,7 @@ TEST(EveryManeuver, FailsACarThatTurnsOver) {
   }
 }
 
-/// A car that keeps to y = `offset`, turned by `yaw`, through gates on the x axis.
+/// A car that drives along y = `offset`, turned by `yaw`, through gates on the x axis.
 ManeuverMetrics Through(const std::vector<Gate>& gates, double offset, double yaw,
                         double duration) {
   Plan plan;
@@ -280,12 +285,12 @@ TEST(LaneChange, FindsTheSmallestMarginAndItsGate) {
   EXPECT_NEAR(Of(straight, "margin_5"), 1.5 - 0.8 - 0.1, Tolerance(kRounding));
   EXPECT_EQ(Of(straight, "margin_gate"), 1.0);
   EXPECT_EQ(straight.passed, true);
-  // The nose, 3.5 m ahead, is at 15 m after 0.575 s: the row of 0.58 s. The tail is at 85 m after
-  // 4.3 s.
+  // The front end, 3.5 m ahead, reaches 15 m after 0.575 s: the row of 0.58 s. The rear end reaches
+  // 85 m after 4.3 s.
   EXPECT_NEAR(Of(straight, "entry_speed"), 19.42, Tolerance(kRounding));
   EXPECT_NEAR(Of(straight, "speed_loss"), 4.3 - 0.58, Tolerance(kStep + kRounding));
-  // Turned by psi the front left corner is at 3.5 sin psi + 0.8 cos psi, the rear right one at
-  // -sin psi - 0.8 cos psi.
+  // For a car turned by psi, the front left corner is at 3.5 sin psi + 0.8 cos psi, the rear right
+  // one at -sin psi - 0.8 cos psi.
   const double psi = 0.1;
   const double left = 3.5 * std::sin(psi) + 0.8 * std::cos(psi);
   const ManeuverMetrics turned = Through(gates, 0.0, psi, 6.0);
@@ -311,7 +316,7 @@ RunLog BrakingLog(double curvature, double turned) {
     state.pose.x = curvature == 0.0 ? state.distance : std::sin(yaw) / curvature;
     state.pose.y = curvature == 0.0 ? 0.0 : (1.0 - std::cos(yaw)) / curvature;
     state.pose.yaw = yaw + turned * u / 3.0;
-    // Of a rear axle that does not slip.
+    // The lateral speed of a rear axle without slip.
     state.lateral_speed = 1.2 * state.yaw_rate;
     row.command.acceleration = t >= 1.0 - 1e-9 ? -8.0 : 0.0;
   });
@@ -321,11 +326,12 @@ TEST(Braking, GivesDistanceAndMeanDeceleration) {
   for (const double curvature : {0.0, 0.01, -0.02}) {
     const ManeuverMetrics metrics = Evaluated(BrakingTestOptions{}, BrakingLog(curvature, 0.02));
     EXPECT_EQ(Of(metrics, "initial_speed"), 24.0);
-    // Down to 0.05 m/s: 0.05^2/16 m short. Linear between rows: a h^2/8.
+    // Braking is measured down to 0.05 m/s, which omits 0.05^2/16 m. Linear interpolation deviates
+    // by a h^2/8.
     EXPECT_NEAR(Of(metrics, "distance"), 24.0 * 24.0 / 16.0, Tolerance(3e-4));
     EXPECT_NEAR(Of(metrics, "mean_fully_developed_deceleration"), 8.0, Tolerance(1e-4));
     EXPECT_NEAR(Of(metrics, "lateral_deviation_max"), 0.0, Tolerance(1e-8));
-    // The last row before standstill may lack a period of the 3 s.
+    // The last row before standstill may be up to a period before the end of the 3 s.
     EXPECT_NEAR(Of(metrics, "heading_deviation_max"), 0.02, Tolerance(0.02 * kStep / 3.0 + 1e-8));
     EXPECT_NEAR(Of(metrics, "yaw_rate_max"), 24.0 * std::abs(curvature), Tolerance(kRounding));
   }
@@ -358,7 +364,7 @@ TEST(Disturbance, GivesDeparturesAndRecovery) {
   EXPECT_EQ(lost.missing, "the yaw rate does not return below its bound");
 }
 
-// --- What a scenario asks of it ------------------------------------------------------------------
+// --- Expectations --------------------------------------------------------------------------------
 
 PlantMetrics Measured() {
   PlantMetrics metrics;
@@ -410,7 +416,7 @@ TEST(Verdict, NotesSteeringThatIsLimited) {
 }
 
 TEST(DescribeManeuverMetric, KnowsTheLimitsOfStandards) {
-  // ISO 19365 and FMVSS 126: 35 %, 20 % and 1.83 m (6 ft); ISO 3888: within the gates.
+  // Limits of ISO 19365 and FMVSS 126: 35 %, 20 % and 1.83 m (6 ft). ISO 3888: inside the gates.
   using Relation = StandardLimit::Relation;
   const auto limit = [](const char* name) { return DescribeManeuverMetric(name)->limit; };
   ASSERT_TRUE(limit("yaw_rate_ratio_1_00"));

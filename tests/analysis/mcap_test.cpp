@@ -1,3 +1,6 @@
+// Tests the MCAP export with two independent readers: one written here according to the format's
+// specification, and the official one (@mcap/core, via tests/mcap/read.js) if it is installed.
+
 #include "trackbed/analysis/mcap.h"
 
 #include <gmock/gmock.h>
@@ -26,7 +29,7 @@ using nlohmann::json;
 
 const std::string kMagic{"\x89MCAP0\r\n"};
 
-/// What stands in a file, read anew after the format's specification.
+/// Contents of an MCAP file, parsed independently according to the format's specification.
 struct Contents {
   struct Channel {
     std::string topic;
@@ -169,7 +172,7 @@ TEST(Mcap, HoldsTheRun) {
       }
     }
   }
-  // The car ahead, 5 m/s along x from 50 m on.
+  // The lead car drives along x at 5 m/s, starting at 50 m.
   const auto& boxes = by_topic["/obstacles"];
   ASSERT_GT(boxes.size(), 20U);
   const json& cube = boxes[20]->content.at("entities").at(0).at("cubes").at(0);
@@ -188,8 +191,8 @@ TEST(Mcap, IsTheSameEveryTime) {
   EXPECT_EQ(ToMcap(run), ToMcap(run));
 }
 
-/// What the official reader (npm's @mcap/core) finds in a file, by tests/mcap/read.js; nothing when
-/// it is not installed.
+/// Contents of a file as read by the official reader (npm's @mcap/core, by tests/mcap/read.js);
+/// nothing if it is not installed.
 std::optional<json> ReadOfficially(const TempFolder& folder, const std::string& file) {
   WriteFileAtomically(folder.path() / "run.mcap", file);
   const Outcome outcome =
@@ -212,7 +215,7 @@ TEST(Mcap, IsReadByTheOfficialReader) {
   const std::string file = ToMcap(run);
   const std::optional<json> found = ReadOfficially(folder, file);
   SKIP_WITHOUT_READER(found);
-  // By our own reader, from the first record to the last.
+  // The test's own reader, from the first record to the last.
   const Contents contents = Read(file);
   std::map<std::string, std::size_t> counts;
   for (const Contents::Message& message : contents.messages) {
@@ -221,7 +224,7 @@ TEST(Mcap, IsReadByTheOfficialReader) {
   ASSERT_EQ(counts.at("/kinematic/log"), run.logs[0].rows.size());
   const auto chunks = std::count(contents.codes.begin(), contents.codes.end(), 0x06);
   EXPECT_GE(chunks, 2) << "the run is too short to show that chunks follow each other";
-  // In the order of the file, and by its index: the same, and all that is there.
+  // Reading in file order and by index must find the same messages, and all of them.
   for (const char* way : {"stream", "indexed"}) {
     const json& read = found->at(way);
     EXPECT_EQ(read.at("messages"), contents.messages.size()) << way;
@@ -236,7 +239,7 @@ TEST(Mcap, IsReadByTheOfficialReader) {
   }
   EXPECT_EQ(found->at("channels").size(), contents.channels.size());
   EXPECT_EQ(found->at("schemas"), contents.schemas.size());
-  // The log of a car with wheels has more columns, and a schema of its own.
+  // The log of a car with wheels has more columns, so it needs another schema.
   EXPECT_EQ(found->at("undescribed"), json::array());
   EXPECT_EQ(found->at("chunks"), chunks);
   EXPECT_EQ(found->at("checksums"), (json{{"data", true}, {"summary", true}, {"chunks", chunks}}));
@@ -249,7 +252,7 @@ TEST(Mcap, IsReadByTheOfficialReader) {
                   {"last", std::to_string(contents.messages.back().time)},
                   {"counts", counts}}));
   EXPECT_EQ(found->at("header"), (json{{"profile", ""}, {"library", "trackbed"}}));
-  // A second in the middle, which only an index finds without the rest.
+  // Reads a second in the middle, which the index must find without reading the rest.
   std::size_t within = 0;
   for (const Contents::Message& message : contents.messages) {
     within += message.time >= 5'000'000'000 && message.time <= 6'000'000'000 ? 1 : 0;
@@ -261,7 +264,7 @@ TEST(Mcap, ABrokenByteIsFoundByTheOfficialReader) {
   const TempFolder folder;
   const std::string file = ToMcap(DriveAndPass());
   SKIP_WITHOUT_READER(ReadOfficially(folder, file));
-  // In a digit of a message, and in the last length that the summary tells.
+  // Corrupts a digit of a message, then the last length that the summary contains.
   for (const std::size_t at : {file.find("\"x_m\":", file.size() / 2) + 7, file.size() - 45}) {
     std::string broken = file;
     broken[at] = static_cast<char>(broken[at] ^ 0x01);
@@ -275,7 +278,7 @@ TEST(Mcap, ABrokenByteIsFoundByTheOfficialReader) {
 }
 
 TEST(Mcap, KeepsAnyName) {
-  // Plants of a program of one's own may be called anything.
+  // A program that embeds Trackbed may give its plants any name.
   RunResult run = DriveAndPass();
   run.logs[0].rows.resize(20);
   const std::string name = "</script>\"'\\{}\n\xE2\x80\xAE\xD7\xA9\xF0\x9F\x9A\x80\x01/../x";
@@ -290,7 +293,7 @@ TEST(Mcap, KeepsAnyName) {
     EXPECT_TRUE(found->at("channels").contains("/" + name + "/" + channel)) << channel;
   }
   EXPECT_EQ(found->at("frames"), (json{"world", name}));
-  // What is no UTF-8 is replaced, and the file can be read.
+  // Bytes that are not valid UTF-8 are replaced, and the file stays readable.
   run.logs[0].plant = "latin \xE9";
   EXPECT_EQ(ReadOfficially(folder, ToMcap(run))->at("frames"),
             (json{"world", "latin \xEF\xBF\xBD"}));

@@ -15,7 +15,7 @@ namespace {
 using testing::Contains;
 using testing::HasSubstr;
 
-/// Everything that a run can have.
+/// Metrics with a value for everything that a run can have.
 PlantMetrics All() {
   PlantMetrics metrics;
   metrics.plant = "mujoco";
@@ -79,7 +79,7 @@ TEST(Metrics, StandInTheFileByTheirPath) {
   EXPECT_EQ(json.begin().key(), "status");
 }
 
-/// Half of the distance driven, where that was half.
+/// Half of the distance driven, located at half of that distance.
 std::optional<MetricReading> HalfWay(const MetricInput& input) {
   return MetricReading{0.5 * input.log.rows.back().state.distance,
                        {.span = MetricSpan::kMoment, .s = 1.5, .t = 0.5}};
@@ -105,7 +105,7 @@ TEST(RegisterMetric, RefusesWhatIsTakenOrMalformed) {
                 HasSubstr("conflicts with"))
         << taken;
   }
-  // Its station would stand where the clearance has its own.
+  // Its station would have the same path as that of the clearance.
   EXPECT_THAT(
       Refused({.path = "cross_track.max", .label = "A", .measure = HalfWay, .located = true}),
       HasSubstr("conflicts with"));

@@ -1,3 +1,5 @@
+// Tests metrics of runs and their judgment on artificial logs with values known in closed form.
+
 #include "trackbed/analysis/metrics.h"
 
 #include <gtest/gtest.h>
@@ -13,8 +15,8 @@
 namespace trackbed {
 namespace {
 
-/// A run at `speed` that steers as cos(t); a car of understeer gradient K, always in steady
-/// state.
+/// A run at `speed` that steers as cos(t), by a car of understeer gradient K that is always in
+/// steady state.
 RunLog Drive(double speed, double amplitude, double gradient, double wheelbase) {
   RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
   for (int i = 0; i <= 500; ++i) {
@@ -39,7 +41,7 @@ std::optional<double> Ratio(double speed, double amplitude, double gradient) {
 }
 
 TEST(YawRateRatio, IsThatOfTheUndersteerGradient) {
-  // Of sums of some hundred products: rounding alone.
+  // Rounding of sums of some hundred products.
   EXPECT_NEAR(*Ratio(10.0, 0.1, 0.0), 1.0, Tolerance(1e-12));
   EXPECT_NEAR(*Ratio(10.0, 0.1, 0.0025), 1.0 / 1.1, Tolerance(1e-12));
   EXPECT_NEAR(*Ratio(20.0, -0.05, -0.001), 1.0 / (1.0 - 0.001 * 400.0 / 2.5), Tolerance(1e-12));
@@ -47,14 +49,15 @@ TEST(YawRateRatio, IsThatOfTheUndersteerGradient) {
 }
 
 TEST(YawRateRatio, IsNotSaidOfACarThatHardlyTurned) {
-  // 10 m/s / 2.5 m tan(A) / sqrt 2 = 1 mrad/s for A = 0.35 mrad.
+  // The RMS yaw rate of 10 m/s / 2.5 m tan(A) / sqrt 2 is the threshold of 1 mrad/s at A = 0.35
+  // mrad.
   EXPECT_TRUE(Ratio(10.0, 5e-4, 0.0).has_value());
   EXPECT_FALSE(Ratio(10.0, 2e-4, 0.0).has_value());
   EXPECT_FALSE(Ratio(0.0, 0.1, 0.0).has_value());
 }
 
 TEST(SteeringRateRms, IsThatOfARampAndARest) {
-  // 0.1 rad/s for a quarter of the time: 0.1 sqrt(1/4).
+  // 0.1 rad/s for a quarter of the time: RMS 0.1 sqrt(1/4).
   RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
   for (int i = 0; i <= 400; ++i) {
     LogRow row;
@@ -69,7 +72,8 @@ TEST(SteeringRateRms, IsThatOfARampAndARest) {
   EXPECT_NEAR(ToJson(metrics)["steering_rate_rms"].get<double>(), 0.05, Tolerance(1e-12));
 }
 
-/// Of 400 control periods of a car that turns its wheels by up to `step` [rad] in each.
+/// Saturated fraction of 400 control periods of a car that turns its wheels by up to `step` [rad]
+/// in each.
 double Saturated(double step, double limit, const std::function<double(int)>& command) {
   RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
   double angle = 0.0;
@@ -90,22 +94,23 @@ double Saturated(double step, double limit, const std::function<double(int)>& co
 }
 
 TEST(SaturatedFraction, CountsTheRateLimit) {
-  // 0.08 rad to turn, 0.008 in a period: ten periods, the last of which arrives.
+  // 0.08 rad at 0.008 rad per period takes ten periods; the last of them reaches the command.
   EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 100 ? 0.08 : 0.0; }), 9.0 / 400.0);
 }
 
 TEST(SaturatedFraction, CountsTheAngleLimit) {
-  // Half of the periods ask for more than 0.5 rad, which takes 62 periods to reach.
+  // Half of the periods command more than 0.5 rad, which takes 62 periods to reach.
   EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 200 ? 0.6 : 0.0; }), 200.0 / 400.0);
 }
 
 TEST(SaturatedFraction, DoesNotCountWhatTheActuatorWasNotAsked) {
-  // Slower than its limit, as behind a delay or a lag.
+  // Wheels that turn more slowly than the rate limit, as behind a delay or a lag, are not
+  // saturated.
   EXPECT_EQ(Saturated(0.004, 0.5, [](int i) { return 0.001 * i; }), 0.0);
   EXPECT_EQ(Saturated(0.004, 0.5, [](int i) { return i >= 100 ? 0.08 : 0.0; }), 0.0);
 }
 
-/// A run that went as far as 20 m in 8 s.
+/// Metrics of a run that drove 20 m in 8 s.
 PlantMetrics Measured(const std::string& plant) {
   PlantMetrics metrics;
   metrics.plant = plant;
@@ -132,7 +137,7 @@ PlantMetrics Measured(const std::string& plant) {
   return metrics;
 }
 
-/// The only failure of a run of which this is expected.
+/// The only failure of a run with this expectation.
 std::string DescribeFailure(const MetricExpectation& expect) {
   Expectations all;
   all.all.metrics = {expect};
@@ -219,7 +224,7 @@ TEST(Judge, LetsAScenarioSayHowItEnds) {
   Expectations expect;
   expect.plants = {{"mujoco", {.metrics = {{.metric = "status", .equals = "time_limit"}}}}};
   EXPECT_TRUE(Judge(expect, {metrics}, {}).passed);
-  expect.plants[0].first = "kinematic";  // says nothing of this one
+  expect.plants[0].first = "kinematic";  // has no bound for this plant
   EXPECT_FALSE(Judge(expect, {metrics}, {}).passed);
 }
 
@@ -247,7 +252,7 @@ TEST(Measure, SaysWhereAndWhenTheLargestValuesWere) {
     LogRow row;
     row.state.time = 0.02 * i;
     row.state.distance = 0.06 * i;
-    // A tenth of a second from row 150 to 155, and a single row that is larger.
+    // 0.1 s from row 150 to 155, and one row with a larger value.
     row.state.lateral_acceleration = i >= 150 && i < 156 ? -2.0 : i == 50 ? -6.0 : 1.0;
     row.state.steering = 0.002 * std::clamp(i - 200, 0, 5);  // 0.01 rad in the 0.1 s up to 4.1 s
     row.clearance = 1.0;
@@ -276,7 +281,7 @@ TEST(SideslipMax, IsTheLargestOfTheMovingCarBeforeAContact) {
     row.state.time = 0.02 * i;
     row.state.distance = 0.06 * i;
     row.state.speed = i < 10 ? 0.5 : 3.0;
-    // Larger ones while it creeps, and after the contact at 7 s.
+    // Sideslip is larger while the car creeps and after the contact at 7 s; neither counts.
     row.state.sideslip = i < 10 ? 0.5 : i == 200 ? -0.25 : i > 350 ? 0.75 : 0.125;
     log.rows.push_back(row);
   }

@@ -53,7 +53,7 @@ TEST(PathProperties, OfALineAndAnArc) {
   EXPECT_EQ(Property("clearance_min_m", plan), std::nullopt);
 }
 
-// kappa(d) = 0.1 - 0.02 d over 10 m: to the left, then as much to the right. The integral of its
+// kappa(d) = 0.1 - 0.02 d over 10 m: half of it to the left, half to the right. The integral of its
 // square is 2 (0.1^2 5/3), that of its absolute value 2 (0.1 5/2).
 TEST(PathProperties, OfAClothoidThatTurnsBothWays) {
   const Plan plan = PlanOf({{.length = 10.0, .curvature = 0.1, .sharpness = -0.02}});
@@ -64,9 +64,9 @@ TEST(PathProperties, OfAClothoidThatTurnsBothWays) {
   EXPECT_NEAR(*Property("curvature_jump_max_radpm", plan), 0.0, kRounding);
 }
 
-// kappa(d) = 0.01 (d - 2) (d - 6) over 8 m, with its minimum -0.04 in the middle: 32/300 rad to
-// each side, three times, as the integral of (d - 2) (d - 6) is 32/3 from 0 to 2, from 2 to 6
-// (negative) and from 6 to 8.
+// kappa(d) = 0.01 (d - 2) (d - 6) over 8 m, with its minimum -0.04 in the middle. It turns by
+// 32/300 rad three times, to alternating sides, as the integral of (d - 2) (d - 6) is 32/3 from 0
+// to 2, -32/3 from 2 to 6 and 32/3 from 6 to 8.
 TEST(PathProperties, OfAQuadraticCurvatureThatCrossesZeroTwice) {
   const Plan plan =
       PlanOf({{.length = 8.0, .curvature = 0.12, .sharpness = -0.08, .sharpness_rate = 0.02}});
@@ -79,7 +79,7 @@ TEST(PathProperties, OfAQuadraticCurvatureThatCrossesZeroTwice) {
   EXPECT_NEAR(*Property("curvature_max_radpm", middle), 0.16, kRounding);
 }
 
-// At cusps and stops the wheels are turned at rest.
+// At cusps and stops the wheels turn while the car stands.
 TEST(PathProperties, LeaveOutJumpsAtCuspsAndStops) {
   const std::vector<Segment> cusp{{.length = 5.0, .curvature = 0.1},
                                   {.length = 5.0, .curvature = -0.1, .direction = -1}};
@@ -90,20 +90,21 @@ TEST(PathProperties, LeaveOutJumpsAtCuspsAndStops) {
   EXPECT_NEAR(*Property("curvature_jump_max_radpm", stop), 0.0, kRounding);
 }
 
-// Segments that meet to the last digit but one have no jump: such paths rank equally in a study.
+// Segments that agree except in the last digit have no jump, so that such paths rank equally in a
+// study.
 TEST(PathProperties, CountARoundedJumpAsNone) {
   const double next = std::nextafter(0.1, 1.0);
   const Plan plan = PlanOf({{.length = 5.0, .curvature = 0.1}, {.length = 5.0, .curvature = next}});
   EXPECT_EQ(*Property("curvature_jump_max_radpm", plan), 0.0);
 }
 
-// The footprint's side is at y = 1, the box begins at y = 1.7. What moves or is not known yet is
-// not what the planner kept away from.
+// The footprint's side is at y = 1, the box begins at y = 1.7. Moving obstacles and obstacles that
+// are not yet known do not count: the planner did not consider them.
 TEST(PathProperties, MeasureTheClearanceOfWhatThePlannerKnew) {
   const Plan plan = PlanOf({{.length = 30.0}});
   World world;
   world.obstacles.push_back({.footprint = {{15.0, 2.2, 0.0}, 0.2, 1.0}});
-  constexpr double kTolerance = 0.01;  // as the header has it
+  constexpr double kTolerance = 0.01;  // as stated in the header
   const double clearance = *Property("clearance_min_m", plan, world);
   EXPECT_GE(clearance, 0.7 - kRounding);
   EXPECT_LE(clearance, 0.7 + kTolerance);

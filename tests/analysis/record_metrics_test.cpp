@@ -1,3 +1,6 @@
+// Tests the comparison of runs with recordings: on artificial recordings, on Trackbed's own logs
+// and on imported logs of real vehicles.
+
 #include "trackbed/analysis/record_metrics.h"
 
 #include <fmt/format.h>
@@ -41,8 +44,8 @@ double Number(const PlantMetrics& metrics, const std::string& path) {
   return 0.0;
 }
 
-/// Straight ahead at 2 m/s for 10 s, with a yaw rate and a lateral acceleration that no such car
-/// has.
+/// Straight ahead at 2 m/s for 10 s, with a yaw rate and a lateral acceleration that do not match
+/// this motion.
 RecordedDrive Straight() {
   RecordedDrive drive{.name = "straight", .period = 0.1};
   for (int i = 0; i <= 100; ++i) {
@@ -55,7 +58,7 @@ RecordedDrive Straight() {
   return drive;
 }
 
-/// A run beside it: to the left by 0.01 m for every second.
+/// A run that diverges from the recording to the left by 0.01 m per second.
 RunLog Beside(const RecordedDrive& drive) {
   RunLog log{.plant = "kinematic", .configurations = Table({"t_s"})};
   for (const RecordedSample& sample : drive.samples) {
@@ -75,14 +78,14 @@ TEST(MeasureAgainstRecord, ComparesAtEqualTime) {
   const RunLog log = Beside(drive);
   const auto metrics = MeasureAgainstRecord(log, drive, {.cg_to_rear = 0.0}, 0.3);
   ASSERT_TRUE(metrics);
-  // To rounding.
+  // Exact except for rounding.
   EXPECT_NEAR(metrics->yaw_rate_relative_rms, 0.25, Tolerance(1e-12));
   EXPECT_NEAR(metrics->lateral_acceleration_relative_rms, 0.25, Tolerance(1e-12));
   EXPECT_NEAR(metrics->position_max, 0.1, Tolerance(1e-12));
   EXPECT_NEAR(metrics->position_max_t, 10.0, Tolerance(1e-12));
   EXPECT_NEAR(metrics->position_max_s, 20.0, Tolerance(1e-12));
   EXPECT_NEAR(metrics->position_final, 0.1, Tolerance(1e-12));
-  // Mean of i^2 for i from 0 to 100: 100 201/6.
+  // The mean of i^2 for i from 0 to 100 is 100 201/6.
   EXPECT_NEAR(metrics->position_rms, 0.001 * std::sqrt(100.0 * 201.0 / 6.0), Tolerance(1e-12));
   EXPECT_NEAR(metrics->heading_rms, 0.03, Tolerance(1e-12));
 }
@@ -108,7 +111,7 @@ TEST(MeasureAgainstRecord, LeavesOutGapsAndSlowMoments) {
   EXPECT_FALSE(MeasureAgainstRecord(log, drive, {}, 0.3));
 }
 
-/// A run of the small car on these plants that weaves for 6 s, in a folder.
+/// Runs the small car on these plants for 6 s of weaving and writes the run folder.
 RunResult Weave(const fs::path& folder) {
   const Scenario scenario = ParseScenario(
       fmt::format("schema: 1\nname: weave\nvehicle: {{model: {}}}\n"
@@ -134,8 +137,9 @@ TEST(RecordedRuns, GiveTheStatesOfATrackbedLogAgain) {
     const RunLog& recorded = again.logs.front();
     EXPECT_EQ(recorded.plant, "recorded");
     ASSERT_EQ(recorded.rows.size(), log.rows.size());
-    // Parabolas through three rows meet them, but for rounding of numbers up to 10. Slopes and
-    // curvatures are central differences over 20 ms; at the ends, one-sided ones are less exact.
+    // Parabolas through three rows reproduce the rows except for the rounding of numbers up to 10.
+    // Slopes and curvatures are central differences over 20 ms; the one-sided differences at the
+    // ends are less accurate.
     for (std::size_t i = 2; i + 2 < log.rows.size(); ++i) {
       const VehicleState& a = log.rows[i].state;
       const VehicleState& b = recorded.rows[i].state;
@@ -146,9 +150,9 @@ TEST(RecordedRuns, GiveTheStatesOfATrackbedLogAgain) {
       EXPECT_NEAR(a.speed, b.speed, Tolerance(1e-11));
       EXPECT_NEAR(a.yaw_rate, b.yaw_rate, Tolerance(1e-11));
       EXPECT_NEAR(a.steering, b.steering, Tolerance(1e-11));
-      // A central difference is off by p''' dt^2/6; across, p''' = v r' = 1.5 m/s 1.2 rad/s 2.5/s.
-      // MuJoCo moves by the speed at the end of each step, so that positions tell of the speed half
-      // a step later: v r 0.001 s more.
+      // A central difference deviates by p''' dt^2/6; laterally, p''' = v r' = 1.5 m/s 1.2 rad/s
+      // 2.5/s. MuJoCo integrates positions with the speed at the end of each step, so positions
+      // reflect the speed half a step later: v r 0.001 s more.
       EXPECT_NEAR(a.lateral_speed, b.lateral_speed,
                   Tolerance(4.5 * 0.02 * 0.02 / 6.0 + 1.5 * 1.2 * 0.001));
     }
@@ -175,9 +179,9 @@ TEST(RecordedRuns, AreReplayedExactlyByThePlantThatTheyAreOf) {
       {.plants = {"recorded", "kinematic"}, .bounds = {.position_max = 0.01}}};
   const RunResult result = RunMission(scenario);
   EXPECT_TRUE(result.verdict.passed) << testing::PrintToString(result.verdict.failures);
-  // The measured angle at the end of a period is what the actuator is told at its begin; it moves
-  // there at its full rate, not evenly: up to a period early. 0.5 rad/s over 20 ms is 0.01 rad in
-  // the steering at most, half of that on average, of an amplitude of 0.2 rad.
+  // The measured angle at the end of a period is the actuator's command at its beginning. The
+  // actuator moves there at its full rate and then waits: up to a period early. 0.5 rad/s over 20
+  // ms is at most 0.01 rad of steering, half of that on average, of an amplitude of 0.2 rad.
   EXPECT_LT(Number(result.metrics[1], "recorded.yaw_rate.relative_rms"), Tolerance(0.05));
   EXPECT_GT(Number(result.metrics[2], "recorded.yaw_rate.relative_rms"),
             2.0 * Number(result.metrics[1], "recorded.yaw_rate.relative_rms"));
@@ -208,7 +212,7 @@ TEST(RecordedRuns, AreWrittenAndComparedAsRuns) {
   EXPECT_EQ(drives[0].status, "arrived");
   const PlantComparison same = CompareTraces(MakeTrace(result.logs[0]), drives[0].trace);
   EXPECT_EQ(same.position.max, 0.0);
-  // From its folder, the scenario replays the same record.
+  // The resolved scenario in the run folder replays the same recording.
   const Scenario again = ReadScenario(folder.path() / "run" / run_folder::kScenarioYaml,
                                       {"drive.plants=[recorded, kinematic]"});
   EXPECT_EQ(again.record->data->samples.size(), drive->samples.size());
@@ -225,9 +229,10 @@ TEST(ImportedLogs, HaveTheMotionThatTheyWereMadeOf) {
     double speed_error;
     double rate_error;
   };
-  // autoware.csv: digits of 1e-6, slopes over 0.1 s; a parabola's error in the yaw rate is
-  // psi''' h^2/6 with psi''' = 1.5 rad/s 1.2^2/s^2. f1tenth: 3 mm over some 6 rows of 0.3 s, 0.03
-  // m/s as a deviation, four times that at most; 0.5 deg/s over 20 rows, 0.004 rad/s, likewise.
+  // autoware.csv has digits of 1e-6 and slopes over 0.1 s; a parabola's error in the yaw rate is
+  // psi''' h^2/6 with psi''' = 1.5 rad/s 1.2^2/s^2. f1tenth has position noise of 3 mm over some 6
+  // rows of 0.3 s: a standard deviation of 0.03 m/s, at most four times that; and 0.5 deg/s over 20
+  // rows, a standard deviation of 0.004 rad/s, at most four times that.
   for (const Case& own : {Case{"autoware.csv", "autoware", 0.0, 1e-3, 0.01},
                           Case{"f1tenth/pfPoseData.csv", "f1tenth", 0.3, 0.15, 0.03}}) {
     const RecordedDrive drive =
@@ -239,7 +244,7 @@ TEST(ImportedLogs, HaveTheMotionThatTheyWereMadeOf) {
       EXPECT_NEAR(sample.yaw_rate, speed(t) * std::tan(steering(t)) / kWheelbase,
                   Tolerance(own.rate_error))
           << own.log << t;
-      // Linear between rows 50 ms apart: delta'' dt^2/8 = 0.3 0.0025/8.
+      // Linear interpolation between rows 50 ms apart deviates by delta'' dt^2/8 = 0.3 0.0025/8.
       EXPECT_NEAR(sample.steering_command, steering(t), Tolerance(2e-4)) << own.log << t;
     }
   }
@@ -264,9 +269,9 @@ TEST(ImportedLogs, HaveTheDartCarsMotion) {
         [](const auto& a, const auto& b) { return a.velocity_V.x() < b.velocity_V.x(); });
     EXPECT_GT(fastest->velocity_V.x(), own.fastest) << own.log;
     EXPECT_LT(fastest->velocity_V.x(), 4.0) << own.log;
-    // The rear axle of a car that drives gently hardly moves sideways: the lever arm and the
-    // misalignment are right. Slip of 0.03 rad at 1.5 m/s^2 is the rear axle's, by its makers'
-    // tyre fit.
+    // The rear axle of a gently driven car hardly moves sideways, so a small lateral speed shows
+    // that the lever arm and the misalignment are right. A slip of 0.03 rad at 1.5 m/s^2 is the
+    // rear axle's, by the tyre fit of the authors of the data.
     double sideways = 0.0;
     double count = 0.0;
     for (const RecordedSample& sample : drive.samples) {

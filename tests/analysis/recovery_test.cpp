@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-/// 10 s of a car that is off its path by what `offset` says of the time.
+/// Recovery metrics of a car whose cross-track error over 10 s is `offset(time)`.
 template <typename Offset>
 std::optional<RecoveryMetrics> Recovery(const Disturbances& disturb, const Offset& offset,
                                         const Wind& wind = {}) {
@@ -32,8 +32,8 @@ TEST(RecoveryTime, IsTheTimeUntilTheCarStaysNearItsPath) {
   const auto swings_back = [](double t) {
     return t <= 2.0 ? 0.0 : -0.5 * std::exp(2.0 - t) * std::cos(kPi * (t - 2.0));
   };
-  // The swings have 0.5 e^-1 and e^-2 at 1 s and 2 s, and 0.025 at 3 s: it is last at 0.05 between
-  // those, where e^-t |cos(pi t)| = 0.1, t = 2.16.
+  // The swings have amplitudes 0.5 e^-1 and 0.5 e^-2 at 1 s and 2 s, and 0.025 at 3 s. The error
+  // last exceeds 0.05 between 2 s and 3 s, at e^-t |cos(pi t)| = 0.1: t = 2.16.
   const std::optional<RecoveryMetrics> recovery = Recovery(disturb, swings_back);
   ASSERT_TRUE(recovery);
   EXPECT_EQ(recovery->from, 2.0);

@@ -17,7 +17,7 @@
 #include "trackbed/requirement/formula.h"
 #include "trackbed/scenario/log_columns.h"
 
-// Requirements of `expect` from the log to the verdict.
+// Tests the requirements of `expect` from the log to the verdict.
 namespace trackbed {
 namespace {
 
@@ -34,7 +34,7 @@ Scenario CornerWith(const std::string& expect) {
       "required", TRACKBED_SOURCE_DIR "/tests/data/models", {}, {}, PossibleMetrics);
 }
 
-/// A log of positions, a row each second, at stations of 10 m.
+/// A log of positions, one row per second, at stations 10 m apart.
 RunLog LogOf(const std::vector<double>& x) {
   RunLog log{.plant = "kinematic", .configurations = Table({"t_s"})};
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -100,7 +100,7 @@ TEST(RequirementMetrics, AreChecksOfTheVerdictAndMetrics) {
     const PlantMetrics& plant = run.metrics[i];
     SCOPED_TRACE(plant.plant);
     ASSERT_EQ(plant.requirements.size(), 2U);
-    // By the rows of the log themselves; |.| and a difference are exact to an ulp of 5.
+    // Computed from the log's rows; |.| and a difference are exact to an ulp of 5.
     double furthest = 0.0;
     double fastest = 0.0;
     for (const LogRow& row : run.logs[i].rows) {
@@ -215,7 +215,7 @@ TEST(Margins, OfAnExpectedCollisionIsMinusTheClearance) {
   EXPECT_FALSE(found->met);
 }
 
-// Every formula of the page can be stated of a scenario with obstacles.
+// Every formula on the page is accepted for a scenario with obstacles.
 TEST(RequirementsPage, HasFormulasThatAreRead) {
   std::istringstream page(
       ReadFile(std::string(TRACKBED_SOURCE_DIR) + "/docs/how-to/requirements.md"));

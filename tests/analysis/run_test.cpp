@@ -1,3 +1,6 @@
+// Tests whole runs: tracking and end positions against independently computed values, symmetry
+// under rotation, bitwise reproducibility, the files of the run folder, interruption and verdicts.
+
 #include "trackbed/analysis/run.h"
 
 #include <gmock/gmock.h>
@@ -56,15 +59,16 @@ TEST_P(Routes, PreviewTracksThemOnEveryPlant) {
     EXPECT_EQ(metrics.status, DriveStatus::kArrived);
     EXPECT_LE(metrics.tracking->cross_track_max, 0.15);
     EXPECT_LE(metrics.tracking->goal_distance, 0.5);
-    // Measured at the knuckles, over any 0.1 s: the limit and 2 % for the servo's last swing.
+    // Measured at the knuckles, over any 0.1 s: the limit plus 2 % for the servo's final overshoot.
     EXPECT_LE(metrics.steering_rate_max, 1.02 * 0.15056818181818182);
     EXPECT_GT(metrics.steering_rate_max, 0.05);  // it did steer
   }
 }
 
 TEST_P(Routes, StopWhereTheSchedulePredicts) {
-  // Computed apart from this program: C.40, rear reference, wheels following the schedule exactly,
-  // stopped after the plan's length: 0.1285 m from A's end and 0.0104 m from B's.
+  // Computed independently of this program: C.40, rear reference, wheels that follow the schedule
+  // exactly, stopped after the plan's length. The car ends 0.1285 m from A's end and 0.0104 m from
+  // B's.
   const bool is_a = std::string(GetParam()) == "three_turns";
   const double converged = is_a ? 0.1285 : 0.0104;
   for (const double period : {0.001, 0.002, 0.004, 0.01, 0.02}) {
@@ -72,9 +76,10 @@ TEST_P(Routes, StopWhereTheSchedulePredicts) {
         Load(GetParam(), {"control={method: schedule}", "expect={}", "drive.plants=[kinematic]",
                           "drive.timestep=0.001", fmt::format("drive.control_period={}", period)}));
     const TrackingMetrics& tracking = *Of(result, "kinematic").tracking;
-    // The digits printed, and where the car stops: its speed follows the profile in periods of
-    // constant acceleration, off by at most a T/2 when braking begins in mid-period; at the end
-    // that is half a period's way at a speed of a T. Both together 1.5 a T^2, 0.9 mm at 20 ms.
+    // The tolerance covers the printed digits and the stopping point. The speed follows the profile
+    // in periods of constant acceleration, off by at most a T/2 if braking begins within a period;
+    // at the end that is half a period's distance at a speed of a T. Both together are 1.5 a T^2,
+    // 0.9 mm at 20 ms.
     EXPECT_NEAR(tracking.goal_distance, converged, Tolerance(0.0001 + 1.5 * 1.5 * period * period))
         << "period " << period;
   }
@@ -84,8 +89,8 @@ TEST(OpenLoop, MujocoStaysNearTheKinematicCarOnContacts) {
   for (const char* route : {"three_turns", "winding"}) {
     const RunResult result = RunMission(
         Load(route, {"control={method: schedule}", "expect={}", "vehicle.tyre=contact"}));
-    // The physical servo lags by 10-15 ms, 4 cm of road at either end of each ramp, which mostly
-    // cancels; a heading left over by a milliradian is 8 cm after 80 m.
+    // The physical servo lags by 10 to 15 ms, 4 cm of road at either end of each ramp, which mostly
+    // cancels; a remaining heading error of one milliradian is 8 cm after 80 m.
     EXPECT_NEAR(Of(result, "mujoco").tracking->goal_distance,
                 Of(result, "kinematic").tracking->goal_distance, Tolerance(0.08))
         << route;
@@ -98,8 +103,8 @@ TEST(SteeringCircle, HasTheKinematicRadiusOnContacts) {
   const double radius = 2.7 / std::tan(kPi / 18.0);  // 15.3125 m
   for (const RunLog& log : result.logs) {
     SCOPED_TRACE(log.plant);
-    // A circle through three points a third of the lap apart, the first after the start has
-    // settled.
+    // A circle through three points a third of a lap apart; the first one lies after the initial
+    // transient.
     const std::size_t n = log.rows.size();
     const Vec2 a = log.rows[n / 4].state.pose.position();
     const Vec2 b = log.rows[n / 2].state.pose.position();
@@ -107,7 +112,7 @@ TEST(SteeringCircle, HasTheKinematicRadiusOnContacts) {
     const double measured =
         (a - b).norm() * (b - c).norm() * (c - a).norm() / (2.0 * std::abs(Cross(b - a, c - a)));
     EXPECT_NEAR(measured, radius, log.plant == "kinematic" ? Tolerance(1e-9) : 0.02 * radius);
-    // One lap: back at the start within a hundredth of the lap on any plant.
+    // After one lap, every plant is back at the start within a hundredth of the lap.
     EXPECT_LT(
         (log.rows.back().state.pose.position() - log.rows.front().state.pose.position()).norm(),
         0.01 * 2.0 * kPi * radius);
@@ -135,9 +140,9 @@ TEST(Run, TurnedStartGivesTheTurnedRun) {
       yaw_apart = std::max(yaw_apart, std::abs(expected.yaw - actual.yaw));
       apart = std::max(apart, (expected.position() - actual.position()).norm());
     }
-    // Kinematic: rounding of 140 m of route (1e-14 each of 23 000 steps). MuJoCo: the contact
-    // solver stops at 1e-10 of its scale, differently for each direction, and the closed loop keeps
-    // the micrometers that makes from growing.
+    // Kinematic: rounding over 140 m of route (1e-14 in each of 23 000 steps). MuJoCo: the contact
+    // solver stops at 1e-10 of its scale, differently for each direction; the closed loop keeps the
+    // resulting micrometers from growing.
     EXPECT_LE(apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
     EXPECT_LE(yaw_apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
   }
@@ -199,7 +204,7 @@ TEST(WriteRunFolder, TellsWhatTheControllerDidAndWhatItTook) {
   EXPECT_THAT(csv.substr(0, csv.find('\n')),
               testing::EndsWith(
                   ",deviation_x_m,deviation_y_m,deviation_yaw_rad,search_evaluations,search_cost"));
-  // One update for every row but the last, which keeps what led to it.
+  // One update per row except the last one, which repeats the controller's data of the row before.
   const auto timing = nlohmann::json::parse(ReadFile(folder.path() / "timing.json"));
   const auto& steering = timing["plants"]["kinematic"]["steering"];
   const std::size_t rows = result.logs.front().rows.size();
@@ -293,7 +298,7 @@ TEST(Run, WithoutAPlanFailsWithTheReason) {
   EXPECT_TRUE(result.logs.empty());
 }
 
-/// Both logs, as files have them.
+/// The CSV text of both logs.
 std::string LogsOf(const RunResult& result) {
   std::string text;
   for (const RunLog& log : result.logs) {

@@ -1,3 +1,7 @@
+// Tests the statistics of studies against closed forms, brute force and published tables: Wilson
+// intervals (Newcombe 1998), quantiles, Student intervals, first-order sensitivity indices
+// (Ishigami and Homma 1990), sign test and rank correlation (Pearson 1907).
+
 #include "trackbed/analysis/statistics.h"
 
 #include <gtest/gtest.h>
@@ -15,8 +19,8 @@
 namespace trackbed {
 namespace {
 
-// The ends are where the score test rejects: |passed / n - p| = z sqrt(p (1 - p) / n), solved here
-// by bisection to the last bits.
+// The interval ends where the score test rejects: |passed / n - p| = z sqrt(p (1 - p) / n), solved
+// here by bisection to the last bit.
 TEST(WilsonInterval, IsWhereTheScoreTestRejects) {
   constexpr double kZ = 1.959963984540054;  // the normal distribution's 0.975 quantile, from tables
   for (const std::size_t count : {1U, 10U, 300U, 40000U}) {
@@ -32,7 +36,8 @@ TEST(WilsonInterval, IsWhereTheScoreTestRejects) {
         return 0.5 * (found.first + found.second);
       };
       const Interval interval = WilsonInterval(passed, count, 0.95);
-      // Bisection stops at neighboring doubles; the closed form loses some more to cancellation.
+      // Bisection stops at neighboring doubles; the closed form loses a few more digits to
+      // cancellation.
       constexpr double kTolerance = 1e-12;
       if (passed > 0) {
         EXPECT_NEAR(interval.low, root(1e-15, seen - 1e-9), kTolerance) << passed << "/" << count;
@@ -72,8 +77,8 @@ TEST(WilsonInterval, KnowsNothingOfNoTrial) {
   EXPECT_THROW(WilsonInterval(1, 2, 1.0), PreconditionError);
 }
 
-// By definition: as many of the others below as above, counted by brute force; between two members
-// of the sample on the line between them.
+// By definition, as many of the other values lie below a quantile as above, counted here by brute
+// force. Between two members of the sample, quantiles are interpolated linearly.
 TEST(Quantiles, HaveTheirShareOfTheSampleBelow) {
   EXPECT_EQ(Quantiles({4.0, 1.0, 3.0, 2.0}, {0.0, 0.25, 0.5, 1.0}),
             (std::vector<double>{1.0, 1.75, 2.5, 4.0}));
@@ -86,7 +91,7 @@ TEST(Quantiles, HaveTheirShareOfTheSampleBelow) {
   for (int percent = 0; percent <= 100; ++percent) {
     // With 101 values every percentile is one of them.
     const double quantile = Quantiles(values, {percent / 100.0}).front();
-    // A place such as 0.29 x 100 is rounded, by 1e-14 of a step between two values.
+    // A rank such as 0.29 x 100 is rounded, by 1e-14 of a step between two values.
     const double slack = 1e-10 * quantile;
     EXPECT_EQ(std::count_if(values.begin(), values.end(),
                             [&](double value) { return value < quantile - slack; }),
@@ -97,8 +102,8 @@ TEST(Quantiles, HaveTheirShareOfTheSampleBelow) {
   EXPECT_THROW(Quantiles({1.0}, {1.1}), PreconditionError);
 }
 
-// t(0.975, 3) = 3.182446 from tables; the mean of 1, 2, 4, 9 is 4, their standard deviation
-// sqrt(38 / 3).
+// t(0.975, 3) = 3.182446 from tables; the mean of 1, 2, 4, 9 is 4, their standard deviation sqrt(38
+// / 3).
 TEST(EstimateMean, HasStudentsInterval) {
   const MeanEstimate estimate = EstimateMean({1.0, 2.0, 4.0, 9.0}, 0.95);
   const double half = 3.182446 * std::sqrt(38.0 / 3.0) / 2.0;
@@ -116,10 +121,10 @@ TEST(Classify, TakesDistinctValuesOrEqualShares) {
   const Classes halves = Classify({"5", "1", "4", "2", "3", "6"}, 2);
   EXPECT_EQ(halves.of_row, (std::vector<std::size_t>{1, 0, 1, 0, 0, 1}));
   EXPECT_EQ(halves.names, (std::vector<std::string>{"2", "5"}));
-  // Equal values stay together, and what is left is divided anew.
+  // Equal values share a class, and the remaining values are divided anew.
   const Classes ties = Classify({"1", "1", "1", "1", "2", "3", "4", "5"}, 4);
   EXPECT_EQ(ties.of_row, (std::vector<std::size_t>{0, 0, 0, 0, 1, 2, 3, 3}));
-  // Texts cannot be put in order.
+  // Texts have no order, so each one is a class.
   EXPECT_EQ(Classify({"1", "2", "3", "x"}, 2).names.size(), 4U);
 }
 
@@ -135,8 +140,8 @@ std::vector<Classes> ClassesOf(const Eigen::MatrixXd& points, std::size_t most) 
   return classes;
 }
 
-// Ishigami and Homma (1990): y = sin x1 + a sin^2 x2 + b x3^4 sin x1, x uniform from -pi to pi. Its
-// parts of the variance are integrals in closed form.
+// Ishigami and Homma (1990): y = sin x1 + a sin^2 x2 + b x3^4 sin x1, x uniform from -pi to pi. The
+// variance contributions are integrals in closed form.
 TEST(FirstOrderIndices, AreThoseOfIshigamisFunction) {
   constexpr double kA = 7.0;
   constexpr double kB = 0.1;
@@ -161,20 +166,21 @@ TEST(FirstOrderIndices, AreThoseOfIshigamisFunction) {
     for (std::size_t i = 0; i < truth.size(); ++i) {
       ASSERT_TRUE(indices[i]);
       const double half = 0.5 * (indices[i]->interval.high - indices[i]->interval.low);
-      // 64 classes are 0.098 wide, and so lose 0.098^2 / 12 E[f'^2] / V: 0.0014 for x2, where
-      // f' = a sin 2 x2. Half an interval is 1.96 standard deviations; a fixed sample is within
-      // four of them but for one in 16 000.
+      // With 64 classes of width 0.098 the index is too small by 0.098^2 / 12 E[f'^2] / V: 0.0014
+      // for x2, where f' = a sin 2 x2. Half an interval is 1.96 standard deviations; a fixed sample
+      // lies within four of them with a probability of 1 - 1/16 000.
       EXPECT_NEAR(indices[i]->index, truth[i], 0.0014 + 4.0 / 1.96 * half) << i;
-      // sqrt(1 / 16384) is 0.008; the variance of these outputs' squares makes it less than twice
-      // as much, and 1.96 deviations 0.03.
+      // sqrt(1 / 16384) is 0.008; with the variance of these outputs' squares it is less than twice
+      // as much, and 1.96 standard deviations are 0.03.
       EXPECT_LT(half, 0.03) << i;
       EXPECT_GT(half, 0.001) << i;
     }
   }
 }
 
-// Of 200 samples about 95 % of the intervals must have the truth: binomial, 190 +- 3.1, so that 178
-// are four deviations below. y = x1 + x2 / 2 + noise, all uniform: shares 1 : 1/4 : 1/4.
+// About 95 % of the intervals of 200 samples must contain the true value: binomial, 190 +- 3.1, so
+// 178 is four standard deviations below. y = x1 + x2 / 2 + noise, all uniform: shares 1 : 1/4 :
+// 1/4.
 TEST(FirstOrderIndices, HaveIntervalsThatHaveTheTruth) {
   constexpr int kSamples = 200;
   const std::vector<double> truth{1.0 / 1.5, 0.25 / 1.5, 0.0};
@@ -196,8 +202,8 @@ TEST(FirstOrderIndices, HaveIntervalsThatHaveTheTruth) {
   }
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_GE(held[i], 178) << i;
-    // Ten classes of a straight line lose a hundredth of its share; the mean of 200 is known to a
-    // fourteenth of an interval's half, which is below 0.1.
+    // Ten classes of a straight line lose a hundredth of its share; the mean of 200 samples is
+    // accurate to a fourteenth of half an interval, which is below 0.1.
     EXPECT_NEAR(sum[i], 0.99 * truth[i], 0.01) << i;
   }
 }
@@ -207,16 +213,16 @@ TEST(FirstOrderIndices, AreNoneOfWhatDoesNotVary) {
   EXPECT_FALSE(FirstOrderIndices({classes}, {0.1, 0.1, 0.1, 0.1})[0].has_value());
   EXPECT_FALSE(FirstOrderIndices({Classify({"a", "b", "c", "d"}, 4)}, {1, 2, 3, 4})[0].has_value());
   EXPECT_FALSE(FirstOrderIndices({Classify({}, 4)}, {})[0].has_value());
-  // All of it is explained.
+  // The classes explain all of the variance.
   EXPECT_EQ(FirstOrderIndices({classes}, {1.0, 2.0, 1.0, 2.0})[0]->index, 1.0);
   EXPECT_THROW(FirstOrderIndices({classes}, {1.0}), PreconditionError);
 }
 
-// The tail is summed from binomial coefficients in whole numbers.
+// The expected tail is summed from binomial coefficients as integers.
 TEST(ComparePairs, HasTheExactSignTest) {
   for (const int pairs : {1, 2, 7, 20}) {
     for (int higher = 0; higher <= pairs; ++higher) {
-      std::vector<double> a(static_cast<std::size_t>(pairs) + 3, 1.0);  // three are equal
+      std::vector<double> a(static_cast<std::size_t>(pairs) + 3, 1.0);  // three pairs are equal
       std::vector<double> b = a;
       for (int i = 0; i < pairs; ++i) {
         b[static_cast<std::size_t>(i)] += i < higher ? 2.0 : -1.0;
@@ -241,7 +247,7 @@ TEST(ComparePairs, HasTheExactSignTest) {
   EXPECT_THROW(ComparePairs({1.0}, {}, 0.95), PreconditionError);
 }
 
-// Ten pairs whose squared differences of ranks sum up to 194: 1 - 6 194/(10 (100 - 1)).
+// Ten pairs whose squared rank differences sum to 194: 1 - 6 194/(10 (100 - 1)).
 TEST(CorrelateRanks, IsSpearmans) {
   const std::vector<double> a{106, 100, 86, 101, 99, 103, 97, 113, 112, 110};
   const std::vector<double> b{7, 27, 2, 50, 28, 29, 20, 12, 6, 17};
@@ -249,13 +255,13 @@ TEST(CorrelateRanks, IsSpearmans) {
   EXPECT_NEAR(correlation.rho, -29.0 / 165.0, 1e-14);
   EXPECT_LT(correlation.interval.low, correlation.rho);
   EXPECT_GT(correlation.interval.high, correlation.rho);
-  // The two that are equal have the rank between theirs: 4.5/sqrt(4.5 5).
+  // The two equal values share the mean of their ranks: 4.5/sqrt(4.5 5).
   EXPECT_NEAR(CorrelateRanks({1, 2, 2, 3}, {1, 2, 3, 4}, 0.95)->rho, std::sqrt(0.9), 1e-14);
-  // Of anything that rises it is 1, and says nothing of how.
+  // Any strictly increasing relation has rho = 1, whatever its shape.
   const RankCorrelation rising =
       CorrelateRanks({1, 2, 3, 4, 5}, {1, 10, 11, 12, 1e6}, 0.95).value();
   EXPECT_NEAR(rising.rho, 1.0, 1e-14);
-  EXPECT_NEAR(rising.interval.low, 1.0, 1e-6);  // atanh of 1 less rounding is 17 to 19
+  EXPECT_NEAR(rising.interval.low, 1.0, 1e-6);  // atanh(1 - rounding) is 17 to 19
   EXPECT_LT(CorrelateRanks({1, 2, 3, 4}, {4, 3, 2, 1}, 0.95)->rho, -1.0 + 1e-14);
 }
 
@@ -267,8 +273,8 @@ TEST(CorrelateRanks, IsNoneOfWhatDoesNotVary) {
   EXPECT_THROW(CorrelateRanks({1, 2, 3, NAN}, {1, 2, 3, 4}, 0.95), PreconditionError);
 }
 
-// Of a bivariate normal distribution with correlation r it is 6/pi asin(r/2) (Pearson 1907). Of 200
-// intervals of 95 % less than 178 contain it with a probability of 2e-4.
+// For a bivariate normal distribution with correlation r, rho is 6/pi asin(r/2) (Pearson 1907). The
+// probability that fewer than 178 of 200 intervals of 95 % contain it is 2e-4.
 TEST(CorrelateRanks, HasIntervalsThatContainTheTruth) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;

@@ -29,7 +29,7 @@ Scenario Read(const fs::path& file) {
   return ReadScenario(file);
 }
 
-/// One of each kind, in this order.
+/// One file of each kind, in this order.
 std::vector<fs::path> FilesOfEveryKind(const TempFolder& folder) {
   return {folder.Write("s/good.yaml", Corner("good", "reach_goal: 0.5")),
           folder.Write("s/far.yaml", Corner("far", "reach_goal: 0, max_cross_track: 0.0001")),
@@ -53,7 +53,7 @@ TEST(RunSuite, JudgesEachFileWhateverIsWrongWithOthers) {
                                "0\\.0001 m at .*")));
   EXPECT_EQ(cases[2].status, CaseStatus::kBadInput);
   EXPECT_EQ(cases[2].name, "bad");
-  EXPECT_THAT(cases[2].reasons, testing::SizeIs(3));  // of the file, one line each
+  EXPECT_THAT(cases[2].reasons, testing::SizeIs(3));  // the reader's errors, one line each
   EXPECT_EQ(cases[3].status, CaseStatus::kBadInput);
   EXPECT_THAT(cases[3].reasons,
               ElementsAre("cannot read " + cases[3].file.string() + ": No such file or directory"));
@@ -74,7 +74,7 @@ TEST(RunSuite, TellsInTheOrderOfTheFilesForAnyNumberOfJobs) {
   const TempFolder folder;
   std::vector<fs::path> files;
   for (int i = 0; i < 6; ++i) {
-    // The first ones take longest.
+    // The first cases take longest.
     const std::string name = fmt::format("c{}", i);
     files.push_back(folder.Write(
         name + ".yaml", fmt::format("schema: 1\nname: {}\nmission: {{duration: {}, speed: 3}}\n"
@@ -113,7 +113,7 @@ TEST(RunSuite, LeavesTheRestInterrupted) {
   EXPECT_EQ(cut[1].status, CaseStatus::kInterrupted);
 }
 
-/// A JUnit file as a reader of it sees it.
+/// Reads a JUnit file.
 class JUnit {
  public:
   explicit JUnit(const std::vector<SuiteCase>& cases) {
@@ -226,7 +226,8 @@ TEST(JUnit, SaysWhy) {
   EXPECT_STREQ(failure->GetText(), "kinematic: \"x\" & <y> at most 1\nsecond");
   EXPECT_EQ(failure->NextSiblingElement(), nullptr);
   const auto* error = xml.test(2).FirstChildElement("error");
-  // A control character, a character cut off, a byte that begins none: one '?' each.
+  // A control character, a truncated character and an invalid start byte are each replaced by one
+  // '?'.
   EXPECT_STREQ(error->Attribute("message"), "key ? caf\xC3\xA9 ? ?\xC3\xA9.");
   EXPECT_STREQ(error->Attribute("type"), "input");
   EXPECT_STREQ(xml.test(3).FirstChildElement("error")->Attribute("type"), "internal");

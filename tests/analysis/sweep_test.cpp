@@ -1,3 +1,6 @@
+// Tests sweeps with an artificial run function instead of simulations: order of the rows, seeds,
+// bisection, threads, interruption and errors.
+
 #include "trackbed/analysis/sweep.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +22,7 @@ SweepResult SweepStudy(const TempFolder& folder, const std::string& keys,
   return RunSweep(StudyPoints(MakeStudy(folder, keys)), run, options);
 }
 
-/// Passes up to a speed that falls with the seed; nothing is driven.
+/// Passes up to a speed that decreases with the seed; nothing is simulated.
 std::optional<RunOutcome> UpToASpeed(const Scenario& scenario) {
   const double limit = 20.0 - static_cast<double>(scenario.seed);
   const bool passed = scenario.mission.speed <= limit;
@@ -76,7 +79,7 @@ TEST(Sweep, CountsTheSeedUpWhereItRepeats) {
 
 TEST(Sweep, BisectsAtEveryPoint) {
   const TempFolder folder;
-  // Limits 20, 15 and 8: above, between and below the ends.
+  // The limits 20, 15 and 8 lie above, between and below the ends.
   const SweepResult sweep = SweepStudy(folder, R"(vary: {seed: [0, 5, 12]}
 bisect: {key: mission.speed, from: 10, to: 18, tolerance: 0.5}
 outputs: [metrics.kinematic.distance]
@@ -138,7 +141,7 @@ TEST(Sweep, IsTheSameForAnyNumberOfJobs) {
   const SweepResult one = SweepStudy(folder, keys, UpToASpeed, {.jobs = 1});
   EXPECT_EQ(one.table.rows().size(), 80U);
   for (const int jobs : {2, 4, 200}) {
-    // The first run ends after another one, which only another thread can bring to its end.
+    // The first run waits until another run has ended, which requires a second thread.
     std::atomic<int> ended{0};
     const RunScenarioOnce run = [&](const Scenario& scenario) {
       if (scenario.mission.speed == 1.0 && scenario.seed == 0) {
@@ -175,7 +178,7 @@ TEST(Sweep, KeepsTheRowsThatWereCompleteWhenItIsInterrupted) {
   EXPECT_FALSE(sweep.summary.complete());
   EXPECT_EQ(sweep.description["complete"], false);
   EXPECT_EQ(sweep.description["rows_expected"], 4);
-  EXPECT_EQ(runs, 3);  // nothing more was begun
+  EXPECT_EQ(runs, 3);  // no further run began
 }
 
 TEST(Sweep, BeginsNothingOnceItIsInterrupted) {
@@ -218,7 +221,7 @@ TEST(Sweep, HasARowWithAReasonForAPointThatIsRefused) {
   EXPECT_TRUE(sweep.summary.complete());
   EXPECT_EQ(sweep.summary.runs, 2U);
   EXPECT_EQ(sweep.summary.refused, 1U);
-  // A study of nothing but refused points is wrong input.
+  // A study with only rejected points is invalid input.
   const Study bad = MakeStudy(folder, "vary: {mission.speed: [1000, 2000]}\n");
   EXPECT_THROW(CheckPoints(StudyPoints(bad), false), InputError);
 }

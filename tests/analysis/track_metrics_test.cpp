@@ -20,7 +20,7 @@ namespace {
 constexpr double kRadius = 50.0;  // [m]
 constexpr double kSpeed = 10.0;   // [m/s]
 
-/// A plan of laps on a ring, whose stations are those of the ring.
+/// A plan of laps on a ring, with the ring's stations.
 Plan RingPlan(int laps, double width = 4.0) {
   Plan plan;
   plan.laps.track = std::make_shared<const Track>(RingPoints(kRadius, 63, width, width));
@@ -31,7 +31,7 @@ Plan RingPlan(int laps, double width = 4.0) {
   return plan;
 }
 
-/// A drive on a circle around the origin from an angle on, counter-clockwise.
+/// A counter-clockwise drive on a circle around the origin, starting at the angle `from`.
 RunLog Circle(double radius, double from, double speed, double duration) {
   RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
   for (int i = 0; i * 0.02 <= duration; ++i) {
@@ -57,14 +57,14 @@ VehicleParams Car() {
 
 TEST(Laps, TakeTheirTimeBetweenCrossingsOfTheLine) {
   const double lap = 2.0 * kPi * kRadius / kSpeed;
-  // From 10 m before the line on; 2.4 laps.
+  // 2.4 laps, starting 10 m before the line.
   const Plan plan = RingPlan(3);
   const RunLog log = Circle(kRadius, -0.2, kSpeed, 1.0 + 2.4 * lap);
   const std::vector<LapMetrics> laps = MeasureLaps(log, plan);
   ASSERT_EQ(laps.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
-    // Linear between rows 0.2 m apart on a circle: stations are, too. The ring's own length is
-    // right to 1e-4 of a meter.
+    // Stations are interpolated linearly between rows 0.2 m apart, on a circle. The ring's own
+    // length is accurate to 1e-4 m.
     EXPECT_NEAR(laps[i].time, lap, Tolerance(1e-4));
     EXPECT_NEAR(laps[i].time_planned, lap, Tolerance(1e-4));
     EXPECT_NEAR(laps[i].t, 1.0 + static_cast<double>(i + 1) * lap, Tolerance(1e-4));
@@ -73,7 +73,7 @@ TEST(Laps, TakeTheirTimeBetweenCrossingsOfTheLine) {
 }
 
 TEST(Laps, TellAFasterInnerLane) {
-  // On a circle 3 m farther in at the same speed.
+  // A circle with a 3 m smaller radius at the same speed.
   const std::vector<LapMetrics> laps =
       MeasureLaps(Circle(kRadius - 3.0, -0.2, kSpeed, 40.0), RingPlan(1));
   ASSERT_EQ(laps.size(), 1U);
@@ -99,7 +99,8 @@ TEST(Laps, AreNoMoreThanPlannedAndNoneWithoutATrack) {
   EXPECT_FALSE(TimeOffTrack({log, Plan{}, Car()}).has_value());
 }
 
-/// Distance of the nearest of many points of the footprint's rim from the edges, negative beyond.
+/// Smallest distance of sampled points of the footprint's outline from the track edges, negative
+/// outside.
 double BruteForceOnRing(const OrientedBox& box, double inner, double outer) {
   double smallest = std::numeric_limits<double>::infinity();
   constexpr int kParts = 400;
@@ -130,25 +131,25 @@ TEST(TrackMargin, IsThatOfBruteForce) {
     const double s = track.Locate(box.center.position()).s;
     const double expected = BruteForceOnRing(box, kRadius - 4.0, kRadius + 4.0);
     off += expected < 0.0 ? 1 : 0;
-    // Edges are chords: of widths linear between points 5 m apart they are circles to 1e-4 m, of
-    // pieces of 0.5 m to 0.5^2/(8 x 46) = 7e-4 m. Points of the rim 0.25 m apart miss
-    // 0.25^2/(8 x 46) = 2e-4 m, those of brute force less.
+    // Edges are chords. With widths linear between points 5 m apart they match circles to 1e-4 m,
+    // with pieces of 0.5 m to 0.5^2/(8 x 46) = 7e-4 m. Points of the outline 0.25 m apart miss
+    // 0.25^2/(8 x 46) = 2e-4 m, those of the brute force less.
     EXPECT_NEAR(TrackMargin(track, box, s), expected, Tolerance(1.1e-3)) << i;
   }
-  EXPECT_GT(off, 100);  // both kinds are among them
+  EXPECT_GT(off, 100);  // the sample has points on and off the track
 }
 
 TEST(TrackMargin, FindsTheInnerEdgeBetweenTheCorners) {
-  // The inner edge bulges toward the middle of the car's side: its corners are 4^2/(8 x 46) = 43 mm
-  // farther from it.
+  // The inner edge bulges toward the middle of the car's side: the car's corners are 4^2/(8 x 46) =
+  // 43 mm farther from it.
   const Track track(RingPoints(kRadius, 63, 4.0, 4.0));
   const OrientedBox box{{kRadius - 3.0, 0.0, 0.5 * kPi}, 4.0, 1.8};
   EXPECT_NEAR(TrackMargin(track, box, 0.0), (kRadius - 3.9) - (kRadius - 4.0), Tolerance(1.1e-3));
 }
 
 TEST(TrackLimits, TellHowFarHowLongAndWhere) {
-  // A car that drives 3.5 m outside of the center line: half of it is 0.9 m wide, and its front
-  // corners, 3 m ahead of the rear axle, are farther out still.
+  // A car 3.5 m outside of the center line. Half of its width is 0.9 m, and its front corners, 3 m
+  // ahead of the rear axle, are even farther outside.
   const Plan plan = RingPlan(1);
   const VehicleParams car = Car();
   RunLog log = Circle(kRadius + 3.5, 0.1, kSpeed, 4.0);
@@ -158,7 +159,7 @@ TEST(TrackLimits, TellHowFarHowLongAndWhere) {
   EXPECT_NEAR(std::get<double>(margin->value), -corner, Tolerance(1.1e-3));
   EXPECT_NEAR(std::get<double>(TimeOffTrack({log, plan, car})->value), 4.0, Tolerance(1e-9));
   EXPECT_NEAR(std::get<double>(DistanceOffTrack({log, plan, car})->value), 40.0, Tolerance(1e-9));
-  // Off for the middle second alone.
+  // Off the track only during the middle second.
   const RunLog inside = Circle(kRadius, 0.1, kSpeed, 4.0);
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
     const double time = log.rows[i].state.time;

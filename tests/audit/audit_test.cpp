@@ -1,11 +1,12 @@
-// Every verdict of many random runs, checked by what the runs leave behind.
+// Checks the verdicts of many random runs against the recorded results of the runs.
 //
 // Environment:
-//   TRACKBED_AUDIT_SCENARIOS  how many scenarios instead of the default, for long campaigns: run
-//                             the program itself then, ctest ends a shard after some minutes
-//   TRACKBED_AUDIT_INDEX      that one scenario alone
-//   TRACKBED_AUDIT_FOLDER     an existing folder that takes <index>.yaml of each scenario with a
-//                             finding: `trackbed run` drives it again
+// Environment:
+//   TRACKBED_AUDIT_SCENARIOS  number of scenarios instead of the default, for long campaigns: run
+//                             the program directly then, because ctest stops a shard after minutes
+//   TRACKBED_AUDIT_INDEX      runs only this scenario
+//   TRACKBED_AUDIT_FOLDER     an existing folder for <index>.yaml of each scenario with a finding:
+//                             `trackbed run` repeats it
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -29,7 +30,7 @@
 namespace audit {
 namespace {
 
-/// Twice every planner with every controller on every plant: 8 of each of the first two.
+/// Every planner with every controller on every plant, twice: 8 planners and 8 controllers.
 constexpr std::size_t kDefaultScenarios = 768;
 constexpr std::size_t kShards = 16;
 constexpr int kMaxAttempts = 50;
@@ -39,13 +40,13 @@ std::optional<std::size_t> NumberFrom(const char* variable) {
   return text == nullptr ? std::nullopt : std::optional<std::size_t>(std::stoul(text));
 }
 
-/// What was found over some scenarios.
+/// Findings over a range of scenarios.
 struct Tally {
   std::size_t scenarios = 0;
   std::size_t planned = 0;
   std::size_t arrived = 0;
   std::size_t passed = 0;
-  std::map<std::string, std::size_t> scenarios_with;  ///< a finding of that kind
+  std::map<std::string, std::size_t> scenarios_with;  ///< with a finding of that kind
 
   [[nodiscard]] std::string Text() const {
     std::string text =
@@ -64,7 +65,7 @@ struct Outcome {
   std::vector<Finding> findings;
 };
 
-/// The first attempt that the program does not refuse as wrong input.
+/// The first attempt that the program does not reject as invalid input.
 Outcome AuditCase(std::size_t index) {
   Outcome outcome;
   for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
@@ -129,7 +130,8 @@ TEST_P(EveryVerdict, IsTrue) {
   const std::size_t count = NumberFrom("TRACKBED_AUDIT_SCENARIOS").value_or(kDefaultScenarios);
   const char* folder = std::getenv("TRACKBED_AUDIT_FOLDER");
   Tally tally;
-  // In stretches: planners come in turn, and strides of 16 would meet but one of them.
+  // Contiguous index ranges: planners alternate by index, so a stride of 16 would see only one
+  // planner.
   const std::size_t end = (GetParam() + 1) * count / kShards;
   for (std::size_t index = GetParam() * count / kShards; index < end; ++index) {
     if (only && index != *only) {
@@ -147,7 +149,7 @@ TEST_P(EveryVerdict, IsTrue) {
     }
   }
   std::cout << tally.Text() << std::endl;
-  // Were nearly everything refused, agreement would mean little.
+  // If nearly everything were rejected, agreement would mean little.
   if (!only && tally.scenarios >= 30) {
     EXPECT_GE(tally.planned, tally.scenarios / 4);
     EXPECT_GE(tally.passed, tally.scenarios / 12);

@@ -1,3 +1,13 @@
+// Checks one plant's run against its recorded tables.
+//
+// 1. The times, rows and physics steps must belong to one drive.
+// 2. The smallest gap between the footprint and each obstacle is computed anew over all physics
+// steps and compared with the reported clearance and collision.
+// 3. The distance of each pose from the plan then in effect, as a polyline, is compared with the
+// reported cross-track error and the corridor.
+// 4. Steering angles and rates must keep the car's limits; the end must agree with `arrived`.
+// 5. A run that passed must meet its expectations, and a run that failed must violate one.
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,15 +24,15 @@ constexpr double kSameTime = 1e-8;  // [s]; logs hold nanoseconds
 
 using trackbed::Table;
 
-/// A plan that is driven from a time on.
+/// A plan with the time from which it is driven.
 struct Driven {
   double from = 0.0;
   Polyline line;
-  double sagitta = 0.0;  ///< of the curve over its chords [m]
+  double sagitta = 0.0;  ///< of the curve above its chords [m]
   TimedPose end;
 };
 
-/// A plan as a polyline that goes on straight for `beyond` meters.
+/// A plan as a polyline, extended straight by `beyond` meters.
 Driven DrivenFrom(const Table& table, double time, double beyond) {
   const auto x = table.Column("x_m"), y = table.Column("y_m"), yaw = table.Column("yaw_rad"),
              s = table.Column("s_m"), curvature = table.Column("curvature_radpm"),
@@ -43,7 +53,7 @@ Driven DrivenFrom(const Table& table, double time, double beyond) {
   return {time, Polyline(std::move(points)), sagitta, end};
 }
 
-/// Each of the plans that a table of changes holds one after the other.
+/// Splits a table of plan changes into its plans.
 std::vector<Table> PlansTakenUp(const Table& changes) {
   std::vector<Table> plans;
   if (changes.rows() == 0) {
@@ -64,7 +74,7 @@ std::vector<Table> PlansTakenUp(const Table& changes) {
   return plans;
 }
 
-/// The mission's plan and those taken up on the way, in the order of their times.
+/// The mission's plan and the replans, in order of time.
 std::vector<Driven> DrivenPlans(const Table& plan, const Table& changes, double beyond) {
   std::vector<Driven> plans{DrivenFrom(plan, 0.0, beyond)};
   for (const Table& next : PlansTakenUp(changes)) {
@@ -89,7 +99,7 @@ std::vector<TimedPose> TimedPoses(const Table& steps) {
   return poses;
 }
 
-/// The largest distance of a series of poses from the plan that is driven then.
+/// The largest distance of a series of poses from the plan in effect at their times.
 struct Furthest {
   double distance = 0.0;
   double t = 0.0;
@@ -99,7 +109,7 @@ struct Furthest {
 Furthest FurthestFrom(std::vector<Driven>& plans, const std::vector<TimedPose>& poses) {
   Furthest furthest;
   std::size_t plan = 0;
-  double bound = std::numeric_limits<double>::infinity();  // of the distance now
+  double bound = std::numeric_limits<double>::infinity();  // upper bound of the current distance
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const TimedPose& pose = poses[i];
     if (i > 0) {
@@ -152,10 +162,10 @@ class DriveCheck {
       if (record_.passed) {
         Report("verdict", "passed, but diverged");
       }
-      return findings_;  // what the others would look at are no longer numbers of a car
+      return findings_;  // the remaining checks need a valid state
     }
     if (!CheckNumbers()) {
-      return findings_;  // the others compare, and no comparison with NaN is true
+      return findings_;  // the remaining checks compare numbers, which NaN would pass
     }
     CheckRows();
     CheckObstacles();
@@ -176,12 +186,12 @@ class DriveCheck {
     findings_.push_back({kind, drive_.plant + ": " + text});
   }
 
-  /// By which a yaw may be another in the log than in the physics [rad].
+  /// By how much a yaw in the log may differ from that in the physics [rad].
   [[nodiscard]] double SameYaw() const {
     return record_.mission.leans_on_slope ? 0.05 * 0.1 : 1e-6;
   }
 
-  /// Whether all that is looked at are numbers.
+  /// Whether all numbers used by the checks are finite.
   bool CheckNumbers() {
     const auto finite = [](const TimedPose& pose) {
       return std::isfinite(pose.t) && std::isfinite(pose.x) && std::isfinite(pose.y) &&
@@ -200,7 +210,7 @@ class DriveCheck {
     return good;
   }
 
-  /// The log and the steps are of the same drive.
+  /// The log and the physics steps must belong to one drive.
   void CheckRows() {
     const double same_yaw = SameYaw();
     std::size_t step = 0;
@@ -266,9 +276,9 @@ class DriveCheck {
              fmt::format("overlaps obstacle {} by {:.4g} m at {:.5g} s; it says {}{}", which,
                          -nearest.gap, nearest.t, status_, record_.passed ? ", passed" : ""));
     }
-    // The smallest distance may lie between two steps, in which the two move so much against each
-    // other; where it is looked at at the steps, at most half of that is missed.
-    // By which a corner of a leaning footprint is elsewhere: the program's does not lean.
+    // The smallest distance may occur between two steps; evaluating it at the steps misses at most
+    // half of the relative motion in a step. A leaning car's footprint here differs from the
+    // program's, which does not lean, by up to `leans` at a corner.
     const double leans = SameYaw() * record_.car.footprint().reach();
     const double missed = 0.5 * nearest.step + 1e-6 + leans;
     missed_ = missed;
@@ -282,19 +292,20 @@ class DriveCheck {
     if (!drive_.metrics.contains("cross_track")) {
       return;
     }
-    // A car about to stop at the end may stand as far beyond it as counts as arrived.
+    // A car that stops just behind the end of its plan has arrived if it is within the goal
+    // tolerance.
     const double beyond = tolerances_.goal_position * record_.car.length;
     std::vector<Driven> plans = DrivenPlans(record_.plan, drive_.changes, beyond);
     const double told = drive_.metrics["cross_track"]["max"].get<double>();
-    // What an obstacle pushes aside is not steered: errors count up to the contact that is told of.
-    // That there was one is checked above.
+    // An obstacle that pushes the car causes errors that are not the controller's, so errors count
+    // only up to the reported contact. Whether there was a contact is checked above.
     std::vector<TimedPose> counted = rows_;
     if (drive_.metrics.value("collision", false) && drive_.metrics.contains("clearance_min_t")) {
       const double contact = drive_.metrics["clearance_min_t"].get<double>();
       std::erase_if(counted, [&](const TimedPose& row) { return row.t > contact; });
     }
     const Furthest logged = FurthestFrom(plans, counted);
-    // The polyline lies within its sagittas beside the plan.
+    // The polyline deviates from the plan by at most the sagitta.
     const double tolerance = logged.sagitta + 1e-6;
     if (logged.distance > told + tolerance) {
       Report("cross_track", fmt::format("says {:.5g} m at most, was {:.5g} m from its path at "
@@ -315,7 +326,7 @@ class DriveCheck {
   }
 
   void CheckSteering() {
-    // What hits the car turns its wheels, too.
+    // A collision turns the wheels, too.
     if (touched_ || drive_.metrics.value("collision", false)) {
       return;
     }
@@ -323,7 +334,7 @@ class DriveCheck {
     const bool soft = drive_.has_wheels;
     const double told = drive_.metrics.at("steering_rate_max").get<double>();
     CheckColumn("steering_actuator_rad", car.steering_limit + 1e-9, tolerances_.actuator_rate);
-    // Wheels on springs go further in a slide; but what passed has not been sliding.
+    // Compliant wheels exceed the limit in a slide; a run that passed has not been sliding.
     const double free = std::numeric_limits<double>::infinity();
     const double angle = soft ? tolerances_.wheel_angle : 1e-9;
     const double more = soft ? tolerances_.wheel_rate : tolerances_.actuator_rate;
@@ -337,7 +348,8 @@ class DriveCheck {
     }
   }
 
-  /// Angle and rate of a column; the largest rate over any 0.1 s, or one period if that is longer.
+  /// Checks angle and rate of a column. Returns the largest rate over any 0.1 s, or over one period
+  /// if that is longer.
   double CheckColumn(const char* name, double limit, double more) {
     const std::vector<double> angle = drive_.log.Column(name);
     const double period = record_.mission.control_period;
@@ -399,7 +411,7 @@ class DriveCheck {
     }
   }
 
-  /// What the scenario expects besides, of a run that passed.
+  /// The scenario's further expectations, for a run that passed.
   void CheckExpectations() {
     const Mission& mission = record_.mission;
     if (!record_.passed) {
@@ -416,7 +428,7 @@ class DriveCheck {
     }
   }
 
-  /// A run that failed has done so for a reason: what is checked is not met, or nearly not.
+  /// A failed run must have a reason: at least one checked condition is violated, or nearly so.
   void CheckFailure() {
     const Mission& mission = record_.mission;
     if (record_.passed || record_.drives.size() > 1 || status_ != "arrived" || touched_) {
@@ -435,11 +447,11 @@ class DriveCheck {
   std::string status_;
   std::vector<TimedPose> rows_;
   std::vector<TimedPose> poses_;
-  bool touched_ = false;                                  ///< the car an obstacle, or all but
-  bool inside_ = false;                                   ///< of its corridor, all the way
-  bool slow_wheels_ = false;                              ///< they turned no faster than is allowed
+  bool touched_ = false;                                  ///< an obstacle, within tolerance
+  bool inside_ = false;                                   ///< the corridor throughout
+  bool slow_wheels_ = false;                              ///< within the steering rate limit
   double gap_ = std::numeric_limits<double>::infinity();  ///< to the nearest obstacle [m]
-  double missed_ = 0.0;  ///< by which a gap may be smaller between two steps [m]
+  double missed_ = 0.0;  ///< by how much the gap may be smaller between two steps [m]
   std::vector<Finding> findings_;
 };
 

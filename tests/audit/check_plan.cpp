@@ -1,3 +1,10 @@
+// Checks one plan, from the rows of plan.csv, against the car and the mission.
+//
+// Start and end must match the car's state and the goal. Chords and yaws must belong to one curve
+// within full lock. Steering angles and rates, longitudinal and lateral accelerations (friction
+// circle) and braking must keep the car's limits. The footprint along the plan must not overlap
+// obstacles known to the planner. All quantities are differences between rows, every 0.1 m.
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -31,7 +38,7 @@ double AngleBetween(double a, double b) {
   return std::abs(std::remainder(a - b, kTurn));
 }
 
-/// The largest of something, and where it was.
+/// The largest value of a quantity and its station.
 struct Largest {
   double value = 0.0;
   double s = 0.0;
@@ -52,7 +59,7 @@ class PlanCheck {
         record_(record),
         at_start_(taken_up_in == nullptr),
         tolerances_(tolerances),
-        // A plan that begins with the wheels as they stand begins beyond the limit if they do.
+        // A replan starts with the current wheel angle, which may exceed the limit a little.
         steering_limit_(
             record.car.steering_limit +
             (taken_up_in != nullptr && taken_up_in->has_wheels ? tolerances.wheel_angle : 1e-6)) {}
@@ -76,9 +83,9 @@ class PlanCheck {
  private:
   void Report(const char* kind, std::string text) { findings_.push_back({kind, std::move(text)}); }
 
-  /// The columns belong to one curve: each chord points where the yaws at its ends do, and from
-  /// point to point the yaw turns no more than it does at full lock. (Not as the curvatures at both
-  /// points say: a shorter arc may lie between them.)
+  /// The columns must belong to one curve: a chord's direction agrees with the yaws at its ends,
+  /// and between two points the yaw turns no more than at full lock. The curvatures at the two
+  /// points give no bound, as a shorter arc may lie between them.
   void CheckGeometry() {
     const double sharpest = std::tan(steering_limit_) / record_.car.wheelbase;
     Largest apart, aside, turned;
@@ -100,7 +107,7 @@ class PlanCheck {
       Report("plan_geometry",
              fmt::format("points {:.6g} m apart at s = {:.5g} m", apart.value, apart.s));
     }
-    constexpr double kRounding = 1e-4;  // [rad]; of positions over a short chord
+    constexpr double kRounding = 1e-4;  // [rad]; from rounding of positions over a short chord
     if (aside.value > kRounding || turned.value > kRounding) {
       Report("plan_geometry", fmt::format("turns more than at full lock: its chord by {:.4g} rad "
                                           "at s = {:.5g} m, its yaw by {:.4g} rad at s = {:.5g} m",
@@ -121,8 +128,8 @@ class PlanCheck {
       Report("plan_steering_angle", fmt::format("asks {:.4f} rad of {:.4f} rad at s = {:.5g} m",
                                                 angle.value, record_.car.steering_limit, angle.s));
     }
-    // Where the curvature is continuous it grows over several points the same way. A step from one
-    // piece to the next shows between two points alone, or between three with one in its middle.
+    // A continuous change of curvature has the same sign over several points. A step between two
+    // segments shows only between two points, or between three if one lies in its middle.
     const auto rate_in = [&](std::size_t i) {
       const PlanRow& a = rows_[i];
       const PlanRow& b = rows_[i + 1];
@@ -144,8 +151,8 @@ class PlanCheck {
     }
   }
 
-  /// v dv/ds as a mean over each piece, v^2 kappa at the points; both together on the circle of the
-  /// tyres' friction.
+  /// v dv/ds as a mean over each interval, v^2 kappa at the points; combined by the friction
+  /// circle.
   void CheckAccelerations() {
     const Mission& mission = record_.mission;
     const double grip = record_.car.friction * mission.road_friction * kGravity;
@@ -161,7 +168,7 @@ class PlanCheck {
       const double along = 0.5 * (b.speed * b.speed - a.speed * a.speed) / (b.s - a.s);
       driving.Take(along, a.s);
       braking.Take(-along, a.s);
-      // On either side of a step of curvature the smaller one is certain.
+      // On either side of a curvature step, only the smaller value is certain.
       const double across = std::min(a.speed * a.speed * std::abs(a.curvature),
                                      b.speed * b.speed * std::abs(b.curvature));
       combined.Take(std::hypot(along, across), a.s);
@@ -237,7 +244,7 @@ class PlanCheck {
     }
   }
 
-  /// The footprint along the plan, against what was known before and stands.
+  /// Checks the footprint along the plan against the stationary obstacles that the planner knew.
   void CheckObstacles() {
     std::vector<TimedPose> poses;
     double yaw = rows_.front().yaw;

@@ -5,54 +5,55 @@
 
 #include "tests/audit/record.h"
 
-/// Whether what a run says of itself is true, computed anew from what it left behind.
+/// Checks whether the reported results of a run are true, by computing them anew from its recorded
+/// tables.
 namespace audit {
 
-/// Something that is not as the run says.
+/// A discrepancy between a reported and a computed result.
 struct Finding {
   std::string kind;  ///< "contact", "plan_braking", …
-  std::string text;  ///< for people, with the numbers
+  std::string text;  ///< a message with the numbers
 };
 
-/// What counts as kept. Each default is derived where it stands.
+/// Tolerances of the checks. The comment on each default derives it.
 struct Tolerances {
-  /// A car has arrived that stands within this share of its length from the goal ...
+  /// A car within this fraction of its length from the goal has arrived ...
   double goal_position = 0.1;
-  /// ... and within this of the heading that the mission asks for there [rad].
+  /// ... if its heading differs by at most this from the mission's goal heading [rad].
   double goal_heading = 0.2;
-  double at_rest = 0.02;  ///< [m/s]; twice what the program calls standing
-  /// Plans are numbers, not measurements: they begin where the car is but for rounding.
+  double at_rest = 0.02;  ///< [m/s]; twice the program's threshold of standstill
+  /// Plans are computed, not measured: they begin at the car's state except for rounding.
   double plan_position = 1e-6;  ///< [m]
   double plan_heading = 1e-6;   ///< [rad]
   double plan_speed = 1e-6;     ///< [m/s]
-  double plan_steering = 1e-3;  ///< [rad]; 0.02 m beside the path after 10 m at most
-  /// An overlap of footprints that counts [m]. Between steps poses are interpolated linearly, which
-  /// is off by v^2 kappa dt^2/8, 0.14 mm at 15 m/s, 0.2 /m and 5 ms, and SweptGap looks every
-  /// millimeter.
+  double plan_steering = 1e-3;  ///< [rad]; 0.02 m of lateral deviation after at most 10 m
+  /// Overlap of footprints above which a contact counts [m]. Poses are interpolated linearly
+  /// between steps, with an error of v^2 kappa dt^2/8 (0.14 mm at 15 m/s, 0.2 /m and 5 ms), and
+  /// SweptGap has a resolution of 1 mm.
   double contact = 1e-3;
-  /// Shares by which a plan may exceed a limit: its columns are sampled every 0.1 m, so that means
-  /// over such a piece stand for values.
+  /// Fractions by which a plan may exceed a limit. Its columns are sampled every 0.1 m, so checks
+  /// use means over such an interval instead of values.
   double plan_limit = 0.02;
-  double plan_rate = 0.05;  ///< likewise, of curvature, which is a second difference of positions
-  /// Share by which the actuator may turn faster than it can: rounding.
+  double plan_rate = 0.05;  ///< of curvature, a second difference of positions
+  /// Fraction by which the actuator may exceed its rate limit: rounding.
   double actuator_rate = 1e-6;
-  /// Likewise measured wheels, which follow through tie rods that give way a little under load. In
-  /// 34 drives that passed on MuJoCo, of three cars with either tyre law, the most was 0.43 %.
+  /// The same for measured wheels, whose tie rods yield a little under load. In 34 passed runs on
+  /// MuJoCo, with three cars and either tyre law, the maximum was 0.43 %.
   double wheel_rate = 0.03;
-  /// And how much further they may stand [rad]: toe and the same springs at full lock, where 0.007
-  /// was the most.
+  /// By how much measured wheels may exceed the angle limit [rad]: toe and the same compliance at
+  /// full lock, where the maximum was 0.007.
   double wheel_angle = 0.02;
 };
 
-/// Every finding, in the order of the checks; none when the run is as it says.
+/// All findings, in the order of the checks; empty if the run is consistent.
 std::vector<Finding> Check(const Record& record, const Tolerances& tolerances = {});
 
-/// The plan alone: `rows` as plan.csv has them. `taken_up_in`: the run in which it was taken up
-/// on the way; null for the mission's own plan.
+/// Checks one plan. `rows`: as in plan.csv. `taken_up_in`: the run that adopted this replan; null
+/// for the mission's own plan.
 std::vector<Finding> CheckPlan(const trackbed::Table& rows, const Record& record,
                                const Drive* taken_up_in, const Tolerances& tolerances);
 
-/// One run alone.
+/// Checks one run.
 std::vector<Finding> CheckDrive(const Drive& drive, const Record& record,
                                 const Tolerances& tolerances);
 

@@ -1,4 +1,4 @@
-// The checker itself: a run without fault, then the same with one fault at a time.
+// Tests the checker on a run without faults, then on the same run with one fault at a time.
 
 #include "tests/audit/checker.h"
 
@@ -30,7 +30,7 @@ struct PlanCells {
   double s, x, y, yaw, curvature, speed;
 };
 
-/// plan.csv of a straight of 40 m along x at 5 m/s that ends at rest; `change` changes each row.
+/// plan.csv of a straight of 40 m along x at 5 m/s that ends at rest; `change` modifies each row.
 Table StraightPlan(const std::function<void(PlanCells&)>& change = {}) {
   Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
   for (int i = 0; i <= 400; ++i) {
@@ -48,7 +48,8 @@ struct Motion {
   double t, x, y, yaw, speed, steering;
 };
 
-/// Adds a run with the tables of a car that moves so; time at 5 m/s, then braking, in all 9.25 s.
+/// Adds a run of a car that moves along the plan: constant 5 m/s, then braking, 9.25 s in all.
+/// `change` modifies each motion.
 Drive DriveAlong(const std::function<void(Motion&)>& change = {}) {
   constexpr double kUntilBraking = (kLength - 0.5 * kSpeed * kSpeed / kBrake) / kSpeed;
   const double duration = kUntilBraking + kSpeed / kBrake;
@@ -113,7 +114,7 @@ Record GoodRun() {
   return record;
 }
 
-/// What a far box leaves in metrics.json.
+/// Adds an obstacle and the clearance that metrics.json reports for it.
 void AddObstacle(Record& record, const Box& box, double told) {
   record.mission.obstacles.push_back(box);
   record.drives[0].metrics["collision"] = told == 0.0;
@@ -131,14 +132,15 @@ std::set<std::string> KindsIn(const Record& record) {
 TEST(Checker, FindsNothingInAGoodRun) {
   Record record = GoodRun();
   EXPECT_THAT(Check(record), IsEmpty());
-  // The box's near side is 3 m beside the middle of the car.
+  // The box's near side is 3 m from the car's center line.
   AddObstacle(record, {{0.0, 20.0, 4.0, 0.0}, 2.0, 2.0, {}}, 3.0 - 0.88);
   EXPECT_THAT(Check(record), IsEmpty());
 }
 
 TEST(Checker, FindsABoxThatCrossesBetweenTwoRows) {
   Record record = GoodRun();
-  // 5 cm of board at 200 m/s, over the car's nose at 3.006 s, between the rows of 3 and 3.02 s.
+  // A board of 5 cm at 200 m/s crosses the car's nose at 3.006 s, between the rows of 3 s and 3.02
+  // s.
   AddObstacle(record, {{3.006, 18.0, 0.0, 0.0}, 0.05, 0.05, {0.0, 200.0}}, 1.1);
   EXPECT_THAT(KindsIn(record), ElementsAre("clearance", "contact"));
 }
@@ -161,7 +163,7 @@ TEST(Checker, FindsACollisionThatPasses) {
 TEST(Checker, FindsACarBehindTheStartOfItsPath) {
   Record record = GoodRun();
   record.drives[0] = DriveAlong([](Motion& m) {
-    // Back to 20 m behind the start at 2 s, and forth again.
+    // A jump back to 20 m behind the start around 2 s, and forward again.
     m.x -= 30.0 * std::max(0.0, 1.0 - std::abs(m.t - 2.0));
   });
   record.drives[0].metrics["cross_track"]["max"] = 0.022;
@@ -231,7 +233,7 @@ TEST(Checker, FindsAFailureWithoutAReason) {
   Record record = GoodRun();
   record.passed = false;
   EXPECT_THAT(KindsIn(record), ElementsAre("verdict"));
-  // Each of these is a reason.
+  // Each of these expectations is a reason to fail.
   record.mission.max_time = 5.0;
   EXPECT_THAT(Check(record), IsEmpty());
   record.mission.max_time.reset();
@@ -270,7 +272,7 @@ TEST(Checker, FindsAPlanThatBrakesHarderThanTheCar) {
     row.speed = std::min(kSpeed, std::sqrt(2.0 * 14.0 * (kLength - row.s)));
   });
   EXPECT_THAT(KindsIn(record), ElementsAre("plan_braking"));
-  // On ice the brakes do not help.
+  // On ice the tyres limit braking.
   record = GoodRun();
   record.mission.road_friction = 0.2;
   EXPECT_THAT(KindsIn(record), ElementsAre("plan_braking"));
@@ -284,7 +286,7 @@ TEST(Checker, FindsAPlanThatSpeedsUpTooMuch) {
   EXPECT_THAT(KindsIn(record), ElementsAre("plan_acceleration"));
 }
 
-/// A plan of 40 m at a steady speed whose curvature is `curvature(s)`; poses by the midpoint rule.
+/// A plan of 40 m at constant speed with curvature `curvature(s)`; poses by the midpoint rule.
 Table BentPlan(double speed, const std::function<double(double)>& curvature) {
   Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
   double x = 0.0, y = 0.0, yaw = 0.0;
@@ -313,7 +315,7 @@ std::set<std::string> KindsOfPlan(Record record, const Table& plan) {
 
 TEST(Checker, FindsAPlanThatTurnsHarderThanTyresHold) {
   const Record record = GoodRun();
-  // 0.1/m: 8.1 m/s^2 at 9 m/s and 10 m/s^2 at 10 m/s; the tyres hold 8.83.
+  // At 0.1/m, 9 m/s takes 8.1 m/s^2 and 10 m/s takes 10 m/s^2; the tyres hold 8.83 m/s^2.
   const auto arc = [](double) { return 0.1; };
   EXPECT_THAT(KindsOfPlan(record, BentPlan(9.0, arc)), IsEmpty());
   EXPECT_THAT(KindsOfPlan(record, BentPlan(10.0, arc)), ElementsAre("plan_lateral"));
@@ -323,13 +325,13 @@ TEST(Checker, FindsAPlanThatTurnsHarderThanTyresHold) {
 
 TEST(Checker, FindsAPlanThatTurnsTheWheelsTooFast) {
   const Record record = GoodRun();
-  // delta = atan(L kappa) is nearly L kappa: at 2 m/s, 0.15 rad/s is 0.0278 /m^2.
+  // delta = atan(L kappa) is nearly L kappa: at 2 m/s, 0.15 rad/s corresponds to 0.0278 /m^2.
   const auto ramp = [](double share) {
     return [share](double s) { return std::min(0.1, share * 0.15 / 2.0 / 2.7 * s); };
   };
   EXPECT_THAT(KindsOfPlan(record, BentPlan(2.0, ramp(1.0))), IsEmpty());
   EXPECT_THAT(KindsOfPlan(record, BentPlan(2.0, ramp(1.3))), ElementsAre("plan_steering_rate"));
-  // A step is not a ramp.
+  // A curvature step is not judged as a ramp.
   EXPECT_THAT(KindsOfPlan(record, BentPlan(2.0, [](double s) { return s < 9.95 ? 0.0 : 0.1; })),
               IsEmpty());
 }
@@ -364,7 +366,7 @@ TEST(Checker, FindsAPlanThatLeadsThroughWhatItKnows) {
   EXPECT_THAT(KindsIn(record), ElementsAre("plan_contact"));
 }
 
-/// Two plans taken up on the way, the second 1 m beside the first, while the car stays.
+/// Two replans, the second 1 m beside the first, while the car keeps to the first line.
 TEST(Checker, MeasuresFromThePlanThatIsDriven) {
   Record record = GoodRun();
   Table changes(

@@ -1,3 +1,8 @@
+// Random scenarios for the audit, reproducible by index.
+//
+// The index selects planner, controller and plant in turn. A SplitMix-like generator seeded with
+// the index draws the rest: the car's size, the route and the start, replanning, obstacles,
+// friction, ground, weather, disturbances and expectations.
 #include "tests/audit/random_scenarios.h"
 
 #include <fmt/format.h>
@@ -30,11 +35,12 @@ using namespace trackbed;
 
 constexpr double kPi = 3.14159265358979323846;
 
-/// Two thirds without forces, which are quick; either tyre law in a third of the others.
+/// Two thirds of the entries are the fast plants without forces; the other third has each tyre law
+/// once.
 constexpr std::array kPlantsInTurn{"kinematic",    "single_track",   "kinematic",
                                    "single_track", "mujoco:contact", "mujoco:magic_formula"};
 
-/// Numbers that are the same with every standard library.
+/// Random numbers that are the same with every standard library.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : engine_(seed) {}
@@ -70,7 +76,7 @@ std::vector<ControllerOptions> PathFollowers() {
 struct Generator {
   Dice dice;
   Scenario scenario{};
-  double size = 1.0;  ///< of the car and all around it, as a share of a full-sized car
+  double size = 1.0;  ///< of the car and its surroundings, relative to full size
 
   void Vehicle() {
     const std::size_t which = dice.Below(8);
@@ -97,7 +103,7 @@ struct Generator {
     }
   }
 
-  /// Legs that turn, mostly less than a right angle, at times all the way round.
+  /// Legs with random turns, mostly below a right angle, sometimes any angle.
   void Route(std::size_t fewest, bool has_headings) {
     MissionSpec& mission = scenario.mission;
     const bool close = dice.Chance(0.12);
@@ -105,7 +111,7 @@ struct Generator {
     double heading = dice.Between(-kPi, kPi);
     Vec2 at(dice.Between(-20.0, 20.0), dice.Between(-20.0, 20.0));
     mission.waypoints.push_back(at);
-    // What can be driven in the time there is, and 80 m at most.
+    // Short enough for the time limit, and at most 80 m.
     const double longest =
         std::min({80.0 * size, 22.0 * mission.speed + 2.0 * size}) / static_cast<double>(count - 1);
     for (std::size_t i = 1; i < count; ++i) {
@@ -126,7 +132,7 @@ struct Generator {
     }
   }
 
-  /// The default start rolls along the first leg at the mission's speed with its wheels straight.
+  /// The default start rolls along the first leg at the mission's speed with straight wheels.
   void Start() {
     StartSpec& start = scenario.mission.start;
     if (dice.Chance(0.35)) {
@@ -170,7 +176,7 @@ struct Generator {
     }
   }
 
-  /// The points of a path of another program, a little noisy.
+  /// The points of a path of another program, with a little noise.
   void PathOfFile(PathFileOptions& options) {
     Pose2 pose{dice.Between(-20.0, 20.0), 0.0, dice.Between(-kPi, kPi)};
     const double step = size * dice.Between(0.3, 1.0);
@@ -214,20 +220,20 @@ struct Generator {
     }
     if (entry.min_waypoints > 0) {
       Route(entry.min_waypoints, entry.has_headings);
-    } else if (!global.Is<PathFileOptions>()) {  // whose path says where it begins
+    } else if (!global.Is<PathFileOptions>()) {  // the path file defines its own start
       scenario.mission.start.x = dice.Between(-20.0, 20.0);
       scenario.mission.start.yaw = dice.Between(-kPi, kPi);
     }
   }
 
-  /// What plans again on the way, over a share of the plans that only go forwards.
+  /// Replanning, for a fraction of the plans that only drive forward.
   void Layers() {
     PlanSpec& plan = *scenario.plan;
     if (MayGoBackwards(plan.global)) {
       return;
     }
     if (dice.Chance(0.15)) {
-      std::vector<AvoiderOptions> avoiders;  // the others may be driven into what they know of
+      std::vector<AvoiderOptions> avoiders;  // other planners may drive into known obstacles
       for (const AvoiderEntry& entry : LocalPlanners()) {
         if (entry.keeps_clear) {
           avoiders.push_back(entry.defaults);
@@ -249,7 +255,7 @@ struct Generator {
     }
   }
 
-  /// A point of the route, or ahead of a car that has none.
+  /// A point on the route, or ahead of a car without a route.
   Vec2 OnTheWay() {
     const MissionSpec& mission = scenario.mission;
     if (mission.waypoints.size() < 2) {
@@ -282,8 +288,7 @@ struct Generator {
         obstacle.velocity = size * dice.Between(0.2, 4.0) * direction;
         at -= obstacle.velocity * dice.Between(0.0, 8.0);
       } else if (chance < 0.4) {
-        // Thin and fast enough to be on one side of the car at one control period and on the other
-        // at the next.
+        // Thin and fast enough to cross the car between two control periods.
         obstacle.footprint.length = size * 0.05;
         obstacle.footprint.center.yaw = heading;
         obstacle.velocity = size * dice.Between(20.0, 80.0) * direction;
@@ -302,8 +307,8 @@ struct Generator {
     }
   }
 
-  /// A grade, or a bump or a banked section where the car drives. Moving obstacles need flat
-  /// ground, and are let stand.
+  /// A grade, or a bump or banked section on the car's way. Moving obstacles require flat ground,
+  /// so they suppress it.
   void Ground() {
     if (!dice.Chance(0.15)) {
       return;
@@ -346,7 +351,7 @@ struct Generator {
     }
   }
 
-  /// What the car and its driver do not know of.
+  /// Disturbances that the vehicle model and the controller do not know.
   void Disturbances() {
     trackbed::Disturbances& disturb = scenario.disturb;
     if (!dice.Chance(0.35)) {
@@ -379,12 +384,12 @@ struct Generator {
     if (dice.Chance(0.3)) {
       const double at = dice.Between(0.5, 8.0);
       const double side = dice.Between(-1.0, 1.0);
-      // A displaced car was nowhere in between, where an obstacle may be.
+      // A displacement skips the poses in between, where an obstacle may be.
       if (scenario.world.obstacles.empty() && dice.Chance(0.5)) {
         disturb.kicks.push_back(
             {.at = at, .displacement = 0.8 * size * side, .impulse = {}, .duration = {}});
       } else {
-        // Up to 1 m/s of a car of 1300 kg; mass goes with the cube of the size.
+        // An impulse of up to 1 m/s for a car of 1300 kg; mass scales with the cube of the size.
         disturb.kicks.push_back({.at = at,
                                  .displacement = {},
                                  .impulse = 1300.0 * size * size * size * side,
@@ -428,7 +433,7 @@ Scenario RandomScenario(std::size_t index, int attempt) {
   const ControllerOptions& controller = controllers[turn % controllers.size()];
   const std::string plant =
       kPlantsInTurn[(place + turn / controllers.size()) % kPlantsInTurn.size()];
-  // A planner that is added does not change the scenarios of those before it.
+  // Adding a planner does not change the scenarios of the first planners.
   constexpr std::size_t kFirstPlanners = 8;
   const std::size_t number =
       place < kFirstPlanners ? kFirstPlanners * turn + place : 1'000'000U * place + turn;

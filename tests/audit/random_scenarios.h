@@ -8,17 +8,15 @@
 
 namespace audit {
 
-/// Every planner but those that need a road network.
+/// All planners except those that need a road network or a track.
 std::vector<trackbed::PlannerEntry> AuditedPlanners();
 
-/// How many scenarios there are before planners, controllers and plants come together again as
-/// they were.
+/// Number of scenarios after which the combinations of planner, controller and plant repeat.
 std::size_t Combinations();
 
-/// The scenario of an index: always the same one. Index by index it goes through every audited
-/// planner with every controller that follows a plan on every plant, a car with steered wheels in
-/// each; all else is random. `attempt` gives another one for the same three, where the first is
-/// refused.
+/// The scenario of an index, always the same one. Increasing indices cover every audited planner
+/// with every path-following controller on every plant of a steered car; the rest is random.
+/// `attempt` varies the random part if the program rejects the first one.
 trackbed::Scenario RandomScenario(std::size_t index, int attempt);
 
 }  // namespace audit

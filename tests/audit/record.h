@@ -8,11 +8,11 @@
 #include "tests/audit/shapes.h"
 #include "trackbed/core/table.h"
 
-/// What a run leaves behind, as plain numbers: the tables of its folder and what its scenario and
-/// its car's file say. The checker looks at nothing else.
+/// Recorded results of a run as plain numbers: the tables of its folder and data of its scenario
+/// and its car's file. The checker uses nothing else.
 namespace audit {
 
-/// The car, from its own file.
+/// Parameters of the car, from its file.
 struct Car {
   double length = 0.0;            ///< [m]
   double width = 0.0;             ///< [m]
@@ -20,34 +20,34 @@ struct Car {
   double wheelbase = 0.0;         ///< [m]
   double steering_limit = 0.0;    ///< [rad]
   double steering_rate = 0.0;     ///< [rad/s]
-  double friction = 0.0;          ///< largest coefficient of its tyres, either tyre law
-  double brake_deceleration = 0;  ///< what all brakes together can hold [m/s^2]
+  double friction = 0.0;          ///< largest tyre friction coefficient, either tyre law
+  double brake_deceleration = 0;  ///< upper limit of all brakes together [m/s^2]
 
   [[nodiscard]] Rectangle footprint() const {
     return {-rear_overhang, length - rear_overhang, width};
   }
 };
 
-/// What was asked.
+/// The task that the scenario sets.
 struct Mission {
   TimedPose start;                          ///< rear axle at t = 0
   double start_speed = 0.0;                 ///< [m/s]
   double start_steering = 0;                ///< [rad]
-  std::optional<Point> goal{};              ///< the last waypoint; none: the plan has its own end
+  std::optional<Point> goal{};              ///< the last waypoint; none: the plan's end
   std::optional<double> goal_heading{};     ///< [rad]
-  double acceleration = 0.0;                ///< no plan speeds up faster [m/s^2]
+  double acceleration = 0.0;                ///< upper limit of plans [m/s^2]
   double time_limit = 0.0;                  ///< [s]
   double timestep = 0.0;                    ///< [s]
   double control_period = 0.0;              ///< [s]
-  std::optional<double> max_cross_track{};  ///< expected [m]
-  std::optional<double> min_clearance{};    ///< likewise [m]
-  std::optional<double> max_time{};         ///< likewise [s]
-  /// A payload beside the middle leans the car, by 0.05 rad at most, and what leans on a slope of
-  /// 0.1 looks another way from above than it is told to.
+  std::optional<double> max_cross_track{};  ///< expectation [m]
+  std::optional<double> min_clearance{};    ///< expectation [m]
+  std::optional<double> max_time{};         ///< expectation [s]
+  /// A payload beside the center line rolls the car, by at most 0.05 rad. On a slope of 0.1, the
+  /// yaw of a rolled car seen from above differs from the plan's.
   bool leans_on_slope = false;
-  double road_friction = 1.0;  ///< largest factor on the tyres' coefficient
+  double road_friction = 1.0;  ///< largest factor on the tyre friction
   std::vector<Box> obstacles{};
-  std::vector<std::size_t> planned_around{};  ///< of them, those that the plan has to keep clear of
+  std::vector<std::size_t> planned_around{};  ///< indices of those that the plan must avoid
 };
 
 /// One plant's drive.

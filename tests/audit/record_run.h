@@ -5,8 +5,9 @@
 
 namespace audit {
 
-/// Runs a scenario and keeps what the checker needs. The scenario's configurations are recorded at
-/// every physics step, whatever its state_period is. InputError as trackbed::RunMission.
+/// Runs a scenario and returns the data for the checker. Configurations are recorded at every
+/// physics step, regardless of the scenario's state_period. Throws InputError like
+/// trackbed::RunMission.
 Record RecordRun(trackbed::Scenario scenario);
 
 }  // namespace audit

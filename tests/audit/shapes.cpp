@@ -15,7 +15,7 @@ Point Minus(const Point& a, const Point& b) {
   return {a.x - b.x, a.y - b.y};
 }
 
-/// Largest gap between the two along the outward normals of a's sides.
+/// Largest gap between the quads along the outward normals of a's sides.
 double LargestGapAlongSides(const Quad& a, const Quad& b) {
   double largest = -std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < 4; ++i) {
@@ -92,8 +92,8 @@ Nearest SweptGap(const Rectangle& footprint, const std::vector<TimedPose>& poses
     }
     return gap;
   };
-  // The gap changes by no more than the two move: within a stretch in which they move by `moved` it
-  // is never below (g0 + g1 - moved)/2.
+  // The gap changes by at most the relative motion: within an interval of relative motion `moved`
+  // it is at least (g0 + g1 - moved)/2.
   const std::function<void(const TimedPose&, double, const TimedPose&, double, double)> look =
       [&](const TimedPose& from, double g0, const TimedPose& to, double g1, double moved) {
         if (!(moved > resolution) || 0.5 * (g0 + g1 - moved) >= nearest.gap) {

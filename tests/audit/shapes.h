@@ -5,8 +5,8 @@
 #include <functional>
 #include <vector>
 
-/// The audit's own plane geometry. It shares nothing with the program's, so that an error there
-/// cannot hide itself.
+/// Plane geometry of the audit. It shares no code with the program, so that a common error cannot
+/// hide.
 namespace audit {
 
 struct Point {
@@ -14,7 +14,7 @@ struct Point {
   double y = 0.0;  ///< [m]
 };
 
-/// Where a rigid body is at a moment. Yaws of successive poses are continuous, not wrapped.
+/// Pose of a rigid body at a time. Yaws of successive poses are continuous, not wrapped.
 struct TimedPose {
   double t = 0.0;    ///< [s]
   double x = 0.0;    ///< [m]
@@ -36,8 +36,8 @@ using Quad = std::array<Point, 4>;
 
 Quad CornersAt(const Rectangle& rectangle, const TimedPose& pose);
 
-/// Distance between two convex quads with corners in counter-clockwise order [m]; where they
-/// overlap, minus the depth: how far one would have to move to come free.
+/// Distance between two convex quads with counter-clockwise corners [m]. If they overlap, minus the
+/// penetration depth: the smallest translation that separates them.
 double Gap(const Quad& a, const Quad& b);
 
 /// A box that moves at a constant velocity without turning.
@@ -50,31 +50,31 @@ struct Box {
   [[nodiscard]] Quad CornersAt(double t) const;
 };
 
-/// The nearest that a body came to a box.
+/// The closest approach of a body to a box.
 struct Nearest {
-  double gap = 0.0;   ///< [m]; below 0: it overlapped by so much
+  double gap = 0.0;   ///< [m]; negative: depth of the overlap
   double t = 0.0;     ///< [s]
-  double step = 0.0;  ///< largest motion of the two against each other in one step there [m]
+  double step = 0.0;  ///< largest relative motion in one step there [m]
 };
 
-/// The smallest gap over a motion that is linear in position and yaw between the poses, within
-/// `resolution` [m]: no point of the body moves further than that between two evaluations near the
-/// minimum. Exact for the poses themselves.
+/// The smallest gap over a motion linear in position and yaw between the poses, to within
+/// `resolution` [m]: near the minimum, no point of the body moves farther between two evaluations.
+/// Exact at the poses.
 Nearest SweptGap(const Rectangle& footprint, const std::vector<TimedPose>& poses, const Box& box,
                  double resolution);
 
 /// Distance from a point to the segment between two others [m].
 double DistanceToSegment(const Point& p, const Point& a, const Point& b);
 
-/// A polyline that is asked for the distance of points which move little from one to the next.
+/// A polyline, for distance queries of points that move little from one to the next.
 class Polyline {
  public:
   explicit Polyline(std::vector<Point> points);
 
-  /// Distance of the nearest of its segments [m], all of them looked at.
+  /// Distance to the nearest segment [m], by a search over all segments.
   [[nodiscard]] double DistanceTo(const Point& p) const;
 
-  /// Distance of the nearest segment among a few beside the one of the last call: an upper bound of
+  /// Distance to the nearest of a few segments around the last call's result: an upper bound of
   /// DistanceTo.
   double LocalDistanceTo(const Point& p);
 

@@ -60,13 +60,13 @@ TEST(SweptGap, FindsABoxThatIsPassedBetweenTwoPoses) {
   const std::vector<TimedPose> poses{{0.0, 0.0, 0.0, 0.0}, {0.1, 10.0, 0.0, 0.0}};
   const Rectangle car{-0.5, 1.0, 1.0};
   EXPECT_LT(SweptGap(car, poses, wall, 1e-3).gap, -0.09);
-  // Beside it by 0.25 m and gone by when the car is there.
+  // A fast box that passes the car at 0.25 m and is gone when the car arrives.
   const Box gone{{0.0, 5.0, 0.0, 0.0}, 0.1, 1.0, {0.0, 400.0}};
   EXPECT_GT(SweptGap(car, poses, gone, 1e-3).gap, 0.0);
 }
 
 TEST(SweptGap, IsThatOfTheMomentOfPassing) {
-  // A point-like box 2 m beside the way of a car 1 m wide: 1.5 m less half its own 0.1 m.
+  // A post of 0.1 m, 2 m beside the path of a car 1 m wide: the gap is 1.5 m minus half of 0.1 m.
   const Box post{{0.0, 5.0, 2.0, 0.0}, 0.1, 0.1, {}};
   const std::vector<TimedPose> poses{{0.0, 0.0, 0.0, 0.0}, {1.0, 30.0, 0.0, 0.0}};
   const Nearest nearest = SweptGap({-0.5, 1.0, 1.0}, poses, post, 1e-3);

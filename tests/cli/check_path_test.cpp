@@ -46,7 +46,8 @@ TEST(CheckPath, ReadsEveryFormat) {
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const auto json = nlohmann::json::parse(outcome.output);
     EXPECT_EQ(json.at("points"), 12) << name;
-    // 11 chords of 2 m of a circle of 15 m; the projection of the GeoJSON file was a sphere's.
+    // 11 chords of 2 m of a circle of 15 m. The tolerance covers the GeoJSON file, which was
+    // projected on a sphere.
     EXPECT_NEAR(json.at("length_m").get<double>(), 22.0, Tolerance(0.15)) << name;
     EXPECT_TRUE(json.at("faults").empty());
   }
@@ -109,7 +110,7 @@ TEST(CheckPath, SaysWhatIsWrong) {
   const Outcome out = Trackbed(folder, "check-path p.csv --speed 1 --out run");
   EXPECT_EQ(out.code, 2);
   EXPECT_THAT(out.output, HasSubstr("need --drive"));
-  // Escape sequences of a file's names do not reach the terminal.
+  // Escape sequences in a file's column names must not reach the terminal.
   folder.Write("e.csv", "x,\"y\x1b[31m\"\n0,0\n1,0\n");
   EXPECT_THAT(Trackbed(folder, "check-path e.csv --speed 1").output, Not(HasSubstr("\x1b[31m")));
 }

@@ -44,7 +44,7 @@ TEST(Compare, ExceededToleranceIsExitCodeThree) {
               testing::ContainsRegex("\n  kinematic and mujoco: position difference 0\\.00[0-9]+ m "
                                      "exceeds 0\\.0001 m at s = [0-9.]+ m, t = [0-9.]+ s\n"));
   EXPECT_EQ(Trackbed(folder, "compare -q --tolerance position=0.0001 " + file).output, "");
-  // Without tolerances the scenario's own bounds count: 0.1 m.
+  // Without --tolerance the scenario's own bound of 0.1 m applies.
   EXPECT_EQ(Trackbed(folder, "compare -q " + file).code, 0);
   const std::string tight =
       " --set 'expect={between: [{plants: [kinematic, mujoco], yaw_rate_max: 1e-5}]}'";
@@ -65,11 +65,11 @@ TEST(Compare, HoldsFinishedRunsAgainstEachOther) {
   EXPECT_THAT(across.output, HasSubstr("\n  a/kinematic - b/kinematic, from 0 m to "));
   EXPECT_EQ(across.output.find("mujoco"), std::string::npos);
   EXPECT_THAT(across.output, StartsWith("a and b: FAILED, in out/compare/compare.json\n"));
-  // Without tolerances nothing is judged.
+  // Without --tolerance nothing is judged.
   const Outcome shown = Trackbed(folder, "compare a b");
   EXPECT_EQ(shown.code, 0);
   EXPECT_THAT(shown.output, StartsWith("a and b: compared, no tolerances given, in "));
-  // A run is itself, read back from its files.
+  // A run equals itself after reading its files.
   const Outcome same = Trackbed(
       folder, "compare a a --tolerance position=0,heading=0,yaw_rate=0,steering=0 -o same");
   EXPECT_EQ(same.code, 0) << same.output;
@@ -120,7 +120,7 @@ TEST(Test, RunsManyAtOnceInTheOrderOfTheFiles) {
   for (const char* jobs : {"1", "3"}) {
     const Outcome outcome =
         Trackbed(folder, std::string("test s --jobs ") + jobs + options + " 2>errors");
-    EXPECT_EQ(outcome.code, 2);  // bad input outranks a failed expectation
+    EXPECT_EQ(outcome.code, 2);  // invalid input outranks a failed expectation
     EXPECT_EQ(WithoutDurations(outcome.output), lines);
     EXPECT_THAT(ReadFile(folder.path() / "errors"),
                 HasSubstr("s/b.yaml:3:11: mission.sped: unknown key 'sped'"));
@@ -146,7 +146,8 @@ TEST(Test, WritesJUnit) {
                                     "0\\.001 m at s = [0-9.]+ m, t = [0-9.]+ s"));
   const auto* error = failed->NextSiblingElement()->FirstChildElement("error");
   EXPECT_THAT(error->GetText(), HasSubstr("mission.sped: unknown key 'sped'"));
-  // Nothing but the report is left in its folder, and where it cannot be written nothing is driven.
+  // The folder of the report contains nothing else; if the report cannot be written, nothing is
+  // simulated.
   EXPECT_EQ(Shell(folder, "ls -A out/j").output, "report.xml\n");
   folder.Write("taken", "a file");
   const Outcome taken =
@@ -183,7 +184,7 @@ TEST(Test, GoesThroughFoldersAndTakesEveryScenarioOnce) {
 TEST(Test, CtrlCSkipsTheRest) {
   const TempFolder folder;
   folder.Write("s/a.yaml", ReadFile(ScenarioFile("winding")));
-  // The first line appears when the first scenario is done; the second would take minutes.
+  // The first line appears when the first scenario has finished; the second would take minutes.
   std::string slow = ReadFile(ScenarioFile("three_turns"));
   const std::string drive = "drive: {plants: [kinematic, mujoco]}";
   slow.replace(slow.find(drive), drive.size(), "drive: {timestep: 0.00002}");

@@ -1,4 +1,4 @@
-// How often the program compiles a car with MuJoCo.
+// Counts how often the program compiles a car with MuJoCo.
 
 #include <dlfcn.h>
 #include <gmock/gmock.h>
@@ -18,8 +18,8 @@ int compiled = 0;
 
 }  // namespace
 
-// This executable's own functions come before those of MuJoCo's shared library, which they call.
-// Declared here, as only sim and render see MuJoCo's headers.
+// These functions of the executable take precedence over those of MuJoCo's shared library and call
+// them. MuJoCo's types are declared here because only sim and render see its headers.
 struct mjModel_;
 struct mjVFS_;
 extern "C" mjModel_* mj_loadXML(const char* file, const mjVFS_* vfs, char* error, int error_size) {
@@ -29,7 +29,7 @@ extern "C" mjModel_* mj_loadXML(const char* file, const mjVFS_* vfs, char* error
   return load(file, vfs, error, error_size);
 }
 
-// A model that is compiled in a process of its own is loaded here.
+// A model that a child process compiled is loaded here.
 extern "C" mjModel_* mj_loadModel(const char* file, const mjVFS_* vfs) {
   using Load = mjModel_* (*)(const char*, const mjVFS_*);
   static const auto load = reinterpret_cast<Load>(dlsym(RTLD_NEXT, "mj_loadModel"));
@@ -40,15 +40,15 @@ extern "C" mjModel_* mj_loadModel(const char* file, const mjVFS_* vfs) {
 namespace trackbed {
 namespace {
 
-/// Runs the program in a process of its own, as it keeps the signals, and ends that with the number
-/// of models compiled; with 99 if the program could not do it.
+/// Runs the program in a child process, because it installs signal handlers. The child exits with
+/// the number of compiled models, or with 99 if the program failed.
 [[noreturn]] void RunAndExit(std::vector<std::string> words) {
   std::vector<char*> arguments;
   for (std::string& word : words) {
     arguments.push_back(word.data());
   }
   const int code = Main(static_cast<int>(arguments.size()), arguments.data());
-  constexpr int kDidNotArrive = 3;  // in the time that these runs have
+  constexpr int kDidNotArrive = 3;  // within the runs' time limit
   std::_Exit(code == 0 || code == kDidNotArrive ? compiled : 99);
 }
 
@@ -78,13 +78,13 @@ TEST_F(CompileOnce, RunCompilesItsCarOnceForAllPlantsAndFiles) {
   EXPECT_EXIT(RunAndExit(Words("three_turns", {"--mcap"})), testing::ExitedWithCode(1), "");
 }
 
-// The shell around the car is made from the compiled car: one model without obstacles, one with.
+// The obstacles' scene is built from the compiled car: one model without obstacles, one with them.
 TEST_F(CompileOnce, ObstaclesTakeOneMoreModel) {
   EXPECT_EXIT(RunAndExit(Words("overtake", {"--mcap"})), testing::ExitedWithCode(2), "");
 }
 
-// Reports are made from the finished folder alone, by the model that lies in it: once without its
-// looks, for the vehicle's parameters, and once with them, for the replay.
+// Reports use only the finished folder and the model in it: once without visual elements, for the
+// vehicle's parameters, and once with them, for the replay.
 TEST_F(CompileOnce, WhatReadsTheRunFolderCompilesItsModel) {
   EXPECT_EXIT(RunAndExit(Words("three_turns", {"--mcap", "--report"})), testing::ExitedWithCode(3),
               "");

@@ -1,5 +1,5 @@
-// The program's commands in the shell blocks of README.md and docs/: each is a test, in a folder of
-// its own, after those commands that make the results it reads.
+// Runs the program's commands in the shell blocks of README.md and docs/. Each command is a test in
+// a separate folder, after the commands that produce the results it reads.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -23,13 +23,13 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path kSource = TRACKBED_SOURCE_DIR;
-/// Of the tests of a command that drives all scenarios of a folder: each drives a share of them.
+/// A command that runs all scenarios of a folder is split into this many tests.
 constexpr std::size_t kParts = 8;
 
 struct Command {
-  std::string name;                 ///< of its test
-  std::vector<std::string> words;   ///< without the program; with their quotes
-  std::vector<std::string> before;  ///< the commands that come first on its page, in order
+  std::string name;                 ///< of the test
+  std::vector<std::string> words;   ///< without the program; including quotes
+  std::vector<std::string> before;  ///< the preceding commands on its page, in order
   std::size_t part = 0;
   std::size_t parts = 1;
 };
@@ -103,7 +103,7 @@ std::vector<Command> DocumentedCommands() {
   return commands;
 }
 
-/// The words behind options that name what is written.
+/// The arguments of options that name outputs.
 std::vector<std::string> Outputs(const std::vector<std::string>& words) {
   static const std::vector<std::string> kOptions{"-o",     "--out",    "--junit",
                                                  "--save", "--report", ">"};
@@ -132,7 +132,7 @@ std::string MadeBy(const std::vector<std::string>& words) {
   return words[0] == "run" || words[0] == "sweep" || words[0] == "falsify" ? "out/" + stem : "";
 }
 
-/// The results that a command reads.
+/// Results that a command reads.
 std::vector<std::string> ReadBy(const std::vector<std::string>& words) {
   const std::vector<std::string> outputs = Outputs(words);
   std::vector<std::string> read;
@@ -152,7 +152,8 @@ class Documented : public testing::TestWithParam<Command> {
     fs::create_directory(folder_.path() / "out");
   }
 
-  /// Runs the commands that make what `words` read: those before it on its page, or of the README.
+  /// Runs the commands that produce the inputs of `words`: preceding ones on its page, or those of
+  /// the README.
   void Prepare(const std::vector<std::string>& words, const std::vector<std::string>& before) {
     for (const std::string& result : ReadBy(words)) {
       bool is_made = fs::exists(folder_.path() / result);
@@ -172,7 +173,7 @@ class Documented : public testing::TestWithParam<Command> {
     }
   }
 
-  /// Leaves of a study that is identified one recording, one start and three parameters: whole ones
+  /// Reduces an identification study to one recording, one start and three parameters: full ones
   /// take minutes.
   void Shorten(const std::string& study) const {
     fs::remove(folder_.path() / "scenarios");
@@ -199,14 +200,14 @@ class Documented : public testing::TestWithParam<Command> {
       command = std::regex_replace(command, std::regex(" --video"), "");
     }
     if (words[0] == "watch") {
-      // It ends with Ctrl-C alone.
+      // `watch` ends only with Ctrl-C.
       const Outcome watched = Watched(folder_, command.substr(6));
       EXPECT_TRUE(watched.code == 130 || watched.code == 0) << command << "\n" << watched.output;
       EXPECT_THAT(watched.output, testing::StartsWith("http://127.0.0.1:")) << command;
       return;
     }
-    // A whole film takes minutes at full size; a stamp at two frames a second proves the command,
-    // as do many short drives that it can be swept.
+    // A whole film takes minutes at full size; a small one at two frames a second tests the
+    // command. Short runs test a sweep.
     const bool film = words[0] == "render";
     const bool sweep = words[0] == "sweep" && words[1] != "merge";
     const bool run_film = command.find(" --video") != std::string::npos;
@@ -217,7 +218,7 @@ class Documented : public testing::TestWithParam<Command> {
                                : run_film ? " --set render.size=[128,72] --set render.fps=2"
                                : sweep    ? " --set drive.time_limit=1"
                                           : ""));
-    // A search that is shown finds something.
+    // The documented searches find a violation.
     EXPECT_EQ(outcome.code, words[0] == "falsify" ? 3 : 0) << command << "\n" << outcome.output;
   }
 

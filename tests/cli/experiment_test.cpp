@@ -24,8 +24,8 @@ TEST(Experiment, OptimalSteeringGivesThePublishedTable) {
               HasSubstr("matched by arc length, always within 2.3 % of the primary's "
                         "angle: isres, direct\n"));
 
-  // First stage: the exact minimum of Skackauskas et al. 2017, eqs. (1)-(2), solved apart from this
-  // program for L = 2.7 m, l_g = 1.4 m. Second stage, as printed.
+  // First stage: the exact minimum of Skackauskas et al. 2017, eqs. (1)-(2), solved independently
+  // of this program for L = 2.7 m, l_g = 1.4 m. Second stage: as printed.
   const std::map<std::string, double> by_time{
       {"2.5", 11.969}, {"2", 14.890}, {"1.5", 19.655}, {"1", 27.000}};
   const std::map<std::string, std::string> published{
@@ -39,16 +39,16 @@ TEST(Experiment, OptimalSteeringGivesThePublishedTable) {
     SCOPED_TRACE(row[0] + " m/s by " + row[1] + ", " + row[2]);
     const double steering = std::stod(row[3]);
     if (row[1] == "time") {
-      // Those figures are rounded to a thousandth; the searches are asked for 0.02.
+      // These values are rounded to a thousandth; the searches have a tolerance of 0.02.
       EXPECT_NEAR(steering, by_time.at(row[0]), Tolerance(0.02));
       EXPECT_EQ(row[7], "");
     } else {
-      // A converged search is within 0.05 of 10; the published angles scatter round it by 2.3 %.
+      // A converged search is within 0.05 of 10; the published angles scatter around it by 2.3 %.
       EXPECT_NEAR(steering, 10.0, Tolerance(0.05));
       EXPECT_EQ(row[7], published.at(row[0]));
       EXPECT_LE(std::abs(std::stod(row[7]) - 10.0), 0.23 + 1e-9);
     }
-    // 1e-9: both cells read back to the doubles that were computed.
+    // 1e-9: both cells read back as the computed doubles.
     EXPECT_NEAR(std::stod(row[4]), 100.0 * (steering / 10.0 - 1.0), Tolerance(1e-9));
     EXPECT_GT(std::stoi(row[6]), 0);
   }
@@ -66,7 +66,7 @@ TEST(Experiment, OfAnotherMotionHasNoPublishedAngles) {
   for (const auto& row : table.rows()) {
     EXPECT_EQ(row[7], "");
     if (row[1] == "arc_length") {
-      EXPECT_NEAR(std::stod(row[3]), -5.0, Tolerance(0.05));  // right stays right
+      EXPECT_NEAR(std::stod(row[3]), -5.0, Tolerance(0.05));  // the turn to the right stays one
     } else {
       EXPECT_LT(std::stod(row[3]), -5.0);
     }
@@ -74,7 +74,7 @@ TEST(Experiment, OfAnotherMotionHasNoPublishedAngles) {
 }
 
 TEST(Experiment, ListsSearchesThatMissTheAngle) {
-  // A simplex goes downhill from straight wheels; at 2.5 m/s that ends on the bound.
+  // A simplex descends from straight wheels; at 2.5 m/s it ends on the bound.
   const TempFolder folder;
   const Outcome outcome =
       Trackbed(folder, "experiment optimal_steering --searches direct,nelder_mead");

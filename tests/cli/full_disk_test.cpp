@@ -19,8 +19,8 @@ using testing::MatchesRegex;
 using testing::UnorderedElementsAre;
 using testing::UnorderedElementsAreArray;
 
-/// Runs the program with its output on a file system of a few kilobytes, which only a namespace of
-/// our own may mount.
+/// Runs the program with its output on a file system of a few kilobytes, which can be mounted only
+/// in a private namespace.
 class FullDisk : public testing::Test {
  protected:
   void SetUp() override {
@@ -31,7 +31,7 @@ class FullDisk : public testing::Test {
     }
   }
 
-  /// Runs `script` with `disk` of that size, and copies to `left` what is on it in the end.
+  /// Runs `script` with a `disk` of that size and copies its final contents to `left`.
   [[nodiscard]] Outcome WithDisk(const std::string& size, const std::string& script) const {
     folder.Write("script", "mount -t tmpfs -o size=" + size + " none disk || exit 99\n" + script +
                                "\ncode=$?; cp -r disk left; exit $code\n");
@@ -49,7 +49,7 @@ std::vector<std::string> NamesIn(const fs::path& folder) {
   return names;
 }
 
-/// What is in `folder` is byte for byte what is in `complete`.
+/// Expects every file in `folder` to equal that in `complete`, byte for byte.
 void ExpectWhole(const fs::path& folder, const fs::path& complete) {
   for (const std::string& name : NamesIn(folder)) {
     ASSERT_TRUE(fs::exists(complete / name)) << name << " is no file of the whole";
@@ -57,7 +57,7 @@ void ExpectWhole(const fs::path& folder, const fs::path& complete) {
   }
 }
 
-/// What the files in `folder` take of a disk with pages of 4 kB.
+/// Space of the files in `folder` on a disk with pages of 4 kB.
 std::uintmax_t KilobytesOf(const fs::path& folder) {
   std::uintmax_t kilobytes = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -71,8 +71,8 @@ std::string Winding() {
 }
 
 TEST_F(FullDisk, EndsARunInOneLineWithNothing) {
-  // Room for some files of the run, but not for its plan.csv of 127 kB. A run that has not all its
-  // files is none.
+  // Room for some files of the run, but not for its plan.csv of 127 kB. A run with missing files
+  // must not look complete.
   const Outcome outcome = WithDisk("64k", TRACKBED_PROGRAM " run -o disk/r " + Winding());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output,
@@ -82,7 +82,7 @@ TEST_F(FullDisk, EndsARunInOneLineWithNothing) {
 
 TEST_F(FullDisk, LeavesAnEarlierRunAsItWas) {
   Trackbed(folder, "run -q -o whole " + Winding());
-  // Room for one run, but not for another one beside it.
+  // Room for one run, but not for a second one beside it.
   const Outcome outcome = WithDisk(std::to_string(KilobytesOf(folder.path() / "whole") + 8) + "k",
                                    TRACKBED_PROGRAM " run -q -o disk/r " + Winding() +
                                        "; cp disk/r/timing.json whole; " +
@@ -105,7 +105,7 @@ TEST_F(FullDisk, LeavesNothingOfARunWhoseMcapFoundNoRoom) {
 }
 
 TEST_F(FullDisk, LeavesAnEarlierPlanAsItWas) {
-  // The plan of a short route fits; that of the whole one does not.
+  // The plan of a short route fits; that of the whole route does not.
   const std::string route = " --set 'mission.waypoints=[[0, 0], [20, 0], [40, 4]]'";
   const std::string plan = TRACKBED_PROGRAM " plan -q -o disk " + ScenarioFile("winding");
   const Outcome outcome = WithDisk("64k", plan + route + " && " + plan);
@@ -123,8 +123,8 @@ TEST_F(FullDisk, LeavesNoPieceOfASweep) {
                                  "vary: {mission.speed: [1, 2]}\n"
                                  "outputs: [metrics.kinematic.distance]\n");
   Trackbed(folder, "sweep -q study.yaml -o whole");
-  // Of the four pages that the sweep takes there is room for one, that of its records, from which
-  // it can go on.
+  // Of the four pages that the sweep needs there is room for one, which holds its records; it can
+  // resume from them.
   const std::string sweep = TRACKBED_PROGRAM " sweep -q study.yaml -o disk/s";
   const Outcome part = WithDisk("4k", sweep);
   EXPECT_EQ(part.code, 2);
@@ -132,14 +132,14 @@ TEST_F(FullDisk, LeavesNoPieceOfASweep) {
   EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.records"));
   fs::remove_all(folder.path() / "left");
   // Room for one sweep and its list of files to remove, but not for another sweep beside it: the
-  // earlier one stays as it was.
+  // first result stays unchanged.
   const Outcome second =
       WithDisk("20k", sweep + " && " + sweep + " --restart --set drive.time_limit=0.2");
   EXPECT_EQ(second.code, 2);
   EXPECT_EQ(second.output, "cannot write disk/s/sweep.json: No space left on device\n");
   EXPECT_THAT(NamesIn(folder.path() / "left/s"),
               UnorderedElementsAre("sweep.csv", "sweep.json", "sweep.records", "manifest.json"));
-  fs::remove(folder.path() / "left/s/sweep.records");  // of the second one
+  fs::remove(folder.path() / "left/s/sweep.records");  // of the second sweep
   ExpectWhole(folder.path() / "left/s", folder.path() / "whole");
 }
 

@@ -19,7 +19,7 @@ std::vector<std::string> ListedNames(const std::string& kind) {
   std::istringstream lines(Trackbed(folder, "list " + kind).output);
   std::vector<std::string> names;
   std::string line;
-  std::getline(lines, line);  // the kind
+  std::getline(lines, line);  // the heading
   while (std::getline(lines, line)) {
     std::istringstream words(line);
     words >> names.emplace_back();
@@ -27,7 +27,7 @@ std::vector<std::string> ListedNames(const std::string& kind) {
   return names;
 }
 
-/// The names under the pictures of a section of docs/gallery.md.
+/// The names below the pictures of a section of docs/gallery.md.
 std::vector<std::string> ShownNames(const std::string& page, const std::string& title) {
   const std::size_t begin = page.find("\n## " + title + "\n");
   EXPECT_NE(begin, std::string::npos) << title;

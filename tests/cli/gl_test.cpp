@@ -11,7 +11,7 @@ class GlOption : public testing::Test {
   GlOption() {
     Trackbed(folder_, "run -q " + ScenarioFile("winding") + " -o r --set drive.time_limit=0.1");
   }
-  /// `render` of one small picture, after these settings of the environment.
+  /// Runs `render` for one small picture with these environment settings.
   [[nodiscard]] Outcome Picture(const std::string& environment, const std::string& options) const {
     return Shell(folder_, "env -u MUJOCO_GL " + environment +
                               " " TRACKBED_PROGRAM " render r --size 128x72 --at 0.1 -o p.png " +

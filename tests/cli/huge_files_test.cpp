@@ -10,14 +10,14 @@
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/file.h"
 
-// A run folder may come from anybody. Whatever it holds, the verbs that read one end with a
-// message, within 1 GiB of address space beside that of the libraries.
+// A run folder may come from an untrusted source. Whatever a folder contains, the verbs that read
+// it must end with a message, within 1 GiB of address space in addition to the libraries.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes a file that no run has.
+/// Writes a file that no run would produce.
 struct HugeFile {
   std::string what;
   std::function<void(const fs::path& file)> write;
@@ -80,12 +80,12 @@ class HugeFiles : public testing::Test {
                                     ScenarioFile("winding"))
                   .code,
               3);
-    fs::remove(run() / "manifest.json");  // it tells of every change
+    fs::remove(run() / "manifest.json");  // it detects every change
   }
 
   [[nodiscard]] fs::path run() const { return folder_.path() / "r"; }
 
-  /// Puts the file in place of `name` and has it read by the verbs.
+  /// Replaces the file `name` and runs the verbs on it.
   void Try(const std::string& name, const HugeFile& huge, const std::vector<std::string>& verbs) {
     const fs::path kept = folder_.path() / "kept";
     const bool was_there = fs::exists(run() / name);
@@ -107,7 +107,7 @@ class HugeFiles : public testing::Test {
     }
   }
 
-  /// The sanitizers' own memory is terabytes of addresses.
+  /// The sanitizers reserve terabytes of address space.
   static std::string Limit() {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
     return "";
@@ -117,7 +117,7 @@ class HugeFiles : public testing::Test {
   }
 
   static constexpr long kMemory = 1L << 20U;   // KiB
-  static constexpr long kLibraries = 500'000;  // KiB, which are mapped and not all used
+  static constexpr long kLibraries = 500'000;  // KiB, mapped but only partly used
   TempFolder folder_;
 };
 
@@ -161,7 +161,7 @@ TEST_F(HugeFiles, OfStudiesAreRefused) {
 }
 
 TEST_F(HugeFiles, ThatAreNoneAreRefused) {
-  // Nobody writes to the pipe: who opens it waits for ever.
+  // No process writes to the pipe, so a reader that opens it would wait forever.
   Try("metrics.json",
       {"a pipe", [&](const fs::path& file) { Shell(folder_, "mkfifo '" + file.string() + "'"); }},
       {kReport, kRender, kCompare});

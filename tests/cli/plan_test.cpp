@@ -24,7 +24,7 @@ TEST(Plan, PrintsTheTurnsOfFillets) {
   const std::string text =
       PrintedPlan(ScenarioFile("three_turns") + " --set plan.objective=turn_local");
   EXPECT_THAT(text, ContainsRegex("three_turns: planned 143.180 m in [0-9.]+ s, in plan"));
-  // Headings in lines of words, their units below; then one row for each of the three corners.
+  // A heading with units below, then one row for each of the three corners.
   EXPECT_THAT(text, HasSubstr("\n  turns\n"));
   EXPECT_THAT(text, ContainsRegex("waypoint +change +radius +speed"));
   EXPECT_THAT(text, ContainsRegex("\n +\\[rad\\] +\\[m\\] +\\[m/s\\]"));

@@ -18,7 +18,7 @@ inline std::string ScenarioFile(const std::string& name) {
   return (std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml")).string();
 }
 
-/// Starts `watch`, and sends it a signal when it has said where it serves. What it prints, and its
+/// Starts `watch` and sends it a signal when it has printed its address. Returns its output and
 /// exit code.
 inline Outcome Watched(const TempFolder& folder, const std::string& arguments,
                        const std::string& signal = "INT") {
@@ -27,7 +27,7 @@ inline Outcome Watched(const TempFolder& folder, const std::string& arguments,
                            " $!; cat; wait $!; } < said");
 }
 
-/// What `test` prints, without the times that it took: " (0.3 s)" and " in 1.2 s".
+/// Output of `test` without durations: " (0.3 s)" and " in 1.2 s".
 inline std::string WithoutDurations(const std::string& output) {
   static const std::regex duration(R"( \([0-9.]+ (s|min|h)[^)]*\)| in [0-9.]+ (s|min|h)[^:]*)");
   return std::regex_replace(output, duration, "");

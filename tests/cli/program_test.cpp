@@ -1,3 +1,6 @@
+// Runs the installed program through the shell: exit codes, messages, written files, locks and
+// signals.
+
 #include "tests/cli/program.h"
 
 #include <gmock/gmock.h>
@@ -169,7 +172,7 @@ TEST(Program, SaysAtOnceThatItWasBuiltWithoutVideo) {
   EXPECT_EQ(run.output,
             "out/winding/video.mp4: this Trackbed was built without video (TRACKBED_VIDEO=OFF); a "
             "film is made as .png (frames)\n");
-  EXPECT_TRUE(folder.Names().empty());  // before anything was driven
+  EXPECT_TRUE(folder.Names().empty());  // fails before the simulation
 }
 
 TEST(Program, RefusesToFilmWhatIsNoRun) {
@@ -213,8 +216,8 @@ TEST(Program, SaysSoWhenNobodyCanReadItsOutput) {
   EXPECT_EQ(Trackbed(folder, "run none.yaml 2>&-").code, 2);
 }
 
-// The file that is opened next would have the number of the closed stream, and what is printed in
-// it.
+// With a standard stream closed, the next opened file would get its descriptor, and printed text
+// would end up in that file.
 TEST(Program, WritesFilesOnlyWhereStreamsAreClosed) {
   const TempFolder folder;
   Trackbed(folder, "run -q -o r --set drive.time_limit=0.1 -- " + ScenarioFile("winding"));
@@ -233,7 +236,7 @@ TEST(Program, RefusesASecondWriterOfAFolder) {
   const TempFolder folder;
   std::filesystem::create_directory(folder.path() / "r");
   for (const char* verb : {"run", "plan", "compare"}) {
-    // flock(1) holds the lock as another trackbed would.
+    // flock(1) holds the lock as another process of trackbed would.
     const Outcome second = Shell(folder, std::string("flock r " TRACKBED_PROGRAM " ") + verb +
                                              " -o r " + ScenarioFile("winding"));
     EXPECT_EQ(second.code, 2) << verb;
@@ -272,7 +275,7 @@ TEST(Docs, CliPageHoldsWhatTheProgramSays) {
   std::string written_line;
   while (std::getline(told, told_line)) {
     std::getline(written, written_line);
-    // The first line that differs is enough.
+    // Reports only the first line that differs.
     ASSERT_EQ(written_line, told_line)
         << "docs/cli.md is behind the program; run: build/release/trackbed docs docs/cli.md";
   }
@@ -333,7 +336,7 @@ TEST(Program, ChecksWithoutDriving) {
   const Outcome empty = Trackbed(folder, "check empty s/good.yaml");
   EXPECT_EQ(empty.code, 2);
   EXPECT_EQ(empty.output, "empty: the folder has no scenarios (*.yaml, *.yml)\ns/good.yaml: ok\n");
-  // Folders are gone through to their ends, for studies too.
+  // Folders are searched recursively, for studies too.
   EXPECT_THAT(Trackbed(folder, "check " TRACKBED_SOURCE_DIR "/scenarios").output,
               testing::AllOf(HasSubstr("/scenarios/winding.yaml: ok\n"),
                              HasSubstr("/scenarios/maneuvers/gust.yaml: ok\n"),
@@ -354,7 +357,7 @@ TEST(Program, ChecksWhatIsExpectedOfMetrics) {
         << verb;
   }
   EXPECT_THAT(folder.Names(), testing::ElementsAre("s.yaml"));  // nothing was driven
-  // How many turns there are is known when there is a plan.
+  // The number of turns is known only after planning.
   const Outcome turns = Trackbed(
       folder, "check " + ScenarioFile("winding") +
                   " --set 'expect.metrics=[{metric: \"turns[2].lateral_offset\", max: 1}]'");
@@ -380,7 +383,7 @@ TEST(Program, ShowsAndSavesAModel) {
   EXPECT_EQ(shown.code, 0);
   EXPECT_THAT(shown.output, HasSubstr("min_turning_radius                  5.1 m\n"));
   EXPECT_EQ(Trackbed(folder, "model prius --save car.xml").code, 0);
-  // What was saved is a model like the one it came from.
+  // The saved model equals the original.
   EXPECT_THAT(Trackbed(folder, "model ./car.xml").output,
               HasSubstr("steering_rate                   0.15057 rad/s\n"));
   EXPECT_EQ(Trackbed(folder, "model pruis").output,
@@ -393,18 +396,18 @@ TEST(Program, ShowsTheGgvDiagramOfAModel) {
   EXPECT_EQ(shown.code, 0) << shown.output;
   EXPECT_THAT(shown.output, HasSubstr("g-g-v diagram of prius on a level road of factor 1"));
   EXPECT_THAT(shown.output, HasSubstr("\n      60 "));
-  // Seven speeds, each from braking straight ahead over the largest lateral acceleration to
-  // driving.
+  // Seven speeds, each from straight braking over the largest lateral acceleration to straight
+  // acceleration.
   const Table table = ReadCsv(folder.path() / "ggv.csv");
   ASSERT_EQ(table.rows(), 7U * 49U);
   EXPECT_EQ(table.at(0, 1), 0.0);
   EXPECT_NEAR(table.at(0, 2), -8.26, 0.005);  // max_deceleration, to the digits of docs/models.md
-  EXPECT_GT(table.at(24, 1), 8.0);            // in the middle
+  EXPECT_GT(table.at(24, 1), 8.0);            // at the largest lateral acceleration
   EXPECT_EQ(Trackbed(folder, "model prius -o ggv.csv").output, "--out: needs --ggv\n");
 }
 
-/// Runs the program and sends it a signal when `there` says so to the shell, at most a minute
-/// later.
+/// Runs the program and sends it a signal as soon as the shell condition `there` holds, after a
+/// minute at the latest.
 Outcome Interrupted(const TempFolder& folder, const std::string& arguments,
                     const std::string& there, const std::string& signal) {
   return Trackbed(folder, arguments + " & n=0; until " + there +
@@ -434,7 +437,7 @@ TEST(Program, CtrlCInTheFilmLeavesTheVerdict) {
   if (!HasVideo(folder)) {
     GTEST_SKIP() << "built without video";
   }
-  // The verdict is told before the film, which would take many seconds.
+  // The verdict is printed before the film, which would take many seconds.
   const Outcome outcome = Interrupted(folder,
                                       "run --video --plant kinematic -o r --set 'expect={}' -- " +
                                           ScenarioFile("winding") + " " +

@@ -16,12 +16,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// RRT* during the run, a route of RRT in the wind, noise and kicks, motions around a moving car
-/// (Frenet), a recording: all that draws numbers, searches or reads files of its own.
+/// RRT* during the run, an RRT route in wind, noise and kicks, Frenet motions around a moving car,
+/// a recording: covers random numbers, searches and additional input files.
 constexpr std::array kScenarios{"obstacle_appears", "windy_field", "disturbed", "overtake",
                                 "playback_lane_change"};
 
-/// What lies in a folder and below, but the figures of the clock on the wall.
+/// Contents of all files in a folder and its subfolders, except wall-clock times.
 std::map<std::string, std::string> BytesOf(const fs::path& folder) {
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {
@@ -32,7 +32,7 @@ std::map<std::string, std::string> BytesOf(const fs::path& folder) {
   return files;
 }
 
-/// Which files differ, or are there alone: their contents are too long to be shown.
+/// Names of files that differ or exist in only one of the maps; the contents are too long to print.
 std::string Differing(const std::map<std::string, std::string>& one,
                       const std::map<std::string, std::string>& other) {
   std::string names;
@@ -48,7 +48,7 @@ std::string Differing(const std::map<std::string, std::string>& one,
 
 struct Way {
   const char* name;
-  /// Runs the scenarios into the folder `other`; exit code 77: this machine does not let it.
+  /// Runs the scenarios into the folder `other`; exit code 77: not possible on this machine.
   const char* script;
 };
 

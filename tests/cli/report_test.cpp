@@ -33,7 +33,7 @@ TEST(Report, WritesAPageIntoTheRunsFolder) {
   EXPECT_EQ(ReadFile(folder.path() / "new/b.html"), page);
   Trackbed(folder, RunArguments("a") + " --report");
   EXPECT_EQ(ReadFile(folder.path() / "a/report.html"), page);
-  // A new run of the folder takes the page of the old one away.
+  // A new run into the folder removes the report of the old one.
   Trackbed(folder, RunArguments("a"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "a/report.html"));
 }
@@ -55,7 +55,7 @@ TEST(Report, WritesThatOfAComparisonBesideIt) {
   EXPECT_EQ(Trackbed(folder, "compare -q runs/a runs/b -o both").code, 0);
   EXPECT_EQ(Trackbed(folder, "report both").output, "both/report.html\n");
   EXPECT_THAT(ReadFile(folder.path() / "both/report.html"), HasSubstr("<title>a · b</title>"));
-  // Moved together, they are still found.
+  // A comparison and its runs moved together stay linked.
   std::filesystem::create_directory(folder.path() / "moved");
   std::filesystem::rename(folder.path() / "both", folder.path() / "moved/both");
   std::filesystem::rename(folder.path() / "runs", folder.path() / "moved/runs");

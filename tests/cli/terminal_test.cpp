@@ -20,7 +20,7 @@ using testing::Not;
 
 const std::string kEscape = "\x1b[";
 
-/// Runs a command as on a terminal: `script` makes one.
+/// Runs a command on a pseudo-terminal made by `script`.
 Outcome OnTerminal(const TempFolder& folder, const std::string& command) {
   return Shell(folder, "TERM=xterm script -qefc '" + command + "' /dev/null");
 }
@@ -103,7 +103,7 @@ TEST(ShippedScenarios, AreFoundByName) {
             "thre_turns: no such file, and no scenario of this name comes with Trackbed; did you "
             "mean 'three_turns'?\n");
   EXPECT_THAT(Trackbed(folder, "sweep zzzzzz").output, HasSubstr("`trackbed list scenarios`"));
-  // The file of the user comes first.
+  // A local file takes precedence over a shipped scenario.
   std::ofstream(folder.path() / "three_turns") << "no: scenario\n";
   EXPECT_EQ(Trackbed(folder, "check three_turns").code, 2);
 }
@@ -117,7 +117,7 @@ TEST(Help, OfEveryVerbIsNoWiderThanATerminalAndHasExamples) {
     EXPECT_THAT(help, HasSubstr("\nExamples:\n")) << verb;
     EXPECT_THAT(help, Not(HasSubstr("C.40"))) << verb;
     for (const std::string& line : LinesOf(help)) {
-      // Commands are not broken: they are to be copied.
+      // Lines with commands are not wrapped, so that they can be copied.
       if (line.find("trackbed ") == std::string::npos) {
         EXPECT_LE(line.size(), 80U) << verb << ": " << line;
       }
@@ -159,7 +159,7 @@ TEST(SweepTables, ShowFewRowsAsTheyAre) {
             "      [m/s]                             [m]\n"
             "          2    passed         1      0.1235\n"
             "         10    failed         1           -\n");
-  // What does not fit is counted.
+  // Columns that do not fit are counted.
   EXPECT_THAT(cli::SweepTableText(table, 40), testing::EndsWith("\n  and 1 more column\n"));
 }
 
@@ -173,7 +173,7 @@ TEST(SweepTables, ShowTheExtremesOfManyRows) {
   EXPECT_THAT(text, testing::ContainsRegex(" 0 +50 +100 +101\n"));
 }
 
-/// What bash offers for the last of these words.
+/// Completions that bash offers for the last of these words.
 std::string BashOffers(const TempFolder& folder, const std::string& words) {
   return Shell(folder, "bash -c '" TRACKBED_PROGRAM
                        " completion bash > b.sh; source ./b.sh; COMP_WORDS=(" +
@@ -193,7 +193,7 @@ TEST(Completion, OfBashOffersVerbsOptionsAndNames) {
             "kinematic,single_track\n");
   EXPECT_EQ(BashOffers(folder, "trackbed sweep me"), "merge\n");
   EXPECT_EQ(BashOffers(folder, "trackbed sweep submit --tas"), "--tasks\n");
-  EXPECT_EQ(BashOffers(folder, "trackbed run -o \"\""), "\n");  // files, by bash itself
+  EXPECT_EQ(BashOffers(folder, "trackbed run -o \"\""), "\n");  // bash completes file names itself
 }
 
 TEST(Completion, OfFishOffersVerbsOptionsAndNames) {
@@ -222,7 +222,7 @@ TEST(Completion, OfZshIsRegistered) {
 TEST(ManualPages, HaveNoMistakes) {
   const TempFolder folder;
   ASSERT_EQ(Trackbed(folder, "man pages").code, 0);
-  // Without a date: two builds of one version write the same pages.
+  // The pages have no date, so that two builds of one version write the same pages.
   EXPECT_EQ(Shell(folder, "mandoc -T lint -W warning pages/*.1 | grep -v \"missing date\"").output,
             "");
   EXPECT_THAT(Shell(folder, "mandoc -T html pages/trackbed-run.1").output, HasSubstr("--report"));

@@ -26,9 +26,9 @@ TEST(BrushAxle, HasFialasForceAtItsSlip) {
 }
 
 TEST(BrushAxle, HasTheSlopeOfItsForceBesideABrakingForce) {
-  // Central differences over 2 x 0.1 N of 6 kN: relative errors of (0.1/6000)^2 = 3e-10 times the
-  // third derivative of the slip, which grows as (1 - F/(mu F_z))^(-8/3), 400 at 0.9; 1e-6 leaves
-  // the rounding of slips, 1e-17 rad of the 1e-6 rad between them.
+  // Central differences over 2 x 0.1 N of 6 kN have relative errors of (0.1/6000)^2 = 3e-10 times
+  // the third derivative of the slip. That grows as (1 - F/(mu F_z))^(-8/3), 400 at 0.9. The
+  // tolerance of 1e-6 also covers the rounding of slips, 1e-17 rad of the 1e-6 rad between them.
   constexpr double kStep = 0.1;
   for (const double longitudinal : {0.0, -3000.0, 4500.0}) {
     for (const double lateral : {0.5, 1500.0, -3000.0}) {

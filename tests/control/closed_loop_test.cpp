@@ -1,4 +1,4 @@
-// What every controller of the table that follows a path owes its caller.
+// Guarantees of every registered path-following controller.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -22,12 +22,13 @@
 
 namespace {
 
-long allocations = 0;  // NOLINT: counted behind everyone's back
+long allocations = 0;  // NOLINT: global, because it is counted in malloc
 
 }  // namespace
 
-// The linker lets malloc, which Eigen calls, and operator new end here (--wrap) for all of our own
-// code, not for what shared libraries such as NLopt's take for themselves.
+// The linker redirects malloc, which Eigen calls, and operator new to these functions (--wrap).
+// That covers all of this project's code, but not allocations inside shared libraries such as
+// NLopt.
 extern "C" {
 void* __real_malloc(std::size_t size);   // NOLINT: the linker's names
 void* __wrap_malloc(std::size_t size) {  // NOLINT
@@ -47,7 +48,7 @@ void PrintTo(const ControllerEntry& entry, std::ostream* out);
 
 namespace {
 
-/// A state of a car, and what it follows.
+/// The state of a car, and the reference that it follows.
 struct Case {
   VehicleParams vehicle = ReferenceCar();
   Reference reference;
@@ -64,7 +65,7 @@ double Steer(const ControllerOptions& options, const Case& at) {
                                                  .period = 0.02});
 }
 
-/// Anywhere near a path of any shape, on any of the cars.
+/// A state near a path of random shape, for a random car.
 Case RandomCase(Random& random, int direction = 1) {
   Case at;
   at.vehicle = random.Uniform(0.0, 1.0) < 0.5 ? ReferenceCar() : ReferenceCarWithTyres();
@@ -106,8 +107,8 @@ class EveryFollower : public testing::TestWithParam<ControllerEntry> {};
 
 INSTANTIATE_TEST_SUITE_P(Table, EveryFollower, testing::ValuesIn(Followers()), CaseName);
 
-// Sines and cosines of paths and poses within 200 m round at 1e-14 m/m; laws divide by a tenth of a
-// meter at the least, and MPC's program is solved to 1e-9 rad/s over 0.02 s.
+// Sines and cosines of paths and poses within 200 m round at 1e-14 m/m. The laws divide by at least
+// 0.1 m, and MPC's program is solved to 1e-9 rad/s over 0.02 s.
 constexpr double kRounding = 1e-9;
 
 TEST_P(EveryFollower, MirroredWorldMirrorsTheSteering) {
@@ -177,8 +178,8 @@ TEST_P(EveryFollower, KeepsTheKinematicCarOnItsCircle) {
 }
 
 TEST_P(EveryFollower, ComesBackToItsPath) {
-  // The kinematic car, behind its rate limit. A tenth of the offset is left after 40 m, and it
-  // never swings further out on the other side than where it came from.
+  // The kinematic car with its rate limit. After 40 m at most a tenth of the offset is left, and
+  // the car never overshoots by more than its initial offset.
   for (const double offset : {0.3, -0.3}) {
     for (const int direction : {1, -1}) {
       SCOPED_TRACE(fmt::format("offset {}, direction {}", offset, direction));
@@ -197,8 +198,8 @@ TEST_P(EveryFollower, ComesBackFromMetersAway) {
   if (std::string(GetParam().name) == "pure_pursuit" || std::string(GetParam().name) == "stanley") {
     GTEST_SKIP() << "is the textbook's law: see its header";
   }
-  // Wheels that turn at omega swing back over e in some cbrt(e L v/omega), 7 m here; 200 m are many
-  // of these.
+  // Wheels that turn at omega need some cbrt(e L v/omega), 7 m here, to correct an offset e; 200 m
+  // are many times that.
   std::vector<ControllerOptions> all{GetParam().defaults};
   if (GetParam().defaults.Is<PreviewIntegralOptions>()) {
     all.emplace_back(PreviewIntegralOptions{.weight = PreviewWeight::kNear});
@@ -213,7 +214,7 @@ TEST_P(EveryFollower, ComesBackFromMetersAway) {
         setup.start = {0.0, offset, 0.0};
         setup.duration = 66.0;
         const std::vector<LoopRow> rows = Loop(options, setup);
-        // Turning in, the rear axle slips outward by some hundredths of a millimeter.
+        // As the car turns in, the rear axle slips outward by some hundredths of a millimeter.
         EXPECT_LT(LargestOffset(rows), std::abs(offset) + 1e-4);
         EXPECT_LT(LargestOffset(rows, rows.size() * 2 / 3), 0.01 * std::abs(offset));
       }
@@ -222,7 +223,7 @@ TEST_P(EveryFollower, ComesBackFromMetersAway) {
 }
 
 TEST_P(EveryFollower, TurnsItsWheelsNoFasterThanTheyCan) {
-  // From beside a path that steps into a bend. What lqr and mpc ask for is within the rate itself.
+  // From beside a path with a curvature step. Commands of lqr and mpc respect the rate limit.
   LoopSetup setup;
   setup.path = Path({}, {{20.0, 0.0, 1}, {40.0, 0.08, 1}});
   setup.start = {0.0, 0.7, 0.1};
@@ -238,11 +239,11 @@ TEST_P(EveryFollower, TurnsItsWheelsNoFasterThanTheyCan) {
       EXPECT_LE(std::abs(rows[i].wanted - rows[i - 1].wanted), most);
     }
   }
-  EXPECT_GT(fastest, 0.9 * most);  // the bend asks for more than they can
+  EXPECT_GT(fastest, 0.9 * most);  // the bend needs more than the wheels' rate
 }
 
 TEST_P(EveryFollower, GoesOnAlongTheEndTangent) {
-  // Off a straight path that ends after 10 m, and for 50 m beyond.
+  // From beside a straight path that ends after 10 m, and for 50 m past its end.
   LoopSetup setup;
   setup.path = Path({}, {{10.0, 0.0, 1}});
   setup.start = {0.0, 0.2, 0.0};
@@ -255,7 +256,7 @@ TEST_P(EveryFollower, GoesOnAlongTheEndTangent) {
 }
 
 TEST_P(EveryFollower, StandsAndCrawlsWithoutTurningItsWheelsAbout) {
-  // On its path, at rest and up to 1 m/s.
+  // On the path, from rest to 1 m/s.
   for (const VehicleParams& vehicle : {ReferenceCar(), ReferenceCarWithTyres()}) {
     for (const double speed : {0.0, 1e-6, 0.01, 0.3, 1.0}) {
       Case at;
@@ -305,7 +306,7 @@ TEST_P(AnyController, RefusesAStateThatIsNone) {
   }
 }
 
-/// A run beside a path with an arc.
+/// Counts the allocations of a run that starts beside a path with an arc.
 long CountAllocations(const ControllerOptions& options, const VehicleParams& vehicle, double offset,
                       double curvature) {
   const auto controller = MakeSteeringController(options);
@@ -345,16 +346,16 @@ TEST_P(AnyController, TakesNoHeapMemoryAfterItsFirstStep) {
   }
 }
 
-// nlopt.hpp wraps options and vectors: 20 each time that it is called (counted), and half as many
-// again for another version of it.
+// nlopt.hpp wraps options and vectors: 20 allocations per call (counted), with a margin of one half
+// for other versions of it.
 constexpr long kOfOneCall = 30;
 
 TEST(ControllersThatSearch, TakeNLoptsMemoryAlone) {
-  // A program with limits in the way is solved once or twice in each of the 199 periods.
+  // A program with active limits is solved once or twice in each of the 199 periods.
   const long of_mpc = CountAllocations(MpcOptions{}, ReferenceCar(), 1.0, 0.05);
   EXPECT_GT(of_mpc, 0);
   EXPECT_LT(of_mpc, 199 * 2 * kOfOneCall);
-  // One search in each period, whatever it evaluates; none on a straight.
+  // One search per period, independent of its number of evaluations; none on a straight.
   const OptimalSteeringOptions searching{.deviation_limit = 0.0};
   const long of_search = CountAllocations(searching, ReferenceCar(), 0.1, 0.05);
   EXPECT_GT(of_search, 0);

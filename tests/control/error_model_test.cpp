@@ -10,10 +10,12 @@
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 
+// Tests the linear error model of lqr and mpc: against the single-track car near a path, the
+// Riccati equation's cost, curvature preview, and stiffness under load transfer with brush tyres.
 namespace trackbed {
 namespace {
 
-/// A car on a path, in a steady turn unless told otherwise.
+/// A car on a path, by default in a steady turn.
 class Situation {
  public:
   Situation(const VehicleParams& vehicle, double speed, double curvature)
@@ -63,10 +65,10 @@ TEST(SteadyTurn, IsWhereTheSingleTrackCarSettles) {
                                   .steering = turn.steering});
       driven.Step({.steering = turn.steering, .acceleration = 0.0, .gear = speed < 0.0 ? -1 : 1},
                   2.0);
-      // SingleTrackCar promises 1e-9.
+      // SingleTrackCar is accurate to 1e-9.
       EXPECT_NEAR(driven.state().lateral_speed, turn.lateral_speed, Tolerance(1e-9));
       EXPECT_NEAR(driven.state().yaw_rate, turn.yaw_rate, Tolerance(1e-9));
-      // The rear axle moves along the path where the car's heading is off by psi_0.
+      // The rear axle moves along the path when the car's heading error is psi_0.
       const double rear = turn.lateral_speed - car.cg_to_rear * turn.yaw_rate;
       EXPECT_NEAR(std::atan(rear / speed), -turn.heading_error,
                   Tolerance(std::pow(std::abs(turn.heading_error), 3)) + 1e-12);
@@ -84,7 +86,7 @@ TEST(ErrorModel, StaysInASteadyTurn) {
         const Tracking tracking = ProjectOntoPath(input);
         const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
         Ahead ahead(input, tracking, model);
-        // Path headings within 500 m round at 1e-13; per stride of 0.1 m or more 1e-12.
+        // Path headings within 500 m round at 1e-13, and at 1e-12 per stride of 0.1 m or more.
         EXPECT_LT((ErrorState(input, tracking) - ahead.steady()).norm(), Tolerance(1e-12));
         for (int k = 0; k < 5; ++k) {
           EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
@@ -95,8 +97,8 @@ TEST(ErrorModel, StaysInASteadyTurn) {
 }
 
 TEST(ErrorModel, RunsAsTheCarDoesNearItsPath) {
-  // A tenth of a second at a steering rate of 0.1 rad/s, from 1e-3 of everything: what the linear
-  // model leaves out are squares, 1e-6 of each, and cubes of the steering angle.
+  // 0.1 s at a steering rate of 0.1 rad/s, from 1e-3 in every state. The linear model neglects
+  // squares, 1e-6 each, and cubes of the steering angle.
   for (const double speed : {2.0, 10.0, 20.0, -2.0}) {
     SCOPED_TRACE(speed);
     VehicleParams car = ReferenceCarWithTyres();
@@ -118,7 +120,7 @@ TEST(ErrorModel, RunsAsTheCarDoesNearItsPath) {
                                 .lateral_speed = state.lateral_speed,
                                 .yaw_rate = state.yaw_rate});
     driven.Step({.steering = 1.0, .acceleration = 0.0, .gear = speed < 0.0 ? -1 : 1}, 0.1);
-    // The wheels' shortest lag is a millisecond: 1e-4 rad for as long as the run.
+    // The wheels' shortest lag is a millisecond: 1e-4 rad over the whole run.
     const double wheels = 1e-4;
     EXPECT_NEAR(x[0], driven.state().pose.y, Tolerance(1e-5 + 0.01 * wheels * std::abs(speed)));
     EXPECT_NEAR(x[1], driven.state().pose.yaw, Tolerance(1e-5 + 0.2 * wheels));
@@ -154,7 +156,7 @@ TEST(Regulator, SolvesTheRiccatiEquationAndIsStable) {
 }
 
 TEST(Regulator, CostsWhatItSays) {
-  // Driven to the end, the sum of the costs is x^T P x.
+  // The sum of the costs over the whole run equals x^T P x.
   const Situation situation(ReferenceCarWithTyres(), 10.0, 0.0);
   const ControlInput input = situation.input();
   const ErrorModel model = MakeErrorModel(input, ProjectOntoPath(input), 0.05);
@@ -186,7 +188,7 @@ TEST(Ahead, MovesTheSteadyTurnToTheCurvatureAhead) {
   const Tracking tracking = ProjectOntoPath(input);
   const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
   Ahead ahead(input, tracking, model);
-  // 1 m a step: the tenth ends on the arc.
+  // At 1 m per step, the tenth step ends on the arc.
   for (int k = 0; k < 9; ++k) {
     EXPECT_EQ(ahead.Next().norm(), 0.0);
   }
@@ -195,8 +197,8 @@ TEST(Ahead, MovesTheSteadyTurnToTheCurvatureAhead) {
   EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
 }
 
-/// The reference car with axles and friction: half a meter high, brakes 70 to 30, front-wheel
-/// drive.
+/// The reference car with axles and friction: center of gravity 0.5 m high, brake balance 70 to 30,
+/// front-wheel drive.
 VehicleParams CarWithAxles() {
   VehicleParams car = ReferenceCarWithTyres();
   car.friction_lateral = 0.9;
@@ -209,7 +211,7 @@ VehicleParams CarWithAxles() {
   return car;
 }
 
-/// Of the largest eigenvalue of (v, r) at a speed [1/s]: above 0 the car spins.
+/// Real part of the largest eigenvalue of (v, r) at a speed [1/s]; above 0 the car spins.
 double FastestGrowth(const VehicleParams& car, const CorneringStiffness& stiffness, double speed) {
   const Eigen::Matrix2d rates = LateralRates(car, stiffness, speed).leftCols<2>();
   return rates.eigenvalues().real().maxCoeff();
@@ -222,8 +224,8 @@ TEST(OperateOn, IsTheLinearCarWhereTyresCarryLittle) {
   EXPECT_NEAR(brush.stiffness.front, car.cornering_stiffness_front, Tolerance(1e-9));
   EXPECT_NEAR(brush.stiffness.rear, car.cornering_stiffness_rear, Tolerance(1e-9));
   EXPECT_EQ(brush.turn.steering, 0.0);
-  // Of q = C a/(3 mu F_z), the slip angle's excess over the linear one is q to first order: at
-  // 0.04 m/s^2 of 8.8, q < 0.002.
+  // With q = C a/(3 mu F_z), the slip angle exceeds the linear one by the fraction q to first
+  // order: at 0.04 m/s^2 of 8.8 m/s^2, q < 0.002.
   const Motion gentle{.curvature = 1e-4, .speed = 20.0};
   const SteadyTurn expected = SteadyTurnOn(car, gentle.curvature, gentle.speed);
   const SteadyTurn turn = OperateOn(car, TyreForces::kBrush, gentle).turn;
@@ -236,27 +238,28 @@ TEST(OperateOn, MovesTheLoadWhenTheCarBrakes) {
   const VehicleParams car = CarWithAxles();
   const Motion braking{.speed = 45.0, .acceleration = -6.5};
   const CorneringStiffness stiffness = OperateOn(car, TyreForces::kBrush, braking).stiffness;
-  // The rear axle: load 1 - h a/(g l_f); used, F_x over friction and load; C (1 - q + q^2/3).
+  // The rear axle has the load 1 - h a/(g l_f). F_x uses part of load times friction. The stiffness
+  // is C (1 - q + q^2/3).
   const double load = 1.0 - 0.5 * 6.5 / (kGravity * car.cg_to_front());
   const double weight = car.mass * kGravity * car.cg_to_front() / car.wheelbase;
   const double use = 0.3 * car.mass * 6.5 / (0.9 * load * weight);
   const double q = 1.0 - std::cbrt(1.0 - use);
   const double rear = car.cornering_stiffness_rear * load * (1.0 - q + q * q / 3.0);
   EXPECT_NEAR(stiffness.rear, rear, Tolerance(1e-9) * rear);
-  // A car that understeers becomes unstable where it also turns.
+  // An understeering car becomes unstable if it brakes while turning.
   const Motion turning{.curvature = -0.0016, .speed = 45.0, .acceleration = -6.5};
   const CorneringStiffness both = OperateOn(car, TyreForces::kBrush, turning).stiffness;
   const CorneringStiffness coasting{car.cornering_stiffness_front, car.cornering_stiffness_rear};
   EXPECT_LT(FastestGrowth(car, coasting, 45.0), 0.0);
   EXPECT_GT(FastestGrowth(car, both, 45.0), 0.5);
-  // Backward it is the other way round: braking loads the axle at the rear of the car.
+  // In reverse, braking instead loads the axle at the rear of the car.
   const Motion backward{.speed = -5.0, .acceleration = -6.5};
   EXPECT_GT(OperateOn(car, TyreForces::kBrush, backward).stiffness.rear, rear);
 }
 
 TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
   const VehicleParams car = CarWithAxles();
-  // From 30 down to 10 m/s where the arc begins.
+  // From 30 m/s down to 10 m/s at the beginning of the arc.
   const Reference reference{Path({}, {{100.0, 0.0, 1}, {100.0, 0.05, 1}}),
                             SpeedProfile({{0.0, 30.0}, {100.0, 10.0}, {200.0, 10.0}})};
   const SteeringSchedule schedule;
@@ -271,7 +274,7 @@ TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
   const Tracking tracking = ProjectOntoPath(input);
   const ErrorModel model = MakeErrorModel(input, tracking, 0.1, TyreForces::kBrush);
   Ahead ahead(input, tracking, model);
-  // A mean of 20 m/s: five seconds to the arc; none of the steps before asks for anything.
+  // A mean of 20 m/s reaches the arc after five seconds; no earlier step has an input.
   for (int k = 0; k < 45; ++k) {
     EXPECT_EQ(ahead.Next().norm(), 0.0);
   }
@@ -282,7 +285,7 @@ TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
       OperateOn(car, TyreForces::kBrush, {.curvature = 0.05, .speed = 10.0}).turn;
   EXPECT_NEAR(ahead.steady()[2], turn.steering, Tolerance(1e-12));
   EXPECT_NEAR(ahead.steady()[5], 0.5, Tolerance(1e-12));
-  // Where curvature and speed stay, nothing is asked for.
+  // With constant curvature and speed the input is zero.
   EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
 }
 

@@ -12,7 +12,7 @@
 
 namespace trackbed {
 
-/// The reference car on tyres: a Prius's, understeering by 0.002 rad per m/s^2.
+/// The reference car with a Prius's tyres, understeering by 0.002 rad per m/s^2.
 inline VehicleParams ReferenceCarWithTyres() {
   VehicleParams car = ReferenceCar();
   car.yaw_inertia = 2200.0;
@@ -26,7 +26,7 @@ struct LoopSetup {
   VehicleParams vehicle = ReferenceCar();
   Path path;
   Pose2 start;
-  double speed = 3.0;  ///< [m/s], signed
+  double speed = 3.0;  ///< [m/s]; negative in reverse
   double duration = 20.0;
   double period = 0.02;
 };
@@ -37,8 +37,8 @@ struct LoopRow {
   VehicleState state;
 };
 
-/// A controller and a car at constant speed: the kinematic one, or the linear single-track one if
-/// it has tyres.
+/// A controller and a car at constant speed: the linear single-track car if the car has tyres,
+/// otherwise the kinematic one.
 inline std::vector<LoopRow> Loop(const ControllerOptions& options, const LoopSetup& setup) {
   const auto controller = MakeSteeringController(options);
   const KinematicState start{.pose = setup.start, .speed = setup.speed};

@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-/// A lane change of curvature ramps that the wheels can follow, then a long arc.
+/// A lane change with curvature ramps that the wheels can follow, then a long arc.
 Path Ramps(double curvature) {
   return {{},
           {{.length = 20.0},
@@ -22,9 +22,9 @@ Path Ramps(double curvature) {
 }
 
 TEST(Lqr, SettlesOnACircleWithoutErrorAtAnySpeed) {
-  // Understeer is in its feed-forward: the linear single-track car is its model. What is left is
-  // that the wheels' tangent and the path's bend are linearized: squares of angles below 0.1 rad
-  // times the offsets, which go to zero together.
+  // Its feed-forward includes understeer, because the linear single-track car is its model. The
+  // remaining error comes from linearizing the wheels' tangent and the path's curvature: squares of
+  // angles below 0.1 rad times the offsets. Both go to zero together.
   for (const double speed : {3.0, 10.0, 20.0}) {
     SCOPED_TRACE(speed);
     LoopSetup setup;
@@ -38,7 +38,7 @@ TEST(Lqr, SettlesOnACircleWithoutErrorAtAnySpeed) {
 }
 
 TEST(Lqr, SeesRampsComing) {
-  // With preview it is nearer to the path than without.
+  // With preview the car stays nearer to the path than without.
   LoopSetup setup;
   setup.vehicle = ReferenceCarWithTyres();
   setup.path = Ramps(0.01);
@@ -51,8 +51,8 @@ TEST(Lqr, SeesRampsComing) {
 }
 
 TEST(Lqr, ApproachesFromFarAtAnAngle) {
-  // Up to 20 m beside its path: no circles, no more than 0.6 rad and what the wheels add, and no
-  // swinging on.
+  // From up to 20 m beside the path: no circling, at most 0.6 rad of heading plus the wheels'
+  // effect, and no persistent oscillation.
   for (const double offset : {1.0, 3.0, 20.0}) {
     SCOPED_TRACE(offset);
     LoopSetup setup;

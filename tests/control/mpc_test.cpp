@@ -26,8 +26,9 @@ double Steer(const ControllerOptions& options, const VehicleParams& vehicle,
 }
 
 TEST(Mpc, IsTheRegulatorWhereNoLimitIsInTheWay) {
-  // The same model and cost: one by a Riccati recursion, the other by a condensed program. Angles
-  // below 0.1 rad, Cholesky decompositions of a condition below 1e4.
+  // Both have the same model and cost; one solves a Riccati recursion, the other a condensed
+  // program. Angles are below 0.1 rad, and Cholesky decompositions have condition numbers below
+  // 1e4.
   Random random(91);
   const double period = 0.1;
   for (int i = 0; i < 100; ++i) {
@@ -65,8 +66,8 @@ TEST(Mpc, IsTheRegulatorWhereNoLimitIsInTheWay) {
 }
 
 TEST(Mpc, TurnsTheWheelsAsEarlyAsTheirRateNeeds) {
-  // Into a step of curvature of 0.1 1/m: 0.264 rad, which takes these wheels 3.3 s. Both look 4 s
-  // ahead in the same steps, but only the MPC knows that the wheels are slow.
+  // A curvature step of 0.1 1/m: 0.264 rad, for which these wheels need 3.3 s. Both controllers
+  // look 4 s ahead in the same steps, but only the MPC knows that the wheels are slow.
   LoopSetup setup;
   setup.vehicle.steering_rate = 0.08;
   setup.path = Path({}, {{30.0, 0.0, 1}, {15.0, 0.1, 1}, {100.0, 0.0, 1}});
@@ -104,8 +105,8 @@ TEST(Mpc, KeepsRateAndAngle) {
 }
 
 TEST(Mpc, SmallLimitsAreKeptByThePlanToo) {
-  // A car that can turn its wheels by 0.02 rad is held on a circle of 0.01 1/m, which takes 0.027:
-  // it plans with full lock and no more.
+  // A car with a steering limit of 0.02 rad on a circle of 0.01 1/m, which needs 0.027 rad: the MPC
+  // plans with full lock and not more.
   VehicleParams car = ReferenceCar();
   car.steering_limit = 0.02;
   LoopSetup setup;

@@ -20,6 +20,9 @@
 #include "trackbed/core/error.h"
 #include "trackbed/vehicle/steering_actuator.h"
 
+// Tests the controller that searches for the steering angle to a pose: prediction against the
+// kinematic car, the published experiment (Skackauskas et al. 2017), single updates against a grid,
+// and closed-loop runs with every search method.
 namespace trackbed {
 namespace {
 
@@ -29,7 +32,7 @@ constexpr double kDegree = kPi / 180.0;
 // --- Deviation (9) -------------------------------------------------------------------------------
 
 TEST(Deviation, IsSeenFromThePrimary) {
-  // The primary at (1, 2) heads north; the car is 3 m ahead of it, 1 m to its left.
+  // The primary at (1, 2) heads north; the car is 3 m ahead of it and 1 m to its left.
   const Deviation e = ComputeDeviation({0.0, 5.0, kPi / 2.0 + 0.1}, {1.0, 2.0, kPi / 2.0});
   EXPECT_NEAR(e.x, 3.0, Tolerance(kRounding));
   EXPECT_NEAR(e.y, 1.0, Tolerance(kRounding));
@@ -72,7 +75,7 @@ TEST(PredictPose, IsWhereTheKinematicCarGets) {
   Random random(72);
   for (int i = 0; i < 200; ++i) {
     const double steering = random.Uniform(-0.45, 0.45);
-    const double wanted = random.Uniform(-0.6, 0.6);  // beyond the limit, too
+    const double wanted = random.Uniform(-0.6, 0.6);  // also beyond the limit
     const double speed = random.Uniform(0.5, 8.0);
     const double direction = i % 2 == 0 ? 1.0 : -1.0;
     const double distance = random.Uniform(0.1, 8.0);
@@ -85,7 +88,8 @@ TEST(PredictPose, IsWhereTheKinematicCarGets) {
       oracle.Step({.steering = wanted, .gear = direction > 0.0 ? 1 : -1},
                   distance / speed / kSteps);
     }
-    // Below 2 rad on any of these ramps: 8 m on 5.5 m of radius are 1.5.
+    // The heading changes by less than 2 rad on any of these ramps: 8 m on a radius of 5.5 m give
+    // 1.5 rad.
     ExpectNear(PredictPose(car, steering, wanted, speed, direction * distance), oracle.state().pose,
                1e-9);
   }
@@ -107,7 +111,7 @@ double MatchedDegrees(double speed, Matching matching, SearchMethod method) {
                                .speed = speed,
                                .max_steering = 27.0 * kDegree,
                                .matching = matching};
-  // Esch mutates one variable in large steps: it needs ten times as many.
+  // esch mutates one variable in large steps, so it needs ten times as many evaluations.
   const int evaluations = method == SearchMethod::kEsch ? 100000 : 0;
   return MatchSteering(ReferenceCar(), paper, {.method = method, .evaluations = evaluations}, 1)
              .steering /
@@ -122,7 +126,8 @@ INSTANTIATE_TEST_SUITE_P(Table, GlobalSearches,
 
 TEST_P(GlobalSearches, ByTimeReproduceThePublishedFirstStage) {
   for (const PaperRow& row : kPaper) {
-    // Printed to half a thousandth; asked for is 0.02. Esch does not quite reach a bound.
+    // Printed to half a thousandth; the required accuracy is 0.02. esch does not quite reach a
+    // bound.
     const double tolerance = GetParam() == SearchMethod::kEsch ? 0.05 : 0.02;
     EXPECT_NEAR(MatchedDegrees(row.speed, Matching::kTime, GetParam()), row.by_time,
                 Tolerance(tolerance))
@@ -134,7 +139,7 @@ TEST_P(GlobalSearches, ByArcLengthFindTheCircleWhateverTheSpeed) {
   for (const PaperRow& row : kPaper) {
     const double degrees = MatchedDegrees(row.speed, Matching::kArcLength, GetParam());
     EXPECT_NEAR(degrees, 10.0, Tolerance(0.05)) << row.speed << " m/s";
-    // The published angles scatter round it by 2.3 %.
+    // The published angles scatter around the exact ones by 2.3 %.
     EXPECT_NEAR(row.published, degrees, 0.023 * degrees + Tolerance(1e-3)) << row.speed << " m/s";
   }
 }
@@ -150,8 +155,8 @@ TEST(MatchSteering, FindsTheMirroredAngleOnTheMirroredCircle) {
   const SearchOptions direct{.method = SearchMethod::kDirect};
   const double found = MatchSteering(ReferenceCar(), left, direct, 1).steering;
   EXPECT_GT(found, 0.15);
-  // Direct ends within its tolerance of 1e-9 of the bounds, where the cost is flat to rounding:
-  // 1e-16 of some 10 m^2 over a curvature of 1e5 m^2/rad^2 are 1e-10 rad^2.
+  // direct stops within its tolerance of 1e-9 of the bounds, where the cost is flat to rounding:
+  // 1e-16 of some 10 m^2 over a curvature of 1e5 m^2/rad^2 gives 1e-10 rad^2.
   EXPECT_NEAR(MatchSteering(ReferenceCar(), right, direct, 1).steering, -found, Tolerance(1e-5));
 }
 
@@ -177,8 +182,8 @@ class EverySearch : public testing::TestWithParam<SearchEntry> {};
 INSTANTIATE_TEST_SUITE_P(Table, EverySearch, testing::ValuesIn(Searches()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// How near the angle of one update is to the best one [rad]: searches that converge do; the random
-/// ones get as far as 600 evaluations take them, esch with the largest steps.
+/// Distance of one update's angle from the optimum [rad]. Converging searches reach it. The random
+/// searches get as close as 600 evaluations allow; esch takes the largest steps.
 double Accuracy(const SearchEntry& search) {
   return search.method == SearchMethod::kEsch ? 0.04 : search.random ? 0.003 : 1e-4;
 }
@@ -188,8 +193,8 @@ TEST_P(EverySearch, FindsTheAngleThatLeadsToThePose) {
   Random random(73);
   for (int i = 0; i < 50; ++i) {
     const double steering = random.Uniform(-0.3, 0.3);
-    // 0.15 rad are reached. A simplex that steps onto the edge may stay there, when the answer is
-    // beyond half of that: the wheels turn at their full rate either way.
+    // The wheels can turn by 0.15 rad. A simplex that steps onto the bound may stay there if the
+    // optimum is beyond half of that. The wheels turn at their full rate in both cases.
     const double answer = steering + random.Uniform(-0.06, 0.06);
     SCOPED_TRACE(fmt::format("case {}: from {} to {}", i, steering, answer));
     const SteeringMatch match =
@@ -203,7 +208,7 @@ TEST_P(EverySearch, TurnsTheWheelsAsTheBestAngleOfAGridDoes) {
   const VehicleParams car = ReferenceCar();
   Random random(74);
   for (int i = 0; i < 100; ++i) {
-    // Near a pose that can be reached; far from all of them there are several minima.
+    // Near a reachable pose; far from all reachable poses there are several minima.
     const double steering = random.Uniform(-0.4, 0.4);
     SteeringProblem problem = Problem(car, steering, steering + random.Uniform(-0.14, 0.14), 3.0);
     problem.wanted = Compose(problem.wanted, {random.Uniform(-0.1, 0.1), random.Uniform(-0.1, 0.1),
@@ -218,8 +223,8 @@ TEST_P(EverySearch, TurnsTheWheelsAsTheBestAngleOfAGridDoes) {
       best = cost < least ? delta : best;
       least = std::min(least, cost);
     }
-    // Angles that the wheels reach late count for next to nothing, and searches end anywhere among
-    // them; what matters is where the wheels are after the coming period of 20 ms.
+    // Angles that the wheels reach late have almost no effect on the cost, so searches end anywhere
+    // among them. The relevant quantity is the wheel angle after the next period of 20 ms.
     const auto soon = [&](double delta) {
       return MoveSteering({car.steering_limit, car.steering_rate}, problem.steering, delta)
           .At(0.02);
@@ -237,7 +242,7 @@ TEST_P(EverySearch, SolvesTheMirroredProblemExactlyAlike) {
     SteeringProblem problem = Problem(car, random.Uniform(-0.4, 0.4), 0.0, 3.0);
     problem.wanted = {3.0, random.Uniform(-0.5, 0.5), random.Uniform(-0.4, 0.4)};
     if (i % 5 == 0) {
-      problem.wanted = {3.0, 0.0, i % 2 == 0 ? 0.0 : problem.wanted.yaw};  // dead ahead
+      problem.wanted = {3.0, 0.0, i % 2 == 0 ? 0.0 : problem.wanted.yaw};  // straight ahead
     }
     SteeringProblem mirrored = problem;
     mirrored.wanted.y = -problem.wanted.y;
@@ -259,15 +264,16 @@ TEST_P(EverySearch, LeavesTheBoundOnWhichItBegins) {
 }
 
 TEST(TurnShare, IsTheShareOfTheHeading) {
-  // From straight on the heading gained over S is (v/(L omega)) (-ln cos delta) + (S - ramp)
-  // tan(delta)/L; on small angles a parabola of delta whose vertex is the angle reached at the end.
+  // From straight ahead, the heading gained over S is (v/(L omega)) (-ln cos delta) + (S - ramp)
+  // tan(delta)/L. For small angles that is a parabola of delta whose vertex is the angle reached at
+  // the end.
   const VehicleParams car = ReferenceCar();
   SteeringProblem problem = Problem(car, 0.0, 0.0, 3.0);
   const double most = PredictPose(car, 0.0, 1.0, 3.0, 3.0).yaw;
   for (const double share : {-1.0, -0.3, 0.0, 0.1, 0.5, 0.9, 1.0}) {
     const double delta = SteeringOfShare(car, problem, share);
     EXPECT_NEAR(TurnShare(car, problem, delta), share, Tolerance(kRounding));
-    // Off by the next term of tan, delta^2/3 of 0.15 rad.
+    // The error is the next term of tan, delta^2/3 at 0.15 rad.
     EXPECT_NEAR(PredictPose(car, 0.0, delta, 3.0, 3.0).yaw, share * most, Tolerance(0.008 * most));
   }
   problem.steering = 0.2;
@@ -280,7 +286,7 @@ TEST(TurnShare, IsTheShareOfTheHeading) {
 TEST(SearchSteering, KeepsItsBoundWhereTheWheelsAreBeyondIt) {
   const VehicleParams car = ReferenceCar();
   SteeringProblem problem = Problem(car, 0.45, 0.48, 3.0);
-  problem.max_steering = 0.1;  // 0.15 rad are reached: still beyond
+  problem.max_steering = 0.1;  // the wheels can turn by 0.15 rad, which is still beyond the limit
   EXPECT_EQ(SearchSteering(car, problem, {}, Default(SearchMethod::kNelderMead)).steering, 0.1);
 }
 
@@ -321,7 +327,7 @@ Path Bend() {
 
 TEST(OptimalSteering, OnThePathSteersItsCurvature) {
   const Path path = Bend();
-  // Where the curvature stays what it is over the horizon, and wheels that are there already.
+  // Stations with constant curvature over the horizon, and wheels already at its angle.
   for (const double s : {5.0, 16.5, 22.0, 26.5, 40.0, 55.0}) {
     const double wanted = std::atan(2.7 * path.At(s).curvature);
     const auto controller = MakeSteeringController(OptimalSteeringOptions{.horizon = 2.0});
@@ -351,8 +357,8 @@ TEST(OptimalSteering, SearchesBeyondTheLimitOnly) {
 }
 
 TEST(OptimalSteering, SolvesTheLinearProblemOfAStraight) {
-  // With the wheels at their angle at once, a car e left of a straight, turned by psi, is after S
-  // at e + psi S + kappa S^2/2, turned by psi + kappa S: F is least for
+  // With ideal wheels, a car at offset e from a straight and with heading psi is, after S, at
+  // offset e + psi S + kappa S^2/2 with heading psi + kappa S. F is least for
   //   kappa = -((e + psi S) S^2/2 + w psi S)/(S^4/4 + w S^2).
   VehicleParams quick = ReferenceCar();
   quick.steering_rate = 1e4;
@@ -376,7 +382,7 @@ TEST(OptimalSteering, SolvesTheLinearProblemOfAStraight) {
                                                  .period = 0.02});
       const double kappa =
           -((e + psi * S) * S * S / 2.0 + w * psi * S) / (S * S * S * S / 4.0 + w * S * S);
-      // Of second order in 0.02: what the deviation along the path moves, and tan.
+      // Second order in 0.02: the deviation along the path, and tan.
       EXPECT_NEAR(steering, std::atan(2.7 * kappa), Tolerance(1e-4)) << e << ", " << psi;
     }
   }
@@ -385,7 +391,7 @@ TEST(OptimalSteering, SolvesTheLinearProblemOfAStraight) {
 TEST(OptimalSteering, KeepsItsOwnLimitAndTheCars) {
   const OptimalSteeringOptions narrow{.max_steering = 0.05};
   EXPECT_NEAR(Steer(narrow, Bend(), {10.0, 3.0, 0.0}, 10.0), -0.05, Tolerance(1e-6));
-  // Of the curvature, too: within a deviation that is no deviation.
+  // The limit also applies to the path's own steering angle, used within the deviation limit.
   const OptimalSteeringOptions blind{.deviation_limit = 1e3, .max_steering = 0.05};
   EXPECT_EQ(Steer(blind, Bend(), Bend().At(25.0).pose, 25.0), 0.05);
   const OptimalSteeringOptions wide{.horizon = 20.0, .max_steering = 1.4};
@@ -403,8 +409,8 @@ TEST(OptimalSteering, TurnsWithTheWorld) {
     const Pose2 X_WA{random.Uniform(-50.0, 50.0), random.Uniform(-50.0, 50.0),
                      random.Uniform(-10.0, 10.0)};
     const Path moved(X_WA, path.segments());
-    // F is least where it is flat: rounding of its value, 1e-16 x 10, over its curvature of at
-    // least 0.1/rad^2 leaves 1e-7 rad, and the search's tolerance 3e-7.
+    // F is flat at its minimum: rounding of its value, 1e-16 x 10, over its curvature of at least
+    // 0.1/rad^2 gives 1e-7 rad. The search's tolerance adds 3e-7 rad.
     EXPECT_NEAR(Steer(OptimalSteeringOptions{}, moved, Compose(X_WA, pose), s),
                 Steer(OptimalSteeringOptions{}, path, pose, s), Tolerance(2e-6))
         << "case " << i;
@@ -412,13 +418,13 @@ TEST(OptimalSteering, TurnsWithTheWorld) {
 }
 
 TEST(OptimalSteering, CountsTheTurnsOfTheHorizon) {
-  // More than a full turn ahead on a circle of 5.5 m: the pose is met only by the circle itself.
+  // More than a full turn ahead on a circle of 5.5 m: only the circle itself reaches the pose.
   const Path circle{{}, {{100.0, 1.0 / 5.5, 1}}};
   const double delta = std::atan(2.7 / 5.5);
   const OptimalSteeringOptions options{
       .horizon = 40.0, .search = {.method = SearchMethod::kDirect}, .deviation_limit = 0.0};
   Pose2 pose = circle.At(10.0).pose;
-  pose.yaw -= 4.0 * kPi - 1e-9;  // the car has come here by other turns; not exactly on the path
+  pose.yaw -= 4.0 * kPi - 1e-9;  // the car's yaw contains other full turns; not exactly on the path
   EXPECT_NEAR(Steer(options, circle, pose, 10.0, {.steering = delta}), delta, Tolerance(1e-4));
 }
 
@@ -428,7 +434,7 @@ TEST(OptimalSteering, BackwardsSteersTheSameCircle) {
   Pose2 pose = circle.At(10.0).pose;
   pose.yaw += 1e-6;
   const double delta = std::atan(2.7 * 0.05);
-  // A microradian over the horizon of 2 m.
+  // The yaw offset is a microradian, over the horizon of 2 m.
   EXPECT_NEAR(Steer(options, circle, pose, 10.0, {.speed = -1.0, .steering = delta}), delta,
               Tolerance(1e-5));
 }
@@ -445,18 +451,18 @@ TEST(OptimalSteering, LooksFurtherTheFasterTheCarIs) {
 }
 
 TEST(OptimalSteering, ByTimeChasesTheMotionThatIsAhead) {
-  // 3 m/s for 2 s: the primary is at 6 m, the car at 4 m on its path.
+  // 3 m/s for 2 s: the primary is at 6 m, and the car at 4 m on its path.
   const OptimalSteeringOptions by_time{.matching = Matching::kTime};
   const Path straight{{}, {{100.0, 0.0, 1}}};
   const auto controller = MakeSteeringController(by_time);
   EXPECT_NEAR(Steer(*controller, straight, {4.0, 0.0, 0.0}, 4.0, {.plan_time = 2.0}), 0.0,
               Tolerance(1e-4));
   EXPECT_NEAR(controller->Values()[0], -2.0, Tolerance(kRounding));
-  // At 4/3 s it is where the car is.
+  // After 4/3 s the primary is at the car's position.
   const auto met = MakeSteeringController(by_time);
   EXPECT_EQ(Steer(*met, straight, {4.0, 0.0, 0.0}, 4.0, {.plan_time = 4.0 / 3.0}), 0.0);
   EXPECT_NEAR(met->Values()[0], 0.0, Tolerance(kRounding));
-  // In a bend the short cut to it is the tighter one.
+  // In a bend the shortcut to the primary is tighter.
   const Path circle{{}, {{60.0, 0.05, 1}}};
   EXPECT_GT(Steer(by_time, circle, circle.At(4.0).pose, 4.0,
                   {.speed = 2.0, .steering = 0.13, .plan_time = 2.0}),
@@ -470,7 +476,7 @@ struct Trace {
   std::vector<double> steerings;  ///< commands [rad]
 };
 
-/// The kinematic car behind its actuator, 3 m/s, until `station`.
+/// The kinematic car with its actuator at 3 m/s, until `station`.
 Trace Follow(const OptimalSteeringOptions& options, const Path& path, const Pose2& start,
              double until) {
   const auto controller = MakeSteeringController(options);
@@ -499,7 +505,7 @@ TEST_P(EverySearch, ReturnsToThePathFromBesideIt) {
   const Path straight{{}, {{100.0, 0.0, 1}}};
   for (const double e : {0.5, -2.0}) {
     const Trace trace = Follow(With(GetParam().method), straight, {0.0, e, 0.0}, 60.0);
-    // It does not swing out again by as much as a fifth, and ends where the limit of 0.01 lets it.
+    // The overshoot is less than a fifth, and the final error is within the limit of 0.01.
     double other_side = 0.0;
     for (const double offset : trace.offsets) {
       other_side = std::max(other_side, -offset * std::copysign(1.0, e));
@@ -513,8 +519,8 @@ TEST_P(EverySearch, HoldsACircleWithoutSwinging) {
   const Path path{{}, {{20.0, 0.0, 1}, {60.0, 0.05, 1}}};
   const Trace trace = Follow(With(GetParam().method), path, {}, 76.5);  // the end is not seen
   const double delta = std::atan(2.7 * 0.05);
-  // Within the limit of 0.01 the circle's own angle is steered; random searches come and go by a
-  // few times their accuracy, one draw in a thousand.
+  // Within the limit of 0.01 the circle's own angle is used. Random searches enter and leave this
+  // limit by a few times their accuracy, in one draw in a thousand.
   const bool coarse = GetParam().method == SearchMethod::kEsch;
   const double swing = coarse ? 0.08 : GetParam().random ? 0.03 : 0.01;
   for (std::size_t i = trace.steerings.size() / 2; i < trace.steerings.size(); ++i) {

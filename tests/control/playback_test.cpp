@@ -26,7 +26,7 @@ TEST(Playback, SteersToWhereThePeriodEnds) {
   EXPECT_NEAR(PlaybackSteering(time, 0.4, 7.0, 0.1), 0.05, Tolerance(kRounding));
   EXPECT_NEAR(PlaybackSteering(time, 0.95, 7.0, 0.1), 0.09, Tolerance(kRounding));
   EXPECT_EQ(PlaybackSteering(time, 2.5, 7.0, 0.1), -0.1);
-  // 5 m/s for 0.1 s is half a meter on, whichever way the car rolls.
+  // 5 m/s for 0.1 s is half a meter ahead, whatever the direction of travel.
   const PlaybackOptions distance = Replay(PlaybackAxis::kDistance, {kSteering, {}, {}});
   EXPECT_NEAR(PlaybackSteering(distance, 0.25, 5.0, 0.1), 0.075, Tolerance(kRounding));
   EXPECT_NEAR(PlaybackSteering(distance, 0.25, -5.0, 0.1), 0.075, Tolerance(kRounding));
@@ -42,9 +42,9 @@ TEST(Playback, FollowsTheSpeedWithFeedForwardAndGain) {
   const PlaybackOptions time = Replay(PlaybackAxis::kTime, {kSteering, kSpeed, {}});
   EXPECT_NEAR(*PlaybackAcceleration(time, 0.5, 11.0, 2.0, 0.1), 2.0, Tolerance(kRounding));
   EXPECT_NEAR(*PlaybackAcceleration(time, 0.5, 10.5, 2.0, 0.1), 3.0, Tolerance(kRounding));
-  // Across the knot at 1 s: up by 0.1 m/s, down by 0.25.
+  // Across the knot at 1 s: up by 0.1 m/s, then down by 0.25 m/s.
   EXPECT_NEAR(*PlaybackAcceleration(time, 0.95, 11.9, 2.0, 0.1), -1.5, Tolerance(kRounding));
-  // Over the distance at 10 m/s: a meter in 0.1 s.
+  // By distance at 10 m/s: a meter in 0.1 s.
   const PlaybackOptions distance = Replay(PlaybackAxis::kDistance, {kSteering, kSpeed, {}});
   EXPECT_NEAR(*PlaybackAcceleration(distance, 0.0, 10.0, 2.0, 0.1), 20.0, Tolerance(kRounding));
 }
@@ -56,7 +56,7 @@ TEST(Playback, TakesTheMeanOfTheAcceleration) {
   EXPECT_EQ(*PlaybackAcceleration(time, 1.5, 3.0, 2.0, 0.1), -8.0);
   const PlaybackOptions distance = Replay(PlaybackAxis::kDistance, {kSteering, {}, acceleration});
   EXPECT_NEAR(*PlaybackAcceleration(distance, 0.5, 3.0, 2.0, 0.1), 1.3, Tolerance(kRounding));
-  // Standing still, the value where it stands.
+  // At rest: the value at the car's station.
   EXPECT_NEAR(*PlaybackAcceleration(distance, 0.5, 0.0, 2.0, 0.1), 1.0, Tolerance(kRounding));
 }
 
@@ -72,7 +72,7 @@ TEST(Playback, ByDistanceTheControllerAsksTheOdometer) {
                            .reference = reference,
                            .schedule = schedule,
                            .state = state,
-                           .station = 1.5,  // on another plan
+                           .station = 1.5,  // a station on another plan
                            .period = 0.1,
                            .speed_gain = 4.0};
   const auto by_distance =
@@ -94,8 +94,8 @@ TEST(Playback, RefusesRecordingsThatAreNone) {
 }
 
 TEST(Playback, OfAccelerationGivesItsIntegral) {
-  // Mean times period is the integral, so the speed has no error at any period: 2 t - t^2 here,
-  // from 10 m/s, on rows that do not fall on the periods.
+  // The mean times the period is the integral, so the speed has no error for any period. Here the
+  // speed is 2 t - t^2 from 10 m/s, on rows that do not coincide with the periods.
   Signal acceleration;
   for (int i = 0; i <= 30; ++i) {
     acceleration.knots.emplace_back(i / 15.0, 2.0 - 2.0 * i / 15.0);

@@ -19,7 +19,7 @@ namespace trackbed {
 namespace {
 
 constexpr double kPeriod = 0.02;     // [s]
-constexpr double kRounding = 1e-12;  // of a distance of meters, in a few operations
+constexpr double kRounding = 1e-12;  // for a distance of meters after a few operations
 
 double Distance(const VehicleParams& vehicle, const Path& path, double station, double speed,
                 double delay = 0.0) {
@@ -36,7 +36,7 @@ double Distance(const VehicleParams& vehicle, const Path& path, double station, 
                          delay);
 }
 
-/// S of a step between two curvatures.
+/// Ramp distance S of a step between two curvatures.
 double Ramp(const VehicleParams& car, double before, double after, double speed) {
   return speed * std::abs(std::atan(car.wheelbase * after) - std::atan(car.wheelbase * before)) /
          car.steering_rate;
@@ -45,10 +45,10 @@ double Ramp(const VehicleParams& car, double before, double after, double speed)
 TEST(PreviewDistance, OnAStraightIsThreeQuartersOfTheWheelbaseOrThreeResponses) {
   const Path straight({}, {{200.0, 0.0, 1}});
   EXPECT_NEAR(Distance(ReferenceCar(), straight, 50.0, 3.0), 0.75 * 2.7, Tolerance(kRounding));
-  // Fast, without tyres: 3 v T with T = 0.02 s.
+  // At high speed without tyres: 3 v T with T = 0.02 s.
   EXPECT_NEAR(Distance(ReferenceCar(), straight, 50.0, 60.0), 3.0 * 60.0 * 0.02,
               Tolerance(kRounding));
-  // T = 0.02 + 0.01 + 1317 * 20/(90000 + 110000) = 0.1617 s.
+  // With tyres T = 0.02 + 0.01 + 1317 * 20/(90000 + 110000) = 0.1617 s.
   const VehicleParams car = ReferenceCarWithTyres();
   EXPECT_NEAR(ResponseTime(car, 20.0, kPeriod), 0.1617, Tolerance(kRounding));
   EXPECT_NEAR(Distance(car, straight, 50.0, 20.0), 3.0 * 20.0 * 0.1617, Tolerance(kRounding));
@@ -66,7 +66,8 @@ TEST(PreviewDistance, ReachesAStepOfCurvatureAsFarAsTheRampAsks) {
       const double wanted = 0.65 * Ramp(car, 0.0, curvature, 5.0) + 5.0 * kPeriod;
       ASSERT_GT(wanted, 1.1 * 0.75 * car.wheelbase);
       SCOPED_TRACE(fmt::format("curvature {}, direction {}", curvature, direction));
-      // Within R of the step on either side; a step counts as up to a share of 0.3 nearer.
+      // Within R of the step on either side. A step is detected up to a fraction of 0.3 nearer than
+      // it is.
       for (const double share : {-0.99, -0.5, -0.1, 0.0, 0.1, 0.5, 0.99}) {
         EXPECT_NEAR(Distance(car, path, 50.0 + share * wanted, speed), wanted, Tolerance(kRounding))
             << share;
@@ -81,9 +82,8 @@ TEST(PreviewDistance, ReachesAStepOfCurvatureAsFarAsTheRampAsks) {
 }
 
 TEST(PreviewDistance, AddsStepsThatTheWheelsHaveNotTheTimeFor) {
-  // From left to right over a straight that takes `gap` off the ramp from one lock to the other.
-  // The stations looked at lie up to 0.3 of their distance apart, which is how much of the gap
-  // counts.
+  // From left to right over a straight shorter than the lock-to-lock ramp by `gap`. The sampled
+  // stations are up to 0.3 of their distance apart, so that fraction of the gap counts.
   const VehicleParams car = ReferenceCar();
   const double speed = 5.0;
   const double one = Ramp(car, 0.0, 0.1, speed);
@@ -95,7 +95,7 @@ TEST(PreviewDistance, AddsStepsThatTheWheelsHaveNotTheTimeFor) {
 }
 
 TEST(PreviewDistance, IsShortWhereTheWheelsCanFollow) {
-  // Curvature ramps that ask for 0.8 of the steering rate or less: S = 0.
+  // Curvature ramps that need at most 0.8 of the steering rate: S = 0.
   const VehicleParams car = ReferenceCar();
   const double speed = 5.0;
   const double sharpness = 0.8 * car.steering_rate / (car.wheelbase * speed);
@@ -111,7 +111,7 @@ TEST(PreviewDistance, IsShortWhereTheWheelsCanFollow) {
 }
 
 TEST(PreviewDistance, LooksNeitherBeyondTheEndsNorOverACusp) {
-  // Beyond its ends a path is straight, and at a cusp the wheels turn while the car stands.
+  // Beyond its ends a path is straight. At a cusp the wheels turn while the car is at rest.
   const VehicleParams car = ReferenceCar();
   const Path arc({}, {{20.0, 0.1, 1}});
   const Path cusp({}, {{20.0, 0.1, 1}, {20.0, -0.1, -1}});
@@ -123,7 +123,7 @@ TEST(PreviewDistance, LooksNeitherBeyondTheEndsNorOverACusp) {
   }
 }
 
-/// Largest cross-track error [m] on a turn by `heading` of radius `radius` between straights.
+/// Largest cross-track error [m] on a turn by `heading` with radius `radius` between straights.
 double ErrorOnTurn(const ControllerOptions& options, const VehicleParams& car, double radius,
                    double heading, double speed, double period = kPeriod) {
   const double straight = 3.0 * radius;
@@ -137,7 +137,7 @@ double ErrorOnTurn(const ControllerOptions& options, const VehicleParams& car, d
   return LargestOffset(Loop(options, setup));
 }
 
-/// A tenth of the car, with wheels that turn four times as fast.
+/// A model car at scale 1:10 whose wheels turn four times as fast.
 VehicleParams TenthOfACar() {
   VehicleParams car = ReferenceCar();
   car.wheelbase *= 0.1;
@@ -147,7 +147,7 @@ VehicleParams TenthOfACar() {
 }
 
 TEST(PreviewDistance, ErrorsScaleWithTheCar) {
-  // Lengths by 1/10, times by 1/4: the same v/(L omega), and so the same motion.
+  // Lengths scale by 1/10 and times by 1/4. v/(L omega) is the same, and so is the motion.
   for (const ControllerOptions& options :
        {ControllerOptions(PreviewOptions{}), ControllerOptions(PreviewIntegralOptions{}),
         ControllerOptions(PurePursuitOptions{}), ControllerOptions(StanleyOptions{})}) {
@@ -161,16 +161,17 @@ TEST(PreviewDistance, ErrorsScaleWithTheCar) {
 }
 
 TEST(PreviewDistance, KeepsATenthOfACarOnItsCorner) {
-  // A right angle on 1.7 m at 0.8 m/s, as in tests/data/small_three_turns.yaml. The ramp, S =
-  // 0.21 m, leads off by S^2/(24 r) = 1.1 mm; R = 0.2 m cuts in by up to R^2/(8 r) = 3 mm.
+  // A right-angle turn of radius 1.7 m at 0.8 m/s, as in tests/data/small_three_turns.yaml. The
+  // ramp, S = 0.21 m, deviates by S^2/(24 r) = 1.1 mm; R = 0.2 m cuts the corner by up to R^2/(8 r)
+  // = 3 mm.
   EXPECT_LT(ErrorOnTurn(PreviewOptions{}, TenthOfACar(), 1.7, 1.57, 0.8), 0.005);
   EXPECT_GT(ErrorOnTurn(PreviewOptions{.distance = 2.5}, TenthOfACar(), 1.7, 1.57, 0.8), 0.1);
 }
 
 TEST(PreviewDistance, KeepsTheCarInASharpSlowTurn) {
-  // 170 degrees near full lock at 1 m/s: the ramp, S = 3.3 m, leads off by S^2/(24 r) = 0.09 m.
+  // 170 degrees near full lock at 1 m/s: the ramp, S = 3.3 m, deviates by S^2/(24 r) = 0.09 m.
   EXPECT_LT(ErrorOnTurn(PreviewOptions{}, ReferenceCar(), 5.2, 2.97, 1.0), 0.15);
-  // Twice as fast the ramp itself leads off by 0.35 m. A fixed 2.5 m swings out.
+  // At twice the speed the ramp alone deviates by 0.35 m. A fixed 2.5 m overshoots.
   const double fast = ErrorOnTurn(PreviewOptions{}, ReferenceCar(), 5.2, 2.97, 2.0);
   EXPECT_LT(fast, 2.0 * 0.35);
   EXPECT_GT(ErrorOnTurn(PreviewOptions{.distance = 2.5}, ReferenceCar(), 5.2, 2.97, 2.0),

@@ -37,7 +37,7 @@ At Beside(const Path& path, const Pose2& pose, double speed = 3.0) {
 }
 
 TEST(PreviewIntegral, ConstantCurvatureGivesTheKinematicAngle) {
-  // delta = L kappa; with its tangent and the chord exactly.
+  // delta = L kappa, up to the exact tangent and chord.
   for (const PreviewWeight weight : {PreviewWeight::kUniform, PreviewWeight::kNear}) {
     for (const double curvature : {0.0, 0.01, -0.05, 0.15}) {
       SCOPED_TRACE(curvature);
@@ -48,11 +48,11 @@ TEST(PreviewIntegral, ConstantCurvatureGivesTheKinematicAngle) {
 }
 
 TEST(PreviewIntegral, BesideAStraightIsTheIntegralInClosedForm) {
-  // On y = e beside a straight, turned by psi: f = -e cos(psi) - ... for small e: f = -e - x psi,
-  // A = x^2/(2 L): the integral of (-e - x psi) x^2 over that of x^4/(2 L), from 0 to R, is
-  // -2 L (5/(3 R^2) e + 5/(4 R) psi); with W = 1 - x/R it is -2 L (5/(2 R^2) e + 3/(2 R) psi).
-  // The chord differs from x by squares of e/x: 1e-5 m of offset and rad of heading leave some
-  // 1e-9, where x is large against e, which is where A is.
+  // At offset e from a straight, with heading psi: for small e, f = -e - x psi and A = x^2/(2 L).
+  // The integral of (-e - x psi) x^2 over that of x^4/(2 L), from 0 to R, is -2 L (5/(3 R^2) e +
+  // 5/(4 R) psi). With W = 1 - x/R it is -2 L (5/(2 R^2) e + 3/(2 R) psi). The chord differs from x
+  // by squares of e/x: 1e-5 m of offset and rad of heading cause some 1e-9 where x is large
+  // compared with e, which is where A is.
   const double R = 5.0;
   const Path straight({}, {{100.0, 0.0, 1}});
   const double e = 1e-5;
@@ -70,8 +70,9 @@ TEST(PreviewIntegral, BesideAStraightIsTheIntegralInClosedForm) {
 }
 
 TEST(PreviewIntegral, KnowsWhereTheCarSlidesAnyway) {
-  // The linear car in its steady turn on a circle of kappa: y_0 + A tan(delta_0) is its own way, so
-  // that the law gives delta_0 but for (R kappa)^2 of the circle, and the slip of the rear axle.
+  // The linear car in its steady turn on a circle of curvature kappa moves along y_0 + A
+  // tan(delta_0). The law therefore gives delta_0, up to (R kappa)^2 of the circle and the slip of
+  // the rear axle.
   const VehicleParams car = ReferenceCarWithTyres();
   const double speed = 15.0;
   const double curvature = 0.005;
@@ -87,7 +88,7 @@ TEST(PreviewIntegral, KnowsWhereTheCarSlidesAnyway) {
   at.state.lateral_speed = car.cg_to_rear * at.state.yaw_rate - speed * rear_slip;
   const double wanted = curvature * (car.wheelbase + understeer * speed * speed);
   EXPECT_NEAR(Steer({}, at), std::atan(wanted), Tolerance(0.02 * wanted));
-  // Without knowing its tyres it would not.
+  // Without the tyre parameters the law does not.
   at.vehicle.cornering_stiffness_front = 0.0;
   EXPECT_GT(std::abs(Steer({}, at) - std::atan(wanted)), 0.05 * wanted);
 }
@@ -113,7 +114,7 @@ TEST(PreviewIntegral, DelayHoldsTheAngleBack) {
     given.push_back(controller->Steer(input));
     wanted.push_back(MakeSteeringController(PreviewIntegralOptions{})->Steer(input));
   }
-  // 2.5 periods.
+  // A delay of 2.5 periods.
   EXPECT_EQ(given[0], 0.0);
   for (std::size_t i = 3; i < 20; ++i) {
     EXPECT_NEAR(given[i], 0.5 * (wanted[i - 2] + wanted[i - 3]), Tolerance(1e-12));

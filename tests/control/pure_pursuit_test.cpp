@@ -26,11 +26,11 @@ double Steer(const PurePursuitOptions& options, const Path& path, const Pose2& p
 }
 
 TEST(PurePursuit, SteersTheCircleThroughThePoint) {
-  // 1 m left of a straight, looking 4 m: sin(u) = -1/4, curvature -2 e/l^2 = -1/8.
+  // 1 m left of a straight with a lookahead of 4 m: sin(u) = -1/4, curvature -2 e/l^2 = -1/8.
   const Path straight({}, {{100.0, 0.0, 1}});
   EXPECT_NEAR(Steer({.distance = 4.0, .time = 0.0}, straight, {0.0, 1.0, 0.0}, 3.0),
               -std::atan(2.7 / 8.0), Tolerance(1e-11));
-  // On a circle of 20 m: atan(L/R), whatever the lookahead.
+  // On a circle of 20 m the angle is atan(L/R) for any lookahead.
   const Path circle({}, {{100.0, 0.05, 1}});
   for (const double distance : {1.0, 4.0, 15.0}) {
     EXPECT_NEAR(Steer({.distance = distance, .time = 0.0}, circle, {}, 3.0), 0.134189,
@@ -47,7 +47,7 @@ TEST(PurePursuit, LooksFurtherAheadTheFasterItGoes) {
 }
 
 TEST(PurePursuit, SwingsOutWhenItLooksTooNearForItsWheels) {
-  // The limit that the header tells of: 1.5 cbrt(e L v/omega) = 5.7 m for 1 m at 3 m/s.
+  // The limit stated in the header: 1.5 cbrt(e L v/omega) = 5.7 m for 1 m at 3 m/s.
   LoopSetup setup;
   setup.path = Path({}, {{300.0, 0.0, 1}});
   setup.start = {0.0, 1.0, 0.0};

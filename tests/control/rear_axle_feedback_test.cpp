@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-/// Wheels that obey at once, on a straight, held for 1 ms.
+/// A car on a straight with ideal wheels; each angle is held for 1 ms.
 LoopSetup IdealCar(int direction) {
   LoopSetup setup;
   setup.vehicle.steering_rate = 1e6;
@@ -33,8 +33,9 @@ class RearAxleFeedback : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Directions, RearAxleFeedback, testing::Values(1, -1));
 
 TEST_P(RearAxleFeedback, SmallErrorsDecayCriticallyDamped) {
-  // e'' = -2 e'/d - e/d^2 from e_0 at rest: e = e_0 (1 + s/d) exp(-s/d). The angle is held for
-  // 1 ms, 3 mm of s: e_0 (3 mm)/d is 2.5e-5, and terms of third order are (e_0/d)^3 d = 1e-6.
+  // e'' = -2 e'/d - e/d^2 from e_0 at rest has the solution e = e_0 (1 + s/d) exp(-s/d). The angle
+  // is held for 1 ms, 3 mm of s, which adds e_0 (3 mm)/d = 2.5e-5. Terms of third order are
+  // (e_0/d)^3 d = 1e-6.
   LoopSetup setup = IdealCar(GetParam());
   setup.start = {0.0, 0.05, 0.0};
   const double d = 6.0;
@@ -46,13 +47,13 @@ TEST_P(RearAxleFeedback, SmallErrorsDecayCriticallyDamped) {
 }
 
 TEST_P(RearAxleFeedback, LyapunovFunctionDoesNotGrowFromLargeErrors) {
-  // Steered by no more than the wheels reach: 2 psi/d + e/d^2 < tan(0.5)/L with d = 20 m.
+  // Within the steering limit: 2 psi/d + e/d^2 < tan(0.5)/L with d = 20 m.
   LoopSetup setup = IdealCar(GetParam());
   setup.start = {0.0, 6.0, 1.2};
   const double d = 20.0;
   const std::vector<LoopRow> rows = Loop(RearAxleFeedbackOptions{.distance = d}, setup);
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    // Held for h = 3 mm, the change of second order is (h kappa_c)^2 with kappa_c < 0.14.
+    // Holding for h = 3 mm adds a second-order change of (h kappa_c)^2 with kappa_c < 0.14.
     EXPECT_LE(LyapunovFunction(rows[i], d), LyapunovFunction(rows[i - 1], d) + 2e-7)
         << rows[i].state.time;
   }
@@ -60,7 +61,8 @@ TEST_P(RearAxleFeedback, LyapunovFunctionDoesNotGrowFromLargeErrors) {
 }
 
 TEST_P(RearAxleFeedback, ParallelCurveIsAnEquilibriumOfTheHeading) {
-  // At e beside a circle and along it, the first term alone keeps the car on the parallel circle.
+  // At offset e from a circle and parallel to it, the first term alone keeps the car on the
+  // parallel circle.
   const VehicleParams car = ReferenceCar();
   const Reference reference{
       Path({}, {{.length = 30.0, .curvature = 0.05, .direction = GetParam()}}), {}};
@@ -75,7 +77,7 @@ TEST_P(RearAxleFeedback, ParallelCurveIsAnEquilibriumOfTheHeading) {
                                        .state = state,
                                        .station = 0.0,
                                        .period = 0.02});
-  // kappa/(1 - kappa e), less e/d^2.
+  // kappa/(1 - kappa e) - e/d^2.
   EXPECT_NEAR(std::tan(steering) / car.wheelbase, 0.05 / 0.9 - 2e-6, Tolerance(1e-12));
 }
 
@@ -88,9 +90,9 @@ TEST(RearAxleFeedback, KeepsTheSingleTrackCarInASteadyTurn) {
   setup.speed = 8.0;
   setup.duration = 25.0;
   const std::vector<LoopRow> rows = Loop(RearAxleFeedbackOptions{}, setup);
-  // Understeer and the rear axle's slip, tan(beta) = 0.0087, are in its feed-forward, linear in
-  // beta. Neglected: the rear axle's speed u/cos(beta), a curvature of kappa beta^2/2, which
-  // d = 5.5 m balances with e = d^2 kappa beta^2/2 = 2.3e-5 m; and beta^3/3, with 2 d beta^3/3.
+  // The feed-forward includes understeer and the rear axle's slip, tan(beta) = 0.0087, linear in
+  // beta. Neglected: the rear axle's speed u/cos(beta), a curvature of kappa beta^2/2, which d =
+  // 5.5 m turns into e = d^2 kappa beta^2/2 = 2.3e-5 m; and beta^3/3, which gives 2 d beta^3/3.
   EXPECT_LT(LargestOffset(rows, rows.size() * 9 / 10), 2.6e-5);
 }
 

@@ -31,11 +31,11 @@ TEST(Signal, IsHeldOutsideItsKnots) {
 }
 
 TEST(Signal, MeanIsTheAreaByTheWidth) {
-  // Areas: 2 before the first knot, 3 to the second, 0.75 to the third, -1 beyond.
+  // Areas: 2 before the first knot, 3 up to the second, 0.75 up to the third, and -1 after it.
   EXPECT_NEAR(kSawtooth.Mean(0.0, 3.5), (2.0 + 3.0 + 0.75 - 1.0) / 3.5, Tolerance(1e-15));
   EXPECT_NEAR(kSawtooth.Mean(1.5, 2.25), (1.75 + 0.6875) / 0.75, Tolerance(1e-15));
   EXPECT_EQ(kSawtooth.Mean(5.0, 6.0), -1.0);
-  // Of no width: the value.
+  // An empty interval has the value itself as its mean.
   EXPECT_EQ(kSawtooth.Mean(1.25, 1.25), 2.5);
   EXPECT_EQ(kSawtooth.Mean(1.25, 1.0), 2.5);
 }
@@ -56,8 +56,8 @@ TEST(Signal, MeanAgreesWithAFineSum) {
     for (int k = 0; k < kParts; ++k) {
       sum += signal.At(from + (to - from) * (k + 0.5) / kParts);
     }
-    // The midpoint rule is exact but for the cells that hold one of six knots: there it misses by
-    // at most the bend of slope, 2 x 2/0.1, times the square of the cell (2 mm) over 8.
+    // The midpoint rule is exact, except in cells that contain one of six knots. There it errs by
+    // at most the change of slope, 2 x 2/0.1, times the square of the cell size (2 mm) over 8.
     EXPECT_NEAR(signal.Mean(from, to), sum / kParts,
                 Tolerance(6.0 * 40.0 * 0.002 * 0.002 / 8.0 / 0.1));
   }

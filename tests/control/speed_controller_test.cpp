@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-// A few operations on numbers below 100.
+// Rounding: a few operations on numbers below 100.
 constexpr double kRounding = 1e-12;
 constexpr double kPeriod = 0.02;
 const SpeedControlOptions kOptions{.acceleration = 1.0, .deceleration = 1.5, .gain = 2.0};
@@ -28,8 +28,9 @@ TEST(SpeedControl, OnTheProfileIsItsOwnAcceleration) {
 }
 
 TEST(SpeedControl, IsOnTheProfileAtTheEndOfEveryPeriod) {
-  // Where the period has a knot in it, too: the speed begins to rise at 40, is constant from 42.5
-  // on and falls from 97 m on. Three iterations, each nearer by a T/v = 0.015, leave 1e-6 of a T.
+  // Also in periods that contain a knot: the speed begins to rise at 40 m, is constant from 42.5 m
+  // and falls from 97 m on. Three iterations, each more accurate by a T/v = 0.015, leave 1e-6 of a
+  // T.
   const SpeedProfile profile = StopAtEnd(100.0, 2.0, kLimits, {{20.0, 40.0, 2.0}});
   for (double s = 38.0; s < 99.9; s += 0.013) {
     const double v = profile.SpeedAt(s);
@@ -54,21 +55,22 @@ TEST(SpeedControl, StaysWithinItsLimits) {
 TEST(SpeedControl, BrakesNoHarderThanTheRoadLets) {
   constexpr double kOnIce = 0.5;  // [m/s^2]
   const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
-  // Ever faster than the profile, before its braking, in it, and past its end.
+  // Faster than the profile: before its braking, during it, and past its end.
   for (const double s : {50.0, 98.5, 99.9, 100.5}) {
     EXPECT_EQ(SpeedControl(kOptions, profile, s, 20.0, kPeriod, kOnIce), -kOnIce) << s;
   }
 }
 
 TEST(SpeedControl, FollowsAProfileThatBrakesHardOnPurpose) {
-  // 8 m/s down to rest within 8 m: 4 m/s^2, where 1.5 is comfortable.
+  // From 8 m/s to rest within 8 m: 4 m/s^2, where 1.5 is comfortable.
   const SpeedProfile profile = StopAtEnd(8.0, 8.0, kLimits);
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 8.0, kPeriod), -4.0, Tolerance(1e-6));
-  // A car that lags behind may catch up by a twentieth more, within the limit of the car; that it
-  // is farther at the end of the period, by 1 m/s of 9, makes the profile fall by as much more.
+  // A lagging car may brake by a twentieth more to catch up, within the car's limit. By the end of
+  // the period, a car that is 1 m/s of 9 faster is farther along, so the profile falls by that much
+  // more.
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 9.0, kPeriod), -4.2 * 9.0 / 8.0, 0.02);
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 9.0, kPeriod, 4.5), -4.5, Tolerance(kRounding));
-  // Also where it should stand by now.
+  // The same beyond the point where the car should be at rest.
   EXPECT_NEAR(SpeedControl(kOptions, profile, 8.1, 1.0, kPeriod), -4.0, Tolerance(kRounding));
 }
 
@@ -76,9 +78,9 @@ TEST(SpeedControl, FollowsAProfileThatAcceleratesHardOnPurpose) {
   // From 4 to 8 m/s within 8 m: 3 m/s^2, where 1 is comfortable.
   const SpeedProfile profile({{0.0, 4.0}, {8.0, 8.0}, {100.0, 8.0}});
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 4.0, kPeriod), 3.0, Tolerance(1e-6));
-  // A car that lags behind may catch up by a twentieth more.
+  // A lagging car may accelerate by a twentieth more to catch up.
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 3.0, kPeriod), 3.15, Tolerance(kRounding));
-  // Where it does not, it may not.
+  // Where the profile does not accelerate hard, the comfortable limit applies.
   EXPECT_EQ(SpeedControl(kOptions, profile, 50.0, 3.0, kPeriod), kOptions.acceleration);
 }
 
@@ -95,12 +97,12 @@ TEST(SpeedControl, GoesOnAfterAProfileThatEndsMoving) {
 }
 
 TEST(SpeedControl, StopsTheCarAtTheEndOfItsProfile) {
-  // A car that obeys acceleration exactly. Where the profile's acceleration changes inside a
-  // period T, the middle rule is wrong for at most half of it: a speed error of b T/2 as braking at
-  // b begins, that is an error w of v b T in v^2. Along the braking dw/ds = -2 gain (speed error)
-  // only shrinks it, and w/(2 b) = v T/2 is what it makes of the stop. In the last period the
-  // middle may lie behind the end, where the profile asks for nothing: less than b T^2/2 before the
-  // end, then at most b T * T further.
+  // A car that obeys acceleration exactly. If the profile's acceleration changes inside a period T,
+  // the midpoint rule is wrong for at most half of it. Where braking at b begins, that causes a
+  // speed error of b T/2, an error w of v b T in v^2. During the braking dw/ds = -2 gain (speed
+  // error) only reduces it, and it moves the stop by w/(2 b) = v T/2. In the last period the
+  // midpoint may lie past the end, where the profile commands nothing: less than b T^2/2 before the
+  // end, then at most b T * T farther.
   for (const double period : {0.005, 0.01, 0.02, 0.05}) {
     for (const double length : {1.0, 5.0, 37.123, 100.0}) {
       for (const double start : {0.0, 1.0}) {
@@ -121,7 +123,7 @@ TEST(SpeedControl, StopsTheCarAtTheEndOfItsProfile) {
 }
 
 TEST(SpeedControl, FollowsItsProfileClosely) {
-  // The same error of max(a, b) T/2 at each knot, at most two of them at once.
+  // The same error of max(a, b) T/2 at each knot, with at most two knots at once.
   const SpeedProfile profile = StopAtEnd(60.0, 0.0, kLimits);
   KinematicCar car(ReferenceCar(), ReferencePoint::kRearAxle, {});
   while (car.state().pose.x < 59.0) {
@@ -133,7 +135,8 @@ TEST(SpeedControl, FollowsItsProfileClosely) {
 }
 
 TEST(SpeedControl, LeavesRestFromJustBehindTheStart) {
-  // A projection may put a standing car a rounding behind station 0; it has to leave nevertheless.
+  // A projection may put a standing car slightly before station 0 by rounding; the car must start
+  // nevertheless.
   const SpeedProfile profile = StopAtEnd(60.0, 0.0, kLimits);
   EXPECT_GT(SpeedControl(kOptions, profile, -1e-15, 0.0, kPeriod), 0.0);
 }
@@ -142,12 +145,12 @@ TEST(SpeedControl, LeavesRestFromJustBehindTheStart) {
 
 TEST(SpeedAlong, EndsThePeriodAtTheWantedSpeed) {
   const Signal wanted{{{0.0, 10.0}, {1.0, 12.0}, {1.5, 8.0}}};
-  // A whole period on one slope, across a knot, and beyond the last.
+  // A whole period on one slope, across a knot, and past the last knot.
   EXPECT_NEAR(SpeedAlong(wanted, 0.5, 0.02, 2.0, 11.0, 0.02), 2.0, Tolerance(kRounding));
   EXPECT_NEAR(SpeedAlong(wanted, 0.9, 0.2, 2.0, 11.8, 0.2), (11.2 - 11.8) / 0.2,
               Tolerance(kRounding));
   EXPECT_NEAR(SpeedAlong(wanted, 3.0, 0.02, 2.0, 8.0, 0.02), 0.0, Tolerance(kRounding));
-  // 0.1 m/s too slow: gain 2 adds 0.2.
+  // 0.1 m/s too slow: the gain of 2 adds 0.2.
   EXPECT_NEAR(SpeedAlong(wanted, 3.0, 0.02, 2.0, 7.9, 0.02), 0.2, Tolerance(kRounding));
 }
 
@@ -176,7 +179,7 @@ TEST(TimedSpeedControl, FollowsASpeedThatTheLimitsWouldCut) {
   KinematicCar car(ReferenceCar(), ReferencePoint::kRearAxle, {.speed = 20.0});
   for (int i = 0; i < 200; ++i) {
     const double time = i * kPeriod;
-    // Without an error the car obeys to rounding, 1e-16 of 20 m/s at each of 200 periods.
+    // Without an initial error the car follows to rounding, 1e-16 of 20 m/s in each of 200 periods.
     EXPECT_NEAR(car.state().speed, options.over_time.At(time), Tolerance(200 * 4e-15)) << time;
     const auto acceleration = TimedSpeedControl(options, time, car.state().speed, kPeriod);
     ASSERT_TRUE(acceleration.has_value());
@@ -185,8 +188,8 @@ TEST(TimedSpeedControl, FollowsASpeedThatTheLimitsWouldCut) {
 }
 
 TEST(SpeedControl, DrivesOnACarThatRollsBack) {
-  // The profile leaves s = 0 at 1 m/s^2, and is at sqrt(0.008) m/s after 4 mm. A car that rolls
-  // back there lacks that and its own speed; following the profile backwards it would brake.
+  // The profile leaves s = 0 at 1 m/s^2 and reaches sqrt(0.008) m/s after 4 mm. A car that rolls
+  // backward there lacks this speed plus its own. Following the profile in reverse, it would brake.
   const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
   EXPECT_GE(SpeedControl(kOptions, profile, 0.004, -0.02, kPeriod),
             2.0 * (std::sqrt(0.008) + 0.02));

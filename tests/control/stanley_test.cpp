@@ -28,19 +28,19 @@ double Steer(const StanleyOptions& options, const Path& path, const Pose2& pose,
 
 TEST(Stanley, AddsHeadingAndOffsetOfTheFrontAxle) {
   const Path straight({}, {{100.0, 0.0, 1}});
-  // 0.5 m left: atan(1 * 0.5/(1 + 3)).
+  // At 0.5 m to the left the angle is atan(1 * 0.5/(1 + 3)).
   EXPECT_NEAR(Steer({}, straight, {0.0, 0.5, 0.0}, 3.0), -std::atan(0.125), Tolerance(1e-12));
-  // Heading 0.1 left: the front axle is L sin(0.1) off.
+  // With a heading of 0.1 rad to the left the front axle is L sin(0.1) off.
   EXPECT_NEAR(Steer({}, straight, {0.0, 0.0, 0.1}, 3.0),
               -0.1 - std::atan(2.7 * std::sin(0.1) / 4.0), Tolerance(1e-12));
-  // Backwards the rear axle leads, and the heading turns the other way.
+  // In reverse the rear axle leads, and the heading turns the other way.
   const Path back({}, {{100.0, 0.0, -1}});
   EXPECT_NEAR(Steer({}, back, {0.0, 0.5, 0.1}, -3.0), 0.1 - std::atan(0.125), Tolerance(1e-12));
 }
 
 TEST(Stanley, FrontAxleReturnsExponentially) {
-  // e_f' = -v sin(atan(k e_f/v)) with k_s = 0 and wheels that obey at once: exp(-k t) but for the
-  // third power of k e_f/v = 0.03, and the 20 ms that the angle is held for.
+  // e_f' = -v sin(atan(k e_f/v)) with k_s = 0 and ideal wheels: exp(-k t) up to the third power of
+  // k e_f/v = 0.03, and the 20 ms for which the angle is held.
   LoopSetup setup;
   setup.vehicle.steering_rate = 1e6;
   setup.path = Path({}, {{100.0, 0.0, 1}});
@@ -55,7 +55,7 @@ TEST(Stanley, FrontAxleReturnsExponentially) {
 }
 
 TEST(Stanley, KeepsTheSingleTrackCarInASteadyTurn) {
-  // Understeer and the rear axle's slip are in its feed-forward.
+  // The feed-forward includes understeer and the rear axle's slip.
   const VehicleParams car = ReferenceCarWithTyres();
   LoopSetup setup;
   setup.vehicle = car;

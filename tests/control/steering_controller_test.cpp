@@ -20,6 +20,8 @@
 #include "trackbed/control/steering_profile.h"
 #include "trackbed/core/angle.h"
 
+// Tests the preview angle against closed forms and brute force, the preview and schedule
+// controllers, and guarantees of every registered controller.
 namespace trackbed {
 
 void PrintTo(const ControllerEntry& entry, std::ostream* out) {
@@ -28,7 +30,8 @@ void PrintTo(const ControllerEntry& entry, std::ostream* out) {
 
 namespace {
 
-// The crossing is found to 2^-48 of a station below 200 m, 7e-13 m; an angle at 2 m or more.
+// The intersection is found to 2^-48 of a station below 200 m, 7e-13 m; as an angle at a distance
+// of 2 m or more.
 constexpr double kFound = 1e-11;
 
 double Steer(const ControllerOptions& options, const Path& path, const Pose2& pose, double station,
@@ -91,14 +94,14 @@ TEST(PreviewAngle, OnACircleIsTheArcSine) {
 }
 
 TEST(PreviewAngle, GoesOnAlongTheEndTangent) {
-  // A quarter circle of 10 m ends at (10, 10) heading north. From 1 m before its end in a straight
-  // line P is on the tangent.
+  // A quarter circle of 10 m ends at (10, 10) heading north. From 1 m before its end, P is on the
+  // straight extension along the tangent.
   const Path path{{}, {{5.0 * kPi, 0.1, 1}}};
   EXPECT_NEAR(PreviewAngle(path, {10.0, 10.0, kPi / 2.0}, path.length(), 4.0), 0.0,
               Tolerance(kFound));
   EXPECT_NEAR(PreviewAngle(path, {11.0, 14.0, kPi / 2.0}, path.length() + 4.0, 4.0),
               std::asin(0.25), Tolerance(kFound));
-  // Near the end it does not grow without bound, as it would toward a fixed end point.
+  // Near the end the angle stays bounded, unlike the angle to a fixed end point.
   for (double s = path.length() - 4.0; s < path.length() + 10.0; s += 0.1) {
     EXPECT_LE(std::abs(PreviewAngle(path, path.At(s).pose, s, 4.0)),
               std::asin(0.2) + Tolerance(kFound));
@@ -106,7 +109,7 @@ TEST(PreviewAngle, GoesOnAlongTheEndTangent) {
 }
 
 TEST(PreviewAngle, FurtherAwayThanItLooksHeadsForThePointAheadOfTheNearest) {
-  // 5 m left of a straight, looking 3 m: the point 3 m ahead of the nearest one.
+  // 5 m left of a straight, with R = 3 m: P is 3 m ahead of the nearest point.
   EXPECT_NEAR(PreviewAngle(Straight(), {10.0, 5.0, 0.0}, 10.0, 3.0), std::atan2(-5.0, 3.0),
               Tolerance(kFound));
 }
@@ -137,7 +140,7 @@ TEST(PreviewAngle, TurnsWithTheCarAndTheWorld) {
 }
 
 TEST(PreviewAngle, AimsAtTheFirstCrossing) {
-  // Brute force over the path in steps of 0.1 mm, which is 0.1 mm/R of angle.
+  // Brute force over the path in steps of 0.1 mm, which is an angle of 0.1 mm/R.
   Random random(62);
   for (int i = 0; i < 100; ++i) {
     std::vector<Segment> segments;
@@ -175,7 +178,7 @@ TEST(PreviewController, ExactArcSteersTheCircle) {
 }
 
 TEST(PreviewController, ReversePathsSteerTheSameCircle) {
-  // u is measured from the direction of motion, which in reverse is behind the car. The circle
+  // u is measured from the direction of motion, which points backward in reverse. The circle
   // through P and tangent to the car is the same, and so is the steering.
   for (const PreviewLaw law : {PreviewLaw::kExactArc, PreviewLaw::kLinear}) {
     SCOPED_TRACE(law == PreviewLaw::kLinear ? "linear" : "exact arc");
@@ -189,9 +192,9 @@ TEST(PreviewController, ReversePathsSteerTheSameCircle) {
 }
 
 TEST(PreviewController, WithSlipSteersTheSteadyTurn) {
-  // The angle u counts from the velocity. A car with tyres on its circle: the rear axle moves along
-  // it, the car heads inward by its slip, and the angle is that of the understeering car,
-  // tan(delta) = kappa (L + K v^2).
+  // The angle u is measured from the velocity. For a car with tyres on its circle, the rear axle
+  // moves along the circle and the car heads inward by its slip angle. The steering is that of the
+  // understeering car, tan(delta) = kappa (L + K v^2).
   const VehicleParams car = ReferenceCarWithTyres();
   const double speed = 15.0;
   const double curvature = 0.01;
@@ -231,7 +234,7 @@ TEST(PreviewController, LooksFurtherAheadTheFasterItGoes) {
 TEST(ScheduleController, GivesTheValueAtTheEndOfThePeriod) {
   const SteeringSchedule schedule({{10.0, 30.0, 0.2}}, 0.05);
   const ScheduleOptions options;
-  // 3 m/s for 0.5 s: 1.5 m ahead.
+  // 3 m/s for 0.5 s is 1.5 m ahead.
   EXPECT_NEAR(Steer(options, Straight(), {}, 9.0, schedule, 3.0, 0.5), 0.05 * 0.5,
               Tolerance(1e-15));
   EXPECT_NEAR(Steer(options, Straight(), {}, 12.0, schedule, 3.0, 0.5), 0.05 * 3.5,
@@ -259,7 +262,7 @@ TEST(ProfileControllers, GiveTheAngleAtTheEndOfThePeriod) {
   EXPECT_EQ(steer(swept, 1.4), SteeringAt(swept, 1.5));
 }
 
-// --- What every controller of the table owes its caller ------------------------------------------
+// --- Guarantees of every registered controller ---------------------------------------------------
 
 class EveryController : public ::testing::TestWithParam<ControllerEntry> {};
 
@@ -319,7 +322,7 @@ TEST(Controllers, OpenLoopsReadTheOdometer) {
 // --- Differential drive --------------------------------------------------------------------------
 
 TEST(Preview, WithDifferentialDriveCommandsADifferenceOfWheelSpeedsInProportionToTheAngle) {
-  // omega_R - omega_L = (2 b v/(R r_w)) sin(u): for the small angles of driving, K u.
+  // omega_R - omega_L = (2 b v/(R r_w)) sin(u), which for small angles is K u.
   const VehicleParams pair = WheelPair();
   const Path path = Straight();
   const Reference reference{path, StopAtEnd(path.length(), 3.0, {3.0, 1.0, 1.5})};

@@ -12,11 +12,11 @@
 namespace trackbed {
 namespace {
 
-// Sines of a few dozen radians, times amplitudes below 1.
+// Rounding of sines of a few dozen radians, times amplitudes below 1.
 constexpr double kRounding = 1e-14;
 
-/// The times in (from, to) at which the profile changes sign, found to 1e-12 s by bisection between
-/// samples 1 ms apart.
+/// Times in (from, to) at which the profile changes sign, by bisection to 1e-12 s between samples 1
+/// ms apart.
 template <typename Options>
 std::vector<double> Crossings(const Options& options, double from, double to) {
   std::vector<double> crossings;
@@ -47,7 +47,8 @@ TEST(StepSteering, RampsAtItsRateAndStays) {
 
 TEST(StepSteering, WithoutARateJumps) {
   const StepSteeringOptions step{.amplitude = 0.2, .at = 2.0, .rate = {}};
-  // A period that ends when it begins does not turn the wheels yet, nor by rounding of times.
+  // A control period that ends when the step begins does not turn the wheels yet, also with rounded
+  // times.
   EXPECT_EQ(SteeringAt(step, 2.0), 0.0);
   EXPECT_EQ(SteeringAt(step, 2.0 + 1e-12), 0.0);
   EXPECT_EQ(SteeringAt(step, 2.001), 0.2);
@@ -68,7 +69,7 @@ TEST(SineSteering, HasItsPeaksAndZeros) {
   const SineSteeringOptions sine{.amplitude = 0.04, .frequency = 0.4, .cycles = 1.5, .at = 1.0};
   EXPECT_EQ(SteeringAt(sine, 0.5), 0.0);
   EXPECT_EQ(SteeringAt(sine, 1.0), 0.0);
-  // A period is 2.5 s: peaks after a quarter, three and five quarters.
+  // The sine's period is 2.5 s: peaks after a quarter, three quarters and five quarters of it.
   EXPECT_NEAR(SteeringAt(sine, 1.625), 0.04, Tolerance(kRounding));
   EXPECT_NEAR(SteeringAt(sine, 2.875), -0.04, Tolerance(kRounding));
   EXPECT_NEAR(SteeringAt(sine, 4.125), 0.04, Tolerance(kRounding));
@@ -76,7 +77,7 @@ TEST(SineSteering, HasItsPeaksAndZeros) {
   ASSERT_EQ(zeros.size(), 2U);
   EXPECT_NEAR(zeros[0], 2.25, Tolerance(2e-12));
   EXPECT_NEAR(zeros[1], 3.5, Tolerance(2e-12));
-  // Over after 3.75 s, where it was on its way through zero.
+  // The profile ends after 3.75 s, at a zero crossing.
   EXPECT_NEAR(SteeringAt(sine, 4.75 - 1e-9), 0.0, Tolerance(0.04 * 2.0 * kPi * 0.4 * 1.1e-9));
   EXPECT_EQ(SteeringAt(sine, 4.75 + 1e-9), 0.0);
   EXPECT_EQ(SteeringAt(sine, 5.0), 0.0);
@@ -90,15 +91,15 @@ TEST(SineWithDwell, StaysAtItsSecondPeakForTheDwell) {
   const std::vector<double> zeros = Crossings(options, 1.01, 1.0 + period + 0.5 - 1e-3);
   ASSERT_EQ(zeros.size(), 1U);
   EXPECT_NEAR(zeros[0], 1.0 + 0.5 * period, Tolerance(2e-12));
-  // How long it stands at -A, counted in steps of 10 us. The sine leaves its peak as 1 - x^2/2: it
-  // is within 1e-12 of it for 1.4e-6/(2 pi f) = 0.3 us on either side.
+  // Duration at -A, counted in steps of 10 us. The sine leaves its peak as 1 - x^2/2, so it is
+  // within 1e-12 of the peak for 1.4e-6/(2 pi f) = 0.3 us on either side.
   constexpr double kStep = 1e-5;
   int at_peak = 0;
   for (int i = 0; i < 300000; ++i) {
     at_peak += std::abs(SteeringAt(options, i * kStep) + 0.1) < 0.1e-12 ? 1 : 0;
   }
   EXPECT_NEAR(at_peak * kStep, 0.5, Tolerance(2.0 * kStep));
-  // Without the dwell the rest is the sine's own, later by the dwell.
+  // After the dwell the profile is that of the sine, delayed by the dwell.
   for (const double t : {2.6, 2.75, 2.9}) {
     EXPECT_NEAR(SteeringAt(options, t), 0.1 * std::sin(2.0 * kPi * 0.7 * (t - 1.5)),
                 Tolerance(kRounding));
@@ -115,8 +116,8 @@ TEST(SineWithDwell, WithoutADwellIsASine) {
   }
 }
 
-/// The frequency of A sin(phi(t)), phi' from delta and its derivative: delta'^2 = A^2 phi'^2
-/// (1 - (delta/A)^2).
+/// The frequency of A sin(phi(t)): phi' follows from delta and its derivative by delta'^2 = A^2
+/// phi'^2 (1 - (delta/A)^2).
 double InstantaneousFrequency(const SweptSineOptions& options, double time) {
   constexpr double kStep = 1e-6;
   const double value = SteeringAt(options, time) / options.amplitude;
@@ -139,11 +140,12 @@ TEST(SweptSine, SweepsItsFrequency) {
         const double share = tau / options.duration;
         const double f = sweep == Sweep::kLinear ? f0 + (f1 - f0) * share
                                                  : f0 * std::exp(share * std::log(f1 / f0));
-        // Near the peaks the division above loses its digits.
+        // Near the peaks the division above loses precision.
         if (std::abs(SteeringAt(options, 1.0 + tau)) < 0.09) {
           // Central differences over 2 us: the phase, up to 132 rad, is rounded to 1.4e-14 at
-          // either end, which is 2.2e-9 Hz, and the sine's own rounding is as much at 0.2 Hz; twice
-          // that where the root above is 0.44. Their truncation, (2 pi f h)^2/6 = 1e-10, is less.
+          // either end, which is 2.2e-9 Hz. The sine's rounding adds as much at 0.2 Hz, and twice
+          // that where the root above is 0.44. Their truncation error, (2 pi f h)^2/6 = 1e-10, is
+          // smaller.
           EXPECT_NEAR(InstantaneousFrequency(options, 1.0 + tau), f, Tolerance(1e-8));
           ++looked_at;
         }
@@ -154,7 +156,8 @@ TEST(SweptSine, SweepsItsFrequency) {
 }
 
 TEST(SweptSine, CrossesZeroWhereThePhaseIsAMultipleOfPi) {
-  // Linear from 1 to 3 Hz in 2 s: phi = pi at tau + tau^2/2 = 1/2, at 2 pi where it is 1, ...
+  // Linear from 1 to 3 Hz in 2 s: phi = pi at tau + tau^2/2 = 1/2, phi = 2 pi where that is 1, and
+  // so on.
   const SweptSineOptions options{.amplitude = 0.1,
                                  .start_frequency = 1.0,
                                  .end_frequency = 3.0,

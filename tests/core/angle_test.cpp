@@ -35,7 +35,7 @@ TEST(WrapAngle, TakesOffWholeTurns) {
     const double angle = random.Uniform(-3.1, 3.1);
     const int turns = random.Below(2001) - 1000;
     const double wound = angle + turns * 2.0 * kPi;
-    // Rounding of the sum here, and "within 1 ulp" of it there: both 2^-52 |wound|.
+    // Rounding of the sum here, plus WrapAngle's "within 1 ulp": both 2^-52 |wound|.
     EXPECT_NEAR(WrapAngle(wound), angle, Tolerance(std::ldexp(std::abs(wound), -51) + 1e-15));
     EXPECT_GT(WrapAngle(wound), -kPi);
     EXPECT_LE(WrapAngle(wound), kPi);
@@ -55,10 +55,11 @@ TEST(AngleDifference, IsTheShortWayRound) {
 }
 
 TEST(AngleDifference, IsSignedSoOneSidedComparisonsLie) {
-  // The trap: a difference far to the right is "smaller" than any tolerance. Always take abs.
+  // A signed difference far to the right is "smaller" than any tolerance: always take the absolute
+  // value.
   EXPECT_LT(AngleDifference(0.0, 3.0), 1e-9);
   EXPECT_GT(std::abs(AngleDifference(0.0, 3.0)), 1e-9);
-  // And across the cut plain subtraction is wrong by a turn.
+  // Plain subtraction across the cut errs by a full turn.
   EXPECT_GT(std::abs(3.14159 - -3.14159), 6.0);
   EXPECT_LT(std::abs(AngleDifference(3.14159, -3.14159)), 1e-5);
 }

@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-/// As in German: a comma before decimals, a dot between thousands.
+/// As in German: a comma as the decimal separator, a dot between thousands.
 class Comma : public std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   char do_thousands_sep() const override { return '.'; }

@@ -33,7 +33,7 @@ TEST(Problem, LeavesOutAnUnknownColumn) {
 
 TEST(Problem, NamesControlCharactersOfOtherPeoplesNames) {
   EXPECT_EQ((Problem{.file = "\x1b[31mred\x7f", .message = "tab\tand\nline"}.ToString()),
-            "<U+001B>[31mred<U+007F>: tab\tand<U+000A>line");  // a problem has one line
+            "<U+001B>[31mred<U+007F>: tab\tand<U+000A>line");  // a message stays on one line
   EXPECT_EQ(WithoutControls("Prüfstrecke"), "Prüfstrecke");
 }
 
@@ -59,7 +59,7 @@ TEST(Require, SaysWhatIsWrongAndNothingElse) {
     TRACKBED_REQUIRE(three < 2, "three is {}; must be below {}", three, 2);
     FAIL() << "did not throw";
   } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(error.what(), "three is 3; must be below 2");  // it is no bug of Trackbed
+    EXPECT_STREQ(error.what(), "three is 3; must be below 2");  // no bug report
   }
 }
 
@@ -75,7 +75,7 @@ TEST(Check, NamesPlaceConditionAndValues) {
   } catch (const InternalError& error) {
     EXPECT_THAT(error.what(), AllOf(HasSubstr("error_test.cpp:"), HasSubstr("three is 3"),
                                     HasSubstr("three < 2 does not hold")));
-    EXPECT_EQ(std::string(error.what()).find('/'), std::string::npos);  // no path of a machine
+    EXPECT_EQ(std::string(error.what()).find('/'), std::string::npos);  // no build path
   }
 }
 

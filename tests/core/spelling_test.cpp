@@ -18,7 +18,7 @@ TEST(NearestSpelling, FindsASlip) {
 }
 
 TEST(NearestSpelling, TakesAThirdOfALongWord) {
-  // 17 letters: five edits are near, six are not.
+  // 17 letters: five edits count as similar, six do not.
   EXPECT_EQ(NearestSpelling("xxxxxant_steering", kKnown), "constant_steering");
   EXPECT_EQ(NearestSpelling("xxxxxxnt_steering", kKnown), "");
 }

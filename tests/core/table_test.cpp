@@ -18,6 +18,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
+// Tests tables and CSV files: bit-exact round trips, quoting, errors with their lines, and size
+// limits.
 namespace trackbed {
 namespace {
 
@@ -30,7 +32,7 @@ Table RoundTrip(const Table& table) {
   return ReadCsv(file);
 }
 
-/// The text of the InputError that reading `content` as "t.csv" gives, without the folder.
+/// The InputError text for reading `content` as "t.csv", without the folder.
 std::string ErrorMessages(const std::string& content, const std::vector<std::string>& needed = {}) {
   const TempFolder folder;
   const std::string file = (folder.path() / "t.csv").string();
@@ -199,7 +201,7 @@ TEST(ReadCsv, RefusesAnOpenQuote) {
   EXPECT_NE(ErrorMessages("a\n1\"2\n"), "no InputError");
 }
 
-// Within a moment: nothing is read beyond what is too much.
+// Returns at once, because nothing beyond the limits is read.
 TEST(ReadCsv, RefusesAMillionColumnsAndEndlessCells) {
   std::string wide;
   for (int i = 0; i < 1'000'000; ++i) {

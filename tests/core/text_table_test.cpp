@@ -15,7 +15,7 @@ namespace {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-/// What libcsv, strict about quotes, makes of a text.
+/// The rows that libcsv, strict about quotes, reads from a text.
 Rows ReadBack(const std::string& text) {
   Rows rows(1);
   csv_parser parser{};
@@ -27,7 +27,7 @@ Rows ReadBack(const std::string& text) {
   EXPECT_EQ(csv_parse(&parser, text.data(), text.size(), cell, row, &rows), text.size());
   EXPECT_EQ(csv_fini(&parser, cell, row, &rows), 0);
   csv_free(&parser);
-  rows.pop_back();  // the one begun after the last line
+  rows.pop_back();  // the empty row begun after the last line
   return rows;
 }
 
@@ -111,7 +111,7 @@ TEST(ReadTextCsv, NamesFileAndLineOfWhatIsWrong) {
   };
   using testing::EndsWith;
   EXPECT_THAT(error("a,b\n1,2\n\n3\n"), EndsWith("sweep.csv:4: 1 cell, the header has 2"));
-  // A cell of two lines is one row.
+  // A cell that spans two lines is part of one row.
   EXPECT_THAT(error("a,b\n\"1\n2\",2\n3,4,5\n"),
               EndsWith("sweep.csv:4: 3 cells, the header has 2"));
   EXPECT_THAT(error("a,a\n"), EndsWith("sweep.csv:1: repeated column 'a'"));

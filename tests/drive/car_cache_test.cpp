@@ -51,10 +51,10 @@ TEST(CarCache, CompilesEveryModelOnce) {
 
 TEST(CarCache, ForgetsWhatWasUsedLongestAgo) {
   CarCache cars(2);
-  const auto kept = cars.Load(WithBox(20.0));  // and the bare car
+  const auto kept = cars.Load(WithBox(20.0));  // also loads the car without obstacles
   const auto other = cars.Load(WithBox(30.0));
   EXPECT_EQ(cars.compiled(), 3U);
-  EXPECT_EQ(kept->timestep(), 0.002);  // who holds a car keeps it
+  EXPECT_EQ(kept->timestep(), 0.002);  // the caller's pointer stays valid
   EXPECT_EQ(cars.Load(WithBox(30.0)), other);
   EXPECT_EQ(cars.compiled(), 3U);
   EXPECT_NE(cars.Load(WithBox(20.0)), kept);

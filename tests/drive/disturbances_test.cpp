@@ -12,7 +12,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 
-// Disturbances, driven.
+// Runs with disturbances.
 namespace trackbed {
 namespace {
 
@@ -25,14 +25,14 @@ RunLog Drive(const std::string& yaml) {
                     scenario.drive.plants.front());
 }
 
-/// Open loop on the kinematic car.
+/// An open-loop run of the kinematic car.
 RunLog Open(const std::string& control, const std::string& rest,
             const std::string& drive = "plants: [kinematic]") {
   return Drive(fmt::format("mission: {{speed: 3, duration: 6}}\ncontrol: {}\ndrive: {{{}}}\n{}\n",
                            control, drive, rest));
 }
 
-/// Along a path with a left turn, by preview.
+/// A scenario along a path with a left turn, with the preview controller.
 std::string Route(const std::string& plant) {
   return fmt::format(
       "mission: {{speed: 3, waypoints: [[0, 0], [25, 0], [25, 25]]}}\n"
@@ -40,7 +40,7 @@ std::string Route(const std::string& plant) {
       plant);
 }
 
-/// Straight on for 60 m.
+/// A scenario straight ahead for 60 m.
 std::string Straight(const std::string& plant, const std::string& start = "x: 0") {
   return fmt::format(
       "mission: {{speed: 3, waypoints: [[0, 0], [30, 0], [60, 0]], start: {{{}}}}}\n"
@@ -79,7 +79,7 @@ TEST(NoDisturbance, LeavesEveryByte) {
 TEST(SteeringDelay, ShiftsTheWheelsByItWhateverTheControlPeriod) {
   const std::string sine = "{method: sine, amplitude: 0.05, frequency: 0.5, cycles: 2, at: 0.5}";
   for (const char* steering : {"actuator", "prescribed"}) {
-    // 0.13 s are 65 timesteps, and no whole number of these control periods.
+    // 0.13 s are 65 timesteps, but not a whole number of these control periods.
     for (const char* period : {"0.02", "0.05", "0.1"}) {
       const std::string drive =
           fmt::format("plants: [kinematic], state_period: 0.002, control_period: {}, steering: {}",
@@ -90,7 +90,7 @@ TEST(SteeringDelay, ShiftsTheWheelsByItWhateverTheControlPeriod) {
       ASSERT_EQ(own.size(), 3001U);
       ASSERT_EQ(late.size(), own.size());
       for (std::size_t i = 0; i < own.size(); ++i) {
-        // The same numbers in the same order: nothing is computed anew.
+        // Exactly equal: the delayed values are the same numbers in the same order.
         ASSERT_EQ(late[i], i < 65 ? 0.0 : own[i - 65]) << steering << " " << period << " " << i;
       }
       EXPECT_GT(*std::max_element(own.begin(), own.end()), 0.04);
@@ -115,18 +115,19 @@ TEST(SteeringDeadBand, IsTakenOffWhatTheWheelsDo) {
   const RunLog log =
       Open("{method: sine, amplitude: 0.05, frequency: 0.25, cycles: 1}",
            "disturb: {steering: {backlash: 0.02}}", "plants: [kinematic], steering: prescribed");
-  double play = 0.0;  // the closed form of backlash, row by row
+  double play = 0.0;  // closed form of backlash, row by row
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
     const double wanted = log.rows[i - 1].command.steering;
     play = std::clamp(play, wanted - 0.01, wanted + 0.01);
     EXPECT_NEAR(log.rows[i].state.steering, play, Tolerance(1e-15));
   }
-  // The sine ends at 0, coming from below.
+  // The sine ends at 0, rising from below.
   EXPECT_NEAR(log.rows.back().state.steering, -0.01, Tolerance(1e-9));
 }
 
 TEST(Wheelbase, IsWhatTheControllerTakesItFor) {
-  // Pursuit's circle through the point ahead: tan(delta) = L 2 sin(u)/R, with the same u at first.
+  // Pure pursuit's circle through the point ahead: tan(delta) = L 2 sin(u)/R, initially with the
+  // same u.
   const auto first = [](const std::string& disturb) {
     return Drive(Straight("kinematic", "yaw: 0.1") + "control: {method: preview, distance: 2.5}\n" +
                  disturb)
@@ -143,13 +144,13 @@ TEST(SpeedLoss, HoldsTheCarBackAndThePlanGoesOn) {
   for (const char* plant : {"kinematic", "single_track", "mujoco"}) {
     const RunLog log = Drive(Straight(plant) + "disturb: {speed_loss: {from: 5, speed: 1}}\n");
     EXPECT_NEAR(At(log, 5.0).state.speed, 3.0, Tolerance(0.01)) << plant;
-    // 3 m/s^2 down to a speed error of 1.5 m/s; then e^(-2 t), which is 1e-8 after 9 s. MuJoCo's
-    // bearings and air are made up for to a millimeter per second.
+    // 3 m/s^2 down to a speed error of 1.5 m/s, then e^(-2 t), which is 1e-8 after 9 s. The
+    // controller compensates MuJoCo's bearings and air drag to a millimeter per second.
     EXPECT_NEAR(At(log, 15.0).state.speed, 1.0, Tolerance(2e-3)) << plant;
     EXPECT_NEAR(At(log, 40.0).state.speed, 1.0, Tolerance(2e-3)) << plant;
-    EXPECT_EQ(log.status, DriveStatus::kArrived) << plant;  // stops as the plan does
-    // It begins to brake below the planned speed, which a gain of 2/s does not make up for in the
-    // 0.7 s that braking from 1 m/s takes: of the 0.33 m that these are, e^-1.4.
+    EXPECT_EQ(log.status, DriveStatus::kArrived) << plant;  // stops where the plan does
+    // The car begins to brake below the planned speed. The gain of 2/s does not remove that in the
+    // 0.7 s that braking from 1 m/s takes: of the 0.33 m of distance, e^-1.4 remains.
     EXPECT_NEAR(log.rows.back().state.pose.x, 60.0, Tolerance(0.33 * 0.25)) << plant;
   }
 }
@@ -170,7 +171,7 @@ TEST(SpeedLoss, BeginsAtItsStation) {
 struct Statistics {
   double mean = 0.0;
   double deviation = 0.0;
-  double correlation = 0.0;  ///< of neighbors
+  double correlation = 0.0;  ///< between successive errors
 };
 
 Statistics Of(const std::vector<double>& values) {
@@ -201,14 +202,15 @@ TEST(Noise, HasItsStatistics) {
     for (const LogRow& row : log.rows) {
       errors.push_back(error(row));
     }
-    // 5001 draws. Four standard deviations of the mean, sigma/sqrt(n); of the deviation,
-    // sigma/sqrt(2 n); and of the correlation, 1/sqrt(n).
+    // Tolerances for 5001 draws are four standard deviations: sigma/sqrt(n) for the mean,
+    // sigma/sqrt(2 n) for the deviation, and 1/sqrt(n) for the correlation.
     const double n = static_cast<double>(errors.size());
     const Statistics statistics = Of(errors);
     EXPECT_NEAR(statistics.mean, 0.0, Tolerance(4.0 * sigma / std::sqrt(n)));
     EXPECT_NEAR(statistics.deviation, sigma, Tolerance(4.0 * sigma / std::sqrt(2.0 * n)));
     EXPECT_NEAR(statistics.correlation, 0.0, Tolerance(4.0 / std::sqrt(n)));
-    // Normal: 4.55 % lie beyond two sigma, with a deviation of sqrt(p q / n) = 0.3 %.
+    // Of a normal distribution 4.55 % lie beyond two sigma, with a deviation of sqrt(p q / n) = 0.3
+    // %.
     const auto beyond =
         std::count_if(errors.begin(), errors.end(),
                       [limit = 2.0 * sigma](double e) { return std::abs(e) > limit; });
@@ -225,11 +227,11 @@ TEST(Noise, IsSeenByTheControllerAndIsNotTheTruth) {
     commands.push_back(row.command.steering);
     EXPECT_NEAR(row.tracking->cross_track, row.state.pose.y, Tolerance(1e-12));
   }
-  // tan(delta) = 2 L sin(u)/R, R = 2.5 m: 0.01 rad and 0.05 m/2.5 m make 0.022 rad of u and 0.05
-  // rad of steering, which wheels at 0.15 rad/s cannot follow.
+  // tan(delta) = 2 L sin(u)/R with R = 2.5 m: 0.01 rad and 0.05 m/2.5 m give 0.022 rad of u and
+  // 0.05 rad of steering, which wheels at 0.15 rad/s cannot follow.
   EXPECT_NEAR(Of(commands).deviation, 0.05, Tolerance(0.015));
   EXPECT_LT(std::abs(log.rows.back().state.pose.y), 0.1);
-  // The first row's command is that of the first row's measurement.
+  // The first row's command belongs to the first row's measurement.
   const Pose2 seen = *log.rows.front().measured;
   const double u = std::atan2(-seen.y, std::sqrt(2.5 * 2.5 - seen.y * seen.y)) - seen.yaw;
   EXPECT_NEAR(commands.front(), std::atan(2.0 * kWheelbase / 2.5 * std::sin(u)), Tolerance(1e-9));
@@ -255,7 +257,7 @@ TEST(Kick, SetsTheCarAsideAndItComesBack) {
     const RunLog log =
         Drive(Straight(plant) + "disturb: {kicks: [{at: 4.01, displacement: -0.5}]}\n");
     EXPECT_NEAR(At(log, 4.0).state.pose.y, 0.0, Tolerance(1e-3)) << plant;
-    // At 4.02 s the controller has not seen it yet.
+    // At 4.02 s the controller has not received the offset yet.
     EXPECT_NEAR(At(log, 4.02).state.pose.y, -0.5, Tolerance(1e-3)) << plant;
     EXPECT_GT(At(log, 4.02).command.steering, 0.1) << plant;
     EXPECT_NEAR(log.rows.back().state.pose.y, 0.0, Tolerance(0.02)) << plant;
@@ -264,8 +266,9 @@ TEST(Kick, SetsTheCarAsideAndItComesBack) {
 }
 
 TEST(Kick, IsAnImpulseOverItsDuration) {
-  // On ice, where nothing else acts across but the air. It meets the car at 3 m/s and, on average,
-  // 0.19 m/s from its left: 1/2 1.225 3 0.19 5.07 = 1.8 N, which take 7e-4 m/s in half a second.
+  // On ice the air causes the only other lateral force. It meets the car at 3 m/s and, on average,
+  // 0.19 m/s from its left: 1/2 1.225 3 0.19 5.07 = 1.8 N, which changes the speed by 7e-4 m/s in
+  // 0.5 s.
   for (const char* duration : {"", ", duration: 0.5"}) {
     const RunLog log = Drive(fmt::format(
         "mission: {{speed: 3, duration: 3}}\ncontrol: {{method: constant_steering, steering: 0}}\n"
@@ -290,8 +293,8 @@ TEST(PayloadOnTheWay, StaysInTheCarInAWorld) {
   EXPECT_NEAR(car.unladen().mass, 1317.0, Tolerance(1e-9));
   const RunLog log = DrivePlant(scenario, car, PlanMission(scenario, car.unladen()), "mujoco");
   EXPECT_EQ(log.status, DriveStatus::kArrived);
-  // It does not bounce when it sets off: 1 % of its weight is twice what the unladen car's wheels
-  // make of the first step.
+  // The car does not bounce at the start. 1 % of its weight is twice the load change of the unladen
+  // car's wheels in the first step.
   for (std::size_t i = 0; i < 50; ++i) {
     double sum = 0.0;
     for (const WheelState& wheel : *log.rows[i].state.wheels) {

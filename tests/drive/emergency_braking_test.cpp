@@ -9,18 +9,18 @@
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 
-// Braking for what comes to be known too late for anything else.
+// Braking for obstacles that become known too late for any other reaction.
 namespace trackbed {
 namespace {
 
 struct Outcome {
-  double clearance = 0.0;     ///< least [m]
-  double deceleration = 0.0;  ///< hardest that was asked for [m/s^2]
-  double planned = 0.0;       ///< hardest that was planned [m/s^2]
+  double clearance = 0.0;     ///< smallest [m]
+  double deceleration = 0.0;  ///< largest commanded deceleration [m/s^2]
+  double planned = 0.0;       ///< largest planned deceleration [m/s^2]
   DriveStatus status = DriveStatus::kArrived;
 };
 
-/// At `speed` toward a wall across the way that is seen `range` ahead.
+/// A run at `speed` toward a wall across the route that is detected `range` ahead.
 Outcome Drive(const std::string& plant, double speed, double range, double place,
               const std::string& more = "") {
   const Scenario scenario = ParseScenario(
@@ -49,8 +49,8 @@ Outcome Drive(const std::string& plant, double speed, double range, double place
   return outcome;
 }
 
-constexpr double kSafe = 0.3 + 0.5;  ///< safe distance, and the room left before it [m]
-constexpr double kPeriod = 0.02;     ///< of control [s]
+constexpr double kSafe = 0.3 + 0.5;  ///< safe distance, and the gap kept before it [m]
+constexpr double kPeriod = 0.02;     ///< control period [s]
 
 TEST(EmergencyBraking, StopsWheneverTyresAndBrakesCan) {
   const double limit =
@@ -61,7 +61,7 @@ TEST(EmergencyBraking, StopsWheneverTyresAndBrakesCan) {
   std::uniform_real_distribution<double> places(60.0, 90.0);
   for (int i = 0; i < 40; ++i) {
     const double speed = speeds(random);
-    // From one control period on, in which it comes near: at the limit to the safe room.
+    // The least range that suffices: braking at the limit, up to two control periods late.
     const double least = speed * speed / (2.0 * limit) + 2.0 * speed * kPeriod + kSafe;
     const double range = least * (1.0 + spares(random) * spares(random));
     const double place = places(random);
@@ -77,7 +77,7 @@ TEST(EmergencyBraking, StopsWheneverTyresAndBrakesCan) {
 }
 
 TEST(EmergencyBraking, IsComfortableWhereThatSuffices) {
-  // 1.5 m/s^2 is the default; 3 is what its controller may ask for to keep to its profile.
+  // 1.5 m/s^2 is the default deceleration; the controller may use up to 3 to follow its profile.
   for (const double speed : {3.0, 6.0, 10.0}) {
     const double comfortable = 0.5 * speed * speed / 1.5 + 0.6 * speed + kSafe + 4.0;
     const Outcome outcome = Drive("kinematic", speed, comfortable, 120.0);
@@ -96,7 +96,7 @@ TEST(EmergencyBraking, IsGentlerOnASlipperyRoad) {
     EXPECT_NE(outcome.status, DriveStatus::kCollided) << plant;
     EXPECT_LE(outcome.deceleration, limit + Tolerance(1e-9)) << plant;
   }
-  // Seen too late, the wall is hit; no more than the road can give is planned all the same.
+  // Detected too late, the wall is hit. Even then the plan does not exceed the road's grip.
   const Outcome late = Drive("kinematic", 10.0, 9.0, 80.0, "friction: 0.4, ");
   EXPECT_EQ(late.status, DriveStatus::kCollided);
   EXPECT_NEAR(late.planned, limit, Tolerance(1e-6));

@@ -8,7 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 
-// Maneuvers over time, driven: what was asked of steering and speed is what the car does.
+// Runs of maneuvers over time: the car follows the specified steering and speed.
 namespace trackbed {
 namespace {
 
@@ -41,8 +41,9 @@ TEST(Maneuver, BrakesInATurnOnMujocoToo) {
   const RunLog log = Drive(
       "{method: constant_steering, steering: 0.05, speed: {braking: {at: 1, deceleration: 4}}}",
       "mission: {speed: 10, duration: 3, start: {steering: 0.05}}\ndrive: {plants: [mujoco]}");
-  // The brakes are set for the car's mass and its wheels' inertia. Cornering at up to 2 m/s^2 on
-  // slip angles of milliradians drags by 0.01 m/s^2 at most; 1 % is more than that.
+  // The brake commands account for the car's mass and its wheels' inertia. Cornering at up to 2
+  // m/s^2 with slip angles of milliradians adds at most 0.01 m/s^2 of drag; the tolerance of 1 %
+  // covers that.
   EXPECT_NEAR(At(log, 2.0).speed - At(log, 3.0).speed, 4.0, Tolerance(0.04));
   EXPECT_GT(At(log, 3.0).yaw_rate, 0.0);
 }

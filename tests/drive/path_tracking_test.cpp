@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// 10 m along x.
+/// A straight path of 10 m along x.
 Path Straight() {
   return {{}, {{.length = 10.0}}};
 }
@@ -20,12 +20,12 @@ Projection At(const Path& path, const Pose2& pose, double overrun = 0.4) {
 }
 
 TEST(DistanceFromPath, IsToTheNearestPointOfAPathWithEnds) {
-  // Behind the start, a triangle of 20 m and 0.02 m.
+  // Behind the start, at 20 m along and 0.02 m beside the line.
   const Projection behind = At(Straight(), {-20.0, 0.02, 0.1});
   EXPECT_EQ(behind.s, 0.0);
   EXPECT_NEAR(behind.cross_track, std::hypot(20.0, 0.02), Tolerance(1e-12));
   EXPECT_NEAR(behind.heading_error, 0.1, Tolerance(1e-15));
-  // Beyond the end, 3-4-5, on the right.
+  // Past the end on the right, a 3-4-5 triangle.
   const Projection beyond = At(Straight(), {13.0, -4.0, 0.0});
   EXPECT_EQ(beyond.s, 10.0);
   EXPECT_NEAR(beyond.cross_track, -5.0, Tolerance(1e-12));
@@ -35,12 +35,12 @@ TEST(DistanceFromPath, LetsACarStopALittleBeyondTheEnd) {
   const Projection stopped = At(Straight(), {10.3, 0.01, 0.0});
   EXPECT_NEAR(stopped.s, 10.3, Tolerance(1e-12));
   EXPECT_NEAR(stopped.cross_track, 0.01, Tolerance(1e-12));
-  // The line that goes on ends where the tolerance does.
+  // The straight extension ends at the tolerance, so the distance is measured to its end.
   EXPECT_NEAR(At(Straight(), {10.5, 0.0, 0.0}).cross_track, 0.5, Tolerance(1e-12));
 }
 
 TEST(DistanceFromPath, IsThatOfThePathsOwnPointsAnywhere) {
-  // Brute force over points 1 mm apart, which is off by at most half of that.
+  // Brute force over points 1 mm apart, which errs by at most half of that.
   const Path path({1.0, 2.0, 0.3}, {{.length = 8.0},
                                     {.length = 6.0, .curvature = 0.2},
                                     {.length = 5.0, .curvature = 0.0, .sharpness = -0.02}});

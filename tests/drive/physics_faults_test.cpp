@@ -1,4 +1,4 @@
-// Faults of the physics, made to happen: each ends the run with a status, a cause and its log.
+// Provoked faults of the physics: each ends the run with a status, a cause and a log.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -20,14 +20,14 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// Ten seconds straight ahead with a car whose file is changed.
+/// A run of ten seconds straight ahead with a modified car file.
 struct ChangedCar {
   std::string plant = "mujoco:contact";
   std::string find{};     ///< a regular expression in the car's file
-  std::string replace{};  ///< what stands there instead
-  std::string keys{};     ///< of the scenario
+  std::string replace{};  ///< replacement of the matches
+  std::string keys{};     ///< additional keys of the scenario
   double speed = 5.0;     ///< [m/s]
-  double start = 5.0;     ///< likewise
+  double start = 5.0;     ///< speed at the start [m/s]
 };
 
 RunLog LogOf(const ChangedCar& drive) {
@@ -74,13 +74,13 @@ TEST(PhysicsFaults, DivergesWhereContactsFindNoRoom) {
   if (PhysicsVersion().starts_with("MuJoCo 2.")) {
     EXPECT_EQ(log.status, DriveStatus::kDiverged);
     EXPECT_THAT(log.cause, HasSubstr("njmax"));
-  } else {  // newer versions ignore njmax, and take what memory they need
+  } else {  // newer versions ignore njmax and allocate the memory that they need
     EXPECT_EQ(log.status, DriveStatus::kArrived);
   }
 }
 
 TEST(PhysicsFaults, SinksThroughARoadThatCarriesNothing) {
-  // A bit that no tyre has: the ground collides with nothing.
+  // A collision bit that no tyre has, so the ground collides with nothing.
   const RunLog log = LogOf({.find = "geom name=\"ground\"",
                             .replace = "geom name=\"ground\" contype=\"8\" conaffinity=\"8\""});
   EXPECT_EQ(log.status, DriveStatus::kSunk);
@@ -88,7 +88,7 @@ TEST(PhysicsFaults, SinksThroughARoadThatCarriesNothing) {
 }
 
 TEST(PhysicsFaults, IsAirborneFromASpringboard) {
-  // Up a bump 1.2 m high and 12 m long at 40 m/s: more than a second in the air.
+  // A bump 1.2 m high and 12 m long at 40 m/s: more than a second in the air.
   const RunLog log = LogOf({.keys = "world: {ground: {bumps: [{x: 30, y: 0, length: 16, "
                                     "width: 20, edge: 8, height: 1.5}]}}\n",
                             .speed = 50.0,

@@ -12,12 +12,12 @@
 namespace trackbed {
 namespace {
 
-/// 1 m by 1 m, its near side 10 m ahead of the origin.
+/// An obstacle of 1 m by 1 m whose near side is 10 m ahead of the origin.
 Obstacle Box(const Vec2& velocity = Vec2::Zero()) {
   return {.footprint = {{10.5, 0.0, 0.0}, 1.0, 1.0}, .velocity = velocity};
 }
 
-/// The footprint begins at the rear axle: its front is 4 m ahead of that.
+/// The footprint begins at the rear axle, and its front is 4 m ahead of that.
 LoopConfig Config() {
   LoopConfig config{.vehicle = UnicycleParams(), .state_period = 0.1};
   config.configuration_columns = {"x_m", "y_m"};
@@ -31,7 +31,7 @@ TEST(Recorder, LogsTheExtremesSinceTheRowBefore) {
   Recorder recorder(config, {});
   recorder.Sample(plant, 0.0);
   EXPECT_NEAR(*recorder.BeginRow({}, {}, {}).clearance, 6.0, Tolerance(1e-9));
-  // There and back within one period: 10 m less the front at 3 m + 4 m.
+  // Forward and back within one period: the front is at 3 m + 4 m, the obstacle at 10 m.
   for (const auto& [x, force, time] : {std::tuple(3.0, 20.0, 0.01), std::tuple(1.0, 5.0, 0.02)}) {
     plant.state().pose.x = x;
     plant.force = 0.0;
@@ -41,7 +41,7 @@ TEST(Recorder, LogsTheExtremesSinceTheRowBefore) {
   EXPECT_NEAR(*row.clearance, 3.0, Tolerance(1e-9));
   EXPECT_EQ(row.state.obstacle_force, 0.0);
   EXPECT_FALSE(recorder.contact_time());
-  // Nothing was seen since: where the car stands now.
+  // No state was recorded since, so the clearance is that of the current pose.
   EXPECT_NEAR(*recorder.BeginRow({}, {}, {}).clearance, 5.0, Tolerance(1e-9));
 }
 
@@ -56,7 +56,7 @@ TEST(Recorder, LogsTheFirstContactAndTheLargestForce) {
     plant.force = forces[i];
     recorder.Sample(plant, 0.1 * (i + 1));
   }
-  // What the plant feels is a contact, wherever the footprint is.
+  // A contact force of the plant counts as a contact, independent of the footprint.
   const LogRow row = recorder.BeginRow({}, {}, {});
   EXPECT_EQ(*row.clearance, 0.0);
   EXPECT_EQ(row.state.obstacle_force, 40.0);
@@ -71,10 +71,10 @@ TEST(Recorder, SeesAThinWallBetweenTwoSteps) {
   Unicycle plant({});
   Recorder recorder(config, {});
   recorder.Sample(plant, 0.0);
-  plant.state().pose.x = 20.0;  // 100 m/s for 0.2 s
+  plant.state().pose.x = 20.0;  // 20 m in 0.2 s, 100 m/s
   recorder.Sample(plant, 0.2);
-  // From when the front, 4 m ahead, is at the near side, after 5.99 m, until the rear axle is at
-  // the far side, after 10.01 m.
+  // From the time at which the front, 4 m ahead, reaches the near side, after 5.99 m, until the
+  // rear axle reaches the far side, after 10.01 m.
   ASSERT_TRUE(recorder.contact_time());
   EXPECT_GE(*recorder.contact_time(), 0.0599);
   EXPECT_LE(*recorder.contact_time(), 0.1001);

@@ -9,8 +9,8 @@ namespace trackbed {
 namespace {
 
 TEST(Replanning, KeepsAMotionThatLeadsPastWhatNewOnesDoNot) {
-  // After the bend a box stands in the lane. The first lattice leads past it; the next ones, whose
-  // layers lie elsewhere, have no edge there that the wheels can follow.
+  // A box stands in the lane after the bend. The first lattice passes it. The later ones have their
+  // layers elsewhere, and no edge there that the wheels can follow.
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: lattice\n"
       "mission: {speed: 3, waypoints: [[0, 0], [30, 0], [60, 20], [60, 60]]}\n"
@@ -25,7 +25,8 @@ TEST(Replanning, KeepsAMotionThatLeadsPastWhatNewOnesDoNot) {
 }
 
 TEST(Replanning, EndsWithACollision) {
-  // A box at 60 m/s comes from the side and strikes a car at 3 m/s, which would brake for it.
+  // A box at 60 m/s comes from the side and hits a car at 3 m/s, which would otherwise brake for
+  // it.
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: struck\n"
       "mission: {speed: 3, waypoints: [[0, 0], [30, 0], [60, 1]]}\n"
@@ -45,8 +46,8 @@ TEST(Replanning, EndsWithACollision) {
 }
 
 TEST(Replanning, GoesOnOnceWhatCrossesTheRoadIsGone) {
-  // A pedestrian steps onto the road 17 m ahead; the car brakes. The path is free again in the very
-  // control period in which the car has come to rest: it drives on.
+  // A pedestrian steps onto the road 17 m ahead and the car brakes. The path becomes free in the
+  // same control period in which the car comes to rest, and the car continues.
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: crossing\nvehicle: {tyre: magic_formula}\n"
       "mission: {speed: 10, waypoints: [[0, 0], [80, 0]], start: {speed: 10}}\n"

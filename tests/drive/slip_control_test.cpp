@@ -21,7 +21,7 @@ TEST(SlipControl, EasesOffWhereAWheelLocksOrSpins) {
     EXPECT_NEAR(EaseForSlip(sign * 4.0, SlippingCar(sign * 0.25, 20.0)), sign * 2.0,
                 Tolerance(1e-12));
     EXPECT_EQ(EaseForSlip(sign * 4.0, SlippingCar(sign * 0.9, -20.0)), 0.0);
-    // A wheel that slips the other way is what the command mends.
+    // If a wheel slips in the opposite direction, the command reduces that slip and is not limited.
     EXPECT_EQ(EaseForSlip(-sign * 4.0, SlippingCar(sign * 0.9, 20.0)), -sign * 4.0);
   }
 }

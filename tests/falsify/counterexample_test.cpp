@@ -17,7 +17,7 @@ RunResult RunOf(const std::string& file, const std::vector<Override>& overrides)
       ReadScenario(TRACKBED_SOURCE_DIR "/scenarios/" + file, overrides, {}, PossibleMetrics));
 }
 
-/// The regression as it is read from its file, and run.
+/// Reads the regression from its file and runs it.
 RunResult RunAgain(const Regression& regression, const RunResult& failed) {
   return RunMission(ParseScenario(RegressionYaml(regression, failed), "counterexample.yaml",
                                   failed.scenario.folder, {}, {}, PossibleMetrics));
@@ -88,18 +88,18 @@ TEST(Robustness, IsTheShareOfTheLimitThatIsLeft) {
   const auto expecting = [&](const std::string& expect) {
     return RobustnessOf(RunOf("winding.yaml", {"drive.plants=[kinematic]", "expect=" + expect}));
   };
-  // Without a limit of its own, that of the corridor, the width of the car.
+  // Without an expectation, the limit is the width of the corridor, which is the car's width.
   EXPECT_EQ(RobustnessOf(run).value,
             (metrics.tracking->corridor - error) / metrics.tracking->corridor);
   EXPECT_EQ(RobustnessOf(run).limit, "kinematic: cross_track.max");
   EXPECT_EQ(expecting("{max_cross_track: 10}").value, (10.0 - error) / 10.0);
   EXPECT_EQ(expecting("{max_cross_track: 0.001}").value, (0.001 - error) / 0.001);
-  // The least of all; one whose bound is 0 in its unit.
+  // The smallest robustness counts. For a bound of 0 it is absolute, in the metric's unit.
   const double final = metrics.tracking->cross_track_final;
   EXPECT_EQ(
       expecting("{max_cross_track: 1e4, metrics: [{metric: cross_track.final, max: 0}]}").value,
       std::min(-final, 1.0 - error / 1e4));
-  // What no number says the extent of.
+  // A violation without a numerical extent counts as -1.
   EXPECT_EQ(expecting("{max_cross_track: 10, metrics: [{metric: status, equals: collided}]}").value,
             -1.0);
 }

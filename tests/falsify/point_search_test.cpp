@@ -23,7 +23,7 @@ struct Course {
   std::size_t largest_batch = 0;
 };
 
-/// Lets a search go to its end, or stops it after some batches.
+/// Runs a search to its end, or stops it after some batches.
 Course Follow(const SearchSpec& spec, std::size_t batches = 100000) {
   const SearchSpace space = Square();
   const auto search = MakePointSearch(spec, space, std::nullopt);
@@ -68,7 +68,8 @@ TEST_P(EverySearch, KeepsItsRunsAndTheSquare) {
       EXPECT_GE(std::min(point[0], point[1]), 0.0);
       EXPECT_LE(std::max(point[0], point[1]), 1.0);
     }
-    // Closer than the mean nearest of as few points in a square: a ball of 1/20 of its area.
+    // Smaller than the mean nearest distance of as few points in a square: a ball of 1/20 of its
+    // area.
     EXPECT_LT(course.least, 1.0 / (3.141592653589793 * 4.0));
   }
 }
@@ -92,7 +93,7 @@ TEST(PointSearch, RunsRestartsSideBySide) {
   const Course course = Follow(spec);
   EXPECT_EQ(course.largest_batch, 5U);
   EXPECT_EQ(course.points.size(), 90U);
-  // The first begins at the nominal point.
+  // The first point is the nominal point.
   EXPECT_EQ(course.points.front(), Square().nominal());
 }
 
@@ -104,7 +105,7 @@ TEST(PointSearch, FinishesFromTheBestPoint) {
   const auto miss = [](const UnitPoint& p) {
     return p[0] > 0.95 ? 9.0 : std::pow(p[0] - 0.63, 2) + std::pow(p[1] - 0.31, 2);
   };
-  ASSERT_GT(points.size(), 90U);  // the last quarter is of the finish
+  ASSERT_GT(points.size(), 90U);  // the last quarter is the final local search
   const auto best =
       std::min_element(points.begin(), points.begin() + 90,
                        [&](const UnitPoint& a, const UnitPoint& b) { return miss(a) < miss(b); });
@@ -136,7 +137,7 @@ TEST(PointSearch, TakesAllStepsAlike) {
     }
     return std::optional(std::vector<std::optional<double>>(points.size()));
   });
-  // Of 600 strata of a Latin hypercube, 100 are of each of the six values.
+  // Each of the six values has 100 of the 600 strata of a Latin hypercube.
   const std::map<double, int> expected_steps{{2.0, 100}, {2.5, 100}, {3.0, 100},
                                              {3.5, 100}, {4.0, 100}, {4.5, 100}};
   EXPECT_EQ(steps, expected_steps);
@@ -161,18 +162,18 @@ TEST(SurrogateSearch, ProposesNoPointTwice) {
       std::optional<std::vector<std::optional<double>>> values(std::in_place);
       for (const UnitPoint& point : points) {
         EXPECT_TRUE(all.insert(point).second) << point[0] << " " << point[1];
-        // Half of them are no scenarios.
+        // Half of them are no valid scenarios.
         values->push_back(std::lround(10.0 * (point[0] + point[1])) % 2 == 0
                               ? std::optional(point[0] - 0.3)
                               : std::nullopt);
       }
       return values;
     });
-    EXPECT_EQ(all.size(), 121U);  // then there is nothing left
+    EXPECT_EQ(all.size(), 121U);  // then all points have been used
   }
 }
 
-/// 0.5 but for a wide basin that fails by much and a narrow one that fails by little.
+/// 0.5 except for a wide basin with a large violation and a narrow one with a small violation.
 double TwoBasins(const UnitPoint& at) {
   const auto basin = [&](double x, double y, double width) {
     return std::exp(-0.5 * (std::pow(at[0] - x, 2) + std::pow(at[1] - y, 2)) / (width * width));
@@ -200,7 +201,7 @@ TEST(SurrogateSearch, GoesOnToOtherRegionsThatFail) {
     });
     EXPECT_GT(wide, 0) << seed;
     EXPECT_GT(narrow, 0) << seed;
-    // A fair share is left for the rest of the square.
+    // A fair share of points remains for the rest of the square.
     EXPECT_LT(wide + narrow, 96 / 2) << seed;
   }
 }

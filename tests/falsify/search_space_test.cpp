@@ -27,7 +27,7 @@ TEST(SearchSpace, RoundsValuesButNotEndsNorNominalOnes) {
         .to = 1000.0,
         .nominal = 1.0},
        {.key = "big", .from = 0.0, .to = 123456.0, .nominal = 0.0}});
-  // A range of 8 has steps of 0.001, one of 123 456 steps of 100.
+  // A range of 8 has steps of 0.001; a range of 123 456 has steps of 100.
   EXPECT_EQ(space.Value(0, 0.123456789), 12.988);
   EXPECT_EQ(space.Value(0, 0.0), 12.0);
   EXPECT_EQ(space.Value(0, 1.0), 20.0);
@@ -42,11 +42,11 @@ TEST(SearchSpace, RoundsValuesButNotEndsNorNominalOnes) {
 TEST(SearchSpace, TakesTheStepsOfAKey) {
   const SearchSpace space(
       {{.key = "delay", .from = 0.1, .to = 0.4, .step = 0.02, .nominal = 0.16}});
-  EXPECT_EQ(ShortestText(space.Value(0, 0.5)), "0.26");  // 0.25 lies between, 7.5 rounds up
+  EXPECT_EQ(ShortestText(space.Value(0, 0.5)), "0.26");  // 0.25 is 7.5 steps, rounded up
   EXPECT_EQ(ShortestText(space.Value(0, 0.18)), "0.16");
   EXPECT_EQ(ShortestText(space.Value(0, 1.0)), "0.4");
   EXPECT_EQ(space.Value(0, 0.0), 0.1);
-  EXPECT_NEAR(space.Step(0), 1.0 / 15.0, Tolerance(1e-16));  // of 15 steps, to rounding
+  EXPECT_NEAR(space.Step(0), 1.0 / 15.0, Tolerance(1e-16));  // 15 steps, to rounding
   std::set<std::string> values;
   for (int i = 0; i <= 1000; ++i) {
     const UnitPoint point = space.Snap({1e-3 * i});
@@ -107,7 +107,7 @@ TEST(SearchSpace, TakesNominalValuesOfTheScenario) {
                                      "nominal: {mission.speed: 2.5}\n");
   ASSERT_EQ(search.space.keys().size(), 2U);
   EXPECT_EQ(search.space.keys()[0].nominal, 2.5);
-  EXPECT_EQ(search.space.keys()[1].nominal, 1.0);  // the default of the scenario
+  EXPECT_EQ(search.space.keys()[1].nominal, 1.0);  // the scenario's default
 }
 
 TEST(SearchSpace, TellsWhatCannotBeSearched) {

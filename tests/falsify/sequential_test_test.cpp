@@ -12,11 +12,11 @@ namespace trackbed {
 namespace {
 
 SequentialTest After(double probability, int successes, int failures) {
-  // A confidence that no likelihood gets to, so that nothing stops it.
+  // No likelihood ratio reaches this confidence, so the test never stops.
   SequentialTest test(probability, 1.0 - 1e-15);
   const int trials = successes + failures;
   for (int i = 0; i < trials; ++i) {
-    // Evenly mixed: the i-th failure comes where failures / trials says.
+    // Evenly mixed: the i-th failure is due at the ratio of failures to trials.
     const auto due = [&](int n) { return static_cast<long>(n) * failures / trials; };
     test.Add(due(i + 1) == due(i));
   }
@@ -24,7 +24,7 @@ SequentialTest After(double probability, int successes, int failures) {
 }
 
 TEST(SequentialTest, HasTheLikelihoodsOfItsDefinition) {
-  // Simpson's rule over q in 20 000 steps, whose error is below 1e-9 for polynomials of degree 30.
+  // Simpson's rule over q in 20 000 steps; its error is below 1e-9 for polynomials of degree 30.
   for (const double p : {0.3, 0.9}) {
     for (const auto& [s, f] : {std::pair(0, 0), {1, 0}, {0, 1}, {20, 3}, {7, 9}}) {
       const auto integral = [&, successes = s, failures = f](double from, double to) {
@@ -44,8 +44,8 @@ TEST(SequentialTest, HasTheLikelihoodsOfItsDefinition) {
   }
 }
 
-/// With nothing but successes L = (1 - P^(n+1)) / ((n + 1) (1 - P) P^n), with nothing but failures
-/// M = (1 - (1 - P)^(n+1)) / ((n + 1) P (1 - P)^n).
+/// With only successes L = (1 - P^(n+1)) / ((n + 1) (1 - P) P^n). With only failures M = (1 - (1 -
+/// P)^(n+1)) / ((n + 1) P (1 - P)^n).
 TEST(SequentialTest, StopsWhereTheClosedFormDoes) {
   for (const auto& [probability, expected] : {std::pair(0.99, 449U), {0.95, 88U}, {0.5, 7U}}) {
     SequentialTest test(probability, 0.95);
@@ -67,15 +67,15 @@ TEST(SequentialTest, StopsWhereTheClosedFormDoes) {
   EXPECT_NEAR(std::exp(test.LogBelow()), (1.0 - 1e-4) / (2.0 * 0.99 * 0.01), 1e-9);
 }
 
-/// The exact probability of a verdict within `trials`, by the distribution of the successes that
-/// are not stopped yet.
+/// The exact probability of a verdict within `trials`, from the distribution of the successes of
+/// all tests that are not stopped yet.
 struct Verdicts {
   double at_least = 0.0;
   double below = 0.0;
 };
 
 Verdicts ExactVerdicts(double claimed, double confidence, double truth, int trials) {
-  std::vector<double> alive{1.0};  // by the number of successes
+  std::vector<double> alive{1.0};  // indexed by the number of successes
   Verdicts verdicts;
   const double enough = -std::log1p(-confidence);
   for (int n = 1; n <= trials; ++n) {
@@ -115,7 +115,7 @@ Verdicts ExactVerdicts(double claimed, double confidence, double truth, int tria
 }
 
 TEST(SequentialTest, ErrsExactlyAsSeldomAsItSays) {
-  // At the claimed probability both verdicts are wrong, or at the limit of it.
+  // At the claimed probability both verdicts count as wrong.
   for (const double claimed : {0.5, 0.8, 0.9}) {
     for (const double confidence : {0.8, 0.95}) {
       const Verdicts verdicts = ExactVerdicts(claimed, confidence, claimed, 300);
@@ -131,7 +131,8 @@ TEST(SequentialTest, ErrsAsSeldomInStreams) {
   constexpr int kTrials = 400;
   constexpr double kConfidence = 0.9;
   std::mt19937 random(1970);
-  // The truth where a verdict is wrong: at most the claim for `kAtLeast`, at least for `kBelow`.
+  // The truth for which a verdict is wrong: at most the claim for `kAtLeast`, at least the claim
+  // for `kBelow`.
   for (const auto& [truth, wrong] :
        {std::pair(0.9, ProbabilityVerdict::kAtLeast), std::pair(0.87, ProbabilityVerdict::kAtLeast),
         std::pair(0.9, ProbabilityVerdict::kBelow), std::pair(0.93, ProbabilityVerdict::kBelow)}) {
@@ -162,15 +163,15 @@ TEST(SequentialTest, EndsSoonFarFromTheClaim) {
     }
     EXPECT_EQ(test.verdict(), ProbabilityVerdict::kBelow);
     const std::size_t trials = test.trials();
-    test.Add(true);  // a verdict stays
+    test.Add(true);  // a verdict is final
     EXPECT_EQ(test.trials(), trials);
   }
 }
 
 TEST(SequentialTest, CountsManyTrials) {
   const SequentialTest test = After(0.99, 99000, 1000);
-  // On the claim itself neither likelihood is high; by Laplace's method both are about
-  // sqrt(pi/2 P (1 - P)/n)/(1 - P) and its like below P.
+  // At the claim itself neither likelihood ratio is high. By Laplace's method both are about
+  // sqrt(pi/2 P (1 - P)/n)/(1 - P), with P in place of 1 - P in the last factor below the claim.
   const double width = std::sqrt(std::acos(-1.0) / 2.0 * 0.99 * 0.01 / 1e5);
   EXPECT_NEAR(std::exp(test.LogAbove()) * 0.01 / width, 1.0, 0.03);
   EXPECT_NEAR(std::exp(test.LogBelow()) * 0.99 / width, 1.0, 0.03);

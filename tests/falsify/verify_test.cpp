@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// Two of three runs of the kinematic car pass: those that are slower than 7/3 m/s.
+/// Two of three runs of the kinematic car pass: those slower than 7/3 m/s.
 CheckedStudy MakeSample(const TempFolder& folder) {
   return CheckStudy(ReadStudy(
       folder.Write("study.yaml",

@@ -1,13 +1,13 @@
-// Preloaded into the program (LD_PRELOAD): one of its calls that change files fails, or the program
-// is killed there. Calls on files outside of the folder FAULT_FOLDER are not counted.
+// Preloaded into the program (LD_PRELOAD): makes one of its calls that change files fail, or kills
+// the program there. Calls on files outside of FAULT_FOLDER are not counted.
 //
 //   FAULT_FOLDER  absolute path
 //   FAULT_AT      number of the call that fails, from 1; 0: none
-//   FAULT_ERRNO   what it fails with (28: no space left); 0: the program is killed instead
-//   (SIGKILL) FAULT_HALF    if set, and the call is a write, half of it is written first FAULT_LOG
-//   file that the calls are written to, a line each
+//   FAULT_ERRNO   its errno (28: no space left); 0: the program is killed (SIGKILL) instead
+//   FAULT_HALF    if set, and the call is a write, half of it is written first
+//   FAULT_LOG     file that receives the calls, one per line
 //
-// Counted are open (to write or create), write, pwrite, ftruncate, close (of a file open for
+// Counted calls: open (to write or create), write, pwrite, ftruncate, close (of a file open for
 // writing), rename, renameat, mkdir, unlink, unlinkat, rmdir.
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE
@@ -41,7 +41,7 @@ Function Real(const char* name) {
   return reinterpret_cast<Function>(dlsym(RTLD_NEXT, name));
 }
 
-/// Of a descriptor's file; empty for what is none.
+/// Path of a descriptor's file; empty if it is not a file.
 std::string PathOf(int descriptor) {
   char path[4096];
   const std::string link = "/proc/self/fd/" + std::to_string(descriptor);
@@ -64,8 +64,8 @@ bool Counts(const std::string& path) {
   return !folder.empty() && path.compare(0, folder.size() + 1, folder + "/") == 0;
 }
 
-/// Counts a call. Whether it is to fail, with errno set; does not come back when the program is to
-/// be killed.
+/// Counts a call. Returns whether it is to fail, with errno set; does not return if the program is
+/// to be killed.
 bool Fails(const char* what, const std::string& path) {
   if (!Counts(path)) {
     return false;
@@ -148,7 +148,7 @@ int close(int descriptor) {
   const auto real = Real<int (*)(int)>("close");
   if (IsForWriting(descriptor) && Fails("close", PathOf(descriptor))) {
     const int error = errno;
-    real(descriptor);  // as the kernel does
+    real(descriptor);  // the kernel closes it despite the error
     errno = error;
     return -1;
   }

@@ -1,7 +1,7 @@
 #include "tests/fuzz/target.h"
 #include "trackbed/sim/scene.h"
 
-/// A file that a model refers to: its first byte says as what.
+/// Fuzzes a file that a model refers to; the first byte selects its kind.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   if (size == 0) {

@@ -1,7 +1,7 @@
 #include "tests/fuzz/target.h"
 #include "trackbed/requirement/formula.h"
 
-/// A formula, evaluated on a short log.
+/// Fuzzes a formula, evaluated on a short log.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   static const Table log = [] {

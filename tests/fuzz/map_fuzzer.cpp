@@ -2,7 +2,7 @@
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/moving_ai.h"
 
-/// A grid map: the image of a ROS map, its YAML file, a map of Moving AI and its instances.
+/// Fuzzes a grid map: the image of a ROS map, its YAML file, a Moving AI map and its instances.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   const std::string text = fuzz::Text(data, size);

@@ -1,7 +1,7 @@
 #include "tests/fuzz/target.h"
 #include "trackbed/sim/scene.h"
 
-/// The MJCF file of a car, up to MuJoCo's compiler, which has a process of its own.
+/// Fuzzes the MJCF file of a car, including MuJoCo's compiler, which runs in a child process.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   static const std::filesystem::path part =

@@ -2,7 +2,7 @@
 #include "trackbed/path/fit_path.h"
 #include "trackbed/path_files/path_file.h"
 
-/// A path in each of the formats, read and fitted.
+/// Fuzzes a path in each of the formats, read and fitted.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   const std::filesystem::path file = fuzz::Write("path.txt", fuzz::Text(data, size));

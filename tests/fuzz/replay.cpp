@@ -1,5 +1,5 @@
-// Gives the files of folders to a target, one after the other: what a fuzzer has found stays
-// mended.
+// Feeds the files of folders to a fuzz target, one after the other: regression test of earlier
+// findings.
 
 #include <cstdio>
 #include <filesystem>

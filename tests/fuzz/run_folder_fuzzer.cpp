@@ -29,8 +29,8 @@ constexpr std::array kFiles{
     ResultFile{kRun, "kinematic.csv"},          ResultFile{kComparison, run_folder::kCompareJson},
     ResultFile{kStudy, run_folder::kSweepCsv},  ResultFile{kStudy, run_folder::kSweepJson}};
 
-/// A run of a second, its comparison with itself and a study of two points. Without manifests,
-/// which tell of every change.
+/// Writes a run of one second, its comparison with itself and a study of two points, without
+/// manifests, which would detect every change.
 void WriteFolders() {
   const fs::path scenario = fuzz::Write(
       "corner.yaml",
@@ -55,8 +55,8 @@ void WriteFolders() {
 }  // namespace
 }  // namespace trackbed
 
-/// A file of a result, for its report and, if it is of a run, a comparison with itself: the first
-/// byte says which.
+/// Fuzzes a file of a result (the first byte selects it): writes the report and, for a run, a
+/// comparison with itself.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   if (size == 0) {

@@ -2,7 +2,7 @@
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/scenario/scenario.h"
 
-/// A scenario file; lines before a NUL byte are values of --set.
+/// Fuzzes a scenario file; the lines before a NUL byte are values of --set.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   std::string yaml = fuzz::Text(data, size);

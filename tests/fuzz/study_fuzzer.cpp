@@ -3,7 +3,7 @@
 #include "tests/fuzz/target.h"
 #include "trackbed/scenario/study.h"
 
-/// A study of a scenario that is good.
+/// Fuzzes a study of a valid scenario.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   static const std::filesystem::path scenario = fuzz::Write(
@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::filesystem::path file = fuzz::Write("study.yaml", fuzz::Text(data, size));
   return fuzz::Expect([&] {
     const Study study = ReadStudy(file);
-    constexpr std::size_t kFewPoints = 50;  // of thousands, each takes as long as the first
+    constexpr std::size_t kFewPoints = 50;  // a study may have thousands, all checked alike
     const StudyPoints points(study);
     for (std::size_t i = 0; i < std::min(points.size(), kFewPoints); ++i) {
       static_cast<void>(points.Read(i));

@@ -10,8 +10,8 @@
 
 #include "trackbed/core/error.h"
 
-/// What every target has: libFuzzer calls it with bytes. An error of the user or of the environment
-/// is what bad input deserves; everything else that is thrown is a finding.
+/// Entry point of every fuzz target; libFuzzer calls it with an input. Invalid input may cause an
+/// error of the user or of the environment; every other exception is a finding.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace trackbed::fuzz {
@@ -20,7 +20,7 @@ inline std::string Text(const std::uint8_t* data, std::size_t size) {
   return {data, data + size};
 }
 
-/// Calls the reader; passes by what bad input deserves.
+/// Calls the reader and ignores the errors that invalid input may cause.
 template <typename Read>
 int Expect(const Read& read) {
   try {
@@ -31,7 +31,7 @@ int Expect(const Read& read) {
   return 0;
 }
 
-/// A folder of this process, in memory where it can be, which goes when the process ends.
+/// A temporary folder of this process, in memory if possible, removed when the process ends.
 class ProcessFolder {
  public:
   ProcessFolder() {

@@ -2,7 +2,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/track/track_file.h"
 
-/// A race track, whose own file has to be the same track again.
+/// Fuzzes a race track; writing it and reading it back must give the same track.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   const std::filesystem::path file = fuzz::Write("track.csv", fuzz::Text(data, size));

@@ -26,7 +26,7 @@ std::vector<OrientedBox> RandomBoxes(Random& random, int count) {
   return boxes;
 }
 
-/// Numbers of boxes below and above those that are looked at one after the other.
+/// Numbers of boxes below and above the limit for a linear search.
 constexpr std::array kCounts{0, 1, 16, 17, 400};
 
 TEST(BoxIndex, TellsTheSameDistanceAsLookingAtAllBoxes) {

@@ -13,6 +13,8 @@
 #include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 
+// Tests distance, separation and swept distance of oriented boxes against Boost.Geometry and dense
+// sampling.
 namespace trackbed {
 namespace {
 
@@ -20,7 +22,7 @@ namespace bg = boost::geometry;
 using Point = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Point, false>;
 
-// A few operations on coordinates below 20 m, here and in Boost.Geometry.
+// Rounding: a few operations on coordinates below 20 m, here and in Boost.Geometry.
 constexpr double kRounding = 1e-13;
 
 Polygon Outline(const OrientedBox& box) {
@@ -32,7 +34,7 @@ Polygon Outline(const OrientedBox& box) {
   return polygon;
 }
 
-/// Boost.Geometry's distance; 0 when they touch or overlap.
+/// Boost.Geometry's distance; 0 if the boxes touch or overlap.
 double ByBoost(const OrientedBox& a, const OrientedBox& b) {
   return bg::distance(Outline(a), Outline(b));
 }
@@ -61,7 +63,7 @@ OrientedBox Moved(const OrientedBox& box, const Vec2& by) {
 TEST(OrientedBox, CornersGoRoundCounterClockwise) {
   const OrientedBox box{{1.0, 2.0, std::acos(-1.0) / 2.0}, 4.0, 2.0};
   const auto corners = box.Corners();
-  // Turned to the north: its front left corner lies north-west of the middle.
+  // For a box that faces north, the front left corner lies north-west of the center.
   EXPECT_NEAR(corners[0].x(), 0.0, Tolerance(1e-12));
   EXPECT_NEAR(corners[0].y(), 4.0, Tolerance(1e-12));
   double area = 0.0;
@@ -90,7 +92,7 @@ TEST(Distance, IsThatOfTheNearestSidesOrCorners) {
   const OrientedBox a{{0.0, 0.0, 0.0}, 2.0, 2.0};
   EXPECT_NEAR(Distance(a, {{5.0, 0.0, 0.0}, 2.0, 2.0}), 3.0, Tolerance(1e-12));
   EXPECT_NEAR(Distance(a, {{4.0, 5.0, 0.0}, 2.0, 2.0}), std::hypot(2.0, 3.0), Tolerance(1e-12));
-  // A diamond points its corner at the side: 5 - 1 - sqrt(2).
+  // A diamond whose corner points at the side: 5 - 1 - sqrt(2).
   EXPECT_NEAR(Distance(a, {{5.0, 0.0, std::acos(-1.0) / 4.0}, 2.0, 2.0}), 4.0 - std::sqrt(2.0),
               Tolerance(1e-12));
 }
@@ -100,7 +102,7 @@ TEST(Distance, IsZeroForOverlapTouchAndContainment) {
   EXPECT_EQ(Distance(a, {{1.0, 0.5, 1.0}, 4.0, 2.0}), 0.0);
   EXPECT_EQ(Distance(a, {{0.0, 0.0, 0.0}, 0.1, 0.1}), 0.0);
   EXPECT_EQ(Distance({{0.0, 0.0, 0.0}, 0.1, 0.1}, a), 0.0);
-  // A cross: no corner of either lies in the other.
+  // Crossing boxes: no corner of one lies in the other.
   EXPECT_EQ(Distance({{0.0, 0.0, 0.0}, 10.0, 0.1}, {{0.0, 0.0, 1.5}, 10.0, 0.1}), 0.0);
   EXPECT_EQ(Distance({{0.0, 0.0, 0.0}, 2.0, 2.0}, {{2.0, 0.0, 0.0}, 2.0, 2.0}), 0.0);
 }
@@ -134,11 +136,11 @@ TEST(Distance, AgreesWithSampledOutlines) {
         random.Uniform(0.5, 5.0),
         random.Uniform(0.5, 5.0)};
     const double exact = Distance(a, b);
-    // Seen from the other box: rounding of coordinates of tens of meters.
+    // Symmetric, to rounding of coordinates of tens of meters.
     EXPECT_NEAR(exact, Distance(b, a), Tolerance(1e-13));
     if (exact > 0.0) {
       ++apart;
-      // Sampling can only be too far, by at most half a step of the longer side: 4/200/2.
+      // Sampling can only overestimate, by at most half a step of the longer side: 4/200/2.
       EXPECT_NEAR(BySampling(a, b), exact, Tolerance(0.01));
     }
   }
@@ -164,11 +166,11 @@ TEST(Separation, OfBoxesApartIsBoostsDistance) {
 }
 
 TEST(Separation, IsNegativeForContainmentAndCrossing) {
-  // A box of 1 m in the middle of one of 4 by 3: out over the longer side, 1.5 + 0.5.
+  // A box of 1 m in the center of one of 4 by 3 m leaves over the longer side: 1.5 + 0.5.
   const OrientedBox room{{2.0, 1.0, 0.7}, 4.0, 3.0};
   EXPECT_NEAR(Separation(room, {{2.0, 1.0, 0.7}, 1.0, 1.0}), -2.0, Tolerance(kRounding));
   EXPECT_NEAR(Separation({{2.0, 1.0, 0.7}, 1.0, 1.0}, room), -2.0, Tolerance(kRounding));
-  // A cross of 10 by 0.2: one bar must leave over the other's end, (10 + 0.2)/2.
+  // A cross of 10 by 0.2: one bar must leave past the other's end, (10 + 0.2)/2.
   EXPECT_NEAR(Separation({{0.0, 0.0, 0.2}, 10.0, 0.2}, {{0.0, 0.0, 0.2 + std::acos(0.0)}, 10, 0.2}),
               -5.1, Tolerance(kRounding));
   EXPECT_NEAR(Separation({{0.0, 0.0, 0.0}, 2.0, 2.0}, {{1.5, 0.5, 0.0}, 2.0, 2.0}), -0.5,
@@ -191,8 +193,8 @@ TEST(Separation, OfOverlappingBoxesIsTheShortestWayOut) {
     ++overlapping;
     contained += Holds(a, b) || Holds(b, a) ? 1 : 0;
     EXPECT_EQ(ByBoost(a, b), 0.0);
-    // A thousandth more along one of the axes of either frees it; 1 % less does not, neither along
-    // them nor any other way.
+    // A shift of 1.001 times the depth along one of the boxes' axes separates them. A shift of 0.99
+    // times does not in any direction.
     bool freed = false;
     for (const double yaw : {a.center.yaw, b.center.yaw}) {
       const Vec2 along = Direction(yaw);
@@ -211,7 +213,7 @@ TEST(Separation, OfOverlappingBoxesIsTheShortestWayOut) {
 }
 
 TEST(Separation, ShrinksByWhatBoxesMoveTogether) {
-  // Along the gap between two parallel sides, through the touch and on.
+  // Along the gap between two parallel sides, through the contact and beyond.
   const OrientedBox a{{1.0, -2.0, 0.4}, 4.0, 2.0};
   for (double gap = 1.0; gap > -2.0; gap -= 0.125) {
     const OrientedBox b = Moved(a, (2.0 + gap) * LeftNormal(Direction(0.4)));
@@ -231,7 +233,7 @@ TEST(DistanceOfALine, IsBoosts) {
     EXPECT_NEAR(distance, ByBoost(from, to, box), Tolerance(kRounding));
     EXPECT_NEAR(distance, Distance(to, from, box), Tolerance(kRounding));
     apart += distance > 0.0 ? 1 : 0;
-    // Through it, with neither end inside.
+    // Through the box, with both ends outside.
     across +=
         distance == 0.0 && Distance(from, from, box) > 0.0 && Distance(to, to, box) > 0.0 ? 1 : 0;
   }
@@ -257,13 +259,13 @@ TEST(DistanceOfALine, OfAPointIsThatOfThePoint) {
 
 TEST(DistanceOfALine, IsZeroWithinAcrossAndAtTheTouch) {
   const OrientedBox box{{0.0, 0.0, 0.0}, 4.0, 2.0};
-  EXPECT_EQ(Distance({-1.0, 0.5}, {1.0, -0.5}, box), 0.0);  // within
-  EXPECT_EQ(Distance({-5.0, -3.0}, {5.0, 3.0}, box), 0.0);  // across, no end inside
+  EXPECT_EQ(Distance({-1.0, 0.5}, {1.0, -0.5}, box), 0.0);  // inside
+  EXPECT_EQ(Distance({-5.0, -3.0}, {5.0, 3.0}, box), 0.0);  // through the box, both ends outside
   EXPECT_EQ(Distance({-3.0, 0.0}, {3.0, 0.0}, box), 0.0);
   EXPECT_EQ(Distance({0.0, 0.0}, {9.0, 9.0}, box), 0.0);   // one end inside
   EXPECT_EQ(Distance({2.0, -5.0}, {2.0, 5.0}, box), 0.0);  // along a side
   EXPECT_EQ(Distance({1.0, 2.0}, {3.0, 0.0}, box), 0.0);   // through a corner
-  // Past the corner (2, 1), within the bounds of both: 1/sqrt(2) off x + y = 4.
+  // Past the corner (2, 1), within both bounding intervals: 1/sqrt(2) from x + y = 4.
   EXPECT_NEAR(Distance({1.0, 3.0}, {3.0, 1.0}, box), std::sqrt(0.5), Tolerance(kRounding));
 }
 

@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-// A handful of operations on coordinates below 100 m: 100 * 2^-52 each.
+// Rounding: a few operations on coordinates below 100 m, 100 * 2^-52 each.
 constexpr double kRounding = 1e-13;
 
 Pose2 RandomPose(Random& random) {
@@ -40,7 +40,7 @@ TEST(Cross, IsPositiveToTheLeft) {
 }
 
 TEST(ToWorld, TurnsAndShifts) {
-  // One ahead and two to the left of a frame at (10, 20) that looks along +y.
+  // One meter ahead and two to the left of a frame at (10, 20) that faces +y.
   const Vec2 p = ToWorld({10.0, 20.0, kPi / 2.0}, {1.0, 2.0});
   EXPECT_NEAR(p.x(), 8.0, Tolerance(kRounding));
   EXPECT_NEAR(p.y(), 21.0, Tolerance(kRounding));
@@ -87,7 +87,7 @@ TEST(MoveOnArc, OfAQuarterTurnIsAQuarterCircle) {
   const double r = 7.0;
   ExpectPose(MoveOnArc({}, r * kPi / 2.0, kPi / 2.0), {r, r, kPi / 2.0}, kRounding);
   ExpectPose(MoveOnArc({}, r * kPi / 2.0, -kPi / 2.0), {r, -r, -kPi / 2.0}, kRounding);
-  // Backwards with the wheels to the left: the tail goes left, the heading turns right.
+  // In reverse with the wheels to the left: the rear moves left, the heading turns right.
   ExpectPose(MoveOnArc({}, -r * kPi / 2.0, -kPi / 2.0), {-r, r, -kPi / 2.0}, kRounding);
 }
 
@@ -97,13 +97,13 @@ TEST(MoveOnArc, FullCircleComesBack) {
 }
 
 TEST(MoveOnArc, SlipTurnsTheDirectionOfMotion) {
-  // The frame keeps its heading and moves sideways when the slip is a right angle.
+  // With a slip of a right angle the frame keeps its heading and moves sideways.
   ExpectPose(MoveOnArc({}, 5.0, 0.0, kPi / 2.0), {0.0, 5.0, 0.0}, kRounding);
   Random random(33);
   for (int i = 0; i < 100; ++i) {
     const double W = random.Uniform(0.01, 1.0);
     const double beta = random.Uniform(-0.5, 0.5);
-    // With v = 1, t = 6.
+    // For v = 1 and t = 6.
     ExpectPose(MoveOnArc({}, 6.0, W * 6.0, beta),
                {(std::sin(W * 6.0 + beta) - std::sin(beta)) / W,
                 -(std::cos(W * 6.0 + beta) - std::cos(beta)) / W, W * 6.0},
@@ -128,7 +128,7 @@ TEST(MoveOnArc, DoesNotDependOnTheSteps) {
 }
 
 TEST(MoveOnArc, SmallTurnsAreAsExactAsLargeOnes) {
-  // On both sides of the series' border at a turn of 2e-4, against long double.
+  // Turns on both sides of the series' limit of 2e-4, compared with long double.
   for (double turn = 1e-12; turn < 1.0; turn *= 1.7) {
     SCOPED_TRACE(turn);
     const long double t = turn;

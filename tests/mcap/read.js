@@ -1,9 +1,9 @@
-// What the official MCAP reader finds in a file, as JSON.
+// Prints the contents of a file as read by the official MCAP reader, as JSON.
 //
 //   node read.js READER FILE
 //
-// READER is a folder with node_modules/@mcap/core, which scripts/setup mcap makes. Exit code 77: it
-// is not there; 1: the reader refuses the file.
+// READER is a folder with node_modules/@mcap/core, made by scripts/setup mcap. Exit code 77: the
+// reader is missing; 1: it rejects the file.
 'use strict';
 
 const crypto = require('node:crypto');
@@ -118,7 +118,7 @@ async function readIndexed(bytes, found) {
     counts: Object.fromEntries(Array.from(statistics.channelMessageCounts,
       ([id, count]) => [reader.channelsById.get(id).topic, Number(count)])),
   };
-  // The reader itself does not compare the checksum of the data: it would have to read all of them.
+  // The reader does not check the checksum of the data section: it would have to read all of it.
   const record = 1 + 8 + 4;
   const end = bytes.length - mcap.McapConstants.MCAP_MAGIC.length;
   const footer = end - (1 + 8 + 8 + 8 + 4);

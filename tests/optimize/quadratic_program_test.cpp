@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// Of two variables: minimize (x - a)^2/2 + (y - b)^2/2 below x + y = sum.
+/// Two variables: minimize (x - a)^2/2 + (y - b)^2/2 subject to x + y <= sum.
 QuadraticProgram Plane(double a, double b, double sum) {
   QuadraticProgram program;
   program.hessian.setIdentity(2, 2);
@@ -34,7 +34,7 @@ TEST(QuadraticProgram, WithoutAConstraintInTheWayIsTheSystemsSolution) {
 }
 
 TEST(QuadraticProgram, OnAConstraintIsTheProjection) {
-  // (1, 2) onto x + y = 1: half of the excess 2 off each.
+  // Projects (1, 2) onto x + y = 1: half of the excess 2 off each.
   const QuadraticSolution solution = Solve(Plane(1.0, 2.0, 1.0));
   EXPECT_TRUE(solution.ok);
   EXPECT_NEAR(solution.x[0], 0.0, Tolerance(1e-9));
@@ -42,10 +42,10 @@ TEST(QuadraticProgram, OnAConstraintIsTheProjection) {
 }
 
 TEST(QuadraticProgram, RandomOnesKeepTheKarushKuhnTuckerConditions) {
-  // The gradient H x + f has to be a combination of the active rows with multipliers <= 0, found
-  // here by least squares: an optimum of a convex program is nothing else. The constraints hold to
-  // 1e-9, so that of a row a with |a| of 10 at most the gradient is known to some 1e-7 of the
-  // largest eigenvalue.
+  // Optimality conditions of a convex program: the gradient H x + f is a combination of the active
+  // rows with multipliers <= 0, found here by least squares. The constraints hold to 1e-9. For a
+  // row a with |a| of at most 10, the gradient is therefore known to some 1e-7 of the largest
+  // eigenvalue.
   std::mt19937 random(71);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto fill = [&](auto&& matrix) {
@@ -64,7 +64,7 @@ TEST(QuadraticProgram, RandomOnesKeepTheKarushKuhnTuckerConditions) {
     program.hessian.diagonal().array() += 0.1;
     program.linear.resize(n);
     fill(program.linear);
-    // The box abs(x) <= 0.3 and n planes that leave the origin free.
+    // The box abs(x) <= 0.3 and n half spaces that contain the origin.
     program.constraints.setZero(3 * n, n);
     program.constraints.topRows(n).setIdentity();
     program.constraints.middleRows(n, n) = -program.constraints.topRows(n);
@@ -108,10 +108,10 @@ TEST(QuadraticProgram, SaysWhenConstraintsContradictEachOther) {
   program.constraints.resize(2, 2);
   program.constraints << 1.0, 1.0, -1.0, -1.0;
   program.bounds.resize(2);
-  program.bounds << -1.0, -1.0;  // x + y <= -1 and >= 1
+  program.bounds << -1.0, -1.0;  // x + y <= -1 and x + y >= 1
   const QuadraticSolution solution = Solve(program);
   EXPECT_FALSE(solution.ok);
-  EXPECT_GE(solution.violation, 1.0 - 1e-6);  // the best is halfway between the two
+  EXPECT_GE(solution.violation, 1.0 - 1e-6);  // the best compromise is halfway between both
   EXPECT_TRUE(solution.x.allFinite());
 }
 

@@ -15,6 +15,8 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
+// Tests every search method on a bowl, on a bowl with a nonconvex constraint and on Rosenbrock's
+// function: accuracy, bounds, budget, seeds and error handling.
 namespace trackbed {
 
 void PrintTo(const SearchEntry& entry, std::ostream* out) {
@@ -31,7 +33,7 @@ SearchOptions With(SearchMethod method) {
   return options;
 }
 
-/// A bowl round (2, -1) within [-4, 5] x [-6, 3], begun off its axis.
+/// A bowl around (2, -1) within [-4, 5] x [-6, 3], started off its axis.
 SearchProblem Bowl() {
   return {.lower = {-4.0, -6.0},
           .upper = {5.0, 3.0},
@@ -43,8 +45,8 @@ SearchProblem Bowl() {
           .constraints = {}};
 }
 
-/// The bowl outside the disc of radius 1 round its bottom: not convex. The flattest way out is
-/// along x, so the minima are (1, -1) and (3, -1) with value 8.
+/// The bowl outside the disc of radius 1 around its minimum: not convex. The bowl is flattest along
+/// x, so the minima are (1, -1) and (3, -1) with value 8.
 SearchProblem BowlWithHole() {
   SearchProblem problem = Bowl();
   problem.constraint_count = 1;
@@ -54,10 +56,10 @@ SearchProblem BowlWithHole() {
   return problem;
 }
 
-/// How far above the true minimum a search of the table may end, with its own budget. Evolution
-/// strategies end where the budget does: esch steps by Cauchy draws over the whole range, so after
-/// n evaluations in two dimensions it is sqrt(area/n)/2 = 0.05 from the best in the mean, or 0.01
-/// in value; isres contracts to 1e-4. The others stop at 1e-9 of a range of 9.
+/// How far above the true minimum each search may end with its default budget. Evolution strategies
+/// stop when the budget is used. esch steps by Cauchy draws over the whole range, so after n
+/// evaluations in two dimensions its mean distance from the best is sqrt(area/n)/2 = 0.05, or 0.01
+/// in value. isres contracts to 1e-4. The others stop at 1e-9 of a range of 9.
 double Excess(SearchMethod method) {
   return method == SearchMethod::kEsch ? 0.05 : method == SearchMethod::kIsres ? 1e-4 : 1e-6;
 }
@@ -84,8 +86,8 @@ TEST_P(EverySearch, KeepsAConstraintThatIsNotConvex) {
   std::vector<double> constraint(1);
   BowlWithHole().constraints(result.x, constraint);
   EXPECT_LE(constraint[0], SearchOptions{}.feasible);
-  // Downhill methods may stop anywhere on the rim, whose value is between 8 and 10; a simplex that
-  // only sees a ranking there is no better.
+  // Descent methods may stop anywhere on the rim, whose value is between 8 and 10. So may a simplex
+  // that ranks only values on the rim.
   EXPECT_GE(result.value, 8.0 - 1e-6);
   const bool global = GetParam().global;
   EXPECT_LE(result.value, global ? 8.0 + 100.0 * Excess(GetParam().method) : 10.0 + 1e-6);
@@ -130,7 +132,7 @@ TEST_P(EverySearch, GoesRoundWhereThereIsNoNumber) {
 TEST_P(EverySearch, GivesTheSameInAnyThread) {
   const SearchOptions options = With(GetParam().method);
   const SearchResult here = Search(BowlWithHole(), options, 42);
-  static_cast<void>(Search(Bowl(), options, 7));  // leaves nothing behind
+  static_cast<void>(Search(Bowl(), options, 7));  // a search must not affect later ones
   SearchResult there;
   std::thread([&] { there = Search(BowlWithHole(), options, 42); }).join();
   EXPECT_EQ(here.x, there.x);
@@ -209,8 +211,8 @@ INSTANTIATE_TEST_SUITE_P(Table, EverySearch, ::testing::ValuesIn(Searches()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Search, FollowsACurvedValley) {
-  // Rosenbrock's function: minimum 0 at (1, 1), reached by gradients within a few hundred
-  // evaluations and by Powell's linear models only slowly.
+  // Rosenbrock's function: minimum 0 at (1, 1). Gradient methods reach it within a few hundred
+  // evaluations, Powell's linear models only slowly.
   const SearchProblem valley{.lower = {-2.0, -1.0},
                              .upper = {2.0, 3.0},
                              .start = {-1.2, 1.0},
@@ -223,7 +225,8 @@ TEST(Search, FollowsACurvedValley) {
                              .constraints = {}};
   const SearchResult result = Search(valley, With(SearchMethod::kSlsqp), 1);
   ASSERT_TRUE(result.ok());
-  // Central differences with a step of 2.4e-5 know the slope to 1e-9: x to 1e-4 in the flat valley.
+  // Central differences with a step of 2.4e-5 give the slope to 1e-9, and x to 1e-4 in the flat
+  // valley.
   EXPECT_NEAR(result.x[0], 1.0, Tolerance(1e-4));
   EXPECT_NEAR(result.x[1], 1.0, Tolerance(2e-4));
   EXPECT_LT(result.evaluations, 1000);

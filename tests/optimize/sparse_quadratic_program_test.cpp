@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-/// |x - c|^2/2 within a box: every variable on its own.
+/// |x - c|^2/2 within a box: the variables are independent.
 SparseQuadraticProgram Nearest(const Eigen::VectorXd& c, double lower, double upper) {
   const Eigen::Index n = c.size();
   SparseQuadraticProgram program;
@@ -36,15 +36,15 @@ TEST(SparseQuadraticProgram, CutsToABox) {
   ASSERT_TRUE(solution.ok);
   EXPECT_GT(solution.iterations, 0);
   for (Eigen::Index i = 0; i < c.size(); ++i) {
-    // IPOPT's tolerance is 1e-9 of the complementarity: near an edge, where the multiplier is
-    // small, its root in x.
+    // IPOPT's tolerance is 1e-9 of the complementarity. Near a bound, where the multiplier is
+    // small, x errs by the square root of that.
     EXPECT_NEAR(solution.x[i], std::clamp(c[i], -3.0, 4.0), Tolerance(1e-4)) << c[i];
   }
   EXPECT_LE(solution.violation, 1e-7);
 }
 
 TEST(SparseQuadraticProgram, HasMultipliersAndMayPredictItsSteps) {
-  // x - c + lambda = 0: lambda is c less the bound at a bound, and 0 elsewhere.
+  // x - c + lambda = 0: lambda is c minus the bound at an active bound, and 0 elsewhere.
   const Eigen::VectorXd c = Eigen::VectorXd::LinSpaced(201, -10.0, 10.0);
   for (const InteriorSteps steps :
        {InteriorSteps::kLineSearch, InteriorSteps::kPredictorCorrector}) {
@@ -52,7 +52,7 @@ TEST(SparseQuadraticProgram, HasMultipliersAndMayPredictItsSteps) {
         Solve(Nearest(c, -3.0, 4.0), Eigen::VectorXd::Zero(c.size()), steps);
     ASSERT_TRUE(solution.ok);
     for (Eigen::Index i = 0; i < c.size(); ++i) {
-      // As in CutsToABox.
+      // Tolerance as in CutsToABox.
       const double expected = std::clamp(c[i], -3.0, 4.0);
       EXPECT_NEAR(solution.x[i], expected, Tolerance(1e-4)) << c[i];
       EXPECT_NEAR(solution.multipliers[i], c[i] - expected, Tolerance(1e-4)) << c[i];
@@ -94,8 +94,8 @@ TEST(SparseQuadraticProgram, EqualsTheDenseSolver) {
     const auto value = [&](const Eigen::VectorXd& x) {
       return 0.5 * x.dot(hessian * x) + linear.dot(x);
     };
-    // Both are within some 1e-8 of the minimum (complementarity of 1e-9 for each of 40 bounds, and
-    // 1e-9 of violation times multipliers of some 10); H is at least the identity, so that x is
+    // Both values are within 1e-8 of the minimum (complementarity of 1e-9 for each of 40 bounds,
+    // and 1e-9 of violation times multipliers of about 10). H is at least the identity, so x is
     // within sqrt(2 x 1e-7).
     EXPECT_NEAR(value(solution.x), value(expected.x), Tolerance(1e-7));
     EXPECT_LT((solution.x - expected.x).norm(), Tolerance(5e-4));
@@ -103,7 +103,7 @@ TEST(SparseQuadraticProgram, EqualsTheDenseSolver) {
 }
 
 TEST(SparseQuadraticProgram, TakesAHessianThatIsSingular) {
-  // Only the sum of both variables costs anything: (x + y - 3)^2/2.
+  // Only the sum of both variables has a cost: (x + y - 3)^2/2.
   SparseQuadraticProgram program = Nearest(Eigen::Vector2d(3.0, 3.0), 0.0, 10.0);
   Eigen::Matrix2d ones = Eigen::Matrix2d::Ones();
   program.hessian = ones.sparseView();
@@ -113,7 +113,7 @@ TEST(SparseQuadraticProgram, TakesAHessianThatIsSingular) {
 }
 
 TEST(SparseQuadraticProgram, SaysThatBoundsCannotBeMet) {
-  // x is to be below 1 and above 2.
+  // Infeasible: x must be below 1 and above 2.
   SparseQuadraticProgram program = Nearest(Eigen::VectorXd::Zero(1), 2.0, 3.0);
   Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(2, 1);
   program.constraints = rows.sparseView();
@@ -131,7 +131,7 @@ TEST(SparseQuadraticProgram, IsAFunctionOfItsArguments) {
 }
 
 TEST(SparseQuadraticProgram, TakesNoOptionsFromTheCurrentFolder) {
-  // IPOPT itself reads ipopt.opt; without an iteration the solution would be the start.
+  // IPOPT by default reads ipopt.opt. With zero iterations the solution would be the start.
   namespace fs = std::filesystem;
   const fs::path before = fs::current_path();
   const fs::path folder = fs::path(testing::TempDir()) / "ipopt_options";

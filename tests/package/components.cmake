@@ -1,5 +1,5 @@
-# Configures the project `components`, builds and runs its program of one module, which must not load
-# what only other modules need. The package is the one installed in WORK.
+# Configures the project `components`, then builds and runs its program of one module, which must
+# not load libraries that only other modules need. The package is the one installed in WORK.
 set(folder ${WORK}/components)
 file(REMOVE_RECURSE ${folder})
 execute_process(
@@ -13,7 +13,7 @@ execute_process(COMMAND ldd ${folder}/pose OUTPUT_VARIABLE loaded COMMAND_ERROR_
 if(loaded MATCHES "mujoco")
   message(FATAL_ERROR "a program of trackbed::geometry loads\n${loaded}")
 endif()
-# What draws and encodes is loaded when something is drawn, or every verb would wait for it.
+# Libraries that draw and encode are loaded on first use; otherwise every verb would wait for them.
 execute_process(COMMAND ldd ${WORK}/installed/${BINDIR}/trackbed OUTPUT_VARIABLE loaded
                 COMMAND_ERROR_IS_FATAL ANY)
 if(loaded MATCHES "OSMesa|EGL|LLVM|avcodec|x264")

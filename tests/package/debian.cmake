@@ -1,6 +1,7 @@
-# Makes the Debian package of the build BUILD in WORK, without installing it: extracts it and checks its fields, its files, the
-# links of its pages, and the commands of PAGE with its program. VERSION, MUJOCO (that it must have) and CARRIED (whether it
-# brings it along), VIDEO: as the build was configured.
+# Makes the Debian package of the build BUILD in WORK. Without installing the package, extracts it
+# and checks its fields, its files, the links of its pages, and the commands of PAGE with its
+# program. VERSION, MUJOCO (a required dependency), CARRIED (whether the package contains MuJoCo)
+# and VIDEO: as configured in the build.
 foreach(program IN ITEMS dpkg-deb dpkg-shlibdeps)
   find_program(found_${program} ${program})
   if(NOT found_${program})
@@ -12,7 +13,7 @@ unset(ENV{LD_LIBRARY_PATH})
 unset(ENV{TRACKBED_DATA})
 file(REMOVE_RECURSE ${WORK})
 file(MAKE_DIRECTORY ${WORK}/elsewhere)
-# zstd, which is quick: the package is read once.
+# zstd is fast, and the package is read only once.
 execute_process(COMMAND ${CMAKE_CPACK_COMMAND} -G DEB --config ${BUILD}/CPackConfig.cmake -B ${WORK}
                         -D CPACK_DEBIAN_COMPRESSION_TYPE=zstd
                 OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
@@ -28,7 +29,8 @@ function(field name variable)
   set(${variable} "${value}" PARENT_SCOPE)
 endfunction()
 
-# Of each group of alternatives this machine, which built the program, must have one, by its own name or another package's.
+# This machine, which built the program, must have a package of each group of alternatives, by name
+# or as a provided package.
 field(Depends depends)
 string(REPLACE ", " ";" groups "${depends}")
 foreach(group IN LISTS groups)
@@ -45,7 +47,8 @@ foreach(group IN LISTS groups)
     message(FATAL_ERROR "depends on '${group}', which is not installed here:\n${depends}")
   endif()
 endforeach()
-# Each by another way than dpkg-shlibdeps goes: what links libc and libpng, and what the program loads later.
+# dpkg-shlibdeps finds the linked libc and libpng; cmake/Package.cmake adds the libraries loaded at
+# run time.
 set(expected "libc6 " "libpng16-16" "libosmesa6 [|] libegl1")
 if(VIDEO)
   foreach(library IN ITEMS avcodec avformat avutil swscale)
@@ -85,7 +88,7 @@ if(loaded MATCHES "not found" OR CARRIED AND place EQUAL -1)
   message(FATAL_ERROR "the program loads\n${loaded}")
 endif()
 
-# Links of the pages, which README.md's neighbours are.
+# Checks the links of the pages, relative to README.md.
 set(doc ${root}/usr/share/doc/trackbed)
 file(GLOB_RECURSE pages ${doc}/docs/*.md)
 list(LENGTH pages count)
@@ -97,7 +100,7 @@ foreach(page IN LISTS pages ITEMS ${doc}/README.md)
   get_filename_component(folder ${page} DIRECTORY)
   file(READ ${page} text)
   string(REGEX REPLACE "`[^`\n]*`" "" text "${text}")
-  # Square brackets would join elements of a list. Links to the web, which have a colon, do not match.
+  # Square brackets would join list elements. Web links contain a colon and do not match.
   string(REGEX REPLACE "\\]\\(|<img src=\"" "LINK<" text "${text}")
   string(REGEX MATCHALL "LINK<[^)#: ;\"<>]+[)#\"]" targets "${text}")
   foreach(target IN LISTS targets)
@@ -112,7 +115,8 @@ if(links LESS 500)
   message(FATAL_ERROR "only ${links} links")
 endif()
 
-# The commands of the page, as those who installed the package run them. A whole film takes a minute: a stamp of it does.
+# Runs the commands of the page with the package's program. A whole film takes a minute, so films
+# are small.
 file(STRINGS ${PAGE} commands REGEX "^trackbed ")
 list(LENGTH commands count)
 if(count LESS 4)

@@ -1,5 +1,5 @@
-# Configures, builds and runs the example project EXAMPLE from an empty folder against what was
-# installed in WORK. Its cars must be those that were installed: without them it must fail.
+# Configures, builds and runs the example project EXAMPLE from an empty folder against the package
+# installed in WORK. The example must use the installed cars: without them it must fail.
 set(installed ${WORK}/installed)
 set(folder ${WORK}/example)
 unset(ENV{TRACKBED_DATA})

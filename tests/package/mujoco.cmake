@@ -1,8 +1,9 @@
-# cmake/Mujoco.cmake and cmake/MujocoVersion.cmake take supported versions of MuJoCo and refuse the others
-# for their true reason. Each MuJoCo is a header and a library that only tell their versions.
+# Tests that cmake/Mujoco.cmake and cmake/MujocoVersion.cmake accept supported versions of MuJoCo
+# and reject the others with the right reason. Each test MuJoCo is a header and a library that
+# contain only their versions.
 file(REMOVE_RECURSE ${WORK})
 
-# A release of headers and library with these numbers, in WORK/NAME.
+# Creates a release in WORK/NAME with these versions of headers and library.
 function(make_release name header library text)
   set(folder ${WORK}/${name})
   file(WRITE ${folder}/include/mujoco/mujoco.h
@@ -14,7 +15,8 @@ function(make_release name header library text)
                   COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
-# Configures a project that asks for TRACKBED_MUJOCO: must succeed or fail, and print `expected`.
+# Configures a project with TRACKBED_MUJOCO set to `mujoco`: it must succeed or fail, and print
+# `expected`.
 function(expect mujoco succeeds expected)
   file(WRITE ${WORK}/project/CMakeLists.txt "cmake_minimum_required(VERSION 3.24)
 project(versions LANGUAGES CXX)

@@ -1,5 +1,5 @@
-# Configures and builds the example project EXAMPLE from an empty folder against what was installed
-# in WORK, and runs COMMANDS, lists that are separated by `|`, with the program that it makes.
+# Configures and builds the example project EXAMPLE from an empty folder against the package
+# installed in WORK, and runs COMMANDS, lists separated by `|`, with the resulting program.
 set(installed ${WORK}/installed)
 get_filename_component(name ${EXAMPLE} NAME)
 set(folder ${WORK}/${name})
@@ -14,7 +14,7 @@ execute_process(
   WORKING_DIRECTORY ${folder} COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ${CMAKE_COMMAND} --build ${folder} COMMAND_ERROR_IS_FATAL ANY)
 
-# Runs the program with ARGN and checks that it ends with `code` and prints `expected`.
+# Runs the program with ARGN and checks its exit code and output.
 function(expect code expected)
   execute_process(COMMAND ${folder}/${PROGRAM} ${ARGN} WORKING_DIRECTORY ${folder}
                   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)

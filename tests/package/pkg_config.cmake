@@ -1,5 +1,5 @@
-# Builds SOURCE, a program with a plant of its own, without CMake: with what pkg-config says of the
-# package installed in WORK, as static libraries are linked and as shared ones are. Runs SCENARIO.
+# Builds SOURCE, a program with a custom plant, without CMake: with the flags that pkg-config prints
+# for the package installed in WORK, linked statically and dynamically. Runs SCENARIO.
 set(installed ${WORK}/installed)
 set(folder ${WORK}/pkg_config)
 unset(ENV{TRACKBED_DATA})
@@ -8,7 +8,7 @@ file(REMOVE_RECURSE ${folder})
 file(MAKE_DIRECTORY ${folder})
 separate_arguments(FLAGS)
 
-# Puts into OUTPUT what `pkg-config ARGN trackbed` prints, as a list.
+# Sets OUTPUT to the list of words that `pkg-config ARGN trackbed` prints.
 function(pkg_config output)
   execute_process(COMMAND pkg-config ${ARGN} trackbed OUTPUT_VARIABLE text
                   OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
@@ -16,8 +16,8 @@ function(pkg_config output)
   set(${output} ${words} PARENT_SCOPE)
 endfunction()
 
-# The program NAME, with TRACKBED_DATA as DATA, compares its plants on SCENARIO: it must end with CODE
-# and print EXPECTED.
+# Runs the program NAME with TRACKBED_DATA set to DATA. It compares its plants on SCENARIO and must
+# exit with CODE and print EXPECTED.
 function(expect name data code expected)
   execute_process(
     COMMAND ${CMAKE_COMMAND} -E env "TRACKBED_DATA=${data}" ${folder}/${name} compare ${SCENARIO}

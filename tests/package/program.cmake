@@ -1,4 +1,4 @@
-# The program that was installed in WORK drives with the models and scenarios beside it.
+# Runs the program installed in WORK with the models and scenarios beside it.
 set(program ${WORK}/installed/bin/trackbed)
 set(data ${WORK}/installed/share/trackbed)
 unset(ENV{TRACKBED_DATA})

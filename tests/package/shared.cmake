@@ -1,8 +1,8 @@
-# The shared libraries installed in WORK: each is named after its version, finds the others wherever
-# all were moved to, and links all that it uses. OSMesa, EGL and FFmpeg are loaded when something is drawn.
+# Checks the shared libraries installed in WORK: each has a versioned name, finds the others after
+# all were moved, and links all that it uses. OSMesa, EGL and FFmpeg are loaded on first use.
 set(libraries ${WORK}/installed/${LIBDIR})
 
-# What FILE says of itself in its dynamic section must match all of ARGN.
+# The dynamic section of FILE must match all of ARGN.
 function(expect_dynamic file)
   execute_process(COMMAND readelf --dynamic --wide ${file} OUTPUT_VARIABLE output
                   COMMAND_ERROR_IS_FATAL ANY)

@@ -1,5 +1,5 @@
-// docs/tutorial.md as a newcomer goes through it: its files are written, its commands run, in the
-// order of the page, in an empty home, against what was installed; what it shows is what comes out.
+// Follows docs/tutorial.md as a new user would: writes its files and runs its commands in the order
+// of the page, in an empty home, against the installed package. The output must match the page.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ namespace {
 
 using Lines = std::vector<std::string>;
 
-/// What of the page is not done here, and why.
+/// Commands of the page that the test does not run, with the reason.
 const std::map<std::string, std::string> kDoneBefore = {
     {"scripts/demo", "installs packages, builds and films: the build under test is what it leaves"},
     {"scripts/setup testing",
@@ -52,7 +52,7 @@ std::string Joined(const Lines& lines) {
 /// A fenced block of the page.
 struct Block {
   std::string language;
-  std::string file;  ///< named at the end of the last line before it, as in: `corner.yaml`:
+  std::string file;  ///< named at the end of the line before it, as in: `corner.yaml`:
   Lines lines;
 };
 
@@ -79,10 +79,10 @@ std::vector<Block> ParseBlocks(const std::string& page) {
   return blocks;
 }
 
-/// Whether a line that the page shows is the one that came out. Words must be the same, spaces need
-/// not. Numbers may differ by one in the last digit shown: a run repeats to the bit with the same
-/// build and machine, and another processor's sines, a part in 1e15 off, can only tip the rounding.
-/// Seconds by the clock on the wall ("ms", "sec") are anybody's.
+/// Whether a line of the page matches an output line. Words must be equal; spaces may differ.
+/// Numbers may differ by one in the last digit shown: a run is bitwise reproducible on one build
+/// and machine, and another processor's sines, 1e-15 off relatively, can only change the rounding.
+/// Wall-clock times ("ms", "sec") may have any value.
 bool Shows(const std::string& shown, const std::string& told) {
   static const std::regex kClock(" *[0-9.]+ (ms|sec)\\b");
   static const std::regex kSpaces(" +");
@@ -106,8 +106,8 @@ bool Shows(const std::string& shown, const std::string& told) {
   return true;
 }
 
-/// The first line of a shown output that did not come out, or of what came out that is not shown;
-/// empty when there is none. A line "..." stands for any lines.
+/// The first line that is shown but was not printed, or was printed but is not shown; empty if
+/// there is none. A shown line "..." matches any lines.
 std::string FirstDifference(const Lines& shown, const Lines& told) {
   std::size_t next = 0;
   bool skip = false;
@@ -128,7 +128,7 @@ std::string FirstDifference(const Lines& shown, const Lines& told) {
   return skip || next == told.size() ? "" : "told: " + told[next];
 }
 
-/// Somebody in front of a terminal who does what the page says.
+/// A simulated user at a terminal who follows the page.
 class Newcomer {
  public:
   Newcomer() {
@@ -157,7 +157,7 @@ class Newcomer {
     }
   }
 
-  /// Whatever the last commands said has been shown, up to what builds say.
+  /// Expects that the page shows all output of the last commands, except that of builds.
   void ExpectAllShown() {
     EXPECT_TRUE(diagnostics_.empty()) << "the page does not show:\n" << Joined(diagnostics_);
     diagnostics_.clear();
@@ -173,14 +173,14 @@ class Newcomer {
       return;
     }
     if (line.starts_with("cd ") || line.starts_with("export ")) {
-      kept_ += "; " + line;  // what a shell keeps from line to line
+      kept_ += "; " + line;  // commands whose effect a shell keeps
     }
     std::smatch exit;
     const int code = std::regex_search(line, exit, kExit) ? std::stoi(exit[1]) : 0;
     const Outcome outcome = Shell(home_, kept_ + "; " + std::regex_replace(line, kExit, ""));
     EXPECT_EQ(outcome.code, code) << line << "\n" << outcome.output;
     if (line.starts_with("cmake ")) {
-      return;  // what it says differs between its versions, and the page does not show it
+      return;  // its output depends on its version and is not shown
     }
     const std::string output =
         std::regex_replace(outcome.output, std::regex(home_.path().string()), "/home/you");
@@ -189,7 +189,7 @@ class Newcomer {
     }
   }
 
-  /// Lines that begin with '-' become those that begin with '+'.
+  /// Replaces the diff's lines that begin with '-' by those that begin with '+'.
   static void Edit(const std::filesystem::path& file, const Lines& diff) {
     Lines before;
     Lines after;
@@ -203,8 +203,8 @@ class Newcomer {
   }
 
   TempFolder home_;
-  std::string kept_;   ///< comes before every command
-  Lines diagnostics_;  ///< by the commands since the last output shown
+  std::string kept_;   ///< precedes every command
+  Lines diagnostics_;  ///< printed since the last output shown
   std::size_t skipped_ = 0;
 };
 
@@ -215,7 +215,7 @@ double NumberIn(const std::filesystem::path& json, const std::string& key) {
   return place == std::string::npos ? NAN : std::stod(text.substr(place + name.size()));
 }
 
-/// A column of a log after five seconds.
+/// The value of a log's column at five seconds.
 double AtFiveSeconds(const std::filesystem::path& log, const std::string& column) {
   const Table table = ReadCsv(log);
   const std::vector<double> times = table.Column("t_s");
@@ -236,7 +236,7 @@ TEST(Tutorial, EndsAsItsPageSays) {
   newcomer.ExpectAllShown();
   EXPECT_EQ(newcomer.skipped(), kDoneBefore.size());
 
-  // What it tells in words of logs and figures that it does not print.
+  // The page quotes values of logs and figures in its text.
   const std::string text = std::regex_replace(page, std::regex("\n"), " ");
   const std::filesystem::path run = newcomer.corner() / "out/corner";
   const std::filesystem::path kinematic = run / "kinematic.csv";
@@ -257,7 +257,7 @@ TEST(Tutorial, EndsAsItsPageSays) {
           NumberIn(newcomer.corner() / "out/longer_preview/metrics.json", "yaw_rate_ratio"))));
 }
 
-// The reader of outputs itself: what it takes for the same, and what it does not.
+// Tests the comparison of outputs itself: which lines match and which do not.
 TEST(Tutorial, SeesWhatIsNotShown) {
   const Lines told = {"a 1.25 m", "b 3 s", "c", "d"};
   EXPECT_EQ(FirstDifference({"a  1.26 m", "b 3 s", "c", "d"}, told), "");

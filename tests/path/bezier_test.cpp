@@ -12,13 +12,15 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Tests Bezier curves against closed forms (parabola, quarter circle), Bernstein sums and finite
+// differences, and their conversion to points and path segments.
 namespace trackbed {
 namespace {
 
-// Tens of operations on coordinates below 30 m.
+// Rounding: tens of operations on coordinates below 30 m.
 constexpr double kRounding = 1e-13;
 
-/// From (0, 0) east into a lane 8 m to the left, as a car changes to it within 30 m.
+/// A car's lane change within 30 m, from (0, 0) heading east to a lane 8 m to the left.
 std::vector<Vec2> LaneChange() {
   return {{0, 0}, {5, 0}, {10, 0}, {14, 0.5}, {16, 7.5}, {20, 8}, {25, 8}, {30, 8}};
 }
@@ -31,7 +33,7 @@ std::vector<Vec2> RandomPoints(Random& random, std::size_t count) {
   return points;
 }
 
-/// Without loops: each point ahead of the one before.
+/// Control points without loops: each one is ahead of the previous one.
 std::vector<Vec2> RandomRun(Random& random, std::size_t count) {
   std::vector<Vec2> points;
   for (std::size_t i = 0; i < count; ++i) {
@@ -69,7 +71,7 @@ TEST(Bezier, OfThreePointsIsAParabola) {
     EXPECT_NEAR(parabola.Curvature(u), 2.0 * std::pow(square, -1.5), Tolerance(kRounding));
     EXPECT_NEAR(parabola.Sharpness(u), -24.0 * x * std::pow(square, -3.0), Tolerance(kRounding));
   }
-  // (2x sqrt(1 + 4x^2) + asinh 2x)/4 from -1 to 1.
+  // Arc length of the parabola: (2x sqrt(1 + 4x^2) + asinh 2x)/4 from -1 to 1.
   const double length = std::sqrt(5.0) + 0.5 * std::asinh(2.0);
   EXPECT_NEAR(parabola.Length(), length, Tolerance(1e-10 * length));
 }
@@ -111,8 +113,9 @@ TEST(Bezier, DerivativesAreThoseOfItsPoints) {
     constexpr double kStep = 1e-4;
     const double u = random.Uniform(kStep, 1.0 - kStep);
     // A derivative of order m is at most 7!/(7 - m)! times the largest m-th difference of control
-    // points, 2^m 10 sqrt(2). Central differences miss h^2/6 of the derivative two orders up:
-    // 3360 m 14.1 8 h^2/6 for the first one, and 12 and 36 times that for the next two.
+    // points, 2^m 10 sqrt(2). Central differences err by h^2/6 times the derivative two orders
+    // higher: 3360 m 14.1 8 h^2/6 for the first derivative, and 12 and 36 times that for the next
+    // two.
     double most = 210.0 * 8.0 * 14.2 * kStep * kStep / 6.0;
     for (std::size_t order = 1; order <= 3; ++order) {
       const Vec2 difference =
@@ -140,7 +143,7 @@ TEST(Bezier, MovesTurnsAndGrowsWithItsPoints) {
     for (const double u : {0.0, 0.3, 0.8, 1.0}) {
       EXPECT_NEAR((other.At(u) - ToWorld(moved, scale * curve.At(u))).norm(), 0.0,
                   Tolerance(kRounding));
-      // Speeds above 10 m: quotients keep twelve digits.
+      // Speeds exceed 10 m, so the quotients keep twelve digits.
       EXPECT_NEAR(other.Curvature(u), curve.Curvature(u) / scale, Tolerance(1e-12));
       EXPECT_NEAR(other.Sharpness(u), curve.Sharpness(u) / (scale * scale), Tolerance(1e-12));
     }
@@ -174,7 +177,7 @@ TEST(Bezier, RunTheOtherWayTurnsTheOtherWay) {
     for (const double u : {0.0, 0.2, 0.5, 0.9, 1.0}) {
       EXPECT_NEAR((back.At(1.0 - u) - curve.At(u)).norm(), 0.0, Tolerance(kRounding));
       EXPECT_NEAR(back.Curvature(1.0 - u), -curve.Curvature(u), Tolerance(1e-12));
-      // Both the curvature's sign and the direction of its growth change.
+      // In reverse, the curvature and the direction in which it grows both change sign.
       EXPECT_NEAR(back.Sharpness(1.0 - u), curve.Sharpness(u), Tolerance(1e-12));
     }
     EXPECT_NEAR(back.Length(), curve.Length(), Tolerance(1e-12));
@@ -196,7 +199,7 @@ TEST(Bezier, NearAQuarterCircleCurvesLikeIt) {
     EXPECT_NEAR(left.Curvature(u), 1.0 / kRadius, 0.03 / kRadius);
     EXPECT_NEAR(right.Curvature(u), -1.0 / kRadius, 0.03 / kRadius);
   }
-  // At its end exactly 2/3 |cross(side, next)|/side^3.
+  // The end curvature is exactly 2/3 |cross(side, next)|/side^3.
   const Vec2 next{side - kRadius, kRadius - side};
   EXPECT_NEAR(left.Curvature(0.0), 2.0 / 3.0 * (kRadius - side) / (side * side),
               Tolerance(kRounding));
@@ -209,8 +212,8 @@ TEST(Bezier, SharpnessIsTheCurvaturesGrowthAlongTheCurve) {
   for (double u = 0.05; u < 1.0; u += 0.05) {
     const double growth = (curve.Curvature(u + kStep) - curve.Curvature(u - kStep)) /
                           curve.Length(u - kStep, u + kStep);
-    // h^2/6 of the third derivatives by u of curvature (below 2e3) and length, over a speed above
-    // 15 m; rounding 1e-15/h.
+    // h^2/6 times the third derivatives of curvature (below 2e3) and length, over a speed above 15
+    // m. Rounding adds 1e-15/h.
     EXPECT_NEAR(growth, curve.Sharpness(u), Tolerance(1e-6));
   }
 }
@@ -223,8 +226,8 @@ TEST(Bezier, LengthIsThatOfAFinePolyline) {
   }
   for (const std::vector<Vec2>& points : cases) {
     const BezierCurve curve(points);
-    // Chords are too short by ds^3 kappa^2/24 each, so that halving them takes three quarters of
-    // the error: what is left of the extrapolation is of fourth order.
+    // Each chord is too short by ds^3 kappa^2/24, so halving the chords removes three quarters of
+    // the error. The error of the extrapolation is of fourth order.
     const auto polyline = [&](int pieces) {
       double length = 0.0;
       for (int i = 0; i < pieces; ++i) {
@@ -244,7 +247,7 @@ TEST(Bezier, LengthIsThatOfAFinePolyline) {
 }
 
 TEST(Bezier, LengthOfALineIsExactHoweverItIsRunAlong) {
-  // Speed 7 (0.5 + 6.5 ...) along one direction: |P'| is a polynomial of degree 6.
+  // Along a single direction |P'| = 7 (0.5 + 6.5 ...) is a polynomial of degree 6.
   std::vector<Vec2> points;
   for (const double t : {0.0, 0.5, 2.0, 2.5, 4.0, 7.0, 9.0, 10.0}) {
     points.emplace_back(1.0 + 3.0 * t, -2.0 + 4.0 * t);
@@ -277,7 +280,7 @@ TEST(BezierPoints, KeepTheSpacingAndBothEnds) {
 }
 
 TEST(BezierPoints, HeadingsGoOnThroughMoreThanAFullTurn) {
-  // A loop: out, round and on, by 2 pi and 0.93 more in the end; begun with two full turns behind.
+  // A loop that turns by 2 pi + 0.93 rad, with two full turns in its initial heading.
   const BezierCurve loop({{0, 0}, {40, 0}, {40, 40}, {-40, 40}, {-40, -30}, {50, -30}, {53, -26}});
   const std::vector<CurvePoint> points = loop.Points(0.1, 4.0 * kPi);
   double turned = 0.0;
@@ -288,7 +291,7 @@ TEST(BezierPoints, HeadingsGoOnThroughMoreThanAFullTurn) {
   }
   EXPECT_EQ(points.front().yaw, 4.0 * kPi);
   EXPECT_NEAR(points.back().yaw, 6.0 * kPi + std::atan2(4.0, 3.0), Tolerance(1e-12));
-  // What the curvature adds up to, as trapezoids 0.1 m wide do.
+  // The heading change equals the integral of the curvature, here by trapezoids 0.1 m wide.
   EXPECT_NEAR(points.back().yaw - points.front().yaw, turned, Tolerance(1e-3));
 }
 
@@ -313,7 +316,7 @@ TEST(BezierPoints, MakeSegmentsThatFollowTheCurve) {
     const double yaw = std::atan2(velocity.y(), velocity.x());
     const Pose2 start{curve.At(0.0).x(), curve.At(0.0).y(), yaw};
     const Path path(start, SegmentsThrough(curve.Points(0.1, yaw)));
-    // "about 1e-7 m over the bends of a car".
+    // SegmentsThrough promises "about 1e-7 m over the bends of a car".
     EXPECT_NEAR((path.At(path.length()).pose.position() - curve.At(1.0)).norm(), 0.0,
                 Tolerance(1e-6));
     for (const double u : {0.25, 0.5, 0.75}) {

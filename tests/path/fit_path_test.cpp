@@ -12,6 +12,8 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Tests the fit of a path to points by quintic splines: curvature against circles, a lemniscate and
+// clothoids with the expected order of convergence, and the deviation on random points.
 namespace trackbed {
 namespace {
 
@@ -42,7 +44,7 @@ double LargestDistance(const FittedPath& fitted) {
   return largest;
 }
 
-/// The largest difference of the path's curvature from the curve's at the points, ends included.
+/// The path's largest curvature error at the points, ends included.
 double CurvatureError(const FittedPath& fitted, const std::function<double(double)>& curvature) {
   double largest = 0.0;
   const std::size_t count = fitted.stations.size();
@@ -56,10 +58,11 @@ double CurvatureError(const FittedPath& fitted, const std::function<double(doubl
 
 constexpr PathFitOptions kInterpolate{.max_deviation = 1e-7};
 
-// A quintic interpolant with spacing h has a second derivative that is off by the order of
-// h^4 |P^(6)|; a circle of radius R has |P^(6)| = 1/R^5, its curvature is off by the same. The
-// natural end conditions (P''' = 0 and on) are met by no circle, whose |P'''| is 1/R^2: they bend
-// the curvature at the ends, over some h, by the order of h |P'''|, here at most 0.2 of it.
+// The second derivative of a quintic interpolant with spacing h errs by the order of h^4 |P^(6)|. A
+// circle of radius R has |P^(6)| = 1/R^5, and its curvature errs by the same. The natural end
+// conditions (P''' = 0 and higher derivatives) do not hold for a circle, whose |P'''| is 1/R^2.
+// They distort the curvature near the ends, over some h, by the order of h |P'''|, here at most 0.2
+// of it.
 TEST(FitPath, FindsTheCurvatureOfACircle) {
   for (const double radius : {5.0, 20.0}) {
     for (const int count : {41, 81}) {
@@ -67,7 +70,7 @@ TEST(FitPath, FindsTheCurvatureOfACircle) {
       const FittedPath fitted = FitPath(Arc(radius, 2.0, count), kInterpolate);
       EXPECT_LE(CurvatureError(fitted, [&](double) { return 1.0 / radius; }),
                 Tolerance(0.2 * h / (radius * radius)));
-      // From ten points off the ends on, where their influence has fallen by 0.43 for each point.
+      // Excludes ten points at each end; the influence of the ends falls to 0.43 per point.
       double inner = 0.0;
       for (std::size_t i = 10; i + 10 < fitted.stations.size(); ++i) {
         inner =
@@ -107,8 +110,8 @@ TEST(FitPath, ClosesACircle) {
   }
 }
 
-// x = a cos t/(1 + sin^2 t), y = x sin t has the curvature 3 cos t/(a sqrt(1 + sin^2 t)) up to its
-// sign, and crosses itself.
+// x = a cos t/(1 + sin^2 t), y = x sin t has the curvature 3 cos t/(a sqrt(1 + sin^2 t)), up to its
+// sign, and intersects itself.
 TEST(FitPath, FindsTheCurvatureOfALemniscate) {
   constexpr double kA = 20.0;
   const auto curve = [](double t) {
@@ -130,11 +133,11 @@ TEST(FitPath, FindsTheCurvatureOfALemniscate) {
       const double own = fitted.path.At(fitted.stations[static_cast<std::size_t>(i)]).curvature;
       largest = std::max(largest, std::abs(own - curvature(2.0 * kPi * i / count)));
     }
-    // h^4 |P^(6)|, of which the lemniscate's is at most some 100 (3/a)^5.
+    // h^4 |P^(6)|; for the lemniscate |P^(6)| is at most some 100 (3/a)^5.
     const double h = fitted.path.length() / count;
     EXPECT_LE(largest, Tolerance(100.0 * std::pow(h, 4) * std::pow(3.0 / kA, 5)));
     if (before > 0.0) {
-      EXPECT_LE(largest, before / 8.0);  // order 4 and a margin of 2
+      EXPECT_LE(largest, before / 8.0);  // order 4 with a margin of factor 2
     }
     before = largest;
   }
@@ -149,7 +152,7 @@ TEST(FitPath, FindsTheCurvatureRateOfAClothoid) {
   const FittedPath fitted = FitPath(given, kInterpolate);
   for (double s = 10.0; s <= 50.0; s += 0.25) {
     const PathPoint point = fitted.path.At(s);
-    // Third derivatives are off by h^3 |P^(6)|, and |P^(6)| < 10 kappa^3 sharpness < 0.02 * 0.1^3.
+    // Third derivatives err by h^3 |P^(6)|, and |P^(6)| < 10 kappa^3 sharpness < 0.02 * 0.1^3.
     EXPECT_NEAR(point.sharpness, 0.002, Tolerance(1e-5));
     EXPECT_NEAR(point.curvature, 0.002 * s, Tolerance(1e-6));
   }
@@ -172,11 +175,11 @@ TEST(FitPath, KeepsItsDeviationOnRandomPoints) {
     for (const double allowed : {0.01, 0.05, 0.5}) {
       const FittedPath fitted = FitPath(given, {.max_deviation = allowed, .closed = run % 3 == 0});
       if (run % 3 == 0 && !fitted.reversals.empty()) {
-        continue;  // a path that is closed by going back
+        continue;  // skip paths that close only by turning back
       }
       ASSERT_TRUE(fitted.reversals.empty());
       EXPECT_LE(fitted.deviation, allowed);
-      // The nearest point of the path is no further than that at the point's station.
+      // The nearest point of the path is not farther than the point at the same station.
       EXPECT_LE(LargestDistance(fitted), fitted.deviation + Tolerance(1e-9));
       const Vec2 at = fitted.path.At(fitted.stations[fitted.deviation_point]).pose.position();
       EXPECT_NEAR((at - given.points[fitted.deviation_point]).norm(), fitted.deviation,
@@ -202,8 +205,8 @@ TEST(FitPath, SmoothsNoiseWithinItsDeviation) {
     }
     return largest;
   };
-  // The noise bends the points by some 0.03/0.23^2 = 0.6; smoothed over its own size nearly
-  // nothing.
+  // The noise bends the points by some 0.03/0.23^2 = 0.6. With smoothing by the noise's own size
+  // almost nothing of that remains.
   EXPECT_GT(largest_curvature(0.001), 0.5);
   EXPECT_LT(largest_curvature(0.05), 0.05);
 }
@@ -218,7 +221,7 @@ TEST(FitPath, PolylineLeadsThroughItsPoints) {
   EXPECT_EQ(fitted.jumps[1].point, 2U);
   EXPECT_NEAR(fitted.jumps[0].angle, 0.5 * kPi, Tolerance(1e-12));
   EXPECT_NEAR(fitted.jumps[1].angle, -0.25 * kPi, Tolerance(1e-12));
-  // Tangents of 1 mm and arcs of radius 1 mm/tan(angle/2) instead of the corner.
+  // The corner is replaced by tangents of 1 mm and an arc of radius 1 mm/tan(angle/2).
   EXPECT_NEAR(fitted.deviation, 1e-3 * (std::sqrt(2.0) - 1.0), Tolerance(1e-9));
   EXPECT_NEAR(fitted.path.At(fitted.path.length()).pose.x, 17.0, Tolerance(1e-9));
   EXPECT_NEAR(fitted.path.At(fitted.path.length()).pose.y, 12.0, Tolerance(1e-9));
@@ -235,12 +238,13 @@ TEST(FitPath, ResamplesWithinItsDeviation) {
   EXPECT_LE(LargestDistance(fitted), 0.01);
   EXPECT_EQ(fitted.stations.size(), 2001U);
   const FittedPath lines = FitPath(given, {.fit = PathFit::kPolyline, .resample = 2.0});
-  // The sagitta of 2 m of a circle of 20 m, and the points need not meet the circle's ends.
+  // The sagitta of a chord of 2 m of a circle of 20 m. The points need not include the circle's
+  // ends.
   EXPECT_NEAR(lines.deviation, 2.0 * 2.0 / (8.0 * 20.0), Tolerance(2e-3));
   EXPECT_EQ(lines.jumps.size(), 19U);
 }
 
-// Of a spline through corners 5 m apart, resampled points keep to the lines between them.
+// Resampled points stay on the lines between the corners, 5 m apart, of a spline through them.
 TEST(FitPath, KeepsToTheLinesIfResampled) {
   PathPoints given;
   given.points = {{0.0, 0.0}, {5.0, 0.0}, {10.0, 0.0}, {10.0, 5.0}, {10.0, 10.0}};
@@ -255,7 +259,7 @@ TEST(FitPath, KeepsToTheLinesIfResampled) {
     return largest;
   };
   EXPECT_GT(bulge({.max_deviation = 0.05}), 0.3);
-  // At the fitted points 0.05 m, and between them no bulge that is as large.
+  // 0.05 m at the fitted points, and only slightly more between them.
   EXPECT_LE(bulge({.max_deviation = 0.05, .resample = 0.25}), 0.075);
 }
 
@@ -286,8 +290,8 @@ TEST(FitPath, RefusesReverseTravel) {
   }
 }
 
-// The rear axle of a car whose center of gravity, a ahead, goes round a circle of radius R stays on
-// one of radius sqrt(R^2 - a^2).
+// The center of gravity of a car, a ahead of the rear axle, moves on a circle of radius R. Then the
+// rear axle moves on a circle of radius sqrt(R^2 - a^2).
 TEST(AtRearAxle, FollowsItsPointRoundACircle) {
   constexpr double kAhead = 1.4;
   for (const bool has_yaw : {false, true}) {
@@ -298,7 +302,8 @@ TEST(AtRearAxle, FollowsItsPointRoundACircle) {
       }
     }
     for (const Vec2& point : AtRearAxle(given, kAhead).points) {
-      // Chords of 0.15 m are off the circle by 0.15^2/160 m, over a length of 1.4 m twice that.
+      // Chords of 0.15 m deviate from the circle by 0.15^2/160 m, over a length of 1.4 m by twice
+      // that.
       EXPECT_NEAR((point - Vec2(0.0, 20.0)).norm(), std::sqrt(400.0 - kAhead * kAhead),
                   Tolerance(has_yaw ? 1e-12 : 3e-4));
     }
@@ -332,8 +337,8 @@ TEST(FitPath, TakesPointsCentimetersAndMetersApart) {
   const FittedPath fitted = FitPath(given, {.max_deviation = 0.005});
   EXPECT_LE(fitted.deviation, 0.005);
   for (const PathPoint& point : fitted.path.Sample(0.1)) {
-    // Twice that of the curve, 3 * 0.05^2; unsmoothed, 0.5 mm of noise over 2 cm would bend it by
-    // some 5.
+    // Twice the curvature of the curve, 3 * 0.05^2. Without smoothing, 0.5 mm of noise over 2 cm
+    // would give a curvature of about 5.
     EXPECT_LE(std::abs(point.curvature), 2.0 * 3.0 * 0.05 * 0.05);
   }
 }

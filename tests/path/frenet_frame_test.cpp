@@ -11,10 +11,10 @@
 namespace trackbed {
 namespace {
 
-// The projection finds stations to 1e-10 m; what follows multiplies it by rates of some units.
+// The projection finds stations to 1e-10 m, which rates of a few units multiply.
 constexpr double kRoundTrip = 1e-9;
 
-/// A line, clothoids and arcs to both sides, of continuous curvature up to 0.1/m.
+/// A line, clothoids and arcs to both sides, with continuous curvature up to 0.1/m.
 Path Bends() {
   return Path({3.0, -2.0, 0.4}, {{20.0, 0.0, 1, 0.0},
                                  {10.0, 0.0, 1, 0.01},
@@ -26,7 +26,7 @@ Path Bends() {
 
 TEST(FrenetFrame, OfALineIsTheLinesOwn) {
   const Path line({0.0, 0.0, kPi / 2.0}, {{100.0, 0.0, 1}});
-  // North along the line, 2 m to its left, 3-4-5 to the left.
+  // Position north along the line and 2 m to its left; speeds 4 and 3 give 5 m/s.
   const auto motion = FromFrenet(line, {10.0, 4.0, 0.0, 2.0, 0.75, 0.0});
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->pose.x, -2.0, Tolerance(1e-12));
@@ -38,7 +38,7 @@ TEST(FrenetFrame, OfALineIsTheLinesOwn) {
 }
 
 TEST(FrenetFrame, BesideACircleIsACircle) {
-  // 5 m inside a circle of 20 m: at a radius of 15 m, 3/4 as fast.
+  // 5 m inside a circle of 20 m the radius is 15 m, and the speed 3/4 of the station's rate.
   const Path circle({0.0, 0.0, 0.0}, {{100.0, 1.0 / 20.0, 1}});
   const auto motion = FromFrenet(circle, {20.0, 4.0, 1.0, 5.0, 0.0, 0.0});
   ASSERT_TRUE(motion);
@@ -66,7 +66,7 @@ TEST(FrenetFrame, IsLeftAsItWasEntered) {
     EXPECT_NEAR(back->d_slope, state.d_slope, Tolerance(kRoundTrip));
     EXPECT_NEAR(back->d_bend, state.d_bend, Tolerance(kRoundTrip));
     EXPECT_NEAR(back->s_rate, state.s_rate, Tolerance(kRoundTrip * 20.0));
-    // v^2 = 400 times what the frame is off.
+    // v^2 = 400 times the frame's error.
     EXPECT_NEAR(back->s_acceleration, state.s_acceleration, Tolerance(kRoundTrip * 400.0));
     const auto again = FromFrenet(path, *back);
     ASSERT_TRUE(again);
@@ -80,7 +80,7 @@ TEST(FrenetFrame, IsLeftAsItWasEntered) {
 }
 
 TEST(FrenetFrame, KnowsACarAtRest) {
-  // Nothing is divided by the speed: the offset's slope and bend are those of heading and steering.
+  // No division by the speed: slope and curvature of the offset follow from heading and steering.
   const Path path = Bends();
   const MotionState rest{{20.0, 8.0, 1.0}, 0.05, 0.0, 0.0};
   const auto state = ToFrenet(path, rest);
@@ -93,8 +93,9 @@ TEST(FrenetFrame, KnowsACarAtRest) {
 }
 
 TEST(FrenetFrame, HasTheDerivativesOfTheMotionItself) {
-  // d(s) and s(t) of degree 5; speed, heading, curvature and acceleration by central differences
-  // of positions over h: errors h^2/6 times third derivatives (below 50) and rounding 1e-15/h.
+  // d(s) and s(t) of degree 5. Speed, heading, curvature and acceleration come from central
+  // differences of positions over h. The errors are h^2/6 times third derivatives (below 50), plus
+  // rounding of 1e-15/h.
   const Path path = Bends();
   const auto state_at = [](double t) {
     const double s = 12.0 + 8.0 * t + 0.5 * t * t - 0.1 * t * t * t;

@@ -13,10 +13,12 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Tests Path: evaluation against closed forms of lines, arcs and clothoids, projection against
+// brute force, sampling, cutting, and SegmentsThrough on a curve with known curvature.
 namespace trackbed {
 namespace {
 
-// A few operations per segment on coordinates below 100 m.
+// Rounding: a few operations per segment on coordinates below 100 m.
 constexpr double kRounding = 1e-12;
 
 void ExpectPose(const Pose2& actual, const Pose2& expected, double tolerance = kRounding) {
@@ -77,7 +79,8 @@ TEST(Path, GoesOnAlongItsEndTangents) {
 }
 
 TEST(Path, ReverseSegmentsRunAgainstTheHeading) {
-  // Forwards 5 m, then back along a quarter circle to the left of 4 m, and straight back.
+  // 5 m forward, then in reverse along a left quarter circle of radius 4 m, and straight in
+  // reverse.
   const Path path{{}, {{5.0, 0.0, 1}, {2.0 * kPi, 0.25, -1}, {3.0, 0.0, -1}}};
   ExpectPose(path.At(5.0 + 2.0 * kPi).pose, {1.0, 4.0, -kPi / 2.0});
   ExpectPose(path.At(path.length()).pose, {1.0, 7.0, -kPi / 2.0});
@@ -102,7 +105,7 @@ TEST(Path, BendsAsItsPointsDo) {
 }
 
 TEST(Path, ClosesAfterTenKilometers) {
-  // 140 laps round a square with rounded corners, 10 km: "below 1e-9 m over 10 km".
+  // 140 laps around a square with rounded corners, 10 km. Path promises "below 1e-9 m over 10 km".
   std::vector<Segment> segments;
   for (int i = 0; i < 4 * 140; ++i) {
     segments.push_back({10.0, 0.0, 1});
@@ -124,7 +127,7 @@ TEST(Path, ChecksItsSegments) {
   EXPECT_THROW(Path({}, {{1.0, 0.0, 2}}), InternalError);
   EXPECT_THROW(Path({0.0, std::nan(""), 0.0}, {}), PreconditionError);
   EXPECT_THROW(Path({0.0, 0.0, HUGE_VAL}, {{1.0, 0.0, 1}}), PreconditionError);
-  // 10^20 half radians would take the quadrature years; an arc has none.
+  // The quadrature would take years for a heading change of 10^20 rad; an arc needs none.
   EXPECT_THROW(Path({}, {{1e10, 0.0, 1, 1.0}}), PreconditionError);
   EXPECT_THROW(Path({}, {{1e254, 0.0, 1, 1e-300}}), PreconditionError);
   EXPECT_NO_THROW(Path({}, {{1e10, 1e10, 1}}));
@@ -142,7 +145,7 @@ TEST(Project, LeftOfThePathIsPositive) {
 }
 
 TEST(Project, OnAnArcIsRadial) {
-  // 2 m inside a left arc about (10, 10), at 30 deg: left of it.
+  // 2 m inside a left arc about (10, 10), at 30 deg: left of the arc.
   const Vec2 p = Vec2{10.0, 10.0} + 8.0 * Vec2{std::sin(kPi / 6.0), -std::cos(kPi / 6.0)};
   const Projection inside = Corner().Project({p.x(), p.y(), 0.0});
   EXPECT_NEAR(inside.s, 10.0 + 10.0 * kPi / 6.0, Tolerance(kRounding));
@@ -173,7 +176,8 @@ TEST(Project, OnReverseSegmentsKeepsTheCarsLeft) {
 }
 
 TEST(Project, WindowKeepsTheCarOnItsOwnSideOfACrossing) {
-  // East through the origin, three quarters round to the left, south through the origin again.
+  // East through the origin, three quarters of a circle to the left, south through the origin
+  // again.
   const Path path{{-20.0, 0.0, 0.0}, {{30.0, 0.0, 1}, {15.0 * kPi, 0.1, 1}, {40.0, 0.0, 1}}};
   const double second = 30.0 + 15.0 * kPi + 10.0;  // station of the second crossing
   ExpectPose(path.At(second).pose, {0.0, 0.0, 1.5 * kPi});
@@ -184,8 +188,8 @@ TEST(Project, WindowKeepsTheCarOnItsOwnSideOfACrossing) {
 }
 
 TEST(Project, FigureEightIsFollowedAllTheWay) {
-  // Two full circles through the origin. A car that is never more than 0.3 m off must not be seen
-  // on the other one when it is looked for within 2 m of where it was.
+  // Two full circles through the origin. A car that stays within 0.3 m of the path, searched within
+  // 2 m of its last station, must not be projected onto the other circle.
   const Path path{{}, {{20.0 * kPi, 0.1, 1}, {20.0 * kPi, -0.1, 1}}};
   double last = 0.0;
   for (double s = 0.0; s < path.length(); s += 0.5) {
@@ -198,9 +202,9 @@ TEST(Project, FigureEightIsFollowedAllTheWay) {
 }
 
 TEST(Project, TiesGoToTheSmallestStation) {
-  const Path path{{}, {{10.0, 0.0, 1}, {10.0, 0.0, -1}}};  // out and back
+  const Path path{{}, {{10.0, 0.0, 1}, {10.0, 0.0, -1}}};  // forward and back over the same points
   EXPECT_NEAR(path.Project({4.0, 1.0, 0.0}).s, 4.0, Tolerance(kRounding));
-  const Path laps{{}, {{60.0 * kPi, 0.1, 1}}};  // three times round
+  const Path laps{{}, {{60.0 * kPi, 0.1, 1}}};  // three laps
   EXPECT_NEAR(laps.Project({9.0, 10.0, 0.0}).s, 5.0 * kPi, Tolerance(kRounding));
   EXPECT_NEAR(laps.Project({9.0, 10.0, 0.0}, {40.0, 100.0}).s, 25.0 * kPi, Tolerance(kRounding));
 }
@@ -217,15 +221,15 @@ TEST(Project, EndsOfTheWindowAreStations) {
 }
 
 TEST(Project, IsTheNearestOfAllPoints) {
-  // Brute force: no point of a dense sampling may be nearer than the one that Project found.
+  // Brute force: no point of a dense sampling may be nearer than the projection.
   Random random(41);
   for (int i = 0; i < 300; ++i) {
     std::vector<Segment> segments;
     std::string text;
-    const int count = random.Below(6);  // none as well
+    const int count = random.Below(6);  // also none
     for (int k = 0; k < count; ++k) {
       const double curvature = random.Below(3) == 0 ? 0.0 : random.Uniform(-0.3, 0.3);
-      // Some arcs go round more than once.
+      // Some arcs cover more than a full circle.
       segments.push_back({random.Uniform(0.5, 40.0), curvature, random.Below(4) == 0 ? -1 : 1});
       text += fmt::format(" ({}, {}, {})", segments.back().length, curvature,
                           segments.back().direction);
@@ -256,8 +260,8 @@ TEST(Project, IsTheNearestOfAllPoints) {
         ASSERT_GE((path.At(s).pose.position() - car.position()).norm(), nearest - 1e-11)
             << "s = " << s << ", found " << projection.s;
       }
-      // The cross-track error is the offset along the left of the path's point, and all of the
-      // distance where the foot is not at an end.
+      // The cross-track error is the offset along the left normal of the path's point. Unless the
+      // foot is at an end, it equals the distance.
       EXPECT_NEAR(projection.cross_track,
                   LeftNormal(Direction(foot.pose.yaw)).dot(car.position() - foot.pose.position()),
                   Tolerance(kRounding));
@@ -324,12 +328,12 @@ double Simpson(const Function& f, double length, int intervals) {
   return sum * h / 3.0;
 }
 
-/// Where the clothoid with kappa(d) = sharpness d from the origin gets: the power series of the
-/// Fresnel integrals, the sums of i^n (sharpness/2)^n length^(2n+1) / (n! (2n+1)).
+/// The end of the clothoid with kappa(d) = sharpness d from the origin, by the power series of the
+/// Fresnel integrals: the sums of i^n (sharpness/2)^n length^(2n+1) / (n! (2n+1)).
 Vec2 FresnelEnd(double sharpness, double length) {
   const double turned = 0.5 * sharpness * length * length;
   Vec2 end{0.0, 0.0};
-  double power = length;  // length turned^n/n!
+  double power = length;  // length * turned^n/n!
   for (int n = 0; n < 60; ++n) {
     end[n % 2] += (n % 4 < 2 ? 1.0 : -1.0) * power / (2 * n + 1);
     power *= turned / (n + 1);
@@ -343,17 +347,18 @@ TEST(Clothoid, EndsWhereTheFresnelIntegralsDo) {
       SCOPED_TRACE(fmt::format("sharpness {}, length {}", sharpness, length));
       const double turned = 0.5 * sharpness * length * length;
       const Vec2 end = FresnelEnd(sharpness, length);
-      // The series' largest term is below length e^turned: rounding of at most 15 e^6 1e-16 m.
+      // The largest term of the series is below length e^turned: rounding of at most 15 e^6 1e-16
+      // m.
       const Path forward{{}, {{length, 0.0, 1, sharpness}}};
       ExpectPose(forward.At(length).pose, {end.x(), end.y(), turned}, kRounding);
-      // Backwards the same curvature turns the car the other way: the mirror image.
+      // In reverse the same curvature turns the car the other way: the mirror image.
       const Path back{{}, {{length, 0.0, -1, sharpness}}};
       ExpectPose(back.At(length).pose, {-end.x(), end.y(), -turned}, kRounding);
     }
   }
 }
 
-/// With curvatures of a car at both ends, and every other time a bulge in between.
+/// Curvatures within a car's limits at both ends, every other time with a bulge in between.
 Segment RandomSegment(Random& random) {
   const double length = random.Uniform(0.5, 20.0);
   const double from = random.Uniform(-0.2, 0.2);
@@ -411,13 +416,13 @@ TEST(QuadraticSegment, DerivativesAreThoseOfItsPoints) {
     const PathPoint before = path.At(s - kStep);
     const PathPoint at = path.At(s);
     const PathPoint after = path.At(s + kStep);
-    // Central differences miss h^2/6 of the third derivative, which for the shortest segments is
-    // (0.3^2 + 1.6)/m^2 of the position, 3.2/m^3 of the heading; on top rounding, 1e-15/h.
+    // Central differences err by h^2/6 times the third derivative. For the shortest segments that
+    // is (0.3^2 + 1.6)/m^2 of the position and 3.2/m^3 of the heading. Rounding adds 1e-15/h.
     const Vec2 tangent = (after.pose.position() - before.pose.position()) / (2.0 * kStep);
     EXPECT_NEAR((at.direction * tangent - Direction(at.pose.yaw)).norm(), 0.0, Tolerance(3e-9));
     EXPECT_NEAR(at.direction * (after.pose.yaw - before.pose.yaw) / (2.0 * kStep), at.curvature,
                 Tolerance(6e-9));
-    // Exact for a quadratic.
+    // Central differences are exact for a quadratic.
     EXPECT_NEAR((after.curvature - before.curvature) / (2.0 * kStep), at.sharpness,
                 Tolerance(1e-11));
     EXPECT_EQ(at.curvature, segment.CurvatureAt(s));
@@ -426,7 +431,7 @@ TEST(QuadraticSegment, DerivativesAreThoseOfItsPoints) {
 }
 
 TEST(QuadraticSegment, MeetsItsNeighbors) {
-  // Each carries on the curvature of the one before.
+  // Each segment continues with the final curvature of the previous one.
   Random random(54);
   std::vector<Segment> segments;
   for (int i = 0; i < 50; ++i) {
@@ -446,7 +451,7 @@ TEST(QuadraticSegment, MeetsItsNeighbors) {
     constexpr double kStep = 1e-9;
     const PathPoint before = path.At(joint - kStep);
     const PathPoint after = path.At(std::min(joint + kStep, path.length()));
-    // Twice the step at unit speed, at most 0.3/m and 1.6/m^2.
+    // Twice the step at unit speed, with at most 0.3/m and 1.6/m^2.
     EXPECT_NEAR((after.pose.position() - before.pose.position()).norm(), 0.0, Tolerance(2.1e-9));
     EXPECT_NEAR(after.pose.yaw, before.pose.yaw, Tolerance(1e-9));
     EXPECT_NEAR(after.curvature, before.curvature, Tolerance(4e-9));
@@ -461,7 +466,7 @@ TEST(QuadraticSegment, IsCheckedLikeAnyOther) {
 }
 
 TEST(QuadraticSegment, ProjectFindsTheNearestOfAllPoints) {
-  // None of these poses lies so near to a center of curvature that another point would do.
+  // None of these poses is so near a center of curvature that another point of the path is nearest.
   Random random(55);
   for (int i = 0; i < 100; ++i) {
     std::vector<Segment> segments;
@@ -499,7 +504,8 @@ TEST(QuadraticSegment, ProjectFindsTheNearestOfAllPoints) {
 }
 
 TEST(QuadraticSegment, ProjectOfACarBesideItIsItsStation) {
-  // As long as the car is nearer to the path than its center of curvature, 1/0.3 m.
+  // The projection is unique while the car is nearer to the path than its center of curvature,
+  // 1/0.3 m.
   Random random(56);
   for (int i = 0; i < 300; ++i) {
     const Path path({3.0, 1.0, 0.4}, {RandomSegment(random)});
@@ -508,7 +514,7 @@ TEST(QuadraticSegment, ProjectOfACarBesideItIsItsStation) {
     const Projection projection =
         path.Project(Compose(path.At(s).pose, {0.0, offset, 0.2}), {s - 3.0, s + 3.0});
     EXPECT_NEAR(projection.s, s, Tolerance(1e-9));
-    // The square of that across the path.
+    // The error across the path is the square of the error along it.
     EXPECT_NEAR(projection.cross_track, offset, Tolerance(kRounding));
     EXPECT_NEAR(projection.heading_error, 0.2, Tolerance(1e-9));
   }
@@ -569,14 +575,15 @@ TEST(Cut, OfNothingIsEmpty) {
 // --- SegmentsThrough
 // ------------------------------------------------------------------------------------------
 
-/// A curve that sways: kappa(s) = a sin(w s), its third derivative at most a w^3.
+/// A curve of oscillating curvature: kappa(s) = a sin(w s), with a third derivative of at most a
+/// w^3.
 struct Sway {
   double a = 0.15;
   double w = 0.5;
 
   [[nodiscard]] double Yaw(double s) const { return a / w * (1.0 - std::cos(w * s)); }
   [[nodiscard]] Vec2 End(double s) const {
-    // Fourth derivatives below 0.1/m^4: an error of 20 m (20 m/20000)^4/180 of that.
+    // Simpson's error: fourth derivatives below 0.1/m^4 times 20 m (20 m/20000)^4/180.
     return {Simpson([&](double d) { return std::cos(Yaw(d)); }, s, 20000),
             Simpson([&](double d) { return std::sin(Yaw(d)); }, s, 20000)};
   }
@@ -608,7 +615,7 @@ TEST(SegmentsThrough, KeepTheirBoundsWhichShrinkWithTheFourthPower) {
     EXPECT_LE(yaw_error, bound / 384.0 + kRounding);
     EXPECT_LE(end_error, bound / 720.0 * kLength + kRounding);
     if (last_yaw_error > 0.0) {
-      // But for the next order, (w h)^2 of it, at the coarser spacing.
+      // But for the next order, which is (w h)^2 relative at the coarser spacing.
       const double next_order = std::pow(2.0 * sway.w * spacing, 2);
       EXPECT_NEAR(last_yaw_error / yaw_error, 16.0, Tolerance(16.0 * next_order));
       EXPECT_NEAR(last_end_error / end_error, 16.0, Tolerance(16.0 * next_order));
@@ -628,7 +635,8 @@ TEST(SegmentsThrough, HaveTheCurvesHeadingAndCurvatureAtEveryPoint) {
 }
 
 TEST(SegmentsThrough, OfAClothoidAreIt) {
-  // kappa = 0.02 s, at uneven distances: rounding of headings over the shortest of them cubed.
+  // kappa = 0.02 s at uneven distances. The tolerance is the rounding of headings over the cube of
+  // the shortest distance.
   std::vector<CurvePoint> points;
   for (const double s : {0.0, 0.5, 2.0, 3.5, 8.0}) {
     points.push_back({s, 0.01 * s * s, 0.02 * s});

@@ -12,10 +12,12 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
+// Tests speed profiles: constant acceleration between knots, trapezoids with caps against
+// hand-computed knots, and random profiles against their limits.
 namespace trackbed {
 namespace {
 
-// A few operations on numbers below 1000.
+// Rounding: a few operations on numbers below 1000.
 constexpr double kRounding = 1e-12;
 constexpr SpeedLimits kLimits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
 
@@ -99,7 +101,7 @@ TEST(SpeedProfile, ChecksItsKnots) {
 }
 
 TEST(StopAtEnd, IsATrapezoid) {
-  // 3^2/(2 * 1) = 4.5 m to the limit, 3^2/(2 * 1.5) = 3 m to stop.
+  // Accelerating to the limit takes 3^2/(2 * 1) = 4.5 m, stopping 3^2/(2 * 1.5) = 3 m.
   ExpectKnots(StopAtEnd(100.0, 0.0, kLimits), {{0, 0}, {4.5, 3}, {97, 3}, {100, 0}});
   // 3 s, 92.5/3 s, 2 s.
   EXPECT_NEAR(StopAtEnd(100.0, 0.0, kLimits).TimeAt(100.0), 5.0 + 92.5 / 3.0, Tolerance(kRounding));
@@ -111,7 +113,7 @@ TEST(StopAtEnd, LeavesAtTheStartSpeed) {
 }
 
 TEST(StopAtEnd, SlowsDownToTheLimit) {
-  // From 4 m/s: (16 - 9)/(2 * 1.5) = 7/3 m.
+  // Braking from 4 to 3 m/s takes (16 - 9)/(2 * 1.5) = 7/3 m.
   ExpectKnots(StopAtEnd(100.0, 4.0, kLimits), {{0, 4}, {7.0 / 3.0, 3}, {97, 3}, {100, 0}});
 }
 
@@ -132,7 +134,7 @@ TEST(StopAtEnd, BrakesHarderWhereItMust) {
 // --- Caps ---------------------------------------------------------------------------------------
 
 TEST(StopAtEnd, SlowsDownForACapAndSpeedsUpAfterIt) {
-  // From 3 to 2 m/s at 1.5 m/s^2 takes 5/3 m, back at 1 m/s^2 takes 2.5 m, to rest 3 m.
+  // From 3 to 2 m/s at 1.5 m/s^2 takes 5/3 m, back at 1 m/s^2 takes 2.5 m, and to rest takes 3 m.
   const SpeedProfile profile = StopAtEnd(40.0, 3.0, {3.0, 1.0, 1.5}, {{10.0, 15.0, 2.0}});
   const std::vector<SpeedProfile::Knot>& knots = profile.knots();
   const std::vector<double> stations{0.0, 10.0 - 5.0 / 3.0, 10.0, 15.0, 17.5, 37.0, 40.0};
@@ -145,8 +147,8 @@ TEST(StopAtEnd, SlowsDownForACapAndSpeedsUpAfterIt) {
 }
 
 TEST(StopAtEnd, PeaksBetweenCapsThatAreClose) {
-  // Between 1 m/s at 10 m and at 13 m: up at 1, down at 1.5 m/s^2: the peak is 1.8 m after the
-  // first, at v^2 = 1 + 3.6.
+  // Between 1 m/s at 10 m and at 13 m: accelerating at 1 and braking at 1.5 m/s^2, the peak is 1.8
+  // m after the first station, at v^2 = 1 + 3.6.
   const SpeedProfile profile =
       StopAtEnd(40.0, 1.0, {3.0, 1.0, 1.5}, {{0.0, 10.0, 1.0}, {13.0, 20.0, 1.0}});
   EXPECT_NEAR(profile.SpeedAt(11.8), std::sqrt(4.6), Tolerance(1e-12));
@@ -154,7 +156,7 @@ TEST(StopAtEnd, PeaksBetweenCapsThatAreClose) {
 }
 
 TEST(StopAtEnd, BrakesHarderBeforeANearCap) {
-  // 9 - 1 = 2 d 2: 2 m/s^2 instead of 1.5.
+  // 9 - 1 = 2 d 2: braking needs 2 m/s^2 instead of 1.5.
   const SpeedProfile profile = StopAtEnd(40.0, 3.0, {3.0, 1.0, 1.5}, {{2.0, 5.0, 1.0}});
   EXPECT_NEAR(profile.AccelerationAt(1.0), -2.0, Tolerance(1e-12));
   EXPECT_NEAR(profile.SpeedAt(3.0), 1.0, Tolerance(1e-12));
@@ -216,17 +218,17 @@ TEST(StopAtEnd, KeepsItsLimitsOnRandomMissions) {
     EXPECT_EQ(knots.front().speed, start);
     EXPECT_EQ(knots.back().s, length);
     EXPECT_EQ(knots.back().speed, 0.0);
-    const double stop = start * start / (2.0 * length);  // at least this hard, if it must
+    const double stop = start * start / (2.0 * length);  // needed to stop in time
     double time = 0.0;
     for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
       const double middle = 0.5 * (knots[k].s + knots[k + 1].s);
       const double a = profile.AccelerationAt(middle);
-      // v^2 up to 100 over an interval that may be short: the rounding of v^2 over its length.
+      // v^2 is up to 100 over an interval that may be short: the rounding of v^2 over its length.
       const double tolerance = Tolerance(1e-12 / std::min(1.0, knots[k + 1].s - knots[k].s));
       EXPECT_LE(a, limits.acceleration + tolerance);
       EXPECT_GE(a, -std::max(limits.deceleration, stop) - tolerance);
       EXPECT_LE(profile.SpeedAt(middle), std::max(start, limits.speed) + Tolerance(kRounding));
-      // The time over an interval of constant acceleration.
+      // Time over an interval of constant acceleration.
       time += a == 0.0 ? (knots[k + 1].s - knots[k].s) / knots[k].speed
                        : (knots[k + 1].speed - knots[k].speed) / a;
     }
@@ -257,7 +259,7 @@ TEST(StopAtCusps, StopsAtEveryChangeOfDirection) {
 }
 
 TEST(Excerpt, HoldsNothingOfTheLegBefore) {
-  // Stations that do not add up exactly, as 0.1 and its multiples do not.
+  // Stations that do not add up exactly, such as multiples of 0.1.
   const SpeedLimits limits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
   std::vector<Segment> segments;
   for (int i = 0; i < 40; ++i) {

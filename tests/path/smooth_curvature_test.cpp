@@ -26,8 +26,8 @@ TEST(SmoothCurvature, HasNoJumpsOfCurvature) {
     EXPECT_NEAR(segments[i - 1].CurvatureAt(segments[i - 1].length), segments[i].curvature,
                 Tolerance(1e-12));
   }
-  // From 0 to the arc's curvature over the window: steps of 0.1 m are a fortieth of it, but for
-  // the tenths by which the mean's own length differs.
+  // The curvature rises from 0 to the arc's over the window, in steps of 0.1 m, a fortieth of it.
+  // The factor 1.6 covers the averaging window, whose length differs by some tenths.
   double steepest = 0.0;
   for (double s = 0.0; s < rounded.length(); s += 0.01) {
     steepest = std::max(steepest, std::abs(rounded.At(s).sharpness));
@@ -42,12 +42,13 @@ TEST(SmoothCurvature, StaysWithinItsBound) {
   double most = 0.0;
   for (double s = 0.0; s <= rounded.length(); s += 0.1) {
     const Projection projection = turn.Project(rounded.At(s).pose, {s - 5.0, s + 5.0});
-    // Simpson's rule and quadratic curvatures over 0.1 m at the four kinks of the curvature.
+    // Errors of Simpson's rule and of quadratic curvature over 0.1 m at the four kinks of the
+    // curvature.
     EXPECT_GT(projection.cross_track, -Tolerance(1e-4));
     most = std::max(most, projection.cross_track);
   }
   EXPECT_LT(most, bound + Tolerance(1e-4));
-  // In the middle of the arc it is all of it: R (1 - sin(w/2R)/(w/2R)).
+  // The full offset is reached in the middle of the arc: R (1 - sin(w/2R)/(w/2R)).
   EXPECT_NEAR(most, 10.0 * (1.0 - std::sin(0.2) / 0.2), Tolerance(1e-4));
   EXPECT_NEAR(rounded.At(rounded.length()).pose.yaw, turn.At(turn.length()).pose.yaw,
               Tolerance(1e-12));

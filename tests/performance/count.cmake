@@ -1,5 +1,5 @@
-# Counts the instructions of one unit of work: those of MORE units less those of FEW, per unit. Neither the machine nor
-# what else it does changes them; its mathematical library does, by some percent.
+# Counts the instructions of one unit of work: those of MORE units minus those of FEW, per unit. The
+# count does not depend on the machine's load; its mathematical library changes it by some percent.
 #
 #   cmake -DVALGRIND= -DPROGRAM= -DCASE= -DFEW= -DMORE= -DMOST= -DWORK= -P count.cmake
 function(count units result)

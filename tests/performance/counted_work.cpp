@@ -1,5 +1,5 @@
-// Work whose instructions are counted: counted_work CASE COUNT does that much of it. The difference
-// between two counts leaves out what happens once.
+// Work whose instructions are counted: `counted_work CASE COUNT` does COUNT units. The difference
+// between two counts cancels the setup.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kTimestep = 0.002;
 
-/// Steps of a car in a slalom at 15 m/s with up to 3 m/s^2.
+/// Steps a car through a slalom at 15 m/s with up to 3 m/s^2.
 void Step(const std::string& model, const std::string& plant_name, int count) {
   const CarModel car(ComposeScene(FindModel(model, ""), {.timestep = kTimestep}), model);
   const World world;
@@ -28,7 +28,7 @@ void Step(const std::string& model, const std::string& plant_name, int count) {
   }
 }
 
-/// Steps of the closed loop with preview and its log.
+/// Runs the closed loop with preview, including its log.
 void Loop(const std::string& plant, int count) {
   Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
   scenario.drive.time_limit = count * kTimestep;
@@ -36,7 +36,7 @@ void Loop(const std::string& plant, int count) {
   DrivePlant(scenario, car, PlanMission(scenario, car.params()), plant);
 }
 
-/// Plans of three turns with the genetic search.
+/// Plans three turns with the genetic search.
 void PlanTurns(int count) {
   const Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
   const CarModel car = LoadCar(scenario);

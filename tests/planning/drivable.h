@@ -16,9 +16,9 @@
 
 namespace trackbed {
 
-/// Looks at a plan anew, every 5 ms up to a time: positions from s and d alone, headings,
-/// curvatures and rates by their differences, clearances by Boost.Geometry, the road by projecting
-/// corners.
+/// Checks a plan independently every 5 ms: positions from s and d only, headings, curvatures and
+/// rates by finite differences, clearances by Boost.Geometry, the road by projecting the
+/// footprint's corners.
 inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
                            const FrenetLimits& limits, const FrenetPlan& plan,
                            double until = std::numeric_limits<double>::infinity()) {
@@ -36,7 +36,7 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
   const VehicleParams& car = request.vehicle;
   const double tightest = std::tan(car.steering_limit) / car.wheelbase;
   const double fastest = request.speed.speed * (1.0 + limits.speed_tolerance);
-  // From point to point the front corner, 3.7 m ahead, moves on and swings out.
+  // Between samples the front corner, 3.7 m ahead, moves forward and swings out.
   const double moves = limits.spacing * (1.0 + 3.7 * tightest);
   constexpr double kStep = 5e-3;
   constexpr double kDifference = 1e-3;
@@ -55,14 +55,14 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
         (position_at(t + kDifference) - position_at(t - kDifference)) / (2.0 * kDifference);
     return {position_at(t), std::atan2(velocity.y(), velocity.x()), velocity.norm()};
   };
-  std::vector<double> steered;  // of every step since the car moves
+  std::vector<double> steered;  // steering angles of all steps since the car started to move
   const double end = std::min(until, plan.motion.duration() - kStep);
   for (double t = kStep; t < end; t += kStep) {
     const Now before = now_at(t - kDifference);
     const Now now = now_at(t);
     const Now after = now_at(t + kDifference);
     SCOPED_TRACE("at " + std::to_string(t) + " s");
-    // Hundredths: what the limited quantities change by from point to point.
+    // 1 %: the change of the limited quantities between samples.
     EXPECT_LE(now.speed, 1.01 * fastest);
     const double acceleration = (after.speed - before.speed) / (2.0 * kDifference);
     EXPECT_LE(acceleration, 1.03 * request.speed.acceleration);
@@ -75,7 +75,7 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
         AngleDifference(after.yaw, before.yaw) / (2.0 * kDifference * now.speed);
     EXPECT_LE(std::abs(curvature), 1.01 * tightest);
     EXPECT_LE(now.speed * now.speed * std::abs(curvature), 1.01 * limits.max_lateral_acceleration);
-    // From point to point: where the path's sharpness jumps, so does the curvature, a little.
+    // Where the path's sharpness jumps, the curvature changes slightly between samples.
     steered.push_back(std::atan(car.wheelbase * curvature));
     const double step = std::min(limits.time_step, limits.spacing / now.speed);
     const auto window = static_cast<std::size_t>(std::ceil(step / kStep));
@@ -96,7 +96,7 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
     const double s = plan.motion.At(t).s;
     for (const Vec2& corner : footprint.Corners()) {
       const double d = path.Project({corner.x(), corner.y(), 0.0}, {s - 6.0, s + 6.0}).cross_track;
-      // The path is no circle over the car's length: sharpness 0.002 times 3.7^3/6.
+      // The path is not exactly a circle over the car's length: sharpness 0.002 times 3.7^3/6.
       EXPECT_LE(d, request.road.left + 0.02 + 0.5 * moves);
       EXPECT_GE(d, -request.road.right - 0.02 - 0.5 * moves);
     }

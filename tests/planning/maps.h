@@ -8,19 +8,19 @@
 
 namespace trackbed {
 
-/// A place to find a way through.
+/// A named planning problem.
 struct Map {
   std::string name;
   RrtStarProblem problem;
 };
 
-/// A box that lies along the axes, between two corners.
+/// An axis-aligned box between two corners.
 inline OrientedBox Block(double left, double low, double right, double high) {
   return {{std::midpoint(left, right), std::midpoint(low, high), 0.0}, right - left, high - low};
 }
 
-/// Five places for a car of 1.725 m width: the path keeps half of that from everything. Walls are
-/// 0.5 m thick and reach out of the sampled box where they are to close it.
+/// Five maps for a car 1.725 m wide: the path keeps half the width from all obstacles. Walls are
+/// 0.5 m thick; where they bound the sampled area they extend beyond it.
 inline std::vector<Map> Maps() {
   constexpr double kInflation = 0.5 * 1.725;
   const auto problem = [](const Vec2& start, const Vec2& goal, std::vector<OrientedBox> obstacles) {
@@ -47,8 +47,8 @@ inline std::vector<Map> Maps() {
                            {{31.5, 15.0, -1.1}, 2.0, 3.0},
                            {{31.0, 25.0, 0.6}, 2.0, 2.0},
                            {{35.0, 10.0, 0.0}, 2.0, 2.0}})},
-      // 2.5 m between the walls: 0.775 m for the car's center. Smaller than the others: to get
-      // through takes samples in there, whose share falls with the area.
+      // 2.5 m between the walls leave 0.775 m for the car's center. The map is smaller than the
+      // others, because the planner needs samples inside the gap, whose share falls with the area.
       {"passage",
        {{4.0, 4.0},
         {24.0, 14.0},
@@ -56,7 +56,7 @@ inline std::vector<Map> Maps() {
         {28.0, 18.0},
         {Block(13.75, -5.0, 14.25, 8.5), Block(13.75, 11.0, 14.25, 23.0)},
         kInflation}},
-      // Open to the side that faces away from the goal.
+      // A U-shaped wall, open on the side away from the goal.
       {"trap", problem({20.0, 15.0}, {37.0, 15.0},
                        {Block(10.0, 8.0, 26.5, 8.5), Block(10.0, 21.5, 26.5, 22.0),
                         Block(26.0, 8.0, 26.5, 22.0)})},

@@ -13,8 +13,8 @@ inline Pose2 RandomPose(Random& random, double reach) {
           random.Uniform(-2.0 * kPi, 2.0 * kPi)};
 }
 
-/// Poses where tangents touch, circles coincide and arcs vanish: whole multiples of a radius of 1,
-/// headings of an eighth of a turn.
+/// Poses at which tangents touch, circles coincide and arcs vanish: whole multiples of a radius of
+/// 1, headings of an eighth of a turn.
 inline std::vector<Pose2> DegeneratePoses() {
   std::vector<Pose2> poses;
   for (int x = -5; x <= 5; ++x) {
@@ -31,12 +31,12 @@ inline Pose2 Mirror(const Pose2& pose) {
   return {pose.x, -pose.y, -pose.yaw};
 }
 
-/// The pose of a car that stands there the other way round.
+/// The pose rotated by half a turn in place.
 inline Pose2 TurnedRound(const Pose2& pose) {
   return {pose.x, pose.y, pose.yaw + kPi};
 }
 
-/// How far two poses are apart, a radian counting as a meter.
+/// Distance of two poses, where a radian counts as a meter.
 inline double Apart(const Pose2& a, const Pose2& b) {
   return (a.position() - b.position()).norm() + std::abs(AngleDifference(a.yaw, b.yaw));
 }

@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// What GoogleTest prints of a planner.
+/// Prints a planner's name in GoogleTest messages.
 inline void PrintTo(const PlannerEntry& entry, std::ostream* out) {
   *out << entry.name;
 }

@@ -15,8 +15,9 @@ inline double Degrees(double radians) {
   return radians * 180.0 / kPi;
 }
 
-/// Half a unit in the last of `decimals` printed places: what a number taken from a page can be
-/// held to. The millionth on top is for our own rounding of a value that lies exactly between two.
+/// Half a unit in the last of `decimals` printed places: the accuracy of a number taken from a
+/// page. The extra millionth covers our own rounding of a value exactly between two printed
+/// numbers.
 inline double Printed(int decimals) {
   double half = 0.5;
   for (int i = 0; i < decimals; ++i) {

@@ -5,7 +5,7 @@
 
 namespace trackbed {
 
-/// Where a curve leads from `start`, by its pieces' own arcs.
+/// End pose of a curve from `start`, composed of its pieces' arcs.
 inline Pose2 EndPose(const Pose2& start, const ShortestCurve& curve) {
   Pose2 pose = start;
   for (int i = 0; i < curve.count; ++i) {

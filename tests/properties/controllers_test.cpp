@@ -1,4 +1,4 @@
-// What every controller of the registry owes for every path and every state.
+// Properties that every registered controller must have for every path and every state.
 
 #include "trackbed/control/controllers.h"
 
@@ -23,7 +23,7 @@ class EveryController : public testing::TestWithParam<ControllerEntry> {};
 INSTANTIATE_TEST_SUITE_P(Registry, EveryController, testing::ValuesIn(Controllers()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// What a controller is told.
+/// Input of a controller.
 struct Situation {
   VehicleParams vehicle;
   Pose2 start;  // of the path
@@ -118,7 +118,7 @@ TEST_P(EveryController, AnswersWithAnAngleWhereverTheCarIs) {
   });
 }
 
-// Searches stop within 1e-6 of their bounds of 0.5 rad, programs within 1e-9 of theirs.
+// Searches stop within 1e-6 of their bounds of 0.5 rad, quadratic programs within 1e-9.
 constexpr double kSearch = 1e-6;
 
 TEST_P(EveryController, SteersTheOtherWayInAMirroredWorld) {

@@ -10,8 +10,8 @@
 /// Calls of public functions, for entries_test.cpp.
 namespace properties {
 
-/// A call with one number of its own choice, all else good. What it returns is finite exactly if
-/// the call says that all is well.
+/// A call of a public function with one chosen number and otherwise valid arguments. Its result
+/// must be finite exactly if the call reports success.
 struct Entry {
   std::string name;
   std::function<double(double number)> call;

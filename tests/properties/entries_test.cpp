@@ -1,5 +1,5 @@
-// NaN at the public entries: an error, or a result that is NaN or says that there is none. Other
-// numbers that no one means, infinities among them, may be taken; but nothing may crash on them.
+// NaN at the public functions must give an error, or a result that is NaN or reports failure. Other
+// absurd numbers, such as infinities, may be accepted, but must not crash.
 
 #include "tests/properties/entries.h"
 
@@ -46,7 +46,7 @@ TEST_P(Entries, SurviveEveryNumber) {
   }
 }
 
-/// All numbers of a planning problem.
+/// All numbers of a planning request.
 std::vector<std::pair<std::string, std::function<double&(PlanRequest&)>>> NumbersOf() {
   std::vector<std::pair<std::string, std::function<double&(PlanRequest&)>>> numbers{
       {"start.x", [](PlanRequest& r) -> double& { return r.start.x; }},

@@ -53,7 +53,7 @@ class Measurement {
   }
 
  private:
-  /// The joints of the path, with a few stations between each two; some thousand at most.
+  /// Stations of the segment joints, with a few stations between; at most some thousand.
   [[nodiscard]] std::vector<double> Stations() const {
     const std::vector<Segment>& segments = path_.segments();
     const std::size_t stride = 1 + segments.size() / 500;
@@ -73,7 +73,7 @@ class Measurement {
 
   [[nodiscard]] std::string FlawInSpeeds() const {
     const std::vector<SpeedProfile::Knot>& knots = plan_.reference.speed.knots();
-    constexpr double kNegligible = 2e-9;  // [m]; stretches that a profile leaves out
+    constexpr double kNegligible = 2e-9;  // [m]; a profile omits shorter stretches
     if (knots.empty() || knots.back().speed != 0.0 || knots.front().s != 0.0 ||
         !(std::abs(knots.back().s - path_.length()) <= kNegligible)) {
       return "the speeds do not end at rest at the end of the path";
@@ -95,7 +95,7 @@ class Measurement {
     const Pose2 first = path_.At(0.0).pose;
     const double away = (first.position() - request_.start.position()).norm();
     const double turned = std::abs(AngleDifference(first.yaw, request_.start.yaw));
-    // What counts as the same place, of a car of some meters: see feasibility.h.
+    // Tolerance for equal positions, for a car of some meters: see feasibility.h.
     const double same = 1e-3 * std::min(1.0, request_.vehicle.wheelbase);
     if (!(away <= same + rounding_) || !(turned <= 1e-3 * (1.0 + 1e-6))) {
       return fmt::format("begins {} m and {} rad from the car", away, turned);
@@ -105,8 +105,8 @@ class Measurement {
     }
     const Pose2 last = path_.At(path_.length()).pose;
     const double missed = (last.position() - request_.waypoints.back()).norm();
-    // Planners end at their goals to a billionth of a meter, small cars to one of their size. Where
-    // they take corners below 1e-9 rad for straight on, a leg leads off by that share of it.
+    // Planners end at their goals to 1e-9 m, small cars to 1e-9 of their size. Where planners treat
+    // corners below 1e-9 rad as straight, the end of a leg deviates by that fraction of its length.
     const double small = std::min(1.0, request_.vehicle.wheelbase) + path_.length();
     if (!(missed <= 1e-9 * small + 16.0 * rounding_)) {
       return fmt::format("ends {} m from the last waypoint", missed);
@@ -119,7 +119,7 @@ class Measurement {
     return "";
   }
 
-  /// Over two chords from a station on.
+  /// Checks two chords beginning at a station.
   [[nodiscard]] std::string FlawAt(double from) const {
     if (from < 0.0 || from + 2.0 * step_ > path_.length()) {
       return "";
@@ -143,8 +143,8 @@ class Measurement {
     }
     const double first = Heading(a, b);
     const double second = Heading(b, c);
-    // Chords of a path that turns by no more than K h over each are at most K h apart, but for K^3
-    // h^3/24 of chord and arc, which is 4e-8.
+    // If the path turns by at most K h over each chord, the chords' directions differ by at most K
+    // h, except for the difference between chord and arc, K^3 h^3/24 = 4e-8.
     if (!(std::abs(AngleDifference(second, first)) <= sharpest_ * step_ + noise + 1e-7)) {
       return fmt::format("turns by {} rad over {} m at s = {}, full lock is {}",
                          AngleDifference(second, first), step_, b.s, sharpest_ * step_);
@@ -168,8 +168,8 @@ class Measurement {
     });
   }
 
-  /// The footprint along the path, against every box; paths of more than some thousand car lengths
-  /// are not looked at.
+  /// Checks the footprint along the path against every box; skips paths longer than some thousand
+  /// car lengths.
   [[nodiscard]] std::string FlawInClearance() const {
     const VehicleParams& car = request_.vehicle;
     const double spacing = 0.1 * car.length;

@@ -7,7 +7,7 @@
 
 namespace properties {
 
-/// Calls with every number among the keys that `visit` declares, to read it or to set it.
+/// Calls a function for every number among the keys that `visit` declares, to read or set it.
 void ForEachNumber(
     const trackbed::KeyVisitor::Inside& visit,
     const std::function<void(const std::string& key, double& value, trackbed::Range range)>& call);

@@ -1,4 +1,4 @@
-// Paths and what is asked of them: any segments, any pose, any station.
+// Properties of paths and of queries of them: for any segments, any pose, any station.
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ namespace {
 
 using namespace trackbed;
 
-/// Lines, arcs and clothoids that turn by a few radians, of any scale.
+/// Lines, arcs and clothoids of any scale that turn by a few radians.
 std::vector<Segment> AnySegments(double scale, bool clothoids, bool forwards) {
   std::vector<Segment> segments;
   const int count = Pick(1, 6);
@@ -30,7 +30,7 @@ std::vector<Segment> AnySegments(double scale, bool clothoids, bool forwards) {
   return segments;
 }
 
-/// Of positions, with 100 operations of 2.2e-16 of the largest number.
+/// Rounding error of positions: 100 operations of 2.2e-16 of the largest number.
 double RoundingOf(const Path& path, const Pose2& start) {
   return 100.0 * 2.3e-16 *
          (path.length() + std::abs(start.x) + std::abs(start.y) + std::abs(start.yaw));
@@ -50,7 +50,8 @@ TEST(AnyPath, GoesOnWhereItsSegmentsJoin) {
       const Pose2 after = path.At(joint + h).pose;
       const double tolerance = Tolerance(RoundingOf(path, start));
       RC_ASSERT((after.position() - before.position()).norm() <= 2.0 * h + tolerance);
-      // Curvatures of 0.2/scale and a sharpness of 0.01/scale^2 over 30 scale: at most 0.5/scale.
+      // Curvatures of 0.2/scale and a sharpness of 0.01/scale^2 over 30 scale give at most
+      // 0.5/scale.
       RC_ASSERT(std::abs(after.yaw - before.yaw) <=
                 2.0 * h * 0.5 / scale + Tolerance(1e-13 * (std::abs(start.yaw) + 60.0)));
     }
@@ -84,7 +85,7 @@ TEST(AnyPath, FindsItsOwnPointsAgain) {
     const double near = 0.05 * scale;
     const Projection found = path.Project(pose, {s - near, s + near});
     RC_LOG() << "scale " << scale << ", s " << s << ", found " << found.s;
-    // Feet on clothoids are found to 1e-9 m.
+    // Projections on clothoids are accurate to 1e-9 m.
     RC_ASSERT(std::abs(found.s - s) <= Tolerance(1e-9 + 1e-9 * scale));
     RC_ASSERT(std::abs(found.cross_track) <= Tolerance(1e-9 + 1e-9 * scale));
     RC_ASSERT(std::abs(found.heading_error) <= Tolerance((1e-9 + 1e-9 * scale) / scale));
@@ -120,11 +121,11 @@ TEST(AnyPath, IsTheSameFromItsFrenetFrameAndBack) {
     motion.acceleration = *Within(3.0);
     const auto state = ToFrenet(path, motion, {s - 3.0, s + 3.0});
     if (!state) {
-      return;  // a car with no frame
+      return;  // the Frenet frame is singular here
     }
     const auto back = FromFrenet(path, *state);
     RC_ASSERT(back.has_value());
-    // Projections are exact to 1e-9 m, headings therefore to 1e-9 times curvatures below 1 /m.
+    // Projections are accurate to 1e-9 m, headings therefore to 1e-9 times curvatures below 1 /m.
     const double tolerance = Tolerance(2e-8);
     RC_ASSERT((back->pose.position() - motion.pose.position()).norm() <= tolerance);
     RC_ASSERT(std::abs(AngleDifference(back->pose.yaw, motion.pose.yaw)) <= tolerance);

@@ -1,4 +1,4 @@
-// What every planner of the registry owes for every problem.
+// Properties that every registered planner must have for every problem.
 
 #include "trackbed/planning/registry/planners.h"
 
@@ -21,7 +21,7 @@ using namespace trackbed;
 
 class EveryPlanner : public testing::TestWithParam<PlannerEntry> {};
 
-/// All but those that follow a track or lanes: these problems are on open ground.
+/// All planners except those that follow a track or lanes: these problems are on open ground.
 std::vector<PlannerEntry> PlannersOfWaypoints() {
   std::vector<PlannerEntry> planners = Planners();
   std::erase_if(planners, [](const PlannerEntry& entry) {
@@ -33,7 +33,7 @@ std::vector<PlannerEntry> PlannersOfWaypoints() {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryPlanner, testing::ValuesIn(PlannersOfWaypoints()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// A plan that is ok leads there; any other has a reason and no path.
+/// A successful plan reaches its goal; any other has a reason and no path.
 void CheckPlan(const Plan& plan, const Problem& problem, const PlannerEntry& entry) {
   RC_LOG() << ToText(problem) << "\n" << ToString(plan.status) << ": " << plan.reason << "\n";
   RC_TAG(std::string(ToString(plan.status)));
@@ -75,7 +75,7 @@ TEST_P(EveryPlanner, LeadsTheCarOfAUsualProblem) {
   });
 }
 
-/// The paths lead the same way, but that one is seen from elsewhere.
+/// Expects the same path, seen from another frame.
 void CheckSamePath(const Path& expected, const Path& path, double tolerance,
                    const std::function<Pose2(const Pose2&)>& seen) {
   RC_ASSERT(std::abs(path.length() - expected.length()) <= tolerance);
@@ -91,9 +91,10 @@ void CheckSamePath(const Path& expected, const Path& path, double tolerance,
   }
 }
 
-/// Planners that do not distinguish paths of equal cost, or draw random numbers in axes of the
-/// world, only have to find a way again; what is exact for the others is rounding of coordinates
-/// of some 1000 m (2e-13 m) carried through a search that stops within 1e-9 of its bounds.
+/// Planners that do not distinguish paths of equal cost, or draw random numbers in world axes, only
+/// have to find a path again. The others must find the same path, except for the rounding of
+/// coordinates of some 1000 m (2e-13 m) propagated through a search that stops within 1e-9 of its
+/// bounds.
 void CheckSeenFromElsewhere(const PlannerEntry& entry, const Problem& problem, const Problem& other,
                             const std::function<Pose2(const Pose2&)>& seen) {
   const Plan plan = MakePlan(problem.request, problem.options);
@@ -111,11 +112,11 @@ void CheckSeenFromElsewhere(const PlannerEntry& entry, const Problem& problem, c
     return;
   }
   RC_ASSERT(plan.status == same.status);
-  // A search around boxes falls into other cells of its grid, and ends with another path.
+  // A grid search around boxes uses other cells and ends with another path.
   if (!plan.ok() || entry.has_ties || (entry.searches && !problem.request.obstacles.empty())) {
     return;
   }
-  // A box in the way straight ahead leaves curves to the left and to the right of one length.
+  // A box straight ahead leaves curves of equal length to the left and to the right.
   if (entry.keeps_clear && !problem.request.obstacles.empty()) {
     RC_ASSERT(std::abs(plan.reference.path.length() - same.reference.path.length()) <=
               Tolerance(1e-5));

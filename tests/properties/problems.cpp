@@ -1,3 +1,9 @@
+// Random planning problems for the property tests.
+//
+// A problem combines a car and a scene of some power of ten in size, a route (on a lattice with
+// degenerate legs, or easily drivable), start and goal headings, obstacles and planner options.
+// Mirrored() and Moved() transform a problem without changing its solution's shape.
+
 #include "tests/properties/problems.h"
 
 #include <fmt/format.h>
@@ -24,7 +30,7 @@ namespace {
 
 using namespace trackbed;
 
-/// An eighth of a turn, or off it by a little, or any direction.
+/// A multiple of an eighth of a turn, exactly or nearly, or any direction.
 double AnyHeading() {
   const double eighths = 0.25 * kPi * Pick(0, 7);
   switch (Pick(0, 3)) {
@@ -39,7 +45,7 @@ double AnyHeading() {
   }
 }
 
-/// Points of a lattice, so that many coincide, are collinear or turn back, some off it by a little.
+/// Points of a lattice, so that many coincide, are collinear or turn back; some are slightly off.
 std::vector<Vec2> LatticeRoute(std::size_t count, double scale) {
   std::vector<Vec2> route;
   for (std::size_t i = 0; i < count; ++i) {
@@ -105,7 +111,7 @@ void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
   }
 }
 
-/// Another path in place of that of the planner path_file.
+/// Transforms the path of the planner path_file.
 template <typename Transform>
 void TransformPath(PlannerOptions& options, const Transform& transform) {
   auto* own = options.As<PathFileOptions>();
@@ -162,7 +168,7 @@ Problem AnyProblem(const PlannerEntry& entry, const Wildness& wildness) {
   const double scale = adversarial ? *PowerOfTen(wildness.smallest, wildness.largest) : 1.0;
   Problem problem{.request = {}, .options = entry.defaults};
   PlanRequest& request = problem.request;
-  // A scene of any size for a car of its own, or one that suits the scene.
+  // A scene of any size with a full-size car, or with a car that suits the scene.
   const double car = adversarial && OnceIn(2) ? scale : 1.0;
   request.vehicle = ScaledCar(car);
   const double speed = car * *Between(0.5, 10.0);

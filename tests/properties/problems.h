@@ -9,28 +9,28 @@
 
 namespace properties {
 
-/// What a planner is asked.
+/// A planning problem: request and options.
 struct Problem {
   trackbed::PlanRequest request;
   trackbed::PlannerOptions options;
 };
 
-/// How wild a random problem is.
+/// Range of the random problems.
 struct Wildness {
   /// Coincident points, reversing and nearly parallel legs, obstacles on start and goal, and a
-  /// start that has nothing to do with the route; else what a car can mostly drive.
+  /// start unrelated to the route; otherwise mostly drivable problems.
   bool adversarial = true;
   int smallest = -6;  ///< scale of the scene, a power of ten [m]
   int largest = 2;
 };
 
-/// The reference car, all its lengths times `scale`.
+/// The reference car with all lengths multiplied by `scale`.
 trackbed::VehicleParams ScaledCar(double scale);
 
-/// A random problem for a planner; call it within a property.
+/// A random problem for a planner; to be called within a property.
 Problem AnyProblem(const trackbed::PlannerEntry& entry, const Wildness& wildness);
 
-/// The problem in a world that is mirrored at the x axis, or moved by a pose.
+/// The problem mirrored at the x axis, or moved by a pose.
 Problem Mirrored(const Problem& problem);
 Problem Moved(const Problem& problem, const trackbed::Pose2& by);
 

@@ -15,14 +15,14 @@
 
 /// Properties that hold for every input of a kind, checked with RapidCheck on random ones.
 ///
-/// The environment variable RC_PARAMS sets the number of cases and the seed, as RapidCheck's guide
-/// says: RC_PARAMS="max_success=10000 seed=7". Properties with dearer cases take a share of that
-/// number. Without it the seed is fixed.
+/// The environment variable RC_PARAMS sets the number of cases and the seed, as in RapidCheck's
+/// guide: RC_PARAMS="max_success=10000 seed=7". Properties with expensive cases use a fraction of
+/// that number. Without the variable the seed is fixed.
 namespace properties {
 
-/// Checks `property`, a function that picks its input with `*generator` and asserts with RC_ASSERT;
-/// `share` of the configured number of cases. A failure prints the smallest input found and how to
-/// repeat it.
+/// Checks `property`, a function that draws its input with `*generator` and asserts with RC_ASSERT,
+/// on `share` times the configured number of cases. A failure prints the smallest input found and
+/// how to repeat it.
 template <typename Property>
 void Check(double share, Property&& property) {
   using namespace rc::detail;
@@ -50,38 +50,38 @@ void Check(double share, Property&& property) {
   }
 }
 
-/// A real number from a range that shrinks toward its lower end.
+/// A real number from a range; shrinks toward the lower end.
 inline rc::Gen<double> Between(double low, double high) {
   constexpr int kSteps = 1 << 20;
   return rc::gen::map(rc::gen::resize(kSteps, rc::gen::inRange(0, kSteps + 1)),
                       [=](int i) { return low + (high - low) * i / kSteps; });
 }
 
-/// Likewise, shrinking toward 0 from both sides.
+/// A real number from -reach to reach; shrinks toward 0.
 inline rc::Gen<double> Within(double reach) {
   constexpr int kSteps = 1 << 20;
   return rc::gen::map(rc::gen::resize(kSteps, rc::gen::inRange(-kSteps, kSteps + 1)),
                       [=](int i) { return reach * i / kSteps; });
 }
 
-/// Ten to a whole power; shrinks toward 1.
+/// An integer power of ten; shrinks toward 1.
 inline rc::Gen<double> PowerOfTen(int low, int high) {
   return rc::gen::map(rc::gen::resize(1000, rc::gen::inRange(low, high + 1)),
                       [](int power) { return std::pow(10.0, power); });
 }
 
-/// A whole number; shrinks toward the lower end.
+/// An integer from a range; shrinks toward the lower end.
 inline int Pick(int low, int high) {
   return *rc::gen::resize(1000, rc::gen::inRange(low, high + 1));
 }
 
-/// True once in `times`; shrinks toward false.
+/// True with a probability of 1 in `times`; shrinks toward false.
 inline bool OnceIn(int times) {
   return Pick(0, times - 1) == times - 1;
 }
 
-/// With which of the errors of error.h a call refuses its input; empty if it returns. Whatever else
-/// it throws passes through and fails the property.
+/// Name of the error of error.h that the call throws; empty if it returns. Any other exception
+/// propagates and fails the property.
 template <typename Call>
 std::string Refusal(const Call& call) {
   try {

@@ -17,6 +17,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/pose.h"
 
+// Tests the import of logs: motion by local polynomials on a circle with known derivatives, units,
+// time stamps, commands, gaps, and errors with their lines.
 namespace trackbed {
 namespace {
 
@@ -36,7 +38,7 @@ LogMap PoseMap() {
   return map;
 }
 
-/// Times from 0 to `end` that are on average `step` apart, up to a third of that off.
+/// Times from 0 to `end` that are `step` apart on average, with up to a third of variation.
 std::vector<double> IrregularTimes(double end, double step) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> off(-step / 3.0, step / 3.0);
@@ -78,7 +80,8 @@ std::string Problems(const std::string& csv, const LogMap& map) {
   return "no problem";
 }
 
-// A circle of the rear axle: radius 2 m at 1.5 m/s to the left, slipping outward by 0.05 rad.
+// The rear axle moves on a circle of radius 2 m at 1.5 m/s to the left, with 0.05 rad of outward
+// slip.
 constexpr double kRadius = 2.0;
 constexpr double kSpeed = 1.5;
 constexpr double kRate = kSpeed / kRadius;  // [rad/s]
@@ -89,10 +92,10 @@ Pose2 OnCircle(double t) {
   return {kRadius * std::sin(course), -kRadius * std::cos(course), course + kSlip};
 }
 
-/// The largest error of a value that a local polynomial of degree 2 has on a circle: the third
-/// derivative R rate^3 over the window, 1/6 h^3 of it by Taylor, at most 3 times of that as the fit
-/// amplifies what is not a parabola (its weights' sum of magnitudes; 1.6 in the middle, less than 3
-/// at an end).
+/// The largest error of a value from a local polynomial of degree 2 on a circle. By Taylor it is
+/// the third derivative, R rate^3, times 1/6 h^3 over the window. The fit amplifies what is not a
+/// parabola by at most 3, the sum of its weights' magnitudes (1.6 in the middle, below 3 at an
+/// end).
 double ValueError(double half_width) {
   return 3.0 / 6.0 * kRadius * std::pow(kRate, 3.0) * std::pow(half_width, 3.0);
 }
@@ -105,8 +108,8 @@ TEST(ImportLog, FindsTheMotionOnACircleFromALeverArm) {
   const RecordedDrive drive = Import(
       PoseCsv(IrregularTimes(12.0, 0.02), [&](double t) { return Compose(OnCircle(t), X_VS); }),
       map);
-  // A slope's error is a value's over the half width, a curvature's over its square, each times the
-  // degree.
+  // The error of a slope is that of a value over the half width, and of a curvature over its
+  // square, each times the degree.
   const double value = Tolerance(ValueError(0.1));
   const double slope = Tolerance(2.0 * ValueError(0.1) / 0.1);
   const double curvature = Tolerance(4.0 * ValueError(0.1) / 0.01);
@@ -117,14 +120,14 @@ TEST(ImportLog, FindsTheMotionOnACircleFromALeverArm) {
     ASSERT_TRUE(sample.valid);
     EXPECT_THAT(sample.pose.x, DoubleNear(pose.x, value));
     EXPECT_THAT(sample.pose.y, DoubleNear(pose.y, value));
-    // The yaw is a straight line in time: exact to rounding.
+    // The yaw is linear in time, so the fit is exact to rounding.
     EXPECT_THAT(sample.pose.yaw, DoubleNear(pose.yaw, Tolerance(1e-9)));
     EXPECT_THAT(sample.yaw_rate, DoubleNear(kRate, Tolerance(1e-7)));
     EXPECT_THAT(sample.velocity_V.x(), DoubleNear(kSpeed * std::cos(kSlip), slope));
     const VehicleState state = StateOf(sample, car, false);
     EXPECT_THAT(state.lateral_speed, DoubleNear(-kSpeed * std::sin(kSlip) + 0.5 * kRate, slope));
-    // The rear axle's acceleration points to the center; that of the center of gravity is
-    // l rate^2 less forward.
+    // The rear axle's acceleration points to the center. The center of gravity's is l rate^2
+    // smaller in the forward direction.
     EXPECT_THAT(state.lateral_acceleration,
                 DoubleNear(kSpeed * kRate * std::cos(kSlip), curvature));
     EXPECT_THAT(state.longitudinal_acceleration,
@@ -138,15 +141,15 @@ TEST(ImportLog, IsExactForPolynomialsOfItsDegree) {
   };
   for (const int degree : {2, 3}) {
     LogMap map = PoseMap();
-    map.check = false;  // such a car moves sideways
+    map.check = false;  // otherwise the sideways motion is rejected
     map.resample = {.rate = 30.0, .half_width = 0.15, .degree = degree};
     const RecordedDrive drive = Import(PoseCsv(IrregularTimes(5.0, 0.03), parabola), map);
     ASSERT_EQ(drive.samples.size(), 151U);
     for (const RecordedSample& sample : drive.samples) {
       const double t = sample.time;
       const Pose2 pose = parabola(t);
-      // Rounding of 1e-15, amplified by the condition of the fit, up to 1e3 at the ends for a
-      // value, and by 1/0.15 s for each derivative.
+      // Rounding of 1e-15, amplified by the condition number of the fit, up to 1e3 at the ends for
+      // a value, and by 1/0.15 s for each derivative.
       EXPECT_THAT(sample.pose.x, DoubleNear(pose.x, Tolerance(1e-12)));
       EXPECT_THAT(sample.pose.yaw, DoubleNear(pose.yaw, Tolerance(1e-12)));
       const Vec2 velocity = ToWorld({0.0, 0.0, pose.yaw}, sample.velocity_V);
@@ -219,13 +222,13 @@ TEST(ImportLog, ReadsTimesOfAnyUnitFromAnyMoment) {
                          pose.yaw);
     }
     const RecordedDrive drive = Import(csv, map);
-    // Doubles near 1.7e18 ns are 256 ns apart.
+    // Near 1.7e18 ns doubles are 256 ns apart.
     EXPECT_THAT(drive.duration(), DoubleNear(2.0, Tolerance(1e-6))) << unit;
     EXPECT_THAT(drive.At(1.0).yaw_rate, DoubleNear(kRate, Tolerance(1e-4))) << unit;
   }
 }
 
-/// The circle with further columns that `more` gives.
+/// The circle with additional columns from `more`.
 std::string CircleWith(const std::string& names, const std::function<std::string(double)>& more) {
   std::string csv = "t,x,y,yaw," + names + "\n";
   for (int i = 0; i <= 200; ++i) {
@@ -260,7 +263,7 @@ TEST(ImportLog, TakesTheUpdatesOfASlowerLoop) {
   map.throttle->unit = "g";
   map.throttle->delay = 0.02;
   map.throttle->period = 0.1;
-  // 0 until 1 s, then up by 0.1 g every 0.1 s until 2 s, held to 3 s, then 0.
+  // 0 until 1 s, then rising by 0.1 g every 0.1 s until 2 s, held to 3 s, then 0.
   const RecordedDrive drive = Import(CircleWith("a",
                                                 [](double t) {
                                                   const double steps = std::floor(10.0 * t + 1e-9);
@@ -269,10 +272,10 @@ TEST(ImportLog, TakesTheUpdatesOfASlowerLoop) {
                                                 }),
                                      map);
   constexpr double kG = 9.80665;
-  const auto at = [&](double t) { return drive.At(t - 0.02).throttle / kG; };  // sent 20 ms before
+  const auto at = [&](double t) { return drive.At(t - 0.02).throttle / kG; };  // sent 20 ms earlier
   EXPECT_THAT(at(0.5), DoubleNear(0.0, Tolerance(1e-12)));
   EXPECT_THAT(at(1.0), DoubleNear(0.1, Tolerance(1e-12)));
-  EXPECT_THAT(at(0.94), DoubleNear(0.04, Tolerance(1e-12)));  // on its way to the update at 1 s
+  EXPECT_THAT(at(0.94), DoubleNear(0.04, Tolerance(1e-12)));  // rising toward the update at 1 s
   EXPECT_THAT(at(1.56), DoubleNear(0.66, Tolerance(1e-12)));
   EXPECT_THAT(at(2.88), DoubleNear(1.1, Tolerance(1e-12)));  // held until 0.1 s before 3 s
   EXPECT_THAT(at(2.96), DoubleNear(0.44, Tolerance(1e-12)));
@@ -296,7 +299,7 @@ TEST(ImportLog, PrefersMeasuredSpeedYawRateAndAcceleration) {
   EXPECT_THAT(sample.velocity_V.x(), DoubleNear(1.4, Tolerance(1e-12)));
   EXPECT_THAT(sample.yaw_rate, DoubleNear(0.72, Tolerance(1e-12)));
   EXPECT_THAT(sample.yaw_acceleration, DoubleNear(0.01, Tolerance(1e-10)));
-  // 1 m ahead of the rear axle the accelerometer has -r^2 more forward, r' more to the left.
+  // 1 m ahead of the rear axle, the accelerometer reads -r^2 more forward and r' more to the left.
   EXPECT_THAT(sample.acceleration_V.x(), DoubleNear(0.72 * 0.72, Tolerance(1e-10)));
   EXPECT_THAT(sample.acceleration_V.y(), DoubleNear(0.2 * 9.80665 - 0.01, Tolerance(1e-10)));
 }
@@ -385,7 +388,7 @@ TEST(ImportLog, SaysWhatIsWrongInAFile) {
 
 constexpr const char* kAnyway = " (check: false in the map imports it anyway)";
 
-/// A car that weaves: yaw and course turn both ways.
+/// A weaving car: yaw and course turn both ways.
 std::string Weaving(const std::function<std::string(double t, const Pose2& pose)>& row) {
   std::string csv = "t,x,y,yaw,v,r,steer\n";
   Pose2 pose;
@@ -494,7 +497,7 @@ TEST(ImportLog, NoticesRadiansReadAsDegrees) {
 }
 
 TEST(ImportLog, ReadsManyRowsInBoundedMemory) {
-  // 3e5 rows at 1 kHz: 300 s; read as a stream, resampled to 10 per second.
+  // 3e5 rows at 1 kHz are 300 s, read as a stream and resampled to 10 per second.
   LogMap map = PoseMap();
   map.resample = {.rate = 10.0, .half_width = 0.05, .degree = 2};
   std::string csv = "t,x,y,yaw\n";
@@ -504,7 +507,7 @@ TEST(ImportLog, ReadsManyRowsInBoundedMemory) {
   }
   const RecordedDrive drive = Import(csv, map);
   EXPECT_EQ(drive.samples.size(), 3001U);
-  // Rounded to 1e-6, over windows of 100 rows.
+  // Rounded to 1e-6, in windows of 100 rows.
   EXPECT_THAT(drive.At(150.0).yaw_rate, DoubleNear(kRate, Tolerance(1e-4)));
 }
 

@@ -40,7 +40,7 @@ CarModel LateCar() {
       R"(<numeric name="steering_curve" data="-0.4 -0.3  -0.1 -0.1  0.1 0.05  0.4 0.35"/>)");
 }
 
-/// Accelerates from 1 m/s at 0.2 m/s^2 and weaves, slower than the car's steering rate.
+/// Accelerates from 1 m/s at 0.2 m/s^2 and weaves below the car's steering rate.
 Recording Inputs(double duration) {
   Recording inputs{.steering = {}, .speed = {}, .acceleration = {}};
   for (int i = 0; i * kPeriod < duration + kPeriod; ++i) {
@@ -51,7 +51,7 @@ Recording Inputs(double duration) {
   return inputs;
 }
 
-/// What a plant does under these inputs, as a record of it.
+/// A recording of a plant's response to these inputs.
 RecordedDrive Drive(const CarModel& car, const std::string& name, double duration) {
   const PlaybackOptions playback{.recording = Inputs(duration)};
   const World world;
@@ -78,7 +78,7 @@ RecordedDrive Drive(const CarModel& car, const std::string& name, double duratio
   return drive;
 }
 
-/// The largest distance of any state of any window from the record [m].
+/// The largest distance [m] between a state of any window and the record.
 double LargestDistance(const std::vector<WindowPrediction>& windows, const RecordedDrive& drive) {
   double largest = 0.0;
   for (const WindowPrediction& window : windows) {
@@ -99,8 +99,8 @@ TEST(PredictWindows, EachWindowIsThatPartOfTheWholeDrive) {
     ASSERT_EQ(windows.size(), 4U) << plant;
     EXPECT_THAT(windows[2].start, DoubleNear(2.5, Tolerance(1e-12)));
     EXPECT_EQ(windows[2].states.size(), 101U);
-    // The same equations from the same state: what differs is rounding, 1e-16 a step over 1000
-    // steps, and the 1e-12 of a solver's steps that are not split at the same times.
+    // The same equations from the same state. The differences are rounding, 1e-16 per step over
+    // 1000 steps, and 1e-12 from solver steps that are split at different times.
     EXPECT_LT(LargestDistance(windows, drive), Tolerance(1e-9)) << plant;
   }
 }
@@ -110,9 +110,9 @@ TEST(PredictWindows, MujocoRestartsOnItsSprings) {
   const RecordedDrive drive = Drive(car, "mujoco", 6.0);
   const auto windows =
       PredictWindows(car, "mujoco", drive, {1.0, 3.0}, 2.0, {.control_period = kPeriod});
-  // In a bend of curvature 0.8/m at 1.6 m/s the front tyres' side force brakes with
-  // a_y tan(delta)/2 = 2 m/s^2 0.1 = 0.2 m/s^2, which the gain of 20/s leaves as a speed error of
-  // 0.01 m/s: 0.02 m after 2 s. The body, which rolls again after each restart, adds less.
+  // In a bend of curvature 0.8/m at 1.6 m/s the front tyres' side force brakes with a_y
+  // tan(delta)/2 = 2 m/s^2 0.1 = 0.2 m/s^2. The gain of 20/s turns that into a speed error of 0.01
+  // m/s: 0.02 m after 2 s. The body rolls again after each restart, which adds less.
   EXPECT_LT(LargestDistance(windows, drive), Tolerance(0.02));
   EXPECT_GT(LargestDistance(windows, drive), 0.0);
 }
@@ -124,7 +124,7 @@ TEST(PredictWindows, StartsWithTheRecordedSlip) {
     const auto windows = PredictWindows(car, plant, drive, {1.0}, 0.1, {.control_period = kPeriod});
     const RecordedSample recorded = drive.At(1.0);
     const VehicleState& first = windows.front().states.front();
-    // The free joint's velocity and back: rounding.
+    // Rounding of the conversion to the free joint's velocity and back.
     EXPECT_THAT(first.yaw_rate, DoubleNear(recorded.yaw_rate, Tolerance(1e-12))) << plant;
     EXPECT_THAT(first.lateral_speed,
                 DoubleNear(recorded.velocity_V.y() + car.params().cg_to_rear * recorded.yaw_rate,
@@ -171,7 +171,7 @@ TEST(PredictWindows, EndsEarlyWhenAsked) {
   EXPECT_EQ(windows.size(), 2U);
 }
 
-/// Straight ahead at 2 m/s for 10 s.
+/// A record straight ahead at 2 m/s for 10 s.
 RecordedDrive Straight() {
   RecordedDrive drive{.name = "straight", .period = 0.1};
   for (int i = 0; i <= 100; ++i) {
@@ -190,7 +190,7 @@ TEST(WindowStarts, LeavesOutGapsAndStandstill) {
   EXPECT_THAT(WindowStarts(drive, 11.0, 3.0, 0.3), IsEmpty());
 }
 
-/// A window from `start` whose states are the record's, moved to the left and turned.
+/// A window from `start` whose states are those of the record, shifted to the left and rotated.
 WindowPrediction Beside(const RecordedDrive& drive, double start, double left, double yaw) {
   WindowPrediction window{.start = start};
   for (int i = 0; i <= 10; ++i) {
@@ -215,7 +215,7 @@ TEST(MeasureWindows, GivesQuantilesOfWindowsAndRelativeErrors) {
   const WindowErrors errors = MeasureWindows(windows, drive, {.cg_to_rear = 0.1}, 1.0, 0.3);
   EXPECT_EQ(errors.count, 3);
   EXPECT_EQ(errors.diverged, 0);
-  // Sorted 0.1, 0.2, 0.3: the 90 % quantile is 0.8 of the way from the second to the third. All
+  // Sorted 0.1, 0.2, 0.3: the 90 % quantile is 0.8 of the way from the second to the third. Equal
   // to rounding of positions of some meters.
   EXPECT_THAT(errors.position_median, DoubleNear(0.2, Tolerance(1e-12)));
   EXPECT_THAT(errors.position_p90, DoubleNear(0.28, Tolerance(1e-12)));

@@ -9,7 +9,7 @@
 
 namespace trackbed::render {
 
-/// A picture as libpng reads it; png_test has another reader.
+/// Decodes a picture with libpng; png_test uses another reader.
 inline Image DecodePng(const std::string& bytes) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;

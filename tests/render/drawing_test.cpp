@@ -54,8 +54,9 @@ TEST(Thin, LeavesNoPointFartherThanTheTolerance) {
 }
 
 TEST(Thin, SpendsOnACircleWhatItsCurvatureAsksFor) {
-  // A chord of length c strays c^2 / (8 R) from its arc: at R = 5 m and 5 mm, c = 0.447 m; the
-  // points are 0.05 m apart, so a chord ends at most one of them short: 31.4 m in 71 to 79 pieces.
+  // A chord of length c deviates by c^2 / (8 R) from its arc: at R = 5 m and 5 mm, c = 0.447 m. The
+  // points are 0.05 m apart, so a chord is shorter by at most one of them: 31.4 m in 71 to 79
+  // pieces.
   std::vector<Point> circle;
   for (int i = 0; i <= 628; ++i) {
     circle.push_back({5.0 * std::cos(0.01 * i), 5.0 * std::sin(0.01 * i)});
@@ -73,7 +74,7 @@ TEST(Thin, CopesWithACarThatStands) {
 }
 
 Font BlockFont() {
-  // Every glyph: the left half white, the right half black.
+  // A font in which every glyph is white in its left half and black in its right half.
   Image glyph;
   glyph.Resize(40, 80);
   for (int y = 0; y < glyph.height; ++y) {
@@ -89,7 +90,7 @@ TEST(Canvas, DrawsTextOfTheWidthItSays) {
   image.Resize(64, 32);
   Canvas canvas(image, font);
   EXPECT_DOUBLE_EQ(canvas.Text(10, 5, "ab", 20.0, {1, 0, 0}), 30.0);
-  // Two cells of 10 px from x = 10, five of each white; rows 5 to 24.
+  // Two cells of 10 px from x = 10, each white for 5 px; rows 5 to 24.
   for (const int x : {10, 14, 20, 24}) {
     EXPECT_EQ(image.Pixel(x, 5)[0], 255) << x;
     EXPECT_EQ(image.Pixel(x, 24)[0], 255) << x;
@@ -117,7 +118,7 @@ TEST(Canvas, BlendsARectangleAndRoundsItsCorners) {
 
 TEST(Canvas, FillsEveryPixelOfARectangleOnce) {
   Font font = BlockFont();
-  // Whole ones of half the light that was there, whatever the place of the edges between pixels.
+  // Full coverage at half opacity, wherever the edges lie between pixels.
   for (const double shift : {0.0, 0.3, 0.5, 0.9}) {
     Image image;
     image.Resize(60, 30);
@@ -144,7 +145,8 @@ TEST(Canvas, CutsOffWhatLiesOutside) {
   canvas.Fill({-5, -5, 30, 30}, 3, {1, 1, 1}, 1.0);
   EXPECT_EQ(image.Pixel(0, 0)[0], 255);
   EXPECT_EQ(image.Pixel(7, 7)[0], 255);
-  // The first cell covers x = -7 to 2, white up to -3; the second's white half x = 3 to 7.
+  // The first cell covers x = -7 to 2, white up to -3; the white half of the second one is x = 3 to
+  // 7.
   canvas.Text(-7, -7, "ab", 20.0, {0, 0, 0});
   EXPECT_EQ(image.Pixel(2, 0)[0], 255);
   EXPECT_EQ(image.Pixel(3, 0)[0], 0);
@@ -160,12 +162,12 @@ TEST(Camera, ChaseLooksTheWayTheCarGoes) {
   const MujocoErrorScope errors;
   const Recording recording = ReadRecording(folder.path());
   const CameraSubject subject(recording);
-  // The mean over a window that is symmetric in time of a heading linear in time is its middle.
+  // The mean of a linear heading over a symmetric window is its value in the middle.
   EXPECT_NEAR(subject.SmoothHeading(2.0), 0.6, Tolerance(1e-9));
   const CameraPose pose = FindCamera("chase").pose(subject, 2.0, 1.8);
   EXPECT_NEAR(pose.azimuth, 0.6, 0.35);
   EXPECT_LT(pose.elevation, 0.0);
-  // The camera's own place is behind the rear axle.
+  // The camera is behind the rear axle.
   const double ground = pose.distance * std::cos(pose.elevation);
   const double behind =
       (pose.target_x - ground * std::cos(pose.azimuth) - subject.Position(2.0).x) * std::cos(0.6) +
@@ -176,7 +178,7 @@ TEST(Camera, ChaseLooksTheWayTheCarGoes) {
 TEST(Camera, SideGoesAlongWithoutAJerk) {
   const TempFolder folder;
   CopyPrius(folder.path());
-  // 3 m/s; at 2 s the heading begins to turn at 0.5 rad/s at once.
+  // The car drives at 3 m/s; at 2 s the yaw rate steps to 0.5 rad/s.
   WritePlant(folder.path(), "mujoco", 4.0, [](double time) {
     return CarPlace{3.0 * time, 0.0, 0.5 * std::max(time - 2.0, 0.0)};
   });
@@ -191,13 +193,13 @@ TEST(Camera, SideGoesAlongWithoutAJerk) {
     const CameraPose pose = side.pose(subject, 1.0 + frame / 30.0, 1.8);
     const double rate = 30.0 * (pose.azimuth - before);
     // The mean under a triangle of +-0.8 s: its rate changes by at most 0.5 / 0.8 [rad/s] per
-    // second, the step of 0.5 rad/s times the triangle's peak; twice that for its being 31 samples,
-    // 0.05 s apart where frames are 0.033 s.
+    // second, the step of 0.5 rad/s times the triangle's peak. The bound is doubled because the
+    // mean has 31 samples 0.05 s apart, while frames are 0.033 s apart.
     EXPECT_LT(std::abs(rate - rate_before), 2.0 * 0.5 / 0.8 / 30.0) << frame;
     before = pose.azimuth;
     rate_before = rate;
   }
-  // A narrow picture still holds a car of 4.45 m.
+  // A narrow picture still shows a car of 4.45 m.
   const CameraPose narrow = side.pose(subject, 1.0, 0.5);
   EXPECT_GT(0.5 * 2.0 * narrow.distance * std::tan(0.5 * narrow.view_angle), 4.45);
 }
@@ -222,7 +224,7 @@ TEST(Camera, TopShowsAllOfASmallRouteAndFollowsInALargeOne) {
   EXPECT_GE(width, 40.0);
 
   {
-    // A plan taken up on the way belongs to the route, also where it was not driven.
+    // A replan belongs to the route even where it was not driven.
     const TempFolder folder;
     CopyPrius(folder.path());
     WritePlant(folder.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });

@@ -15,7 +15,7 @@ namespace {
 
 using Kind = RunEvent::Kind;
 
-/// A car that drives along the x axis with 3 m/s for 2 s; its log has a row every 20 ms.
+/// A car that drives along the x axis at 3 m/s for 2 s; its log has a row every 20 ms.
 class EventTest : public FilmSceneTest {
  protected:
   EventTest() {
@@ -41,7 +41,7 @@ mission: {speed: 3, waypoints: [[0, 0], [20, 0]]}
     return image;
   }
 
-  /// Leans the car to its right by `roll` [rad].
+  /// Rolls the car to its right by `roll(time)` [rad].
   void SetRoll(const std::function<double(double)>& roll) const {
     const std::filesystem::path file = folder_.path() / "mujoco.state.csv";
     const Table before = ReadCsv(file);
@@ -77,8 +77,8 @@ world:
 )");
   const Recording recording = ReadRecording(folder_.path());
   const std::vector<double> known = KnownFrom(recording);
-  // The front of the Prius is 3.625 m ahead of its rear axle, at 3 t + 3.625; the box begins at 12:
-  // 5 m are left at 1.125 s, and the next row of the log is that of 1.14 s.
+  // The front of the Prius is 3.625 m ahead of its rear axle, at 3 t + 3.625; the box begins at 12.
+  // The distance is 5 m at 1.125 s, and the next row of the log is at 1.14 s.
   EXPECT_NEAR(known[0], 1.14, Tolerance(1e-9));
   EXPECT_NEAR(known[1], 0.5, Tolerance(1e-9));
   EXPECT_EQ(known[2], -std::numeric_limits<double>::infinity());
@@ -104,8 +104,8 @@ TEST_F(EventTest, NewPlansAreTakenWhenTheirFileSays) {
 }
 
 TEST_F(EventTest, TheRateLimitIsReachedWhereTheActuatorTurnsAsFastAsItCanAndIsBehind) {
-  // The Prius steers with 2.65 / 17.6 rad/s at most. To 0.06 rad, at once from 0.5 s on, takes
-  // 0.3985 s; the period that ends at 0.9 s reaches it. Then slowly back.
+  // The Prius steers at up to 2.65 / 17.6 rad/s. A step to 0.06 rad at 0.5 s takes 0.3985 s; the
+  // period that ends at 0.9 s reaches it. The way back is slow.
   const double rate = 2.65 / 17.6;
   SetLogColumn(folder_.path(), "mujoco", "steering_command_rad", [](double time) {
     return time < 0.499 ? 0.0 : time < 1.499 ? 0.06 : 0.06 - 0.5 * 2.65 / 17.6 * (time - 1.48);
@@ -139,18 +139,18 @@ TEST_F(EventTest, ACollisionIsWhereTheClearanceIsGoneOrWhereTheMetricsSay) {
 }
 
 TEST_F(EventTest, ARollOverBeginsWhereTheCarLeansBy30DegreesForTheLastTime) {
-  // 1 rad/s from 0.5 s on: 30 degrees, cosine 0.87, after 0.5156 s; 60 after 1.0472 s. States are
-  // 1/60 s apart.
+  // A roll rate of 1 rad/s from 0.5 s on gives 30 degrees, cosine 0.87, after 0.5156 s, and 60
+  // degrees after 1.0472 s. States are 1/60 s apart.
   SetRoll([](double time) { return std::max(0.0, time - 0.5); });
   std::vector<RunEvent> events = Events();
   ASSERT_EQ(events.size(), 1U);
   EXPECT_EQ(events[0].kind, Kind::kRollOver);
   EXPECT_NEAR(events[0].from, 0.5 + std::acos(0.87), Tolerance(1.0 / 60.0));
   EXPECT_THAT(events[0].text, testing::HasSubstr("roll-over at 1.5"));
-  // A car that only leans does not.
+  // A car that only leans has not rolled over.
   SetRoll([](double) { return 0.6; });
   EXPECT_TRUE(Events().empty());
-  // The metrics know it, also where the last state is just short of 60 degrees.
+  // The metrics report a roll-over even if the last recorded state is just below 60 degrees.
   WriteFileAtomically(folder_.path() / "metrics.json",
                       R"({"plants": {"mujoco": {"status": "rolled_over", "status_t": 2.01}}})");
   events = Events();
@@ -164,7 +164,8 @@ TEST_F(EventTest, MarksLieWhereTheCarWasFromThenOn) {
   Recording recording = ReadRecording(folder_.path());
   pose_ =
       FindCamera("top").pose(CameraSubject(recording), 2.0, static_cast<double>(kWidth) / kHeight);
-  // The car was at x = 0.6 and, from 2.2 on at 1 s, is not over it: pink, more red than green.
+  // The car passed x = 0.6 and covers the road only from x = 2.2 on at 1 s: the trail is pink, more
+  // red than green.
   EXPECT_GT(At(Painted(1.0), 0.6, 0.0)[0], At(Painted(1.0), 0.6, 0.0)[1] + 60);
   const std::array<int, 3> before = At(Painted(0.19), -0.9, 0.0);
   EXPECT_LT(std::abs(before[0] - before[1]), 20);

@@ -1,3 +1,6 @@
+// Tests whole films of artificial runs by decoding them again: size, number of frames, duration,
+// container format, reproducibility and errors.
+
 #include "trackbed/render/film.h"
 
 #include <gmock/gmock.h>
@@ -25,7 +28,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a player sees of a file.
+/// Properties of a film as a player reads them.
 struct Played {
   int frames = 0;
   int width = 0;
@@ -110,7 +113,7 @@ class Film : public testing::Test {
 
 TEST_F(Film, HasTheSizeFramesAndDurationAskedFor) {
   const FilmReport report = Make();
-  // Frames at 0, 0.1, ..., 1.0 s: eleven, the last one on the end of the recording.
+  // Frames at 0, 0.1, ..., 1.0 s: eleven, with the last one at the end of the recording.
   EXPECT_EQ(report.frames, 11);
   EXPECT_DOUBLE_EQ(report.duration, 1.0);
   EXPECT_EQ(report.car, "mujoco");
@@ -134,7 +137,7 @@ TEST_F(Film, HasItsIndexInFrontOfThePictures) {
   EXPECT_LT(bytes.find("moov"), bytes.find("mdat"));
 }
 
-/// The chunks of a RIFF file, by name.
+/// Counts the chunks of this name in a RIFF file.
 int Chunks(const std::string& bytes, const std::string& name) {
   int count = 0;
   for (std::size_t at = 12; at + 8 <= bytes.size();) {
@@ -149,14 +152,14 @@ int Chunks(const std::string& bytes, const std::string& name) {
 }
 
 TEST_F(Film, IsAnAnimatedPictureWhereThatIsAskedFor) {
-  options_.width = 97;  // odd: only H.264 cannot be
+  options_.width = 97;  // odd, which only H.264 cannot encode
   output_.replace_extension(".apng");
   ASSERT_EQ(Make().frames, 11);
   const Played apng = Play(output_);
   EXPECT_EQ(apng.frames, 11);
   EXPECT_EQ(apng.width, 97);
   EXPECT_EQ(apng.codec, AV_CODEC_ID_APNG);
-  // acTL: the number of frames, then how often they are played, 0 for ever.
+  // acTL: the number of frames, then the number of repetitions (0: endless).
   const std::string bytes = ReadFile(output_);
   const std::size_t control = bytes.find("acTL");
   ASSERT_NE(control, std::string::npos);
@@ -168,9 +171,9 @@ TEST_F(Film, IsAnAnimatedPictureWhereThatIsAskedFor) {
   EXPECT_EQ(webp.substr(0, 4), "RIFF");
   EXPECT_EQ(webp.substr(8, 8), "WEBPVP8X");
   EXPECT_EQ(Chunks(webp, "ANIM"), 1);
-  // Its size, the background, and how often it is played.
+  // ANIM: background color and number of repetitions.
   EXPECT_EQ(webp.substr(webp.find("ANIM") + 12, 2), std::string(2, '\0'));
-  // WebP joins pictures that are the same; these are not.
+  // WebP merges equal frames; these differ.
   EXPECT_EQ(Chunks(webp, "ANMF"), 11);
   Make();
   EXPECT_TRUE(webp == ReadFile(output_));
@@ -190,8 +193,8 @@ TEST_F(Film, ShowsPlantsSideBySide) {
 }
 
 TEST_F(Film, IsTheSameBytesTwice) {
-  // Fresh memory is filled with another byte each time, so that whoever reads it before writing
-  // it shows: libx264 does in some widths.
+  // Fresh memory is filled with a pattern, so that reading uninitialized memory shows: libx264 does
+  // so at some widths.
   mallopt(M_PERTURB, 0x55);
   Make();
   const std::string first = ReadFile(output_);
@@ -367,7 +370,7 @@ TEST_F(Film, MakesItsFolderButNotForNothing) {
   EXPECT_TRUE(fs::exists(output_));
 }
 
-/// No file of this process may grow beyond some bytes: what a full disk looks like.
+/// Limits the size of files of this process, to simulate a full disk.
 class SmallDisk {
  public:
   explicit SmallDisk(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

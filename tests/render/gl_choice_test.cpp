@@ -92,10 +92,10 @@ TEST(GlSurroundings, NameTheLibraryThatHasDrawn) {
     library = context->library();
     EXPECT_THAT(context->Version(), testing::ContainsRegex("^[0-9]+[.][0-9]+.*, .+"));
   }
-  EXPECT_EQ(ReadGlSurroundings().in_process, library);  // and it stays so after the context is gone
+  EXPECT_EQ(ReadGlSurroundings().in_process, library);  // still after the context is gone
 }
 
-// Names of files that no system has.
+// File names that exist on no system.
 const GlFiles kNoFiles{.osmesa = "libNoOsmesa.so.8", .egl = "libNoEgl.so.1"};
 
 TEST(GlContext, NamesTheMissingLibraryAndItsPackage) {
@@ -120,7 +120,7 @@ TEST(GlContext, NamesThePackagesOfEachDebianWithoutAnyLibrary) {
 }
 
 TEST(GlContext, NamesTheFunctionThatALibraryLacks) {
-  // The library of mathematics has no function of either.
+  // libm exports no OpenGL functions.
   const GlFiles mathematics{.osmesa = "libm.so.6", .egl = "libm.so.6"};
   EXPECT_THAT(MessageOf<RunError>([&] { MakeGlContext({GlLibrary::kOsmesa}, mathematics); }),
               HasSubstr("undefined symbol: OSMesaMakeCurrent"));

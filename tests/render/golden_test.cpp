@@ -12,14 +12,14 @@
 #include "trackbed/render/film.h"
 #include "trackbed/sim/car_model.h"
 
-/// Pictures of a made-up run as somebody has looked at them and found them right. What single parts
-/// of them show is tested elsewhere; these say that all of it together still looks as it did.
+/// Compares pictures of an artificial run with reviewed reference pictures. Other tests check the
+/// single elements; these check the whole picture.
 namespace trackbed::render {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// In a bend of 12 m to the left, from an icy patch on, the car falls behind and outside.
+/// In a bend of 12 m to the left, the car falls behind and drifts outward from an icy patch on.
 CarPlace OnTheBend(double time, double outside) {
   constexpr double kRadius = 12.0;
   const double angle = 3.0 * time / kRadius;
@@ -43,7 +43,7 @@ class GoldenFrame : public testing::Test {
                  [](double time) { return std::clamp(0.3 * (time - 0.3), 0.0, 0.22); });
     int wheel = 0;
     for (const char* name : {"fl", "fr", "rl", "rr"}) {
-      const double load = wheel % 2 == 0 ? 3000.0 : 4200.0;  // more on the outside
+      const double load = wheel % 2 == 0 ? 3000.0 : 4200.0;  // larger on the outside
       const double use = 0.25 + 0.2 * wheel++;
       SetLogColumn(run, "mujoco", std::string("normal_force_") + name + "_N",
                    [=](double) { return load; });
@@ -86,7 +86,8 @@ world:
     const fs::path drawn = folder_.path() / (name + ".png");
     RenderPicture(run_, drawn, time, options);
     const fs::path all = fs::path(TRACKBED_SOURCE_DIR) / "tests" / "data" / "golden";
-    // Where a major version of MuJoCo draws edges of shadows by other points, it has its own.
+    // A major version of MuJoCo that rasterizes shadow edges differently has separate reference
+    // pictures.
     const fs::path own = all / ("mujoco_" + PhysicsVersion().substr(7, 1)) / (name + ".png");
     const fs::path kept = fs::exists(own) ? own : all / (name + ".png");
     const Image image = DecodePng(ReadFile(drawn));
@@ -108,8 +109,8 @@ world:
     RecordProperty("mean_difference", fmt::format("{}", mean));
     RecordProperty("share_off", fmt::format("{}", share));
     // Mesa's other rasterizer (GALLIUM_DRIVER=softpipe) draws these pictures with a mean difference
-    // of 0.14 and 3 of the 129 600 pixels off: rounding of colors, and points on edges. Twice the
-    // one, and five times the other, is what another version or processor may do.
+    // of 0.14 and 3 of 129 600 pixels off, due to color rounding and edge points. Another version
+    // or processor may have twice that mean and five times as many pixels.
     const bool right = same_size && mean <= 0.28 && share <= 15.0 / 129600.0;
     if (!right) {
       const fs::path left = fs::temp_directory_path() / ("trackbed_" + name + ".png");

@@ -1,3 +1,7 @@
+// Tests pictures of uneven ground, friction patches, gusts and the wind arrow. Expected positions
+// come from GroundHeight() and the pinhole projection of pictures.h, expected colors from the light
+// on the material.
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -25,7 +29,7 @@ constexpr const char* kHilly = R"(world:
 /// Films of a car that drives along the x axis.
 class GroundFilm : public FilmSceneTest {
  protected:
-  /// Gives the run a world: the section `world` of its scenario.
+  /// Sets the section `world` of the run's scenario.
   World SetWorld(const std::string& yaml) {
     WriteFileAtomically(folder_.path() / "scenario.resolved.yaml", yaml);
     const World world = ReadRecording(folder_.path()).world;
@@ -56,10 +60,10 @@ TEST_F(GroundFilm, ThePlanLiesOnSlopesAndBumps) {
   WriteStraightPlan(folder_.path(), 16.0);
   for (const char* camera : {"chase", "top"}) {
     const Image image = Picture(camera, 0.0);
-    // Up, on top of and down the bump; from behind, its far side is partly hidden.
+    // In front of, on and behind the bump; from behind, its far side is partly hidden.
     for (const double x : {6.5, 7.7, 8.3, 9.0, 9.6, 13.0}) {
-      // Paint on ground that leans by 0.18 to the west, away from the sun in the east, is darker by
-      // a fifth of the sun's half: at least 0.96 * 0.89 = 0.85 of white. Asphalt has 0.67.
+      // Paint on ground tilted by 0.18 to the west, away from the sun in the east, loses a fifth of
+      // the sun's half of the light: at least 0.96 * 0.89 = 0.85 of white remain. Asphalt has 0.67.
       EXPECT_GT(AtGround(image, world, x, 0.0)[0], 200) << camera << " at " << x;
       for (const double beside : {-1.2, 1.2}) {
         EXPECT_LT(AtGround(image, world, x, beside)[0], 200) << camera << " at " << x;
@@ -89,12 +93,12 @@ TEST_F(GroundFilm, CamerasGoUpAndDownWithTheGround) {
   const CameraSubject subject(recording);
   for (const auto& [camera, above] : {std::pair{"chase", 1.0}, {"side", 0.7}, {"top", 0.0}}) {
     const CameraPose pose = FindCamera(camera).pose(subject, 10.0, 1.8);
-    // The mean over a window that is symmetric in time of a height linear in time is its middle.
+    // The mean of a linear height over a symmetric window is its value in the middle.
     EXPECT_NEAR(pose.ground_z, 0.1 * pose.target_x, Tolerance(1e-9)) << camera;
     EXPECT_NEAR(pose.target_z, pose.ground_z + above, Tolerance(1e-9)) << camera;
   }
   const CameraPose chase = FindCamera("chase").pose(subject, 10.0, 1.8);
-  // 18 degrees down from the hill's own slope as seen along its azimuth.
+  // 18 degrees down, plus the slope of the hill along the camera's azimuth.
   EXPECT_NEAR(chase.elevation, -18.0 * kPi / 180.0 + std::atan(0.1 * std::cos(chase.azimuth)),
               Tolerance(1e-12));
 }
@@ -102,8 +106,9 @@ TEST_F(GroundFilm, CamerasGoUpAndDownWithTheGround) {
 TEST_F(GroundFilm, DownASteepHillTheSkyIsDrawn) {
   SetWorld("world: {ground: {grade: {x: -0.5, y: 0}}}\n");
   const Image image = Picture("chase", 0.0);
-  // The hill's horizon is 26.6 degrees down, and the camera's upper edge 18 + 26.6 - 20 = 24.6: 2
-  // degrees of 40 at the top of the picture are sky, which is blue where the asphalt is gray.
+  // The hill's horizon is 26.6 degrees down, and the picture's upper edge is 18 + 26.6 - 20 = 24.6
+  // degrees down. So 2 of 40 degrees at the top of the picture are sky, which is blue where asphalt
+  // is gray.
   const std::uint8_t* rgb = image.Pixel(kWidth / 2, 1);
   EXPECT_GT(rgb[2], rgb[0] + 8);
 }
@@ -120,8 +125,8 @@ TEST_F(GroundFilm, PatchesAreWhereTheyAreAndIceIsBlue) {
   for (const double x : {8.0, 10.0, 12.0}) {
     const std::array<int, 3> ice = At(image, x, 1.5);
     const std::array<int, 3> wet = At(image, x, -1.5);
-    // Ice is (0.66, 0.87, 1.00), with an opacity of 0.70 over gray: blue over red by 0.24, 61 of
-    // 255. Wet asphalt is darker by 0.58 * (0.62 - 0.27) = 0.20 or more in red: 51.
+    // Ice is (0.66, 0.87, 1.00) with an opacity of 0.70 over gray: blue exceeds red by 0.24, 61 of
+    // 255. Wet asphalt is darker in red by at least 0.58 * (0.62 - 0.27) = 0.20, 51 of 255.
     EXPECT_GT(ice[2], ice[0] + 40) << x;
     EXPECT_LT(wet[0], At(bare, x, -1.5)[0] - 35) << x;
     EXPECT_EQ(At(image, x, 0.0), At(bare, x, 0.0)) << x;
@@ -143,7 +148,7 @@ TEST(PatchTiles, OnAPlaneAreOnePerPatchLaterOnesAbove) {
     EXPECT_NEAR((tile.rotation.col(2) - normal).norm(), 0.0, Tolerance(1e-12));
     const double above = normal.dot(tile.center);
     EXPECT_GT(above, below + 2e-4);
-    EXPECT_LT(above, 0.002);  // where ribbons begin
+    EXPECT_LT(above, 0.002);  // height at which ribbons begin
     below = above;
   }
 }
@@ -163,7 +168,7 @@ TEST(PatchTiles, FollowTheGroundAndCoverThePatch) {
   double highest = -1.0;
   Random random(4);
   for (const Tile& tile : tiles) {
-    // As seen from above.
+    // Area projected on the horizontal plane.
     covered += 4.0 * tile.half_length * tile.half_width * tile.rotation(2, 2);
     for (int i = 0; i < 10; ++i) {
       const Eigen::Vector3d p =
@@ -175,10 +180,11 @@ TEST(PatchTiles, FollowTheGroundAndCoverThePatch) {
       highest = std::max(highest, above);
     }
   }
-  // Tiles are no parallelograms: where they bend they overlap a little, by its square.
+  // The tiles are rectangles, so on bent ground they overlap a little, by the square of the bend.
   EXPECT_NEAR(covered, area.length * area.width, Tolerance(0.01 * area.length * area.width));
-  // 1 mm up, and either way 1.5 mm of bend along its lines and as much for the twist between them;
-  // another 1 mm at the bump's sides, where tiles are at their smallest.
+  // Tiles lie 1 mm above the ground, plus or minus 1.5 mm of curvature along the grid lines and as
+  // much for the twist between them; another 1 mm at the bump's sides, where tiles have their
+  // minimum size.
   EXPECT_GT(lowest, Tolerance(-3e-3));
   EXPECT_LT(highest, Tolerance(5e-3));
 }
@@ -226,14 +232,14 @@ TEST_F(GroundFilm, TheCaptionTellsTheWindAtTheCar) {
   EXPECT_EQ(recording.ReadingsAt(1.9).wind, Vec2(1.0, 10.0));
 }
 
-/// A font without a mark: what is seen is not text.
+/// A font with blank glyphs, so that no visible pixel is text.
 Font BlankFont() {
   Image glyph;
   glyph.Resize(40, 80);
   return Font(std::vector<Image>(Font::kLast - Font::kFirst + 1, glyph));
 }
 
-/// The middle of the light that a picture has and another has not, y up.
+/// Centroid of the light that `image` has in addition to `without`, y up.
 Vec2 MiddleOfLight(const Image& image, const Image& without) {
   Vec2 sum = Vec2::Zero();
   double light = 0.0;
@@ -259,7 +265,7 @@ TEST(Canvas, AnArrowsHeadIsWhereItPoints) {
     // In lengths: a shaft of 0.6 x 0.16 at -0.2, and a head of 0.4 x 0.52 / 2 at 0.1 + 0.4 / 3.
     const double lean = 40.0 * (0.096 * -0.2 + 0.104 * (0.1 + 0.4 / 3.0)) / 0.2;  // 1.01
     const Vec2 off = MiddleOfLight(image, black) - Vec2(30.0, -30.0);
-    // 16 samples a pixel.
+    // 16 samples per pixel.
     EXPECT_NEAR((off - lean * Direction(direction)).norm(), 0.0, Tolerance(0.15)) << direction;
   }
 }
@@ -276,12 +282,12 @@ TEST(DrawCaption, TheWindsArrowPointsUpWhereTheCameraLooks) {
   };
   const Image calm = picture({0.0, 0.01}, 0.0);  // has no arrow
   const auto lean = [&](const Vec2& wind, double azimuth) {
-    // Those of opposite winds have the same middle and lean opposite ways.
+    // Arrows of opposite winds have the same center and lean in opposite directions.
     return Vec2(MiddleOfLight(picture(wind, azimuth), calm) -
                 MiddleOfLight(picture(-wind, azimuth), calm))
         .normalized();
   };
-  // 0.1: pixels.
+  // The tolerance of 0.1 covers pixels.
   EXPECT_NEAR((lean({0.0, 5.0}, 0.5 * kPi) - Vec2(0.0, 1.0)).norm(), 0.0, Tolerance(0.1));
   EXPECT_NEAR((lean({5.0, 0.0}, 0.5 * kPi) - Vec2(1.0, 0.0)).norm(), 0.0, Tolerance(0.1));
   EXPECT_NEAR((lean({5.0, 0.0}, 0.0) - Vec2(0.0, 1.0)).norm(), 0.0, Tolerance(0.1));

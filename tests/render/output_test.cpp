@@ -1,3 +1,6 @@
+// Tests the outputs of films: choice of the format, writing in a background thread, and frame
+// files.
+
 #include "render/output.h"
 
 #include <gmock/gmock.h>
@@ -56,7 +59,7 @@ bool HasVideo() {
   return VideoEncoder() != "off";
 }
 
-/// How the list of formats ends every message about them.
+/// The list of formats that ends every message about them.
 std::string KnownFormats() {
   return HasVideo()
              ? "; a film is made as .mp4 (video), .webp (animation), .apng (animation), .png "
@@ -78,7 +81,7 @@ TEST(FilmFormatFor, KnowsVideosOrSaysWhyNot) {
                                   "(TRACKBED_VIDEO=OFF); a film is made as .png (frames)");
 }
 
-/// Keeps what it is given, slowly; refuses pictures of the width 0.
+/// Stores the pictures slowly; rejects pictures of width 0.
 class SlowOutput : public FilmOutput {
  public:
   explicit SlowOutput(std::vector<int>& written) : written_(written) {}
@@ -103,7 +106,7 @@ TEST(BackgroundOutput, WritesEveryPictureAsItWasAndInOrder) {
   for (int width = 1; width <= 50; ++width) {
     image.width = width;
     output.Add(image);
-    image.width = 0;  // the next picture is made where this one was
+    image.width = 0;  // the next picture reuses this memory
   }
   output.Finish();
   ASSERT_EQ(written.size(), 51U);
@@ -119,7 +122,7 @@ TEST(BackgroundOutput, PassesOnWhatWritingThrows) {
   {
     BackgroundOutput output(std::make_unique<SlowOutput>(written));
     output.Add(refused);
-    // Two wait at most, so the third after it comes when the first was refused.
+    // The queue holds two pictures, so the third Add after the rejected one reports the error.
     EXPECT_THROW(
         {
           for (int i = 0; i < 3; ++i) {
@@ -137,12 +140,12 @@ TEST(BackgroundOutput, PassesOnWhatWritingThrows) {
     BackgroundOutput output(std::make_unique<SlowOutput>(written));
     output.Add(refused);
     EXPECT_THROW(output.Finish(), RunError);
-    EXPECT_THROW(output.Add(image), RunError);  // and so it stays
+    EXPECT_THROW(output.Add(image), RunError);  // the error persists
   }
   EXPECT_THAT(written, testing::IsEmpty());
 }
 
-/// Waits in Add until it is let go; says when it has begun and how many pictures it was given.
+/// Blocks in Add until released; records that Add has begun and the number of pictures.
 class HeldOutput : public FilmOutput {
  public:
   explicit HeldOutput(std::atomic<bool>& let_go, std::atomic<int>& given)
@@ -169,11 +172,11 @@ TEST(BackgroundOutput, GoesOnWhileAPictureIsWrittenAndWritesWhatWaits) {
     Image image;
     output.Add(image);
     given.wait(0);
-    // The first is being written and stays so: these come back all the same.
+    // The first picture is still being written, yet these calls return.
     output.Add(image);
     output.Add(image);
     EXPECT_EQ(given, 1);
-    // No Finish, as after an exception.
+    // Destroyed without Finish, as after an exception.
     later = std::thread([&] {
       let_go = true;
       let_go.notify_all();
@@ -190,7 +193,7 @@ class Frames : public testing::Test {
     CopyPrius(run_);
     WritePlant(run_, "mujoco", 1.0, [](double time) { return CarPlace{3.0 * time, 0.0, 0.0}; });
     WriteStraightPlan(run_, 20.0);
-    options_.width = 161;  // odd: only a video cannot be
+    options_.width = 161;  // odd, which only a video cannot encode
     options_.height = 91;
     options_.fps = 2.0;
   }
@@ -257,7 +260,7 @@ TEST_F(Frames, WrittenBeforeAnInterruptionStay) {
 TEST_F(Frames, OfAnOlderAndLongerFilmGoAndNothingElse) {
   options_.fps = 4.0;
   ASSERT_EQ(RenderFilm(run_, output_, options_).frames, 5);
-  // Neither in the pattern nor in the row: not numbered on from the film's own, or no file.
+  // Names that do not match the film's pattern, do not continue its numbering, or are not files.
   const fs::path folder = output_.parent_path();
   const std::vector<std::string> others{"f_00006.png", "f_000003.png",    "f_3.png", "f_00003.jpg",
                                         "g_00003.png", "f_00003.png.bak", "f.png"};
@@ -289,7 +292,7 @@ TEST_F(Frames, OfAnOlderFilmStayWhereTheyAreNoFiles) {
 TEST_F(Frames, DoNotReplacePicturesOfOthers) {
   ASSERT_EQ(RenderFilm(run_, output_, options_).frames, 3);
   const std::string own = ReadFile(FrameName(output_, 1));
-  // As any other program writes it: without the chunk that names Trackbed.
+  // As another program writes it: without the chunk that names Trackbed.
   const std::size_t chunk = own.find("tEXt") - 4;
   const std::string other =
       own.substr(0, chunk) + own.substr(own.find("Trackbed") + 8 + sizeof(std::uint32_t));

@@ -1,3 +1,5 @@
+// Tests every overlay of films by the colors of pixels at projected positions.
+
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -21,7 +23,7 @@
 namespace trackbed::render {
 namespace {
 
-/// A run that has something to show for every overlay.
+/// A run with data for every overlay.
 class EveryOverlay : public FilmSceneTest, public testing::WithParamInterface<std::string> {
  protected:
   EveryOverlay() {
@@ -149,7 +151,7 @@ TEST_F(FilmSceneTest, PointsAreProjectedAsAPinholeCameraSeesThem) {
       const Pixel expected = Project(pose, point.x(), point.y(), point.z());
       const auto seen = projection(point);
       ASSERT_TRUE(seen);
-      // The other one cuts off what is less than a pixel.
+      // The reference projection truncates to whole pixels.
       EXPECT_NEAR(seen->x, expected.x + 0.5, 0.5001) << camera;
       EXPECT_NEAR(seen->y, expected.y + 0.5, 0.5001) << camera;
     }
@@ -160,7 +162,7 @@ TEST_F(FilmSceneTest, PointsAreProjectedAsAPinholeCameraSeesThem) {
 
 TEST_F(FilmSceneTest, TheErrorRibbonHasTheColorOfTheDistanceFromThePath) {
   WriteStraightPlan(folder_.path(), 16.0);
-  // Off by 0.18 m from x = 3 on.
+  // A cross-track error of 0.18 m from x = 3 on.
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m",
                [](double time) { return time < 1.0 ? 0.0 : -0.18; });
   overlays_.emplace_back("error");
@@ -169,7 +171,8 @@ TEST_F(FilmSceneTest, TheErrorRibbonHasTheColorOfTheDistanceFromThePath) {
   const Image image = Picture("top", 2.0);
   const std::array<int, 3> on = At(image, 1.5, 0.0);
   const std::array<int, 3> off = At(image, 4.2, 0.0);
-  // viridis: dark violet, (68, 1, 84), on the path, yellow, (253, 231, 37), at the scale's end.
+  // viridis: dark violet, (68, 1, 84), on the path; yellow, (253, 231, 37), at the end of the
+  // scale.
   EXPECT_GT(on[2], on[1] + 40);
   EXPECT_LT(on[1], 60);
   EXPECT_GT(off[1], off[2] + 100);
@@ -184,7 +187,7 @@ TEST_F(FilmSceneTest, WithoutAPathThereIsNoErrorRibbon) {
 
 TEST_F(FilmSceneTest, ErrorsThatSwayByLittleKeepOneColor) {
   WriteStraightPlan(folder_.path(), 16.0);
-  // A step of the scale is 0.05 / 16 m: half a step and a tenth of one to each side.
+  // A color step is 0.05 / 16 m: the error varies by a tenth of a step around the middle of one.
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m",
                [](double time) { return 0.05 / 16.0 * (3.5 + 0.1 * std::sin(40.0 * time)); });
   const std::vector<double> fractions = ErrorFractions(ReadRecording(folder_.path()));
@@ -204,7 +207,7 @@ TEST_F(FilmSceneTest, TheWindIsDrawnOnTheGroundWhereItBlowsTo) {
   const Image windy = Picture("top", 0.0);
   overlays_.pop_back();
   EXPECT_TRUE(Picture("top", 0.0).rgb == calm.rgb);
-  // Arrows of 3 m stand around places 5 m apart, times the scale of paint; all along y.
+  // Arrows of 3 m, 5 m apart, times the paint scale; all along y.
   const double spacing = 5.0 * pose_->paint_scale;
   const double x = spacing * std::round(pose_->target_x / spacing) + spacing;
   const double y = spacing * std::round(pose_->target_y / spacing) + spacing;
@@ -215,7 +218,7 @@ TEST_F(FilmSceneTest, TheWindIsDrawnOnTheGroundWhereItBlowsTo) {
   EXPECT_GT(brighter(x, y + 1.2 * pose_->paint_scale), 40);
   EXPECT_GT(brighter(x, y - 1.2 * pose_->paint_scale), 40);
   EXPECT_LE(brighter(x, y + 2.0 * pose_->paint_scale), 2);
-  // The head's strokes are 0.42 m behind the tip, 0.29 m to each side.
+  // The strokes of the arrow head end 0.42 m behind the tip, 0.29 m to each side.
   for (const double side : {-0.25, 0.25}) {
     EXPECT_GT(brighter(x + side * pose_->paint_scale, y + 1.14 * pose_->paint_scale), 40) << side;
     EXPECT_LE(brighter(x + side * pose_->paint_scale, y - 1.14 * pose_->paint_scale), 2) << side;
@@ -225,7 +228,7 @@ TEST_F(FilmSceneTest, TheWindIsDrawnOnTheGroundWhereItBlowsTo) {
 class StripTest : public FilmSceneTest {
  protected:
   StripTest() {
-    // Of 2 s at 3 m/s: curved to the left from x = 3 on.
+    // A plan for 2 s at 3 m/s: curved to the left from x = 3 on.
     Table plan({"s_m", "x_m", "y_m", "curvature_radpm"});
     for (int i = 0; i <= 60; ++i) {
       plan.AddRow({0.1 * i, 0.1 * i, 0.0, i < 30 ? 0.0 : 0.05});
@@ -242,7 +245,7 @@ class StripTest : public FilmSceneTest {
     strip.Draw(image, font_, time);
     return image;
   }
-  /// Brightest red and blue of a column of the picture, in the upper or the lower half of the plot.
+  /// Brightest red and blue of a picture column between two rows.
   static std::array<int, 3> Brightest(const Image& image, int x, int first, int last) {
     std::array<int, 3> most{};
     for (int y = first; y < last; ++y) {
@@ -258,7 +261,7 @@ class StripTest : public FilmSceneTest {
 
 TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
   const Image image = DrawAt(1.2);
-  // The picture's lower edge is margin and half a pad away from the plot's, which is 0.4 pads and
+  // The plot ends a margin and half a pad above the picture's lower edge, and begins 0.4 pads and
   // the letters below the panel's upper edge: 10, 4, 3.2 and 13.8 px.
   const int first = static_cast<int>(std::round(top_ + 3.2 + 0.86 * 16.0));
   const int last = 360 - 10 - 4;
@@ -268,15 +271,16 @@ TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
   const auto column = [&](double time) {
     return left + static_cast<int>(std::lround(time / 2.0 * (right - left - 1)));
   };
-  // Asked for to the left: white, in the upper half. Done to the right: orange, in the lower one.
+  // The command to the left is white in the upper half; the measured angle to the right is orange
+  // in the lower half.
   const std::array<int, 3> asked = Brightest(image, column(0.5), first, middle - 2);
   EXPECT_GT(std::min(asked[0], asked[2]), 200);
   const std::array<int, 3> done = Brightest(image, column(0.5), middle + 3, last);
   EXPECT_GT(done[0], done[2] + 100);
-  // Not yet: no color.
+  // Still in the future: no color.
   const std::array<int, 3> later = Brightest(image, column(1.7), middle + 3, last);
   EXPECT_LT(later[0], 30);
-  // Nothing planned, then a curve to the left, paler where it is still ahead.
+  // No planned steering, then a curve to the left, paler where it is still ahead.
   const int between = (first + middle) / 2 + 2;
   EXPECT_LT(image.Pixel(column(0.8), between)[0], 30);
   EXPECT_GT(image.Pixel(column(1.1), between)[0], 100);
@@ -287,7 +291,7 @@ TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
 }
 
 TEST_F(StripTest, FollowsThePlanThatHolds) {
-  // Taken up at 1.5 s, 4.5 m on the way: straight on for 0.9 m, 0.3 s, then to the right.
+  // A replan at 1.5 s, after 4.5 m: straight for 0.9 m, 0.3 s, then to the right.
   Table plans({"from_t_s", "s_m", "x_m", "y_m", "curvature_radpm"});
   for (int i = 0; i <= 60; ++i) {
     plans.AddRow({1.5, 0.1 * i, 4.5 + 0.1 * i, 0.0, i < 9 ? 0.0 : -0.05});
@@ -312,7 +316,8 @@ TEST_F(StripTest, EndsWithItsOwnDriveOnTheAxisOfAll) {
   const Image image = DrawAt(4.0);
   const int first = static_cast<int>(std::round(top_ + 3.2 + 0.86 * 16.0));
   const int middle = (first + 346) / 2;
-  // The car's own 2 s of 4: asked for to the left, done to the right, and nothing after.
+  // The car's own 2 s of 4 s: command to the left, measured angle to the right, and nothing
+  // afterwards.
   const auto column = [](double time) { return 18 + static_cast<int>(time / 4.0 * 603.0); };
   EXPECT_GT(Brightest(image, column(1.9), first, middle - 2)[2], 100);
   EXPECT_LT(Brightest(image, column(2.1), first, middle - 2)[2], 60);
@@ -321,7 +326,7 @@ TEST_F(StripTest, EndsWithItsOwnDriveOnTheAxisOfAll) {
 }
 
 TEST_F(FilmSceneTest, GhostAndCarAreApartInThePictureAsInTheLogs) {
-  // Apart by a bend that grows: coincident until 1 s.
+  // The plants coincide until 1 s, then one drifts away.
   WritePlant(folder_.path(), "kinematic", 2.0, [](double time) {
     return CarPlace{3.0 * time, std::max(0.0, time - 1.0), 0.0};
   });
@@ -341,7 +346,7 @@ TEST_F(FilmSceneTest, GhostAndCarAreApartInThePictureAsInTheLogs) {
       const mjvGeom& of_car = posed.geoms[i];
       for (int j = i + 1; j < posed.ngeom; ++j) {
         const mjvGeom& of_ghost = posed.geoms[j];
-        // A ghost is made of the same geoms of the model, translucent.
+        // A ghost consists of the same geoms of the model, translucent.
         if (of_car.objtype != mjOBJ_GEOM || of_car.objid != of_ghost.objid ||
             of_ghost.objtype != mjOBJ_GEOM || of_ghost.rgba[3] > 0.3F || of_car.rgba[3] < 1.0F) {
           continue;
@@ -350,10 +355,10 @@ TEST_F(FilmSceneTest, GhostAndCarAreApartInThePictureAsInTheLogs) {
             {of_car.pos[0] + ghost.x - car.x, of_car.pos[1] + ghost.y - car.y, of_car.pos[2]});
         const auto seen_ghost = projection({of_ghost.pos[0], of_ghost.pos[1], of_ghost.pos[2]});
         ASSERT_TRUE(seen_car && seen_ghost);
-        // A ghost is drawn 0.1 m farther along the line from the camera, which moves nothing in the
-        // picture; single precision of places of 10 m is 1e-6 m, less than 1e-4 px. The left and
-        // the right camera of a pair, which MuJoCo makes both of one, differ from the middle by
-        // half of 0.068 m, of which 0.1 m / 15 m farther away comes out: 2e-4 m, 0.004 px.
+        // A ghost is drawn 0.1 m farther along the line of sight, which does not move it in the
+        // picture; single precision at 10 m is 1e-6 m, less than 1e-4 px. MuJoCo derives the left
+        // and right cameras of a stereo pair from one camera: each is half of 0.068 m from the
+        // middle, so that 0.1 m / 15 m farther away moves the ghost by 2e-4 m, 0.004 px.
         EXPECT_NEAR(seen_ghost->x, seen_car->x, 0.01) << time;
         EXPECT_NEAR(seen_ghost->y, seen_car->y, 0.01) << time;
         ++compared;

@@ -13,7 +13,7 @@
 namespace trackbed::render {
 namespace {
 
-/// Two plants: one goes straight on, the other one to the left.
+/// Two plants: one drives straight, the other one turns left.
 class PainterTest : public FilmSceneTest {
  protected:
   PainterTest() {
@@ -51,7 +51,7 @@ class PainterTest : public FilmSceneTest {
   FilmOptions options_;
 };
 
-/// Pixels that differ, of a part of two pictures.
+/// Number of pixels that differ within a rectangle of two pictures.
 int Different(const Image& a, const Image& b, int left, int right, int top, int bottom) {
   int count = 0;
   for (int y = top; y < bottom; ++y) {
@@ -84,7 +84,7 @@ TEST_F(PainterTest, TitleAndNoteAreThoseAskedFor) {
   EXPECT_GT(Different(noted, plain, 0, kWidth / 2, 0, kHeight / 2), 100);
   EXPECT_EQ(Different(noted, plain, kWidth / 2, kWidth, 0, kHeight), 0);
   EXPECT_EQ(Different(noted, plain, 0, kWidth, kHeight / 2, kHeight), 0);
-  // What does not fit ends with dots, which leaves the legend free.
+  // A note that does not fit ends with dots and does not overlap the legend.
   options_.note = std::string(200, 'm');
   const Image shortened = Painted(options_);
   EXPECT_GT(Different(shortened, noted, 0, kWidth, 0, kHeight / 2), 100);
@@ -104,7 +104,7 @@ TEST_F(PainterTest, PlantsSideBySideAreEachAsAlone) {
       one.width = kWidth / 2;
       one.plants = {options_.plants[static_cast<std::size_t>(part)]};
       const Image alone = Painted(one);
-      // But for the seam, which is 1.2 px wide on either side at most.
+      // Except for the seam, which is at most 1.2 px wide on either side.
       int different = 0;
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 2; x < kWidth / 2 - 2; ++x) {
@@ -112,7 +112,8 @@ TEST_F(PainterTest, PlantsSideBySideAreEachAsAlone) {
           different += std::equal(here, here + 3, alone.Pixel(x, y)) ? 0 : 1;
         }
       }
-      // The map of shadows is fitted to the whole picture's camera, the same for both widths.
+      // The shadow map is fitted to the camera of the whole picture, which is the same for both
+      // widths.
       EXPECT_EQ(different, 0) << quality << ", " << one.plants.front();
     }
   }
@@ -162,9 +163,9 @@ world:
   const Image without = Painted(options_);
   options_.inset = "top";
   const Image with = Painted(options_);
-  // Ten lines of 16 px and 9.6 px around them make the legend, from 10 px: the car, the path, the
-  // scale of errors, the ghost with a note, wind, gust and three factors. The readings are one line
-  // of 16 px and 6.4 px around it.
+  // The legend has ten lines of 16 px and 9.6 px of padding, from 10 px on: the car, the path, the
+  // error scale, the ghost with a note, wind, gust and three factors. The readings have one line of
+  // 16 px and 6.4 px of padding.
   const int legend_end = 10 + 10 * 16 + 9;
   const int readings_begin = 350 - 16 - 7;
   EXPECT_EQ(Different(with, without, 0, 640, 0, legend_end), 0);

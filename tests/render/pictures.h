@@ -17,7 +17,7 @@
 #include "tests/support/temp_folder.h"
 #include "trackbed/sim/mujoco_error.h"
 
-/// Pictures of made-up runs, and where things are in them.
+/// Pictures of artificial runs, and positions of objects in them.
 namespace trackbed::render {
 
 inline constexpr int kWidth = 320;
@@ -28,7 +28,7 @@ struct Pixel {
   int y = 0;
 };
 
-/// Where a pinhole camera sees a point: written from the definition of CameraPose alone.
+/// Projects a point with a pinhole camera, using only the definition of CameraPose.
 inline Pixel Project(const CameraPose& pose, double x, double y, double z) {
   const double ca = std::cos(pose.azimuth);
   const double sa = std::sin(pose.azimuth);
@@ -48,7 +48,7 @@ inline Pixel Project(const CameraPose& pose, double x, double y, double z) {
           static_cast<int>(0.5 * kHeight - pixels * dot(up))};
 }
 
-/// Of half as wide letters as they are high, all blank.
+/// A blank font whose letters are half as wide as high.
 inline Font BlankFont() {
   Image glyph;
   glyph.Resize(4, 8);
@@ -81,7 +81,7 @@ class FilmSceneTest : public testing::Test {
     return image;
   }
 
-  /// Channel values of the picture where a point of the ground is.
+  /// RGB values at the pixel of a point of the world.
   std::array<int, 3> At(const Image& image, double x, double y, double z = 0.0) const {
     const Pixel pixel = Project(*pose_, x, y, z);
     EXPECT_TRUE(pixel.x >= 0 && pixel.x < kWidth && pixel.y >= 0 && pixel.y < kHeight)
@@ -90,7 +90,7 @@ class FilmSceneTest : public testing::Test {
     return {rgb[0], rgb[1], rgb[2]};
   }
 
-  /// Those named by `overlays_`.
+  /// The overlays named in `overlays_`.
   OverlayList Overlays(const Recording& recording) {
     return MakeOverlays({.recording = recording,
                          .shown = overlays_,
@@ -107,8 +107,8 @@ class FilmSceneTest : public testing::Test {
   std::optional<CameraPose> pose_;
 };
 
-// Light on flat paint: the lamps of the Prius add up to 0.96 of its color or more; the asphalt
-// between its lines is at most 0.69. A threshold of 225 / 255 = 0.88 lies well between.
+// Light on flat paint: the lamps of the Prius add up to at least 0.96 of its color, and the asphalt
+// between its lines has at most 0.69. The threshold 225 / 255 = 0.88 lies well between.
 inline constexpr int kWhite = 225;
 
 }  // namespace trackbed::render

@@ -12,7 +12,7 @@ extern "C" {
 namespace trackbed::render {
 namespace {
 
-/// A PNG as another reader than libpng sees it: libavcodec's own decoder.
+/// Decodes a PNG with a reader other than libpng: libavcodec's own decoder.
 Image Decode(std::string bytes) {
   Image image;
   const AVCodec* codec = avcodec_find_decoder(AV_CODEC_ID_PNG);
@@ -41,7 +41,7 @@ Image Decode(std::string bytes) {
 
 TEST(Png, HoldsEveryPixelAsItWas) {
   Image image;
-  image.Resize(37, 5);  // odd, and rows that are no multiple of four bytes
+  image.Resize(37, 5);  // odd, with rows that are not multiples of four bytes
   for (std::size_t i = 0; i < image.rgb.size(); ++i) {
     image.rgb[i] = static_cast<std::uint8_t>(37 * i * i + 11 * i);
   }

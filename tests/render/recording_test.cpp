@@ -1,3 +1,6 @@
+// Tests how a run folder is read for films: poses between rows, selection of plants, scales and
+// replans.
+
 #include "render/recording.h"
 
 #include <gmock/gmock.h>
@@ -32,8 +35,8 @@ TEST_F(RecordingTest, PosesTheCarBetweenRows) {
   const int chassis = mj_name2id(recording.model.get(), mjOBJ_BODY, "chassis");
   const mjtNum* place = data->xpos + 3 * chassis;
   const mjtNum* axes = data->xmat + 9 * chassis;
-  // Positions are linear in time, so only rounding is left. The normalized mean of two rotations
-  // about one axis is the rotation half way between, exactly.
+  // Positions are linear in time, so only rounding remains. The normalized mean of two rotations
+  // about one axis is exactly the rotation halfway between.
   EXPECT_NEAR(place[0], 3.0 * time, Tolerance(1e-12));
   EXPECT_NEAR(place[1], -2.0 * time, Tolerance(1e-12));
   EXPECT_NEAR(std::atan2(axes[3], axes[0]), 0.6 * time, Tolerance(1e-12));
@@ -41,8 +44,8 @@ TEST_F(RecordingTest, PosesTheCarBetweenRows) {
 }
 
 TEST_F(RecordingTest, TurnsTheShortWayWhenTheQuaternionChangesSign) {
-  // The half angle passes pi between 0.5 and 1: cos and sin of it are followed, so q does not
-  // jump; negating the second row makes it jump without changing the rotation.
+  // The half angle passes pi between 0.5 s and 1 s: its cos and sin are continuous, so q does not
+  // jump. Negating the second row makes q jump without changing the rotation.
   std::string header = "t_s,x_m,y_m,z_m,qw,qx,qy,qz";
   std::string zeros;
   for (const std::string& column : PriusJointColumns()) {
@@ -150,7 +153,7 @@ TEST_F(RecordingTest, ScalesAreTheLargestOfAllThatAreShownTogether) {
   EXPECT_DOUBLE_EQ(recordings[0].scales.error, 0.05);
   EXPECT_DOUBLE_EQ(recordings[0].scales.steering, 0.3);
   EXPECT_DOUBLE_EQ(recordings[1].scales.error, 1.0);
-  EXPECT_DOUBLE_EQ(recordings[1].scales.steering, 0.1);  // asked for
+  EXPECT_DOUBLE_EQ(recordings[1].scales.steering, 0.1);  // set by the option
   EXPECT_DOUBLE_EQ(recordings[1].scales.end, 1.0);
   ShareScales(recordings);
   for (const Recording& recording : recordings) {

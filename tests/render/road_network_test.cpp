@@ -22,7 +22,7 @@ TEST_F(FilmSceneTest, ARoadNetworkHasPavementAndPaintWhereTheFileSays) {
   folder_.Write("scenario.resolved.yaml", "world: {road_network: road_network.xodr}\n");
   overlays_ = {"road"};
   const Image image = Picture("top", 1.0);
-  // The top camera sees 20 m across; a pixel is 0.11 m, the paint 0.6 m wide.
+  // The camera `top` sees 20 m across; a pixel is 0.11 m, the paint 0.6 m wide.
   for (const double x : {-2.0, 10.0}) {
     for (const double y : {-1.75, 1.75}) {
       const std::array<int, 3> asphalt = At(image, x, y);
@@ -33,7 +33,7 @@ TEST_F(FilmSceneTest, ARoadNetworkHasPavementAndPaintWhereTheFileSays) {
     EXPECT_GT(At(image, x, 3.5)[2], kWhite - 10) << x;
     const std::array<int, 3> yellow = At(image, x, 0.0);
     EXPECT_GT(yellow[0], yellow[2] + 80) << x;
-    // Grass beside the road, which paves 3.5 m to the right.
+    // Grass beside the road, which is paved up to 3.5 m to the right.
     const std::array<int, 3> grass = At(image, x, -6.0);
     EXPECT_GT(grass[1], grass[2] + 15) << x;
   }

@@ -11,7 +11,7 @@
 
 namespace trackbed {
 
-/// Where a car of a made-up run is: rear-axle center [m] and heading [rad].
+/// Pose of a car of an artificial run: rear-axle center [m] and heading [rad].
 struct CarPlace {
   double x = 0;
   double y = 0;
@@ -27,7 +27,7 @@ inline const std::vector<std::string>& PriusJointColumns() {
   return columns;
 }
 
-/// Writes the files that one plant leaves: states each 1/60 s, the log each 20 ms.
+/// Writes the files of one plant: states every 1/60 s, the log every 20 ms.
 inline void WritePlant(const std::filesystem::path& folder, const std::string& plant,
                        double duration, const Motion& motion) {
   std::vector<std::string> columns{"t_s", "x_m", "y_m", "z_m", "qw", "qx", "qy", "qz"};
@@ -61,7 +61,7 @@ inline void WritePlant(const std::filesystem::path& folder, const std::string& p
   WriteFileAtomically(folder / (plant + ".csv"), log.ToCsv());
 }
 
-/// Gives a plant's log a column, or other values in it.
+/// Adds a column to a plant's log, or replaces its values.
 inline void SetLogColumn(const std::filesystem::path& folder, const std::string& plant,
                          const std::string& column, const std::function<double(double)>& value) {
   const std::filesystem::path file = folder / (plant + ".csv");
@@ -110,7 +110,7 @@ inline void WriteStraightPlan(const std::filesystem::path& folder, double length
   WriteFileAtomically(folder / "plan.csv", plan.ToCsv());
 }
 
-/// A straight line that a car takes up on its way: parallel to the x axis at `y` up to `length`.
+/// A straight replan: parallel to the x axis at `y`, up to `length`.
 struct NewLine {
   double from = 0;  // [s]
   double y = 0;

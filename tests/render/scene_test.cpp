@@ -1,3 +1,6 @@
+// Tests the 3D scene of films by the colors of pixels at projected positions: paint, shadows,
+// replans, trail and ghost.
+
 #include "render/scene.h"
 
 #include <fmt/format.h>
@@ -34,8 +37,9 @@ TEST_F(FilmSceneTest, ThePlannedPathIsWhereItsProjectionSays) {
 TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
   WriteStraightPlan(folder_.path(), 16.0);
   Recording recording = ReadRecording(folder_.path());
-  // A shadow map far coarser than a film's, 0.8 m to a texel: paint that casts a shadow, such as
-  // thin boxes, is dark at 102 of the 123 points; with a film's map its speckle lies between them.
+  // A shadow map far coarser than a film's, 0.8 m per texel. Paint that casts a shadow, such as
+  // thin boxes, is dark at 102 of the 123 points; with a film's map the speckle would lie between
+  // them.
   recording.model->vis.map.shadowclip = static_cast<float>(200.0 / recording.model->stat.extent);
   recording.model->vis.quality.shadowsize = 512;
   Offscreen offscreen(*recording.model, kWidth, kHeight, 1);
@@ -45,9 +49,9 @@ TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
       FindCamera("top").pose(CameraSubject(recording), 0.0, static_cast<double>(kWidth) / kHeight);
   Image image;
   offscreen.Render(scene.At(0.0, *pose_), image);
-  // In the sun ahead of the car, which ends at x = 3.6 and whose shadow, 1.5 m high under a sun
-  // that stands at (-0.3, 0.4, 0.8), ends 0.56 m farther. Every point of the ribbon is lit: speckle
-  // would be dark dots.
+  // Sunlit ground ahead of the car, which ends at x = 3.6. Its shadow, 1.5 m high under a sun at
+  // (-0.3, 0.4, 0.8), ends 0.56 m farther. Every point of the ribbon must be lit: speckle would be
+  // dark dots.
   for (int i = 0; i <= 40; ++i) {
     const double x = 4.5 + 0.05 * i;
     for (const double y : {-0.12, 0.0, 0.12}) {
@@ -59,12 +63,12 @@ TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
 TEST_F(FilmSceneTest, TheSunCastsTheCarsShadowToItsRight) {
   const Image lit = Picture("top", 0.0);
   const Image shaded = Picture("top", 0.0, true);
-  // The roof, 1.5 m up and 0.55 m off the middle, throws its edge 1.5 * 0.4 / 0.8 = 0.75 m to the
-  // right, so y = -1.15 is in the shade and -2.2 and +1.5 are not. The sun is almost half
-  // of what lights flat ground, so the shade is darker by much more than a quarter.
+  // The roof, 1.5 m high and 0.55 m off the middle, casts its edge 1.5 * 0.4 / 0.8 = 0.75 m to the
+  // right, so y = -1.15 is in the shade and -2.2 and +1.5 are not. The sun provides almost half of
+  // the light on flat ground, so the shade is darker by much more than a quarter.
   EXPECT_LT(At(shaded, 1.4, -1.15)[1], 0.75 * At(lit, 1.4, -2.2)[1]);
-  // In the sun the lamps add up to 0.37 + 0.22 + 0.60 * 0.8 / 0.943 = 1.10, of which one pass keeps
-  // 1 and two passes, one for the sun, keep all. 2 for rounding in either.
+  // In the sun the lamps add up to 0.37 + 0.22 + 0.60 * 0.8 / 0.943 = 1.10. One pass clips that to
+  // 1; two passes, one for the sun, keep all of it. 2 allows for rounding in either.
   for (const double y : {-2.2, 1.5}) {
     EXPECT_GE(At(shaded, 1.4, y)[1], At(lit, 1.4, y)[1] - 2) << y;
     EXPECT_LE(At(shaded, 1.4, y)[1], 1.10 * At(lit, 1.4, y)[1] + 2) << y;
@@ -72,7 +76,7 @@ TEST_F(FilmSceneTest, TheSunCastsTheCarsShadowToItsRight) {
 }
 
 TEST_F(FilmSceneTest, ThingsFarFromTheCarCastShadowsToo) {
-  // A cube of 2 m, 20 m ahead of the car, then 11 m to its left: far out of its own shadow's reach.
+  // A cube of 2 m, 20 m ahead of the car, then 11 m to its left: far outside of the car's shadow.
   struct Place {
     const char* camera;
     double x;
@@ -87,7 +91,7 @@ TEST_F(FilmSceneTest, ThingsFarFromTheCarCastShadowsToo) {
     WriteFileAtomically(model, with_box);
     const Image lit = Picture(camera, 0.0);
     const Image shaded = Picture(camera, 0.0, true);
-    // Its 2 m throw its upper edges 2 * 0.3 / 0.8 = 0.75 m ahead and 1 m to the right.
+    // Its upper edges, 2 m high, cast shadows 2 * 0.3 / 0.8 = 0.75 m ahead and 1 m to the right.
     EXPECT_LT(At(shaded, x, y - 1.5)[1], 0.75 * At(lit, x, y - 1.5)[1]) << camera;
     EXPECT_GE(At(shaded, x, y - 2.5)[1], At(lit, x, y - 2.5)[1] - 2) << camera;
   }
@@ -124,8 +128,8 @@ TEST_F(FilmSceneTest, SupersamplingSmoothsAndShiftsNothing) {
 
 TEST_F(FilmSceneTest, TheSideCameraHasTheCarInTheMiddle) {
   const Image image = Picture("side", 1.0);
-  // The Prius covers 2.175 to 6.625 at 1 s, up to 1.49: all of it is in the picture, on both sides
-  // of its middle, the front to the right.
+  // At 1 s the Prius covers x = 2.175 to 6.625, up to z = 1.49. All of it is in the picture, on
+  // both sides of the center, with the front to the right.
   const Pixel tail = Project(*pose_, 2.175, -0.86, 0.7);
   const Pixel nose = Project(*pose_, 6.625, -0.86, 0.7);
   EXPECT_GT(tail.x, kWidth / 10);
@@ -134,18 +138,19 @@ TEST_F(FilmSceneTest, TheSideCameraHasTheCarInTheMiddle) {
   EXPECT_NEAR(0.5 * (tail.x + nose.x), 0.5 * kWidth, 0.05 * kWidth);
   EXPECT_GT(Project(*pose_, 4.4, 0.0, 1.49).y, kHeight / 10);
   EXPECT_LT(Project(*pose_, 4.4, -0.86, 0.0).y, kHeight - kHeight / 10);
-  // The plant's orange on the doors, 0.86 of (1.00, 0.55, 0.05), where the ground has as much red
-  // as blue; in the shade, by 0.36 of ambient light, it is still 0.36 * 0.82 * 255 = 75 more red.
+  // The plant's orange on the doors is 0.86 of (1.00, 0.55, 0.05), where the ground has as much red
+  // as blue. In the shade, with 0.36 of ambient light, red still exceeds blue by 0.36 * 0.82 * 255
+  // = 75.
   const std::array<int, 3> door = At(image, 4.6, -0.8625, 0.6);
   EXPECT_GT(door[0], door[2] + 60);
 }
 
-/// What paint a point of the road shows.
+/// Classifies the paint at a point of the road by its color.
 ///
-/// Asphalt is gray up to 0.62 * 1.10 of 255 = 174, with no more red than green. A plan that was
-/// given up has 0.35 of its own color, over asphalt of 0.60: white ones are at least 0.96 * (0.60
-/// + 0.35 * 0.40) = 181. Pink, (1.00, 0.58, 0.80), has 0.96 * 0.42 = 103 more red than green, and
-/// 33 when given up: the thresholds are half way, between 33 and 103 and between 0 and 33.
+/// Asphalt is gray up to 0.62 * 1.10 of 255 = 174, with no more red than green. A discarded plan
+/// has 0.35 of its color over asphalt of 0.60: white ones have at least 0.96 * (0.60 + 0.35 * 0.40)
+/// = 181. Pink, (1.00, 0.58, 0.80), has 0.96 * 0.42 = 103 more red than green, and 33 if discarded.
+/// The thresholds are halfway between 33 and 103 and between 0 and 33.
 std::string PaintAt(const std::array<int, 3>& rgb) {
   if (rgb[0] - rgb[1] > 68) {
     return "pink";
@@ -160,7 +165,7 @@ std::string PaintAt(const std::array<int, 3>& rgb) {
 }
 
 TEST_F(FilmSceneTest, ANewPlanTakesThePlaceOfTheOldOneWhenItHolds) {
-  // So slowly that it is never between the camera and what is looked at.
+  // So slow that the car is never between the camera and the checked points.
   WritePlant(folder_.path(), "mujoco", 2.0, [](double time) { return CarPlace{time, 0.0, 0.0}; });
   WriteStraightPlan(folder_.path(), 16.0);
   WriteNewPlans(folder_.path(), "mujoco", {{1.0, 2.0, 16.0}, {2.0, -2.0, 16.0}});
@@ -194,9 +199,9 @@ TEST_F(FilmSceneTest, APlanThatHeldForLessThanASecondLeavesNothing) {
 TEST_F(FilmSceneTest, APlanThatWasGivenUpIsNarrowerAndBelowTheOneInForce) {
   WriteStraightPlan(folder_.path(), 16.0);
   const auto at = [this](const Image& image, double y) { return PaintAt(At(image, 12.0, y)); };
-  // From above at 20 m to the picture's height, paint is 20 / 22 of its width: half of 0.48 ends
-  // 0.218 m from the middle, half of 0.24 at 0.109 m. A row of pixels is 20 / 180 = 0.111 m, so
-  // what is seen lies within 0.056 m of what is asked for.
+  // From above at 20 m per picture height, paint is 20 / 22 of its width: half of 0.48 m ends 0.218
+  // m from the middle, half of 0.24 m at 0.109 m. A row of pixels is 20 / 180 = 0.111 m, so a pixel
+  // shows the point to within 0.056 m.
   EXPECT_EQ(at(Picture("top", 0.0), 0.15), "white");
   WriteNewPlans(folder_.path(), "mujoco", {{1.0, 2.0, 16.0}});
   EXPECT_EQ(at(Picture("top", 1.0), 0.0), "pale");
@@ -206,7 +211,7 @@ TEST_F(FilmSceneTest, APlanThatWasGivenUpIsNarrowerAndBelowTheOneInForce) {
 }
 
 TEST_F(FilmSceneTest, NewPlansAreWithinTheSceneHoweverMany) {
-  // 400 plans of 17 points each, none of which the thinning may leave out: a zigzag.
+  // 400 plans of 17 points each. They zigzag, so that thinning cannot remove a point.
   std::string rows = "from_t_s,x_m,y_m\n";
   for (int plan = 0; plan < 400; ++plan) {
     for (int i = 0; i <= 16; ++i) {
@@ -238,7 +243,7 @@ TEST_F(FilmSceneTest, TheLegendNamesWhatThereIs) {
   EXPECT_EQ(legend(), (Texts{"mujoco", "planned path"}));
   WriteNewPlans(folder_.path(), "mujoco", {{0.5, 2.0, 16.0}, {1.0, -2.0, 16.0}});
   EXPECT_EQ(legend(), (Texts{"mujoco", "planned path", "replanned path"}));
-  // A ghost's own plans are not shown, so they are not named.
+  // A ghost's own replans are not shown, so the legend does not name them.
   WritePlant(folder_.path(), "kinematic", 2.0, [](double) { return CarPlace{}; });
   WriteNewPlans(folder_.path(), "kinematic", {{0.5, 2.0, 16.0}});
   std::filesystem::remove(folder_.path() / "mujoco.plan.csv");
@@ -268,9 +273,10 @@ TEST_F(FilmSceneTest, TheGhostTintsTheGroundUnderItAndNothingElse) {
     return CarPlace{3.0 * time, 2.5, 0.0};
   });
   const Image with_ghost = Picture("chase", 0.0);
-  // The middle of the ghost's left side, half up the door. What shines through is gray; the tint
-  // (0.10, 0.75, 0.95) at an opacity of 0.39 takes 0.39 * (0.6 - 0.1) = 0.19 of the red away and
-  // leaves blue over red by at least 0.39 * 0.85 * 0.7 = 0.23: 59 of 255. Half of that will do.
+  // The center of the ghost's left side, at half the door's height. The ground behind it is gray.
+  // The tint (0.10, 0.75, 0.95) at an opacity of 0.39 removes 0.39 * (0.6 - 0.1) = 0.19 of the red
+  // and leaves blue above red by at least 0.39 * 0.85 * 0.7 = 0.23: 59 of 255. The test requires
+  // half of that.
   const std::array<int, 3> ghost = At(with_ghost, 1.4, 2.5, 0.6);
   const std::array<int, 3> ground = At(alone, 1.4, 2.5, 0.6);
   EXPECT_GT(ghost[2] - ghost[0], ground[2] - ground[0] + 30);
@@ -284,7 +290,7 @@ TEST_F(FilmSceneTest, AGhostThatAgreesWithTheCarLeavesTheCarAsItIs) {
     return CarPlace{3.0 * time, 0.0, 0.0};
   });
   const Image with_ghost = Picture("chase", 1.0);
-  // The middle of the tailgate: 0.8 m behind the rear axle, which is at x = 3.
+  // The middle of the tailgate, 0.8 m behind the rear axle, which is at x = 3.
   EXPECT_EQ(At(with_ghost, 2.2, 0.0, 0.8), At(alone, 2.2, 0.0, 0.8));
 }
 
@@ -304,7 +310,7 @@ TEST_F(FilmSceneTest, PicturesRepeat) {
 }
 
 TEST_F(FilmSceneTest, ALongRouteStaysWithinTheScene) {
-  // A slalom of 600 m, with a state each 1/60 s: 36 000 rows.
+  // A slalom of 600 m, with a state every 1/60 s: 36 000 rows.
   const auto slalom = [](double time) {
     return CarPlace{1.0 * time, 4.0 * std::sin(0.5 * time), 0.0};
   };

@@ -15,7 +15,7 @@ namespace {
 
 class TyreForcesTest : public FilmSceneTest {
  protected:
-  /// Every wheel carries `load` and pushes with `along` and `across` [N].
+  /// Sets each wheel's load and its longitudinal and lateral force [N].
   void SetForces(double load, double along, double across) {
     for (const char* wheel : {"fl", "fr", "rl", "rr"}) {
       SetLogColumn(folder_.path(), "mujoco", fmt::format("normal_force_{}_N", wheel),
@@ -38,7 +38,7 @@ class TyreForcesTest : public FilmSceneTest {
 };
 
 TEST_F(TyreForcesTest, LieInsideWhatTheContactsFrictionAllows) {
-  EXPECT_TRUE(ForcesAt(1.0).empty());  // the log has none
+  EXPECT_TRUE(ForcesAt(1.0).empty());  // the log has no forces
   SetScenario("schema: 1\nname: c\nvehicle: {tyre: contact}\nmission: {speed: 3, duration: 1}\n");
   SetForces(4000.0, 1200.0, -2400.0);
   const std::vector<WheelForce> forces = ForcesAt(1.0);
@@ -62,7 +62,7 @@ TEST_F(TyreForcesTest, LieInsideWhatTheContactsFrictionAllows) {
 
 TEST_F(TyreForcesTest, KnowTheRoadAndTheMagicFormulasFriction) {
   SetForces(4000.0, 0.0, 1000.0);
-  // Under the left wheels alone.
+  // A friction patch under the left wheels only.
   SetScenario(R"(schema: 1
 name: run
 mission: {speed: 3, waypoints: [[0, 0], [20, 0]]}
@@ -90,8 +90,8 @@ world: {friction_patches: [{x: 3, y: 1, length: 20, width: 2, friction: 0.5}]}
 
 class GripDialTest : public FilmSceneTest {
  protected:
-  /// A dial of 40 px in the middle of 120 x 120 px, of a tyre that may take 1000 N along and 2000 N
-  /// across.
+  /// A dial of 40 px in the center of 120 x 120 px, for a tyre with limits of 1000 N longitudinally
+  /// and 2000 N laterally.
   Image Dial(const std::optional<Vec2>& force) {
     Image image;
     image.Resize(120, 120);
@@ -106,20 +106,20 @@ class GripDialTest : public FilmSceneTest {
 };
 
 TEST_F(GripDialTest, PointsWhereTheForceGoesAndEndsAtTheShareOfGripThatIsUsed) {
-  // 0.3 of what friction gives along: 12 px up, whatever that is in newtons.
+  // 0.3 of the longitudinal friction limit is 12 px up, whatever it is in newtons.
   const Image little = Dial(Vec2(300.0, 0.0));
   EXPECT_GT(little.Pixel(60, 50)[0], 200);
   EXPECT_GT(little.Pixel(60, 50)[1], 200);  // white: less than 0.9
-  EXPECT_LT(little.Pixel(60, 35)[0], 120);  // beyond its end: the dial's dark
+  EXPECT_LT(little.Pixel(60, 35)[0], 120);  // beyond the bar's end: the dial's dark color
   EXPECT_LT(little.Pixel(60, 70)[0], 120);
   EXPECT_GT(little.Pixel(60, 20)[0], 180);  // the rim
   EXPECT_GT(little.Pixel(20, 60)[0], 180);
   EXPECT_EQ(little.Pixel(60, 15)[0], 120);
-  // Half of 2000 N to the left: 20 px, as far as half of 1000 N would be up.
+  // Half of 2000 N to the left is 20 px, as long as half of 1000 N would be upward.
   const Image half = Dial(Vec2(0.0, 1000.0));
   EXPECT_GT(half.Pixel(45, 60)[0], 200);
   EXPECT_LT(half.Pixel(32, 60)[0], 120);
-  // All of it: red, up to the rim; with ten times less grip and load the same dial.
+  // A fully used tyre is red up to the rim; with ten times less grip and load the dial is the same.
   const Image all = Dial(Vec2(0.0, 2000.0));
   for (const int x : {25, 40, 52}) {
     EXPECT_GT(all.Pixel(x, 60)[0], all.Pixel(x, 60)[1] + 120) << x;

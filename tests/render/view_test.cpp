@@ -11,7 +11,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 
-/// Contour lines, gates, plain ground, the flat view of the inset, and cameras.
+/// Tests contour lines, gates, plain ground, the flat view of the inset, and cameras.
 namespace trackbed::render {
 namespace {
 
@@ -39,8 +39,8 @@ TEST(Isolines, AroundAHillClose) {
   double length = 0.0;
   for (std::size_t i = 1; i < lines.front().size(); ++i) {
     length += (lines.front()[i] - lines.front()[i - 1]).norm();
-    // Of a cell of 0.1 m a parabola bends by 0.1^2 / 4 between the corners: 2.5e-3 over a slope of
-    // 4 or 2.8 along a side.
+    // In a cell of 0.1 m a parabola deviates from the chord by 0.1^2 / 4 = 2.5e-3; the slope along
+    // a side is 4 or 2.8.
     EXPECT_NEAR(lines.front()[i].norm(), 2.0, Tolerance(1e-3));
   }
   EXPECT_NEAR(length, 4.0 * kPi, Tolerance(0.02));
@@ -48,7 +48,7 @@ TEST(Isolines, AroundAHillClose) {
 
 TEST(Isolines, OfASaddleKeepApart) {
   const IsolineGrid grid({0.0, 0.0}, {1.0, 1.0}, 1.0, [](const Vec2& p) {
-    return p.x() == p.y() ? 1.0 : 0.0;  // above at two opposite corners
+    return p.x() == p.y() ? 1.0 : 0.0;  // above the level at two opposite corners
   });
   EXPECT_EQ(grid.At(0.5).size(), 2U);
 }
@@ -66,7 +66,7 @@ TEST_F(FilmSceneTest, ContoursLieWhereTheGroundHasTheirHeight) {
   WriteFileAtomically(folder_.path() / "scenario.resolved.yaml",
                       "schema: 1\nname: run\nmission: {speed: 3, waypoints: [[0, 0], [20, 0]]}\n"
                       "world: {ground: {grade: {x: 0.05}}}\n");
-  // Along the x axis -30 to 36 m: 3.3 m in 33 lines of 0.1 m, 2 m apart along x.
+  // Along the x axis from -30 to 36 m: 3.3 m of height in 33 lines of 0.1 m, 2 m apart.
   Picture("top", 0.0);
   Recording recording = ReadRecording(folder_.path());
   const CameraPose camera = FindCamera("top").pose(CameraSubject(recording), 0.0, 16.0 / 9.0);
@@ -98,7 +98,8 @@ TEST_F(FilmSceneTest, GatesAreOutlinedBetweenTheirCones) {
     EXPECT_GT(At(image, x, -1.5)[0], 200) << x;
     EXPECT_LT(At(image, x, 0.7)[0], 200) << x;
   }
-  // Its exit and its entry: with the camera's 20 m in 180 rows a pixel is 0.11 m, the line 0.13.
+  // Its exit and its entry: the camera's 20 m in 180 rows give 0.11 m per pixel, the line is 0.13 m
+  // wide.
   for (const double x : {6.0, 10.0}) {
     int most = 0;
     for (int i = -5; i <= 5; ++i) {
@@ -127,7 +128,7 @@ TEST_F(FilmSceneTest, PlainGroundKeepsItsColorAndHasLinesOnRequest) {
   };
   const double before = mean();
   MakeGroundPlain(model, false);
-  // Noise of mean 0 in at least 7 x 7 cells of amplitude 0.03: 0.03 / sqrt(3) / 7 = 0.25 %.
+  // Noise of mean 0 with amplitude 0.03 in at least 7 x 7 cells: 0.03 / sqrt(3) / 7 = 0.25 %.
   EXPECT_NEAR(mean(), before, Tolerance(3.0 * 0.0025 * before + 0.5));
   EXPECT_FLOAT_EQ(model.mat_texrepeat[2 * material], 0.1F);
   const auto least_of_row = [&](int row) {
@@ -137,9 +138,8 @@ TEST_F(FilmSceneTest, PlainGroundKeepsItsColorAndHasLinesOnRequest) {
     }
     return least;
   };
-  // In the middle of 10 m, along all of it.
-  // A line is 1.12 of the mean, red a little less than the mean of all channels; grain at
-  // most 1.10.
+  // In the middle of 10 m, along its whole length. A line is 1.12 of the mean, red a little less
+  // than the mean of all channels; grain is at most 1.10.
   EXPECT_LT(least_of_row(side / 2), before);
   MakeGroundPlain(model, true);
   EXPECT_GT(least_of_row(side / 2), 1.05 * before);
@@ -180,7 +180,7 @@ class LateralTest : public FilmSceneTest {
 TEST_F(LateralTest, ShowsDistancesTenTimesAsLargeAsStations) {
   const Recording recording = ReadRecording(folder_.path());
   const LateralView view(recording);
-  // 40 m in 400 px, the car at three quarters: 10 px to a meter along, 100 across.
+  // 40 m in 400 px with the car at three quarters: 10 px per meter along the path, 100 across.
   const CanvasPoint here = view.Place(400, 220, 6.0, 6.0, 0.0);
   EXPECT_DOUBLE_EQ(here.x, 300.0);
   EXPECT_DOUBLE_EQ(here.y, 110.0);
@@ -190,8 +190,8 @@ TEST_F(LateralTest, ShowsDistancesTenTimesAsLargeAsStations) {
   Image image;
   image.Resize(400, 220);
   view.Draw(image, font_, 2.0);
-  // The car's orange at 0.4 m to the left, behind it; the other plant's blue at 0.2 m to the right,
-  // 2 m further along the path, and nothing ahead of either.
+  // The car's orange 0.4 m to the left, behind it; the other plant's blue 0.2 m to the right, 2 m
+  // farther along the path; nothing ahead of either.
   const auto rgb = [&](int x, int y) {
     const std::uint8_t* pixel = image.Pixel(x, y);
     return std::array<int, 3>{pixel[0], pixel[1], pixel[2]};
@@ -206,7 +206,7 @@ TEST_F(LateralTest, ShowsDistancesTenTimesAsLargeAsStations) {
 TEST_F(LateralTest, GoesOutWhereTheErrorHasNoRoom) {
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m", [](double) { return 3.0; });
   const Recording recording = ReadRecording(folder_.path());
-  // The scale of errors is 5 m, ten times of which fill 0.85 of 110 px.
+  // The error scale is 5 m; ten times that would fill 0.85 of 110 px.
   const CanvasPoint place = LateralView(recording).Place(400, 220, 6.0, 6.0, 5.0);
   EXPECT_NEAR(place.y, 110.0 - 0.85 * 110.0, Tolerance(1e-9));
 }
@@ -225,7 +225,7 @@ class CameraTest : public FilmSceneTest {
 };
 
 TEST_F(CameraTest, ChaseSwingsRoundInReverse) {
-  // Forward for 3 s, standing until 4 s, then back.
+  // Forward for 3 s, standing until 4 s, then in reverse.
   WritePlant(folder_.path(), "mujoco", 8.0, [](double time) {
     return CarPlace{time < 3.0   ? 3.0 * time
                     : time < 4.0 ? 9.0
@@ -237,12 +237,13 @@ TEST_F(CameraTest, ChaseSwingsRoundInReverse) {
   });
   const double aside = 14.0 * kPi / 180.0;
   EXPECT_NEAR(Pose("chase", 1.5).azimuth, aside, Tolerance(1e-9));
-  // Standing it is in the gear of before, up to 0.8 s before it moves.
+  // A standing car keeps its last gear up to 0.8 s before it moves.
   EXPECT_NEAR(Pose("chase", 3.1).azimuth, aside, Tolerance(1e-9));
   EXPECT_NEAR(Pose("chase", 6.0).azimuth, kPi + aside, Tolerance(1e-9));
-  // Half way at the change, but for the samples' 0.05 s and the row of 0.02 s: pi / 16 each side.
+  // Halfway at the change of gear, except for the samples' 0.05 s and the row of 0.02 s: pi / 16
+  // each.
   EXPECT_NEAR(Pose("chase", 4.0).azimuth, 0.5 * kPi + aside, Tolerance(kPi / 16.0));
-  // Looking back it stands ahead of the car.
+  // Looking backward, the camera is ahead of the car.
   EXPECT_GT(Eye(Pose("chase", 6.0)).x(), 3.0 + 3.6);
 }
 
@@ -253,14 +254,15 @@ TEST_F(CameraTest, DriverSitsInTheCarAndLooksAhead) {
   const CameraPose pose = Pose("driver", 1.0);
   EXPECT_TRUE(pose.inside);
   EXPECT_NEAR(pose.azimuth, 1.0, Tolerance(1e-3));
-  // In the middle of the Prius, 1.4 m ahead of its rear axle, 0.45 of half its width to the left.
+  // The seat: at the center of the Prius, 1.4 m ahead of its rear axle, 0.45 of half its width to
+  // the left.
   const Vec2 seat =
       ToWorld({5.0 * std::sin(1.0), 5.0 - 5.0 * std::cos(1.0), 1.0}, {1.4, 0.45 * 0.8625});
   const Eigen::Vector3d eye = Eye(pose);
   EXPECT_NEAR(eye.x(), seat.x(), Tolerance(2e-3));  // states are 1/60 s apart: 5 / 8 / 60^2
   EXPECT_NEAR(eye.y(), seat.y(), Tolerance(2e-3));
   EXPECT_NEAR(eye.z(), 0.82 * 1.49, Tolerance(1e-9));
-  // The car itself is not in the picture: no paint where its hood would be.
+  // The car is not drawn: no paint where its hood would be.
   overlays_.clear();
   Recording recording = ReadRecording(folder_.path());
   const OverlayList none;
@@ -282,7 +284,7 @@ TEST_F(CameraTest, StandsNearerToSmallCars) {
   ASSERT_NE(xml.find(size), std::string::npos);
   xml.replace(xml.find(size), size.size(), "0.2 0.08 0.07");
   WriteFileAtomically(model, xml);
-  // A tenth of the 4 m from which on cars are full-size.
+  // A tenth of the 4 m above which cars count as full-size.
   for (const char* camera : {"chase", "side", "orbit", "top"}) {
     EXPECT_LT(Pose(camera, 1.0).paint_scale, 0.2) << camera;
   }

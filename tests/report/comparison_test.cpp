@@ -18,8 +18,8 @@ using testing::HasSubstr;
 
 const std::string kPlants = "drive: {plants: [kinematic, single_track]}\n";
 
-/// The same run once more, but for one plant that drove so much further to the left of x and turned
-/// so much to the left.
+/// Copies a run, with one plant moved to the left of x by `shift` [m] and turned to the left by
+/// `turn` [rad].
 fs::path Shifted(const fs::path& run, const std::string& name, const std::string& plant,
                  double shift, double turn) {
   const fs::path copy = run.parent_path() / name;
@@ -50,7 +50,7 @@ ordered_json PairNumber(const ordered_json& pair, const std::string& path) {
   return nullptr;
 }
 
-/// "0 single_track - 1 single_track".
+/// The compared pairs, such as "0 single_track - 1 single_track".
 std::vector<std::string> PairsIn(const ordered_json& data) {
   std::vector<std::string> pairs;
   for (const ordered_json& pair : data["comparison"]["pairs"]) {
@@ -81,7 +81,7 @@ TEST(Comparison, HoldsEachPlantOfTheFirstRunAgainstItsNamesakes) {
                                    "0 kinematic - 2 kinematic", "0 single_track - 2 single_track"));
   EXPECT_TRUE(data["comparison"]["verdicts"].empty());
   const auto& pairs = data["comparison"]["pairs"];
-  // Shifts and turns alone: the sums are exact to a few units of the last place.
+  // The copies differ only by shifts and turns, so the results are exact except for rounding.
   constexpr double kExact = 1e-6;
   EXPECT_NEAR(PairNumber(pairs[0], "position.max").get<double>(), 0.0, kExact);
   EXPECT_NEAR(PairNumber(pairs[1], "position.max").get<double>(), 0.25, kExact);
@@ -97,7 +97,7 @@ TEST(Comparison, HoldsEachPlantOfTheFirstRunAgainstItsNamesakes) {
   ASSERT_EQ(curve["s"].size(), curve["position"].size());
   for (std::size_t i = 0; i < curve["s"].size(); ++i) {
     ASSERT_NEAR(curve["position"][i].get<double>(), 0.25, kExact);
-    ASSERT_NEAR(curve["heading"][i].get<double>(), -0.125, kExact);  // of the second from the first
+    ASSERT_NEAR(curve["heading"][i].get<double>(), -0.125, kExact);  // second relative to first
     ASSERT_NEAR(curve["yaw_rate"][i].get<double>(), 0.0, kExact);
     ASSERT_NEAR(curve["steering"][i].get<double>(), 0.0, kExact);
   }
@@ -123,11 +123,11 @@ TEST(Comparison, ShowsWhatAComparisonFound) {
               HasSubstr("position difference 0.25 m exceeds 0.125 m"));
   EXPECT_EQ(comparison["pairs"][1]["tolerances"].dump(),
             R"({"position_max":0.125,"heading_max":1.0})");
-  // Of different plants, only that pair.
+  // With two different plants, only that pair is compared.
   WriteComparison(CompareFolders({a, b}, {"kinematic", "single_track"}, std::nullopt), out);
   const ordered_json mixed = ReportData({out});
   EXPECT_THAT(PairsIn(mixed), testing::ElementsAre("0 kinematic - 1 single_track"));
-  // Nothing to judge by.
+  // Without tolerances there is no verdict.
   EXPECT_TRUE(mixed["comparison"]["verdicts"][0]["passed"].is_null());
 }
 
@@ -135,7 +135,7 @@ TEST(Comparison, OfOneRunStandsWithThatRun) {
   const TempFolder folder;
   const fs::path a = DriveCorner(folder, "a", kPlants);
   const fs::path b = Shifted(a, "b", "single_track", 0.25, 0.0);
-  // Its plants are compared, though nobody judged by it.
+  // Its plants are compared even without a judged comparison.
   const ordered_json alone = ReportData({a});
   EXPECT_THAT(PairsIn(alone), testing::ElementsAre("0 kinematic - 0 single_track"));
   EXPECT_TRUE(alone["comparison"]["verdicts"].empty());
@@ -146,7 +146,7 @@ TEST(Comparison, OfOneRunStandsWithThatRun) {
     EXPECT_THAT(PairsIn(data), testing::ElementsAre("0 kinematic - 0 single_track"));
     EXPECT_EQ(data["comparison"]["verdicts"][0]["passed"], true);
   }
-  // As `compare` leaves it beside the run that it has driven.
+  // compare.json as `compare` writes it into the folder of the run that it made.
   ordered_json json = ordered_json::parse(ReadFile(a / "compare.json"));
   json.erase("runs");
   ForgetHashes(a);
@@ -157,7 +157,7 @@ TEST(Comparison, OfOneRunStandsWithThatRun) {
               testing::ElementsAre("1 kinematic - 1 single_track", "0 kinematic - 1 kinematic",
                                    "0 single_track - 1 single_track"));
   EXPECT_EQ(both["comparison"]["verdicts"][0]["run"], 1);
-  // One of other runs is not theirs alone.
+  // A comparison of other runs does not belong to these two.
   WriteComparison(CompareFolders({a, b}, {}, std::nullopt), b);
   EXPECT_EQ(ReportData({b, a})["comparison"]["verdicts"].size(), 1U);
 }
@@ -178,7 +178,7 @@ TEST(Comparison, SaysWhatIsWrong) {
               EndsWith("compare.json: does not name its runs; compare the runs again"));
   folder.Write("out/compare.json", text);
   EXPECT_EQ(ErrorMessage({out}), "no error");
-  // Another drive under the same name.
+  // Another run under the same name.
   fs::remove_all(b);
   Shifted(a, "b", "single_track", 0.5, 0.0);
   EXPECT_THAT(

@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// The numbers of a channel, as a page reads them.
+/// Decodes the numbers of a channel as the page does.
 std::vector<double> NumbersIn(const ordered_json& channel) {
   using boost::archive::iterators::binary_from_base64;
   using boost::archive::iterators::transform_width;
@@ -53,13 +53,13 @@ CarModel Prius() {
   return {ComposeScene(FindModel("prius", ""), {}), "prius"};
 }
 
-/// A row every 0.02 s for `duration`: the car drives along x at 1 m/s, and its actuator is short of
-/// the command where `short_by` says so.
+/// A row every 0.02 s for `duration`: the car drives along x at 1 m/s, and its actuator lags behind
+/// the command by `short_by(row)` [rad].
 template <typename ShortBy>
 std::string DriveAlongX(double duration, const ShortBy& short_by) {
   std::string csv = "t_s,x_m,y_m,yaw_rad,steering_command_rad,steering_actuator_rad\n";
   for (int i = 0; 0.02 * i <= duration; ++i) {
-    // A row's command is reached, or not, in the next one.
+    // The next row shows whether the actuator reached this row's command.
     csv += fmt::format("{0:.2f},{0:.2f},0,0,0.1,{1}\n", 0.02 * i, 0.1 - short_by(i));
   }
   return csv;
@@ -88,13 +88,13 @@ TEST(EventsJson, SaysWhenObstaclesBecomeKnown) {
                      {.footprint = box, .known_from_time = 2.5},
                      {.footprint = box, .known_from_range = 30.0},
                      {.footprint = box, .known_from_range = 5.0}};
-  // The front, `length - rear_overhang` ahead of x = t, is 30 m from the near side at 39 m.
+  // The front, `length - rear_overhang` ahead of x = t, is 30 m from the box's near side at 39 m.
   const double t = 39.0 - 30.0 - (car.length - car.rear_overhang);
   const ordered_json known = EventsJson(file, world, car)["known"];
-  ASSERT_EQ(known.size(), 2U);  // not what is known from the start, nor what is never in range
+  ASSERT_EQ(known.size(), 2U);  // without those known from the start or never in range
   EXPECT_EQ(known[0].dump(), "[1,2.5]");
   EXPECT_EQ(known[1][0], 2);
-  EXPECT_NEAR(known[1][1].get<double>(), t, 0.02);  // of the first row thereafter
+  EXPECT_NEAR(known[1][1].get<double>(), t, 0.02);  // time of the first row thereafter
 }
 
 TEST(TyresJson, IsTheShareOfTheGripOnTheRoadUnderEachWheel) {
@@ -102,7 +102,7 @@ TEST(TyresJson, IsTheShareOfTheGripOnTheRoadUnderEachWheel) {
   const CarModel car = Prius();
   World world;
   world.friction = 0.8;
-  // Under the left wheels alone.
+  // A friction patch under the left wheels only.
   world.friction_patches = {
       {.area = {.center = {5.0, 10.0, 0.0}, .length = 40.0, .width = 20.0}, .friction = 0.4}};
   std::string csv = "t_s,x_m,y_m,yaw_rad";
@@ -116,13 +116,13 @@ TEST(TyresJson, IsTheShareOfTheGripOnTheRoadUnderEachWheel) {
     csv += fmt::format("{:.2f},0,0,0{}\n", 0.1 * i, forces);
   }
   const auto file = folder.Write("mujoco.csv", csv);
-  // MuJoCo's contacts of the Prius: 0.9.
+  // The friction of MuJoCo's contacts of the Prius is 0.9.
   const ordered_json tyres = TyresJson(file, "mujoco:contact", TyreLaw::kAuto, world, car, 1000);
   EXPECT_EQ(NumbersIn(tyres["t"]).size(), 11U);
   for (const char* wheel : kWheels) {
     const double road = wheel[1] == 'l' ? 0.4 : 0.8;
     const double most = 0.9 * road * 3000.0;
-    // Of a channel without change nothing is lost to its steps.
+    // A constant channel has no quantization error.
     EXPECT_NEAR(NumbersIn(tyres[wheel]["along"])[3], -300.0 / most, Tolerance(1e-12)) << wheel;
     EXPECT_NEAR(NumbersIn(tyres[wheel]["across"])[3], 600.0 / most, Tolerance(1e-12)) << wheel;
   }
@@ -149,8 +149,8 @@ TEST(TyresJson, ShowsTheRowsWhereTheTyresUseMost) {
   const ordered_json tyres = TyresJson(folder.Write("mujoco.csv", csv), "mujoco:contact",
                                        TyreLaw::kAuto, World{}, car, 1000);
   const std::vector<double> across = NumbersIn(tyres["rl"]["across"]);
-  EXPECT_LT(across.size(), 70U);  // 30 a second
-  // The channel has 65 535 steps from least to most.
+  EXPECT_LT(across.size(), 70U);  // 30 per second
+  // The channel has 65 535 steps between its minimum and maximum.
   EXPECT_NEAR(*std::max_element(across.begin(), across.end()), 2500.0 / 2700.0, Tolerance(2e-5));
 }
 
@@ -169,7 +169,7 @@ TEST(MotionJson, HoldsTheWindAtTheCar) {
   World world;
   EXPECT_FALSE(MotionJson(states, vehicle, world, 100).contains("wind"));
   world.wind.velocity = {3.0, -4.0};
-  // A step gust of 5 m/s where the car is after a second.
+  // A step gust of 5 m/s at the car's position after one second.
   world.wind.gusts = {{.velocity = {0.0, 5.0},
                        .shape = GustShape::kStep,
                        .area = OrientedBox{{10.0, 0.0, 0.0}, 4.0, 4.0}}};

@@ -16,7 +16,7 @@ TEST(NameOfMetric, SaysWhatPeopleSay) {
   EXPECT_EQ(NameOfMetric("maneuver.margin").label, "Maneuver: minimum gate margin");
   EXPECT_EQ(NameOfMetric("maneuver.margin").unit, "m");
   EXPECT_EQ(NameOfMetric("maneuver.understeer_gradient").unit, "rad s²/m");
-  // What another program registered is its own label.
+  // A metric registered by another program uses its path as label.
   EXPECT_EQ(NameOfMetric("other.metric").label, "other.metric");
 }
 
@@ -38,7 +38,7 @@ TEST(NameOfKey, HasTheUnitOfTheKeyTable) {
   EXPECT_EQ(NameOfKey("seed").unit, "");
   EXPECT_EQ(NameOfKey("control.distance").unit, "m");
   EXPECT_EQ(NameOfKey("mission.waypoints[1]").label, "mission.waypoints[1]");
-  // Of an element of a list, and of a section in it.
+  // Keys of a list element, and of a section in it.
   EXPECT_EQ(NameOfKey("world.wind.gusts[0].y").unit, "m/s");
   EXPECT_EQ(NameOfKey("world.obstacles[12].known_from.range").unit, "m");
 }

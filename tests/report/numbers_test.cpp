@@ -14,7 +14,7 @@ TEST(Rounded, KeepsSixDigits) {
   EXPECT_EQ(Rounded(-0.037026741709416965), -0.0370267);
   EXPECT_EQ(Rounded(2.0 / 3.0 * 1e7), 6666670.0);
   EXPECT_EQ(Rounded(47.1), 47.1);
-  // What is next to nothing is nothing, without a sign.
+  // Negligible values become zero, without a sign.
   EXPECT_EQ(Rounded(4.9e-7), 0.0);
   EXPECT_FALSE(std::signbit(Rounded(-4.9e-7)));
   EXPECT_EQ(Rounded(5.12345678e-7), 5.12346e-7);
@@ -28,7 +28,7 @@ TEST(RoundedColumn, TakesTheRowsAskedFor) {
   EXPECT_EQ(RoundedColumn(table, "x_m", {0, 3}).dump(), "[0.333333,3.33333]");
 }
 
-/// Waves of three lengths over time, with one peak of a single row in the second.
+/// Sinusoids of three periods over time; the second one has a peak in a single row.
 Table Waves(std::size_t rows) {
   Table table({"t_s", "a", "b", "c"});
   for (std::size_t i = 0; i < rows; ++i) {
@@ -52,7 +52,7 @@ TEST(RowsToShow, KeepEveryExtremeOfALongOne) {
   const Table table = Waves(30000);
   for (const std::size_t limit : {5000U, 100U, 20U, 3U}) {
     const std::vector<std::size_t> rows = RowsToShow(table, limit);
-    // Two of each of four columns and the two ends, at least.
+    // The minimum is two rows for each of four columns, and the two end rows.
     EXPECT_LE(rows.size(), std::max<std::size_t>(limit, 10));
     EXPECT_EQ(rows.front(), 0U);
     EXPECT_EQ(rows.back(), 29999U);
@@ -75,8 +75,8 @@ TEST(RowsToShow, KeepEveryExtremeOfALongOne) {
 TEST(RowsToShow, LeaveNoLongGap) {
   const Table table = Waves(30000);
   const std::vector<std::size_t> rows = RowsToShow(table, 1026);
-  // 128 stretches have at most 1024 rows, two for each of four columns, and with the ends 1026: at
-  // most 235 rows each, and from a row of one to a row of the next less than two of them.
+  // 128 intervals keep at most 1024 rows, two for each of four columns, and 1026 with the ends. An
+  // interval has at most 235 rows, so adjacent kept rows are less than two intervals apart.
   for (std::size_t i = 1; i < rows.size(); ++i) {
     EXPECT_LT(rows[i] - rows[i - 1], 470U);
   }

@@ -10,8 +10,8 @@ namespace {
 using nlohmann::ordered_json;
 
 TEST(Readable, LeavesWhatCanBeSeen) {
-  // Markup is not its task. Hebrew, Arabic, an accent of its own, emoji joined by U+200D and with
-  // a variation selector, and the non-joiner U+200C of Persian.
+  // Keeps markup, Hebrew, Arabic, a combining accent, emoji joined by U+200D and with a variation
+  // selector, and the non-joiner U+200C of Persian.
   for (const char* text :
        {"", "a corner, <b>\"'&\n\tmarked", "\xD7\xA9\xD7\x9C\xD7\x95\xD7\x9D", "\xD8\xB3",
         "e\xCC\x81", "\xF0\x9F\x91\xA9\xE2\x80\x8D\xF0\x9F\x9A\x80", "\xE2\x9D\xA4\xEF\xB8\x8F",
@@ -35,8 +35,8 @@ TEST(Readable, NamesWhatActsUnseen) {
 
 TEST(Readable, PutsOneSignForEachBrokenCharacter) {
   const std::string sign = "\xEF\xBF\xBD";
-  // A byte that begins none, a character cut off, one of two bytes that needs but one, half of a
-  // pair of UTF-16, and what lies beyond Unicode.
+  // An invalid start byte, a truncated character, an overlong encoding of two bytes, half of a
+  // UTF-16 surrogate pair, and a code point beyond Unicode.
   EXPECT_EQ(Readable("\xFF"
                      "a"),
             sign + "a");

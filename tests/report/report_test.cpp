@@ -1,3 +1,6 @@
+// Tests the data and the HTML page of reports of runs and studies: numbers against the files of the
+// run folder, statistics against closed forms, size and Content-Security-Policy.
+
 #include "trackbed/report/report.h"
 
 #include <gmock/gmock.h>
@@ -19,7 +22,7 @@ using nlohmann::ordered_json;
 using testing::EndsWith;
 using testing::HasSubstr;
 
-/// What stands in the page as its data.
+/// The data embedded in the page.
 ordered_json DataIn(const std::string& page) {
   const std::string begin = "<script type=\"application/json\" id=\"data\">";
   const std::size_t from = page.find(begin) + begin.size();
@@ -34,7 +37,7 @@ std::size_t Count(const std::string& text, const std::string& part) {
   return count;
 }
 
-/// The page with nothing in its script and style elements.
+/// The page with empty script and style elements.
 std::string Markup(std::string page) {
   for (const char* name : {"script", "style"}) {
     const std::string open = std::string("<") + name;
@@ -88,7 +91,7 @@ TEST(ReportData, HoldsTheLogsOfTheRun) {
       const ordered_json& shown = plant["log"][name];
       ASSERT_EQ(shown.size(), values.size()) << name;
       for (std::size_t i = 0; i < values.size(); ++i) {
-        // Half a unit of the sixth digit, or what counts as nothing.
+        // Half a unit of the sixth digit, or the threshold below which values become zero.
         ASSERT_NEAR(shown[i].get<double>(), values[i], std::max(5e-6 * std::abs(values[i]), 5e-7))
             << name << " of row " << i;
       }
@@ -96,13 +99,13 @@ TEST(ReportData, HoldsTheLogsOfTheRun) {
   }
   const Table plan = ReadCsv(run / "plan.csv");
   ASSERT_EQ(data["plan"]["line"]["x"].size(), plan.rows());
-  // The corner is at 20, 20: six digits are a tenth of a millimeter.
+  // The corner is at (20, 20): six digits are a tenth of a millimeter.
   EXPECT_NEAR(data["plan"]["line"]["y"].back().get<double>(), plan.Column("y_m").back(), 1e-4);
   EXPECT_EQ(
       data["world"]["obstacles"].dump(),
       R"([{"x":5.0,"y":9.0,"yaw":0.5,"length":3.0,"width":1.0,"vx":1.0,"vy":0.0,"height":1.0,)"
       R"("known_later":false}])");
-  // The Prius, from the model that was driven.
+  // The Prius, from the model in the run folder.
   EXPECT_EQ(data["car"]["length"], 4.45);
   EXPECT_EQ(data["car"]["width"], 1.725);
   EXPECT_EQ(data["resolved"], ReadFile(run / "scenario.resolved.yaml"));
@@ -167,9 +170,8 @@ TEST(ReportData, FindsUnmetWhatTheVerdictFinds) {
                   "mujoco: Collision = true", "mujoco: Distance to the goal ≤ 1e-09",
                   "mujoco: Distance traveled ≤ 2", "mujoco: Replans = 1", "mujoco: distanze ≥ 1",
                   "kinematic – mujoco: Maximum distance ≤ 1e-09"));
-  // Every bound is there, that the car arrives where nothing else is asked of its end, and that the
-  // wheels turn no faster than their actuator: 6 and 1 of each plant, the arrival of one, 6 more of
-  // the other, 2 of both.
+  // Lists every bound, the arrival of plants without an expected end, and the steering rate limit:
+  // 6 and 1 of each plant, the arrival of one, 6 more of the other, 2 of both.
   EXPECT_EQ(data["expectations"].size(), 23U);
   EXPECT_FALSE(data["verdict"].contains("checks"));
 }
@@ -317,7 +319,7 @@ TEST(ReportData, HoldsTheTableOfAStudy) {
   EXPECT_EQ(study["rows"].dump(),
             R"([[2.5,"[kinematic, mujoco]",7.0,"passed",0.0123457,null],)"
             R"([3.0,"[mujoco]",8.0,"no_plan",null,"no plan (<b>&), \"x\""]])");
-  // In the folder of a sweep its description tells more.
+  // In the folder of a sweep, its sweep.json provides more data.
   EXPECT_EQ(ReportData({folder.path() / "study"})["study"]["name"], "sweep");
   folder.Write("study/sweep.json",
                R"({"study": "fast", "scenario": "a.yaml", "complete": false, "rows_expected": 3,)"
@@ -331,8 +333,8 @@ TEST(ReportData, HoldsTheTableOfAStudy) {
               HasSubstr("other.csv:1: no column 'status'"));
 }
 
-/// A study of `rows` rows: two controllers alternate, the output is x, twice that of the second
-/// one, and rows pass where it is below 1.
+/// A study of `rows` rows: two controllers alternate; the output is x for the first controller and
+/// twice x for the second; rows pass if it is below 1.
 std::string BigStudy(int rows) {
   std::string csv = "control,x,status,y,reason\n";
   for (int i = 0; i < rows; ++i) {
@@ -344,28 +346,28 @@ std::string BigStudy(int rows) {
   return csv;
 }
 
-// y = x k with x uniform in (0, 1) and k 1 or 2: its mean is 3/4, its variance
-// E[x^2] E[k^2] - 9/16 = 5/6 - 9/16 = 13/48. E[y | k] = k / 2 varies by 1/16, E[y | x] = 3 x / 2 by
-// 9/4 / 12 = 3/16: shares of 3/13 and 9/13.
+// y = x k with x uniform in (0, 1) and k 1 or 2: the mean is 3/4, the variance E[x^2] E[k^2] - 9/16
+// = 5/6 - 9/16 = 13/48. E[y | k] = k / 2 has a variance of 1/16, E[y | x] = 3 x / 2 of 9/4 / 12 =
+// 3/16: shares of 3/13 and 9/13.
 TEST(StudyData, SaysWhatAllRowsSayTogether) {
   const TempFolder folder;
   const ordered_json study = ReportData({folder.Write("study.csv", BigStudy(2000))})["study"];
   const ordered_json& all = study["statistics"];
   EXPECT_EQ(all["rows"], 2000);
   EXPECT_EQ(all["pass_rate"], 0.75);
-  // 0.75 +- 1.96 sqrt(0.75 / 4 / 2000), and what Wilson's interval is nearer to a half: 0.0005.
+  // 0.75 +- 1.96 sqrt(0.75 / 4 / 2000); Wilson's interval is 0.0005 nearer to a half.
   EXPECT_NEAR(all["pass_interval"][0].get<double>(), 0.75 - 0.019, 1e-3);
   EXPECT_NEAR(all["pass_interval"][1].get<double>(), 0.75 + 0.019, 1e-3);
   ASSERT_EQ(all["outputs"].size(), 2U);
   const ordered_json& y = all["outputs"][0];
   EXPECT_EQ(y["name"], "y");
-  // Half of the values are below 2/3: x < 2/3 and x < 1/3. Steps are of 0.002.
+  // Half of the values are below 2/3: x < 2/3 and x < 1/3. The steps are 0.002.
   EXPECT_EQ(y["quantiles"][4][0], 0.5);
   EXPECT_NEAR(y["quantiles"][4][1].get<double>(), 2.0 / 3.0, 0.002);
   EXPECT_EQ(y["distribution"].size(), 200U);
   ASSERT_EQ(y["indices"].size(), 2U);
-  // Evenly spaced values have no chance in them, but for what the index takes off for it: 64
-  // classes of 2000 rows, 0.03 of the rest.
+  // Evenly spaced values have no random error, but the index subtracts the bias expected for random
+  // ones: with 64 classes of 2000 rows, 0.03 of the remaining variance.
   EXPECT_NEAR(y["indices"][0]["index"].get<double>(), 3.0 / 13.0, 0.03);
   EXPECT_NEAR(y["indices"][1]["index"].get<double>(), 9.0 / 13.0, 0.03);
   const ordered_json& means = y["effects"][0]["classes"];
@@ -388,8 +390,8 @@ TEST(StudyData, OfABigStudyHasSomeRowsAndTheEndsOfOutputs) {
   EXPECT_EQ(study["even_count"], 4000);
   const auto numbers = study["row_numbers"].get<std::vector<int>>();
   EXPECT_EQ(numbers.size(), study["rows"].size());
-  // The lowest of `y` are the first rows, the highest the last odd ones, each second of which is
-  // not among every 2.5th row.
+  // The lowest `y` are in the first rows, the highest in the last odd rows. Every second of those
+  // is not among the evenly chosen rows, one in 2.5.
   for (const int row : {0, 1, 2, 3, 9999, 9997, 9995, 9981}) {
     EXPECT_NE(std::find(numbers.begin(), numbers.end(), row), numbers.end()) << row;
   }
@@ -407,7 +409,7 @@ TEST(StudyDifference, IsOfRowsThatSetTheSame) {
   const fs::path before = folder.Write("before/sweep.csv",
                                        "x,status,y,z,reason\n1,passed,1,7,\n2,failed,2,7,\n"
                                        "3,failed,3,7,\n4,passed,,7,\n9,passed,9,7,\n");
-  // In another order, with other outputs, and without the last row.
+  // The rows in another order, with another output, and without the last row.
   const fs::path after = folder.Write("after/sweep.csv",
                                       "x,status,w,y,reason\n3,passed,0,5,\n2,passed,0,2,\n"
                                       "1,passed,0,4,\n4,failed,0,1,\n");
@@ -425,10 +427,10 @@ TEST(StudyDifference, IsOfRowsThatSetTheSame) {
   EXPECT_EQ(passed["after"], 0.75);
   EXPECT_EQ(passed["higher"], 2);
   EXPECT_EQ(passed["lower"], 1);
-  EXPECT_EQ(passed["sign_test"], 1.0);  // 2 of 3 or 1 of 3 or more uneven: always
+  EXPECT_EQ(passed["sign_test"], 1.0);  // a split of 2 : 1 or worse has probability 1
   const ordered_json& y = difference["outputs"][1];
   EXPECT_EQ(y["name"], "y");
-  EXPECT_EQ(y["count"], 3);                               // the fourth row had none
+  EXPECT_EQ(y["count"], 3);                               // the fourth row had no y
   EXPECT_NEAR(y["mean"].get<double>(), 5.0 / 3.0, 1e-5);  // six digits
   EXPECT_EQ(y["median"], 2.0);
   EXPECT_EQ(y["equal"], 1);
@@ -468,7 +470,7 @@ TEST(ReportPage, HoldsTheDataWhateverIsInIt) {
   EXPECT_EQ(DataIn(page), data);
   EXPECT_EQ(data["runs"][0]["scenario"], evil);
   EXPECT_THAT(page, HasSubstr("<title>&lt;b&gt;&amp;\"&lt;img src=x&gt;</title>"));
-  // Beside the title, the markup is that of any other page.
+  // Apart from the title, the markup is that of any other page.
   const std::regex title("<title>.*</title>");
   EXPECT_EQ(std::regex_replace(Markup(page), title, ""),
             std::regex_replace(Markup(plain), title, ""));
@@ -490,8 +492,8 @@ TEST(ReportPage, LoadsNothing) {
   const TempFolder folder;
   const std::string page =
       ReportPage(ReportData({DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n")}));
-  // d3, dygraphs, three.js, its camera control, the page's two scripts and its style, each known by
-  // its hash; that these are right the browser says (tests/report/hostile_test.py).
+  // Scripts and styles with hashes in the policy: d3, dygraphs, three.js, its camera controls, the
+  // page's two scripts and its style. tests/report/hostile_test.py checks the hashes in a browser.
   std::smatch policy;
   ASSERT_TRUE(std::regex_search(
       page, policy, std::regex("http-equiv=\"Content-Security-Policy\" content=\"([^\"]*)\"")));
@@ -514,7 +516,7 @@ TEST(ReportPage, LoadsNothing) {
 TEST(ReportPage, StaysSmall) {
   constexpr std::size_t kMaxBytes = 3'000'000;
   const TempFolder folder;
-  // A minute, with and without turns, and more than that, compared.
+  // One minute with turns, and several runs longer than that, compared.
   const std::string minute =
       "schema: 1\nname: minute\nmission: {speed: 3, waypoints: [[0, 0], [70, 0], [70, 70], [150, "
       "70]]}\nplan: {method: fillet}\ncontrol: {method: preview}\ndrive: {plants: [kinematic, ";
@@ -528,12 +530,12 @@ TEST(ReportPage, StaysSmall) {
   const ordered_json data = ReportData({two});
   for (const ordered_json& plant : data["runs"][0]["plants"]) {
     EXPECT_GE(plant["log"]["t"].back().get<double>(), 60.0);
-    EXPECT_GE(plant["log"]["t"].size(), 3000U);  // each period of 20 ms
+    EXPECT_GE(plant["log"]["t"].size(), 3000U);  // every period of 20 ms
   }
-  EXPECT_LT(data.dump().size(), kMaxBytes / 2);  // the other half is the scripts'
+  EXPECT_LT(data.dump().size(), kMaxBytes / 2);  // the scripts take the other half
   EXPECT_LT(ReportPage(data).size(), kMaxBytes);
   EXPECT_LT(ReportPage(ReportData({two, three})).size(), kMaxBytes);
-  // Rows ten times as near.
+  // Ten times as many rows.
   const fs::path run = DriveCorner(folder, "run", "");
   for (const char* plant : {"kinematic", "mujoco"}) {
     LengthenLog(run / (std::string(plant) + ".csv"), 60.0, 0.002);
@@ -559,7 +561,7 @@ TEST(WriteReport, PutsTheFilmWhereItIsAsked) {
   const fs::path run = DriveCorner(folder, "a run", "drive: {plants: [kinematic]}\n");
   fs::create_directory(folder.path() / "pages");
   const fs::path page = folder.path() / "pages" / "page.html";
-  // RFC 4648 has these.
+  // Test vectors of RFC 4648.
   const std::vector<std::pair<std::string, std::string>> known{
       {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"}, {"foobar", "Zm9vYmFy"}};
   for (const auto& [bytes, text] : known) {
@@ -589,7 +591,7 @@ TEST(WriteReport, RepeatsItself) {
   WriteReport({run}, folder.path() / "new" / "a.html");
   EXPECT_EQ(ReadFile(folder.path() / "new" / "a.html"), ReadFile(folder.path() / "b.html"));
   EXPECT_THROW(WriteReport({run}, folder.path() / "a.html" / "a.html"), RunError);
-  // Of nothing, nothing is made.
+  // An empty folder gives no report.
   EXPECT_THROW(WriteReport({folder.path()}, folder.path() / "gone" / "a.html"), InputError);
   EXPECT_FALSE(fs::exists(folder.path() / "gone"));
 }

@@ -11,12 +11,13 @@
 
 namespace trackbed {
 
-/// Makes a manifest that tells nothing of the files, so that they may be changed.
+/// Replaces the manifest by an empty one, so that a test may change files.
 inline void ForgetHashes(const std::filesystem::path& folder) {
   WriteFileAtomically(folder / "manifest.json", R"({"results": {}})");
 }
 
-/// Drives a scenario of a corner and writes its run folder. `keys` are sections beside the mission.
+/// Runs a scenario of a corner and writes its run folder. `keys`: YAML sections besides the
+/// mission.
 inline std::filesystem::path DriveCorner(const TempFolder& folder, const std::string& name,
                                          const std::string& keys) {
   const std::string yaml =
@@ -31,8 +32,8 @@ inline std::filesystem::path DriveCorner(const TempFolder& folder, const std::st
   return out;
 }
 
-/// Repeats the rows of a log until it is `duration` long, a row each `period`, with as many digits
-/// as before.
+/// Repeats the rows of a log until it is `duration` long, with a row each `period` and the original
+/// number of digits.
 inline void LengthenLog(const std::filesystem::path& file, double duration, double period) {
   const Table log = ReadCsv(file);
   Table longer(log.columns());

@@ -13,7 +13,7 @@ using nlohmann::ordered_json;
 using testing::AllOf;
 using testing::HasSubstr;
 
-// Five runs of a search, one of them refused, and two to make its failure smaller.
+// Five runs of a search, one of them rejected, and two that shrink its failure.
 constexpr const char* kRuns =
     "control.gain,delay,gear,status,robustness,limit,phase,reason\n"
     "5,0.11,2,passed,0.5,car: y,nominal,\n"
@@ -52,7 +52,7 @@ ordered_json Outcome() {
 
 class SearchDataTest : public testing::Test {
  protected:
-  /// The data of the page of a folder that holds these three files.
+  /// The page's data for a folder with these three files.
   ordered_json Data(const std::string& falsify) {
     folder_.Write("out/sweep.csv", kRuns);
     folder_.Write("out/sweep.json", kSweep);
@@ -81,13 +81,13 @@ TEST_F(SearchDataTest, HasTheOutcomeAndTheMargins) {
   EXPECT_EQ(gain["column"], 0);
   EXPECT_EQ(gain["nominal"], 5.0);
   EXPECT_EQ(gain["to"], 10.0);
-  // No run went down: the nominal value is that end.
+  // No run decreased the gain, so the nominal value is that end.
   EXPECT_EQ(gain["margin"].dump(), R"({"sensitivity":-0.2,"holds_up_to":5.9,"alone":[5.0,5.9]})");
   EXPECT_EQ(search["keys"][1]["margin"].dump(), R"({"sensitivity":null,"holds_up_to":null})");
   EXPECT_EQ(search["keys"][2]["margin"]["alone"].dump(), "[1.0,3.0]");
-  // The points of a search are no sample.
+  // The points of a search are not a sample, so there are no statistics.
   EXPECT_TRUE(study["statistics"].is_null());
-  // The scenario for a test suite is told of where it is.
+  // The page names the test scenario if its file exists.
   folder_.Write("out/counterexample/counterexample.yaml", "schema: 1\n");
   EXPECT_THAT(Data(Outcome().dump())["search"]["scenario"].get<std::string>(),
               HasSubstr("out/counterexample/counterexample.yaml"));
@@ -95,15 +95,15 @@ TEST_F(SearchDataTest, HasTheOutcomeAndTheMargins) {
 
 TEST_F(SearchDataTest, CountsWhatWasTriedInEqualIntervals) {
   const ordered_json search = Data(Outcome().dump())["search"];
-  // 5 and 5.9 are in the sixth tenth of 0 to 10. The refused run does not count.
+  // 5 and 5.9 are in the sixth tenth of 0 to 10. The rejected run does not count.
   EXPECT_EQ(search["keys"][0]["tried"].dump(), "[1,0,0,0,0,2,1,1,0,1]");
   EXPECT_EQ(search["keys"][0]["failed"].dump(), "[1,0,0,0,0,0,1,1,0,0]");
-  // A tenth of two decades each: 0.11 is log10(11) / 2 = 0.52 of the way.
+  // Each bin is a tenth of two decades: 0.11 is at log10(11) / 2 = 0.52.
   EXPECT_EQ(search["keys"][1]["tried"].dump(), "[1,0,0,0,0,4,0,0,0,1]");
-  // Of three whole numbers each is an interval.
+  // With three whole numbers, each one is a bin.
   EXPECT_EQ(search["keys"][2]["tried"].dump(), "[1,4,1]");
   EXPECT_EQ(search["keys"][2]["failed"].dump(), "[1,2,0]");
-  // Of the search alone.
+  // Only runs of the search itself, not of the shrinking.
   EXPECT_EQ(search["best"].dump(), "[[0,0.5],[1,0.25],[2,-1.0]]");
 }
 
@@ -139,12 +139,12 @@ TEST_F(SearchDataTest, TellsOfAFileThatIsNotOfTheseRuns) {
 
 TEST_F(SearchDataTest, IsNotOfAStudyThatIsNoSearch) {
   Data(Outcome().dump());
-  // One that was swept into the folder of an earlier search.
+  // A sweep that was written into the folder of an earlier search.
   ordered_json sweep = ordered_json::parse(kSweep);
   sweep.erase("search");
   folder_.Write("out/sweep.json", sweep.dump());
   EXPECT_FALSE(ReportData({folder_.path() / "out"})["study"].contains("search"));
-  // A table by itself, and a search whose outcome is not there.
+  // A table without further files, and a search without falsify.json.
   EXPECT_FALSE(ReportData({folder_.Write("copy.csv", kRuns)})["study"].contains("search"));
   folder_.Write("alone/sweep.csv", kRuns);
   folder_.Write("alone/sweep.json", kSweep);

@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 const std::vector<std::string> kSignals{"t_s", "x_m", "y_m", "speed_mps"};
 
-/// "column: message" of the error that a text deserves; empty if it is accepted.
+/// "column: message" of the error for a text; empty if the text is accepted.
 std::string ErrorOf(const std::string& text) {
   try {
     Formula::Parse(text, kSignals);
@@ -115,10 +115,10 @@ TEST(Formula, HostileTextsAreErrorsAndTakeNoTime) {
         << part;
   }
   EXPECT_THAT(ErrorOf(repeated("1", 5000)), HasSubstr("5000 bytes; at most 4096"));
-  // Long, but not deep.
+  // A long formula may be shallow.
   EXPECT_EQ(ErrorOf("x_m < 1" + repeated("+1", kMany)), "");
   EXPECT_EQ(ErrorOf(repeated("x_m<1 or ", 450) + "x_m<1"), "");
-  // As deep as it may be.
+  // The largest allowed depth.
   EXPECT_EQ(ErrorOf(repeated("(", 49) + "x_m" + repeated(")", 49) + " < 1"), "");
   EXPECT_THAT(ErrorOf(std::string("x_m < \0 1", 9)), HasSubstr("expected a number or signal"));
 }

@@ -18,9 +18,10 @@ namespace {
 
 using testing::HasSubstr;
 
-// The oracle: formulas are made as trees, printed with the parentheses that the documented order of
-// operators asks for, and evaluated by the definitions, sample by sample and window by window.
-// Times and bounds are whole ticks there, so that nothing is rounded.
+// Compares random formulas with a reference evaluation. Formulas are made as trees and printed with
+// the parentheses that the documented operator precedence requires. The reference evaluates the
+// tree by the definitions, sample by sample and window by window. Its times and bounds are whole
+// ticks, so nothing is rounded.
 
 constexpr double kTick = 0.05;  // [s]
 constexpr double kNoSample = std::numeric_limits<double>::infinity();
@@ -31,7 +32,7 @@ struct Bound {
 };
 
 struct Node {
-  std::string op;  // as in the text; "number", "signal"
+  std::string op;  // operator as in the text, or "number", "signal"
   std::vector<Node> operands;
   double number = 0.0;
   bool bounded = false;
@@ -47,7 +48,7 @@ struct Samples {
 
 const std::vector<std::vector<std::string>> kBinary{
     {"implies"}, {"or"}, {"and"}, {"until"}, {}, {"<", "<=", ">", ">="}, {"+", "-"}, {"*", "/"}};
-constexpr int kPrefix = 4;  // not, always, eventually
+constexpr int kPrefix = 4;  // precedence of not, always, eventually
 constexpr int kSign = 8;
 constexpr int kAtom = 9;
 
@@ -92,7 +93,8 @@ std::string Print(const Node& node, int needed) {
       }
       return node.op + "(" + arguments + ")";
     }
-    // Left associative, but for `implies`; comparisons and `until` are not associative.
+    // Binary operators are left associative, `implies` is right associative, and comparisons and
+    // `until` do not associate.
     const bool comparison = level == 5;
     const int left = node.op == "implies" || node.op == "until" || comparison ? level + 1 : level;
     const int right = node.op == "implies" ? level : level + 1;
@@ -246,7 +248,8 @@ class FormulaMaker {
     return node;
   }
 
-  /// Of values that are often equal, so that robustness is often 0; uniform, or not.
+  /// Signals with many equal values, so that robustness is often 0; with uniform or nonuniform
+  /// sampling.
   Samples Signals() {
     Samples samples;
     const bool uniform = Int(0, 1) == 0;
@@ -266,7 +269,7 @@ class FormulaMaker {
     switch (Int(0, 4)) {
       case 0:
         node.from = {first};
-        break;  // to T
+        break;  // up to the end T
       case 1:
         node.from = {first, true};
         node.to = {Int(0, first), true};
@@ -305,7 +308,7 @@ TEST(RandomFormulas, HaveTheRobustnessOfBruteForce) {
     const std::vector<double> found = RobustnessOverTime(formula, log);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < found.size(); ++i) {
-      // The same operations on the same doubles in the same order: without any rounding of its own.
+      // Exactly equal: both apply the same operations to the same doubles in the same order.
       ASSERT_EQ(found[i], expected[i]) << i;
     }
     const FormulaResult result = Evaluate(formula, log);
@@ -316,7 +319,7 @@ TEST(RandomFormulas, HaveTheRobustnessOfBruteForce) {
     infinite += std::isinf(result.robustness) ? 1 : 0;
     satisfied += result.satisfied ? 1 : 0;
   }
-  // All cases are among them.
+  // All cases occur.
   EXPECT_GT(zeros, 50);
   EXPECT_GT(infinite, 20);
   EXPECT_GT(satisfied, 500);

@@ -19,7 +19,7 @@ using testing::MatchesRegex;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// A log of one signal, a sample each second.
+/// A log of one signal with one sample per second.
 Table LogOf(const std::vector<double>& x) {
   Table log({"t_s", "x_m"});
   for (std::size_t i = 0; i < x.size(); ++i) {
@@ -78,7 +78,7 @@ TEST(Robustness, OfAlwaysIsThatOfTheWorstSampleAndNamesIt) {
   const FormulaResult all = ResultOf("always x_m < 4", log);
   EXPECT_EQ(all.robustness, -1.0);
   EXPECT_FALSE(all.satisfied);
-  EXPECT_EQ(all.row, 2U);  // the earlier of two
+  EXPECT_EQ(all.row, 2U);  // the earlier of two equal minima
   EXPECT_EQ(ResultOf("always[0, 1] x_m < 4", log).robustness, 2.0);
   EXPECT_EQ(ResultOf("always[T - 0.5, T] x_m < 4", log).robustness, 3.0);
   EXPECT_EQ(ResultOf("always[T - 99, T] x_m < 4", log).robustness, -1.0);
@@ -112,7 +112,7 @@ TEST(Robustness, OfAWindowBeyondTheLogIsInfiniteAndOfNoSample) {
 }
 
 TEST(Robustness, WindowsHoldWhatRoundingPutsAtTheirBounds) {
-  // 0.1 + 0.2 is not 0.3.
+  // In floating point, 0.1 + 0.2 is not 0.3.
   Table log({"t_s", "x_m"});
   log.AddRow({0.1, 0.0});
   log.AddRow({0.3, 1.0});
@@ -125,7 +125,7 @@ TEST(Robustness, ErrorsNameTheSignalAndTheTime) {
   log.AddRow({0.0, 1.0, 0.0});
   log.AddRow({0.5, std::nan(""), 0.0});
   EXPECT_EQ(ErrorOf("always x_m < 1", log), "x_m is nan at t = 0.5 s");
-  EXPECT_EQ(ErrorOf("always y_m < 1", log), "");  // x_m is not used
+  EXPECT_EQ(ErrorOf("always y_m < 1", log), "");  // the formula does not use x_m
   EXPECT_THAT(ErrorOf("always y_m / y_m < 1", log),
               MatchesRegex("'y_m / y_m < 1' compares -?nan with 1 at t = 0 s"));
   EXPECT_EQ(ErrorOf("always 1 / y_m < 1", log), "'1 / y_m < 1' compares inf with 1 at t = 0 s");
@@ -142,8 +142,8 @@ TEST(Robustness, ErrorsNameTheSignalAndTheTime) {
 }
 
 TEST(Robustness, OfALongLogTakesTimeLinearInItsLength) {
-  // 200 000 samples and windows of half of them: by brute force 2e10 comparisons for each operator,
-  // which would take the test's time limit.
+  // 200 000 samples with windows of half of them. Brute force would need 2e10 comparisons per
+  // operator, which exceeds the test's time limit.
   Table log({"t_s", "x_m"});
   constexpr int kCount = 200000;
   for (int i = 0; i < kCount; ++i) {

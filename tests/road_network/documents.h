@@ -6,7 +6,7 @@
 
 #include "trackbed/road_network/open_drive.h"
 
-/// OpenDRIVE documents for tests.
+/// OpenDRIVE documents for the tests.
 namespace trackbed {
 
 inline std::string Document(const std::string& content) {
@@ -18,7 +18,7 @@ inline RoadNetwork ParseNetwork(const std::string& content) {
   return ParseOpenDrive(Document(content), "test.xodr");
 }
 
-/// A lane section with one driving lane of 3.5 m on either side.
+/// A lane section with one driving lane of 3.5 m on each side.
 inline const std::string kTwoLanes =
     "<laneSection s=\"0\">"
     "<left><lane id=\"1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>"
@@ -28,7 +28,7 @@ inline const std::string kTwoLanes =
     "d=\"0\"/>"
     "</lane></right></laneSection>";
 
-/// What makes up a road; every part can be replaced.
+/// The elements of a road; each can be replaced.
 struct RoadText {
   std::string id = "1";
   std::string length = "100";

@@ -12,9 +12,9 @@
 namespace trackbed {
 namespace {
 
-// Some operations on coordinates below 100 m.
+// Rounding: some operations on coordinates below 100 m.
 constexpr double kRoundingOfLines = 1e-12;
-// ParametricCubic's promise of 1e-9 of a curve below 100 m.
+// ParametricCubic is accurate to 1e-9 of a curve's length, here below 100 m.
 constexpr double kCurveAccuracy = 1e-7;
 
 ReferenceLine Clothoid(const Pose2& start, double length, double from, double to) {
@@ -35,7 +35,7 @@ TEST(PiecewiseCubic, IsThePolynomialOfThePieceInForce) {
   EXPECT_EQ(at.slope, 0.5 + 0.5 + 0.375);
   EXPECT_EQ(at.second, 0.5 + 0.75);
   EXPECT_EQ(function.At(4.0).value, 7.0);
-  // From the left of the joint: d = 2.
+  // Just before the joint the first polynomial applies: d = 2.
   EXPECT_EQ(function.At(4.0, 3.9).value, 1.0 + 1.0 + 1.0 + 1.0);
   EXPECT_EQ(PiecewiseCubic().At(3.0).value, 0.0);
 }
@@ -59,11 +59,11 @@ TEST(ReferenceLine, OfAnArcLiesOnItsCircle) {
   }
 }
 
-/// Fresnel's integrals by their power series: x = sum (-1)^n c^2n s^(4n+1)/((2n)! (4n+1)), y = sum
-/// (-1)^n c^(2n+1) s^(4n+3)/((2n+1)! (4n+3)) of a clothoid whose heading is c s^2.
+/// Fresnel's integrals by their power series, for a clothoid whose heading is c s^2: x = sum (-1)^n
+/// c^2n s^(4n+1)/((2n)! (4n+1)), y = sum (-1)^n c^(2n+1) s^(4n+3)/((2n+1)! (4n+3)).
 Vec2 ClothoidBySeries(double c, double s) {
   Vec2 sum(0.0, 0.0);
-  double term = s;  // c^m s^(2m+1)/m!, signs aside
+  double term = s;  // c^m s^(2m+1)/m!, without the sign
   for (int m = 0; m < 40; ++m) {
     const double sign = m % 4 < 2 ? 1.0 : -1.0;
     (m % 2 == 0 ? sum.x() : sum.y()) += sign * term / (2 * m + 1);
@@ -79,14 +79,14 @@ TEST(ReferenceLine, OfASpiralIsFresnelsIntegral) {
   for (const double s : {5.0, 20.0, 35.0, 50.0}) {
     const ReferenceLinePoint at = line.At(s);
     const Vec2 expected = ClothoidBySeries(0.5 * curvature / length, s);
-    // The promise of the header for other pieces than lines and arcs.
+    // The accuracy that the header states for pieces other than lines and arcs.
     EXPECT_NEAR((at.pose.position() - expected).norm(), 0.0, Tolerance(1e-9)) << s;
     EXPECT_NEAR(at.pose.yaw, 0.5 * curvature / length * s * s, Tolerance(kRoundingOfLines));
     EXPECT_NEAR(at.curvature, curvature * s / length, Tolerance(kRoundingOfLines));
   }
 }
 
-/// The arc length of v = a u^2 from 0 to u.
+/// Arc length of v = a u^2 from 0 to u.
 double ParabolaLength(double a, double u) {
   const double slope = 2.0 * a * u;
   return 0.5 * u * std::hypot(1.0, slope) + std::asinh(slope) / (4.0 * a);
@@ -99,7 +99,7 @@ void ExpectOnParabola(const ParametricCubic& curve, double a, double distance, d
   EXPECT_NEAR(at.position.x(), u, Tolerance(kCurveAccuracy));
   EXPECT_NEAR(at.position.y(), a * u * u, Tolerance(kCurveAccuracy));
   EXPECT_NEAR(at.heading, std::atan(slope), Tolerance(kCurveAccuracy));
-  // kappa = 2a/(1 + 4a^2u^2)^(3/2), its derivative by u over the speed.
+  // kappa = 2a/(1 + 4a^2u^2)^(3/2); the sharpness is its derivative by u over the speed.
   EXPECT_NEAR(at.curvature, 2.0 * a / std::pow(speed, 3), Tolerance(kCurveAccuracy));
   EXPECT_NEAR(at.sharpness, -24.0 * a * a * a * u / std::pow(speed, 6), Tolerance(kCurveAccuracy));
 }
@@ -134,8 +134,8 @@ TEST(ParametricCubic, InvertsArcLengthOfAnyCurve) {
     const std::array<double, 4> v{0.0, 0.0, random.Uniform(-9, 9), random.Uniform(-9, 9)};
     const ParametricCubic unit(u, v, 1.0, 1.0);
     const ParametricCubic curve(u, v, 1.0, unit.arc_length());
-    // The chords of steps h fall short of the arc by kappa^2 h^3/24 each: with kappa below 0.1 and
-    // 4000 steps over some 40 m by 4000 0.01 1e-6/24 = 2e-6.
+    // Each chord of step h is shorter than the arc by kappa^2 h^3/24. With kappa below 0.1 and 4000
+    // steps over some 40 m that is 4000 0.01 1e-6/24 = 2e-6.
     double chords = 0.0;
     constexpr int kSteps = 4000;
     Vec2 before = curve.At(0.0).position;

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-// Some operations on coordinates below 100 m.
+// Rounding: some operations on coordinates below 100 m.
 constexpr double kRoundingOfPaint = 1e-12;
 
 RoadText Marked(const std::string& center_mark) {
@@ -52,7 +52,7 @@ TEST(RoadPaint, CutsBrokenLinesIntoDashes) {
                                      "<roadMark sOffset='20' type='broken' color='yellow'/>")
                                   .Xml()),
                  1.0);
-  // 20 to 100 m, every 9 m: nine dashes, the last one from 92 m, and the solid line.
+  // From 20 to 100 m there are nine dashes, every 9 m, the last from 92 m, and the solid line.
   ASSERT_EQ(paint.lines.size(), 10U);
   double painted = 0.0;
   for (const PaintedLine& line : paint.lines) {
@@ -77,7 +77,7 @@ TEST(RoadPaint, DrawsDoubleLinesAsTwo) {
     if (line.yellow) {
       const bool is_long = (line.points.back() - line.points.front()).norm() > 50.0;
       solid += is_long ? 1 : 0;
-      // Two lines of 0.1 m with 0.1 m between them: the left one is solid.
+      // Two lines of 0.1 m width and 0.1 m apart; the left one is solid.
       EXPECT_NEAR(line.points.front().y(), is_long ? 0.1 : -0.1, Tolerance(kRoundingOfPaint));
     }
   }

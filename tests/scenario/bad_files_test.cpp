@@ -13,8 +13,8 @@
 #include "trackbed/scenario/study.h"
 #include "trackbed/sim/car_model.h"
 
-/// Every tests/data/bad/NAME.yaml is broken in its own way, and NAME.expected holds, to the letter,
-/// what a user is told. Without that file the test prints what it would have to hold.
+/// Every tests/data/bad/NAME.yaml has one fault, and NAME.expected holds the exact message. If
+/// NAME.expected is missing, the test prints its required content.
 namespace trackbed {
 namespace {
 
@@ -28,7 +28,7 @@ fs::path BadFolder() {
 
 std::vector<fs::path> FilesWith(const std::string& extension) {
   std::vector<fs::path> files;
-  std::error_code none;  // then there are no files, which the last test complains of
+  std::error_code none;  // without files, the last test fails
   for (const auto& entry : fs::directory_iterator(BadFolder(), none)) {
     if (entry.path().extension() == extension) {
       files.push_back(entry.path());
@@ -38,7 +38,7 @@ std::vector<fs::path> FilesWith(const std::string& extension) {
   return files;
 }
 
-/// Messages name files by the folder they were found in; here that is every machine's own.
+/// Messages contain the folder of the file, which differs between machines.
 std::string WithoutFolder(std::string message) {
   const std::string folder = BadFolder().string() + "/";
   for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder)) {
@@ -47,7 +47,7 @@ std::string WithoutFolder(std::string message) {
   return message;
 }
 
-/// What the user is told about a file: by the reader, or by the car that it names. Studies have the
+/// The message for a file: from the reader, or from loading the car that it names. Studies have the
 /// key `scenario`.
 std::string MessageFor(const fs::path& file) {
   const std::vector<std::string> cameras{"chase", "side", "top"};

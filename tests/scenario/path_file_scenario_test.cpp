@@ -20,7 +20,7 @@ namespace {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// A path on a circle of 20 m from (3, 4), 1 m apart.
+/// A path on a circle of 20 m radius from (3, 4), with points 1 m apart.
 std::string Circle() {
   std::string text = "east,north,v_kmh\n";
   for (int i = 0; i < 40; ++i) {
@@ -55,13 +55,13 @@ TEST(PathFileScenario, StartsOnThePath) {
   folder.Write("p.csv", Circle());
   const Scenario scenario = Parse(folder, kCircle);
   const StartState start = InitialState(scenario, ReferenceCar());
-  // The spline leaves the points by at most 0.05 m.
+  // The spline deviates from the points by at most 0.05 m.
   EXPECT_NEAR(start.pose.x, 3.0, Tolerance(0.05));
   EXPECT_NEAR(start.pose.y, 4.0, Tolerance(0.05));
   EXPECT_EQ(start.speed, 4.0);
   const auto& path = scenario.plan->global.Get<PathFileOptions>().path->path;
   EXPECT_EQ(start.steering, SteeringForCurvature(ReferenceCar(), path.At(0.0).curvature));
-  // atan(2.7/20) = 0.134, but for what 0.05 m may straighten.
+  // atan(2.7/20) = 0.134; a deviation of 0.05 m may straighten the path a little.
   EXPECT_NEAR(start.steering, 0.134, Tolerance(0.03));
   EXPECT_EQ(
       InitialState(Parse(folder, kCircle, {"mission.start.steering=0.1"}), ReferenceCar()).steering,

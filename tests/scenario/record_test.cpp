@@ -29,7 +29,7 @@ yaw: {column: yaw, unit: deg}
 steering_command: {column: c, unit: 1, curve: [[-1, -0.4], [1, 0.4]]}
 )";
 
-/// The text of what is wrong, without the folder.
+/// Removes the folder from an error message.
 std::string Without(const TempFolder& folder, std::string text) {
   const std::string prefix = folder.path().string() + "/";
   for (auto at = text.find(prefix); at != std::string::npos; at = text.find(prefix)) {
@@ -91,8 +91,8 @@ TEST(ReadLogMap, ReadsTheShippedMaps) {
   EXPECT_FALSE(IsLogMap(kSource / "scenarios/none.yaml"));
 }
 
-/// 5 s of a circle to the left, at 1 m/s with a radius of 5 m, from x 2, y 1 at 90 degrees; degrees
-/// and commands as kMap reads them.
+/// 5 s of a circle to the left of 5 m radius at 1 m/s, from x = 2, y = 1 at 90 degrees; in degrees
+/// and command units as kMap reads them.
 std::string Log() {
   std::string csv = "t,x,y,yaw,c\n";
   for (int i = 0; i <= 250; ++i) {
@@ -138,14 +138,15 @@ class RecordScenarios : public testing::Test {
 TEST_F(RecordScenarios, StartWhereTheRecordStarts) {
   const Scenario scenario = Read();
   const StartState start = InitialState(scenario);
-  // Parabolas over 0.1 s of a circle: R (0.1 s 0.2/s)^3 / 2 = 2e-5 m, and times 2/0.1 s for speeds.
+  // Parabolas over 0.1 s of a circle deviate by R (0.1 s 0.2/s)^3 / 2 = 2e-5 m; speeds by 2/0.1 s
+  // of that.
   EXPECT_NEAR(start.pose.x, 2.0, Tolerance(2e-5));
   EXPECT_NEAR(start.pose.y, 1.0, Tolerance(2e-5));
   EXPECT_NEAR(start.pose.yaw, 0.5 * M_PI, Tolerance(1e-9));
   EXPECT_NEAR(start.speed, 1.0, Tolerance(4e-4));
   EXPECT_NEAR(*start.yaw_rate, 0.2, Tolerance(1e-7));
   EXPECT_NEAR(*start.lateral_speed, 0.0, Tolerance(4e-4));
-  EXPECT_NEAR(start.steering, 0.2, Tolerance(1e-12));  // half of the command's curve
+  EXPECT_NEAR(start.steering, 0.2, Tolerance(1e-12));  // halfway along the command's curve
   EXPECT_NEAR(*RunDuration(scenario), 5.0, Tolerance(1e-9));
   const Recording& inputs = *FindRecording(scenario);
   EXPECT_NEAR(inputs.steering.At(2.0), 0.2, Tolerance(1e-12));

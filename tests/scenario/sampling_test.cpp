@@ -27,7 +27,7 @@ TEST(UnitSample, DependsOnTheSeedAlone) {
     const Eigen::MatrixXd sample = UnitSample(spec, 3);
     EXPECT_EQ(sample, UnitSample(spec, 3));
     EXPECT_NE(sample, UnitSample({.count = 100, .method = method, .seed = 8}, 3));
-    // Other seeds differ in their upper half, too.
+    // Seeds that differ only in their upper half give different samples, too.
     EXPECT_NE(sample, UnitSample({.count = 100, .method = method, .seed = 7 + (1ULL << 32U)}, 3));
     EXPECT_TRUE((sample.array() > 0.0).all());
     EXPECT_TRUE((sample.array() < 1.0).all());
@@ -50,7 +50,7 @@ TEST(UnitSample, GoesOnWithTheSamePointsWhenThereAreMore) {
   }
 }
 
-// The definition: each of the intervals has one point, in every column.
+// By definition, each interval contains one point, in every column.
 TEST(UnitSample, OfALatinHypercubeHasOnePointInEachInterval) {
   constexpr int kCount = 1000;
   const Eigen::MatrixXd sample =
@@ -64,8 +64,8 @@ TEST(UnitSample, OfALatinHypercubeHasOnePointInEachInterval) {
   }
 }
 
-// A (0, m, 2) net in base 2: each elementary interval of area 2^-m has one of the first 2^m points
-// in the first two dimensions, also after a digital shift (Niederreiter 1992).
+// A (0, m, 2) net in base 2: each elementary interval of area 2^-m contains one of the first 2^m
+// points in the first two dimensions, even after a digital shift (Niederreiter 1992).
 TEST(UnitSample, OfSobolsSequenceIsANetInBaseTwo) {
   constexpr int kPower = 8;
   const Eigen::MatrixXd sample =
@@ -80,8 +80,8 @@ TEST(UnitSample, OfSobolsSequenceIsANetInBaseTwo) {
   }
 }
 
-// Kolmogorov and Smirnov's distance from the uniform distribution: below 1.63 / sqrt(n) in 99 of
-// 100 seeds; these are fixed.
+// The Kolmogorov-Smirnov distance from the uniform distribution is below 1.63 / sqrt(n) for 99 of
+// 100 seeds; the seeds are fixed.
 TEST(UnitSample, OfRandomPointsIsUniform) {
   constexpr int kCount = 10000;
   for (const std::uint64_t seed : {1ULL, 2ULL, 12345678901234567890ULL}) {
@@ -98,7 +98,8 @@ TEST(UnitSample, OfRandomPointsIsUniform) {
       }
       EXPECT_LT(distance, 1.63 / std::sqrt(kCount));
     }
-    // Independent columns: the correlation is normal with 1 / sqrt(n); four of them.
+    // The correlation of independent columns is normal with standard deviation 1 / sqrt(n); the
+    // bound is four of them.
     const Eigen::VectorXd a = sample.col(0).array() - 0.5;
     const Eigen::VectorXd b = sample.col(1).array() - 0.5;
     EXPECT_LT(std::abs(a.dot(b)) / (a.norm() * b.norm()), 4.0 / std::sqrt(kCount));
@@ -139,7 +140,7 @@ TEST(Quantile, OfATruncatedNormalDistributionStaysWithinItsBounds) {
     EXPECT_LE(x, 1.1);
     EXPECT_NEAR((phi(x) - phi(0.25)) / (phi(1.1) - phi(0.25)), u, Tolerance(1e-12));
   }
-  // So far out that shares round to 1.
+  // So far in the tail that probabilities round to 1.
   const Distribution far{
       .kind = DistributionKind::kNormal, .mean = 0.0, .deviation = 1.0, .min = 40.0, .max = 50.0};
   EXPECT_EQ(Quantile(far, 0.5), "40");

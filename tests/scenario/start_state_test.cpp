@@ -1,4 +1,4 @@
-// How a run begins: one answer for planners, plants and checks.
+// Tests the start state of a run, which planners, plants and checks share.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-// The path's heading and the car's come from one function: not even the last bit differs.
+// The path's heading and the car's come from one function, so they agree to the last bit.
 TEST(StartState, IsWherePathsAlongTheRouteBegin) {
   Random random(3);
   FilletOptions options;
@@ -45,13 +45,13 @@ TEST(StartState, IsWherePathsAlongTheRouteBegin) {
   EXPECT_GT(planned, 100);
 }
 
-// The mission's speed may be missing exactly where the start has one of its own.
+// The mission's speed may be missing exactly if the start defines a speed.
 TEST(StartState, HasTheSpeedThatReplacesTheMissions) {
   const TempFolder folder;
   folder.Write("r.csv", "t_s,steering_rad,speed_mps\n0,0,5\n9,0,5\n");
   struct Case {
     const char* keys;
-    std::optional<double> speed;  ///< none: refused
+    std::optional<double> speed;  ///< none: rejected
   };
   for (const auto& [keys, speed] : {
            Case{"control: {method: sine, amplitude: 0.01}\nmission: {duration: 3}", std::nullopt},

@@ -12,7 +12,7 @@
 #include "trackbed/sim/plant.h"
 #include "trackbed/track/track_file.h"
 
-// The section mission.track. What is wrong with one is in tests/data/bad.
+// Tests the section mission.track. tests/data/bad contains invalid ones.
 namespace trackbed {
 namespace {
 
@@ -39,7 +39,7 @@ TEST(MissionTrack, IsReadAndStartsOnItsLine) {
   EXPECT_EQ(scenario.mission.track->data->smoothing(), 30.0);
   const StartState start = InitialState(scenario);
   EXPECT_EQ(start.pose, scenario.mission.track->data->At(0.0).pose);
-  EXPECT_EQ(start.speed, 10.0);  // flying
+  EXPECT_EQ(start.speed, 10.0);  // a flying start
   const Scenario at_rest =
       ParseScenario(kLapScenario, "laps.yaml", folder.path(), {"mission.start={x: 38, speed: 0}"});
   EXPECT_EQ(InitialState(at_rest).pose.x, 38.0);

@@ -8,16 +8,16 @@
 #include "tests/sim/cars.h"
 #include "tests/tolerance.h"
 
-/// Whether VehicleParams' largest deceleration is what the MuJoCo cars have.
+/// Compares VehicleParams' largest deceleration with the MuJoCo cars.
 namespace trackbed {
 namespace {
 
 struct Stop {
-  double deceleration = 0.0;  ///< even one of the same distance [m/s^2]
-  double slip = 0.0;          ///< deepest slip ratio above 5 m/s; -1: a wheel was locked
+  double deceleration = 0.0;  ///< constant deceleration with the same stopping distance [m/s^2]
+  double slip = 0.0;          ///< lowest slip ratio above 5 m/s; -1 for a locked wheel
 };
 
-/// Brakes from 20 m/s down to 1 m/s: straight, at once, as hard as `asked` [m/s^2].
+/// Brakes from 20 m/s to 1 m/s on a straight, with a step to `asked` [m/s^2].
 Stop Brake(const std::string& model, const std::string& plant_name, double asked,
            double road = 1.0) {
   const CarModel car = CarWith(model, {});
@@ -53,7 +53,7 @@ TEST(Braking, ThePriusBrakesAsHardAsItsLimitAndHoldsItsWheels) {
       SCOPED_TRACE(fmt::format("{}, road {}", plant, road));
       const double limit = MaxDeceleration(CarWith("prius", {}).params(), road);
       const Stop stop = Brake("prius", plant, limit, road);
-      // What is asked for, but for the first 0.02 s of slip and the bearings' friction.
+      // The commanded deceleration, except for slip in the first 0.02 s and bearing friction.
       EXPECT_NEAR(stop.deceleration, limit, Tolerance(0.002 * limit));
       EXPECT_GT(stop.slip, -0.9);
     }
@@ -61,7 +61,8 @@ TEST(Braking, ThePriusBrakesAsHardAsItsLimitAndHoldsItsWheels) {
 }
 
 TEST(Braking, HarderThanThatAWheelLocksAndTheCarBrakesNoHarder) {
-  // Contacts lock at 10 % more; the tyres' own law has more grip than its 0.9 only while they roll.
+  // Contacts lock at 10 % more. The Magic Formula tyres exceed the contact's 0.9 only while they
+  // roll.
   const double limit = CarWith("prius", {}).params().max_deceleration;
   const Stop on_tyres = Brake("prius", "mujoco:magic_formula", 1.1 * limit);
   EXPECT_LT(on_tyres.slip, -0.99);
@@ -72,8 +73,9 @@ TEST(Braking, HarderThanThatAWheelLocksAndTheCarBrakesNoHarder) {
 }
 
 TEST(Braking, TheBmwsPitchLocksItsRearWheelsABitBelowItsLimit) {
-  // Its rear axle is the limit, and the body's pitch unloads that more at first than it does later.
-  // At 95 % everything holds; at the limit, asked for at once, the locked wheels take 5 % off.
+  // The rear axle limits the BMW, and the pitch transient unloads it more than the steady state. At
+  // 95 % no wheel locks; after a step to the limit, the locked wheels reduce the deceleration by 5
+  // %.
   const double limit = CarWith("bmw320i", {}).params().max_deceleration;
   for (const std::string& plant : kLaws) {
     SCOPED_TRACE(plant);

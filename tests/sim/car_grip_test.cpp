@@ -10,14 +10,14 @@
 #include "tests/sim/cars.h"
 #include "tests/tolerance.h"
 
-/// Whether the g-g-v diagram of a car is what the MuJoCo car does.
+/// Compares the g-g-v diagram of a car with the MuJoCo car.
 namespace trackbed {
 namespace {
 
 constexpr double kSpeed = 25.0;  // [m/s]
 
-/// The largest lateral acceleration, mean over half a second, of a car that is steered ever more,
-/// slowly enough to be at steady state, until it spins [m/s^2]. It keeps its speed or coasts.
+/// The largest lateral acceleration [m/s^2], as the mean over half a second. The steering angle
+/// increases slowly enough for steady state until the car spins. The car holds its speed or coasts.
 double MeasureLateral(const CarModel& car, double road, bool coasts) {
   World world;
   world.friction = road;
@@ -27,7 +27,7 @@ double MeasureLateral(const CarModel& car, double road, bool coasts) {
                                                         .tyre = TyreLaw::kAuto,
                                                         .steering = SteeringInput::kPrescribed});
   constexpr double kWindow = 0.5;    // [s]
-  constexpr double kSpinning = 0.2;  // of the sideslip [rad]
+  constexpr double kSpinning = 0.2;  // sideslip angle of a spinning car [rad]
   double largest = 0.0;
   double sum = 0.0;
   double until = kWindow;
@@ -53,9 +53,9 @@ double MeasureLateral(const CarModel& car, double road, bool coasts) {
   return largest;
 }
 
-// Neglected: the cosine of the steering angle, at most 0.15 rad, takes 1 % of the front axle's
-// force; unsprung masses that do not lean, the toe of the wheels, and what is left of transients,
-// below 1 % each.
+// Neglected effects: the cosine of the steering angle, at most 0.15 rad, reduces the front axle's
+// force by 1 %. Unsprung masses that do not roll, the toe angle and remaining transients are below
+// 1 % each.
 constexpr double kNeglected = 0.025;
 
 TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatCoasts) {
@@ -71,7 +71,8 @@ TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatCoasts) {
 }
 
 TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatKeepsItsSpeed) {
-  // The inner front wheel of the Prius drives against drag and slip angles, and slides: 8 % less.
+  // The inner front wheel of the Prius must drive against air drag and the drag of slip angles, and
+  // slides: 8 % less.
   const CarModel car = CarWith("prius", {});
   const GripModel grip = MakeGripModel(car, TyreLaw::kMagicFormula);
   const LongitudinalForces& forces = grip.forces;
@@ -85,8 +86,8 @@ TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatKeepsItsSpeed) {
 }
 
 TEST(CarGrip, RollStiffnessIsThatOfTheModelsSprings) {
-  // models/prius/prius.xml: springs of 19 and 22 kN/m and anti-roll bars of 11480 and 5480 N/m;
-  // tyres of 6 % of the radius.
+  // Stiffnesses in models/prius/prius.xml: springs of 19 and 22 kN/m, anti-roll bars of 11480 and
+  // 5480 N/m. Tyres have a height of 6 % of the radius.
   const CarModel car = CarWith("prius", {});
   const GripModel grip = MakeGripModel(car, TyreLaw::kMagicFormula);
   const double tyre = car.parts().tyres->vertical_stiffness;
@@ -94,18 +95,18 @@ TEST(CarGrip, RollStiffnessIsThatOfTheModelsSprings) {
   const std::array<double, 2> bar{11480.0, 5480.0};
   for (std::size_t i = 0; i < 2; ++i) {
     const double square = grip.axles[i].track * grip.axles[i].track;
-    // The roll angle is 2 z/t; a bar is stretched by 2 z.
+    // For a wheel travel z the roll angle is 2 z/t, and the bar is stretched by 2 z.
     const double springs = (0.5 * spring[i] + bar[i]) * square;
     const double tyres = 0.5 * tyre * square;
     EXPECT_NEAR(grip.axles[i].roll_stiffness, springs * tyres / (springs + tyres),
                 Tolerance(1e-9 * springs));
     EXPECT_NEAR(grip.axles[i].suspension_share, tyres / (springs + tyres), Tolerance(1e-12));
   }
-  // Contacts are rigid.
+  // Bare contacts are rigid.
   EXPECT_EQ(MakeGripModel(car, TyreLaw::kContact).axles[0].suspension_share, 1.0);
 }
 
-// The tyres, k_z track^2/2 an axle, are all that is left to roll on.
+// Without springs only the tyres give roll stiffness, k_z track^2/2 per axle.
 TEST(CarGrip, AWheelWithoutASpringRestsOnTheStopOfItsJoint) {
   Scene scene = ComposeScene(FindModel("prius", ""), {.timestep = 0.002});
   const std::regex springs(R"re( (stiffness="[0-9.]+" damping="[0-9.]+" springref="[-0-9.]+"|)re"
@@ -130,12 +131,13 @@ TEST(CarGrip, ForcesAreThoseOfTheParameters) {
   EXPECT_EQ(forces.drive_power, car.parts().drive_power);
   EXPECT_GT(forces.rolling_mass, params.mass);
   EXPECT_LT(forces.rolling_mass, 1.1 * params.mass);
-  // The diagram's top speed, where the motor's force is the drag's and the resistance.
+  // At the diagram's top speed, the motor's force equals drag and rolling resistance.
   const GgvDiagram diagram = ComputeGgv(car, TyreLaw::kAuto, {1.0});
   EXPECT_NEAR(diagram.AccelerationsAt({.speed = params.top_speed}).largest, 0.0, Tolerance(1e-6));
-  // From rest what VehicleParams says, of the Magic Formula alone, whose grip is the larger one.
+  // The diagram is that of the Magic Formula alone, which has more grip than the bare contacts. At
+  // rest it therefore reaches at least the acceleration of VehicleParams.
   EXPECT_GE(diagram.AccelerationsAt({}).largest, params.max_acceleration - 1e-3);
-  // No command brakes harder.
+  // The braking limit of the diagram is that of the brakes: no command brakes harder.
   EXPECT_NEAR(diagram.TyresAt({}).braking, -params.max_deceleration, Tolerance(1e-3));
 }
 

@@ -12,6 +12,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
+// Tests the compiled car model: parameters against published numbers, steering linkage and limits
+// against closed forms written independently, and messages for unsuitable models.
 namespace trackbed {
 namespace {
 
@@ -29,7 +31,7 @@ TEST(Prius, HasThePublishedParameters) {
   const VehicleParams& params = car.params();
   EXPECT_EQ(params.name, "prius");
   EXPECT_EQ(params.wheelbase, 2.7);
-  // Masses are chosen by hand to 13 digits; a tenth of a millimeter is far below what they mean.
+  // Masses are set by hand to 13 digits; a tenth of a millimeter has no physical significance.
   EXPECT_NEAR(params.cg_to_rear, 1.4, Tolerance(1e-4));
   EXPECT_NEAR(params.cg_to_front(), 1.3, Tolerance(1e-4));
   EXPECT_NEAR(params.mass, 1317.0, Tolerance(1e-9));
@@ -65,18 +67,18 @@ TEST(Prius, AckermannCouplingFollowsTheClosedForm) {
       const double coupled =
           c[0] + steering * (c[1] + steering * (c[2] + steering * (c[3] + steering * c[4])));
       const FrontAngles exact = AckermannAngles(car.params(), steering);
-      // The quartic is a minimax fit whose residual the model states as 0.00024 rad.
+      // The quartic is a minimax fit; the model states its residual as 0.00024 rad.
       EXPECT_NEAR(coupled, side[1] == 'l' ? exact.left : exact.right, Tolerance(0.00025));
     }
   }
 }
 
-/// Steers, drives and rolls for 2 s; the positions after it.
+/// Steers, drives and rolls for 2 s; returns the final positions.
 std::vector<mjtNum> Roll(const mjModel& model) {
   const MujocoData d = MakeMujocoData(model);
   for (int step = 0; step < 1000; ++step) {
     for (int i = 0; i < model.nu; ++i) {
-      // In fractions of what the actuator can do, slowly.
+      // Commands are fractions of the actuators' ranges and vary slowly.
       d->ctrl[i] = 0.5 * model.actuator_ctrlrange[2 * i + 1] * std::sin(0.01 * step);
     }
     mj_step(&model, d.get());
@@ -104,13 +106,13 @@ TEST(CarModel, IsSteppedWithoutItsLooks) {
 }
 
 TEST(Prius, OpensAndSteersInMujocoAlone) {
-  // What MuJoCo's viewer does: load the file, and move the actuators' sliders.
+  // Does the same as MuJoCo's viewer: loads the file and moves the actuators' sliders.
   std::array<char, 500> message{};
   const MujocoModel m(
       mj_loadXML(FindModel("prius", "").c_str(), nullptr, message.data(), message.size()));
   ASSERT_NE(m, nullptr) << message.data();
   const MujocoData d = MakeMujocoData(*m);
-  d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "steer")] = 10.0;  // the model cuts it to its rate
+  d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "steer")] = 10.0;  // clamped to the rate limit
   d->ctrl[mj_name2id(m.get(), mjOBJ_ACTUATOR, "drive")] = 400.0;
   while (d->time < 2.0) {
     mj_step(m.get(), d.get());
@@ -152,7 +154,7 @@ TEST(CarModel, RollingSpeedsAreRigidBodyMotion) {
   const double speed = 3.0;
   const double yaw_rate = speed * std::tan(steering) / p.wheelbase;
   const auto speeds = RollingSpeeds(p, speed, steering);
-  // Every wheel moves about the same center at its distance from it.
+  // The velocity of each wheel is its distance from the common turning center times the yaw rate.
   const double radius = p.wheelbase / std::tan(steering);
   const double half = 0.5 * p.track_front;
   EXPECT_NEAR(speeds[0], yaw_rate * std::hypot(radius - half, p.wheelbase), Tolerance(1e-12));
@@ -191,7 +193,7 @@ TEST(CarModel, SaysWhatAModelLacks) {
 TEST(CarModel, TellsWhatDoesNotCompileInOneLine) {
   EXPECT_EQ(ErrorMessage("<mujoco><worldbody><body/><oops/></worldbody></mujoco>"),
             "car.xml: does not compile: unrecognized element (<oops>)");
-  // 3.3 does not name the body.
+  // MuJoCo 3.3 does not name the body.
   EXPECT_THAT(
       ErrorMessage("<mujoco><worldbody><body name='a'><joint/></body></worldbody></mujoco>"),
       testing::MatchesRegex("car.xml: does not compile: mass and inertia of moving bodies must be "
@@ -204,7 +206,7 @@ TEST(CarModel, TellsWhatDoesNotCompileInOneLine) {
     const CarModel car(ComposeScene(file, {}), "car.xml");
     FAIL();
   } catch (const InputError& error) {
-    // The second is that of newer versions of MuJoCo.
+    // The second message is that of newer versions of MuJoCo.
     EXPECT_THAT(error.what(),
                 testing::AnyOf(
                     testing::StrEq(
@@ -215,7 +217,8 @@ TEST(CarModel, TellsWhatDoesNotCompileInOneLine) {
 }
 
 TEST(CarModel, FindsTheSteeringAmongActuatorsInAnyOrder) {
-  // 2.2.2 wants actuators without a state first. Each of the others has one number in `act`.
+  // MuJoCo 2.2.2 requires actuators without a state first. Each other actuator has one number in
+  // `act`.
   const std::string motor = "<motor name=\"drive\"";
   const std::string xml = ReadFile(FindModel("prius", ""));
   const std::size_t begin = xml.find(motor);
@@ -264,17 +267,17 @@ TEST(CarModel, RefusesAFrameThatIsNotUnderTheRearAxle) {
 // --- Limits on a flat road
 // -------------------------------------------------------------------------
 
-/// A car's numbers, written down a second time from its file, and what follows from them.
+/// A car's numbers, written independently of its file, and quantities derived from them.
 struct LimitsByHand {
-  double mass, wheelbase, to_rear, cg_height, radius, spin_inertia;  // SI; inertia of one wheel
-  double brake_front, brake_rear;                                    // per wheel [N m]
+  double mass, wheelbase, to_rear, cg_height, radius, spin_inertia;  // SI; inertia per wheel
+  double brake_front, brake_rear;                                    // brake torque per wheel [N m]
   double friction;
 
   [[nodiscard]] double Wheels() const { return 2.0 * spin_inertia / (radius * radius); }
   [[nodiscard]] double Rolling() const { return mass + 2.0 * Wheels(); }
   [[nodiscard]] double BrakeForce() const { return 2.0 * (brake_front + brake_rear) / radius; }
   [[nodiscard]] double FrontPart() const { return brake_front / (brake_front + brake_rear); }
-  /// Road force over load, of the front and the rear axle at a deceleration: what friction must be.
+  /// Road force over load of the front and the rear axle at a deceleration: the required friction.
   [[nodiscard]] std::array<double, 2> Demand(double a) const {
     const double front = FrontPart() * Rolling() * a - Wheels() * a;
     const double rear = (1.0 - FrontPart()) * Rolling() * a - Wheels() * a;
@@ -294,14 +297,15 @@ CarModel Load(const std::string& model) {
   return {ComposeScene(FindModel(model, TRACKBED_SOURCE_DIR), {}), model};
 }
 
-/// Relative; hand-written masses and places are those of the files to 5 digits and better.
+/// Relative tolerance: the masses and positions written here agree with the files to at least 5
+/// digits.
 constexpr double kByHand = 1e-4;
 
 TEST(VehicleLimits, BrakingEndsWhereTheFirstAxleWouldLock) {
   struct Case {
     const char* model;
     const LimitsByHand& hand;
-    std::size_t first;  // axle, 0 in front
+    std::size_t first;  // the axle that locks first, 0 in front
   };
   for (const auto& [model, hand, first] :
        {Case{"prius", kPriusByHand, 0}, Case{"bmw320i", kBmwByHand, 1},
@@ -317,13 +321,13 @@ TEST(VehicleLimits, BrakingEndsWhereTheFirstAxleWouldLock) {
 }
 
 TEST(VehicleLimits, OnASlipperyRoadTheAxleThatTheSmallerTransferLeavesLightLocksFirst) {
-  // The BMW's brakes are balanced for about half its grip: there its front locks first.
+  // The BMW's brakes are balanced for about half its grip. At full grip the front axle locks first.
   const VehicleParams bmw = Load("bmw320i").params();
   const auto demand = kBmwByHand.Demand(MaxDeceleration(bmw, 0.3));
   EXPECT_NEAR(demand[0], 0.3 * 1.0489, Tolerance(kByHand));
   EXPECT_LT(demand[1], 0.3 * 1.0489);
   EXPECT_EQ(MaxDeceleration(bmw, 1.0), bmw.max_deceleration);
-  // Filled by hand, they know no axles.
+  // Parameters filled by hand have no axles.
   const VehicleParams by_hand{.max_deceleration = 6.0, .max_acceleration = 4.0};
   EXPECT_EQ(MaxDeceleration(by_hand, 0.5), 3.0);
   EXPECT_EQ(MaxAcceleration(by_hand, 0.5), 2.0);
@@ -343,14 +347,14 @@ TEST(VehicleLimits, BrakingIsLimitedByWeakBrakesToo) {
 }
 
 TEST(VehicleLimits, TheDriveIsLimitedByItsTorqueOrItsAxlesGrip) {
-  // Prius: torque, less 1 % of the weight and four bearings of 1 N m; front-wheel drive would slip
-  // at 3.828 m/s^2 only.
+  // Prius: limited by the torque, less 1 % of the weight and four bearings of 1 N m. The
+  // front-wheel drive would slip only at 3.828 m/s^2.
   const double rolling = 0.01 * 1317.0 * 9.81 + 4.0 / 0.31075;
   const VehicleParams prius = Load("prius").params();
   EXPECT_NEAR(prius.max_acceleration, (1645.0 / 0.31075 - rolling) / kPriusByHand.Rolling(),
               Tolerance(kByHand * 4.0));
-  // BMW: 4325 N m would be 10.9 m/s^2. Its rear axle drives all, the front wheels' inertia too:
-  // X = (M - J) a, under m (g l_f + a h)/L.
+  // BMW: 4325 N m would give 10.9 m/s^2. Its rear axle drives everything including the front
+  // wheels' inertia: X = (M - J) a, under a load of m (g l_f + a h)/L.
   const VehicleParams bmw = Load("bmw320i").params();
   const LimitsByHand& b = kBmwByHand;
   const double a = bmw.max_acceleration;
@@ -365,14 +369,15 @@ TEST(VehicleLimits, TheDriveIsLimitedByItsTorqueOrItsAxlesGrip) {
 }
 
 TEST(VehicleLimits, AreTheFrictionOfTheWorseTyreLaw) {
-  // The Prius' contacts have 0.9; its front tyres' mu_y at 3350 N is less and mu_x more.
+  // The Prius' contacts have 0.9. At 3350 N its front tyres have a smaller mu_y and a larger mu_x.
   const double load = 0.5 * 1317.0 * 9.81 * 1.4 / 2.7;
   const VehicleParams params = Load("prius").params();
   EXPECT_NEAR(params.friction_lateral, 0.8784 - 0.06445 * (load - 4000.0) / 4000.0,
               Tolerance(1e-5));
   EXPECT_NEAR(params.friction_longitudinal, 0.9, Tolerance(1e-12));
   EXPECT_NEAR(Load("bmw320i").params().friction_lateral, 1.0489, Tolerance(1e-12));
-  // With stickier contacts the law's own peaks are left: mu_x of the front is the smaller one.
+  // With a contact friction of 2 the tyre law's own peaks limit; the front's mu_x is the smaller
+  // one.
   const CarModel sticky({.xml = PriusWith("friction=\"0.9 ", "friction=\"2 "), .assets = {}},
                         "car.xml");
   EXPECT_NEAR(sticky.params().friction_longitudinal, 1.0422 - 0.0827 * (load - 4000.0) / 4000.0,
@@ -384,20 +389,20 @@ TEST(VehicleLimits, TopSpeedIsWhereDragTakesAll) {
   const double rolling = 0.01 * 1317.0 * 9.81 + 4.0 / 0.31075;
   EXPECT_NEAR(prius.top_speed, std::sqrt((1645.0 / 0.31075 - rolling) / (0.5 * 1.225 * 0.561)),
               Tolerance(0.001));
-  // The BMW's power: Cardano for k v^3 + R v - P = 0.
+  // The BMW's top speed from its power: Cardano's formula for k v^3 + R v - P = 0.
   const double k = 0.5 * 1.225 * 0.688;
   const double p = 4.0 * 0.5 / 0.344 / k;
   const double q = -92021.0 / k;
   const double root = std::sqrt(q * q / 4.0 + p * p * p / 27.0);
   EXPECT_NEAR(Load("bmw320i").params().top_speed,
               std::cbrt(-q / 2.0 + root) + std::cbrt(-q / 2.0 - root), Tolerance(1e-9));
-  // Nothing is known that would hold the small car back.
+  // The small car has no known resistance, so its top speed is unknown.
   EXPECT_EQ(Load("tests/data/models/small_car.xml").params().top_speed, 0.0);
 }
 
 TEST(VehicleLimits, OfDifferentialDriveAreThoseOfItsMotorsAndOfTheDrivenAxle) {
   const VehicleParams params = Load("diff_drive").params();
-  // 80 kg, two wheels with 0.26 kg m^2; 30 N m a motor, 0.3 N m in the bearings.
+  // 80 kg and two wheels with 0.26 kg m^2; 30 N m per motor, 0.3 N m in the bearings.
   const double rolling_mass = 80.0 + 2.0 * 0.26 / (0.165 * 0.165);
   const double force = 60.0 / 0.165;
   EXPECT_NEAR(params.max_deceleration, force / rolling_mass, Tolerance(1e-9));
@@ -405,8 +410,8 @@ TEST(VehicleLimits, OfDifferentialDriveAreThoseOfItsMotorsAndOfTheDrivenAxle) {
   EXPECT_NEAR(params.top_speed, (22.0 - 30.0 / 60.0) * 0.165, Tolerance(1e-12));
   EXPECT_EQ(params.friction_longitudinal, 0.8);
   EXPECT_EQ(params.friction_lateral, 0.8);
-  // With half the grip the tyres slide first: m a = mu m (g 0.44 - a 0.26)/0.62, the caster 0.62 m
-  // ahead gaining what they lose.
+  // With half the grip the tyres slide first: m a = mu m (g 0.44 - a 0.26)/0.62. The load that they
+  // lose moves to the caster, 0.62 m ahead.
   std::string xml = ReadFile(FindModel("diff_drive", ""));
   const std::string friction = "friction=\"0.8 ";
   xml.replace(xml.find(friction), friction.size(), "friction=\"0.4 ");

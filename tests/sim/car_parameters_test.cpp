@@ -64,8 +64,8 @@ TEST(CarParameters, LeaveTheCarStandingOnItsSprings) {
     }
     return plant->Configuration()[2];
   };
-  // Springs carry what is more; the tyres, 230 kN/m each under a quarter of 440 kg more, give way
-  // by 5 mm, which the springs do not make up for.
+  // The springs are preloaded for the additional mass. The tyres, 230 kN/m each under a quarter of
+  // 440 kg more, deflect by another 5 mm, which the springs do not compensate.
   EXPECT_NEAR(height(changed), height(car), Tolerance(0.006));
 }
 

@@ -11,7 +11,7 @@
 
 namespace trackbed {
 
-/// Numbers under <custom> to be replaced or added.
+/// Numbers under <custom> that replace or extend those of the file.
 using Numerics = std::map<std::string, double>;
 
 /// A car of models/ with some of its numbers changed.
@@ -29,7 +29,7 @@ inline CarModel CarWith(const std::string& name, const Numerics& numerics, doubl
                               : CarModel(WithWorld(car.scene(), car.params(), world), name);
 }
 
-/// What makes tyres differ from linear, symmetric ones without camber, switched off.
+/// Disables the effects that make tyres differ from linear, symmetric ones without camber.
 inline const Numerics kStripped{{"camber_gain_front", 0.0},
                                 {"camber_gain_rear", 0.0},
                                 {"p_hx1", 0.0},
@@ -46,7 +46,7 @@ inline const Numerics kStripped{{"camber_gain_front", 0.0},
                                 {"drag_area", 0.0},
                                 {"side_area", 0.0}};
 
-/// Drives with `command(t, state)` asked anew at every step; `look(t, state)` sees every state.
+/// Runs the plant: calls `command(t, state)` at every step and `look(t, state)` for every state.
 template <typename Command_, typename Look>
 VehicleState Drive(const CarModel& car, Plant& plant, double duration, const Command_& command,
                    const Look& look) {

@@ -1,5 +1,6 @@
-// The BMW 320i against CommonRoad's multi-body model of it: the same steering and speed, the wheels
-// prescribed. tests/data/commonroad/README.md tells where the reference is from.
+// The BMW 320i compared with CommonRoad's multi-body model of it, with the same steering and speed;
+// the wheel angles are prescribed. tests/data/commonroad/README.md names the source of the
+// reference.
 
 #include <gtest/gtest.h>
 
@@ -15,8 +16,8 @@
 namespace trackbed {
 namespace {
 
-/// Recordings of the model as it is published, which scenarios replay, too, or with one center of
-/// gravity throughout; see the READMEs.
+/// Recordings of the model as published, which scenarios also replay, or with a single, consistent
+/// center of gravity; see the READMEs.
 enum class Kind { kPublished, kConsistent };
 
 std::filesystem::path Reference(Kind kind, const std::string& name) {
@@ -25,7 +26,7 @@ std::filesystem::path Reference(Kind kind, const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / folder / (name + ".csv");
 }
 
-/// The reference has no aerodynamics; the car's file has, assumed ones.
+/// The reference has no aerodynamics, so the assumed values of the car's file are removed.
 const Numerics kStillAir{{"drag_area", 0.0}, {"side_area", 0.0}};
 
 /// A column over time, linear between rows.
@@ -57,17 +58,18 @@ class Signal {
   std::vector<double> values_;
 };
 
-/// How far a drive was from the reference.
+/// Deviation of a run from the reference.
 struct Deviation {
   double yaw_rate = 0.0;              ///< rms over the reference's peak
-  double lateral_acceleration = 0.0;  ///< likewise
+  double lateral_acceleration = 0.0;  ///< rms over the reference's peak
   double path = 0.0;                  ///< largest distance over the distance driven
   double speed = 0.0;                 ///< rms over the speed at the start
-  double distance = 0.0;              ///< driven, relative
+  double distance = 0.0;              ///< distance driven, relative
   double yaw = 0.0;                   ///< largest heading [rad]
 };
 
-/// Up to `until` [s] for the lateral acceleration, which the reference's tyres make chatter later.
+/// The lateral acceleration is compared up to `until` [s]; later the reference's tyres make it
+/// chatter.
 Deviation Compare(Kind kind, const std::string& name, const Numerics& numerics,
                   double timestep = 0.002, double until = 3.5) {
   const Table table = ReadCsv(Reference(kind, name));
@@ -142,9 +144,9 @@ TEST_P(CommonRoad, SteeringManeuvers) {
   for (const char* name : {"step_steer_bmw320i_20mps", "lane_change_bmw320i_15mps"}) {
     const Deviation found = Compare(kind(), name, numerics());
     EXPECT_LE(found.yaw_rate, Tolerance(0.03)) << name;
-    // The reference's tyres slip by the lateral speed of its sprung mass's center of gravity,
-    // rolling included, in place of their axles' own. With the axles' own its acceleration is
-    // another by 3.7 % in the step and 6.5 % in the lane change.
+    // The reference's tyres slip by the lateral speed at the sprung mass's center of gravity,
+    // including roll, instead of at the axles. With the axle speeds its acceleration would change
+    // by 3.7 % in the step and by 6.5 % in the lane change.
     const bool is_step = std::string(name).starts_with("step");
     EXPECT_LE(found.lateral_acceleration, Tolerance(is_step ? 0.05 : 0.07)) << name;
     EXPECT_LE(found.path, Tolerance(0.02)) << name;
@@ -191,9 +193,10 @@ TEST_P(CommonRoad, SteadyTurns) {
         },
         [](double, const VehicleState&) {});
     ASSERT_NEAR(state.speed, speeds[i], 1e-3 * speeds[i]);
-    // The published model carries its weight 15.6 mm behind the point that it turns about, which is
-    // an understeer gradient of 1.13e-4 rad s^2/m (1.24e-4 at 2.5 m/s^2), and K v^2/L of the yaw
-    // rate. The assumed aerodynamics push the car's rear aside and load its tyres: 3 % at 25 m/s.
+    // The published model has its weight 15.6 mm behind the point about which it turns. That equals
+    // an understeer gradient of 1.13e-4 rad s^2/m (1.24e-4 at 2.5 m/s^2), and changes the yaw rate
+    // by K v^2/L. The assumed aerodynamics push the car's rear sideways and load its tyres: 3 % at
+    // 25 m/s.
     const double v_squared = speeds[i] * speeds[i];
     const bool is_published = kind() == Kind::kPublished;
     const double published = is_published ? 1.3e-4 * v_squared / car.params().wheelbase : 0.0;
@@ -201,10 +204,10 @@ TEST_P(CommonRoad, SteadyTurns) {
     EXPECT_NEAR(state.yaw_rate / yaw_rates[i], 1.0,
                 Tolerance((accelerations[i] <= 4.0 ? 0.01 : 0.02) + published + air))
         << speeds[i] << " m/s, " << angles[i] << " rad";
-    // The sign of the camber decides on this: with the other one 15 m/s and 0.08 rad are off by
-    // half, 0.07 m/s. The set's shifts by that sign, which this car is without, turn the rear
-    // tyres' slip by p_hy1 + p_vy1/p_ky1 = 0.00097 rad; the published axle loads, 1.3 % off, the
-    // 0.023 rad of slip at 4.9 m/s^2 by 0.0003 rad.
+    // This comparison depends on the sign of the camber. With the other sign, 15 m/s and 0.08 rad
+    // deviate by half, 0.07 m/s. The shifts of the tyre set have that sign and are not in this car:
+    // they turn the rear tyres' slip by p_hy1 + p_vy1/p_ky1 = 0.00097 rad. The published axle
+    // loads, off by 1.3 %, change the slip of 0.023 rad at 4.9 m/s^2 by 0.0003 rad.
     EXPECT_NEAR(state.lateral_speed, lateral_speeds[i],
                 Tolerance((is_published ? 0.00127 : 0.00097) * speeds[i] + 0.003));
   }

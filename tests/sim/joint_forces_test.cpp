@@ -31,7 +31,7 @@ TEST(AddForce, IsWhatMujocoApplies) {
     std::fill_n(data->qfrc_applied, model->nv, 0.0);
     AddForce(*model, *data, body, point, force, moment);
     for (int dof = 0; dof < model->nv; ++dof) {
-      // Rounding of moments up to 4000 N times 40 m from the origin.
+      // Rounding of moments of up to 4000 N times 40 m from the origin.
       EXPECT_NEAR(data->qfrc_applied[dof], expected[static_cast<std::size_t>(dof)], Tolerance(1e-9))
           << "body " << body << ", degree of freedom " << dof;
     }

@@ -6,7 +6,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/sim/plant.h"
 
-// Plant::ApplyLateralOffset and Plant::ApplyLateralForce.
+// Tests Plant::ApplyLateralOffset and Plant::ApplyLateralForce.
 namespace trackbed {
 namespace {
 
@@ -31,7 +31,8 @@ TEST(ApplyLateralOffset, SetsEveryPlantAside) {
     for (int i = 0; i < 500; ++i) {
       plant->Step({});
     }
-    // It goes on straight beside its old line, at walking pace and without any force across.
+    // The car continues straight, parallel to its old line, at walking pace and without lateral
+    // force.
     const Pose2 pose = plant->Observe().pose;
     EXPECT_NEAR(ToLocal({5.0, 3.0, 0.7}, pose.position()).y(), 0.5, Tolerance(1e-4)) << entry.name;
     EXPECT_FALSE(plant->diverged()) << entry.name;
@@ -48,7 +49,7 @@ TEST(ApplyLateralOffset, GoesUpWithTheGround) {
   EXPECT_NEAR(plant->Configuration()[2] - before, 0.2, Tolerance(1e-14));
 }
 
-/// On ice, where nothing else acts across, the impulse is the car's momentum.
+/// On ice there are no other lateral forces, so the impulse equals the car's momentum.
 TEST(ApplyLateralForce, GivesMujocosCarTheMomentum) {
   const World ice{.friction = 1e-5};
   const auto plant = MakePlant(
@@ -59,10 +60,11 @@ TEST(ApplyLateralForce, GivesMujocosCarTheMomentum) {
     plant->Step({});
   }
   const VehicleState state = plant->Observe();
-  // 400 N s. The road takes 1e-5 g of 0.1 s; the air, at 0.3 m/s across, 0.3 N of 4000 at most
-  // (1/2 1.225 5 0.3 5.07 = 4.7 N at the end, half of it on average): 0.06 %.
+  // 400 N s. The road takes 1e-5 g for 0.1 s. The air, at 0.3 m/s from the side, takes at most 0.3
+  // N of 4000 (1/2 1.225 5 0.3 5.07 = 4.7 N at the end, half of it on average): 0.06 %.
   EXPECT_NEAR(state.lateral_speed, 400.0 / 1317.0, Tolerance(3e-4));
-  // At the center of gravity: no moments but the air's, 0.28 m 2.3 N 0.1 s / 2157 kg m^2.
+  // The force acts at the center of gravity, so the only moment is the air's: 0.28 m 2.3 N 0.1 s /
+  // 2157 kg m^2.
   EXPECT_NEAR(state.yaw_rate, 0.0, Tolerance(1e-4));
   EXPECT_NEAR(state.roll, 0.0, Tolerance(1e-3));
   plant->Step({});

@@ -10,6 +10,8 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
+// Tests MuJoCo cars on Magic Formula tyres: understeer gradient, load transfer and stopping
+// distance against closed forms, and damping, symmetry and energy of the motion.
 namespace trackbed {
 namespace {
 
@@ -26,7 +28,7 @@ Command HoldSpeed(double speed, double steering, const VehicleState& state) {
   return {.steering = steering, .acceleration = 4.0 * (speed - state.speed)};
 }
 
-/// A step of the wheels over half a second, then held.
+/// Steering angle that rises over half a second and is then held.
 double StepSteer(double t, double steering) {
   return steering * std::clamp((t - 0.5) / 0.5, 0.0, 1.0);
 }
@@ -62,7 +64,7 @@ TEST(MagicFormulaTyres, CoefficientsAreCheckedAllAtOnce) {
   }
 }
 
-/// Linear tyres of given stiffness over load, front and rear.
+/// Linear tyres with these stiffnesses per load, front and rear.
 struct Axles {
   double front;
   double rear;
@@ -93,10 +95,10 @@ INSTANTIATE_TEST_SUITE_P(Pairs, Understeer,
                          testing::Values(Axles{12.0, 20.0}, Axles{10.0, 14.0}, Axles{15.0, 25.0}));
 
 TEST_P(Understeer, GradientIsThatOfTheAxles) {
-  // K = (W_f/C_f - W_r/C_r)/g, and a stiffness here is c times the load.
+  // K = (W_f/C_f - W_r/C_r)/g, where each stiffness here is c times the load.
   const double expected = (1.0 / GetParam().front - 1.0 / GetParam().rear) / kGravity;
   ASSERT_GE(expected, 0.001);
-  EXPECT_NEAR(Gradient(GetParam()) / expected, 1.0, Tolerance(0.05));  // the issue of small angles
+  EXPECT_NEAR(Gradient(GetParam()) / expected, 1.0, Tolerance(0.05));  // small-angle approximation
 }
 
 TEST(MagicFormulaTyres, EqualTyresMakeANeutralCar) {
@@ -116,7 +118,7 @@ TEST(MagicFormulaTyres, LoadTransferAndRollAreThoseOfStatics) {
       [](double t, const VehicleState& s) { return HoldSpeed(15.0, StepSteer(t, 0.03), s); },
       kNoLook);
   const VehicleParams& params = car.params();
-  // What turns the spinning wheels' angular momentum rolls the car outward as well.
+  // The change of the spinning wheels' angular momentum also rolls the car outward.
   double spin = 0.0;  // [kg m^2/s]
   for (const double inertia : car.parts().spin_inertia) {
     spin += inertia * state.speed / params.wheel_radius;
@@ -130,7 +132,8 @@ TEST(MagicFormulaTyres, LoadTransferAndRollAreThoseOfStatics) {
     carried += (w % 2 == 0 ? -1.0 : 1.0) * arm * (*state.wheels)[w].normal_force;
   }
   EXPECT_NEAR(carried / moment, 1.0, Tolerance(0.05));
-  // Springs and bars of the car's file, in series with its tyres; roll centers on the ground.
+  // Roll stiffness from springs and bars of the car's file in series with the tyres; roll centers
+  // on the ground.
   const double track_f = params.track_front * params.track_front;
   const double track_r = params.track_rear * params.track_rear;
   const double springs =
@@ -166,7 +169,7 @@ TEST(MagicFormulaTyres, LockedWheelsSlideAsTheLawSays) {
       [&](double t, const VehicleState& s) {
         slip = t > 0.5 && t < 1.5 ? std::max(slip, (*s.wheels)[0].slip_ratio + 1.0) : slip;
       });
-  EXPECT_LE(slip, 5e-3);  // locked, but for what the brakes give
+  EXPECT_LE(slip, 5e-3);  // locked, apart from the compliance of the brakes
   const double sliding =
       -EvaluateTyreForce(car.parts().tyres->axle[0], 1.0, 1.0, {.ratio = -1.0}).longitudinal;
   const double distance = 0.5 * 20.0 * 20.0 / (sliding * kGravity);
@@ -186,7 +189,7 @@ TEST(MagicFormulaTyres, ParkedCarsStayWhereTheyAre) {
       const World world{.ground = {.grade = grade}};
       const CarModel car = CarWith(level ? "bmw320i" : "prius", {}, 0.002, world);
       const auto plant = MakePlant(tyre, {.car = car, .world = world});
-      // On a slope springs and tyres first give to the load that leans on them.
+      // On a slope, springs and tyres first settle under the load.
       const Vec2 settled = park(*plant, 3.0);
       EXPECT_LT(settled.norm(), level ? 0.001 : 0.05) << tyre << ", grade " << grade.transpose();
       const Vec2 end = park(*plant, 60.0);
@@ -197,8 +200,8 @@ TEST(MagicFormulaTyres, ParkedCarsStayWhereTheyAre) {
 }
 
 TEST(MagicFormulaTyres, CoastingWheelsSettle) {
-  // A wheel that was braked for 0.15 s is let go. Without the damping it would ring at some 120
-  // rad/s; with an explicit slip law it would keep ringing for good.
+  // A wheel is released after 0.15 s of braking. Without damping it would oscillate at some 120
+  // rad/s; with an explicit slip law it would never stop oscillating.
   for (const double timestep : {0.001, 0.002, 0.004, 0.005}) {
     const CarModel car = CarWith("bmw320i", {}, timestep);
     for (const double speed : {1.5, 5.0, 20.0, 40.0}) {
@@ -242,7 +245,7 @@ TEST(MagicFormulaTyres, TurnsTheSameAtEveryTimestep) {
     ends.push_back(Drive(
         car, *plant, 4.0,
         [&](double t, const VehicleState& s) {
-          // Where the wheels are to be at the end of the step.
+          // The target of the wheels is the angle at the end of the step.
           return HoldSpeed(20.0, StepSteer(t + timestep, 0.03), s);
         },
         [&](double t, const VehicleState& s) {
@@ -272,13 +275,13 @@ TEST(MagicFormulaTyres, LeftAndRightAreMirrorImages) {
     const auto plant = On(car, world, {.speed = 20.0});
     ends[i] = Drive(
         car, *plant, 3.0,
-        [&](double t, const VehicleState& s) {  // braking in a turn at 0.6 g, all slips at work
+        [&](double t, const VehicleState& s) {  // braking in a turn at 0.6 g, with all slips active
           return t < 1.5 ? HoldSpeed(20.0, side * StepSteer(t, 0.038), s)
                          : Command{.steering = side * 0.038, .acceleration = -3.0};
         },
         kNoLook);
   }
-  // Rounding grows by the solver's tolerance, 1e-10, over some hundred steps of a stable motion.
+  // Rounding grows to the solver's tolerance, 1e-10, over some hundred steps of a stable motion.
   EXPECT_NEAR(ends[0].pose.x, ends[1].pose.x, Tolerance(1e-6));
   EXPECT_NEAR(ends[0].pose.y, -ends[1].pose.y, Tolerance(1e-6));
   EXPECT_NEAR(ends[0].yaw_rate, -ends[1].yaw_rate, Tolerance(1e-6));
@@ -287,8 +290,9 @@ TEST(MagicFormulaTyres, LeftAndRightAreMirrorImages) {
 }
 
 TEST(MagicFormulaTyres, SlidingNeverGainsEnergy) {
-  // Thrown sideways at 12 m/s without drive or brakes. What speeds and yaw hold may only shrink,
-  // but for what springs and deflected tyres give back: the first bounce, below 2 % here.
+  // A car sliding sideways at 12 m/s without drive or brakes. Its kinetic energy may only decrease,
+  // except for the energy that springs and deflected tyres return in the first bounce: below 2 %
+  // here.
   const CarModel car = CarWith("prius", {});
   const World world;
   const auto plant = On(car, world, {.speed = 12.0});
@@ -309,18 +313,18 @@ TEST(MagicFormulaTyres, SlidingNeverGainsEnergy) {
       });
   const double first = 0.5 * car.params().mass * 12.0 * 12.0;
   EXPECT_LT(gained / first, Tolerance(0.02));
-  EXPECT_LT(least / first, 0.5);  // it did slide
+  EXPECT_LT(least / first, 0.5);  // the car did slide
 }
 
 TEST(MagicFormulaTyres, TheRoadIsThatUnderEachWheel) {
-  // Left wheels on ice: braking hard they hold a tenth of what the right ones do, and the car is
-  // pulled to the right.
+  // The left wheels are on ice. When braking hard they transmit a tenth of the right wheels' force,
+  // and the car is pulled to the right.
   World world;
   world.friction_patches = {{.area = {{50.0, 5.0, 0.0}, 200.0, 10.0}, .friction = 0.1}};
   for (const char* tyre : {"mujoco:magic_formula", "mujoco:contact"}) {
     const CarModel car = CarWith("prius", {});
     const auto plant = MakePlant(tyre, {.car = car, .world = world, .start = {.speed = 15.0}});
-    std::array<double, 4> braking{};  // sums: bare contacts bounce while they brake
+    std::array<double, 4> braking{};  // sums, because bare contacts bounce under braking
     std::array<double, 4> load{};
     const VehicleState state = Drive(
         car, *plant, 0.4,
@@ -344,7 +348,7 @@ TEST(MagicFormulaTyres, PrescribedWheelsStandWhereTheyAreAsked) {
   const World world;
   const auto plant = On(car, world, {.speed = 10.0});
   for (int i = 1; i <= 200; ++i) {
-    const double steering = 0.1 * std::sin(0.05 * i);  // 2.5 rad/s: no actuator could
+    const double steering = 0.1 * std::sin(0.05 * i);  // 2.5 rad/s, faster than any actuator
     plant->Step({.steering = steering});
     EXPECT_NEAR(plant->Observe().steering, steering, Tolerance(1e-9));
   }

@@ -8,13 +8,13 @@
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_model.h"
 
-/// Models that MuJoCo compiles but that are no vehicles.
+/// Models that MuJoCo compiles but that are not vehicles.
 namespace trackbed {
 namespace {
 
 using testing::HasSubstr;
 
-/// What is said of the Prius with all that a regular expression finds replaced.
+/// The error for the Prius with every match of a regular expression replaced.
 std::string ErrorWith(const std::string& find, const std::string& replace) {
   Scene scene = ComposeScene(FindModel("prius", ""), {});
   const std::string before = scene.xml;

@@ -17,19 +17,19 @@ namespace {
 
 struct OtherHandler {};
 
-/// What a program that uses MuJoCo beside Trackbed may have installed.
+/// An error handler as another user of MuJoCo in the same program may have installed it.
 void ThrowOther(const char* /*message*/) {
   throw OtherHandler();
 }
 
-/// Warnings that reached the global handler. It must not throw: since MuJoCo 3.10 a thread whose
-/// handler does so loses all its later messages.
+/// Number of warnings that reached the global handler. The handler must not throw: since MuJoCo
+/// 3.10 a thread whose handler throws loses all later messages.
 int warnings = 0;
 void CountWarning(const char* /*message*/) {
   ++warnings;
 }
 
-/// Puts MuJoCo's global handlers back as they were.
+/// Restores MuJoCo's global handlers.
 class GlobalHandlers {
  public:
   GlobalHandlers() : error_(mju_user_error), warning_(mju_user_warning) {
@@ -49,7 +49,7 @@ class GlobalHandlers {
   void (*warning_)(const char*);
 };
 
-/// The error that MuJoCo's own handler would wait for a key on.
+/// The error text for which MuJoCo's own handler would wait for a key press.
 std::string MujocoErrorMessage() {
   try {
     mju_error("no such thing");
@@ -105,7 +105,8 @@ TEST(MujocoErrorScope, IsAroundEveryStepOfThePlantAndNoLonger) {
   const CarModel car(ComposeScene(FindModel("prius", ""), {}), "prius");
   EXPECT_EQ(MujocoErrorMessage(), "the other handler");
   const World world;
-  // Faster than MuJoCo computes with (mjMAXVAL, 1e10): it warns, to nobody within the scope.
+  // A speed above mjMAXVAL (1e10) makes MuJoCo warn; within the scope no handler receives the
+  // warning.
   const std::unique_ptr<Plant> plant =
       MakePlant("mujoco", {.car = car, .world = world, .start = {.speed = 1e12}});
   EXPECT_NO_THROW(plant->Step({}));

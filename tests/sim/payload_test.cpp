@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kGravity = 9.81;  // MuJoCo's default
+constexpr double kGravity = 9.81;  // [m/s^2], MuJoCo's default
 
 CarModel Unloaded(const std::string& name) {
   return CarModel(ComposeScene(FindModel(name, TRACKBED_SOURCE_DIR), {}), name);
@@ -41,7 +41,7 @@ TEST(Payload, MovesMassCenterOfGravityAndYawInertia) {
   const CarModel car = Loaded("prius", {.mass = 250.0, .x = -0.3, .y = 0.4, .z = 0.7});
   const double mass = own.params().mass;
   const double cg = (mass * own.params().cg_to_rear - 250.0 * 0.3) / (mass + 250.0);
-  // Steiner, of two points at a distance along x and y: m M / (m + M) d^2.
+  // Parallel axis theorem for two masses at a distance along x and y: m M / (m + M) d^2.
   const double arm = std::hypot(own.params().cg_to_rear + 0.3, 0.4);
   const double inertia = own.params().yaw_inertia + 250.0 * mass / (mass + 250.0) * arm * arm;
   // Rounding of MuJoCo's sums over twelve bodies.
@@ -50,7 +50,7 @@ TEST(Payload, MovesMassCenterOfGravityAndYawInertia) {
   EXPECT_NEAR(car.params().yaw_inertia, inertia, Tolerance(1e-8));
   EXPECT_NEAR(car.parts().cg_height, (mass * own.parts().cg_height + 250.0 * 0.7) / (mass + 250.0),
               Tolerance(1e-12));
-  // Stiffness grows with load, and there is more of it behind.
+  // Cornering stiffness grows with load, and the payload is nearer to the rear axle.
   EXPECT_GT(car.params().cornering_stiffness_rear, own.params().cornering_stiffness_rear);
   EXPECT_LT(car.params().cornering_stiffness_front, own.params().cornering_stiffness_front);
 }
@@ -69,7 +69,7 @@ TEST(Payload, IsNotInTheUnladenCar) {
   EXPECT_EQ(own.unladen().mass, own.params().mass);
 }
 
-/// Statics: moments about the axles and about the middle, of a car that leans by its own pitch and
+/// Static moments about the axles and about the centerline, for a car inclined by its own pitch and
 /// roll.
 TEST(Payload, LoadsTheWheelsAsStaticsSays) {
   const CarModel own = Unloaded("prius");
@@ -85,17 +85,17 @@ TEST(Payload, LoadsTheWheelsAsStaticsSays) {
   const VehicleParams& p = own.params();
   const double weight = (p.mass + m) * kGravity;
   const double height = own.parts().cg_height;
-  // The car is less than a micrometer per second away from rest, of some 10/s: 1e-5 m/s^2.
+  // The car still moves by less than 1 um/s at a mode of some 10/s: 1e-5 m/s^2.
   EXPECT_NEAR(load(0) + load(1) + load(2) + load(3), weight, Tolerance(0.05));
-  // Nose up is a negative pitch: the center of gravity moves back from over the hubs, under which
-  // the wheels touch. It also comes down to them by 2 cm with the springs, which changes that shift
-  // of 2 mm by a tenth: 1 N of 11 N.
+  // Nose up is a negative pitch: the center of gravity moves backward relative to the hubs, under
+  // which the wheels touch. It also sinks by 2 cm on the springs, which changes this shift of 2 mm
+  // by a tenth: 1 N of 11 N.
   const double front = p.mass * kGravity * p.cg_to_rear / p.wheelbase +
                        weight * (height - p.wheel_radius) * std::sin(state.pitch) / p.wheelbase;
   EXPECT_LT(state.pitch, -0.005);
   EXPECT_NEAR(load(0) + load(1), front, Tolerance(2.0));
-  // Likewise to the left, the side that is down: a negative roll. Wheels lean with the car, and
-  // touch under the middle of their tread's curve, an ellipse of 0.0925 m by 0.31075 m.
+  // In the same way to the left, the lower side: a negative roll. Wheels incline with the car and
+  // touch the ground below the center of their tread's curve, an ellipse of 0.0925 m by 0.31075 m.
   const double above_tread = height - 0.0925 * 0.0925 / p.wheel_radius;
   const double moment =
       0.5 * p.track_front * (load(0) - load(1)) + 0.5 * p.track_rear * (load(2) - load(3));
@@ -111,8 +111,8 @@ TEST(Payload, SagsTheSpringsByItsWeight) {
   const VehicleState state = plant->Observe();
   const auto& wheels = *state.wheels;
   const double static_rear = 0.5 * 1317.0 * kGravity * 1.3 / 2.7;
-  // What the wheel carries more, its spring of 22 kN/m does. The slides lean by the pitch of 8
-  // mrad, whose cosine is 3e-5 off.
+  // The wheel's additional load compresses its spring of 22 kN/m. The slide joints are inclined by
+  // the pitch of 8 mrad, whose cosine differs from 1 by 3e-5.
   EXPECT_NEAR(Column(car, *plant, "suspension_rl_m"),
               (wheels[2].normal_force - static_rear) / 22000.0, Tolerance(1e-5));
   EXPECT_GT(Column(car, *plant, "suspension_rl_m"), 0.02);
@@ -140,8 +140,8 @@ TEST_P(LadenCar, StandsStillFromTheStart) {
   ASSERT_FALSE(plant->diverged());
   const std::vector<double> end = plant->Configuration();
   for (std::size_t i = 0; i < start.size(); ++i) {
-    // Tyres of the other law give by other amounts: by less than a tenth of a millimeter of a car
-    // of full size, since both stand under their load as the file has them.
+    // The deflection of the other tyre law differs by less than a tenth of a millimeter for a
+    // full-size car, because both are set up for the load in the file.
     EXPECT_NEAR(end[i], start[i], Tolerance(3e-4 * car.params().wheel_radius))
         << car.configuration_columns()[i];
   }
@@ -157,8 +157,8 @@ TEST(Payload, SlowsTheCarDownThatDoesNotKnowOfIt) {
     }
     return plant->Observe().speed - 5.0;
   };
-  // The drive's force is the same, that of rolling mass times acceleration, wheels of 0.8 kg m^2
-  // included. 2 s at 1 m/s^2, less what the air takes more or less of in 4 %.
+  // The drive force is the same: rolling mass, including the wheels' 0.8 kg m^2, times
+  // acceleration. 2 s at 1 m/s^2, with 4 % for the difference in air drag.
   const double radius = own.params().wheel_radius;
   const double rolling = own.params().mass + 4.0 * 0.8 / (radius * radius);
   EXPECT_NEAR(speed_of(car) / speed_of(own), rolling / (rolling + 400.0), Tolerance(2e-3));

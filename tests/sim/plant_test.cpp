@@ -12,6 +12,8 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Tests laws that every plant obeys (directions, symmetry, actuator rate, stopping distance), then
+// properties of the MuJoCo car against statics and closed forms.
 namespace trackbed {
 namespace {
 
@@ -27,7 +29,7 @@ PlantSetup PriusAt(const StartState& start, double friction = 1.0) {
   return {.car = Prius(), .world = road, .start = start};
 }
 
-/// Holds the speed and asks for a steering angle, for `duration` [s].
+/// Holds the speed and commands a steering angle for `duration` [s].
 void Hold(Plant& plant, double steering, double speed, double duration) {
   const auto steps = static_cast<int>(std::lround(duration / Prius().timestep()));
   for (int i = 0; i < steps; ++i) {
@@ -77,7 +79,7 @@ TEST_P(EveryPlant, HeadingNorthMovesNorth) {
   const auto plant = At({.pose = {0.0, 0.0, kPi / 2.0}, .speed = 3.0});
   Hold(*plant, 0.0, 3.0, 2.0);
   const VehicleState state = plant->Observe();
-  // 6 m at 3 m/s; what the MuJoCo car loses to bearing friction its speed control gives back.
+  // 6 m at 3 m/s. Speed control compensates the MuJoCo car's bearing friction.
   EXPECT_NEAR(state.pose.y, 6.0, Tolerance(0.01));
   EXPECT_NEAR(state.pose.x, 0.0, Tolerance(1e-3));
   EXPECT_NEAR(state.distance, 6.0, Tolerance(0.01));
@@ -91,7 +93,7 @@ TEST_P(EveryPlant, PositiveSteeringTurnsLeft) {
   EXPECT_GT(state.pose.y, 0.1);
   EXPECT_GT(state.yaw_rate, 0.1);
   EXPECT_GT(state.lateral_acceleration, 0.1);
-  EXPECT_GE(state.roll, 0.0);  // outwards: the right side goes down
+  EXPECT_GE(state.roll, 0.0);  // outward: the right side goes down
 }
 
 TEST_P(EveryPlant, MirrorsWithTheSteering) {
@@ -101,8 +103,8 @@ TEST_P(EveryPlant, MirrorsWithTheSteering) {
   Hold(*right, -0.3, 3.0, 4.0);
   const VehicleState a = left->Observe();
   const VehicleState b = right->Observe();
-  // The model is mirror symmetric to rounding. What is left is where the contact solver stops
-  // (1e-10 of the energy scale m g per step, some 1e-6 m over 2000 steps).
+  // The model is mirror symmetric to rounding. The remaining difference is the contact solver's
+  // tolerance (1e-10 of the energy scale m g per step, some 1e-6 m over 2000 steps).
   const double tolerance = Tolerance(1e-5);
   EXPECT_NEAR(a.pose.x, b.pose.x, tolerance);
   EXPECT_NEAR(a.pose.y, -b.pose.y, tolerance);
@@ -120,7 +122,7 @@ TEST_P(EveryPlant, DrivesTheSameInEveryDirection) {
     Hold(*turned, 0.3, 3.0, 4.0);
     const Pose2 expected = Compose(start, reference.pose);
     const Pose2 actual = turned->Observe().pose;
-    // As for the mirror: the solver's stopping point, not the physics, depends on the axes.
+    // As for the mirror image: the solver's tolerance depends on the axes, the physics does not.
     const double tolerance = Tolerance(1e-5);
     EXPECT_NEAR(actual.x, expected.x, tolerance);
     EXPECT_NEAR(actual.y, expected.y, tolerance);
@@ -134,12 +136,12 @@ TEST_P(EveryPlant, TakesAFullLockTimeToFullLock) {
       const auto plant = At({.speed = speed});
       const double limit = Prius().params().steering_limit;
       int steps = 0;
-      // A thousandth short of the limit: the last bit is approached, not reached, by a real servo.
+      // 0.999 of the limit, because a real servo only approaches its target.
       while (sign * plant->Observe().steering < 0.999 * limit && steps < 3000) {
         plant->Step({.steering = sign * 1.0, .acceleration = 0.0});
         ++steps;
       }
-      // limit / rate = 3.2337 s; one per cent is the accuracy asked of the physics.
+      // limit / rate = 3.2337 s, with the required accuracy of 1 %.
       EXPECT_NEAR(steps * 0.002, 3.2337, Tolerance(0.0323)) << "at " << speed << " m/s";
       EXPECT_LE(std::abs(plant->Observe().steering_actuator), limit + 1e-12);
     }
@@ -152,14 +154,15 @@ TEST_P(EveryPlant, BrakesToRestAndStaysThere) {
     plant->Step({.acceleration = -2.0});
   }
   const VehicleState stopped = plant->Observe();
-  // v^2/(2 a) = 2.25 m. The MuJoCo car's brakes act through tyres and springs: 2 % is theirs.
+  // v^2/(2 a) = 2.25 m. The MuJoCo car's brakes act through tyres and springs, which adds up to 2
+  // %.
   EXPECT_NEAR(stopped.distance, 2.25, Tolerance(0.045));
   for (int i = 0; i < 5000; ++i) {
     plant->Step({.acceleration = 0.0});
   }
   const VehicleState later = plant->Observe();
-  // Ten seconds on: a parked car does not creep. A tenth of a millimeter is the springs' last
-  // swing.
+  // A parked car does not creep for ten seconds. A tenth of a millimeter is the springs' remaining
+  // oscillation.
   EXPECT_NEAR(later.pose.x, stopped.pose.x, Tolerance(1e-4));
   EXPECT_NEAR(later.pose.y, stopped.pose.y, Tolerance(1e-4));
   EXPECT_NEAR(later.speed, 0.0, Tolerance(1e-5));
@@ -182,7 +185,7 @@ TEST_P(EveryPlant, DrivesBackwardsInReverse) {
   const VehicleState state = plant->Observe();
   EXPECT_NEAR(state.speed, -2.0, Tolerance(0.03));
   EXPECT_LT(state.pose.x, -1.5);
-  EXPECT_LT(state.yaw_rate, 0.0);  // wheels to the left, backwards: the heading turns right
+  EXPECT_LT(state.yaw_rate, 0.0);  // wheels to the left, in reverse: the heading turns right
 }
 
 TEST_P(EveryPlant, UnwrapsItsHeading) {
@@ -209,7 +212,8 @@ TEST(MujocoPlant, StandsAtStaticLoad) {
   ASSERT_TRUE(state.wheels.has_value());
   const auto& wheels = *state.wheels;
   const double weight = 1317.0 * 9.81;
-  // Statics: l_g/L of the weight on the front axle. One per mille: springs still settling.
+  // Statics: l_g/L of the weight is on the front axle. The tolerance of 0.1 % covers settling
+  // springs.
   EXPECT_NEAR(wheels[0].normal_force, 0.5 * weight * 1.4 / 2.7, Tolerance(0.001 * weight));
   EXPECT_NEAR(wheels[1].normal_force, 0.5 * weight * 1.4 / 2.7, Tolerance(0.001 * weight));
   EXPECT_NEAR(wheels[2].normal_force, 0.5 * weight * 1.3 / 2.7, Tolerance(0.001 * weight));
@@ -231,13 +235,12 @@ TEST(MujocoPlant, TyresCarryTheCentripetalForce) {
       w[0].lateral_force * std::cos(front.left) + w[0].longitudinal_force * std::sin(front.left) +
       w[1].lateral_force * std::cos(front.right) + w[1].longitudinal_force * std::sin(front.right) +
       w[2].lateral_force + w[3].lateral_force;
-  // a_y about 1.9 m/s^2, 2500 N; 1 % is the rate at which the state still changes, and one step's
-  // lag.
+  // a_y is about 1.9 m/s^2, 2500 N. 1 % covers the remaining change of state and a lag of one step.
   EXPECT_NEAR(lateral, 1317.0 * state.lateral_acceleration, Tolerance(25.0));
   EXPECT_NEAR(state.lateral_acceleration, state.speed * state.yaw_rate, Tolerance(0.02));
   EXPECT_GT(w[1].normal_force, w[0].normal_force);  // load moves to the outer side
   for (const WheelState& wheel : w) {
-    // Left turn: forces to the left, so the tyres slip to the right.
+    // Left turn: forces point left, so the tyres slip to the right.
     EXPECT_LT(wheel.slip_angle, 0.0);
     EXPECT_LE(std::hypot(wheel.lateral_force, wheel.longitudinal_force),
               0.9 * wheel.normal_force * 1.001);
@@ -265,8 +268,9 @@ TEST(MujocoPlant, SlipperyRoadLimitsBraking) {
     }
     return plant->Observe().distance;
   };
-  // Beyond the limit the brakes lock or nearly so: v^2/(2 mu g), mu = 0.9 times the road's factor.
-  // 5 %: the brakes stop at 1.02 m g, and load transfer frees the rear before the front.
+  // A command beyond the limit makes the brakes lock or nearly lock: v^2/(2 mu g), with mu = 0.9
+  // times the road's factor. The tolerance is 5 %: the brakes stop at 1.02 m g, and load transfer
+  // unloads the rear axle first.
   EXPECT_NEAR(distance(0.5), 100.0 / (2.0 * 0.45 * 9.81), Tolerance(0.57));
   EXPECT_NEAR(distance(0.2), 100.0 / (2.0 * 0.18 * 9.81), Tolerance(1.42));
 }
@@ -286,7 +290,7 @@ TEST(MujocoPlant, DrivesOverABumpAndIsLevelAgain) {
   }
   const VehicleState state = plant->Observe();
   EXPECT_GT(highest, 0.05);
-  // 25 m farther on, 3 s after it: body modes of 1.3 Hz and a damping ratio of 0.3 are down to
+  // 3 s and 25 m after the excitation: body modes of 1.3 Hz with damping ratio 0.3 have decayed to
   // exp(-0.3 * 8.2 * 3) = 6e-4 of 0.05 m, over 2.7 m.
   EXPECT_GT(state.pose.x, 25.0);
   EXPECT_NEAR(state.pitch, 0.0, Tolerance(1e-3));
@@ -297,14 +301,14 @@ TEST(MujocoPlant, DrivesOverABumpAndIsLevelAgain) {
 
 TEST(MujocoPlant, SteeringFollowsTheActuatorClosely) {
   const auto plant = MakePlant("mujoco", PriusAt({.speed = 3.0}));
-  Hold(*plant, 0.4, 3.0, 2.0);  // still on the ramp
+  Hold(*plant, 0.4, 3.0, 2.0);  // the wheels are still turning
   const VehicleState moving = plant->Observe();
-  // A servo with lag tau trails a ramp by rate * tau; the model's is 10 ms and the coupling adds
-  // its own: 0.15 rad/s * 20 ms = 0.003 rad.
+  // A servo with lag tau follows a ramp with a delay of rate * tau. The model's tau is 10 ms and
+  // the coupling adds as much: 0.15 rad/s * 20 ms = 0.003 rad.
   EXPECT_NEAR(moving.steering, moving.steering_actuator, Tolerance(0.003));
   Hold(*plant, 0.4, 3.0, 3.0);
   const VehicleState resting = plant->Observe();
-  // At rest: the aligning load against kp, and the quartic's 0.00024 rad.
+  // At rest: deflection of the servo under the aligning moment, and the quartic's 0.00024 rad.
   EXPECT_NEAR(resting.steering, 0.4, Tolerance(0.001));
 }
 

@@ -15,7 +15,7 @@ CarModel PriusOn(const World& world) {
   return {WithWorld(scene, CarModel(scene, "prius").params(), world), "prius"};
 }
 
-/// A car that rolls freely, east from the origin.
+/// A freely rolling car that moves east from the origin.
 class Rolling {
  public:
   Rolling(const CarModel& car, double speed)
@@ -69,7 +69,7 @@ class Rolling {
   RoadContact contact_;
 };
 
-/// What a wheel's hub is above when its rim, a circle along x, lies on the ground.
+/// The height of a wheel's hub when its rim, a circle along x, touches the ground.
 double HubHeight(const Ground& ground, double x, double y, double radius) {
   double highest = -1e9;
   for (int i = -400; i <= 400; ++i) {
@@ -91,7 +91,7 @@ TEST(RoadContact, WheelsFollowTheClosedFormOverABump) {
     rolling.Step();
     for (std::size_t w = 0; w < 4; ++w) {
       EXPECT_EQ(rolling.CountContacts(w), 1);
-      // Hubs of the last step's beginning: where its contacts were found.
+      // Hub positions at the beginning of the last step, for which its contacts were computed.
       const mjtNum* hub = rolling.d->geom_xpos + 3 * car.parts().tyre[w];
       const double above = hub[2] - HubHeight(kHump, hub[0], hub[1], 0.31075);
       worst = std::max(worst, std::abs(above));
@@ -100,9 +100,9 @@ TEST(RoadContact, WheelsFollowTheClosedFormOverABump) {
     ASSERT_FALSE(testing::Test::HasFailure());
   }
   EXPECT_GT(highest, 0.31 + 0.099);
-  // The contact's static give is 2e-5 m and the search finds the lowest point to 0.31/400^2/4 =
-  // 5e-7 m. Over the foot and the crest, where c v^2 = 0.8 m/s^2, the give is more and less by c
-  // v^2 (1 - 2 dt/t)/k = 0.8 * 0.2/4e4 = 4e-6 m.
+  // The contact's static deflection is 2e-5 m, and the search finds the lowest point to
+  // 0.31/400^2/4 = 5e-7 m. Over the foot and the crest of the hump, where c v^2 = 0.8 m/s^2, the
+  // deflection varies by c v^2 (1 - 2 dt/t)/k = 0.8 * 0.2/4e4 = 4e-6 m.
   EXPECT_LT(worst, Tolerance(3e-5));
 }
 
@@ -123,10 +123,12 @@ TEST(RoadContact, LoadsChangeAsSmoothlyAsTheGround) {
       last[w] = load;
     }
   }
-  // Where the hump begins, the unsprung 36 kg are suddenly accelerated by 2 pi^2 h/L^2 v^2 = 3.1
-  // m/s^2: 110 N. Springs and dampers add 1450 N s/m times 2 dt of it. Facets jump by thousands.
+  // At the beginning of the hump the unsprung 36 kg are suddenly accelerated by 2 pi^2 h/L^2 v^2 =
+  // 3.1 m/s^2: 110 N. Springs and dampers add 1450 N s/m times 2 dt of it. With facets the load
+  // would jump by thousands of newtons.
   EXPECT_LT(largest, 200.0);
-  // Of 3100 N: inertia of a quarter of the car, 330 kg, times 3.1 m/s^2, and its swing.
+  // Of 3100 N at rest: the inertia of a quarter of the car, 330 kg, times 3.1 m/s^2, plus
+  // oscillation.
   EXPECT_GT(lightest, 1500.0);
 }
 
@@ -138,17 +140,18 @@ TEST(RoadContact, ACarComesToRestAgainAsItStood) {
   }
   const mjtNum* q = rolling.d->qpos + car.parts().chassis_qpos;
   EXPECT_GT(q[0], 40.0);
-  // Body modes of 1.3 Hz and a damping ratio of 0.3 have had 3 s: exp(-0.3 * 8.2 * 3) of 0.05 m.
+  // Body modes of 1.3 Hz with damping ratio 0.3 have decayed for 3 s: exp(-0.3 * 8.2 * 3) of 0.05
+  // m.
   EXPECT_NEAR(q[2], 0.0, Tolerance(1e-4));
   EXPECT_NEAR(q[5], 0.0, Tolerance(1e-4));
-  EXPECT_NEAR(q[1], 0.0, Tolerance(1e-6));  // both sides are alike
+  EXPECT_NEAR(q[1], 0.0, Tolerance(1e-6));  // left and right are symmetric
   for (int warning = 0; warning < mjNWARNING; ++warning) {
     EXPECT_EQ(rolling.d->warning[warning].number, 0);
   }
 }
 
 TEST(RoadContact, FlatStretchesAreAsFlatGround) {
-  // Two cars, one with a hump far away.
+  // Two cars; only one world has a hump, far away.
   Ground far = kHump;
   far.bumps[0].area.center.x = 1000.0;
   const CarModel flat = PriusOn({});
@@ -160,7 +163,7 @@ TEST(RoadContact, FlatStretchesAreAsFlatGround) {
     b.Step();
   }
   for (int i = 0; i < flat.get()->nq; ++i) {
-    // Rounding, through 500 stiff steps.
+    // Rounding over 500 stiff steps.
     EXPECT_NEAR(a.d->qpos[i], b.d->qpos[i], Tolerance(1e-8)) << i;
   }
 }
@@ -189,7 +192,7 @@ TEST(RoadContact, TyresStillTouchObstacles) {
 }
 
 TEST(RoadContact, ASideSlopeRollsTheCar) {
-  // The car stands in the middle of a wide stretch that rises to its left.
+  // The car stands in the middle of a wide ramp that rises to its left.
   const Ground ground{
       .side_slopes = {
           {.area = {{0.0, 0.0, 0.0}, 80.0, 10.0}, .slope = 0.08, .transition_length = 10.0}}};
@@ -201,7 +204,8 @@ TEST(RoadContact, ASideSlopeRollsTheCar) {
   for (int i = 0; i < 1500; ++i) {
     rolling.Step();
   }
-  // Downhill, on the right, the load is larger by m g h sin(a) / t and the whole by cos(a).
+  // On the right, the downhill side, the load is larger by m g h sin(a) / t. The total is m g
+  // cos(a).
   const double angle = std::atan(0.08);
   const double weight = 1317.0 * 9.81;
   double sum = 0.0;
@@ -212,8 +216,8 @@ TEST(RoadContact, ASideSlopeRollsTheCar) {
     moment += load * (w < 2 ? 0.7525 : 0.74) * (w % 2 == 0 ? 1.0 : -1.0);
   }
   EXPECT_NEAR(sum, weight * std::cos(angle), Tolerance(0.001 * weight));
-  // The springs let the center of gravity, 0.55 m up, lean and sink a little further: 5 degrees at
-  // 1 g, 0.4 at this, of 0.55 m: 4 mm to the right, 1 % of the moment's arm times m g.
+  // On its springs the center of gravity, 0.55 m high, leans and sinks slightly further: 5 degrees
+  // at 1 g, 0.4 degrees here, times 0.55 m: 4 mm to the right, 1 % of the lever arm.
   const double expected = -weight * std::sin(angle) * 0.55;
   EXPECT_NEAR(moment, expected, Tolerance(0.004 * weight));
   EXPECT_LT(moment, expected);

@@ -1,5 +1,5 @@
-// The plant single_track, from the numbers in a car's file to its motion. That the car itself obeys
-// its equations is shown in tests/vehicle/single_track_car_test.cpp.
+// The plant single_track, from the numbers in a car's file to its motion.
+// tests/vehicle/single_track_car_test.cpp tests the equations of the single-track car.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ CarModel OnTyres(double front, double rear, double timestep = 0.002, Numerics nu
   return CarWith("bmw320i", numerics, timestep);
 }
 
-/// K [s^2/m]: the axles' loads over their stiffnesses, less one another, over g.
+/// K [s^2/m]: the difference of the axles' load over stiffness, divided by g.
 double UndersteerGradient(double front, double rear) {
   return (1.0 / front - 1.0 / rear) / kGravity;
 }
@@ -60,7 +60,7 @@ TEST(SingleTrackPlant, NeedsTyres) {
 
 // --- Closed forms --------------------------------------------------------------------------------
 
-/// r/tan(delta) after 16 s at a held speed [1/s].
+/// r/tan(delta) after 16 s at a constant speed [1/s].
 double Gain(const CarModel& car, double speed) {
   constexpr double kSteering = 0.01;
   const auto plant = SingleTrack(car, {.speed = speed, .steering = kSteering});
@@ -77,7 +77,7 @@ TEST(SingleTrackPlant, YawRateGainIsThatOfTheTyresInTheFile) {
     const double wheelbase = car.params().wheelbase;
     for (const double speed : {1.0, 10.0, 20.0, 30.0}) {
       const double gain = speed / (wheelbase + UndersteerGradient(front, rear) * speed * speed);
-      // The slowest mode here decays with 2/s: e^-32. The rest is rounding.
+      // The slowest mode here decays with 2/s, to e^-32. The remaining error is rounding.
       EXPECT_NEAR(Gain(car, speed) / gain, 1.0, Tolerance(1e-9))
           << front << ", " << rear << " at " << speed;
     }
@@ -121,7 +121,7 @@ TEST(SingleTrackPlant, AboveItsCriticalSpeedAnOversteeringCarSpins) {
     const auto straighten = [](double, const VehicleState&) { return Command{}; };
     const double before = Drive(car, *plant, 3.0, straighten, kNoLook).yaw_rate;
     const double after = Drive(car, *plant, 1.0, straighten, kNoLook).yaw_rate;
-    // The faster mode, with some 10/s, is gone to e^-20 and less beside the slower one.
+    // The faster mode, with some 10/s, has decayed to at most e^-20 of the slower one.
     EXPECT_NEAR(std::log(after / before), slower, Tolerance(1e-6));
   }
 }
@@ -136,7 +136,7 @@ TEST(SingleTrackPlant, ACarThatSpinsEverFasterIsToldFromADrive) {
   EXPECT_GT(std::abs(end.pose.yaw), 1e9);
 }
 
-// --- What it is made of --------------------------------------------------------------------------
+// --- Components ---------------------------------------------------------------------------------
 
 TEST(SingleTrackPlant, KnowsNothingOfTheWorld) {
   const CarModel car = OnTyres(12.0, 20.0);
@@ -172,14 +172,14 @@ TEST(SingleTrackPlant, DrivesTheSameAtEveryTimestep) {
     SCOPED_TRACE(timestep);
     const VehicleState state = driven(timestep);
     // A sine held at its value in the middle of each step is larger by (omega dt)^2/24, and so is
-    // all that comes of it. The car runs off at a mean heading y/x, which is at most twice that.
+    // the response. The car drifts at a mean heading y/x, which is at most twice that.
     const double larger = std::pow(kPi * timestep, 2) / 24.0;
     EXPECT_NEAR(state.pose.x, fine.pose.x, Tolerance(larger * std::abs(fine.pose.y)));
     EXPECT_NEAR(state.pose.y, fine.pose.y, Tolerance(larger * std::abs(fine.pose.y)));
     EXPECT_NEAR(state.pose.yaw, fine.pose.yaw,
                 Tolerance(larger * 2.0 * std::abs(fine.pose.y) / fine.pose.x));
-    // At the end of a step the wheels, turning at delta', have been half a step behind for half a
-    // step, and r' is C_f l_f/I of that.
+    // Over the second half of a step the held angle falls behind the sine, by delta' timestep^2/8
+    // in integral. The yaw rate changes by C_f l_f/I times that.
     const double response =
         params.cornering_stiffness_front * params.cg_to_front() / params.yaw_inertia;
     EXPECT_NEAR(state.yaw_rate, fine.yaw_rate,
@@ -201,14 +201,14 @@ TEST(SingleTrackPlant, SteersWithTheActuatorsRateOrAtOnce) {
   }
 }
 
-// --- Against MuJoCo's car on its tyres -----------------------------------------------------------
+// --- Comparison with MuJoCo's car on Magic Formula tyres ----------------------------------------
 
 struct Two {
   std::vector<VehicleState> single_track;
   std::vector<VehicleState> physical;
 };
 
-/// Both plants through `steering(t)`, prescribed, at a held speed.
+/// Runs both plants with the prescribed `steering(t)` at a constant speed.
 template <typename Steering>
 Two Both(const CarModel& car, double speed, double duration, const Steering& steering) {
   const auto states = [&](const char* name) {
@@ -228,14 +228,14 @@ Two Both(const CarModel& car, double speed, double duration, const Steering& ste
   return {states("single_track"), states("mujoco:magic_formula")};
 }
 
-/// Share of the steering angle that the tyres' slip takes: K u^2/(L + K u^2).
+/// Fraction of the steering angle that tyre slip takes: K u^2/(L + K u^2).
 double SlipShare(const VehicleParams& params, double front, double rear, double speed) {
   const double slip = UndersteerGradient(front, rear) * speed * speed;
   return slip / (params.wheelbase + slip);
 }
 
-/// By how much the slip at a lateral acceleration is more than the linear tyre's. The Magic Formula
-/// sin(C atan(C_alpha alpha/(C D))) = F/D, with F/D = a/(mu g), turned over and to third order.
+/// Relative increase of the slip over the linear tyre's at a lateral acceleration. From the Magic
+/// Formula sin(C atan(C_alpha alpha/(C D))) = F/D with F/D = a/(mu g), inverted to third order.
 double Softening(const MagicFormula& tyre, double acceleration) {
   const double used = acceleration / (tyre.p_dy1 * kGravity);
   return used * used * (1.0 / 6.0 + 1.0 / (3.0 * tyre.p_cy1 * tyre.p_cy1));
@@ -257,15 +257,15 @@ TEST(SingleTrackPlant, TurnsAsTheMagicFormulaCarDoes) {
       const VehicleState& linear = two.single_track.back();
       const VehicleState& physical = two.physical.back();
       EXPECT_NEAR(linear.lateral_acceleration, acceleration, Tolerance(1e-6));
-      // Tyres that are softer take more of the steering; the small angles, the drive against the
-      // front tyres' drag, two wheels where the model has one: all go with the square as well, and
-      // are given as much again as the softening of all of the slip.
+      // Softer tyres take more of the steering angle. Small angles, the drive force against the
+      // front tyres' drag, and two wheels per axle are also quadratic effects. Together they get a
+      // tolerance as large as the softening of the total slip.
       const double softer = Softening(car.parts().tyres->axle[0], acceleration);
       const double tolerance = (share + 1.0) * softer;
       EXPECT_NEAR(physical.yaw_rate / linear.yaw_rate, 1.0, Tolerance(tolerance));
       EXPECT_NEAR(physical.lateral_acceleration / linear.lateral_acceleration, 1.0,
                   Tolerance(tolerance));
-      // v = l_r r - u alpha_r: of both terms as much.
+      // v = l_r r - u alpha_r: the same tolerance for both terms.
       const double slip = std::abs(acceleration) / (rear * kGravity);
       EXPECT_NEAR(
           physical.lateral_speed, linear.lateral_speed,
@@ -302,12 +302,12 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
       apart = std::max(apart, (physical.pose.position() - linear.pose.position()).norm());
     }
     const double rms = std::sqrt(squares / static_cast<double>(two.physical.size()));
-    // What MuJoCo's car has and the single-track car has not changes the tyres' forces, and with
-    // them the share of the steering that is slip: rolling moves the body by h roll, so that its
-    // acceleration is another by omega^2 of that; forces follow the slip by the relaxation length
-    // over u later, a quarter of a period out of step with the former; the softening. Wheels whose
-    // angular momentum H the body rolls at omega roll yaw it by M = H omega roll, as much as a
-    // steering angle of M (1/C_f + 1/C_r)/L does.
+    // MuJoCo's car has effects that the single-track car lacks. They change the tyre forces, and
+    // thereby the fraction of the steering that is slip. Rolling moves the body by h roll, which
+    // changes its acceleration by omega^2 times that. Forces follow the slip with a delay of the
+    // relaxation length over u, a quarter of a period out of phase with the former. The tyres
+    // soften. Wheels of angular momentum H on a body that rolls at omega roll cause a yaw moment M
+    // = H omega roll, equivalent to a steering angle of M (1/C_f + 1/C_r)/L.
     const MagicFormula& tyre = car.parts().tyres->axle[0];
     const VehicleParams& params = car.params();
     const double rolls = omega * omega * car.parts().cg_height * roll / acceleration;
@@ -319,7 +319,8 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
     const double part =
         share * (std::hypot(rolls, late) + Softening(tyre, acceleration)) + yaws / kSteering;
     EXPECT_LT(rms, Tolerance(part * yaw_rate));
-    // The heading is off by its integral, which keeps to one side: 1/omega of it on average.
+    // The heading error is the integral of the yaw-rate error, which stays on one side: 1/omega of
+    // it on average.
     EXPECT_LT(apart, Tolerance(part * yaw_rate / omega * kSpeed * 8.0));
   }
 }

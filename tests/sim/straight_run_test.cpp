@@ -10,7 +10,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/sim/plant.h"
 
-// What a car does whose wheels are not turned, and how its front wheels turn when they are.
+// Straight runs with centered wheels, and the steering of the front wheels.
 namespace trackbed {
 namespace {
 
@@ -50,8 +50,8 @@ TEST_P(Straight, RunsDoNotLeaveTheirLine) {
   }
   ASSERT_FALSE(plant->diverged());
   EXPECT_GT(plant->Observe().distance, 59.0 * speed);
-  // Left and right are mirror images: what is left is rounding, 1e-16 of 1800 m at each of 60 000
-  // steps, and the heading that it leaves, times the way.
+  // Left and right are mirror images. The remaining error is rounding, 1e-16 of 1800 m at each of
+  // 60 000 steps, and the resulting heading error times the distance.
   EXPECT_LE(aside, Tolerance(1e-6));
 }
 
@@ -73,7 +73,7 @@ TEST_P(Linkage, PointsBothWheelsAtOneCenter) {
     return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), joint) -
                                     columns.begin());
   };
-  // From lock to lock and back to the middle, at the actuator's rate.
+  // From lock to lock and back to the center, at the actuator's rate.
   const double sweep = params.steering_limit / params.steering_rate;
   double largest = 0.0;
   for (double t = 0.0; t < 4.0 * sweep; t += 0.002) {
@@ -89,15 +89,15 @@ TEST_P(Linkage, PointsBothWheelsAtOneCenter) {
 }
 
 TEST(Linkage, SharesTheLateralForceBetweenTheFrontTyres) {
-  // A turn at 3 m/s on 15 m: m v^2/r = 800 N in all, so that tyres which push against each other
-  // beyond what the turn needs show.
+  // A turn at 3 m/s on 15 m needs m v^2/r = 800 N in total, so tyres that push against each other
+  // with more than that are noticed.
   const CarModel car = Car("prius");
   const World world;
   const double steering = SteeringForCurvature(car.params(), 1.0 / 15.0);
   const auto plant =
       MakePlant("mujoco:contact",
                 {.car = car, .world = world, .start = {.speed = 3.0, .steering = steering}});
-  double difference = 0.0;  // mean of the last second [N]
+  double difference = 0.0;  // mean over the last second [N]
   for (int i = 0; i < 2000; ++i) {
     plant->Step({.steering = steering, .acceleration = 3.0 - plant->Observe().speed});
     if (i >= 1500) {
@@ -105,7 +105,7 @@ TEST(Linkage, SharesTheLateralForceBetweenTheFrontTyres) {
       difference += (wheels[0].lateral_force - wheels[1].lateral_force) / 500.0;
     }
   }
-  // The outer tyre bears more of 800 N/2 by the load that the turn moves to it, 10 %; 120 N is
+  // The outer tyre carries more of 800 N/2 because the turn shifts 10 % of the load to it. 120 N is
   // three times that.
   EXPECT_LE(std::abs(difference), Tolerance(120.0));
 }
@@ -117,7 +117,7 @@ TEST(AckermannSlopes, AreTheAnglesDerivatives) {
     const FrontAngles slope = AckermannSlopes(params, steering);
     const FrontAngles low = AckermannAngles(params, steering - kStep);
     const FrontAngles high = AckermannAngles(params, steering + kStep);
-    // A central difference: h^2 f'''/6 with f''' of at most 10, and rounding of 1e-16/h.
+    // Central difference: h^2 f'''/6 with f''' of at most 10, plus rounding of 1e-16/h.
     EXPECT_NEAR(slope.left, 0.5 * (high.left - low.left) / kStep, Tolerance(2e-9));
     EXPECT_NEAR(slope.right, 0.5 * (high.right - low.right) / kStep, Tolerance(2e-9));
   }
@@ -161,8 +161,8 @@ TEST_P(Coasting, LosesSpeedToDragAndRollingResistance) {
       scale * std::tan(std::atan(kSpeed / scale) - kTime * std::sqrt(rolling * drag) / mass);
   const double lost = kSpeed - expected;
   EXPECT_GT(lost, 0.3);
-  // Tyres settle into their slip and the body onto its springs within the first half second: two
-  // hundredths of what is lost.
+  // Tyres reach their slip and the body settles on its springs within the first half second: 2 % of
+  // the speed loss.
   EXPECT_NEAR(plant->Observe().speed, expected, Tolerance(0.02 * lost));
 }
 
@@ -191,9 +191,9 @@ TEST(Acceleration, IsThatOfTheCenterOfGravityAtItsHeight) {
       const Vec2 acceleration = (next - 2.0 * now + before).head<2>() / (kStep * kStep);
       const double lateral = LeftNormal(Direction(pose.yaw)).dot(acceleration);
       largest = std::max(largest, std::abs(lateral));
-      // The log's is of the step that led here; a second difference is of its middle, and the body
-      // turns by up to 0.5 rad/s 2 ms meanwhile: 1e-3 of 8 m/s^2, and as much of what changes over
-      // a step.
+      // The logged acceleration belongs to the previous step, and a second difference to its
+      // middle. Meanwhile the body turns at up to 0.5 rad/s for 2 ms: 1e-3 of 8 m/s^2, and as much
+      // again for changes within a step.
       EXPECT_NEAR(state.lateral_acceleration, lateral, Tolerance(0.03)) << i;
     }
     before = now;

@@ -11,7 +11,8 @@
 namespace trackbed {
 namespace {
 
-// It has the program's locks, and would keep the next start from its folder.
+// An orphaned sub-process would keep the program's locks, so that the next start could not use its
+// folder.
 TEST(InSubProcess, EndsWithTheProcessThatWaitsForIt) {
   std::array<int, 2> pipe{};
   ASSERT_EQ(::pipe(pipe.data()), 0);
@@ -31,10 +32,10 @@ TEST(InSubProcess, EndsWithTheProcessThatWaitsForIt) {
   }
   ::close(pipe[1]);
   char told = 0;
-  ASSERT_EQ(::read(pipe[0], &told, 1), 1);  // it is at work
+  ASSERT_EQ(::read(pipe[0], &told, 1), 1);  // the sub-process is running
   ::kill(program, SIGKILL);
   ::waitpid(program, nullptr, 0);
-  // The end of the pipe that it has is closed when it ends; else this waits for ever.
+  // The sub-process's end of the pipe is closed when it ends; otherwise this read blocks forever.
   EXPECT_EQ(::read(pipe[0], &told, 1), 0);
   ::close(pipe[0]);
 }

@@ -12,13 +12,13 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
-/// What Magic Formula cars have in place of MuJoCo's constraints: tyres as springs, brakes and
+/// Magic Formula cars use forces in place of MuJoCo's constraints: tyres as springs, brakes and
 /// bearings as dry friction, and the steering linkage.
 namespace trackbed {
 namespace {
 
 constexpr double kStandardGravity = 9.81;
-const World kLevel;  // plants refer to their world
+const World kLevel;  // plants keep a reference to their world
 
 std::unique_ptr<Plant> OnTyres(const CarModel& car, const World& world,
                                const StartState& start = {}) {
@@ -43,7 +43,7 @@ TEST(TyreSprings, LeaveNoConstraintsOnTheRoad) {
       const CarModel car = CarWith(name, {}, 0.002, world);
       const auto plant = OnTyres(car, world, {.speed = 15.0});
       const auto& mujoco = dynamic_cast<const MujocoPlant&>(*plant);
-      // Turns, brakes to rest at half a g, stands.
+      // Turns, brakes to rest at half a g, and stands.
       Drive(
           car, *plant, 8.0,
           [](double t, const VehicleState& s) {
@@ -77,7 +77,8 @@ TEST(TyreSprings, AreRefusedWhenNegative) {
 }
 
 TEST(TyreSprings, NeedATimestepThatWheelsDoNotHopAt) {
-  // A corner of 36 kg at the front, 30 kg at the rear: dt = 2 sqrt(m/k) = 2 sqrt(30/4e7) = 1.73 ms.
+  // Corner masses of 36 kg in front and 30 kg at the rear: dt = 2 sqrt(m/k) = 2 sqrt(30/4e7) = 1.73
+  // ms.
   const CarModel car = CarWith("prius", {{"tyre_vertical_stiffness", 4e7}});
   EXPECT_THAT([&] { OnTyres(car, kLevel); },
               testing::ThrowsMessage<InputError>(
@@ -113,7 +114,8 @@ TEST(TyreSprings, LetWheelsLiftOffAndLand) {
     EXPECT_EQ(least, 0.0) << name;
     EXPECT_GT(in_the_air, 0.05) << name;
     EXPECT_GT(most, 2.0 * Weight(car)) << name;
-    // Four seconds after, with body modes of 1.3 Hz damped at 0.3 (e^-9), it runs level again.
+    // Four seconds later the car runs level again: body modes of 1.3 Hz with damping 0.3 have
+    // decayed to e^-9.
     EXPECT_NEAR(Load(state), Weight(car), Tolerance(0.01 * Weight(car))) << name;
     EXPECT_NEAR(state.roll, 0.0, Tolerance(1e-3)) << name;
   }
@@ -132,8 +134,8 @@ TEST(DryFriction, HoldsASlopeWithoutCreep) {
             [&](double, const VehicleState& s) { fastest = std::max(fastest, std::abs(s.speed)); });
         return std::pair(state, fastest);
       };
-      // Springs and tyres first give to the load that leans on them; their modes decay with 2/s at
-      // the least: after 12 s, e^-24. What is left is rounding.
+      // Springs and tyres first settle under the load on a slope. Their modes decay with at least
+      // 2/s: e^-24 after 12 s. The remaining motion is rounding.
       const VehicleState settled = stand(12.0).first;
       const auto [state, fastest] = stand(30.0);
       EXPECT_LT(std::abs(settled.pose.x), 0.002) << name;
@@ -156,7 +158,8 @@ CarModel Trailing(double trail) {
 }
 
 TEST(SteeringLinkage, LoadsTheRackWithWhatTurnsTheWheels) {
-  // Side forces behind the steering axes turn the wheels straight: the servo of 2e5 N m/rad gives.
+  // Side forces act behind the steering axes and turn the wheels straight, because the servo of 2e5
+  // N m/rad yields.
   constexpr double kTrail = 0.05;
   constexpr double kServo = 2e5;
   const CarModel car = Trailing(kTrail);
@@ -171,8 +174,8 @@ TEST(SteeringLinkage, LoadsTheRackWithWhatTurnsTheWheels) {
   const double force = (*state.wheels)[0].lateral_force + (*state.wheels)[1].lateral_force;
   ASSERT_GT(force, 1000.0);
   const double given = state.steering_actuator - state.steering;
-  // Drive forces at half the track turn the wheels against each other; their difference and the
-  // body's roll, which leans the axes, are some percent.
+  // Drive forces at half the track turn the wheels against each other. Their difference, and the
+  // body's roll, which inclines the axes, contribute some percent.
   EXPECT_NEAR(given, force * kTrail / kServo, Tolerance(0.05 * force * kTrail / kServo));
 }
 

@@ -16,7 +16,8 @@
 #include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/scene.h"
 
-/// Models from elsewhere: which files they may name, and what MuJoCo's readers crash on.
+/// Models from untrusted sources: which files they may reference, and inputs that crash MuJoCo's
+/// readers.
 namespace trackbed {
 namespace {
 
@@ -42,7 +43,7 @@ std::string Stl(std::uint32_t claimed) {
   return stl + Bytes(std::uint16_t{0});
 }
 
-/// The beginning of a PNG picture of that size.
+/// The header of a PNG picture of this size.
 std::string Png(unsigned width, unsigned height) {
   std::string png("\x89PNG\r\n\x1a\n\0\0\0\rIHDR", 16);
   for (const unsigned number : {width, height}) {
@@ -58,7 +59,7 @@ std::string Model(const std::string& assets, const std::string& world = "") {
                      world);
 }
 
-/// The message without the folder; "" when the model is composed.
+/// The error message without the folder; "" if composing succeeds.
 std::string Refusal(const TempFolder& folder, const std::string& model,
                     const std::vector<fs::path>& allowed = {}) {
   const fs::path file = folder.Write("own/car.xml", model);
@@ -92,7 +93,7 @@ TEST(ModelFiles, LieInTheModelsFolder) {
             "own/car.xml:2: <include> refers to own/../part.xml, " + outside);
   EXPECT_EQ(Refusal(folder, Model("<mesh file='../body.stl'/>")),
             "own/car.xml:2: <mesh> refers to own/../body.stl, " + outside);
-  // A folder whose name only begins alike, and one that <compiler> names.
+  // A folder that shares only a name prefix, and one named by <compiler>.
   EXPECT_THAT(Refusal(folder, Model("<mesh file='../own2/body.stl'/>")), EndsWith(outside));
   EXPECT_THAT(Refusal(folder,
                       "<mujoco><compiler meshdir='..'/><asset><mesh file='body.stl'/>"
@@ -100,7 +101,7 @@ TEST(ModelFiles, LieInTheModelsFolder) {
               EndsWith(outside));
   EXPECT_THAT(Refusal(folder, Model("<texture type='skybox' fileup='../body.png'/>")),
               EndsWith(outside));
-  // An absolute name is refused wherever it leads to.
+  // Absolute names are rejected even for permitted files.
   const std::string own = (folder.path() / "own/body.stl").string();
   EXPECT_THAT(
       Refusal(folder, Model("<mesh file='" + own + "'/>")),
@@ -187,7 +188,7 @@ TEST(ModelFiles, HaveTheSizesThatTheirHeadersTell) {
 TEST(ModelFiles, AreNotReadBeyondAnySize) {
   const TempFolder folder;
   const fs::path large = folder.Write("own/large.obj", "v 0 0 0\n");
-  fs::resize_file(large, std::uintmax_t{1} << 36U);  // 64 GB that take no room on the disk
+  fs::resize_file(large, std::uintmax_t{1} << 36U);  // 64 GB, sparse
   EXPECT_EQ(Refusal(folder, Model("<mesh file='large.obj'/>")),
             "own/car.xml:2: <mesh> refers to own/large.obj, which has more than 64 MB");
   std::string many;
@@ -205,7 +206,7 @@ TEST(ModelFiles, AreNotReadBeyondAnySize) {
               EndsWith("the files of assets are larger than 512 MB together"));
 }
 
-// MuJoCo takes <Include> for <include>.
+// MuJoCo also accepts <Include> as <include>.
 TEST(ModelFiles, AreIncludedInOneSpellingAlone) {
   const TempFolder folder;
   folder.Write("other.xml", "<mujoco/>");
@@ -256,8 +257,8 @@ std::string CompileError(const std::string& xml, const std::vector<SceneAsset>& 
 }
 
 TEST(CompileScene, OutlivesCrashesOfMujocosReaders) {
-  // MuJoCo 2.2.2 follows indices of faces beyond the vertices, in files and in the model's text;
-  // newer versions look at them.
+  // MuJoCo 2.2.2 follows face indices beyond the vertices, in files and in the model's text. Newer
+  // versions check them.
   const std::string failed = "car.xml: does not compile: MuJoCo's compiler failed: ";
   EXPECT_THAT(CompileError(Model("<mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1' "
                                  "face='0 1 2000000000 0 1 -2000000000'/>",
@@ -270,7 +271,7 @@ TEST(CompileScene, OutlivesCrashesOfMujocosReaders) {
 
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 TEST(CompileScene, HasBoundsOfMemory) {
-  // Newer versions of MuJoCo abort where their own allocation fails.
+  // Newer versions of MuJoCo abort when an allocation fails.
   EXPECT_THAT(CompileError("<mujoco><size nuser_body='2000000000'/></mujoco>"),
               AnyOf("car.xml: does not compile: takes more than 2048 MB of memory",
                     "car.xml: does not compile: MuJoCo's compiler failed: Aborted"));
@@ -308,7 +309,7 @@ TEST(CompileScene, GivesTheSameModelFromBothProcesses) {
   }
 }
 
-// By content: what a user puts beside the shipped models is somebody's own all the same.
+// Trust is by content: only files equal to the shipped models are trusted, in any folder.
 TEST(CompileScene, TrustsFilesThatComeWithTrackbedAlone) {
   const TempFolder folder;
   const std::string prius = ReadFile(FindModel("prius", ""));

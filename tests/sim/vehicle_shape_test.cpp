@@ -42,7 +42,7 @@ TEST_P(ShapeOf, StandsWhereMujocoPutsTheCar) {
                   data->xpos[3 * (i + 1) + static_cast<std::size_t>(axis)], 1e-12);
     }
   }
-  // Geoms, by MuJoCo's own kinematics, in the order of the model.
+  // Geoms from MuJoCo's own kinematics, in the order of the model.
   std::size_t drawn = 0;
   for (int geom = 0; geom < model->ngeom && drawn < shape.geoms.size(); ++geom) {
     const ShapeGeom& own = shape.geoms[drawn];
@@ -90,7 +90,7 @@ TEST(ReadVehicleShape, LeavesOutObstacles) {
   const CarModel car = CarWith("prius", {});
   World world;
   world.obstacles = {
-      {.footprint = {{20.0, 0.0, 0.0}, 4.4, 1.8}, .velocity = {3.0, 0.0}},  // on joints of its own
+      {.footprint = {{20.0, 0.0, 0.0}, 4.4, 1.8}, .velocity = {3.0, 0.0}},  // moves by joints
       {.footprint = {{30.0, 5.0, 0.0}, 2.0, 2.0}}};
   const VehicleShape alone = ReadVehicleShape(car.scene(), "prius");
   const VehicleShape among = ReadVehicleShape(WithWorld(car.scene(), car.params(), world), "prius");

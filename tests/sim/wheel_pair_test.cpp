@@ -11,7 +11,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/sim/payload.h"
 
-/// A vehicle with differential drive.
+/// Tests of a differential-drive vehicle.
 namespace trackbed {
 namespace {
 
@@ -100,7 +100,7 @@ std::string WheelPairError(const std::string& xml) {
   return "no error";
 }
 
-/// The file with one piece of text replaced.
+/// The model file with one piece of text replaced.
 std::string With(const std::string& from, const std::string& to) {
   std::string xml = ReadFile(FindModel("diff_drive", ""));
   const std::size_t at = xml.find(from);
@@ -196,7 +196,7 @@ TEST(WheelPair, SaysWhatItLacksForWhatIsACars) {
             diff_drive + "disturb.payload" + needs);
 }
 
-// --- Driven --------------------------------------------------------------------------------------
+// --- Runs ----------------------------------------------------------------------------------------
 
 TEST(WheelPair, StartsAsAsked) {
   for (const char* name : {"kinematic", "mujoco"}) {
@@ -218,22 +218,24 @@ TEST(WheelPair, DrivesTheCircleOfItsWheelSpeeds) {
     for (const double speed : {0.5, 1.0}) {
       SCOPED_TRACE(fmt::format("steering {}, speed {}", steering, speed));
       const auto plant = Mujoco({.speed = speed});
-      // The ratio is there after 0.8 s; five times the servos' 0.15 s later their integrals are.
+      // The speed ratio is reached after 0.8 s; the servos' integrals are after five more times
+      // 0.15 s.
       const VehicleState before = Hold(*plant, steering, speed, 2.0);
       EXPECT_NEAR(before.steering, steering, Tolerance(1e-3));
       EXPECT_NEAR(before.speed, speed, Tolerance(1e-3 * speed));
       const VehicleState after = Hold(*plant, steering, speed, 2.0);
       const double radius = (after.distance - before.distance) / (after.pose.yaw - before.pose.yaw);
-      // Rolling contacts hold the wheels below the friction limit, and the servos' integrals leave
-      // no difference of speed: what is left after 1.2 s of them, e^(-1.2/0.15) of a change that
-      // is below one half.
+      // Rolling contacts hold the wheels below the friction limit, and the servos' integrals remove
+      // the speed difference. After 1.2 s the remaining error is e^(-1.2/0.15) of a change below
+      // one half.
       EXPECT_NEAR(radius, 0.6 / std::tan(steering), Tolerance(2e-4 * std::abs(radius)));
     }
   }
 }
 
 TEST(WheelPair, DoesNotRunAwayWhereItsInnerWheelSlips) {
-  // 0.39 g to the side: the moment m l_g a_y takes 92 N from the inner wheel, lightened to 14 kg.
+  // 0.39 g to the side: the moment m l_g a_y takes 92 N off the inner wheel, which leaves 14 kg on
+  // it.
   const auto plant = Mujoco({.speed = 1.5});
   const VehicleState state = Hold(*plant, 0.8, 1.5, 6.0);
   EXPECT_FALSE(plant->diverged());
@@ -243,10 +245,10 @@ TEST(WheelPair, DoesNotRunAwayWhereItsInnerWheelSlips) {
 TEST(WheelPair, DrivesStraight) {
   const auto plant = Mujoco({.pose = {0.0, 0.0, 0.5}, .speed = 2.0});
   const VehicleState state = Hold(*plant, 0.0, 2.0, 3.0);
-  // Mirror symmetric up to where the contact solver stops.
+  // Mirror symmetric up to the convergence of the contact solver.
   const Vec2 at = ToLocal({0.0, 0.0, 0.5}, state.pose.position());
   EXPECT_NEAR(at.y(), 0.0, Tolerance(1e-5));
-  // What it loses in its first steps its speed control gives back within half a second.
+  // The speed control recovers the loss of the first steps within half a second.
   EXPECT_NEAR(at.x(), 6.0, Tolerance(0.02));
 }
 
@@ -264,14 +266,14 @@ TEST(WheelPair, ChangesItsRatioWithinRateAndLimit) {
   const auto plant = Mujoco({.speed = 0.5});
   EXPECT_NEAR(Hold(*plant, 9.0, 0.5, 0.5).steering_actuator, 0.5, Tolerance(1e-12));
   EXPECT_EQ(Hold(*plant, 9.0, 0.5, 1.0).steering_actuator, DiffDrive().params().steering_limit);
-  // The inner wheel still rolls forwards: at 1 - 0.3/0.4 of the speed.
+  // The inner wheel still rolls forward, at 1 - 0.3/0.4 of the speed.
   EXPECT_NEAR(plant->Observe().steering, DiffDrive().params().steering_limit, Tolerance(2e-3));
 }
 
 TEST(WheelPair, AtTheMotorsLargestSpeedSlowsDownAndKeepsItsCurve) {
   const auto plant = Mujoco({.speed = 3.0});
   const VehicleState state = Hold(*plant, 0.05, 9.0, 6.0);
-  // The outer wheel at 22 rad/s, less the 30/60 that its servo keeps for itself.
+  // The outer wheel turns at 22 rad/s, less the 30/60 rad/s reserved for its servo.
   const double fastest = 21.5 * 0.165 / (1.0 + 0.5 * std::tan(0.05));
   EXPECT_NEAR(state.speed, fastest, Tolerance(0.01 * fastest));
   EXPECT_NEAR(state.steering, 0.05, Tolerance(1e-3));
@@ -285,10 +287,11 @@ TEST(WheelPair, SpeedsUpAndSlowsDownAsAsked) {
         [&](double, const VehicleState&) { return Command{.acceleration = acceleration}; },
         [](double, const VehicleState&) {});
   };
-  // A servo with an integral part follows a ramp without falling behind. 1 %: drag, rolling.
+  // A servo with an integral part follows a ramp without lag. 1 % covers drag and rolling
+  // resistance.
   EXPECT_NEAR(drive(1.0, 1.0).speed, 2.0, Tolerance(0.01));
   EXPECT_NEAR(drive(-1.0, 1.5).speed, 0.5, Tolerance(0.01));
-  // To rest, not through it.
+  // The vehicle stops without reversing.
   const VehicleState rest = drive(-1.0, 1.5);
   EXPECT_NEAR(rest.speed, 0.0, Tolerance(1e-3));
 }
@@ -315,7 +318,7 @@ TEST(WheelPair, HoldsStillOnASlope) {
     const VehicleState state = Drive(
         car, *plant, 20.0, [](double, const VehicleState&) { return Command{}; },
         [](double, const VehicleState&) {});
-    // A contact creeps under a steady force at g 0.1 dmax timeconst/2 over impratio: 25 um/s.
+    // Under a steady force a contact creeps at g 0.1 dmax timeconst/2 over impratio: 25 um/s.
     EXPECT_NEAR(state.pose.position().norm(), 0.0, Tolerance(20.0 * 25e-6)) << yaw;
   }
 }
@@ -325,7 +328,7 @@ TEST(WheelPair, ClimbsAtItsSpeed) {
   world.ground.grade = {0.1, 0.0};
   const CarModel car(WithWorld(DiffDrive().scene(), DiffDrive().params(), world), "diff_drive");
   const auto plant = Mujoco({.speed = 1.0}, world, car);
-  // The servos' integrals take the slope; what is left is slip, some mm/s.
+  // The servos' integrals compensate the slope; the remaining error is slip, some mm/s.
   EXPECT_NEAR(Hold(*plant, 0.0, 1.0, 4.0, car).speed, 1.0, Tolerance(0.01));
 }
 
@@ -337,7 +340,7 @@ TEST(WheelPair, SteersAtACrawlAsWanted) {
         return Command{.steering = 0.4, .acceleration = 2.0 * (0.02 - now.speed)};
       },
       [](double, const VehicleState& now) {
-        // Never further from what is wanted than wheels that are off by a tenth of 0.1 m/s.
+        // The deviation never exceeds that of wheel speeds off by a tenth of 0.1 m/s.
         EXPECT_NEAR(now.steering, now.steering_actuator, Tolerance(0.1)) << now.time;
       });
 }
@@ -349,7 +352,7 @@ TEST(WheelPair, SlidesOnIce) {
       DiffDrive(), *plant, 1.0,
       [](double, const VehicleState&) { return Command{.acceleration = -3.0}; },
       [](double, const VehicleState&) {});
-  // Two tyres of 0.8 x 0.02 under 71 % of the weight: 0.0114 g.
+  // Rolling resistance of two tyres, 0.8 x 0.02 under 71 % of the weight: 0.0114 g.
   EXPECT_NEAR(state.speed, 2.0 - 0.0114 * 9.81, Tolerance(0.02));
 }
 
@@ -360,7 +363,7 @@ TEST(WheelPair, FeelsAPush) {
     plant->ApplyLateralForce(200.0);
     plant->Step({});
   }
-  // 20 N s on 80 kg, less the road's 1e-5 and the air's 0.01 N s.
+  // 20 N s on 80 kg, less 1e-5 for the road and 0.01 N s for the air.
   EXPECT_NEAR(plant->Observe().lateral_speed, 0.25, Tolerance(1e-3));
 }
 
@@ -377,7 +380,7 @@ TEST(WheelPair, RollsOverABump) {
       },
       [&](double, const VehicleState&) { highest = std::max(highest, plant->Configuration()[2]); });
   EXPECT_FALSE(plant->diverged());
-  EXPECT_NEAR(highest, 0.1, Tolerance(5e-3));  // the origin, between the wheels, on the crest
+  EXPECT_NEAR(highest, 0.1, Tolerance(5e-3));  // the origin, between the wheels, is on the crest
   EXPECT_NEAR(state.pose.x, 6.0, Tolerance(0.1));
   EXPECT_NEAR(state.pose.y, 0.0, Tolerance(1e-2));
 }

@@ -16,14 +16,14 @@ constexpr double kAirDensity = 1.225;  // [kg/m^3]
 constexpr double kDragArea = 0.5;      // [m^2]
 constexpr double kSideArea = 5.0;      // [m^2]
 
-/// The Prius, with round numbers for what the air pushes.
+/// The Prius with round numbers for its aerodynamics.
 const CarModel& Prius() {
   static const CarModel car =
       CarWith("prius", {{"drag_area", kDragArea}, {"side_area", kSideArea}});
   return car;
 }
 
-/// What all tyres together hold the car with, in its own axes, and about the z axis through the
+/// The sum of all tyre forces in the car's axes, and of their moments about the z axis through the
 /// rear-axle center. The wheels point straight ahead.
 struct Held {
   double forward = 0.0;  // [N]
@@ -56,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(Wind, OnBothTyres, testing::Values("contact", "magic_fo
                          [](const auto& tyre) { return tyre.param; });
 
 TEST_P(OnBothTyres, AStandingCarIsPushedByHalfRhoVSquaredWhereItsPressureIs) {
-  // 20 m/s: 12 along the car and 16 across it, whose heading is 0.7.
+  // Wind of 20 m/s on a car with heading 0.7: 12 m/s along the car and 16 m/s across it.
   const double yaw = 0.7;
   const World world{
       .wind = {.velocity = 12.0 * Direction(yaw) + 16.0 * LeftNormal(Direction(yaw))}};
@@ -77,16 +77,17 @@ TEST_P(OnBothTyres, AStandingCarIsPushedByHalfRhoVSquaredWhereItsPressureIs) {
       });
   const double along = 0.5 * kAirDensity * 20.0 * 12.0 * kDragArea;   // 73.5 N
   const double across = 0.5 * kAirDensity * 20.0 * 16.0 * kSideArea;  // 980 N
-  // The tyres hold against it. 1 % of the larger: springs that still settle, and the car's lean of
-  // a hundredth, by which weight and load have a part along its axes.
+  // The tyres balance the wind. The tolerance is 1 % of the larger force: springs that still
+  // settle, and the car's lean of 0.01 rad, through which weight and load have components along its
+  // axes.
   EXPECT_NEAR(mean.forward, -along, Tolerance(10.0));
   EXPECT_NEAR(mean.left, -across, Tolerance(10.0));
-  // Its lever is the center of pressure's, 1.68 m ahead of the rear axle: 1646 N m.
+  // The lever arm is that of the center of pressure, 1.68 m ahead of the rear axle: 1646 N m.
   EXPECT_NEAR(mean.yaw, -1.68 * across, Tolerance(0.015 * 1.68 * across));
 }
 
 TEST_P(OnBothTyres, ACarAtSteadySpeedIsDrivenAgainstTheAirItMeets) {
-  for (const double wind : {0.0, -10.0, 10.0, 20.0}) {  // calm, against, as fast as the car, behind
+  for (const double wind : {0.0, -10.0, 10.0, 20.0}) {  // calm, headwind, two tailwinds
     const World world{.wind = {.velocity = {wind, 0.0}}};
     const auto plant = At(world, {.speed = 10.0});
     double mean = 0.0;
@@ -100,9 +101,10 @@ TEST_P(OnBothTyres, ACarAtSteadySpeedIsDrivenAgainstTheAirItMeets) {
           mean += t < 3.0 ? 0.0 : HeldBy(state).forward / count;
         });
     const double air = wind - 10.0;
-    // 34 N from behind to 123 N from ahead at 0.5 m^2. 4 N: 3 mm/s^2 at which speeds still change.
+    // From 34 N of push to 123 N of drag at 0.5 m^2. The tolerance of 4 N is 3 mm/s^2 of remaining
+    // acceleration.
     EXPECT_NEAR(mean, -0.5 * kAirDensity * std::abs(air) * air * kDragArea, Tolerance(4.0)) << wind;
-    // What the air takes is given by the motor before the speed is missed.
+    // The motor compensates the air drag before the speed deviates.
     EXPECT_NEAR(end.speed, 10.0, Tolerance(0.02)) << wind;
   }
 }
@@ -134,11 +136,11 @@ TEST_P(OnBothTyres, AGustOnAStretchPushesTheCarThereAndNotBefore) {
         std::max(acceleration, pushed[i].lateral_acceleration - as_ever[i].lateral_acceleration);
     yaw_rate = std::max(yaw_rate, pushed[i].yaw_rate - as_ever[i].yaw_rate);
   }
-  // 20 m/s across and 20 along meet the car at |a| = 28.3: 1/2 rho 28.3 * 20 * 5 = 1732 N, 1.32
-  // m/s^2 of 1317 kg but for what the tyres hold against it already: most of it, bare contacts.
+  // 20 m/s across and 20 m/s along meet the car at |a| = 28.3 m/s: 1/2 rho 28.3 * 20 * 5 = 1732 N,
+  // or 1.32 m/s^2 on 1317 kg. Most of that is already balanced by the tyres, here bare contacts.
   EXPECT_GT(acceleration, 0.25);
   EXPECT_LT(acceleration, 1.5);
-  // Pushed ahead of its center of gravity, the nose turns away from the wind.
+  // The center of pressure is ahead of the center of gravity, so the nose turns away from the wind.
   EXPECT_GT(yaw_rate, 1e-3);
 }
 

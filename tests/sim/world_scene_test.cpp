@@ -15,6 +15,8 @@
 #include "trackbed/sim/plant.h"
 #include "trackbed/sim/scene.h"
 
+// Tests the MuJoCo scene of a world: height fields against closed forms, contact with the ground
+// and with obstacles, and start poses on uneven ground.
 namespace trackbed {
 namespace {
 
@@ -51,7 +53,7 @@ TEST(WithGround, AGradeIsThePlaneItself) {
   mj_kinematics(&m, d.get());
   const mjtNum* R = d->geom_xmat + 9 * plane;
   const Eigen::Vector3d normal = GroundNormal(ground, {});
-  // Numbers of a model are written to 17 digits and normalized once.
+  // Numbers of a model are written with 17 digits and normalized once.
   EXPECT_NEAR((Eigen::Vector3d(R[2], R[5], R[8]) - normal).norm(), 0.0, Tolerance(1e-12));
   EXPECT_NEAR(Eigen::Vector3d(d->geom_xpos + 3 * plane).norm(), 0.0, Tolerance(1e-12));
 }
@@ -93,8 +95,8 @@ TEST(WithGround, AHeightFieldIsTheClosedFormAtItsSamples) {
   }
 }
 
-/// Height of the center of a ball of radius `r` that lies on the ground above `p`, by search: too
-/// low by step^2/(4 r) at most.
+/// Height of the center of a ball of radius `r` that rests on the ground above `p`, by a search
+/// over points. Too low by at most step^2/(4 r).
 double BallHeight(const Ground& ground, const Vec2& p, double r, double step) {
   double highest = -1e9;
   for (double x = -r; x <= r; x += step) {
@@ -121,7 +123,7 @@ TEST(WithGround, ATerrainIsFineWhereItIsRefinedAndCoarseAround) {
   ground.terrain = std::make_shared<const Terrain>(std::move(terrain));
   const CarModel car(WithGround(Prius(), ground), "prius");
   const mjModel& m = *car.get();
-  ASSERT_EQ(m.nhfield, 3);  // two blocks and all of it
+  ASSERT_EQ(m.nhfield, 3);  // two blocks and the whole area
   EXPECT_EQ(m.geom_pos[3 * Geom(car, "ground") + 2], -3.0);
   for (const char* name : {"ground_0", "ground_1", "ground_2"}) {
     const int geom = Geom(car, name);
@@ -138,12 +140,12 @@ TEST(WithGround, ATerrainIsFineWhereItIsRefinedAndCoarseAround) {
       const double z = m.geom_pos[3 * geom + 2] +
                        sides[2] * static_cast<double>(m.hfield_data[m.hfield_adr[field] + i]);
       const double below = GroundHeight(ground, p) - z;
-      // Single precision of a span below 8 m.
+      // Single precision over a span below 8 m.
       const bool hidden = std::abs(below - 4.0) < Tolerance(1e-6);
       EXPECT_TRUE(hidden || std::abs(below) < Tolerance(1e-6)) << name << " " << below;
       under += hidden ? 1 : 0;
     }
-    // Of the corners of coarse cells 3 by 7 are within the two blocks, not on their border.
+    // 3 by 7 corners of coarse cells lie inside the two blocks, excluding their border.
     EXPECT_EQ(under, fine ? 0 : 21);
   }
 }
@@ -166,8 +168,8 @@ TEST(WithGround, ABallComesToRestOnTheClosedForm) {
       mj_step(car.get(), d.get());
     }
     const int body = mj_name2id(car.get(), mjOBJ_BODY, "ball");
-    // Facets of 5 cm cut off at most c d^2/8 with c = 2 pi^2 h/L^2 = 0.12 /m: 4e-5 m, and the
-    // contact gives by 0.005 g/b k = 1e-6 m.
+    // Facets of 5 cm cut off at most c d^2/8 with c = 2 pi^2 h/L^2 = 0.12 /m: 4e-5 m. The contact
+    // yields by 0.005 g/b k = 1e-6 m.
     EXPECT_NEAR(d->xpos[3 * body + 2], BallHeight(ground, p, r, 0.002), Tolerance(5e-5)) << along;
   }
 }
@@ -201,11 +203,11 @@ TEST(WithWorld, ObstaclesStandOnTheGround) {
               Tolerance(1e-12));
   const mjtNum* R = d->geom_xmat + 9 * box;
   EXPECT_NEAR((Eigen::Vector3d(R[2], R[5], R[8]) - normal).norm(), 0.0, Tolerance(1e-12));
-  // Its length points north, across the grade.
+  // The box's length axis points north, across the grade.
   EXPECT_NEAR(R[3], 1.0, Tolerance(1e-12));
 }
 
-/// What obstacles do to anything at `start` and for a second after it: the largest force [N].
+/// The largest force [N] of obstacles on anything, from `start` on for one second.
 double LargestForce(const std::vector<Obstacle>& obstacles, const StartState& start) {
   World world;
   world.obstacles = obstacles;
@@ -221,7 +223,7 @@ double LargestForce(const std::vector<Obstacle>& obstacles, const StartState& st
   return largest;
 }
 
-// A box that stands exactly on the ground touches it or not by the rounding of its corners.
+// A box exactly on the ground would touch it or not depending on the rounding of its corners.
 TEST(WithWorld, MovingObstaclesDoNotTouchTheGround) {
   for (int i = 0; i < 31; ++i) {
     const OrientedBox box{{60.0, 30.0, 0.05 + 0.1 * i}, 4.0, 2.0};
@@ -241,13 +243,13 @@ TEST(WithWorld, MovingObstaclesDoNotTouchEachOther) {
 
 TEST(WithWorld, ObstaclesTouchTheCar) {
   Obstacle obstacle{.footprint = {{5.5, 0.0, 0.0}, 2.0, 2.0}};
-  EXPECT_EQ(LargestForce({obstacle}, {}), 0.0);  // the car stands, a meter away
+  EXPECT_EQ(LargestForce({obstacle}, {}), 0.0);  // the car is at rest, one meter away
   EXPECT_GT(LargestForce({obstacle}, {.speed = 5.0}), 1000.0);
   obstacle.velocity = {-5.0, 0.0};
   EXPECT_GT(LargestForce({obstacle}, {}), 1000.0);
 }
 
-/// The distances of the tyres' centers from the plane of a grade.
+/// Distances of the tyres' centers from the plane of a grade.
 std::array<double, 4> TyreDistances(const CarModel& car, const mjData& d, const Ground& ground) {
   std::array<double, 4> distances{};
   for (std::size_t w = 0; w < 4; ++w) {
@@ -268,7 +270,7 @@ TEST(StandingPosition, OnAGradeIsTheFlatOneTilted) {
     std::copy(qpos.begin(), qpos.end(), d->qpos);
     mj_forward(&m, d.get());
     for (const double distance : TyreDistances(car, *d, ground)) {
-      // As on flat ground: the hubs of the Prius at rest, but for a tyre's lean of zero.
+      // As on flat ground: the hub height of the Prius at rest, with zero inclination of the tyres.
       EXPECT_NEAR(distance, 0.31073, Tolerance(1e-9)) << yaw;
     }
     const mjtNum* R = d->xmat + 9 * car.parts().chassis;
@@ -303,8 +305,9 @@ TEST(StandingPosition, AcrossABumpNoWheelIsInTheGround) {
       nearest =
           std::min(nearest, center[2] - BallHeight(ground, {center[0], center[1]}, 0.31073, 0.01));
     }
-    // Above the point under a hub; what comes before or behind it on a slope of 0.08 may be higher
-    // by R (1 - cos 0.08) = 1 mm, and a car that leans by that moves its hubs by 0.02 m of it.
+    // Only the point below each hub is on the ground. On a slope of 0.08 the ground ahead of it or
+    // behind it may be higher by R (1 - cos 0.08) = 1 mm. The resulting inclination of the car
+    // moves its hubs by 0.02 m times that.
     EXPECT_GT(nearest, Tolerance(-3e-3)) << x;
     EXPECT_LT(nearest, 0.05) << x;
   }

@@ -17,7 +17,7 @@ const fs::path kRoot = TRACKBED_SOURCE_DIR;
 constexpr std::uintmax_t kMaxBytes = 300'000;
 constexpr std::uintmax_t kMaxBytesOfAll = 10'000'000;
 
-/// Every picture that README.md and the pages of docs/ show, with a page that does.
+/// Every picture that README.md and the pages of docs/ show, with a page that shows it.
 std::map<fs::path, fs::path> ShownPictures() {
   std::vector<fs::path> pages{kRoot / "README.md"};
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs")) {
@@ -31,7 +31,7 @@ std::map<fs::path, fs::path> ShownPictures() {
     std::ostringstream stream;
     stream << std::ifstream(page).rdbuf();
     std::string text = stream.str();
-    // What stands in quotes is an example of how to write it.
+    // Text in backquotes is only an example of the syntax.
     text = std::regex_replace(text, std::regex("`[^`\n]+`"), "");
     for (std::sregex_iterator it(text.begin(), text.end(), picture), end; it != end; ++it) {
       const std::string name = (*it)[1].str() + (*it)[2].str();
@@ -41,7 +41,7 @@ std::map<fs::path, fs::path> ShownPictures() {
   return shown;
 }
 
-/// Every file of docs/images but the record of what pictures were made from.
+/// Every file of docs/images except the record of the pictures' inputs.
 std::set<fs::path> Pictures() {
   std::set<fs::path> pictures;
   for (const auto& entry : fs::recursive_directory_iterator(kRoot / "docs/images")) {
@@ -54,7 +54,7 @@ std::set<fs::path> Pictures() {
 
 TEST(Pictures, ThatPagesShowAreThere) {
   const auto shown = ShownPictures();
-  EXPECT_GT(shown.size(), 20U);  // the scan saw the pages at all
+  EXPECT_GT(shown.size(), 20U);  // the scan found the pages
   for (const auto& [picture, page] : shown) {
     EXPECT_TRUE(fs::exists(picture)) << page << " shows " << picture;
   }

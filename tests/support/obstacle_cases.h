@@ -10,12 +10,12 @@
 
 namespace trackbed {
 
-/// An obstacle in a turn, varied as in Skackauskas, dissertation, listing F.2.
+/// An obstacle in a turn, varied as in Skackauskas (dissertation), listing F.2.
 struct ObstacleCase {
   PassingSideChoice passing_side;  ///< on which side to pass: kInner or kOuter
   double side;                     ///< of the turn: 1 to the left, -1 to the right
-  double reduction;                ///< the turn is so much less than a right angle [rad]
-  int sixth;                       ///< where on the arc it stands, 1 to 5
+  double reduction;                ///< the turn is smaller than a right angle by this [rad]
+  int sixth;                       ///< its position on the arc in sixths, 1 to 5
 };
 
 inline std::vector<ObstacleCase> AllObstacleCases() {

@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// A fresh folder that goes with the test.
+/// A fresh folder that is removed with the object.
 class TempFolder {
  public:
   TempFolder() {
@@ -33,7 +33,7 @@ class TempFolder {
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
-  /// The names of everything inside, hidden files too.
+  /// The names of all entries, including hidden files.
   [[nodiscard]] std::vector<std::string> Names() const {
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(path_)) {

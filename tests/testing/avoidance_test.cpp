@@ -10,7 +10,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/testing/scenario_testing.h"
 
-/// Plans that lead around obstacles, driven on both plants.
+/// Plans that avoid obstacles, driven on both plants.
 namespace trackbed {
 namespace {
 
@@ -23,11 +23,11 @@ class DrivenRoundObstacle : public testing::TestWithParam<ObstacleCase> {};
 INSTANTIATE_TEST_SUITE_P(Cases, DrivenRoundObstacle, testing::ValuesIn(AllObstacleCases()),
                          CaseName);
 
-/// The listing's turns: 20 m of radius, S = 22.7 m of straight before and behind, a box of 2 m.
+/// The turns of the listing: 20 m radius, S = 22.7 m of straight before and after, a box of 2 m.
 TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
   const ObstacleCase& c = GetParam();
   constexpr double kRadius = 20.0;
-  constexpr double kStraight = 22.7 + 20.0;  // and room for what leaves or returns later
+  constexpr double kStraight = 22.7 + 20.0;  // with room to leave early or return late
   const double turn = 0.5 * kPi - c.reduction;
   const double tangent = kRadius * std::tan(0.5 * turn);
   const Vec2 corner{kStraight + tangent, 0.0};
@@ -44,8 +44,8 @@ TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
   const RunResult run = RunScenario(scenario);
   ASSERT_EQ(run.logs.size(), 2U);
   EXPECT_THAT(run, ReachesGoal(0.5));
-  // The path's curvature changes at up to 0.9 of the steering rate; a preview over 2.5 m cuts it
-  // by some centimeters (0.034 m seen), and the plan is 1.5 m clear.
+  // The path's curvature changes at up to 0.9 of the steering rate; a preview of 2.5 m cuts it by
+  // some centimeters (0.034 m observed), and the plan keeps 1.5 m clear.
   EXPECT_THAT(run, TracksWithin(0.15));
   EXPECT_THAT(run, KeepsClearance(1.4));
   EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", 0.05));
@@ -64,7 +64,7 @@ TEST(ObstacleAppears, IsPassedOnANewPlanAfterTheDelay) {
     SCOPED_TRACE(log.plant);
     ASSERT_EQ(log.changes.size(), 1U);
     const PlanChange& change = log.changes[0];
-    // The first row whose footprint is within range of the obstacle.
+    // Finds the first row whose footprint is within range of the obstacle.
     double seen = 0.0;
     const OrientedBox& box = scenario.world.obstacles[0].footprint;
     const VehicleParams vehicle = LoadCar(scenario).params();
@@ -75,7 +75,7 @@ TEST(ObstacleAppears, IsPassedOnANewPlanAfterTheDelay) {
       }
     }
     EXPECT_NEAR(change.time, seen + 0.9, Tolerance(1e-9));
-    // The new plan starts from the pose and the steering angle of that moment.
+    // The new plan starts with the pose and steering angle at that time.
     const auto at = std::find_if(log.rows.begin(), log.rows.end(),
                                  [&](const LogRow& row) { return row.state.time == change.time; });
     ASSERT_NE(at, log.rows.end());
@@ -84,11 +84,12 @@ TEST(ObstacleAppears, IsPassedOnANewPlanAfterTheDelay) {
     EXPECT_NEAR(SteeringForCurvature(vehicle, start.curvature), at->state.steering,
                 Tolerance(1e-12));
     EXPECT_EQ(at->tracking->cross_track, 0.0);
-    // Stations go on: between two rows the car moves 0.06 m.
+    // Stations continue: between two rows the car moves 0.06 m.
     EXPECT_NEAR(at->tracking->s, (at - 1)->tracking->s, 0.07);
-    // Continuous steering: the angle asked for does not jump by more than the actuator can follow
-    // in a period, but for what the cross-track error that is dropped asked for (0.05 m over the
-    // square of the preview distance, 2.5 m, times twice the wheelbase: 0.043 rad).
+    // Steering is continuous: the commanded angle changes by at most what the actuator can follow
+    // in a period, plus the correction of the previous cross-track error, which the new plan resets
+    // (0.05 m divided by the square of the preview distance, 2.5 m, times twice the wheelbase:
+    // 0.043 rad).
     EXPECT_NEAR(at->command.steering, (at - 1)->command.steering,
                 Tolerance(0.043 + vehicle.steering_rate * 0.02));
   }
@@ -106,7 +107,7 @@ TEST(ObstacleAppears, WithoutAnAvoiderItIsHit) {
 
 TEST(ObstacleAppears, TooLateForAnyWayAroundStopsTheCar) {
   Scenario scenario = ReadScenario(ScenarioFile("obstacle_appears"));
-  // Seen from 7.5 m: 2.7 m are driven before the plan changes, and standing still takes 4.5 m.
+  // Detected at 7.5 m: 2.7 m are driven before the plan changes, and stopping takes 4.5 m.
   scenario.world.obstacles[0].known_from_range = 7.5;
   std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).safe_distance = 1.0;
   std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).min_speed = 2.5;
@@ -117,7 +118,7 @@ TEST(ObstacleAppears, TooLateForAnyWayAroundStopsTheCar) {
     EXPECT_EQ(run.logs[i].status, DriveStatus::kBlocked);
     EXPECT_THAT(run.metrics[i].blocked, testing::StartsWith("stops before the obstacle at ("));
     EXPECT_FALSE(run.metrics[i].clearance->collision);
-    // From the mission's goal, not from where the path was cut.
+    // Measured from the mission's goal, not from the end of the truncated path.
     EXPECT_GT(run.metrics[i].tracking->goal_distance, 40.0);
   }
   EXPECT_THAT(run.verdict.failures.at(0), testing::HasSubstr("did not reach the goal: blocked"));

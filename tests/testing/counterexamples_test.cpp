@@ -12,7 +12,7 @@
 
 #include "trackbed/testing/scenario_testing.h"
 
-/// The counterexamples of docs/limits.md.
+/// Tests the counterexamples of docs/limits.md.
 namespace trackbed {
 namespace {
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const fs::path kFolder = fs::path(TRACKBED_SOURCE_DIR) / "tests/data/counterexamples";
 
-/// A row of one of the page's tables; without settings where the failure is mended.
+/// A row of a table on the page; it has no settings if the failure is fixed.
 struct LimitRow {
   std::string name;
   std::vector<Override> fails_at;
@@ -48,7 +48,7 @@ std::vector<MetricValue> ValuesOf(const RunResult& run) {
   return values;
 }
 
-/// "`a=1`, `b=2`" as settings.
+/// Parses "`a=1`, `b=2`" into settings.
 std::vector<Override> SettingsOf(const std::string& cell) {
   std::vector<Override> settings;
   const std::regex quoted("`([^`]*=[^`]*)`");
@@ -86,7 +86,7 @@ TEST(Counterexamples, AreAllOnThePageOfLimits) {
 
 class KnownLimit : public testing::TestWithParam<LimitRow> {};
 
-/// What is mended stays so, and what is listed fails where the page says, and passes beside it.
+/// Fixed failures must stay fixed. Listed ones must fail at the stated value and pass beside it.
 TEST_P(KnownLimit, IsWhereThePageSays) {
   const LimitRow& row = GetParam();
   const fs::path file = kFolder / (row.name + ".yaml");
@@ -98,7 +98,7 @@ TEST_P(KnownLimit, IsWhereThePageSays) {
     EXPECT_FALSE(row.holds_up_to.empty());
   }
   for (const Override& nearer : row.holds_up_to) {
-    // The expectations of the file are those of its failure.
+    // The file's expectations describe its failure.
     EXPECT_FALSE(RunScenario(file, WithStart(nearer)).verdict.passed)
         << testing::PrintToString(nearer);
   }

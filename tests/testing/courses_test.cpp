@@ -1,4 +1,4 @@
-// Controllers at speeds where tyres slip: whole runs on Magic Formula tyres.
+// Controllers at speeds with tyre slip: whole runs on Magic Formula tyres.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -25,7 +25,7 @@ std::filesystem::path Course(const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "courses" / (name + ".yaml");
 }
 
-/// A course of scenarios/courses, bent so that it takes 0.4 g at another speed too.
+/// A course of scenarios/courses, with its curvatures scaled so that it takes 0.4 g at any speed.
 Scenario CourseAt(const std::string& name, const std::string& car, double speed) {
   Scenario scenario = ReadScenario(Course(name));
   const double share = (scenario.mission.speed * scenario.mission.speed) / (speed * speed);
@@ -67,8 +67,8 @@ INSTANTIATE_TEST_SUITE_P(Cars, SCourse,
                          });
 
 TEST_P(SCourse, IsDrivenWithin30Centimeters) {
-  // Two opposed arcs of 0.4 g joined by 15 m ramps. The bound is what a lane leaves; what was
-  // measured stands in docs/algorithms/control.md.
+  // Two opposed arcs of 0.4 g joined by 15 m ramps. The bound is the lateral room in a lane;
+  // docs/algorithms/control.md lists the measured values.
   const auto& [car, speed, controller] = GetParam();
   Scenario scenario = CourseAt("s_course", car, speed);
   if (controller == "lqr") {
@@ -83,8 +83,8 @@ TEST_P(SCourse, IsDrivenWithin30Centimeters) {
 }
 
 TEST(SCourse, PreviewIsLeftOutsideWithoutItsSlip) {
-  // The Prius understeers: the circle through the point ahead takes more steering than a rolling
-  // car's.
+  // The Prius understeers: the circle through the preview point takes more steering than without
+  // slip.
   Scenario scenario = CourseAt("s_course", "prius", 20.0);
   const auto largest = [&](bool slip) {
     scenario.control.steering = PreviewOptions{.distance = 8.0, .slip = slip};
@@ -94,16 +94,16 @@ TEST(SCourse, PreviewIsLeftOutsideWithoutItsSlip) {
 }
 
 TEST(SCourse, PreviewHasToLookFurtherTheFasterItGoes) {
-  // 4 m are a fifth of a second at 20 m/s: where the car moves lags behind by as much, and it
-  // swings out for good.
+  // 4 m are a fifth of a second at 20 m/s: the car's direction of motion lags by as much, and the
+  // car diverges.
   Scenario scenario = CourseAt("s_course", "prius", 20.0);
   scenario.control.steering = PreviewOptions{.distance = 4.0, .slip = true};
   EXPECT_THAT(RunScenario(scenario), testing::Not(TracksWithin(3.0)));
 }
 
 TEST(SlowDrives, FollowersTrackInSpiteOfTheirSteering) {
-  // An actuator that is late, has play, or gives another angle than it is asked for; and a kick.
-  // The kinematic car: what is seen is the controller.
+  // A delayed actuator, backlash, a wrong steering factor, and a kick. The kinematic car isolates
+  // the controller.
   for (const char* disturbance : {"disturb.steering.delay=0.1", "disturb.steering.backlash=0.00873",
                                   "disturb.steering.factor=0.9", "disturb.steering.factor=1.1",
                                   "disturb.kicks=[{at: 5, displacement: 0.5}]"}) {
@@ -121,7 +121,7 @@ TEST(SlowDrives, FollowersTrackInSpiteOfTheirSteering) {
 }
 
 TEST(SlowDrives, FollowersTrackThreeTurnsAndWinding) {
-  // The contact car at 3 m/s, whose arcs begin with a step of curvature.
+  // MuJoCo's car at 3 m/s on arcs that begin with a curvature step.
   for (const char* name : {"three_turns", "winding"}) {
     for (const ControllerOptions& options :
          {ControllerOptions(LqrOptions{}), ControllerOptions(MpcOptions{}),

@@ -8,7 +8,7 @@
 namespace trackbed {
 namespace {
 
-/// A search of the kinematic car on the winding route, at most so far from its path.
+/// Searches the winding route on the kinematic car for a cross-track error above `limit`.
 FalsifyResult SearchWithin(double limit) {
   const TempFolder folder;
   return FalsifyStudy(folder.Write(

@@ -5,7 +5,7 @@
 
 #include "trackbed/testing/scenario_testing.h"
 
-// The standard maneuvers on the BMW, as docs/maneuvers.md shows them.
+// Tests the standard maneuvers on the BMW, as in docs/maneuvers.md.
 namespace trackbed {
 namespace {
 
@@ -34,7 +34,7 @@ TEST_P(ManeuverScenarios, MeetTheirExpectations) {
   EXPECT_THAT(run, MeetsItsExpectations());
   ASSERT_EQ(run.metrics.size(), 1U);
   ASSERT_TRUE(run.metrics[0].maneuver.has_value());
-  // A car that turns over ends its drive before there is anything to evaluate.
+  // A car that rolls over ends its run before the maneuver can be evaluated.
   EXPECT_EQ(run.metrics[0].maneuver->values.empty(),
             run.metrics[0].status == DriveStatus::kRolledOver);
 }

@@ -1,4 +1,4 @@
-// Obstacles that move: where every plant meets them, and what the logs say of them.
+// Moving obstacles: where every plant hits them, and what the logs record.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ std::filesystem::path ThreeTurns() {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "three_turns.yaml";
 }
 
-/// Head-on along the first leg, a box of 2 m.
+/// A box of 2 m that moves head-on along the first leg.
 const char* const kOncoming =
     "world.obstacles=[{box: {x: 34, y: 0, length: 2, width: 2, height: 1.5}, velocity: {x: -3}}]";
 
@@ -28,7 +28,7 @@ TEST(MovingObstacle, IsMetWhereTheWaysCross) {
     SCOPED_TRACE(log.plant);
     EXPECT_EQ(log.status, DriveStatus::kCollided);
     for (const LogRow& row : log.rows) {
-      // Along the leg the gap is what lies between bumper and box, until they touch.
+      // Along the leg, the clearance is the distance between bumper and box until they touch.
       const double bumper = row.state.pose.x + 3.5;
       const double gap = 33.0 - 3.0 * row.state.time - bumper;
       if (gap > 1.0) {
@@ -45,7 +45,7 @@ TEST(MovingObstacle, IsMetWhereTheWaysCross) {
     }
     return -1.0;
   };
-  // Both at 6 m/s toward it: a control period apart at the most.
+  // Both approach it at 6 m/s relative speed: the contacts differ by at most a control period.
   EXPECT_NEAR(first_contact(run.logs[0]), first_contact(run.logs[1]), 0.021);
 }
 
@@ -58,7 +58,7 @@ TEST(MovingObstacle, PushesTheCarAndIsNotPushed) {
     force = std::max(force, row.state.obstacle_force);
   }
   EXPECT_GT(force, 1e4);
-  // A second later what is as heavy as a house has carried the car back with it.
+  // A second later the heavy obstacle has pushed the car back.
   EXPECT_LT(log.rows.back().state.speed, -1.0);
   const Table& states = log.configurations;
   const auto column = [&](const std::string& name) {

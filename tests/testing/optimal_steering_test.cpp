@@ -1,4 +1,4 @@
-// Whole scenarios steered by a search at every control step, on the kinematic and on MuJoCo's car.
+// Whole scenarios steered by a search at every control period, on the kinematic car and MuJoCo's.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -47,7 +47,7 @@ TEST_P(OptimallySteered, KeepsToItsPathOnEveryPlant) {
   }
 }
 
-/// What may be wrong with the car or its surroundings, as keys of a scenario.
+/// A disturbance of the car or its surroundings, as keys of a scenario.
 struct Disturbance {
   const char* name;
   std::vector<std::string> keys;
@@ -91,9 +91,8 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, OptimallySteeredAgainst,
                          });
 
 TEST_P(OptimallySteeredAgainst, StaysNearItsPathWhereThePlansSteeringAloneDoesNot) {
-  // MuJoCo's car on its contacts. A tenth of a meter is what a lane of a car park leaves; five
-  // times is what makes closing the loop worth it, where leaving it open costs a quarter of a
-  // meter.
+  // MuJoCo's car on its contacts. 0.1 m is the lateral room in a car-park lane. Closing the loop
+  // must reduce the error by a factor of five; the open loop ends at about 0.25 m.
   const auto drive = [](const char* method) {
     const auto& [course, disturbance] = GetParam();
     std::vector<std::string> keys = disturbance.keys;
@@ -104,9 +103,9 @@ TEST_P(OptimallySteeredAgainst, StaysNearItsPathWhereThePlansSteeringAloneDoesNo
   const PlantMetrics closed = drive("optimal_steering");
   EXPECT_EQ(closed.status, DriveStatus::kArrived);
   EXPECT_LE(closed.tracking->cross_track_rms, 0.10);
-  // No chatter: wheels that turn back and forth without end have the RMS of their full rate, 0.15
-  // rad/s. Half of it is allowed for what the bends ask, and three quarters under noise, every
-  // sample of which is answered.
+  // Detects chatter: wheels that oscillate permanently have the RMS of their full rate, 0.15 rad/s.
+  // Half of that is allowed for the bends, and three quarters under noise, because the controller
+  // responds to every sample.
   const bool noisy = std::string(std::get<1>(GetParam()).name) == "noise";
   EXPECT_LE(closed.steering_rate_rms, noisy ? 0.113 : 0.075);
   const PlantMetrics open = drive("schedule");
@@ -135,8 +134,8 @@ TEST_P(OptimallySteeredAfter, ComesBackToItsPathAndStaysThere) {
               {"control={method: optimal_steering}", "drive.plants=[mujoco]", "expect={}"});
   const PlantMetrics metrics = RunScenario(File(course), keys).metrics.front();
   ASSERT_TRUE(metrics.recovery.has_value());
-  // Within 5 cm, the default. Swinging back over 0.5 m takes 1.5 cbrt(e L v/omega) = 4 m at 3 m/s
-  // as far as the wheels go; thrice that is allowed.
+  // Within 5 cm, the default. Returning over 0.5 m at full lock takes 1.5 cbrt(e L v/omega) = 4 m
+  // at 3 m/s; three times that is allowed.
   ASSERT_TRUE(metrics.recovery->time.has_value());
   EXPECT_LE(*metrics.recovery->time, 5.0);
 }
@@ -144,7 +143,7 @@ TEST_P(OptimallySteeredAfter, ComesBackToItsPathAndStaysThere) {
 class PaperSpeeds : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Paper, PaperSpeeds, testing::Values(2.5, 2.0, 1.5, 1.0));
 
-/// The mean of the angle steered over the second quarter of the run [rad].
+/// Mean steering angle over the second quarter of the run [rad].
 double MeanSteering(const RunLog& log) {
   double sum = 0.0;
   const std::size_t n = log.rows.size();
@@ -159,7 +158,7 @@ TEST_P(PaperSpeeds, MatchedByArcLengthTheCarStaysOnTheCircle) {
       RunScenario(File("paper_circle"), {fmt::format("disturb.speed_loss.speed={}", GetParam())});
   EXPECT_THAT(run, MeetsItsExpectations());
   for (const RunLog& log : run.logs) {
-    // The +-2.3 % of Skackauskas et al. 2017; tyres and body roll of MuJoCo's car included.
+    // The +-2.3 % of Skackauskas et al. 2017; covers tyres and body roll of MuJoCo's car.
     EXPECT_NEAR(MeanSteering(log), kPi / 18.0, Tolerance(0.023 * kPi / 18.0)) << log.plant;
   }
 }
@@ -169,7 +168,8 @@ TEST_P(PaperSpeeds, MatchedByTimeItCutsInside) {
       RunScenario(File("paper_circle"),
                   {fmt::format("disturb.speed_loss.speed={}", GetParam()), "control.matching=time",
                    "drive.plants=[kinematic]", "drive.time_limit=30", "expect={}"});
-  // The wanted motion is ahead by (3 - v) t and the short cut to it is on the inner side, the left.
+  // The reference motion is ahead by (3 - v) t, and the shortcut to it is on the inner side, the
+  // left.
   EXPECT_GT(run.metrics.front().tracking->cross_track_max, 1.0);
   EXPECT_GT(MeanSteering(run.logs.front()), 1.05 * kPi / 18.0);
 }

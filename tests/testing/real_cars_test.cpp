@@ -12,7 +12,7 @@
 #include "trackbed/recording/windows.h"
 #include "trackbed/testing/scenario_testing.h"
 
-/// The 1:10 car DART: its recordings replayed on its model (docs/real-cars.md).
+/// Replays recordings of the 1:10 car DART on its model (docs/real-cars.md).
 namespace trackbed {
 namespace {
 
@@ -37,13 +37,13 @@ TEST(RealCar, IsAPlantForMatchers) {
   scenario.drive.plants = {kRecordedPlant, "mujoco"};
   scenario.expect = {};
   const RunResult run = RunScenario(scenario);
-  // A wheel angle that is off by 0.02 rad turns the car by 0.02/0.17 rad/m more, 1.3 rad over the
-  // 11 m of the record, which goes round in circles of 2 m.
+  // A wheel angle error of 0.02 rad adds a curvature of 0.02/0.17 1/m, which is 1.3 rad over the 11
+  // m of the recording, circles of 2 m.
   EXPECT_THAT(run, StaysWithin(kRecordedPlant, "mujoco", 3.0));
   EXPECT_THAT(run, testing::Not(StaysWithin(kRecordedPlant, "mujoco", 1e-4)));
 }
 
-// Records that took no part in any fit, windows of all of them together.
+// Uses recordings that took no part in any fit, with the windows of all of them pooled.
 TEST(RealCar, IsPredictedOverTwoSecondsWhereNothingWasFitted) {
   std::vector<double> distances;  // [m]
   for (const char* name : {"dart_free_driving_b", "dart_ramp_neg03"}) {
@@ -62,9 +62,9 @@ TEST(RealCar, IsPredictedOverTwoSecondsWhereNothingWasFitted) {
   }
   std::sort(distances.begin(), distances.end());
   ASSERT_EQ(distances.size(), 60U);
-  // The goal, a median of 0.10 m and 90 % within 0.25 m, is not met: the 10 Hz commands of
-  // free_driving_b, whose times are known to 0.1 s only, keep its windows from it
-  // (docs/real-cars.md). These are the measured 0.105 m and 0.48 m, and a tenth more.
+  // The goal (median 0.10 m, 90 % within 0.25 m) is not met: the 10 Hz commands of free_driving_b
+  // have timestamps accurate to only 0.1 s (docs/real-cars.md). These bounds are the measured 0.105
+  // m and 0.48 m plus a tenth.
   EXPECT_LT(distances[30], 1.1 * 0.105);
   EXPECT_LT(distances[54], 1.1 * 0.48);
 }

@@ -1,3 +1,6 @@
+// Tests the GoogleTest matchers of trackbed::testing on whole runs of the shipped scenarios and on
+// artificial results.
+
 #include "trackbed/testing/scenario_testing.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +20,7 @@ fs::path File(const std::string& name) {
   return fs::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml");
 }
 
-/// What the matcher says of a run that it does not match.
+/// The matcher's message for a run that does not match.
 template <typename Matcher>
 std::string ErrorMessage(const RunResult& run, const Matcher& matcher) {
   testing::StringMatchResultListener listener;
@@ -50,9 +53,9 @@ TEST_P(Scenarios, DriveAsTheyExpectKinematicAgainstContactDynamics) {
   const Scenario scenario = ReadScenario(File(GetParam()));
   const RunResult run = RunScenario(scenario);
   EXPECT_THAT(run, MeetsItsExpectations());
-  // Where the two run the same plan at 3 m/s they part by the servo's lag and the tyres' slip,
-  // which a controller holds to centimeters, and an open loop, ice or a collision to the stated
-  // bound.
+  // With the same plan at 3 m/s the plants differ by the servo's lag and tyre slip. A path tracking
+  // controller limits that to centimeters; in open loop, on ice or after a collision the stated
+  // bound applies.
   if (!scenario.expect.between.empty()) {
     const std::string name = GetParam();
     const double bound = name == "steering_circle"        ? 1.2
@@ -77,7 +80,7 @@ TEST(Slalom, HasSixTurnsOfMoreThanSixtyDegreesBothWaysWithinTheSteeringLimit) {
     const double heading_change = turn["heading_change_rad"];
     left += heading_change >= 1.0472 ? 1 : 0;
     right += heading_change <= -1.0472 ? 1 : 0;
-    // The largest radius that C.40 allows, so at most 1.2 times it.
+    // The radius is the largest that C.40 allows, so the error grows to at most 1.2 times.
     EXPECT_EQ(turn["active_constraint"], "steering_room");
   }
   EXPECT_GE(left + right, 6);
@@ -94,7 +97,7 @@ TEST(Slalom, IsTrackedWithinFifteenCentimetersOnBothPlants) {
 TEST(IcePatch, IsWhatTheCarSlidesOn) {
   EXPECT_THAT(RunScenario(File("ice_patch")),
               testing::Not(StaysWithin("kinematic", "mujoco", 0.3)));
-  // Understeer of 0.003 rad s^2/m at 2.5 m/s^2, of which the driver leaves 5 cm.
+  // Understeer of 0.003 rad s^2/m at 2.5 m/s^2, of which the controller leaves 5 cm.
   EXPECT_THAT(RunScenario(File("ice_patch"), {"world.friction_patches=[]"}),
               StaysWithin("kinematic", "mujoco", 0.05));
 }
@@ -121,7 +124,7 @@ TEST(StaysWithin, SaysHowFarApartWhereAndWhen) {
             "the run does not have both mujoco and single_track");
 }
 
-/// Two runs that part by 0.5 of each quantity at s = 12 m.
+/// Two runs that differ by 0.5 in each quantity at s = 12 m.
 PlantComparison HalfApart() {
   const Difference half{.rms = 0.1, .max = 0.5, .max_s = 12.0, .max_t = 4.0};
   return {.first = "kinematic",
@@ -190,9 +193,9 @@ TEST(Compare, HoldsPlantsAndRunsAgainstEachOther) {
 }
 
 TEST(ThreeTurns, IsDrivenOnContactsAsTheKinematicModelSays) {
-  // The servo lags by 10 to 15 ms: at 0.15 rad/s the wheels by 2.3 mrad, and v/L = 1.1/s of that in
-  // yaw rate. In turns of 16.8 m, 0.18 rad/s, the heading is then 2.7 mrad behind, which over the
-  // 2.5 m of preview are 7 mm aside. Tyres slip by less at 0.5 m/s^2.
+  // The servo lags by 10 to 15 ms: at 0.15 rad/s the wheels lag by 2.3 mrad, the yaw rate by v/L =
+  // 1.1/s of that. In turns of 16.8 m, at 0.18 rad/s, the heading is then 2.7 mrad behind, which is
+  // 7 mm over the preview of 2.5 m. Tyres slip by less at 0.5 m/s^2.
   EXPECT_THAT(
       Compare(RunScenario(File("three_turns"), {"control.distance=2.5", "vehicle.tyre=contact"}),
               "kinematic", "mujoco"),
@@ -258,8 +261,8 @@ TEST(HitTheBox, IsFeltByTheContactDynamics) {
   for (const PlantMetrics& metrics : run.metrics) {
     ASSERT_TRUE(metrics.clearance.has_value());
     EXPECT_TRUE(metrics.clearance->collision);
-    // 1317 kg from 3 m/s to rest within the centimeters that a stiff contact gives: many times the
-    // car's weight; the kinematic car feels nothing.
+    // 1317 kg stop from 3 m/s within the few centimeters that a stiff contact yields: a force of
+    // many times the car's weight. The kinematic car feels no force.
     EXPECT_EQ(metrics.clearance->force_max > 13000.0, metrics.plant == "mujoco");
   }
 }

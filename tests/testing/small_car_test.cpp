@@ -9,7 +9,7 @@
 #include "trackbed/control/steering_profile.h"
 #include "trackbed/testing/scenario_testing.h"
 
-/// A second car, a tenth of the first one's size: nothing but its own MJCF makes it drive.
+/// A car of a tenth of the first one's size: only its MJCF file differs.
 namespace trackbed {
 namespace {
 
@@ -17,7 +17,7 @@ std::filesystem::path Data(const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests" / "data" / name;
 }
 
-/// A scenario of the full-size car at a tenth of its size: lengths by 10, at 0.8 m/s.
+/// A scenario of the full-size car scaled to a tenth: lengths divided by 10, at 0.8 m/s.
 Scenario Scaled(const std::string& name) {
   Scenario scenario =
       ReadScenario(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml"));
@@ -31,15 +31,15 @@ Scenario Scaled(const std::string& name) {
   return scenario;
 }
 
-// On an arc of radius r the preview chord of length R runs up to R^2/(8 r) inside the path, and the
-// car enters and leaves the arc by as much. The turns are planned with r of 1.7 m or more: R =
-// 0.25 m gives 4.6 mm. What the dynamics add is bounded by kParting.
+// On an arc of radius r, a preview chord of length R runs up to R^2/(8 r) inside the path; entering
+// and leaving the arc adds as much. The turns have r >= 1.7 m, and R = 0.25 m: 4.6 mm. kParting
+// bounds the effect of the dynamics.
 constexpr double kParting = 0.002;               // [m]
 constexpr double kTracking = 0.0046 + kParting;  // [m]
 
-// The servo lags by 10 ms, 8 mm of road, so that the heading is up to 8 mm/r = 4 mrad behind; the
-// contacts' slip, a_y dmax tau/2 = 0.33 x 5 ms/2 over 0.8 m/s, is another 1 mrad. The controller
-// takes both out within the preview distance: 5 mrad x 0.25 m = 1.3 mm, rounded up to kParting.
+// The servo lags by 10 ms, 8 mm of road, so the heading is up to 8 mm/r = 4 mrad behind. The
+// contact slip, a_y dmax tau/2 = 0.33 x 5 ms/2 over 0.8 m/s, adds 1 mrad. The controller removes
+// both within the preview distance: 5 mrad x 0.25 m = 1.3 mm, rounded up to kParting.
 
 TEST(SmallCar, IsReadFromItsOwnFile) {
   const Scenario scenario = ReadScenario(Data("small_three_turns.yaml"));
@@ -67,8 +67,8 @@ TEST(SmallCar, StandsStill) {
   scenario.drive.plants = {"mujoco"};
   const RunResult run = RunScenario(scenario);
   ASSERT_EQ(run.logs.size(), 1U);
-  // The hubs' heights are given to 10 um, which over the wheelbase is 4e-5 rad of pitch; nothing
-  // else is left to settle.
+  // The hubs' heights are accurate to 10 um, which is 4e-5 rad of pitch over the wheelbase; nothing
+  // else settles.
   const LogRow& last = run.logs[0].rows.back();
   EXPECT_NEAR(last.state.pose.x, 0.0, Tolerance(1e-5));
   EXPECT_NEAR(last.state.pose.y, 0.0, Tolerance(1e-5));
@@ -85,8 +85,8 @@ TEST(SmallCar, DrivesThreeTurnsAndStops) {
   const RunResult run = RunScenario(Data("small_three_turns.yaml"));
   EXPECT_THAT(run, TracksWithin(Tolerance(kTracking)));
   EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", Tolerance(kParting)));
-  // It stops when it is slower than 1 cm/s, and the speed controller's last correction (gain 2/s)
-  // stands for 5 mm at most.
+  // It stops at a speed below 1 cm/s, so the speed controller's remaining correction (gain 2/s) is
+  // at most 5 mm.
   EXPECT_THAT(run, ReachesGoal(Tolerance(0.005)));
 }
 

@@ -9,7 +9,7 @@
 
 #include "trackbed/testing/scenario_testing.h"
 
-/// A steered car and a vehicle with differential drive on one and the same slalom.
+/// A steered car and a differential-drive vehicle on the same slalom.
 namespace trackbed {
 namespace {
 
@@ -39,8 +39,8 @@ TEST_P(SlalomByEither, IsCompletedOnBothPlants) {
 }
 
 TEST(DiffDrive, TurnsTighterThanACarCan) {
-  // Turns of 120 degrees between legs of 6 m: the Prius, that needs 5.1 m and the way to steer, has
-  // no plan.
+  // Turns of 120 degrees between legs of 6 m: the Prius, which needs a radius of 5.1 m and distance
+  // to steer, has no plan.
   const std::vector<std::string> tight{
       "mission.waypoints=[[0, 0], [6, 0], [3, 5.2], [9, 5.2], [6, 10.4], [12, 10.4]]",
       "mission.speed=1", "control={method: preview, distance: 0.6}"};
@@ -57,13 +57,13 @@ TEST(DiffDrive, FeelsTheObstacleThatItHits) {
   for (const PlantMetrics& metrics : run.metrics) {
     ASSERT_TRUE(metrics.clearance.has_value());
     EXPECT_TRUE(metrics.clearance->collision);
-    // 80 kg from 3 m/s within centimeters: many times its weight.
+    // 80 kg stop from 3 m/s within centimeters: a force of many times the weight.
     EXPECT_EQ(metrics.clearance->force_max > 1500.0, metrics.plant == "mujoco");
   }
 }
 
 TEST(DiffDrive, IsDisturbedAsCarsAre) {
-  // The angle that the disturbances act on is the ratio of its wheels' speeds.
+  // The disturbances act on the steering angle that corresponds to the ratio of the wheel speeds.
   const RunResult run = RunScenario(
       File("slalom"),
       {"vehicle.model=diff_drive", "drive.time_limit=20", "expect={}",

@@ -8,8 +8,8 @@
 
 namespace trackbed {
 
-/// A track around the origin, counter-clockwise: an ellipse with half axes `a` along x and `b`, its
-/// points at equal steps of the parameter, its start line at (a, 0).
+/// A counterclockwise elliptic track around the origin with half axes `a` along x and `b`. Its
+/// points are at equal steps of the parameter; its start line is at (a, 0).
 inline std::vector<TrackPoint> EllipsePoints(double a, double b, int count, double right,
                                              double left) {
   std::vector<TrackPoint> points;

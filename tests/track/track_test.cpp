@@ -16,22 +16,22 @@ namespace {
 
 constexpr double kRadius = 50.0;
 
-/// 63 points, 5 m apart.
+/// A ring of 63 points, 5 m apart.
 Track Ring(std::optional<double> smoothing = {}) {
   return Track(RingPoints(kRadius, 63, 4.0, 3.0), smoothing);
 }
 
-/// Of a wave along the curve, this is left (closed_spline.h); of a circle its radius.
+/// Fraction of a wave that smoothing keeps (closed_spline.h); for a circle, of its radius.
 double Left(double wavelength, double length) {
   return 1.0 / (1.0 + std::pow(wavelength / length, 6.0));
 }
 
 TEST(Track, OfARingIsARing) {
   const Track track = Ring();
-  // Chords instead of arcs make the parameter shorter by (5/50)^2/24, and the penalty on
-  // differences is that on derivatives but for (h/r)^2/4 with h = 2.5 m: together far below 1e-3 of
-  // the 1e-6 that smoothing takes of the radius. What is left is the spline's interpolation,
-  // (h/r)^6 r/30.
+  // Chords in place of arcs shorten the parameter by (5/50)^2/24. The penalty on differences equals
+  // the penalty on derivatives up to (h/r)^2/4 with h = 2.5 m. Both are far below 1e-3 of the 1e-6
+  // that smoothing takes off the radius. The remaining error is the spline's interpolation, (h/r)^6
+  // r/30.
   EXPECT_NEAR(track.smoothing(), 20.0, Tolerance(0.1));
   for (double s = 0.0; s < track.length(); s += 1.3) {
     const PathPoint at = track.At(s);
@@ -42,13 +42,13 @@ TEST(Track, OfARingIsARing) {
 }
 
 TEST(Track, SmoothsByTheWavelength) {
-  // Half of a circle's radius is left when its circumference is the wavelength.
+  // A circle keeps half of its radius if its circumference is the cutoff wavelength.
   for (const double factor : {0.3, 0.5, 0.7}) {
     const double length = 2.0 * kPi * kRadius;
     const Track track = Ring(factor * length);
     const double expected = kRadius * Left(factor, 1.0);
-    // Differences instead of derivatives: each of three factors sin(x)/x, x = pi/126, squared:
-    // 6.2e-4 of what is taken away. Chords instead of arcs: 6 x 4.1e-4 of it.
+    // Differences in place of derivatives: three factors sin(x)/x with x = pi/126, squared, are
+    // 6.2e-4 of the reduction. Chords in place of arcs: 6 x 4.1e-4 of it.
     const double taken = kRadius - expected;
     EXPECT_NEAR(track.At(0.25 * track.length()).pose.position().norm(), expected,
                 Tolerance(3.1e-3 * taken + 1e-4))
@@ -74,18 +74,18 @@ TEST(Track, TakesNoiseOutOfTheCurvature) {
     }
     return largest;
   };
-  // Differentiated twice, 0.1 m at a wavelength of 10 m is 0.04/m; a sixty-fifth is left of it.
+  // Noise of 0.1 m at a wavelength of 10 m has a curvature of 0.04/m; smoothing keeps 1/65 of it.
   EXPECT_GT(worst(rough), 0.02);
   EXPECT_LT(worst(smooth), 0.006);
   EXPECT_LT(smooth.deviation_max(), 0.1 * std::sqrt(2.0) + 0.02);
 }
 
 TEST(Track, KeepsItsEdgesWhereThePointsHaveThem) {
-  // Smoothed hard, the center line moves by meters, and the edges stay.
+  // Strong smoothing moves the center line by meters, but not the edges.
   const Track track = Ring(0.5 * 2.0 * kPi * kRadius);
   ASSERT_GT(track.deviation_max(), 0.7);
   for (const Vec2& point : track.left_edge()) {
-    // Linear between points 5 m apart: within 5^2/(8 x 47) of a circle.
+    // Edges are linear between points 5 m apart: within 5^2/(8 x 47) of a circle.
     EXPECT_NEAR(point.norm(), kRadius - 3.0, Tolerance(0.07));
   }
   for (const Vec2& point : track.right_edge()) {
@@ -97,13 +97,13 @@ TEST(Track, ClosesSmoothly) {
   const Track track(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0));
   const PathPoint first = track.At(0.0);
   const PathPoint last = track.At(track.length() - 1e-9);
-  // 1e-4 of 5 m.
+  // 1e-4 of the spacing of 5 m.
   EXPECT_NEAR((first.pose.position() - last.pose.position()).norm(), 0.0, Tolerance(5e-4));
   EXPECT_NEAR(std::remainder(first.pose.yaw - last.pose.yaw, 2.0 * kPi), 0.0, Tolerance(1e-6));
   EXPECT_NEAR(first.curvature, last.curvature, Tolerance(1e-6));
   EXPECT_EQ(track.At(track.length()).pose, first.pose);
   EXPECT_EQ(track.At(3.0 * track.length()).pose, first.pose);
-  // The point of the ellipse on its long axis, where its radius is b^2/a.
+  // The ellipse's end on its long axis, where the radius of curvature is b^2/a.
   EXPECT_NEAR((first.pose.position() - Vec2(120.0, 0.0)).norm(), 0.0, Tolerance(0.02));
   EXPECT_NEAR(1.0 / first.curvature, 30.0, Tolerance(0.3));
 }
@@ -129,9 +129,9 @@ TEST(Track, LocatesPointsAndComesBack) {
 TEST(Track, HasLinearWidthsBetweenItsPoints) {
   std::vector<TrackPoint> points = RingPoints(kRadius, 63, 4.0, 3.0);
   points[10].width_left = 6.0;
-  const Track track(points, 1.0);  // nothing is smoothed, and the points are on the line
+  const Track track(points, 1.0);  // no smoothing: the center line passes through the points
   const double middle = 0.5 * (track.StationOf(10) + track.StationOf(11));
-  // Half way in station, up to the unevenness of stations along the spline.
+  // Halfway in station, up to the unevenness of stations along the spline.
   EXPECT_NEAR(track.EdgesAt(middle).left, 4.5, Tolerance(1e-3));
   EXPECT_NEAR(track.EdgesAt(track.StationOf(10)).left, 6.0, Tolerance(1e-3));
   EXPECT_NEAR(track.EdgesAt(track.StationOf(10)).right, -4.0, Tolerance(1e-3));
@@ -141,7 +141,7 @@ TEST(Track, HasLinearWidthsBetweenItsPoints) {
 
 TEST(Track, FindsBendsTighterThanItsWidth) {
   EXPECT_FALSE(FindFold(Ring()));
-  // The ellipse's tightest bend, 30 m, is at its start line and opposite.
+  // The ellipse's tightest bends, of radius 30 m, are at its start line and opposite to it.
   EXPECT_FALSE(FindFold(Track(EllipsePoints(120.0, 60.0, 114, 35.0, 27.0))));
   const auto fold = FindFold(Track(EllipsePoints(120.0, 60.0, 114, 5.0, 29.9)));
   ASSERT_TRUE(fold);

@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-// A few operations on numbers below 100.
+// Rounding: a few operations on numbers below 100.
 constexpr double kRounding = 1e-13;
 constexpr LongitudinalForces kCar{.mass = 1000.0, .rolling_mass = 1050.0};
 
@@ -30,7 +30,7 @@ TEST(GgvDiagram, OfAnEllipseIsExact) {
     EXPECT_NEAR(range.braking, -9.0 * left, Tolerance(kRounding));
   }
   EXPECT_EQ(diagram.MaxLateral({}), 8.0);
-  EXPECT_EQ(diagram.TyresAt({.lateral = 20.0}).driving, 0.0);  // beyond: as at the largest
+  EXPECT_EQ(diagram.TyresAt({.lateral = 20.0}).driving, 0.0);  // clamped to the table
 }
 
 TEST(GgvDiagram, ScalesWithLoadAndIsLinearInSquaredSpeedAndRoad) {
@@ -66,7 +66,7 @@ TEST(GgvDiagram, RejectsWhatIsNoDiagram) {
   EXPECT_THROW(GgvDiagram({}, {section}), InternalError);
   EXPECT_THROW(GgvDiagram(kCar, {EllipticSection(6.0, -9.0, 8.0)}), InternalError);
   EXPECT_THROW(GgvDiagram(kCar, {EllipticSection(6.0, 6.0, 0.0)}), InternalError);
-  // Two speeds and two roads are four sections, none of them twice.
+  // Two speeds and two roads need four different sections.
   EXPECT_THROW(GgvDiagram(kCar, {section, At(section, 10.0, 0.5)}), InternalError);
   EXPECT_THROW(GgvDiagram(kCar, {section, section}), InternalError);
 }

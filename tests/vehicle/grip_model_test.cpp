@@ -14,7 +14,7 @@ constexpr double kGrip = 0.9;
 // Largest forces are found by halving 40 m/s^2 sixteen times.
 constexpr double kHalved = 40.0 / 65536.0;
 
-/// A car on friction circles whose brakes share their force like the static load.
+/// A car on friction circles with brakes balanced according to the static loads.
 GripModel Car(double cg_height = 0.5) {
   GripModel car{.forces = {.mass = 1500.0, .rolling_mass = 1500.0},
                 .wheelbase = 2.7,
@@ -40,12 +40,12 @@ TEST(GripModel, OfAPointMassIsTheFrictionCircle) {
   const double grip = kGrip * kGravity;
   const GgvDiagram diagram = ComputeGgv(car, {1.0, 0.5});
   for (const double road : {1.0, 0.5}) {
-    // Between values it is the chord of the circle in sin(q): exact.
+    // Between tabulated values the model is linear in sin(q), which is exact for the circle.
     for (const double lateral : {0.0, 0.3, 0.7, 0.95}) {
       const double left = grip * road * std::sqrt(1.0 - lateral * lateral);
       const TyreRange range = diagram.TyresAt({.road = road, .lateral = lateral * grip * road});
-      // The largest f_y is flat in f_x: where it is found, halving leaves sqrt(2 kHalved mu g),
-      // 0.1 m/s^2, of f_x; that is at q = 0, and less elsewhere.
+      // The largest f_y is flat in f_x, so bisection leaves an f_x of sqrt(2 kHalved mu g), 0.1
+      // m/s^2. That is at q = 0, and less elsewhere.
       EXPECT_NEAR(range.driving, left, Tolerance(0.02 * left + kHalved)) << lateral;
       EXPECT_NEAR(range.braking, -left, Tolerance(0.02 * left + kHalved)) << lateral;
     }
@@ -54,7 +54,7 @@ TEST(GripModel, OfAPointMassIsTheFrictionCircle) {
 }
 
 TEST(GripModel, LoadTransferDoesNotMatterToFrictionThatIsProportional) {
-  // Each axle holds mu times its load, whichever wheel has it.
+  // Each axle transmits mu times its load, however the load is split between its wheels.
   EXPECT_NEAR(MaxLateralForce(Car(), 1.0, 0.0), kGrip * kGravity, Tolerance(kHalved));
   EXPECT_NEAR(MaxLateralForce(Car(), 0.4, 0.0), 0.4 * kGrip * kGravity, Tolerance(kHalved));
 }
@@ -71,7 +71,7 @@ TEST(GripModel, BrakesAndDrivesStraightAsTheAxleThatSlidesFirstAllows) {
 }
 
 TEST(GripModel, RollsOverWhereTheInnerWheelsLift) {
-  // m f_y h K/(K - m g h) = m g t/2, K both axles' stiffness.
+  // m f_y h K/(K - m g h) = m g t/2, where K is the stiffness of both axles.
   GripModel car = Car(0.95);
   const double lean = 1500.0 * kGravity * 0.95 / 100e3;
   const double expected = kGravity * 0.5 * 1.5 / 0.95 * (1.0 - lean);
@@ -80,10 +80,10 @@ TEST(GripModel, RollsOverWhereTheInnerWheelsLift) {
 }
 
 TEST(GripModel, LoadSensitiveTyresLoseGripByLoadTransfer) {
-  // mu = 1 + p (F - F0)/F0 with p = -0.1, F0 the load at rest of every wheel: an axle with wheels
-  // of F0 -+ d holds 2 F0 mu0 - 0.2 d^2/F0, if both peak at one slip angle, as they do with a
-  // cornering stiffness in proportion to mu F: here to F alone, so they peak apart by 0.2 d/F0 of
-  // the angle, which costs less than a hundredth.
+  // mu = 1 + p (F - F0)/F0 with p = -0.1 and F0 each wheel's load at rest. An axle with wheel loads
+  // F0 -+ d transmits 2 F0 mu0 - 0.2 d^2/F0 if both wheels peak at the same slip angle. They would
+  // with a cornering stiffness proportional to mu F. Here it is proportional to F, so their peaks
+  // are 0.2 d/F0 of the angle apart, which costs less than 1 %.
   GripModel car = Car();
   MagicFormula tyre;
   tyre.p_cx1 = 1.6;
@@ -98,14 +98,14 @@ TEST(GripModel, LoadSensitiveTyresLoseGripByLoadTransfer) {
     axle.weight = 0.5;
     axle.tyre = tyre;
   }
-  // Coasting, so that nothing drives against the drag of the slip angles; and so long that slowing
-  // down shifts no load.
+  // Coasting, so no drive force compensates the drag of the slip angles. The wheelbase is so long
+  // that slowing down shifts no load.
   car.wheelbase = 1e3;
   const double found = ComputeGgv(car, {1.0}).MaxLateral({});
   const double lean = 1500.0 * kGravity * car.cg_height / 100e3;
   const double shift = 1500.0 * found * car.cg_height / (1.0 - lean) / (2.0 * 1.5);
   const double expected = kGravity * (1.0 - 0.1 * std::pow(shift / tyre.f_z0, 2));
-  EXPECT_LT(expected, 0.98 * kGravity);  // it does matter
+  EXPECT_LT(expected, 0.98 * kGravity);  // load sensitivity has a visible effect
   EXPECT_NEAR(found, expected, Tolerance(0.01 * expected));
 }
 
@@ -114,7 +114,7 @@ TEST(GripModel, DragPressesOnTheRearAxle) {
   car.forces.drag = 0.5;
   car.drag_height = 1.5;
   const GgvDiagram diagram = ComputeGgv(car, {1.0});
-  // (D (z_D - h) + m f_x h)/L off the front axle, which drives alone.
+  // The front axle, which alone drives, loses (D (z_D - h) + m f_x h)/L.
   const double speed = 40.0;
   const double drag = 0.5 * speed * speed;
   const double weight = 1500.0 * kGravity;

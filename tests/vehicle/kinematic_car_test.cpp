@@ -12,6 +12,8 @@
 #include "tests/vehicle/wheel_pair.h"
 #include "trackbed/core/angle.h"
 
+// Tests the kinematic car: sign conventions, exact circles at constant steering, convergence with
+// moving steering, rest and gears, and accelerations by second differences.
 namespace trackbed {
 namespace {
 
@@ -60,7 +62,7 @@ TEST(KinematicCar, PositiveSteeringTurnsRightwardsInReverse) {
 // --- Differential drive --------------------------------------------------------------------------
 
 TEST(KinematicCar, WithDifferentialDriveIsTheUnicycleOfItsWheelSpeeds) {
-  // A rigid body on two wheels that roll: v = (v_R + v_L)/2, psi' = (v_R - v_L)/b.
+  // A rigid body on two rolling wheels: v = (v_R + v_L)/2, psi' = (v_R - v_L)/b.
   const VehicleParams pair = WheelPair();
   const double track = 0.6;
   const double time = 2.3;
@@ -82,14 +84,14 @@ TEST(KinematicCar, WithDifferentialDriveIsTheUnicycleOfItsWheelSpeeds) {
 }
 
 TEST(KinematicCar, WithDifferentialDriveChangesItsRatioAtTheLimitedRate) {
-  // At v, psi' = v tan(delta)/b with delta = omega t: psi = -v ln(cos(omega t))/(b omega).
+  // At speed v, psi' = v tan(delta)/b with delta = omega t, so psi = -v ln(cos(omega t))/(b omega).
   const VehicleParams pair = WheelPair();
   KinematicCar car(pair, kRear, {.speed = 2.0});
   for (int i = 0; i < 50; ++i) {
     car.Step({.steering = 1.5}, 0.01);
   }
   EXPECT_NEAR(car.state().steering, 0.5, Tolerance(1e-14));
-  // A fourth-order method in steps of 10 ms: far below the 1e-10 that 20 ms are good for.
+  // A fourth-order method in steps of 10 ms, far more accurate than the 1e-10 for 20 ms.
   EXPECT_NEAR(car.state().pose.yaw, -2.0 / 0.6 * std::log(std::cos(0.5)), Tolerance(1e-10));
   car.Step({.steering = 1.5}, 1.0);
   EXPECT_EQ(car.state().steering, pair.steering_limit);
@@ -99,8 +101,8 @@ TEST(KinematicCar, WithDifferentialDriveChangesItsRatioAtTheLimitedRate) {
 // ---------------------------------------------------------------------
 
 TEST(KinematicCar, YawRateIsSpeedOverRadius) {
-  // psi' = v/sqrt(r^2 + l_g^2) for the CG (Skackauskas, dissertation, eq. (C.25)), printed to 1e-6;
-  // v/r for the rear.
+  // psi' = v/sqrt(r^2 + l_g^2) for the center of gravity (Skackauskas, dissertation, eq. (C.25)),
+  // printed to 1e-6; v/r for the rear axle.
   const std::vector<std::pair<double, double>> table{
       {5.1, 0.567251}, {10.0, 0.297103}, {20.0, 0.149634}, {50.0, 0.059976}, {154.0, 0.019480}};
   for (const auto& [radius, rate] : table) {
@@ -154,14 +156,15 @@ TEST(KinematicCar, ConstantSteeringIsExactWhateverTheStep) {
       const Pose2 exact = ExactCircle(reference, steering, speed, time);
       KinematicCar once = CarAt({.speed = speed, .steering = steering}, reference);
       once.Step({.steering = steering}, time);
-      // Radii up to 270 m: the closed form itself cancels at 270 * 2^-52 = 6e-14, and an angle of
-      // up to 20 rad is off by 2e-15, times 270 m.
+      // Radii are up to 270 m: the closed form cancels to 270 * 2^-52 = 6e-14, and an angle of up
+      // to 20 rad errs by 2e-15, times 270 m.
       ExpectSamePose(once.state().pose, exact, 2e-12);
       KinematicCar often = CarAt({.speed = speed, .steering = steering}, reference);
       for (int step = 0; step < 1000; ++step) {
         often.Step({.steering = steering}, time / 1000.0);
       }
-      // A thousand roundings of 200 m and of 20 rad, all one way at worst: 1000 * 2.8e-14.
+      // A thousand roundings of 200 m and of 20 rad, in the worst case all of one sign: 1000 *
+      // 2.8e-14.
       ExpectSamePose(often.state().pose, exact, 3e-11);
       EXPECT_NEAR(often.state().distance, speed * time, Tolerance(3e-11));
       EXPECT_NEAR(often.FullState().time, time, Tolerance(1e-11));
@@ -177,7 +180,7 @@ TEST(KinematicCar, StraightOnIsExact) {
 }
 
 TEST(KinematicCar, AccelerationMovesAlongTheSameCircle) {
-  // Constant steering: where the car is depends on the distance only.
+  // With constant steering the car's pose depends only on the distance.
   const double steering = 0.3;
   for (const ReferencePoint reference : {kRear, kCg}) {
     KinematicCar car = CarAt({.speed = 1.0, .steering = steering}, reference);
@@ -219,7 +222,7 @@ TEST(KinematicCar, FullLockTakesLimitOverRate) {
 }
 
 TEST(KinematicCar, StepsOfTwentyMillisecondsKeepTheirPromise) {
-  // One step of 20 ms against a hundred: "below 1e-10 m at 3 m/s".
+  // One step of 20 ms compared with a hundred shorter ones: "below 1e-10 m at 3 m/s".
   Random random(22);
   for (int i = 0; i < 200; ++i) {
     const double from = random.Uniform(-0.48, 0.48);
@@ -243,7 +246,7 @@ TEST(KinematicCar, StepsOfTwentyMillisecondsKeepTheirPromise) {
 }
 
 TEST(KinematicCar, ArrivalOfTheSteeringSplitsTheStep) {
-  // The ramp ends inside the step: the same as stepping to its end and on from there.
+  // The ramp ends inside the step: same as stepping to its end and then over the rest.
   const double to = 0.1;
   const double ramp = to / ReferenceCar().steering_rate;
   KinematicCar once = CarAt({.speed = kSpeed});
@@ -312,7 +315,8 @@ TEST(KinematicCar, CutOfTimeDoesNotMatter) {
       fine.Step(command, 0.0075);
       fine.Step(command, 0.0125);
     }
-    // A hundred steps, each within the promise, at up to twice the speed it is given for.
+    // A hundred steps, each within the stated accuracy, at up to twice the speed for which it is
+    // stated.
     ExpectSamePose(fine.state().pose, coarse.state().pose, 1e-8);
     EXPECT_NEAR(fine.state().speed, coarse.state().speed, Tolerance(1e-12));
     EXPECT_NEAR(fine.state().distance, coarse.state().distance, Tolerance(1e-12));
@@ -320,8 +324,8 @@ TEST(KinematicCar, CutOfTimeDoesNotMatter) {
 }
 
 TEST(KinematicCar, CutOfTimeDoesNotMatterWhenTheGearChangesTheDirection) {
-  // Rolling backwards at 1 m/s in the forward gear, accelerating forwards: rest after 1 s. Whatever
-  // follows, one step of 2 s and two of 1 s have to agree.
+  // Rolling backward at 1 m/s in the forward gear while accelerating forward: rest after 1 s. One
+  // step of 2 s and two steps of 1 s must agree afterward.
   for (const int gear : {1, -1}) {
     const KinematicState start{.speed = -1.0 * gear};
     const Command command{.acceleration = 1.0 * gear, .gear = gear};
@@ -336,8 +340,8 @@ TEST(KinematicCar, CutOfTimeDoesNotMatterWhenTheGearChangesTheDirection) {
 }
 
 TEST(KinematicCar, NeverRollsAgainstItsGear) {
-  // Braking to rest in control periods, with the steering arriving anywhere inside them: rounding
-  // must not carry the speed through zero, from where the same command would drive the car away.
+  // Braking to rest over control periods in which the steering arrives at any time. Rounding must
+  // not carry the speed through zero, because the same command would then accelerate the car.
   Random random(24);
   for (int i = 0; i < 3000; ++i) {
     const double deceleration = 0.1 * (1 + random.Below(30));
@@ -363,9 +367,9 @@ TEST(KinematicCar, NeverRollsAgainstItsGear) {
 // ---------------------------------------------------------------------------------
 
 TEST(FullState, AccelerationsAreThoseOfTheCenterOfGravity) {
-  // Second differences of the CG's position over h = 1 ms, in the car's axes. Their truncation is
-  // h^2/12 times the fourth derivative, below 10 m/s^4 for these speeds, angles and rates; their
-  // rounding 4 * 1e-16 * 5 m/h^2 = 2e-9.
+  // Second differences of the center of gravity's position over h = 1 ms, in the car's axes. Their
+  // truncation error is h^2/12 times the fourth derivative, which is below 10 m/s^4 for these
+  // speeds, angles and rates. Their rounding error is 4 * 1e-16 * 5 m/h^2 = 2e-9.
   constexpr double kH = 1e-3;
   Random random(25);
   for (int i = 0; i < 100; ++i) {
@@ -403,10 +407,11 @@ TEST(FullState, AccelerationsAreThoseOfTheCenterOfGravity) {
 }
 
 TEST(FullState, LateralAccelerationRunsSmoothlyAlongARampCutIntoPeriods) {
-  // A schedule asks each period for exactly what the actuator can reach by its end, so the ramp of
-  // every period ends with the period, to rounding; the wheels never rest. Along it a_y = v^2
-  // tan(delta)/L + l_g v omega/(L cos^2 delta) rises by v^2/L omega T/cos^2 = 0.0115 m/s^2 a period
-  // at most; losing the steering rate for one period would show as l_g v omega/L = 0.234 m/s^2.
+  // In each period a schedule commands exactly the angle that the actuator can reach by the
+  // period's end. The ramp therefore ends with the period, to rounding, and the wheels never rest.
+  // Along it a_y = v^2 tan(delta)/L + l_g v omega/(L cos^2 delta) rises by at most v^2/L omega
+  // T/cos^2 = 0.0115 m/s^2 per period. Losing the steering rate for one period would change a_y by
+  // l_g v omega/L = 0.234 m/s^2.
   const double period = 0.02;
   const VehicleParams params = ReferenceCar();
   KinematicCar car = CarAt({.speed = kSpeed});

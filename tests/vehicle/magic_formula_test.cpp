@@ -11,7 +11,7 @@
 namespace trackbed {
 namespace {
 
-/// The set of CommonRoad's BMW 320i.
+/// The tyre parameters of CommonRoad's BMW 320i.
 MagicFormula Bmw() {
   return {.p_cx1 = 1.6411,
           .p_dx1 = 1.1739,
@@ -46,7 +46,7 @@ MagicFormula Bmw() {
           .r_vy6 = -10.704};
 }
 
-/// Without shifts and without what one slip does to the force of the other.
+/// Without shifts and without combined slip effects.
 MagicFormula Plain() {
   return {.p_cx1 = 1.6,
           .p_dx1 = 1.1,
@@ -58,12 +58,12 @@ MagicFormula Plain() {
           .p_ky1 = -15.0};
 }
 
-/// Of magnitudes in newtons, some thousand of them.
+/// Rounding of some thousand newtons [N].
 const double kRounding = Tolerance(1e-9);
 
 TEST(MagicFormula, SlopesAtZeroAreTheStiffnesses) {
-  // The formula is odd, so a central difference over h is off by its third derivative: some
-  // (B h)^2 = (20 1e-5)^2 of the slope.
+  // The formula is odd, so a central difference over h errs by its third derivative: some (B h)^2 =
+  // (20 1e-5)^2 of the slope.
   constexpr double kStep = 1e-5;
   for (MagicFormula tyre : {Plain(), [] {
                               MagicFormula sensitive = Plain();
@@ -85,7 +85,7 @@ TEST(MagicFormula, SlopesAtZeroAreTheStiffnesses) {
 }
 
 TEST(MagicFormula, PeaksAtTheFrictionOfTheRoad) {
-  // C > 1 lets the sine pass its top: the largest force over all slips is mu F_z itself.
+  // With C > 1 the sine reaches its maximum, so the largest force over all slips is mu F_z.
   const MagicFormula tyre = Plain();
   for (const double road : {0.1, 0.5, 1.0}) {
     double along = 0.0;
@@ -96,7 +96,8 @@ TEST(MagicFormula, PeaksAtTheFrictionOfTheRoad) {
       across =
           std::max(across, -EvaluateTyreForce(tyre, 3000.0, road, {.angle = 0.75 * slip}).lateral);
     }
-    // Between two samples the sine is flat to (B C 5e-5)^2/2 < 2e-5 even on the slipperiest road.
+    // Between two samples the sine deviates from its peak by (B C 5e-5)^2/2 < 2e-5 even on the
+    // slipperiest road.
     EXPECT_NEAR(along / (road * 1.1 * 3000.0), 1.0, Tolerance(2e-5));
     EXPECT_NEAR(across / (road * 0.9 * 3000.0), 1.0, Tolerance(2e-5));
   }
@@ -105,13 +106,13 @@ TEST(MagicFormula, PeaksAtTheFrictionOfTheRoad) {
 TEST(MagicFormula, SignsAreThoseOfIso8855) {
   const MagicFormula tyre = Plain();
   EXPECT_GT(EvaluateTyreForce(tyre, 3000.0, 1.0, {.ratio = 0.05}).longitudinal,
-            0.0);  // driving pushes
+            0.0);  // driving pushes forward
   EXPECT_LT(EvaluateTyreForce(tyre, 3000.0, 1.0, {.angle = 0.05}).lateral,
-            0.0);  // sliding left: to the right
+            0.0);  // sliding to the left: force to the right
 }
 
 TEST(MagicFormula, SlidesAsTheLawSays) {
-  // A locked wheel: kappa = -1, straight on, from the formula by hand.
+  // A locked wheel (kappa = -1) rolling straight ahead, from the formula by hand.
   const MagicFormula tyre = Plain();
   const double b = 20.0 / (1.6 * 1.1);
   const double phi = -b - 0.4 * (-b - std::atan(-b));
@@ -134,7 +135,7 @@ TEST(MagicFormula, CombinedForceStaysOnTheEllipseOrWithinTheLawsSurplus) {
   };
   EXPECT_LE(largest(Plain(), 1.1, 0.9), 1.0 + Tolerance(1e-12));
   const double bmw = largest(Bmw(), 1.1739, 1.0489);
-  EXPECT_LE(bmw, 1.13);  // the coefficients' own: 1.1247 by the same scan of the bare formula
+  EXPECT_LE(bmw, 1.13);  // due to the coefficients: 1.1247 by the same scan of the bare formula
   EXPECT_GE(bmw, 1.10);
 }
 
@@ -148,7 +149,7 @@ TEST(MagicFormula, PullsNothingWithoutLoad) {
 }
 
 TEST(MagicFormula, MirrorsWithSlipAngleAndCamber) {
-  // But for the shifts of combined slip, which are the tyre's own.
+  // Symmetric, except for the tyre's own shifts under combined slip.
   MagicFormula tyre = Bmw();
   tyre.r_by3 = tyre.r_hx1 = tyre.r_vy1 = 0.0;
   for (const double kappa : {-0.2, 0.0, 0.1}) {
@@ -176,10 +177,10 @@ TEST(MagicFormula, LoadSensitivityIsPacejkas) {
   tyre.p_dy2 = -0.1;
   // The largest stiffness is p_ky1 F_z0, at p_ky2 F_z0.
   EXPECT_NEAR(CorneringStiffness(tyre, 1.8 * 4000.0), 15.0 * 4000.0, kRounding);
-  // An axle whose load moves from one wheel to the other becomes softer.
+  // Load transfer between the wheels of an axle makes it softer.
   EXPECT_LT(CorneringStiffness(tyre, 2000.0) + CorneringStiffness(tyre, 4000.0),
             2.0 * CorneringStiffness(tyre, 3000.0));
-  // The friction falls by p_dy2 per change of load.
+  // Friction changes by p_dy2 per change of load, so it falls with the load.
   double heaviest = 0.0;
   for (int i = 0; i < 10000; ++i) {
     heaviest =

@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-// Some ten operations on numbers of order one.
+// Rounding: some ten operations on numbers of order one.
 constexpr double kRounding = 1e-14;
 
 double Cot(double angle) {
@@ -70,7 +70,7 @@ TEST(AckermannAngles, KeepTheCotangentRelation) {
     const double steering = 0.01 * i;
     SCOPED_TRACE(steering);
     const FrontAngles front = AckermannAngles(car, steering);
-    // A cotangent up to 100 amplifies an angle's rounding by 1/sin^2 = 1e4.
+    // A cotangent of up to 100 amplifies an angle's rounding by 1/sin^2 = 1e4.
     const double tolerance = Tolerance(1e-16 / std::pow(std::sin(steering), 2) * 10.0);
     EXPECT_NEAR(Cot(front.right) - Cot(front.left), 1.505 / 2.7, tolerance);
     EXPECT_NEAR(0.5 * (Cot(front.right) + Cot(front.left)), Cot(steering), tolerance);
@@ -78,7 +78,7 @@ TEST(AckermannAngles, KeepTheCotangentRelation) {
 }
 
 TEST(AckermannAngles, WheelsPointAtOneCenter) {
-  // Each wheel is square to the line from the turning center (0, L cot delta) to its hub.
+  // Each wheel is perpendicular to the line from the turning center (0, L cot delta) to its hub.
   const VehicleParams car = ReferenceCar();
   for (const double steering : {-0.48, -0.1, 0.02, 0.25, 0.4868}) {
     SCOPED_TRACE(steering);
@@ -86,7 +86,7 @@ TEST(AckermannAngles, WheelsPointAtOneCenter) {
     const FrontAngles front = AckermannAngles(car, steering);
     for (const auto& [angle, y] : {std::pair{front.left, 0.5 * car.track_front},
                                    std::pair{front.right, -0.5 * car.track_front}}) {
-      // Meters times a unit vector; the center is up to 135 m away.
+      // Rounding of meters times a unit vector; the center is up to 135 m away.
       EXPECT_NEAR(car.wheelbase * std::cos(angle) + (y - center) * std::sin(angle), 0.0,
                   Tolerance(135.0 * kRounding));
     }
@@ -106,8 +106,8 @@ TEST(BicycleAngle, InvertsAckermannAngles) {
 }
 
 TEST(BicycleAngle, ReadsToeAsNearlyNothing) {
-  // Toe of +-epsilon: each wheel's own bicycle angle is epsilon (1 -+ k epsilon), so the mean is
-  // k epsilon^2 at most, k = track/(2 L) = 0.279. The mean of cotangents would give 90 deg.
+  // Toe of +-epsilon: each wheel's bicycle angle is epsilon (1 -+ k epsilon), so the mean is at
+  // most k epsilon^2, with k = track/(2 L) = 0.279. The mean of cotangents would give 90 deg.
   const VehicleParams car = ReferenceCar();
   for (const double toe : {1e-6, -1e-6, 1e-3, -1e-3, 0.02}) {
     SCOPED_TRACE(toe);
@@ -123,7 +123,7 @@ TEST(BicycleAngle, IsTheMeanOfSmallAngles) {
     const double left = random.Uniform(-1e-4, 1e-4);
     const double right = random.Uniform(-1e-4, 1e-4);
     SCOPED_TRACE(fmt::format("left {}, right {}", left, right));
-    // To first order; the second is k epsilon^2.
+    // First order; the second-order term is k epsilon^2.
     EXPECT_NEAR(BicycleAngle(car, {left, right}), 0.5 * (left + right), Tolerance(0.28e-8));
   }
 }

@@ -14,6 +14,9 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Tests the linear single-track car: steady state and lateral mode against closed forms, random
+// motions against a Runge-Kutta integration of the header's equations, and low speed against the
+// kinematic car.
 namespace trackbed {
 namespace {
 
@@ -26,7 +29,7 @@ VehicleParams TyredCar(double front = 70e3, double rear = 110e3) {
   return car;
 }
 
-/// K [s^2/m], as the header has it.
+/// K [s^2/m], as defined in the header.
 double UndersteerGradient(const VehicleParams& car) {
   return car.mass / car.wheelbase *
          (car.cg_to_rear / car.cornering_stiffness_front -
@@ -52,9 +55,9 @@ void ExpectSame(const SingleTrackState& actual, const SingleTrackState& expected
   EXPECT_NEAR(actual.distance, expected.distance, Tolerance(tolerance));
 }
 
-/// The header's equations as they stand there, in v and r, by Runge-Kutta steps of 20 us: its error
-/// is that of rounding while |u| is above 1 m/s (decays of up to some 150/s). The command must
-/// neither reach its steering angle nor bring the car to rest.
+/// The header's equations in v and r, integrated by Runge-Kutta steps of 20 us. The error is
+/// rounding while |u| is above 1 m/s (decay rates of up to some 150/s). The command must neither
+/// reach its steering angle nor bring the car to rest.
 SingleTrackState BruteForce(const VehicleParams& car, const SingleTrackState& start,
                             double steering_rate, double acceleration, double duration) {
   using Vector = Eigen::Matrix<double, 5, 1>;  // x, y, yaw, v, r
@@ -104,13 +107,13 @@ TEST(SingleTrackCar, SteadyStateIsTheClosedForm) {
       SCOPED_TRACE(fmt::format("K {}, speed {}", gradient, speed));
       const double stretched = car.wheelbase + gradient * speed * std::abs(speed);
       if (stretched < 0.3 * car.wheelbase) {
-        continue;  // unstable, or too near it to settle
+        continue;  // unstable, or too near the stability limit to settle
       }
       const double steering = 0.1;
       SingleTrackCar rolling = Rolling({.speed = speed, .steering = steering}, car);
       rolling.Step({.steering = steering, .gear = speed > 0.0 ? 1 : -1}, 40.0);
       const double yaw_rate = speed * std::tan(steering) / stretched;
-      // Settled: the slowest decay here is above 1/s, e^-40. What is left is rounding.
+      // Settled: the slowest decay here is faster than 1/s, e^-40. The remaining error is rounding.
       EXPECT_NEAR(rolling.state().yaw_rate, yaw_rate, Tolerance(1e-9 * std::abs(yaw_rate)));
       // The rear tyres carry l_f/L of the centripetal force.
       const VehicleState state = rolling.FullState();
@@ -127,8 +130,8 @@ TEST(SingleTrackCar, SteadyStateIsTheClosedForm) {
 }
 
 TEST(SingleTrackCar, LateralModeHasItsClosedFormFrequencyAndDamping) {
-  // Straight ahead, a second-order decay: samples of the yaw rate a time T apart obey
-  // r_(n+1) = 2 e^(-zeta w T) cos(w sqrt(1 - zeta^2) T) r_n - e^(-2 zeta w T) r_(n-1).
+  // Straight ahead the yaw rate is a second-order decay. Samples a time T apart obey r_(n+1) = 2
+  // e^(-zeta w T) cos(w sqrt(1 - zeta^2) T) r_n - e^(-2 zeta w T) r_(n-1).
   const VehicleParams car = TyredCar();
   const double front = car.cornering_stiffness_front;
   const double rear = car.cornering_stiffness_rear;
@@ -156,8 +159,8 @@ TEST(SingleTrackCar, LateralModeHasItsClosedFormFrequencyAndDamping) {
     const double damping =
         (car.mass * (l_f * l_f * front + l_r * l_r * rear) + car.yaw_inertia * (front + rear)) /
         (2.0 * car.mass * car.yaw_inertia * speed * frequency);
-    // The mode decays some 10 to 20 per second; a step of 2 ms is off by (0.04)^6/7200 of it,
-    // far below the fit's condition (100) times 1e-10.
+    // The mode decays with some 10 to 20 per second. A step of 2 ms errs by (0.04)^6/7200 of it,
+    // far below the fit's condition number (100) times 1e-10.
     const double tolerance = Tolerance(1e-8 * frequency);
     if (damping < 1.0) {
       EXPECT_NEAR(std::abs(eigenvalue), frequency, tolerance);
@@ -169,7 +172,7 @@ TEST(SingleTrackCar, LateralModeHasItsClosedFormFrequencyAndDamping) {
   }
 }
 
-// --- Against the equations as they stand ---------------------------------------------------------
+// --- Comparison with the header's equations -----------------------------------------------------
 
 TEST(SingleTrackCar, MovesAsTheEquationsSay) {
   Random random(31);
@@ -201,7 +204,7 @@ TEST(SingleTrackCar, MovesAsTheEquationsSay) {
 }
 
 TEST(SingleTrackCar, CutOfTimeDoesNotMatter) {
-  // Five seconds of one command: a ramp that ends, a stop on the way or speeding up from rest.
+  // Five seconds of one command: a ramp that ends, a stop in between, or acceleration from rest.
   Random random(32);
   for (int i = 0; i < 20; ++i) {
     const int gear = random.Below(2) == 0 ? 1 : -1;
@@ -227,11 +230,11 @@ TEST(SingleTrackCar, CutOfTimeDoesNotMatter) {
   }
 }
 
-// --- Slow, standing and backwards ----------------------------------------------------------------
+// --- Low speed, rest and reverse -----------------------------------------------------------------
 
 TEST(SingleTrackCar, SlowCarIsTheKinematicOne) {
-  // 50 m on a circle: the radius R is larger by dR = R K u^2/L, 3.7e-4 of it at 0.5 m/s, so the end
-  // of the arc, R (sin(s/R), 1 - cos(s/R)), moves by its derivative: 20 mm at 0.5 m/s, a quarter of
+  // 50 m on a circle. The radius R is larger by dR = R K u^2/L, 3.7e-4 of it at 0.5 m/s. The end of
+  // the arc, R (sin(s/R), 1 - cos(s/R)), moves by its derivative: 20 mm at 0.5 m/s, a quarter of
   // that at half the speed. The rest is the rear tyres' slip, 0.45 of that per meter of chord and
   // radius: within 5 % here.
   const VehicleParams car = TyredCar();
@@ -255,8 +258,8 @@ TEST(SingleTrackCar, SlowCarIsTheKinematicOne) {
 }
 
 TEST(SingleTrackCar, FollowsTheKinematicCarOnAGentleCourse) {
-  // 50 m at 0.5 m/s, the wheels swinging through +-0.02 rad every 10 s: a heading of at most 0.04
-  // rad, of which 3e-4 are lost.
+  // 50 m at 0.5 m/s while the wheels oscillate by +-0.02 rad every 10 s. The heading is at most
+  // 0.04 rad, and 3e-4 of it is lost.
   const KinematicState start{.speed = 0.5};
   KinematicCar kinematic(TyredCar(), ReferencePoint::kRearAxle, start);
   SingleTrackCar dynamic = Rolling(start);
@@ -279,11 +282,13 @@ TEST(SingleTrackCar, StopsStandsAndBacksUp) {
       car.Step(command, 0.02);
       ASSERT_EQ(car.state().speed, kinematic.state().speed);
       ASSERT_EQ(car.state().steering, kinematic.state().steering);
-      // Curvature and side-slip differ by about K u^2/L, 0.5 %, and by the force that speeds up
-      // what turns, |a| m/C, 1 %; when steering moves, what it asks for is late by m u/C, 30 ms.
+      // Curvature and sideslip differ by about K u^2/L, 0.5 %, and by the force that accelerates
+      // the turning car, |a| m/C, 1 %. A change of steering takes effect with a delay of m u/C, 30
+      // ms.
       const double rate = kinematic.FullState().yaw_rate;
       ASSERT_NEAR(car.state().yaw_rate, rate, Tolerance(0.02 * std::abs(rate) + 0.004));
-      // 1 % of the 0.46 rad that it turns on 4 m, over these 4 m: 18 mm there, as much back.
+      // 1 % of the 0.46 rad that the car turns over 4 m, times these 4 m: 18 mm, and as much on the
+      // way back.
       ASSERT_LT(Distance(car.state().pose, kinematic.state().pose), Tolerance(0.037));
     }
   };
@@ -301,21 +306,21 @@ TEST(SingleTrackCar, StopsStandsAndBacksUp) {
   EXPECT_EQ(car.FullState().lateral_acceleration, 0.0);
   both({.steering = -0.3, .acceleration = -0.5, .gear = -1}, 4.0);
   EXPECT_EQ(car.state().speed, kinematic.state().speed);
-  EXPECT_GT(car.state().yaw_rate, 0.1);  // wheels to the right, backwards: it turns left
-  both({.steering = -0.3, .acceleration = 0.5, .gear = 1}, 8.0);  // through zero without a stop
+  EXPECT_GT(car.state().yaw_rate, 0.1);  // wheels to the right, in reverse: it turns left
+  both({.steering = -0.3, .acceleration = 0.5, .gear = 1}, 8.0);  // reverses without stopping
   EXPECT_LT(car.state().yaw_rate, -0.1);
 }
 
 TEST(SingleTrackCar, SlidesAtNoSpeedAtAll) {
-  // A hair's breadth above rest the tyres take all slip at once, and nothing overflows.
+  // Just above rest the tyres build up all slip at once, and nothing overflows.
   for (const double speed : {1e-3, 1e-6, 1e-9, -1e-6}) {
     SCOPED_TRACE(speed);
     SingleTrackCar car(TyredCar(), {.speed = speed, .lateral_speed = 0.1, .steering = 0.2});
     car.Step({.steering = 0.2, .gear = speed > 0.0 ? 1 : -1}, 0.02);
-    // It rolled |u| 20 ms and slid on for v over the decay, some 100/|u| 1/s.
+    // The car rolled |u| 20 ms and slid sideways with v over the decay, some 100/|u| 1/s.
     EXPECT_LT(car.state().pose.position().norm(),
               Tolerance((0.02 + 0.1 / 100.0) * std::abs(speed)));
-    // What is left of 0.1 m/s after ten steps of a stiff method.
+    // The remainder of 0.1 m/s after ten steps of a stiff method.
     EXPECT_NEAR(car.state().yaw_rate, speed * std::tan(0.2) / 2.7, Tolerance(1e-9));
   }
 }
@@ -348,9 +353,9 @@ TEST(SingleTrackCar, MirrorsAndTurnsWithItsStart) {
 // --- The full state ------------------------------------------------------------------------------
 
 TEST(SingleTrackCar, AccelerationsAreThoseOfTheCenterOfGravity) {
-  // Second differences of the CG's position over 1 ms, as for the kinematic car: h^2/12 of a fourth
-  // derivative. A tenth of a second into a ramp that is C_f omega/m, 8 m/s^3, over the tyres' 10 ms
-  // at most: 800 m/s^4.
+  // Second differences of the center of gravity's position over 1 ms, as for the kinematic car:
+  // h^2/12 times a fourth derivative. A tenth of a second into a ramp it is C_f omega/m, 8 m/s^3,
+  // over the tyres' time constant of at most 10 ms: 800 m/s^4.
   constexpr double kH = 1e-3;
   Random random(33);
   for (int i = 0; i < 50; ++i) {

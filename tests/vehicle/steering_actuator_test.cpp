@@ -41,7 +41,7 @@ TEST(MoveSteering, RampsAtTheFullRateThenRests) {
   EXPECT_NEAR(move.At(1.0), 0.2 - Limits().rate, Tolerance(kRounding));
   EXPECT_EQ(move.At(move.ramp_time), -0.1);
   EXPECT_EQ(move.At(1e9), -0.1);
-  // No jump on arrival.
+  // The angle is continuous on arrival.
   EXPECT_NEAR(move.At(std::nextafter(move.ramp_time, 0.0)), -0.1, Tolerance(kRounding));
 }
 

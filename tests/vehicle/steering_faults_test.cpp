@@ -46,7 +46,7 @@ TEST(FaultySteering, TurnsByItsFactor) {
 
 TEST(FaultySteering, ShiftsByTheDelay) {
   const std::vector<double> wanted = Wander(200);
-  // 33 ms are 16.5 timesteps, halves away from zero; 0.4 ms are less than half a one.
+  // 33 ms are 16.5 timesteps, rounded away from zero; 0.4 ms are less than half a timestep.
   const std::vector<std::pair<double, std::size_t>> cases{{0.1, 50}, {0.033, 17}, {0.0004, 0}};
   for (const auto& [delay, steps] : cases) {
     const std::vector<double> given = PassAll({.delay = delay}, wanted, 0.25);
@@ -56,8 +56,8 @@ TEST(FaultySteering, ShiftsByTheDelay) {
   }
 }
 
-/// Backlash has a closed form on what goes up, down and up again: half of the play is lost at
-/// first, all of it at every turn.
+/// Backlash has a closed form for a rising, falling and rising input: half of the play is lost at
+/// first, and all of it at every reversal.
 TEST(FaultySteering, HasThePlayOfItsDeadBand) {
   constexpr double kBand = 0.03;
   std::vector<double> wanted;
@@ -81,7 +81,7 @@ TEST(FaultySteering, HasThePlayOfItsDeadBand) {
 TEST(FaultySteering, StaysWithinTheDeadBand) {
   std::vector<double> wanted = Wander(200);
   for (double& angle : wanted) {
-    angle = 0.1 + 0.02 * angle;  // at most 8 mrad to either side
+    angle = 0.1 + 0.02 * angle;  // varies by at most 8 mrad
   }
   for (const double given : PassAll({.backlash = 0.017}, wanted, 0.1)) {
     EXPECT_EQ(given, 0.1);
@@ -98,7 +98,7 @@ TEST(FaultySteering, RefusesFaultsAndAnglesThatAreNoNumbers) {
 }
 
 TEST(FaultySteering, TakesItsFaultsInOrder) {
-  // At the road wheels, so after the factor; and play at the end of the line, not before.
+  // The play is that of the road wheels, so it acts after the factor, and last of all faults.
   const std::vector<double> wanted{0.1, 0.1, 0.0, 0.0};
   const std::vector<double> given =
       PassAll({.factor = 2.0, .delay = 0.002, .backlash = 0.1}, wanted);

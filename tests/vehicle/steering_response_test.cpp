@@ -49,7 +49,7 @@ TEST(MonotoneCurve, IsExactAtItsPointsAndHeldBeyond) {
   const std::vector<Vec2> points = Asymmetric();
   const MonotoneCurve curve(points);
   for (const Vec2& point : points) {
-    // A cubic of values below 1 at its ends: rounding.
+    // Rounding of a cubic whose values are below 1 at its ends.
     EXPECT_NEAR(curve.At(point.x()), point.y(), Tolerance(1e-15));
   }
   EXPECT_EQ(curve.At(7.0), curve.At(0.4));
@@ -68,7 +68,7 @@ TEST(MonotoneCurve, NeverTurnsBack) {
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<Vec2> points{{0.0, 0.0}};
     for (int i = 0; i < 6; ++i) {
-      // Slopes from 0.01 to 100 beside each other, where a natural spline overshoots.
+      // Slopes from 0.01 to 100 next to each other, for which a natural spline overshoots.
       points.emplace_back(points.back() + Vec2(random.Uniform(0.05, 1.0),
                                                std::pow(10.0, random.Uniform(-2.0, 2.0))));
     }
@@ -91,7 +91,7 @@ TEST(MonotoneCurve, RefusesPointsOutOfOrder) {
 }
 
 TEST(SteeringFilter, PassesWhatArrivesDuringATimestepForItsShare) {
-  // A step of 1 rad that is on its way for 2.3 timesteps arrives when 0.3 of the third has passed.
+  // A step of 1 rad with a dead time of 2.3 timesteps arrives after 0.3 of the third timestep.
   SteeringFilter filter({.dead_time = 2.3 * kTimestep}, kTimestep, 0.0);
   std::vector<double> passed;
   for (int i = 0; i < 5; ++i) {
@@ -133,8 +133,8 @@ TEST(SteeringFilter, IsBehindARampByItsDelay) {
   for (int i = 0; i < 1000; ++i) {
     ramp.push_back(kRate * kTimestep * i);
   }
-  // The command is held over a timestep, so that its mean is half a timestep late; what the filter
-  // gives is that of the timestep's end, half a timestep early. exp(-1.87/0.08) of the lag remains.
+  // A command held over a timestep has a mean that is half a timestep late. The filter's output is
+  // for the timestep's end, half a timestep early. exp(-1.87/0.08) of the lag remains.
   const double held = kTimestep / 2.0;
   const double expected = ramp.back() + kRate * (kTimestep - held - response.delay());
   // The lag of a held ramp differs from the exact one by T^2/(12 tau).
@@ -158,8 +158,8 @@ TEST(SteeringFilter, LosesItsBacklashAtEveryTurn) {
   }
   const std::vector<double> angles = Filtered({.backlash = 0.02}, commands);
   for (std::size_t i = 0; i < angles.size(); ++i) {
-    // Up: half of the play behind. After a turn at a: at rest over the play, then half behind
-    // again.
+    // Rising: half the play behind. After a reversal at a: at rest over the play, then half the
+    // play behind again.
     const double up = std::max(0.0, commands[i] - 0.01);
     const double down = std::min(0.09, commands[i] + 0.01);
     const double again = std::max(-0.09, commands[i] - 0.01);
@@ -168,7 +168,8 @@ TEST(SteeringFilter, LosesItsBacklashAtEveryTurn) {
 }
 
 TEST(SteeringFilter, StartsAtRestWhereItStands) {
-  // The command that keeps it there is not asked for: a curve need not reach it.
+  // The filter starts at the given angle without inverting the curve, because the curve need not
+  // reach that angle.
   const SteeringResponse response{.dead_time = 0.01, .time_constant = 0.1, .backlash = 0.04};
   const std::vector<double> angles = Filtered(response, std::vector<double>(5, 0.3), 0.2);
   EXPECT_EQ(angles, std::vector<double>(5, 0.2));  // 10 ms are five timesteps

@@ -13,14 +13,16 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Tests steering schedules: against the state machine of listing F.1 and printed tables
+// (Skackauskas, dissertation), and the roll-out's order of convergence and closed forms.
 namespace trackbed {
 namespace {
 
 constexpr double kSpeed = 3.0;
 const double kSlope = ReferenceCar().steering_rate / kSpeed;
 
-// Angles below 1 rad over distances below 200 m, a few operations: 200 * slope * 2^-53 and the
-// like.
+// Angles below 1 rad over distances below 200 m, and a few operations: 200 * slope * 2^-53 and
+// similar.
 constexpr double kRounding = 1e-14;
 
 // --- The function --------------------------------------------------------------------------------
@@ -103,10 +105,10 @@ TEST(SteeringSchedule, LatestTurnEndsAnEarlierOne) {
   const SteeringSchedule schedule({{10.0, 40.0, 0.2}, {20.0, 50.0, -0.2}}, kSlope);
   EXPECT_NEAR(schedule.At(20.0), 0.2, Tolerance(kRounding));
   EXPECT_NEAR(schedule.At(20.0 + 0.4 / kSlope), -0.2, Tolerance(kRounding));
-  EXPECT_NEAR(schedule.At(45.0), -0.2, Tolerance(kRounding));  // not returned at 40
+  EXPECT_NEAR(schedule.At(45.0), -0.2, Tolerance(kRounding));  // the return at 40 m is skipped
 }
 
-/// The state machine of listing F.1, moved in small steps: what the schedule stands for.
+/// The reference: the state machine of listing F.1, evaluated in small steps.
 double StateMachine(const std::vector<TurnSteering>& turns, double slope, double distance,
                     int steps) {
   double steering = 0.0;
@@ -116,7 +118,7 @@ double StateMachine(const std::vector<TurnSteering>& turns, double slope, double
     double target = 0.0;
     for (const TurnSteering& turn : turns) {
       if (turn.start <= middle) {
-        target = middle < turn.end ? turn.steering : 0.0;  // the latest started one has the say
+        target = middle < turn.end ? turn.steering : 0.0;  // the turn that started last applies
       }
     }
     steering += std::clamp(target - steering, -slope * h, slope * h);
@@ -149,8 +151,8 @@ TEST(SteeringSchedule, IsTheStateMachineAndKeepsTheSlope) {
     EXPECT_EQ(knots.back().steering, 0.0);
     for (int j = 0; j < 10; ++j) {
       const double distance = random.Uniform(0.0, 110.0);
-      // Each of at most ten switches is seen up to half a step of 110/20000 m late or early, and
-      // the target flips sign: 10 * h * slope.
+      // Each of at most ten switches is detected up to half a step of 110/20000 m late or early,
+      // and the target changes sign: 10 * h * slope.
       EXPECT_NEAR(schedule.At(distance), StateMachine(turns, kSlope, distance, 20000),
                   Tolerance(10.0 * 110.0 / 20000.0 * kSlope));
     }
@@ -178,8 +180,8 @@ TEST(SteeringDistance, HasThePrintedTable) {
 }
 
 TEST(SteeringDistance, FitsIntoTheArcFromThePrintedRadiusOn) {
-  // The ramp fits into the arc for r >= these; the sign changes within the last digit.
-  // The page rounds the last one, 4.84045, up to 4.841.
+  // The ramp fits into the arc for radii from these values on; the sign changes within the last
+  // digit. The page rounds the last one, 4.84045, up to 4.841.
   const std::vector<std::pair<double, double>> table{
       {30.0, 10.018}, {45.0, 8.132}, {60.0, 7.002}, {90.0, 5.652}, {120.0, 4.840}};
   for (const auto& [degrees, radius] : table) {
@@ -193,8 +195,8 @@ TEST(SteeringDistance, FitsIntoTheArcFromThePrintedRadiusOn) {
   }
 }
 
-/// Heading that a turn misses [rad, <= 0] when both its ramps are centerd on the tangent points and
-/// fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
+/// Heading that a turn lacks [rad, <= 0] if both of its ramps are centered on the tangent points
+/// and fit into the arc: (v/(L omega)) (-2 ln cos delta - delta tan delta).
 double TurnHeadingDefect(const VehicleParams& params, double steering, double speed) {
   const double scale = speed / (params.wheelbase * params.steering_rate);
   return scale * (-2.0 * std::log(std::cos(steering)) - steering * std::tan(steering));
@@ -219,7 +221,7 @@ TEST(TurnHeadingDefect, HasThePrintedValues) {
 
 TEST(TurnHeadingDefect, IsOfFourthOrder) {
   // -2 ln cos d - d tan d = -d^4/6 - 4 d^6/45 - ...: below 0.1 rad the second term is 0.54 % of the
-  // first, the third ten times less again.
+  // first, and the third is another ten times smaller.
   const double scale = kSpeed / (2.7 * ReferenceCar().steering_rate);
   for (const double steering : {0.02, 0.05, 0.1}) {
     const double first = -scale * std::pow(steering, 4) / 6.0;
@@ -260,7 +262,7 @@ TEST(RollOut, MissesTheArcsHeadingByTheDefect) {
 }
 
 TEST(RollOut, TruncatedTurnTurnsSeventyDegrees) {
-  // 90 deg at 5.1 m peaks at 0.4021 rad and turns the rear axle by 70.2771 deg.
+  // 90 deg at 5.1 m reaches at most 0.4021 rad and turns the rear axle by 70.2771 deg.
   const double arc = 5.1 * kPi / 2.0;
   const SteeringSchedule schedule({{5.0, 5.0 + arc, ReferenceCar().steering_limit}}, kSlope);
   const KinematicState peak = RollOut(ReferenceCar(), Start(), schedule, 5.0 + arc, 0.05);
@@ -285,7 +287,7 @@ TEST(RollOut, DrivesTheDistance) {
 }
 
 TEST(RollOut, IsOfFourthOrder) {
-  // Halving the step of a fourth-order method divides the error by 16. Ten and not 16 leaves room
+  // Halving the step of a fourth-order method divides the error by 16. The bound of 10 leaves room
   // for the next order.
   const SteeringSchedule schedule({{5.0, 20.0, 0.4}, {25.0, 40.0, -0.4}}, kSlope);
   for (const ReferencePoint reference :
@@ -307,10 +309,11 @@ TEST(RollOut, ChecksItsCaller) {
 }
 
 TEST(SteeringSchedule, ValueAtTheEndOfThePeriodDrivesTheScheduleAtAnyPeriod) {
-  // A controller that asks for the schedule's value at the end of its period. Where a ramp begins
-  // inside a period T, a share f after its start, the wheels set out f T early and rest (1 - f) T
-  // of ramp: the heading errs by v/L * omega f (1 - f) T^2 <= v omega T^2/(4 L). Everything else is
-  // exact: two beginnings make twice that, and the position at most that times the distance.
+  // A controller that commands the schedule's value at the end of its period. If a ramp begins
+  // inside a period T, at a fraction f of it, the wheels start f T early and rest for (1 - f) T of
+  // the ramp. The heading errs by v/L * omega f (1 - f) T^2 <= v omega T^2/(4 L). Everything else
+  // is exact. Two ramp starts cause twice that, and the position errs by at most that times the
+  // distance.
   const VehicleParams car = ReferenceCar();
   const double distance = 60.0;
   const SteeringSchedule schedule({{10.013, 30.007, SteeringForCurvature(car, 1.0 / 16.830685)}},

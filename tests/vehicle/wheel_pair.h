@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// A vehicle with differential drive, written by hand: b = 0.6 m, r_w = 0.165 m, turns on 0.4 m.
+/// A differential-drive vehicle with b = 0.6 m, r_w = 0.165 m and a turning radius of 0.4 m.
 inline VehicleParams WheelPair() {
   VehicleParams pair;
   pair.name = "wheel_pair";

@@ -15,13 +15,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Clients of a server on the loopback, which wait as long as it takes.
+/// Clients of a server on the loopback interface; they block without a timeout.
 namespace trackbed {
 
 namespace beast = boost::beast;
 namespace http = beast::http;
 
-/// The port of "http://127.0.0.1:4000/".
+/// The port of a URL such as "http://127.0.0.1:4000/".
 inline std::uint16_t PortOf(const std::string& url) {
   const std::size_t colon = url.rfind(':');
   return static_cast<std::uint16_t>(std::stoi(url.substr(colon + 1)));
@@ -33,7 +33,7 @@ class TcpClient {
     socket_.connect({boost::asio::ip::address_v4::loopback(), port});
   }
   void Write(const std::string& text) { boost::asio::write(socket_, boost::asio::buffer(text)); }
-  /// What comes until the other side closes.
+  /// Reads until the other side closes.
   std::string ReadAll() {
     std::string text;
     boost::system::error_code ignored;
@@ -49,7 +49,7 @@ class TcpClient {
 
 using Answer = http::response<http::string_body>;
 
-/// GET of a target, with further headers that `change` sets.
+/// Sends GET for a target; `change` may set more headers.
 inline Answer Get(std::uint16_t port, const std::string& target,
                   const std::function<void(http::request<http::empty_body>&)>& change = {}) {
   http::request<http::empty_body> request{http::verb::get, target, 11};
@@ -67,7 +67,7 @@ inline Answer Get(std::uint16_t port, const std::string& target,
   return parser.release();
 }
 
-/// A page's WebSocket.
+/// The WebSocket client of a page.
 class LiveClient {
  public:
   explicit LiveClient(std::uint16_t port, const std::string& origin = "",

@@ -34,7 +34,7 @@ TEST(Pace, HoldsWhereItIsPaused) {
   EXPECT_EQ(pace.AllowedAt(100.0), 2.5);
   EXPECT_EQ(pace.MomentOf(2.5), -kInfinity);
   EXPECT_EQ(pace.MomentOf(2.75), kInfinity);
-  pace.Pause(9.0);  // a second time changes nothing
+  pace.Pause(9.0);  // repeating it changes nothing
   EXPECT_EQ(pace.AllowedAt(100.0), 2.5);
 }
 
@@ -43,7 +43,7 @@ TEST(Pace, GoesOnFromWhereItWasPaused) {
   pace.Pause(2.0);
   pace.Resume(2.0, 10.0);
   EXPECT_EQ(pace.AllowedAt(11.0), 6.0);
-  pace.Resume(2.0, 50.0);  // a second time changes nothing
+  pace.Resume(2.0, 50.0);  // repeating it changes nothing
   EXPECT_EQ(pace.AllowedAt(11.0), 6.0);
 }
 
@@ -65,14 +65,14 @@ TEST(Pace, ChangesItsSpeedWithoutAJump) {
 
 TEST(Pace, DoesNotMakeUpForTimeThatASlowSimulationLost) {
   Pace pace(1.0, false);
-  pace.KeepUp(5.0, 5.05);  // 50 ms late: made up for
+  pace.KeepUp(5.0, 5.05);  // the 50 ms of delay are caught up
   EXPECT_EQ(pace.AllowedAt(6.0), 6.0);
   pace.KeepUp(5.0, 8.0);
   EXPECT_EQ(pace.AllowedAt(8.0), 5.0);
   EXPECT_EQ(pace.AllowedAt(9.0), 6.0);
 }
 
-/// Plants that do nothing but ask the clock, `periods` times each.
+/// Plants that only query the clock, `periods` times each.
 class Plants {
  public:
   Plants(DriveClock& clock, std::size_t count, int periods) : clock_(clock), ticks_(count, -1) {
@@ -90,7 +90,7 @@ class Plants {
         }
         clock_.End(plant);
         const std::lock_guard lock(mutex_);
-        ticks_[plant] = std::numeric_limits<int>::max() / 2;  // takes no part
+        ticks_[plant] = std::numeric_limits<int>::max() / 2;  // does not take part
       }));
     }
   }
@@ -103,7 +103,7 @@ class Plants {
     const std::lock_guard lock(mutex_);
     return *std::max_element(ticks_.begin(), ticks_.end());
   }
-  /// The largest difference between plants at any time, in periods.
+  /// Joins the threads. Returns the largest difference between plants at any time, in periods.
   int Join() {
     for (std::future<void>& plant : running_) {
       plant.get();
@@ -131,7 +131,7 @@ TEST(DriveClock, StepsAllPlantsByOnePeriod) {
   Plants plants(clock, 2, 1000);
   for (int step = 0; step < 20; ++step) {
     plants.WaitFor(step);
-    EXPECT_EQ(plants.Most(), step);  // nobody went on without being asked
+    EXPECT_EQ(plants.Most(), step);  // no plant advances unasked
     clock.Step();
   }
   clock.Release();

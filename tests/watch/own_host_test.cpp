@@ -18,7 +18,7 @@ TEST(OwnHost, IsTheAddressOrLocalhost) {
   EXPECT_TRUE(IsOwnHost("192.168.7.1:80", kLan));
 }
 
-// A name leads to whatever its owner's DNS says: a page of that name would be of the same origin.
+// DNS can point any name at this host; a page of that name would have the same origin.
 TEST(OwnHost, IsNoOtherName) {
   for (const char* host :
        {"evil.example", "evil.example:4000", "localhost.evil.example", "127.0.0.1.evil.example",

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using Close = beast::websocket::close_code;
 
-/// A run that waits at its start, for requests of all kinds. After each it must still serve.
+/// A run that waits at its start and gets all kinds of requests. It must still serve after each.
 class ServerOfARun : public testing::Test {
  protected:
   [[nodiscard]] std::uint16_t port() const { return run_.port(); }
@@ -25,7 +25,7 @@ class ServerOfARun : public testing::Test {
     LiveClient client(port());
     EXPECT_EQ(client.HearOf("rows").at("plants")[0].at("rows").size(), 1U);
   }
-  /// The answer to bytes as they are, until the server closes.
+  /// Sends raw bytes and returns the answer until the server closes.
   [[nodiscard]] std::string AnswerTo(const std::string& bytes) const {
     TcpClient client(port());
     client.Write(bytes);
@@ -105,7 +105,7 @@ TEST_F(ServerOfARun, OutlivesRequestsThatAreNotFinished) {
   }
 }
 
-/// How the server closes a WebSocket after what `say` does.
+/// Runs `say` on a WebSocket and returns the server's close reason.
 template <typename Say>
 beast::websocket::close_reason ClosedAfter(std::uint16_t port, const Say& say) {
   LiveClient client(port);
@@ -151,15 +151,16 @@ TEST_F(ServerOfARun, ClosesConnectionsBeyondItsBound) {
   for (int i = 0; i < 64; ++i) {
     clients.push_back(std::make_unique<TcpClient>(port()));
   }
-  // Those before are accepted by the time that this one is.
+  // The server accepts connections in order, so the earlier ones are accepted before this one.
   EXPECT_EQ(TcpClient(port()).ReadAll(), "");
   clients.clear();
-  // Until the server has seen that they have gone.
+  // Waits until the server has noticed that they have gone.
   while (AnswerTo("GET / HTTP/1.1\r\nHost: " + Host() + "\r\nConnection: close\r\n\r\n").empty()) {
   }
 }
 
-// One that never reads, while thousands of rows come: others are not held up, and nor is the end.
+// A client that never reads while thousands of rows arrive must delay neither other clients nor the
+// end of the run.
 TEST(Server, IsNotHeldUpByAPageThatDoesNotRead) {
   const TempFolder folder;
   WatchedRun run(Corner(), folder.path() / "out",

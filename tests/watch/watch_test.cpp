@@ -1,3 +1,6 @@
+// Tests watched runs with WebSocket clients in place of pages: streamed rows, commands, several
+// pages, interruption and errors.
+
 #include "trackbed/watch/watch.h"
 
 #include <gmock/gmock.h>
@@ -26,7 +29,7 @@ using testing::Not;
 
 constexpr double kMax = std::numeric_limits<double>::infinity();
 
-/// What a page has of each plant after all that it has been told.
+/// A page's data for one plant after all messages so far.
 struct Page {
   std::vector<json> rows;
   std::vector<json> poses;
@@ -41,7 +44,7 @@ struct Page {
   }
 };
 
-/// A page, with what it has been told so far.
+/// A WebSocket client with the data received so far.
 class Listener : public LiveClient {
  public:
   using LiveClient::LiveClient;
@@ -63,14 +66,14 @@ class Listener : public LiveClient {
     } while (message.at("type") != type);
     return message;
   }
-  /// Until there are so many rows of each plant.
+  /// Receives until every plant has `count` rows.
   void HearRows(std::size_t count) {
     const auto has = [&](const Page& page) { return page.rows.size() >= count; };
     while (plants.empty() || !std::all_of(plants.begin(), plants.end(), has)) {
       Hear();
     }
   }
-  /// Until the run has ended.
+  /// Receives until the run has ended.
   const std::vector<Page>& HearAll() {
     HearOf("finished");
     return plants;
@@ -94,7 +97,7 @@ const std::string kTwoPlants =
     "drive: {plants: [kinematic, mujoco]}\n"
     "expect: {reach_goal: 0.5}\n";
 
-// A watched run and one of RunMission: the clock, its pauses and the threads change nothing.
+// A watched run writes the same bytes as RunMission: the clock, pauses and threads change nothing.
 TEST(Watch, LeavesTheBytesOfARun) {
   const TempFolder folder;
   const Scenario scenario = Corner(kTwoPlants);
@@ -138,12 +141,12 @@ TEST(Watch, StreamsTheRowsThatTheReportHas) {
       }
       ASSERT_EQ(pages[plant].rows[row], expected) << row;
     }
-    // Poses at most every 1/30 s, from a log every 1/60 s.
+    // Poses are sent at most every 1/30 s; the log has one every 1/60 s.
     const Table states = ReadCsv(out / run_folder::StateCsv(plant == 0 ? "kinematic" : "mujoco"));
     EXPECT_NEAR(static_cast<double>(pages[plant].poses.size()),
                 static_cast<double>(states.rows()) / 2.0, 1.0);
     for (std::size_t i = 0; i < pages[plant].poses.size(); ++i) {
-      // Rounded to 1e-4.
+      // Values are rounded to 1e-4.
       EXPECT_NEAR(pages[plant].poses[i][0].get<double>(), states.at(2 * i, 0), 0.51e-4);
       EXPECT_NEAR(pages[plant].poses[i][1].get<double>(),
                   states.at(2 * i, static_cast<std::size_t>(states.Find("x_m"))), 0.51e-4);
@@ -160,7 +163,7 @@ TEST(Watch, StepsByOneControlPeriodAndStops) {
     ASSERT_EQ(client.plants[0].rows.size(), rows);
     EXPECT_NEAR(client.plants[0].rows.back()[0].get<double>(),
                 0.02 * (static_cast<double>(rows) - 1.0),
-                1e-9);  // of six digits
+                1e-9);  // six digits
     client.Say(R"({"do":"step"})");
   }
   EXPECT_EQ(run.Interrupt().logs.at(0).status, DriveStatus::kInterrupted);
@@ -176,7 +179,7 @@ TEST(Watch, ShowsTwoPagesTheSameAndObeysBoth) {
   EXPECT_EQ(second.HearOf("state").at("speed"), 7.0);
   second.Say(R"({"do":"speed","speed":"max"})");
   second.Say(R"({"do":"resume"})");
-  while (first.HearOf("state").at("speed") != "max") {  // perhaps told of 7 before
+  while (first.HearOf("state").at("speed") != "max") {  // it may report the speed 7 first
   }
   const std::vector<Page>& one = first.HearAll();
   const std::vector<Page>& other = second.HearAll();
@@ -194,13 +197,13 @@ TEST(Watch, GivesAllRowsToAPageThatComesBack) {
     client.Say(R"({"do":"step"})");
     client.HearRows(2);
     before = client.plants;
-  }  // gone without a word
+  }  // disconnects without closing
   Listener client(run.port());
   client.Say(R"({"do":"resume"})");
   const std::vector<Page>& after = client.HearAll();
   ASSERT_GT(after[0].rows.size(), 100U);
   EXPECT_EQ(std::vector(after[0].rows.begin(), after[0].rows.begin() + 2), before[0].rows);
-  // And when nothing goes on any more.
+  // A client that connects after the end gets all rows, too.
   Listener late(run.port());
   EXPECT_EQ(late.HearAll()[0].rows, after[0].rows);
 }
@@ -255,7 +258,7 @@ TEST(Watch, LeavesTheEarlierResultUntilTheRunHasEnded) {
   LiveClient client(run.port());
   client.HearOf("rows");
   EXPECT_EQ(Files(out), before);
-  EXPECT_THROW(OutputFolder{out}, RunError);  // it is this run's
+  EXPECT_THROW(OutputFolder{out}, RunError);  // locked by this run
   run.Interrupt();
   EXPECT_NE(Files(out), before);
 }
@@ -306,7 +309,7 @@ TEST(Watch, ServesAFinishedRun) {
       {out}, {},
       {.serving =
            [&](const std::string& url) {
-             // It listens already; the answer comes when it serves.
+             // The server already listens; it answers once the run serves.
              body = std::async(std::launch::async, [url] { return Get(PortOf(url), "/").body(); });
            },
        .interrupted =

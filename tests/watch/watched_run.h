@@ -13,7 +13,7 @@
 
 namespace trackbed {
 
-/// A corner of some 10 s; `keys` are sections beside the mission.
+/// A corner of some 10 s; `keys`: YAML sections besides the mission.
 inline Scenario Corner(const std::string& keys = "drive: {plants: [kinematic]}\n") {
   return ParseScenario(
       "schema: 1\n"
@@ -24,7 +24,7 @@ inline Scenario Corner(const std::string& keys = "drive: {plants: [kinematic]}\n
       "corner.yaml", ".");
 }
 
-/// WatchRun in a thread of its own, interrupted at the latest when this goes.
+/// Executes WatchRun in a thread and interrupts it in the destructor at the latest.
 class WatchedRun {
  public:
   WatchedRun(const Scenario& scenario, const std::filesystem::path& folder, WatchOptions options) {
@@ -46,7 +46,7 @@ class WatchedRun {
   [[nodiscard]] const std::string& url() const { return url_; }
   [[nodiscard]] std::uint16_t port() const { return PortOf(url_); }
   [[nodiscard]] int finished() const { return finished_; }
-  /// Ctrl-C.
+  /// Interrupts the run like Ctrl-C.
   RunResult Interrupt() {
     interrupted_ = true;
     return result_.get();

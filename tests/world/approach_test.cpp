@@ -21,13 +21,15 @@ ClosestApproach Between(const World& world, const Pose2& from, const Pose2& to, 
 }
 
 TEST(ApproachBetween, FindsAThinWallThatTheCarJumpsOver) {
-  // Half a second at 30 m/s: 15 m, over a wall of 0.2 m that is clear of the car at both ends.
+  // Half a second at 30 m/s covers 15 m, past a wall of 0.2 m that is clear of the car at both
+  // ends.
   const VehicleParams car = ReferenceCar();
   const double front = car.length - car.rear_overhang;
   const World world{.obstacles = {{.footprint = {{front + 5.0, 0.0, 0.0}, 0.2, 3.0}}}};
   const ClosestApproach hit = Between(world, {}, {15.0, 0.0, 0.0}, 0.5);
   EXPECT_EQ(hit.clearance, 0.0);
-  // It may be any moment of the overlap: from where the front is at the wall on.
+  // The reported time may be any moment of the overlap, which begins when the front reaches the
+  // wall.
   EXPECT_GE(hit.time, 4.9 / 30.0 - 1e-12);
   EXPECT_LE(hit.time, (5.1 + car.length) / 30.0);
 }
@@ -40,8 +42,8 @@ TEST(ApproachBetween, FindsAThinBoxThatJumpsOverTheCar) {
 }
 
 TEST(ApproachBetween, IsTheSmallestOfManySamples) {
-  // Against a thousand samples in between; they are up to 1 cm of motion apart, so that the true
-  // minimum may lie 5 mm below theirs, and ours 5 mm or a hundredth above the true one.
+  // Compared with a thousand samples in between, up to 1 cm of motion apart. The true minimum may
+  // lie 5 mm below that of the samples, and the result 5 mm or 1 % above the true one.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   int hits = 0;
@@ -69,7 +71,7 @@ TEST(ApproachBetween, IsTheSmallestOfManySamples) {
     EXPECT_GE(found, least - 5e-3) << i;
     hits += least == 0.0 ? 1 : 0;
   }
-  EXPECT_GT(hits, 10);  // both kinds are there
+  EXPECT_GT(hits, 10);  // hits and misses both occur
   EXPECT_LT(hits, 190);
 }
 

@@ -16,10 +16,10 @@
 namespace trackbed {
 namespace {
 
-// A few operations on coordinates below 100 m.
+// Rounding: a few operations on coordinates below 100 m.
 constexpr double kMapRounding = 1e-12;
 
-/// A map from a picture, its first row at the top: '#' occupied, '?' unknown.
+/// A map from a picture, its first row at the top: '#' is occupied, '?' is unknown.
 GridMap Picture(const std::vector<std::string>& rows) {
   GridMap map{.X_WM = {},
               .cell = 1.0,
@@ -36,7 +36,7 @@ GridMap Picture(const std::vector<std::string>& rows) {
   return map;
 }
 
-/// Cells at random, those beside each other alike more often than not.
+/// Random cells, correlated with their neighbors.
 GridMap RandomMap(Random& random) {
   GridMap map{
       .X_WM = {random.Uniform(-20.0, 20.0), random.Uniform(-20.0, 20.0), random.Uniform(-3.0, 3.0)},
@@ -84,7 +84,7 @@ TEST(MergeCells, MakesFewRectangles) {
   EXPECT_TRUE(MergeCells(Picture({"...", ".?."}), UnknownCells::kFree).empty());
   EXPECT_EQ(MergeCells(Picture({".##.", ".##.", ".??."}), UnknownCells::kOccupied),
             (std::vector<CellRectangle>{{1, 0, 2, 3}}));
-  // The long stroke of each L is the larger rectangle.
+  // Each L is split so that its long stroke is one rectangle.
   EXPECT_EQ(MergeCells(Picture({"#...", "#...", "####"}), UnknownCells::kFree),
             (std::vector<CellRectangle>{{0, 0, 4, 1}, {0, 1, 1, 2}}));
   EXPECT_EQ(MergeCells(Picture({"#..", "#..", "#..", "##."}), UnknownCells::kFree),

@@ -20,7 +20,7 @@ const Bump kBump{.area = {{10.0, 0.0, 0.0}, 4.0, 6.0}, .height = 0.1, .edge = 0.
 const Superelevation kStretch{
     .area = {{0.0, 0.0, 0.0}, 60.0, 8.0}, .slope = 0.05, .transition_length = 10.0};
 
-/// One of each, turned and not.
+/// Ground with one element of each kind, rotated and not.
 Ground Hilly() {
   Ground ground;
   ground.grade = {0.03, -0.02};
@@ -40,13 +40,13 @@ TEST(RoadFactor, IsThatOfTheLastPatchOnThePoint) {
   EXPECT_EQ(RoadFactor(world, {5.0, 0.0}), 0.1);   // in both
   EXPECT_EQ(RoadFactor(world, {5.0, 3.9}), 0.1);   // in the second alone
   EXPECT_EQ(RoadFactor(world, {-9.0, 2.1}), 0.9);  // in neither
-  EXPECT_EQ(RoadFactor(world, {10.0, 2.0}), 0.5);  // a border belongs to its patch
+  EXPECT_EQ(RoadFactor(world, {10.0, 2.0}), 0.5);  // a patch includes its border
   std::swap(world.friction_patches[0], world.friction_patches[1]);
   EXPECT_EQ(RoadFactor(world, {5.0, 0.0}), 0.5);
 }
 
 TEST(RoadFactor, PatchesLieAlongTheirYaw) {
-  // Split friction along a road to the north: slippery on its left side.
+  // Split friction on a road to the north: slippery on its left side.
   const World world{.friction_patches = {{{{-1.0, 50.0, kPi / 2.0}, 100.0, 2.0}, 0.2}}};
   EXPECT_EQ(RoadFactor(world, {-0.1, 99.0}), 0.2);
   EXPECT_EQ(RoadFactor(world, {-1.9, 1.0}), 0.2);
@@ -75,7 +75,7 @@ TEST(GroundHeight, OfABumpIsACosineSquaredAlongTheWay) {
     for (const double y : {-2.5, 0.0, 2.4}) {
       EXPECT_NEAR(GroundHeight(ground, {x, y}), expected, Tolerance(kRounding)) << x << ", " << y;
     }
-    // Half way down the side it is half as high.
+    // Halfway down the side, the height is half.
     EXPECT_NEAR(GroundHeight(ground, {x, 2.75}), 0.5 * expected, Tolerance(kRounding)) << x;
     EXPECT_EQ(GroundHeight(ground, {x, -3.0}), 0.0);
   }
@@ -94,10 +94,10 @@ TEST(GroundHeight, OfASideSlopeRisesFromItsLowerEdgeAndComesDownBehindTheOther) 
     EXPECT_NEAR(height(0.0, -4.0), 0.0, Tolerance(kRounding));
     EXPECT_NEAR(height(0.0, -1.0), 0.05 * 3.0, Tolerance(kRounding));
     EXPECT_NEAR(height(19.0, 4.0), 0.05 * 8.0, Tolerance(kRounding));
-    EXPECT_NEAR(height(0.0, 8.0), 0.5 * 0.05 * 8.0, Tolerance(kRounding));  // half the embankment
+    EXPECT_NEAR(height(0.0, 8.0), 0.5 * 0.05 * 8.0, Tolerance(kRounding));  // half the slope
     EXPECT_EQ(height(0.0, 12.0), 0.0);
     EXPECT_EQ(height(0.0, -4.1), 0.0);
-    EXPECT_NEAR(height(25.0, 0.0), 0.5 * 0.05 * 4.0, Tolerance(kRounding));  // half the run-in
+    EXPECT_NEAR(height(25.0, 0.0), 0.5 * 0.05 * 4.0, Tolerance(kRounding));  // half the transition
     EXPECT_EQ(height(-30.0, 0.0), 0.0);
   }
 }
@@ -138,8 +138,9 @@ TEST(GroundSlope, IsThatOfFiniteDifferences) {
   const Ground ground = Hilly();
   Random random(2);
   const double step = 1e-5;
-  // Of the bump's sides: h (pi/2)^3 / (2 e)^3 * 8 is below 10 /m^2, so central differences are off
-  // by 10 step^2/6 = 2e-10, and rounding of heights below 10 m by 1e-15/step = 1e-10.
+  // The third derivative on the bump's sides, h (pi/2)^3 / (2 e)^3 * 8, is below 10 /m^2.
+  // Central differences err by 10 step^2/6 = 2e-10, and rounding of heights below 10 m adds
+  // 1e-15/step = 1e-10.
   const double tolerance = Tolerance(1e-9);
   int on_features = 0;
   for (int i = 0; i < 4000; ++i) {
@@ -152,7 +153,7 @@ TEST(GroundSlope, IsThatOfFiniteDifferences) {
     const Vec2 slope = GroundSlope(ground, p);
     on_features += slope == ground.grade ? 0 : 1;
     EXPECT_NEAR((slope - expected).norm(), 0.0, tolerance) << p.transpose();
-    // The normal stands on both ways across the ground.
+    // The normal is perpendicular to both tangents of the ground.
     const Eigen::Vector3d normal = GroundNormal(ground, p);
     EXPECT_NEAR(normal.norm(), 1.0, Tolerance(kRounding));
     EXPECT_GT(normal.z(), 0.0);

@@ -31,7 +31,8 @@ std::vector<double> CoarseHeights(const Terrain::Size& size) {
   return heights;
 }
 
-/// Differences over two blocks that are 0, with their slope, on the border of these.
+/// A terrain with height differences over two blocks; they and their slope are 0 on the blocks'
+/// border.
 Terrain WithHump() {
   const Terrain::Size size = FourByThree();
   Terrain terrain(size, CoarseHeights(size));
@@ -41,7 +42,7 @@ Terrain WithHump() {
   };
   terrain.Refine(1, 1, hump);
   terrain.Refine(2, 1, hump);
-  terrain.Refine(0, 0, hump);  // 0 all over
+  terrain.Refine(0, 0, hump);  // zero everywhere
   return terrain;
 }
 
@@ -53,7 +54,7 @@ TEST(Terrain, IsLevelAroundItsRectangle) {
     EXPECT_EQ(terrain.At(p).height, 2.0);
     EXPECT_EQ(terrain.At(p).slope, Vec2(0.0, 0.0));
   }
-  // It comes there with that height and without slope.
+  // The terrain continues with that height and zero slope.
   EXPECT_NEAR(terrain.At({-64.0, 60.0}).height, 2.0, Tolerance(kTerrainRounding));
   EXPECT_NEAR(terrain.At({64.0, 60.0}).slope.norm(), 0.0, Tolerance(kTerrainRounding));
   EXPECT_TRUE(terrain.IsRefined(1, 1) && terrain.IsRefined(2, 1));
@@ -75,7 +76,7 @@ TEST(Terrain, HasNoStepsAndNoKinksAtTheBordersOfBlocksAndCells) {
           std::pair(Vec2(other, 96.0 + line - kSide), Vec2(other, 96.0 + line + kSide))}) {
       const Terrain::Point one = terrain.At(a);
       const Terrain::Point two = terrain.At(b);
-      // Slopes stay below 2 and bends below 2 1/m.
+      // Slopes stay below 2, second derivatives below 2 1/m.
       EXPECT_NEAR(one.height, two.height, Tolerance(4.0 * kSide + kTerrainRounding));
       EXPECT_NEAR((one.slope - two.slope).norm(), 0.0, Tolerance(4.0 * kSide + kTerrainRounding));
     }
@@ -93,7 +94,8 @@ TEST(Terrain, HasTheSlopeOfItsHeight) {
     const Vec2 slope(
         (terrain.At(p + Vec2(kStep, 0)).height - terrain.At(p - Vec2(kStep, 0)).height),
         (terrain.At(p + Vec2(0, kStep)).height - terrain.At(p - Vec2(0, kStep)).height));
-    // Bends change by at most 5 1/m where two cells meet: half of that over a step is 2.5e-5.
+    // Second derivatives change by at most 5 1/m where two cells meet: half of that over a step is
+    // 2.5e-5.
     EXPECT_NEAR((terrain.At(p).slope - slope / (2.0 * kStep)).norm(), 0.0, Tolerance(5e-5));
   }
 }

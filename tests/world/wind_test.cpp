@@ -49,8 +49,8 @@ TEST(WindAt, OfAGustIntegratesToHalfItsPeakTimesItsDuration) {
   for (int i = 0; i < steps; ++i) {
     sum += step * WindAt(wind, {}, (i + 0.5) * step);
   }
-  // integral of V/2 (1 - cos(2 pi t/T)) over T = V T/2, and the midpoint rule is exact for it but
-  // for rounding: the gust spans a whole number of steps.
+  // The integral of V/2 (1 - cos(2 pi t/T)) over T is V T/2. The midpoint rule is exact up to
+  // rounding, because the gust spans a whole number of steps.
   EXPECT_NEAR(sum.y(), 0.5 * 12.0 * 3.0, Tolerance(1e-12));
   EXPECT_EQ(sum.x(), 0.0);
 }

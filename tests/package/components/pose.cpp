@@ -5,7 +5,7 @@
 #include <numbers>
 #include <string>
 
-/// A quarter of a circle of radius 1 to the left ends at (1, 1).
+/// A quarter circle to the left of radius 1 ends at (1, 1).
 int main() {
   const double quarter = std::numbers::pi / 2;
   const trackbed::Pose2 end = trackbed::MoveOnArc({}, quarter, quarter);

@@ -9,7 +9,7 @@
 #include "trackbed/path/bezier.h"
 #include "trackbed/planning/common/plan.h"
 
-/// What every local planner keeps.
+/// The guarantees of every local planner.
 namespace trackbed {
 
 void PrintTo(const AvoiderEntry& entry, std::ostream* out) {
@@ -32,7 +32,7 @@ TEST(LocalPlanners, AreNamedOnceAndHaveOptionsOfTheirOwn) {
   }
 }
 
-/// A box of 2 m in the middle of the turn.
+/// A box of 2 by 2 m in the middle of the turn.
 OrientedBox InTheMiddle(const Course& course) {
   const Pose2 at = course.OnArc(0.5);
   return {{at.x, at.y, 0.0}, 2.0, 2.0};
@@ -40,7 +40,8 @@ OrientedBox InTheMiddle(const Course& course) {
 
 TEST_P(EveryAvoider, LeavesAPlanThatNothingStandsInTheWayOf) {
   const Plan global = Course{}.Global();
-  // The car is 1.725 m wide: its side is 1.5 m from a box whose side is 2.3625 m off the path.
+  // The car is 1.725 m wide, so a box whose side is 2.3625 m from the path is 1.5 m from the car's
+  // side.
   const OrientedBox beside{{20.0, 3.3626, 0.0}, 2.0, 2.0};
   const Plan plan = Around(global, {beside}, GetParam().defaults);
   EXPECT_EQ(plan.reference.path.segments(), global.reference.path.segments());
@@ -57,9 +58,10 @@ TEST_P(EveryAvoider, LeavesTheWayToTheCurveAsItWas) {
   const Plan plan = Around(global, {InTheMiddle(course)}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
   const double leave = DiagnosticsJson(plan)["avoid"][0]["leave_s_m"].get<double>();
-  // S = r + v t_d before the arc, from 42.7 m on.
+  // The curve begins S = r + v t_d before the arc, which begins at 42.7 m.
   EXPECT_NEAR(leave, 42.7 - 22.7, Tolerance(0.1));
-  constexpr double kStep = 1e-6;  // [m]; where the steering jumps it may begin so much earlier
+  constexpr double kStep = 1e-6;  // [m]; where the steering jumps, the curve may begin this much
+                                  // earlier
   for (double s = 0.0; s < leave - kStep; s += 0.5) {
     EXPECT_EQ(plan.reference.path.At(s).pose, global.reference.path.At(s).pose);
     EXPECT_EQ(plan.schedule.At(s), global.schedule.At(s));
@@ -71,7 +73,7 @@ TEST_P(EveryAvoider, ComesBackToThePlan) {
   const Plan global = course.Global();
   const Plan plan = Around(global, {InTheMiddle(course)}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
-  // What follows moves by what the curve's pieces of path miss: see SegmentsThrough.
+  // The remaining path shifts by the error of the curve's path segments: see SegmentsThrough.
   const Pose2 end = plan.reference.path.At(plan.reference.path.length()).pose;
   const Pose2 goal = global.reference.path.At(global.reference.path.length()).pose;
   EXPECT_LE((end.position() - goal.position()).norm(), Tolerance(1e-6));
@@ -106,7 +108,7 @@ TEST_P(EveryAvoider, TellsHowNearItsCurveComes) {
   ASSERT_EQ(plan.blocked, "");
   const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
   const Stations curve{stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>()};
-  // Looked at every 0.05 m there, every 0.02 m here.
+  // The planner samples every 0.05 m, this test every 0.02 m.
   EXPECT_NEAR(stretch["clearance_m"].get<double>(),
               PathClearance(plan.reference.path, {box}, ReferenceCar(), curve),
               Tolerance(kBetweenSamples));
@@ -125,16 +127,16 @@ TEST_P(EveryAvoider, TheScheduleDrivesTheCurveOpenLoop) {
   const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
   const double leave = stretch["leave_s_m"].get<double>();
   const double back = stretch["return_s_m"].get<double>();
-  // The schedule has the curve's own angle every 0.1 m or less, and is straight in between.
+  // The schedule has the curve's own angle every 0.1 m or less, and is linear in between.
   for (double s = leave; s < back; s += 0.37) {
     EXPECT_NEAR(plan.schedule.At(s), SteeringForCurvature(ReferenceCar(), path.At(s).curvature),
                 Tolerance(1e-4));
   }
   const KinematicState end = RollOut(ReferenceCar(), {.pose = path.At(0.0).pose, .speed = kSpeed},
                                      plan.schedule, back, 0.05);
-  // Between two knots the wheels turn at their full rate and then rest: they lead the schedule by
-  // at most a knot, 0.1 m, which moves the path by no more than (0.1 m x heading changed) = 0.16 m;
-  // what is lost going one way comes back going the other.
+  // Between two knots the wheels turn at their full rate and then rest. They precede the schedule
+  // by at most the knot distance of 0.1 m, which moves the path by no more than 0.1 m times the
+  // heading change, 0.16 m. Opposite turns cancel most of that.
   EXPECT_NEAR((end.pose.position() - path.At(back).pose.position()).norm(), 0.0, Tolerance(0.05));
   EXPECT_LE(stretch["open_loop"]["end_distance_m"].get<double>(), 0.05);
 }

@@ -20,6 +20,10 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
+// Tests the avoidance maneuver in a turn against the listing and the printed numbers of
+// Skackauskas, dissertation, sections 5.1 to 5.10: layout, safe point, control points, Bezier
+// curve, run and search. Labels such as L9 are the listing's known defects, explained in
+// docs/published-experiments.md.
 namespace trackbed {
 namespace {
 
@@ -54,8 +58,8 @@ BezierCurve CurveThrough(const Points& points) {
   return BezierCurve({points.begin(), points.end()});
 }
 
-/// A car as long behind its rear axle as before it: the middle of its footprint drives along the
-/// curve, as in the listing.
+/// A car with equal overhang behind and ahead of its rear axle: the center of its footprint moves
+/// along the curve, as in the listing.
 VehicleParams CenteredCar() {
   VehicleParams car = ReferenceCar();
   car.rear_overhang = 0.5 * car.length;
@@ -74,8 +78,8 @@ void ExpectPoint(const Vec2& actual, const Vec2& expected, double tolerance) {
   EXPECT_NEAR(actual.y(), expected.y(), Tolerance(tolerance));
 }
 
-/// A problem that can be laid out, in every branch. The listing's arc counts from pi/2, so that
-/// the turn's own angle stays.
+/// A random problem with a valid layout, covering every branch. The listing's arc counts from pi/2,
+/// so the turn's own angle is kept.
 TurnManeuver RandomLiteral(Random& random) {
   const TurnSide side = random.Below(2) == 0 ? TurnSide::kLeft : TurnSide::kRight;
   const PassingSide passing_side = random.Below(2) == 0 ? PassingSide::kInner : PassingSide::kOuter;
@@ -142,7 +146,7 @@ TEST(LayOutTurn, ArcRunsFromEndToEnd) {
       EXPECT_NEAR((layout.arc[k].position - center).norm(), maneuver.radius, Tolerance(kRounding));
       EXPECT_LE(layout.arc[k].angle - layout.arc[k - 1].angle, 0.01 + Tolerance(kRounding));
     }
-    // The obstacle stands n sixths of the way along, and the safe point at the same angle.
+    // The obstacle is n sixths along the arc, and the safe point is at the same angle.
     const double angle = maneuver.obstacle_sixth / 6.0 * layout.arc.back().angle;
     EXPECT_NEAR(layout.safe_angle, angle, Tolerance(kRounding));
     const Vec2 out{std::sin(angle), -sign * std::cos(angle)};
@@ -156,7 +160,7 @@ TEST(LayOutTurn, LiteralGridHasThePrintedPoints) {
   const TurnLayout layout = LayOut(Literal(TurnSide::kLeft, PassingSide::kInner));
   EXPECT_EQ(layout.arc.size(), 131U);
   ExpectPoint(layout.arc.front().position, {22.8799, 0.0008}, Printed(4));
-  // The other end is exact: 15 degrees short of a quarter.
+  // The other end of the arc is exact: 90 - 15 = 75 degrees.
   EXPECT_NEAR(layout.arc.back().angle, 75.0 * kPi / 180.0, Tolerance(kRounding));
   EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, PassingSide::kInner, 0.0)).arc.size(), 158U);
 }
@@ -183,7 +187,7 @@ TEST(LayOutTurn, LiteralAnglesMissByLessThanAStep) {
     const TurnManeuver maneuver = RandomLiteral(random);
     SCOPED_TRACE(Describe(maneuver));
     const TurnLayout layout = LayOut(maneuver);
-    // What the steps leave over of the range, at most one step.
+    // The remainder of the range that the grid's steps leave, at most one step.
     const double late = layout.arc.front().angle;
     EXPECT_GE(late, -Tolerance(kRounding));
     EXPECT_LE(late, 0.01 + Tolerance(kRounding));
@@ -221,9 +225,9 @@ TEST(LayOutTurn, SafePointIsAsPrinted) {
   }
 }
 
-/// The listing's branches, with its parentheses mended. It has theta_m + 3 pi/2 - dec in the last
-/// one; with -theta_m in its place, as a first reading had it, the point would be at
-/// sigma = theta_m + dec, and no mirror of the left one.
+/// The listing's branches, with corrected parentheses. The last branch has theta_m + 3 pi/2 - dec.
+/// With -theta_m instead, the point would be at sigma = theta_m + dec, which is not the mirror
+/// image of the left turn's point.
 Vec2 SafePointByBranches(const TurnManeuver& m, double r_k, double theta_m) {
   const bool inner = m.inner_width >= m.outer_width;
   const double dec = m.reduction;
@@ -283,7 +287,7 @@ TEST(LayOutTurn, OneFormulaIsAllEightBranches) {
 }
 
 TEST(LayOutTurn, RefusesATurnTooTightToPassInside) {
-  // 2 SD + 2 IS_k + 2 w_a + 1 = 3 + 2 sqrt(2) + 3.45 + 1 = 10.2784... of radius is the limit.
+  // The limit of the radius is 2 SD + 2 IS_k + 2 w_a + 1 = 3 + 2 sqrt(2) + 3.45 + 1 = 10.2784... m.
   const double limit = 7.45 + std::sqrt(8.0);
   TurnManeuver maneuver;
   maneuver.radius = limit * (1.0 + 1e-12);
@@ -297,7 +301,7 @@ TEST(LayOutTurn, RefusesATurnTooTightToPassInside) {
             "passing on the inside needs 10.2784 m (safe distance, obstacle diagonal, car width "
             "and the 1 m kept free); the turn radius is 10 m");
   EXPECT_THROW(ControlPoints(maneuver, layout, ReferenceCar(), 0.0), InternalError);
-  // There is always a way around.
+  // Passing on the outside is always possible.
   maneuver.outer_width = 2.0;
   EXPECT_EQ(LayOutTurn(maneuver, ReferenceCar()).status, TurnStatus::kOk);
 }
@@ -308,7 +312,7 @@ TEST(LayOutTurn, RefusesAReductionThatLeavesNoTurn) {
   const TurnLayout layout = LayOutTurn(maneuver, ReferenceCar());
   EXPECT_EQ(layout.status, TurnStatus::kNoTurn);
   EXPECT_EQ(layout.reason, "a turn of 1.5708 rad less 1.5708 rad leaves no arc");
-  // One sixth of the literal grid's two points rounds to none.
+  // One sixth of the literal grid's two points rounds to zero points.
   maneuver.literal.grid = true;
   maneuver.obstacle_sixth = 1;
   maneuver.reduction = maneuver.turn_angle - 0.015;
@@ -322,7 +326,7 @@ TEST(LayOutTurn, NumbersOutOfRangeAreBugs) {
     change(maneuver);
     EXPECT_THROW(LayOutTurn(maneuver, ReferenceCar()), InternalError);
   };
-  // The listing's abs(r_1) suggests a negative radius for right turns: S would be wrong.
+  // The listing's abs(r_1) suggests a negative radius for right turns, but S would then be wrong.
   refused([](TurnManeuver& m) { m.radius = -20.0; });
   refused([](TurnManeuver& m) { m.speed = 0.0; });
   refused([](TurnManeuver& m) { m.delay = -0.1; });
@@ -339,7 +343,7 @@ TEST(LayOutTurn, NumbersOutOfRangeAreBugs) {
 
 // --- Control points ----------------------------------------------------------------------------
 
-/// The listing's branches.
+/// The control points by the listing's branches.
 Points PointsByBranches(const TurnManeuver& m, const TurnLayout& layout, double final_y) {
   const bool left = m.side == TurnSide::kLeft;
   const bool inner = m.inner_width >= m.outer_width;
@@ -448,7 +452,7 @@ TEST(ControlPoints, DefaultOnesAreAsPrinted) {
 }
 
 TEST(ControlPoints, LiteralRightTurnIsNoMirror) {
-  // L9: P_5 alone, by cos 75 degrees.
+  // L9: only P_5 differs, by cos 75 degrees.
   const Points left = ControlPointsFor(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
   const Points right = ControlPointsFor(Literal(TurnSide::kRight, PassingSide::kInner), -3.0);
   for (std::size_t k = 0; k < 8; ++k) {
@@ -496,7 +500,7 @@ TEST(TurnManeuver, RightTurnMirrorsTheLeftToTheLastBit) {
 }
 
 TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
-  // A reduction of 1e-9 turns the exit, whose far end lies r_1 + S < 43 m from the arc's center.
+  // A reduction of 1e-9 rotates the exit, whose far end lies r_1 + S < 43 m from the arc's center.
   constexpr double kSmall = 1e-9;
   for (const PassingSide passing_side : {PassingSide::kInner, PassingSide::kOuter}) {
     TurnManeuver none = Literal(TurnSide::kLeft, passing_side, 0.0);
@@ -507,8 +511,8 @@ TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
     for (std::size_t k = 0; k < 8; ++k) {
       ExpectPoint(a[k], b[k], 43.0 * kSmall + kRounding);
     }
-    // L18: the listing's P_5 to P_7 jump from the arc's end to beside the safe point: 7 m down on
-    // the inside. There, and nowhere else.
+    // L18: the listing's P_5 to P_7 jump from the arc's end to beside the safe point, 7 m down on
+    // the inside. All other points agree.
     none.literal = small.literal = {.right_angle_rule = true};
     const Points c = ControlPointsFor(none, 3.0);
     const Points d = ControlPointsFor(small, 3.0);
@@ -557,9 +561,9 @@ TEST(TurnManeuver, CurveIsTheListingsOwnCheck) {
 TEST(TurnManeuver, DerivativesAreThoseOfTheCurve) {
   const Points p = ControlPointsFor(Literal(TurnSide::kRight, PassingSide::kOuter), 3.0);
   const BezierCurve curve = CurveThrough(p);
-  // A central difference misses by h^2/6 of the third derivative. Those of the curve's first and
-  // second are at most 210 * 8 and 840 * 16 times the largest coordinate, 51 m, and rounding adds
-  // 1e-13/h.
+  // A central difference errs by h^2/6 times the third derivative. The third derivatives of the
+  // curve's first and second derivatives are at most 210 * 8 and 840 * 16 times the largest
+  // coordinate, 51 m. Rounding adds 1e-13/h.
   constexpr double kStep = 1e-5;
   for (double u = 0.02; u < 0.99; u += 0.02) {
     const Vec2 first = (curve.At(u + kStep) - curve.At(u - kStep)) / (2.0 * kStep);
@@ -584,7 +588,7 @@ TEST(SimulateManeuver, DefaultDetailsAreAsPrinted) {
 
 // --- The run ---------------------------------------------------------------------------------
 
-/// The largest rate between neighbors of the steering signal, as the printed numbers have it.
+/// The largest steering rate between neighboring samples, computed as for the printed numbers.
 double LargestQuotient(const ManeuverRun& drive) {
   double largest = 0.0;
   for (std::size_t i = 1; i < drive.samples.size(); ++i) {
@@ -616,9 +620,8 @@ TEST(SimulateManeuver, TableIsAsPrinted) {
   constexpr PassingSide kInner = PassingSide::kInner;
   constexpr PassingSide kOuter = PassingSide::kOuter;
   constexpr double kDec = kPi / 12.0;
-  // V_L_1's clearance is printed as 4.59, which takes every second sample (4.586); all of them, and
-  // four times as many, come to 4.5847.
-  // Durations that are not printed are the length's third.
+  // The clearance of V_L_1 is printed as 4.59, from every second sample (4.586). All samples, and
+  // four times as many, give 4.5847. Durations that are not printed are a third of the length.
   const auto third = [](double length) { return Value{length / 3.0, 4}; };
   // clang-format off
   const std::vector<Row> rows{
@@ -660,14 +663,15 @@ TEST(SimulateManeuver, TableIsAsPrinted) {
     expect(LargestQuotient(drive), row.rate);
     expect(drive.test_distance, row.test_distance);
     expect(drive.clearance, {row.clearance, 2});
-    // The rate at the samples is not the mean rate between them. Most of the change is at the
-    // curve's ends, where half of the first interval lies between the two: 2 % of the rate.
+    // The rate at a sample differs from the mean rate between samples. Most of the change occurs at
+    // the curve's ends, where half of the first interval lies between the two: 2 % of the rate.
     EXPECT_GE(drive.steering_rate_max, LargestQuotient(drive) * (1.0 - 1e-4));
     EXPECT_LE(drive.steering_rate_max, LargestQuotient(drive) * 1.025);
-    // Where the car's rear axle is on the path: up to 0.08 m from that.
+    // With the car's rear axle on the path instead, the clearance differs by up to 0.08 m.
     EXPECT_NEAR(Drive(row.maneuver, row.final_y, ReferenceCar()).clearance, drive.clearance,
                 Tolerance(0.08 + Printed(2)));
-    // The point test passes in all of them, on the outer side in vain.
+    // The point test passes in all rows, also on the outer side where the footprint comes too
+    // close.
     EXPECT_TRUE(drive.test_passed);
     EXPECT_TRUE(drive.steerable);
     EXPECT_EQ(drive.keeps_clear, row.maneuver.passing_side() == kInner);
@@ -680,8 +684,8 @@ TEST(SimulateManeuver, OuterRingComesAsCloseAsPrinted) {
   EXPECT_NEAR(Drive(maneuver, 0.0).clearance, 0.60, Tolerance(Printed(2)));
   EXPECT_NEAR(Drive(maneuver, -2.0).clearance, 0.94, Tolerance(Printed(2)));
   EXPECT_NEAR(Drive(maneuver, -5.0).clearance, 1.41, Tolerance(Printed(2)));
-  // Printed as 0.78, which takes every fourth sample (0.7755). A script of its own, with the
-  // footprints' sides instead of separating axes, finds 0.77413, 0.77400 and 0.77390 with 101, 501
+  // Printed as 0.78, from every fourth sample (0.7755). An independent script that uses the
+  // footprints' sides instead of separating axes finds 0.77413, 0.77400 and 0.77390 with 101, 501
   // and 4001 samples.
   EXPECT_NEAR(Drive(maneuver, -1.0).clearance, 0.77400, Tolerance(Printed(5)));
 }
@@ -704,7 +708,7 @@ TEST(SimulateManeuver, HeightFromTheSearchShortensTheInnerWay) {
 }
 
 TEST(SimulateManeuver, ListingsSteeringIsTooSmallByTheFactorPrinted) {
-  // L1: atan(L)/R instead of atan(L/R).
+  // L1: the listing has atan(L)/R in place of atan(L/R).
   EXPECT_NEAR(std::atan(2.7), 1.2161, Tolerance(Printed(4)));
   EXPECT_NEAR(std::atan(2.7) / 2.7, 0.450, Tolerance(Printed(3)));
   const ManeuverRun drive = Drive(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
@@ -712,7 +716,7 @@ TEST(SimulateManeuver, ListingsSteeringIsTooSmallByTheFactorPrinted) {
   for (const ManeuverSample& sample : drive.samples) {
     const double listing = std::atan(2.7) * sample.curvature;
     largest = std::max(largest, std::abs(listing));
-    // atan x = x (1 - x^2/3 + ...) with x <= 0.0863: the factor holds to 0.25 % of itself.
+    // atan x = x (1 - x^2/3 + ...) with x <= 0.0863, so the factor is accurate to 0.25 %.
     EXPECT_NEAR(listing, std::atan(2.7) / 2.7 * sample.steering,
                 std::abs(listing) * 0.0025 + Tolerance(kRounding));
     EXPECT_NEAR(std::tan(sample.steering), 2.7 * sample.curvature, Tolerance(kRounding));
@@ -737,7 +741,8 @@ TEST(SimulateManeuver, SamplesCountChordsAtConstantSpeed) {
   }
   EXPECT_EQ(drive.length, drive.samples.back().s);
   EXPECT_EQ(drive.duration, drive.length / 2.0);
-  // Chords of 0.2 m on radii above 20 m: short by (0.2/20)^2/24 = 4e-6 of the length at most.
+  // Chords of 0.2 m on radii above 20 m are too short by at most (0.2/20)^2/24 = 4e-6 of the
+  // length.
   EXPECT_LT(drive.length, curve.Length());
   EXPECT_NEAR(drive.length, curve.Length(), Tolerance(4e-6 * drive.length));
 }
@@ -745,7 +750,8 @@ TEST(SimulateManeuver, SamplesCountChordsAtConstantSpeed) {
 TEST(SimulateManeuver, TestPointIsTwoSamplesBeforeTheStation) {
   for (int n = 1; n <= 5; ++n) {
     const ManeuverRun drive = Drive(Literal(TurnSide::kLeft, PassingSide::kInner, 0.2, n), 3.0);
-    // The listing's indices from 1: B_sum(m) is s of sample m + 1, the test point P(m - 1).
+    // The listing's indices count from 1: B_sum(m) is s of sample m + 1, the test point is P(m -
+    // 1).
     std::size_t m = 1;
     while (drive.samples[m].s < n / 6.0 * drive.length - 2.0) {
       ++m;
@@ -768,7 +774,7 @@ TEST(SimulateManeuver, TestCornerIsTheListings) {
 }
 
 TEST(SimulateManeuver, AcceptsFromTheSafeDistanceOn) {
-  // SD + w_a/2 = 2.3625 for the point, SD for the footprint: both at their limits.
+  // SD + w_a/2 = 2.3625 for the point, SD for the footprint: both exactly at their limits.
   const TurnManeuver base = Literal(TurnSide::kLeft, PassingSide::kOuter);
   const TurnLayout layout = LayOut(base);
   const BezierCurve curve = CurveThrough(ControlPoints(base, layout, ReferenceCar(), -3.0));
@@ -799,7 +805,7 @@ TEST(SimulateManeuver, KnowsTheLimitsOfTheSteering) {
   EXPECT_TRUE(steerable(drive.steering_max, drive.steering_rate_max));
   EXPECT_FALSE(steerable(0.999 * drive.steering_max, drive.steering_rate_max));
   EXPECT_FALSE(steerable(drive.steering_max, 0.999 * drive.steering_rate_max));
-  // No direction where it starts.
+  // The curve has no direction at its start.
   const BezierCurve stuck({{0.0, 0.0}, {0.0, 0.0}, {10.0, 1.0}, {20.0, 0.0}});
   EXPECT_FALSE(SimulateManeuver(maneuver, layout, ReferenceCar(), stuck).steerable);
 }
@@ -841,8 +847,8 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
   };
   const std::vector<Row> rows{{TurnSide::kLeft, PassingSide::kInner, 1.05, 0.38, 1.98, 20.7},
                               {TurnSide::kLeft, PassingSide::kOuter, -1.72, -2.67, -1.00, 41.9},
-                              // With mirrored roles; how near they come is not printed, because
-                              // rounding down takes the inner one of a right turn further.
+                              // With mirrored roles. The nearest distance is not printed, because
+                              // rounding down shifts the inner safe point of a right turn further.
                               {TurnSide::kRight, PassingSide::kInner, -1.72, -2.67, -1.00, 0.0},
                               {TurnSide::kRight, PassingSide::kOuter, 1.05, 0.38, 1.98, 0.0}};
   constexpr int kSeeds = 2000;
@@ -856,8 +862,8 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
       heights.push_back(tree.final_y);
       nearest = std::min(nearest, tree.goal_distance);
     }
-    // A printed quantile p of 2000 other draws lies, in ours, at a rank that spreads by
-    // sqrt(2 n p (1 - p)); four of these, either way, of a value known to half a unit.
+    // A printed quantile p of 2000 other draws has a rank in our draws with a standard deviation of
+    // sqrt(2 n p (1 - p)). Four of these on either side, for a value known to half a unit.
     const auto expect_quantile = [&](double p, double printed) {
       const double spread = Tolerance(4.0 * std::sqrt(2.0 * kSeeds * p * (1.0 - p)));
       const double half = Printed(2);
@@ -871,9 +877,9 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
     expect_quantile(0.5, row.median);
     expect_quantile(0.05, row.low);
     expect_quantile(0.95, row.high);
-    // The smallest of 2000 draws; 200 000 reach 20.55 and 41.83.
+    // The smallest of 2000 draws; 200 000 draws reach 20.55 and 41.83.
     EXPECT_GE(nearest, row.nearest - Tolerance(Printed(1)));
-    // Eleven steps of a meter are too few for any of them.
+    // Eleven steps of one meter cannot reach any of them.
     EXPECT_GE(nearest, layout.safe_point.norm() - 11.0 - Tolerance(kRounding));
   }
 }
@@ -895,7 +901,7 @@ TEST(LiteralRrtStar, GrowsByStepsFromTheNearestNode) {
         (maneuver.side == TurnSide::kLeft) == (maneuver.passing_side() == PassingSide::kInner);
     for (std::size_t k = 1; k < tree.nodes.size(); ++k) {
       const TreeNode& node = tree.nodes[k];
-      // Samples lie on one side of the start, and so does the tree.
+      // All samples, and therefore the tree, lie on one side of the start.
       EXPECT_GE(up ? node.position.y() : -node.position.y(), -Tolerance(kRounding));
       double nearest = std::numeric_limits<double>::infinity();
       double cheapest = std::numeric_limits<double>::infinity();
@@ -908,7 +914,8 @@ TEST(LiteralRrtStar, GrowsByStepsFromTheNearestNode) {
         }
       }
       EXPECT_LE(nearest, 1.0 + Tolerance(kRounding));
-      // What is nearest to the sample is nearest on the way to it; nodes may share a place.
+      // The parent of a node is the node nearest to it: the node nearest to the sample is also
+      // nearest to all points on the way to the sample. Nodes may coincide.
       bool by_nearest = false;
       for (std::size_t j = 0; j < k; ++j) {
         const double length = (tree.nodes[j].position - node.position).norm();
@@ -946,13 +953,13 @@ TEST(LiteralRrtStar, CrossesNoSideOfTheObstacle) {
     }
     return nodes;
   };
-  // A wall within reach, and a speck in the same place: the wall hides samples.
+  // A wall within reach, and a tiny obstacle in the same place: only the wall blocks samples.
   EXPECT_EQ(grow({{12.0, 6.5, 0.0}, 0.01, 0.01}), 200U * 12U);
   EXPECT_LT(grow({{12.0, 6.5, 0.3}, 18.0, 3.0}), 200U * 10U);
 }
 
 TEST(LiteralRrtStar, CountsALineWithinTheObstacleAsFree) {
-  // L13: everything is inside this one.
+  // L13: every sample is inside this obstacle.
   const TurnManeuver maneuver;
   TurnLayout layout = LayOut(maneuver);
   layout.obstacle.length = layout.obstacle.width = 200.0;

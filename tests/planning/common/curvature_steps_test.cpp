@@ -16,9 +16,9 @@ namespace trackbed {
 namespace {
 
 TEST(StepSpeed, LeadsOffByTheDeviation) {
-  // Where the ramp ends, half of S = 4.9 m after the step. The formula takes the curvature of the
-  // ramp for linear; but tan(delta) is convex, so that the ramp turns (-ln cos delta)/(delta tan
-  // delta) = 0.494 of kappa S instead of a half: 0.003 rad short, 0.007 m over S/2. The rest is
+  // The offset where the ramp ends, half of S = 4.9 m after the step. The formula assumes linear
+  // curvature on the ramp. Because tan(delta) is convex, the ramp turns by (-ln cos delta)/(delta
+  // tan delta) = 0.494 of kappa S instead of a half: 0.003 rad less, 0.007 m over S/2. The rest is
   // cosines of 0.12 rad, below 1 %.
   const double curvature = 0.1;
   const double speed = StepSpeed(ReferenceCar(), 0.0, curvature);
@@ -53,8 +53,8 @@ TEST(PlanSteps, CapsLieAboutTheStepsAndNotAtCusps) {
 }
 
 TEST(PlanSteps, KeepRampsApartAndStopWhereTheyWouldOverlap) {
-  // Half a meter between two steps: the wheels turn by the first before the second is due, at
-  // 0.5 m omega/atan(0.27) = 0.285 m/s.
+  // Two steps half a meter apart: the wheels finish the first before the second is due at 0.5 m
+  // omega/atan(0.27) = 0.285 m/s.
   const std::vector<Segment> segments{
       {.length = 20.0}, {.length = 0.5, .curvature = 0.1}, {.length = 20.0}};
   const double room = 0.5 * ReferenceCar().steering_rate / std::atan(0.27);
@@ -68,8 +68,8 @@ TEST(PlanSteps, KeepRampsApartAndStopWhereTheyWouldOverlap) {
 }
 
 TEST(RampsOfSteps, AskForTheSteeringRateAndNoMore) {
-  // Random arcs and straights: over every ramp, the speed that it names turns the wheels at their
-  // rate; ramps lie in order, apart, and within half of the pieces beside them.
+  // Random arcs and straights. On every ramp, the wheels turn at their rate at the reported speed.
+  // Ramps are ordered, disjoint, and within half of the adjacent pieces.
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 200; ++i) {

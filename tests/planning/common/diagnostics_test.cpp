@@ -17,7 +17,7 @@ using nlohmann::json;
 
 struct Leg {
   double cost = 0.0;
-  double start = 0.0;  ///< station
+  double start = 0.0;  ///< station [m]
 };
 
 void Visit(DiagnosticsVisitor& out, const Leg& leg) {
@@ -25,7 +25,7 @@ void Visit(DiagnosticsVisitor& out, const Leg& leg) {
   out.Number("start_s_m", leg.start);
 }
 
-/// Of a planner of a user's own.
+/// The diagnostics of a user-defined planner.
 struct OwnDiagnostics {
   int expansions = 0;
   std::vector<Leg> legs;

@@ -18,7 +18,7 @@
 namespace trackbed {
 namespace {
 
-/// With the limits of a car on tyres of friction 0.9.
+/// The car with the limits of tyres of friction 0.9.
 VehicleParams Car() {
   VehicleParams car = ReferenceCar();
   car.friction_lateral = 0.9;
@@ -38,7 +38,7 @@ PlanRequest Request(double speed, const std::vector<Vec2>& waypoints) {
           .speed = {.speed = speed, .acceleration = 1.0, .deceleration = 1.5}};
 }
 
-/// A course, as given.
+/// The plan of a course made of `pieces`.
 Plan Course(const PlanRequest& request, const std::vector<CoursePiece>& pieces) {
   return MakePlan(request, CourseOptions{.segments = pieces});
 }
@@ -52,7 +52,7 @@ std::vector<std::string> Kinds(const Plan& plan, const PlanRequest& request) {
 }
 
 TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {
-  // v^2/r = mu g: 0.9 * 9.81 * 20 m gives 13.29 m/s. It is reached by a ramp long enough for the
+  // v^2/r = mu g: 0.9 * 9.81 * 20 m gives 13.29 m/s. The ramp before the arc is long enough for the
   // wheels at any speed.
   PlanRequest request = Request(18.0, {{0.0, 0.0}});
   const std::vector<CoursePiece> pieces{{.length = 200.0, .curvature = 0.0},
@@ -66,7 +66,7 @@ TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {
   const double limit = std::sqrt(0.9 * 9.81 * 20.0);
   EXPECT_NEAR(plan.reference.speed.SpeedAt(275.0), limit, Tolerance(1e-9));
   EXPECT_TRUE(FindExcesses(plan, request).empty());
-  // On half the friction, by 1/sqrt(2).
+  // With half the friction, the speed falls by a factor of sqrt(2).
   request.friction = 0.5;
   const Plan wet = Course(request, pieces);
   ASSERT_TRUE(wet.ok()) << wet.reason;
@@ -81,7 +81,7 @@ TEST(Feasibility, RefusesOrAllowsAsTheScenarioSays) {
   request.infeasible = InfeasiblePolicy::kRefuse;
   const Plan refused = Course(request, pieces);
   EXPECT_EQ(refused.status, PlanStatus::kInfeasible);
-  // 18^2/20 = 16.2 m/s^2 of 0.9 * 9.81 = 8.83.
+  // 18^2/20 = 16.2 m/s^2 exceeds 0.9 * 9.81 = 8.83 m/s^2.
   EXPECT_NE(refused.reason.find("lateral acceleration 16.2 m/s^2"), std::string::npos)
       << refused.reason;
   EXPECT_NE(refused.reason.find(" exceeds 8.83 m/s^2 at "), std::string::npos) << refused.reason;
@@ -94,8 +94,8 @@ TEST(Feasibility, RefusesOrAllowsAsTheScenarioSays) {
 }
 
 TEST(Feasibility, SlowsDownWhereTheWheelsTurnTooSlowly) {
-  // atan(2.7 * 0.1) = 0.2637 rad within 2 m: 0.1506/(0.2637/2) = 1.14 m/s where the slope is that
-  // of a chord; atan bends by less than 3 % of it.
+  // The wheels turn by atan(2.7 * 0.1) = 0.2637 rad within 2 m. With the mean slope the speed is
+  // 0.1506/(0.2637/2) = 1.14 m/s; the slope of atan varies by less than 3 %.
   const PlanRequest request = Request(4.0, {{0.0, 0.0}});
   const Plan plan = Course(request, {{.length = 20.0, .curvature = 0.0},
                                      {.length = 2.0, .curvature_to = 0.1},
@@ -107,7 +107,7 @@ TEST(Feasibility, SlowsDownWhereTheWheelsTurnTooSlowly) {
 }
 
 TEST(Feasibility, RefusesAPathThatBeginsCarLengthsFromASmallCar) {
-  // A model of 2.7 um and a path 45 um beside it: less than a millimeter.
+  // A car of 2.7 um wheelbase and a path that begins 45 um beside it: all within a millimeter.
   PlanRequest request = Request(0.0, {{0.0, 0.0}, {1e-3, 0.0}, {2e-3, 0.0}});
   request.vehicle.wheelbase *= 1e-6;
   request.speed.speed = 1e-5;
@@ -123,10 +123,10 @@ TEST(Feasibility, RefusesAStartOnABendForACarThatRolls) {
   PlanRequest request = Request(3.0, {{0.0, 0.0}});
   const std::vector<CoursePiece> bend{{.length = 20.0, .curvature = 0.1}};
   EXPECT_EQ(Course(request, bend).status, PlanStatus::kInfeasible);
-  request.start_steering = std::atan(0.27);  // its wheels stand right
+  request.start_steering = std::atan(0.27);  // its wheels match the path's curvature
   EXPECT_TRUE(Course(request, bend).ok());
   request.start_steering = 0.0;
-  request.start_speed = 0.0;  // it turns them before it leaves
+  request.start_speed = 0.0;  // a car at rest turns its wheels before it starts
   EXPECT_TRUE(Course(request, bend).ok());
 }
 
@@ -139,7 +139,7 @@ TEST(Feasibility, RefusesAPathThatBeginsElsewhere) {
 }
 
 TEST(Feasibility, RefusesToBrakeHarderThanTheSpeedControlDoes) {
-  // From 8 m/s to rest within 10 m: 3.2 m/s^2, and the speed control gives 2 * 1.5.
+  // From 8 m/s to rest within 10 m takes 3.2 m/s^2; the speed control is limited to 2 * 1.5 m/s^2.
   PlanRequest request = Request(8.0, {{0.0, 0.0}});
   const Plan plan = Course(request, {{.length = 10.0, .curvature = 0.0}});
   EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
@@ -161,8 +161,8 @@ TEST(Feasibility, BrakesGentlyOnIce) {
   }
 }
 
-/// Random missions of every planner that leads through waypoints: a plan that is ok begins where
-/// and as the car is, whatever its heading, speed and wheels.
+/// Random missions for every waypoint planner: a successful plan starts at the car's pose, speed
+/// and steering, whatever these are.
 TEST(Feasibility, EveryPlanThatIsOkBeginsAsTheCarDoes) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -199,7 +199,7 @@ TEST(Feasibility, EveryPlanThatIsOkBeginsAsTheCarDoes) {
       EXPECT_TRUE(Kinds(plan, request).empty()) << Kinds(plan, request).front();
     }
   }
-  EXPECT_GT(planned, 60);  // and not all are refused
+  EXPECT_GT(planned, 60);  // and not all are rejected
 }
 
 }  // namespace

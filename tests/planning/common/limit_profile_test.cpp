@@ -14,20 +14,24 @@
 #include "trackbed/core/table.h"
 #include "trackbed/vehicle/params.h"
 
+// Tests speed profiles at the g-g-v limit against closed forms (friction, power, drag, slope, bank,
+// crest), checks the accelerations of random profiles against the diagram, and compares a lap with
+// calc_vel_profile of TUM's trajectory_planning_helpers (Heilmeier et al.).
 namespace trackbed {
 namespace {
 
 constexpr double kGrip = 0.8;  // mu
-// The largest square is found to 2^-24 of itself, in each interval anew; some hundred of them.
+// The squared speed is bisected to 2^-24 relative in each interval; the errors of some hundred
+// intervals add up.
 constexpr double kSearched = 1e-5;
 
-/// A point mass on friction alone.
+/// A point mass limited only by friction.
 GgvDiagram FrictionCircle(LongitudinalForces forces = {.mass = 1000.0, .rolling_mass = 1000.0}) {
   const double grip = kGrip * kGravity;
   return GgvDiagram(forces, {EllipticSection(grip, grip, grip)});
 }
 
-/// Stations h apart, all alike but for their place.
+/// Stations h apart with equal properties.
 std::vector<LimitStation> Alike(double length, double h, LimitStation station) {
   std::vector<LimitStation> stations;
   const auto count = std::lround(length / h);
@@ -65,7 +69,7 @@ TEST(LimitProfile, KeepsOnACircleWhatFrictionAllows) {
 }
 
 TEST(LimitProfile, SpeedsUpAndBrakesOnAStraightAsFrictionAllows) {
-  // v^2 = 2 mu g s from rest, and to it: the peak is in the middle, where a station is.
+  // v^2 = 2 mu g s from rest, and mirrored to rest: the peak is at the station in the middle.
   const auto stations = Alike(100.0, 0.5, {});
   const LimitSpeeds result =
       LimitSpeedsAlong(stations, FrictionCircle(), {.speed = 90.0}, 0.0, 0.0);
@@ -78,8 +82,9 @@ TEST(LimitProfile, SpeedsUpAndBrakesOnAStraightAsFrictionAllows) {
 }
 
 TEST(LimitProfile, IsLimitedByPower) {
-  // M v dv/ds = P: v^3 = v0^3 + 3 P s/M. Each interval takes the force at its faster end, so that
-  // a change of v by dv over it costs about dv/v of the interval's gain, half of that on average.
+  // M v dv/ds = P: v^3 = v0^3 + 3 P s/M. Each interval uses the force at its faster end. If v
+  // changes by dv over the interval, that costs about dv/v of the interval's gain, and half of it
+  // on average.
   const double power = 80e3;
   const double mass = 1200.0;
   const GgvDiagram car =
@@ -98,31 +103,31 @@ TEST(LimitProfile, IsLimitedByPower) {
     // dv of the first interval is P h/(M v0^2) = 0.6 m/s at h = 2 m; the error is below half of it.
     EXPECT_LT(worst, Tolerance(0.5 * power * h / (mass * start * start)));
     if (before > 0.0) {
-      EXPECT_NEAR(worst / before, 0.5, Tolerance(0.05));  // of first order
+      EXPECT_NEAR(worst / before, 0.5, Tolerance(0.05));  // first order
     }
     before = worst;
   }
 }
 
 TEST(LimitProfile, EndsItsAccelerationWhereDragIsAsStrongAsTheMotor) {
-  // F = c v^2: 40 m/s.
+  // The drag F = c v^2 limits the speed to 40 m/s.
   const GgvDiagram car =
       FrictionCircle({.mass = 1000.0, .rolling_mass = 1000.0, .drive_force = 640.0, .drag = 0.4});
   const LimitSpeeds result =
       LimitSpeedsAlong(Alike(20e3, 5.0, {}), car, {.speed = 90.0}, 10.0, 90.0);
-  // v^2 nears it with exp(-2 c s/m), 1e-7 at the end.
+  // v^2 approaches the limit with exp(-2 c s/m), 1e-7 at the end.
   EXPECT_NEAR(result.speeds.back(), 40.0, Tolerance(1e-4));
-  // From above it comes down by drag alone: v = v0 exp(-c s/m).
+  // From a higher speed the car slows down by drag alone: v = v0 exp(-c s/m).
   const GgvDiagram coasting =
       FrictionCircle({.mass = 1000.0, .rolling_mass = 1000.0, .drive_force = 1e-9, .drag = 0.4});
   const LimitSpeeds slower =
       LimitSpeedsAlong(Alike(1000.0, 0.5, {}), coasting, {.speed = 90.0}, 50.0, 90.0);
-  // The drag at the slower... faster end of each interval: 2 c h/m of it, half of that.
+  // Each interval uses the drag at one of its ends: 2 c h/m of it, half of that on average.
   EXPECT_NEAR(slower.speeds.back(), 50.0 * std::exp(-0.4), Tolerance(50.0 * 0.4 * 4e-4));
 }
 
 TEST(LimitProfile, BrakesAsASlopeAllows) {
-  // Along the slope mu g cos - g sin, seen from above times cos; and v^2/2 = that times s.
+  // Along the slope mu g cos - g sin, in plan view times cos; v^2/2 is that times s.
   const double slope = -0.2;
   const double cosine = 1.0 / std::hypot(1.0, slope);
   const auto stations = Alike(60.0, 0.5, {.grade = slope});
@@ -136,7 +141,7 @@ TEST(LimitProfile, BrakesAsASlopeAllows) {
 }
 
 TEST(LimitProfile, IsFasterOnABankThatHelps) {
-  // v^2 = R g (mu + tan)/(1 - mu tan) of a bend to the left that rises to the right.
+  // v^2 = R g (mu + tan)/(1 - mu tan) for a left bend whose bank rises to the right.
   for (const double bank : {-0.2, 0.0, 0.3}) {
     const double radius = 30.0;
     const auto stations = Alike(50.0, 1.0, {.curvature = 1.0 / radius, .bank = bank});
@@ -148,7 +153,7 @@ TEST(LimitProfile, IsFasterOnABankThatHelps) {
 }
 
 TEST(LimitProfile, KeepsTheWheelsOnACrest) {
-  // The load g + v^2 z_ss may fall to a twentieth.
+  // The crest may reduce the load g + v^2 z_ss to a twentieth.
   const auto stations = Alike(5.0, 1.0, {.crest = -0.02});
   const double v = std::sqrt(0.95 * kGravity / 0.02);
   const LimitSpeeds result = LimitSpeedsAlong(stations, FrictionCircle(), {.speed = 60.0}, v, 60.0);
@@ -156,7 +161,7 @@ TEST(LimitProfile, KeepsTheWheelsOnACrest) {
 }
 
 TEST(LimitProfile, BrakesBeforeIce) {
-  // A bend of 40 m on ice of a quarter of the grip, from 30 m on; before it a straight.
+  // From 30 m on, a bend of radius 40 m with a quarter of the grip; before it a straight.
   auto stations = Alike(60.0, 0.5, {});
   for (LimitStation& at : stations) {
     if (at.s >= 30.0) {
@@ -168,7 +173,7 @@ TEST(LimitProfile, BrakesBeforeIce) {
   const LimitSpeeds result =
       LimitSpeedsAlong(stations, FrictionCircle(), {.speed = 60.0}, 23.2704, 60.0);
   for (std::size_t i = 0; i < stations.size(); ++i) {
-    // The interval before the ice is in the bend at its end, where nothing is left for braking.
+    // The interval before the ice ends in the bend, where no grip is left for braking.
     const double left = std::max(0.0, 29.5 - stations[i].s);
     const double v = std::sqrt(on_ice + 2.0 * kGrip * kGravity * left);
     EXPECT_NEAR(result.speeds[i], v, Tolerance(kSearched * v)) << stations[i].s;
@@ -178,7 +183,7 @@ TEST(LimitProfile, BrakesBeforeIce) {
   }
 }
 
-/// A winding path with everything on it.
+/// A winding path with random grade, bank and friction.
 std::vector<LimitStation> Winding(double length, double h, Random& random) {
   std::vector<LimitStation> stations = Alike(length, h, {});
   for (int bends = 0; bends < 8; ++bends) {
@@ -209,8 +214,8 @@ GgvDiagram SmallCar() {
                     {EllipticSection(6.0, 9.0, 8.5)});
 }
 
-/// How far the accelerations between stations are beyond the diagram at either end [m/s^2], by the
-/// formulas of a level road with a small slope.
+/// By how much the accelerations between stations exceed the diagram at either end [m/s^2], by the
+/// formulas for a level road with small slopes.
 struct Beyond {
   double driving = 0.0;
   double braking = 0.0;
@@ -226,7 +231,7 @@ Beyond FindBeyond(const std::vector<LimitStation>& stations, const std::vector<d
                      (2.0 * (stations[i + 1].s - stations[i].s));
     for (const std::size_t k : {i, i + 1}) {
       const LimitStation& at = stations[k];
-      // The specific force of a frame that is turned by the ground's slopes, with matrices.
+      // The specific force in a frame rotated by the ground's slopes, by matrices.
       const Eigen::Vector3d ahead = Eigen::Vector3d(1.0, 0.0, at.grade).normalized();
       const Eigen::Vector3d up = Eigen::Vector3d(-at.grade, -at.bank, 1.0).normalized();
       const double v2 = speeds[k] * speeds[k];
@@ -257,8 +262,9 @@ TEST(LimitProfile, KeepsWithinTheDiagram) {
     const LimitSpeeds result = LimitSpeedsAlong(stations, SmallCar(), {.share = share}, 0.0, 0.0);
     ASSERT_FALSE(result.excess);
     const Beyond beyond = FindBeyond(stations, result.speeds, share);
-    // The square is known to 2^-24: over an interval of 1 m, a square of 3000 to 2e-4 m/s^2 of
-    // acceleration; beside the largest f_y, as the root of what is left of it, to 1e-3.
+    // The squared speed is known to 2^-24. Over an interval of 1 m, a square of 3000 gives 2e-4
+    // m/s^2 of acceleration. Near the largest f_y, the remaining f_x is a square root, so its error
+    // is 1e-3.
     EXPECT_LT(beyond.driving, Tolerance(2e-3)) << run;
     EXPECT_LT(beyond.braking, Tolerance(2e-3)) << run;
   }
@@ -272,8 +278,8 @@ TEST(LimitProfile, CannotBeRaisedAnywhere) {
     std::vector<double> raised = result.speeds;
     raised[i] += 0.05;
     const Beyond beyond = FindBeyond(stations, raised, 1.0);
-    // A twentieth of m/s more changes a = d(v^2)/2h by 0.05 v; at the top speed nothing else is in
-    // the way.
+    // Raising a speed by 0.05 m/s changes a = d(v^2)/2h by 0.05 v. At the top speed no acceleration
+    // limit is active.
     EXPECT_TRUE(raised[i] > 55.0 || std::max(beyond.driving, beyond.braking) > 0.02)
         << stations[i].s;
   }
@@ -297,8 +303,8 @@ TEST(LimitProfile, LimitsTheJerk) {
           << run << ", " << stations[i].s;
     }
     const Beyond beyond = FindBeyond(stations, smooth.speeds, 1.0);
-    // A ten-thousandth of a square is lowered no more: over an interval of 1 m, of squares below
-    // 2000, 0.1 m/s^2.
+    // The jerk limit does not lower a squared speed further once the change is below 1e-4 of it.
+    // Over an interval of 1 m, for squares below 2000, that is 0.1 m/s^2.
     EXPECT_LT(beyond.driving, Tolerance(0.1)) << run;
     EXPECT_LT(beyond.braking, Tolerance(0.1)) << run;
   }
@@ -309,7 +315,7 @@ TEST(LimitProfile, OfALapDoesNotDependOnItsBegin) {
   const double length = 900.0;
   auto stations = Winding(length, 1.0, random);
   stations.pop_back();
-  for (LimitStation& at : stations) {  // closed: it fades out toward both ends
+  for (LimitStation& at : stations) {  // closed: the profile fades out toward both ends
     const double fade = std::pow(std::sin(std::acos(-1.0) * at.s / length), 2);
     at.curvature *= fade;
     at.grade *= fade;
@@ -334,9 +340,9 @@ TEST(LimitProfile, OfALapDoesNotDependOnItsBegin) {
 }
 
 TEST(LimitProfile, IsThatOfAnotherProgramWithinAPercent) {
-  // tests/data/limit_profile/README.md has its input. It takes the force at the start of an
-  // interval when it speeds up, and corrects it once when it brakes: to first order in intervals of
-  // 1 m.
+  // tests/data/limit_profile/README.md lists the input. The reference uses the force at the start
+  // of an interval when it accelerates and one correction step when it brakes. Both are first order
+  // in intervals of 1 m.
   const Table lap = ReadCsv(TRACKBED_SOURCE_DIR "/tests/data/limit_profile/lap.csv");
   std::vector<LimitStation> stations;
   for (std::size_t i = 0; i < lap.rows(); ++i) {
@@ -360,7 +366,7 @@ TEST(LimitProfile, IsThatOfAnotherProgramWithinAPercent) {
 }
 
 TEST(LimitProfile, SaysWhereTheCarComesTooFast) {
-  // 30 m/s, 20 m before a bend of 30 m that takes 15.3 m/s.
+  // 30 m/s, 20 m before a bend of radius 30 m that allows 15.3 m/s.
   auto stations = Alike(60.0, 0.5, {});
   for (LimitStation& at : stations) {
     at.curvature = at.s >= 20.0 ? 1.0 / 30.0 : 0.0;
@@ -372,7 +378,7 @@ TEST(LimitProfile, SaysWhereTheCarComesTooFast) {
   EXPECT_NEAR(result.excess->speed, std::sqrt(900.0 - 2.0 * kGrip * kGravity * 20.0),
               Tolerance(1e-9));
   EXPECT_NEAR(result.excess->allowed, std::sqrt(kGrip * kGravity * 30.0), Tolerance(1e-4));
-  // A start above the wanted speed alone is none: it comes down.
+  // A start above the wanted speed is no error: the car slows down.
   const LimitSpeeds slower =
       LimitSpeedsAlong(Alike(60.0, 0.5, {}), FrictionCircle(), {.speed = 10.0}, 20.0, 10.0);
   EXPECT_FALSE(slower.excess);
@@ -393,7 +399,7 @@ TEST(LimitProfile, RejectsNumbersThatAreNone) {
   const GgvDiagram car = FrictionCircle();
   const auto stations = Alike(10.0, 1.0, {});
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(LimitSpeedsAlong(stations, car, {}, 0.0, 0.0), PreconditionError);  // no speed
+  EXPECT_THROW(LimitSpeedsAlong(stations, car, {}, 0.0, 0.0), PreconditionError);  // no speed limit
   EXPECT_THROW(LimitSpeedsAlong(stations, car, {.speed = nan}, 0.0, 0.0), PreconditionError);
   EXPECT_THROW(LimitSpeedsAlong(stations, car, {.share = 0.0, .speed = 1.0}, 0.0, 0.0),
                PreconditionError);

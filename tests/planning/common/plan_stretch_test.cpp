@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// 100 m straight on at 20 m/s, in the middle 15 m/s, that begin and end at rest.
+/// A plan of 100 m straight on at 20 m/s, with 15 m/s in the middle, that begins and ends at rest.
 Plan AtTheLimit() {
   Plan plan;
   plan.reference = {
@@ -37,7 +37,7 @@ TEST(RemainingPlans, KeepSpeedsAtTheLimit) {
 }
 
 TEST(RemainingPlans, GainSpeedUpToTheLimits) {
-  // v^2 = 5^2 + 2 * 2 s: slower than the plan at 50 and 80 m, up to where that comes to rest.
+  // v^2 = 5^2 + 2 * 2 s: slower than the plan at 50 and 80 m, up to the point where the plan stops.
   const Plan rest = RemainingPlan(AtTheLimit(), 30.0, 5.0, {40.0, 2.0, 1.0});
   for (const double s : {0.0, 10.0, 20.0, 35.0, 50.0}) {
     EXPECT_NEAR(rest.reference.speed.SpeedAt(s), std::sqrt(25.0 + 4.0 * s), Tolerance(1e-12));
@@ -58,7 +58,7 @@ TEST(Caps, OfAPlanAtTheLimitAreItsSpeeds) {
   Plan plan = AtTheLimit();
   const std::vector<SpeedCap> caps = CapsOf(plan);
   ASSERT_EQ(caps.size(), 4U);
-  EXPECT_DOUBLE_EQ(caps[0].speed, 20.0);  // not the 0 of the start
+  EXPECT_DOUBLE_EQ(caps[0].speed, 20.0);  // not the 0 of the plan's start
   EXPECT_DOUBLE_EQ(caps[1].from, 20.0);
   EXPECT_DOUBLE_EQ(caps[1].to, 50.0);
   plan.diagnostics.speed_profile.reset();

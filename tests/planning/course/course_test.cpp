@@ -15,11 +15,11 @@
 namespace trackbed {
 namespace {
 
-// A path promises 1e-9 m over 10 km.
+// A path is accurate to 1e-9 m over 10 km.
 constexpr double kRounding = 1e-9;
 
 TEST(Course, ArcsAndStraightsEndWhereGeometrySays) {
-  // 10 m east, a quarter to the left on 20 m, 5 m north: (30, 25).
+  // 10 m east, a quarter turn to the left with radius 20 m, 5 m north: (30, 25).
   const Path path({}, CourseSegments({.segments = {{.length = 10.0, .curvature = 0.0},
                                                    {.length = 10.0 * kPi, .curvature = 0.05},
                                                    {.length = 5.0, .curvature = 0.0}}}));
@@ -58,10 +58,11 @@ TEST(Course, PiecesAreEitherConstantOrRamps) {
 }
 
 TEST(CourseSchedule, LeadsTheKinematicCarAlong) {
-  // Ramps that the wheels can follow: 0.05 1/m is 0.135 rad in 5 m, 1.67 s at 3 m/s, 0.081 rad/s.
-  // What is left is that atan(L kappa) is linear between knots, below 1e-5 rad: 1e-5/L of curvature
-  // over the 27 m is 27^2/2 * 4e-6 = 1.4 mm at the end. The car is there early within each step of
-  // 1 mm: 0.05 1/m times 0.5 mm of heading, 0.6 mm at the end.
+  // The wheels can follow these ramps: 0.05 1/m is 0.135 rad in 5 m, 1.67 s at 3 m/s, 0.081 rad/s.
+  // The remaining error: atan(L kappa) is taken as linear between knots, wrong by less than 1e-5
+  // rad. That is 1e-5/L of curvature, and over the 27 m 27^2/2 * 4e-6 = 1.4 mm at the end. Within
+  // each step of 1 mm the car reaches its angle early: 0.05 1/m times 0.5 mm of heading, 0.6 mm at
+  // the end.
   const std::vector<Segment> segments =
       CourseSegments({.segments = {{.length = 5.0, .curvature = 0.0},
                                    {.length = 5.0, .curvature_to = 0.05},
@@ -94,7 +95,7 @@ TEST(CourseSchedule, RisesHoweverShortThePiecesAre) {
                                    {.length = 0.2, .curvature = -0.1},
                                    {.length = 0.1, .curvature = 0.1},
                                    {.length = 30.0, .curvature = 0.0}}});
-  // Through() refuses knots that do not.
+  // Through() would reject knots that the wheels cannot follow.
   EXPECT_NEAR(CourseSchedule(ReferenceCar(), segments, 20.0).At(40.0), 0.0, Tolerance(1e-15));
 }
 

@@ -29,11 +29,11 @@ VehicleParams Car() {
 TEST(LaneChangeGates, AreThoseOfPart1) {
   const auto gates = LaneChangeGates(LaneChangeStandard::kIso3888_1, Side::kLeft, 1.6, {});
   ASSERT_EQ(gates.size(), 3U);
-  // 1.1, 1.2 and 1.3 of 1.6 m, and 0.25 m.
+  // Section widths: 1.1, 1.2 and 1.3 times 1.6 m, plus 0.25 m.
   const std::vector<double> widths{2.01, 2.17, 2.33};
   const std::vector<double> begins{0.0, 45.0, 95.0};
   const std::vector<double> lengths{15.0, 25.0, 30.0};
-  const std::vector<double> right_edges{0.0, 3.5, 0.0};  // from that of section 1
+  const std::vector<double> right_edges{0.0, 3.5, 0.0};  // relative to that of section 1
   for (std::size_t i = 0; i < 3; ++i) {
     const OrientedBox& lane = gates[i].lane;
     EXPECT_EQ(gates[i].section, static_cast<int>(2 * i + 1));
@@ -58,7 +58,8 @@ TEST(LaneChangeGates, AreThoseOfPart2Mirrored) {
     EXPECT_NEAR(lane.width, widths[i], Tolerance(kRounding));
     EXPECT_NEAR(lane.length, lengths[i], Tolerance(kRounding));
     EXPECT_NEAR(middle.x() - 0.5 * lane.length, begins[i], Tolerance(kRounding));
-    // Section 3 a meter right of section 1's right edge; 1 and 5 share their left one.
+    // The right edge of section 3 is a meter right of section 1's right edge. Sections 1 and 5
+    // share their left edge.
     const double left = middle.y() + 0.5 * lane.width;
     EXPECT_NEAR(left, i == 1 ? -0.5 * 2.01 - 1.0 : 0.5 * 2.01, Tolerance(kRounding));
   }
@@ -68,7 +69,7 @@ TEST(LaneChangeGates, HaveConesOutsideTheirEdges) {
   const Gate gate{3, {{10.0, 2.0, 0.5 * kPi}, 12.0, 3.0}};
   const std::vector<Vec2> cones = GateCones(gate);
   ASSERT_EQ(cones.size(), 10U);
-  // Along y from -4 to 8, 1.5 m and half a cone to either side.
+  // Cones along y from -4 to 8: 1.5 m and half a cone to either side.
   EXPECT_NEAR(cones[0].x(), 10.0 - 1.65, Tolerance(kRounding));
   EXPECT_NEAR(cones[0].y(), -4.0, Tolerance(kRounding));
   EXPECT_NEAR(cones[9].x(), 10.0 + 1.65, Tolerance(kRounding));
@@ -84,7 +85,7 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
       request.vehicle = Car();
       request.start = start;
       request.start_speed = 12.0;
-      request.infeasible = InfeasiblePolicy::kAllow;  // for its shape alone
+      request.infeasible = InfeasiblePolicy::kAllow;  // only the path's shape matters here
       request.speed = {12.0, 1.0, 1.5};
       const Plan plan = MakePlan(
           request,
@@ -96,13 +97,13 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
       for (const Gate& gate : plan.gates) {
         const Vec2 center = gate.lane.center.position();
         const Projection at = path.Project({center.x(), center.y(), start.yaw});
-        // SegmentsThrough: below 1e-6 m over such bends.
+        // The error of SegmentsThrough is below 1e-6 m over such bends.
         EXPECT_NEAR(at.cross_track, 0.0, Tolerance(1e-5));
         EXPECT_NEAR(at.heading_error, 0.0, Tolerance(1e-6));
         EXPECT_GT(at.s, last);
         last = at.s;
       }
-      // The first change: 30 + 3 m or 13.5 + 3 m long.
+      // The first lane change is 30 + 3 m or 13.5 + 3 m long.
       const bool part_1 = standard == LaneChangeStandard::kIso3888_1;
       const double length = part_1 ? 33.0 : 16.5;
       const double offset = std::abs(ToLocal(start, plan.gates[1].lane.center.position()).y());
@@ -112,9 +113,9 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
       }
       const double bound = 10.0 / std::sqrt(3.0) * offset / (length * length);
       EXPECT_LE(most, bound);
-      EXPECT_GE(most, 0.6 * bound);  // less than the graph's second derivative where it is steep
-      // Arcs of at most 0.1 m; dkappa/ds is at most 60 h/length^3, at the ends. The second change
-      // is the shorter one, and goes back by no more.
+      EXPECT_GE(most, 0.6 * bound);  // below the graph's second derivative where it is steep
+      // Arcs of at most 0.1 m; dkappa/ds is at most 60 h/length^3, at the ends. The second lane
+      // change is the shorter one, with no larger offset.
       const double steepest = 60.0 * offset / std::pow(part_1 ? 28.0 : 15.5, 3);
       double curvature = 0.0;
       for (const Segment& segment : path.segments()) {
@@ -122,7 +123,7 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
         EXPECT_TRUE(segment.curvature == 0.0 || segment.length < 0.1) << segment.length;
         curvature = segment.curvature;
       }
-      // 12 m/s at 1.5 m/s^2.
+      // Braking from 12 m/s at 1.5 m/s^2.
       EXPECT_NEAR(plan.reference.speed.SpeedAt(path.length() - 48.0), 12.0, Tolerance(1e-6));
       EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
       EXPECT_EQ(DiagnosticsJson(plan)["gates"].size(), 3U);
@@ -132,10 +133,12 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
 
 TEST(GateMargins, SeeConesThatStandBetweenPoses) {
   const std::vector<Gate> gates{{1, {{0.0, 0.0, 0.0}, 0.5, 3.0}}};
-  // A gate shorter than the way between two poses; the car drifts to the left: 0.1 m each 1 m.
+  // A gate shorter than the distance between two poses. The car drifts to the left by 0.1 m per
+  // meter.
   const std::vector<Pose2> poses{
       {-6.0, 0.0, 0.0}, {-3.0, 0.3, 0.0}, {0.0, 0.6, 0.0}, {3.0, 0.9, 0.0}};
-  // The rear left corner, 1 m behind, leaves last: at x = 0.25 the car is at 1.25 m, 0.725 m left.
+  // The rear left corner, 1 m behind, is the last to leave: at x = 0.25 the car is at 1.25 m, 0.725
+  // m left.
   EXPECT_NEAR(GateMargins(gates, Car(), poses)[0], 1.5 - 0.8 - 0.725, Tolerance(kRounding));
   EXPECT_TRUE(std::isinf(GateMargins(gates, Car(), {{20.0, 0.0, 0.0}})[0]));
 }

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// What the header promises of the end.
+/// The end accuracy that the header guarantees.
 constexpr double kEnd = 1e-9;
 
 TEST(Dubins, ReachesEveryPoseByEveryWord) {
@@ -39,7 +39,7 @@ TEST(Dubins, ReachesPosesWhereTangentsTouch) {
     const ShortestCurve curve = Dubins({}, to, 1.0);
     ASSERT_LE(Apart(EndPose({}, curve), to), Tolerance(kEnd))
         << CurveWord(curve) << " to " << to.x << ", " << to.y << ", " << to.yaw;
-    // No shorter than the straight, and never two full circles longer.
+    // Not shorter than the straight line, and never longer than it by more than two full circles.
     EXPECT_GE(curve.length, to.position().norm() - Tolerance(1e-12));
     EXPECT_LE(curve.length, to.position().norm() + 4.0 * kPi);
   }
@@ -53,8 +53,8 @@ TEST(Dubins, FindsWhatIsPlain) {
   EXPECT_NEAR(length({7.0, 0.0, 0.0}), 7.0, rounding);
   EXPECT_NEAR(length({2.0, 2.0, 0.5 * pi}), pi, rounding);   // a quarter to the left
   EXPECT_NEAR(length({0.0, -4.0, pi}), 2.0 * pi, rounding);  // half a turn to the right
-  EXPECT_NEAR(length({-1e-3, 0.0, 0.0}), 4.0 * pi, 1e-2);    // a hair back: a full circle
-  // Turning round on the spot: pi/3, 5 pi/3 and pi/3 on three circles that touch.
+  EXPECT_NEAR(length({-1e-3, 0.0, 0.0}), 4.0 * pi, 1e-2);    // slightly behind: a full circle
+  // Turning around in place: pi/3, 5 pi/3 and pi/3 on three circles that touch.
   EXPECT_NEAR(length({0.0, 0.0, pi}), 2.0 * pi * 7.0 / 3.0, rounding);
   EXPECT_EQ(CurveWord(Dubins({}, {0.0, 0.0, pi}, 2.0)).size(), 6U);
 }
@@ -65,7 +65,7 @@ TEST(Dubins, MirrorsAndRunsBackwards) {
     const Pose2 from = RandomPose(random, 8.0);
     const Pose2 to = RandomPose(random, 8.0);
     const ShortestCurve curve = Dubins(from, to, 1.5);
-    // Sums of at most 40 m, rounded otherwise.
+    // Sums of at most 40 m, rounded in another order.
     const double rounding = Tolerance(1e-11);
     const ShortestCurve mirrored = Dubins(Mirror(from), Mirror(to), 1.5);
     EXPECT_NEAR(mirrored.length, curve.length, rounding);

@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-/// What the header promises of the end.
+/// The end accuracy that the header guarantees.
 constexpr double kEnd = 1e-9;
 
 TEST(ReedsShepp, ReachesEveryPoseByEveryWord) {
@@ -40,7 +40,8 @@ TEST(ReedsShepp, ReachesEveryPoseByEveryWord) {
       ASSERT_NEAR(sum, word.length, Tolerance(1e-9));
     }
   }
-  // All 48 words of Reeds and Shepp 1990 are the shortest somewhere (its last two are the rarest).
+  // Each of the 48 words of Reeds and Shepp (1990) is the shortest for some pose; the last two are
+  // the rarest.
   EXPECT_EQ(shortest.size(), 48U);
 }
 
@@ -53,8 +54,8 @@ TEST(ReedsShepp, ReachesPosesWhereTangentsTouch) {
 }
 
 TEST(ReedsShepp, IsADistanceBetweenPoses) {
-  // The same both ways, and no way round is shorter: also where words vanish, which a word that is
-  // missed there would break.
+  // The length is symmetric and satisfies the triangle inequality. Degenerate poses, at which
+  // pieces of a word vanish, would expose a missing word.
   Random random(3);
   for (const Pose2& to : DegeneratePoses()) {
     const double direct = ReedsSheppLength({}, to, 1.0);
@@ -82,11 +83,11 @@ TEST(ReedsShepp, FindsWhatIsPlain) {
   const double rounding = Tolerance(1e-12);
   const auto length = [](const Pose2& to) { return ReedsSheppLength({}, to, 2.0); };
   EXPECT_NEAR(length({}), 0.0, rounding);
-  EXPECT_NEAR(length({-7.0, 0.0, 0.0}), 7.0, rounding);         // straight back
-  EXPECT_NEAR(length({-2.0, 2.0, -0.5 * kPi}), kPi, rounding);  // a quarter back
+  EXPECT_NEAR(length({-7.0, 0.0, 0.0}), 7.0, rounding);         // straight backward
+  EXPECT_NEAR(length({-2.0, 2.0, -0.5 * kPi}), kPi, rounding);  // a quarter circle backward
   EXPECT_NEAR(length({0.0, 0.0, kPi}), 2.0 * kPi, rounding);    // three arcs of pi/3
   EXPECT_EQ(CurveWord(ReedsShepp({}, {0.0, 0.0, kPi}, 2.0)).size(), 6U);
-  // Sideways into a gap: 4 arcs whose sweeps the offset tells, y = 4 r (1 - cos u).
+  // Sideways into a gap: four arcs whose sweeps follow from the offset, y = 4 r (1 - cos u).
   const double u = std::acos(1.0 - 0.5 / (4.0 * 2.0));
   EXPECT_LE(length({0.0, 0.5, 0.0}), 2.0 * 4.0 * u);
 }

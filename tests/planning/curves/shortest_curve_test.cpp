@@ -44,7 +44,7 @@ TEST(ShortestCurve, IsAPathOfTheSameLengthAndEnd) {
   ASSERT_EQ(path.segments().size(), 3U);
   EXPECT_EQ(path.segments()[1].direction, -1);
   EXPECT_EQ(path.segments()[1].curvature, -0.2);
-  // An arc to the right that is driven backwards turns the car to the left.
+  // An arc to the right, driven in reverse, turns the car to the left.
   EXPECT_NEAR(path.At(path.length()).pose.yaw, 0.4 + 0.5 + 0.7, Tolerance(1e-12));
 }
 

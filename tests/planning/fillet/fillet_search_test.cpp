@@ -31,19 +31,19 @@ FilletOptions Options(RadiusObjective objective, SearchMethod method = SearchMet
   return options;
 }
 
-/// The accuracy that is asked of a search.
+/// The accuracy required of a search.
 double Accepted(double radius) {
   return std::max(0.01, 1e-3 * radius);
 }
 
-// --- What the objectives want --------------------------------------------------------------------
+// --- Optima of the objectives --------------------------------------------------------------------
 
 struct FreeRadiusCase {
   const char* name;
   std::vector<Vec2> route;
   RadiusObjective objective;
   ReferencePoint reference;
-  std::vector<double> radii;  // [m]; 0 for a car that does not turn in its window
+  std::vector<double> radii;  // [m]; 0 if the car does not turn in its window
   int decimals;
 };
 
@@ -170,9 +170,9 @@ TEST(SecondPass, LiteralOptimumOfAFirstTurnIsNeverInterior) {
 }
 
 TEST(SecondPass, LiteralOptimumOfALaterTurnMayBeInterior) {
-  // A counterexample: legs of 40 m, +100 deg and then +20 deg. The window of the second
-  // turn holds the return of the first. An independent computation gave 44.57 m with a sampled
-  // window: 4 ms of its 11.6 s are the 0.015 m between it and the converged value.
+  // A counterexample: legs of 40 m, +100 deg and then +20 deg. The window of the second turn
+  // contains the return ramp of the first. An independent computation gave 44.57 m with a sampled
+  // window: 4 ms of its 11.6 s explain the 0.015 m between it and the converged value.
   const Vec2 second = Vec2{40, 0} + 40.0 * Direction(Radians(100.0));
   const std::vector<Vec2> route{{0, 0}, {40, 0}, second, second + 40.0 * Direction(Radians(120.0))};
   FilletOptions options = Options(kLiteral);
@@ -196,8 +196,8 @@ TEST(SecondPass, TurnLocalOptimumIsOftenInterior) {
 }
 
 TEST(SecondPass, SimulatesAgainWhenAskedTo) {
-  // On route A the first turn's window does not change when it is driven again; the second turn's
-  // literal one does, because the first turn then ends on its new radius.
+  // On route A, simulating again leaves the first turn's window unchanged. The literal window of
+  // the second turn changes, because the first turn then ends on its new radius.
   FilletOptions once = Options(kLiteral);
   FilletOptions again = once;
   again.resimulate_each_turn = true;
@@ -207,7 +207,7 @@ TEST(SecondPass, SimulatesAgainWhenAskedTo) {
   ASSERT_EQ(b.status, PlanStatus::kOk) << b.reason;
   EXPECT_EQ(a.turns[0].search->time, b.turns[0].search->time);
   EXPECT_NE(a.turns[1].search->time, b.turns[1].search->time);
-  // One turn at a time, wherever the others are: the turn-local window stays the same.
+  // The turn-local window covers one turn, regardless of the others, so it stays the same.
   once.objective = again.objective = kTurnLocal;
   const FilletPlan c = PlanFillets(ReferenceCar(), RouteB(), kSpeed, once);
   const FilletPlan d = PlanFillets(ReferenceCar(), RouteB(), kSpeed, again);
@@ -229,7 +229,7 @@ void PrintTo(const SearchCase& c, std::ostream* out) {
 
 class SearchedRadius : public ::testing::TestWithParam<SearchCase> {};
 
-/// The best radius by trying: 0.02 m apart within the bounds, then 0.0001 m apart round the best.
+/// The best radius by a scan: 0.02 m apart within the bounds, then 0.0001 m apart around the best.
 std::optional<double> Scanned(const FilletTurn& turn, double free_radius, RadiusConstraint c) {
   const auto kept = [&](double r) {
     const double ramp = c == kRoom ? kSpeed * 17.6 / 2.65 * std::atan(2.7 / r) : 0.0;
@@ -267,7 +267,8 @@ TEST_P(SearchedRadius, IsTheClosedFormsOnRandomTurns) {
     options.without_room = InfeasibleTurnPolicy::kRefuse;
     const FilletPlan plan =
         PlanFillets(ReferenceCar(), route, kSpeed, options, static_cast<std::uint64_t>(i));
-    // The same turn without a search tells its geometry, and whether there is a radius at all.
+    // The same turn without a search has the same geometry and shows whether any radius is
+    // feasible.
     FilletOptions closed = options;
     closed.objective = RadiusObjective::kLargest;
     const FilletPlan largest = PlanFillets(ReferenceCar(), route, kSpeed, closed);
@@ -289,7 +290,7 @@ TEST_P(SearchedRadius, IsTheClosedFormsOnRandomTurns) {
     }
     ++(found.active == ActiveConstraint::kNone ? interior : on_constraint);
   }
-  // All three kinds are there.
+  // All three kinds occur.
   EXPECT_GT(interior, 200);
   EXPECT_GT(on_constraint, 100);
   EXPECT_GT(empty, 50);
@@ -353,7 +354,8 @@ TEST(Driven, WeighsWhatItIsTold) {
 }
 
 TEST(Driven, IsNoWorseThanWhereItStarted) {
-  // Legs of 28 m at right angles: C.40 has no radius at 3 m/s, the turns are slowed down.
+  // Legs of 28 m at right angles: at 3 m/s C.40 has no feasible radius, so the turns are slowed
+  // down.
   Random random(31);
   for (int i = 0; i < 10; ++i) {
     const std::vector<Vec2> route = RandomRoute(random, 4, 25.0, 60.0, Radians(100.0));
@@ -430,7 +432,7 @@ TEST(SearchedPlans, AreContinuousAndKeepWhatTheyClaimOrSayWhyNot) {
       const double ramps = turn.note.find("half of the ramp") == std::string::npos ? 1.0 : 0.5;
       const double need = turn.tangent_length + (room ? ramps * turn.ramp_distance : 0.0);
       EXPECT_LE(need, turn.shorter_leg / 2.0 + Tolerance(2e-9));
-      // The path goes where the geometry says, and along its tangents there.
+      // The path passes through the computed arc ends.
       EXPECT_NEAR((plan.path.At(turn.arc_start_s).pose.position() - turn.arc_start).norm(), 0.0,
                   Tolerance(1e-9));
       EXPECT_NEAR(

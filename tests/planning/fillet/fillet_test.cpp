@@ -18,6 +18,10 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Tests fillet plans against the printed tables of routes A and B (Skackauskas, dissertation;
+// constraint C.40 and identities C.9, C.14-C.19, listing F.1), against dense scans of the feasible
+// radii, and against laws such as mirror symmetry. The last section rolls out the plans open loop
+// with the kinematic car.
 namespace trackbed {
 namespace {
 
@@ -28,7 +32,7 @@ constexpr double kSpeed = 3.0;
 // Coordinates up to 100 m pass through some ten operations, each rounding by 100 * 2^-53 = 1.1e-14.
 constexpr double kRounding = 1e-12;
 
-// What PlanFillets promises of its path.
+// The accuracy that PlanFillets guarantees for its path [m].
 constexpr double kPromised = 1e-9;
 
 FilletPlan PlanWith(const std::vector<Vec2>& route, RadiusConstraint constraint) {
@@ -58,7 +62,7 @@ void ExpectPoint(const Vec2& actual, const Vec2& expected, double tolerance) {
   EXPECT_NEAR(actual.y(), expected.y(), Tolerance(tolerance));
 }
 
-/// D_1, D_2, ... of all turns.
+/// The distances D_1, D_2, ... of all turns.
 std::vector<double> Events(const FilletPlan& plan) {
   std::vector<double> events;
   for (const FilletTurn& turn : plan.turns) {
@@ -96,7 +100,7 @@ TEST(PlanFillets, RouteAPassOneHasPrintedGeometry) {
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   ASSERT_EQ(plan.turns.size(), 3U);
-  // All of these are closed forms: at right angles K = r, so every point is a waypoint +- 5.1.
+  // All of these are closed forms: at right angles K = r, so each point is a waypoint +- 5.1 m.
   const std::vector<Vec2> starts{{34.9, 0}, {40, 34.9}, {74.9, 40}};
   const std::vector<Vec2> ends{{40, 5.1}, {45.1, 40}, {80, 45.1}};
   const std::vector<Vec2> centers{{34.9, 5.1}, {45.1, 34.9}, {74.9, 45.1}};
@@ -116,7 +120,7 @@ TEST(PlanFillets, RouteAPassOneHasPrintedGeometry) {
     EXPECT_NEAR(turn.steering, signs[k] * std::atan(2.7 / 5.1), Tolerance(kRounding));
     EXPECT_NEAR(turn.ramp_time, 3.2337, Tolerance(Printed(4)));
     EXPECT_NEAR(turn.ramp_distance, 9.7012, Tolerance(Printed(4)));
-    EXPECT_TRUE(turn.ramp_truncated);  // 9.70 m of ramp in 8.01 m of arc
+    EXPECT_TRUE(turn.ramp_truncated);  // a ramp of 9.70 m does not fit into an arc of 8.01 m
   }
 }
 
@@ -125,7 +129,7 @@ TEST(PlanFillets, RouteAPassOneHasPrintedDistances) {
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   ExpectEvents(plan, {30.0494, 38.0604, 67.8604, 75.8715, 105.6715, 113.6826});
   EXPECT_NEAR(plan.path.length(), 153.4332, Tolerance(Printed(4)));
-  // Four legs of 40 m, each corner cut from 2 r to r pi/2.
+  // Four legs of 40 m; each corner is shortened from 2 r to r pi/2.
   EXPECT_NEAR(plan.path.length(), 160.0 - 3.0 * 5.1 * (2.0 - kPi / 2.0), Tolerance(kRounding));
 }
 
@@ -205,7 +209,7 @@ TEST(PlanFillets, RouteBUnderHalfLegHasPrintedTurns) {
     ExpectPoint(turn.arc_start, starts[k], Printed(4));
     ExpectPoint(turn.arc_end, ends[k], Printed(4));
   }
-  // The corrected distances: the literal D_3 would be 46.6160, with the ramp of turn 1.
+  // The corrected distances. The literal D_3 would be 46.6160, computed with the ramp of turn 1.
   ExpectEvents(plan, {14.4576, 43.5882, 46.3616, 79.4671, 81.4069, 117.2350});
   EXPECT_NEAR(plan.path.length(), 142.7856, Tolerance(Printed(4)));
 }
@@ -227,7 +231,7 @@ TEST(PlanFillets, DefaultsToTheLargestRadiusWithSteeringRoom) {
 }
 
 TEST(PlanFillets, MaxRadiusCapsGentleTurns) {
-  // A turn of 1 degree between legs of 100 m could have r = 50/tan(0.5 deg) = 5730 m.
+  // A turn of 1 degree between legs of 100 m would allow r = 50/tan(0.5 deg) = 5730 m.
   const std::vector<Vec2> route{{0, 0}, {100, 0}, Vec2{100, 0} + 100.0 * Direction(Radians(1.0))};
   for (const RadiusConstraint constraint :
        {RadiusConstraint::kHalfLeg, RadiusConstraint::kSteeringRoom}) {
@@ -237,7 +241,7 @@ TEST(PlanFillets, MaxRadiusCapsGentleTurns) {
   }
 }
 
-// --- The constraints by themselves --------------------------------------------------------------
+// --- Single constraints -------------------------------------------------------------------------
 
 TEST(SteeringRoomRadii, HasPrintedIntervals) {
   struct Case {
@@ -262,8 +266,9 @@ TEST(SteeringRoomRadii, HasPrintedIntervals) {
         SteeringRoomRadii(ReferenceCar(), kSpeed, Radians(c.angle), c.leg, {5.1, 154.0});
     ASSERT_EQ(radii.has_value(), c.radii.has_value());
     if (radii) {
-      // Angles printed to 1e-4 or 1e-5 deg move the end by dr/dphi * 1e-4 deg/2: dr/dphi is about
-      // r/sin(phi), 82 m/rad at 146 deg, so 82 * 0.87e-6 = 7.2e-5 m; right angles are exact.
+      // Angles printed to 1e-4 or 1e-5 deg move the interval's end by dr/dphi * 1e-4 deg/2. dr/dphi
+      // is about r/sin(phi), 82 m/rad at 146 deg, so the error is 82 * 0.87e-6 = 7.2e-5 m. Right
+      // angles are exact.
       const double tolerance = c.angle == 90.0   ? Printed(6)
                                : c.angle > 146.0 ? Printed(6) + 7.2e-5
                                                  : Printed(6) + 1e-5;
@@ -274,7 +279,7 @@ TEST(SteeringRoomRadii, HasPrintedIntervals) {
 }
 
 TEST(SteeringRoomRadii, RoutesBAnglesGiveThePrintedRadii) {
-  // The same rows with the angles in full: arcs of atan(2/3), atan(3/2) and atan(2).
+  // The same rows with unrounded angles: arcs of atan(2/3), atan(3/2) and atan(2).
   const VehicleParams car = ReferenceCar();
   const RadiusInterval bounds{5.1, 154.0};
   const auto first = SteeringRoomRadii(car, kSpeed, kPi - std::atan2(2.0, 3.0), 30.0, bounds);
@@ -284,7 +289,7 @@ TEST(SteeringRoomRadii, RoutesBAnglesGiveThePrintedRadii) {
   ASSERT_TRUE(first && second && third);
   EXPECT_NEAR(first->high, 45.654381, Tolerance(Printed(6)));
   EXPECT_NEAR(second->high, 30.385732, Tolerance(Printed(6)));
-  EXPECT_NEAR(third->high, 29.409195, Tolerance(1.5e-6));  // 63.43495 deg may stand for atan 2
+  EXPECT_NEAR(third->high, 29.409195, Tolerance(1.5e-6));  // 63.43495 deg may be a rounded atan(2)
 }
 
 TEST(SteeringRoomRadii, AgreesWithADenseScan) {
@@ -298,7 +303,7 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
     SCOPED_TRACE(fmt::format("case {}: phi = {}, q = {}, v = {}", i, angle, leg, speed));
     const VehicleParams car = ReferenceCar();
     const RadiusInterval bounds{5.1, 154.0};
-    // C.40 in its printed form: K + S_delta - q/2.
+    // C.40 as printed: K + S_delta - q/2.
     const auto g = [&](double r) {
       return r / std::tan(angle / 2.0) + speed * std::atan(2.7 / r) * 17.6 / 2.65 - leg / 2.0;
     };
@@ -307,7 +312,7 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
     for (int j = 0; j <= kPoints; ++j) {
       const double r = bounds.low * std::pow(bounds.high / bounds.low, j / double{kPoints});
       const bool inside = radii && r >= radii->low && r <= radii->high;
-      // Both sides of g are below 1000 m: within 1e-11 of zero rounding decides.
+      // Both sides of g are below 1000 m: within 1e-11 of zero the sign is subject to rounding.
       if (inside) {
         ASSERT_LE(g(r), 1e-11) << "r = " << r;
       } else {
@@ -317,7 +322,7 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
     if (radii) {
       ++intervals;
       interior_lows += radii->low > bounds.low ? 1 : 0;
-      // Slopes of g at its roots are below 1/tan(10 deg) + K0 L/(L^2 + r^2) < 10; the root's last
+      // The slope of g at its roots is below 1/tan(10 deg) + K0 L/(L^2 + r^2) < 10. The root's last
       // few bits are 154 * 2^-50.
       for (const double end : {radii->low, radii->high}) {
         if (end != bounds.low && end != bounds.high) {
@@ -326,14 +331,14 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
       }
     }
   }
-  // The sample has all three kinds: no interval, one from the bound on, one inside the bounds.
+  // All three kinds occur: no interval, one that begins at the bound, one inside the bounds.
   EXPECT_GT(intervals, 100);
   EXPECT_LT(intervals, 500);
   EXPECT_GT(interior_lows, 5);
 }
 
 TEST(HalfLegRadii, HasPrintedShortestLegs) {
-  // The shortest leg on which 5.1 m fits, 2 * 5.1/tan(phi/2).
+  // The shortest leg that allows r = 5.1 m: 2 * 5.1/tan(phi/2).
   const std::vector<std::pair<double, double>> table{
       {30.0, 2.733}, {60.0, 5.889}, {90.0, 10.2}, {120.0, 17.667}, {150.0, 38.067}};
   for (const auto& [change, leg] : table) {
@@ -343,7 +348,7 @@ TEST(HalfLegRadii, HasPrintedShortestLegs) {
     const auto radii = HalfLegRadii(angle, leg + Tolerance(Printed(3)), {5.1, 154.0});
     ASSERT_TRUE(radii);
     EXPECT_EQ(radii->low, 5.1);
-    // At most one unit in the last place too long, times tan(phi/2) <= 3.74.
+    // Too long by at most one unit in the last place, times tan(phi/2) <= 3.74.
     EXPECT_NEAR(radii->high, 5.1, Tolerance(0.5 * 2.0 * Printed(3) * 3.74));
   }
 }
@@ -357,7 +362,7 @@ TEST(HalfLegRadii, EndsAtTheUpperBound) {
 // --- Laws ---------------------------------------------------------------------------------------
 
 TEST(PlanFillets, ShiftedStartChangesNoDistance) {
-  // Listing F.1 takes y(1) for x(1), which shows only away from the diagonal.
+  // Listing F.1 uses y(1) in place of x(1), which matters only off the diagonal.
   const std::vector<Vec2> offsets{{13.25, 0.0}, {0.0, -7.5}, {13.25, -7.5}, {-100.0, 250.0}};
   for (const auto& route : {RouteA(), RouteB()}) {
     const FilletPlan plan = PlanWith(route, RadiusConstraint::kHalfLeg);
@@ -386,7 +391,7 @@ TEST(PlanFillets, ShiftedStartChangesNoDistance) {
   }
 }
 
-/// Random routes of which about half can be planned under C.40.
+/// Random routes; about half of them can be planned under C.40.
 std::vector<Vec2> PlannableRoute(Random& random, int count) {
   return RandomRoute(random, count, 25.0, 120.0, Radians(80.0));
 }
@@ -411,7 +416,7 @@ TEST(PlanFillets, MirroredRouteGivesMirroredPlan) {
     ++planned;
     ASSERT_EQ(a.turns.size(), b.turns.size());
     for (std::size_t k = 0; k < a.turns.size(); ++k) {
-      // Negating y is exact in every operation, so nothing may differ but signs.
+      // Negating y is exact in every operation, so only signs may differ.
       EXPECT_NEAR(b.turns[k].heading_change, -a.turns[k].heading_change, Tolerance(kRounding));
       EXPECT_NEAR(b.turns[k].steering, -a.turns[k].steering, Tolerance(kRounding));
       EXPECT_NEAR(b.turns[k].radius, a.turns[k].radius, Tolerance(kRounding));
@@ -453,8 +458,8 @@ TEST(PlanFillets, MovedRouteGivesMovedPlan) {
     ++planned;
     ASSERT_EQ(a.turns.size(), b.turns.size());
     for (std::size_t k = 0; k < a.turns.size(); ++k) {
-      // Waypoints up to 700 m away round by 1e-13 m, headings between legs of 25 m by 1e-14 rad;
-      // where g is flat the radius answers with up to some thousand times that.
+      // Waypoints up to 700 m away round by 1e-13 m, headings between legs of 25 m by 1e-14 rad.
+      // Where g is flat, the radius amplifies that by up to some thousand.
       EXPECT_NEAR(b.turns[k].steering, a.turns[k].steering, Tolerance(1e-9));
       EXPECT_NEAR(b.turns[k].steer_start, a.turns[k].steer_start, Tolerance(1e-9));
       ExpectPoint(b.turns[k].center, ToWorld(X_WA, a.turns[k].center), 1e-9);
@@ -467,7 +472,8 @@ TEST(PlanFillets, MovedRouteGivesMovedPlan) {
   EXPECT_GT(planned, 40);
 }
 
-/// What holds of every plan, whatever chose its radii: C.14-C.19 and the path through them.
+/// Checks what every plan satisfies regardless of how its radii were chosen: C.14-C.19 and the
+/// path.
 void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& plan) {
   double legs = 0.0;
   for (std::size_t i = 0; i + 1 < route.size(); ++i) {
@@ -479,7 +485,7 @@ void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& pl
     const auto i = static_cast<std::size_t>(turn.waypoint);
     const Vec2 in = (route[i] - route[i - 1]).normalized();
     const Vec2 out = (route[i + 1] - route[i]).normalized();
-    // C.9 as it is printed; the arc cosine loses half the digits near a straight line.
+    // C.9 as printed; the arc cosine loses half the digits near a straight line.
     EXPECT_NEAR(turn.interior_angle, std::acos(std::clamp(-in.dot(out), -1.0, 1.0)),
                 Tolerance(1e-7));
     EXPECT_EQ(turn.heading_change > 0.0, Cross(in, out) > 0.0);
@@ -522,13 +528,13 @@ void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& pl
   EXPECT_NEAR((Direction(end.yaw) - last).norm(), 0.0, Tolerance(kPromised));
 }
 
-/// That the path neither jumps nor kinks where segments meet.
+/// Expects that position and heading are continuous where segments meet.
 void ExpectContinuous(const Path& path) {
   double s = 0.0;
   for (std::size_t i = 0; i + 1 < path.segments().size(); ++i) {
     s += path.segments()[i].length;
-    // 1e-7 m before the joint the car is 1e-7 m away and, on r >= 5.1 m, turned by 2e-8 rad; the
-    // straight extrapolation over it errs by (1e-7)^2/(2 * 5.1) = 1e-15 m.
+    // 1e-7 m before the joint the car is 1e-7 m away and, at r >= 5.1 m, turned by 2e-8 rad.
+    // Straight extrapolation over that distance errs by (1e-7)^2/(2 * 5.1) = 1e-15 m.
     constexpr double kNear = 1e-7;
     const PathPoint before = path.At(s - kNear);
     const PathPoint after = path.At(s + kNear);
@@ -584,7 +590,7 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
       const double q = std::min((route[w] - route[w - 1]).norm(), (route[w + 1] - route[w]).norm());
       const bool steering_room = options.constraint == RadiusConstraint::kSteeringRoom &&
                                  turn.note.find("under C.34") == std::string::npos;
-      // At the lowest speed half a ramp on the leg is enough.
+      // At the lowest speed, half a ramp on the leg suffices.
       const double ramps = turn.note.find("half of the ramp") == std::string::npos ? 1.0 : 0.5;
       const auto need = [&](double r) {
         return r / std::tan(turn.interior_angle / 2.0) +
@@ -610,7 +616,7 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
 }
 
 TEST(PlanFillets, EndsAtGoalAfterALongFirstLeg) {
-  // The last straight is shorter than a billionth of the first leg, but longer than the promise.
+  // The last straight is shorter than a billionth of the first leg, but longer than kPromised.
   const double rest = 5e-7;
   const std::vector<Vec2> route{{0, 0}, {1000, 0}, {1000, 10.0 + rest}};
   const FilletPlan plan = PlanGiven(route, 10.0);
@@ -639,7 +645,7 @@ TEST(PlanFillets, CollinearWaypointsMakeNoTurn) {
 }
 
 TEST(PlanFillets, CollinearWaypointsNeedNoExactNumbers) {
-  // Thirds of a slanted line do not divide exactly; the heading change is rounding only.
+  // Thirds of a slanted line are not exact in floating point; the heading change is only rounding.
   const Vec2 end{31.7, 17.3};
   const FilletPlan plan =
       PlanWith({{0, 0}, end / 3.0, end * (2.0 / 3.0), end}, RadiusConstraint::kSteeringRoom);
@@ -649,7 +655,7 @@ TEST(PlanFillets, CollinearWaypointsNeedNoExactNumbers) {
 }
 
 TEST(PlanFillets, GivenRadiusOnTheConstraintIsAccepted) {
-  // Every turn satisfies the constraint "to rounding": 20 m is the printed radius of route A.
+  // Every turn satisfies the constraint up to rounding: 20 m is the printed radius of route A.
   const FilletPlan half = PlanGiven(RouteA(), 20.0, RadiusConstraint::kHalfLeg);
   EXPECT_EQ(half.status, PlanStatus::kOk) << half.reason;
 }
@@ -664,11 +670,11 @@ TEST(PlanFillets, ChosenRadiusCanBeGivenBack) {
 }
 
 TEST(PlanFillets, SmallestRadiusOfTheCarIsAccepted) {
-  // 2.7/tan(atan(2.7/5.1)) need not be 5.1 to the last bit.
+  // Rounding: 2.7/tan(atan(2.7/5.1)) is not exactly 5.1.
   EXPECT_EQ(PlanGiven({{0, 0}, {40, 0}, {40, 40}}, 5.1).status, PlanStatus::kOk);
 }
 
-// --- Refusals -----------------------------------------------------------------------------------
+// --- Rejections ---------------------------------------------------------------------------------
 
 void ExpectRefused(const FilletPlan& plan, PlanStatus status, int waypoint,
                    const std::string& reason) {
@@ -699,7 +705,7 @@ TEST(PlanFillets, RefusesUTurn) {
 TEST(PlanFillets, RefusesTurnThatIsTooTight) {
   for (const RadiusConstraint constraint :
        {RadiusConstraint::kHalfLeg, RadiusConstraint::kSteeringRoom}) {
-    // 5.1 m needs 5.1 m of each leg at a right angle; half of 10 m is 5.
+    // At a right angle 5.1 m needs 5.1 m of each leg; half of 10 m is 5 m.
     ExpectRefused(PlanWith({{0, 0}, {60, 0}, {60, 60}, {50, 60}}, constraint),
                   PlanStatus::kTurnTooTight, 2,
                   "turn of 90 deg at waypoint 2: radius 5.1 m needs 5.1 m of each leg; half of the "
@@ -728,7 +734,7 @@ TEST(PlanFillets, RefusesRightTurnWithItsSign) {
 }
 
 TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
-  // 90 deg and 28 m is empty; 60 m before it is not.
+  // For 90 deg and 28 m the interval of radii is empty; for the leg of 60 m before it is not.
   FilletOptions options;
   options.without_room = InfeasibleTurnPolicy::kRefuse;
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
@@ -738,7 +744,7 @@ TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
                 "for the steering ramp within half of the shorter leg, 14 m");
 }
 
-// --- A turn for which C.40 has no radius ---------------------------------------------------------
+// --- A turn for which C.40 has no feasible radius ------------------------------------------------
 
 TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
@@ -749,12 +755,12 @@ TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
   const FilletTurn& slow = plan.turns[1];
   EXPECT_THAT(slow.note, HasSubstr("at 3 m/s no radius from 5.1 to 154 m"));
   EXPECT_THAT(slow.note, HasSubstr(fmt::format("speed reduced to {:.4g} m/s", slow.speed)));
-  // The fastest speed: there g touches zero, at the radius where it is smallest, which for a right
-  // angle solves r = sqrt(K0 L - L^2) and r + K0 atan(L/r) = 14 m.
+  // At the fastest feasible speed the minimum of g is zero. For a right angle its radius solves r =
+  // sqrt(K0 L - L^2) and r + K0 atan(L/r) = 14 m.
   const double per_radian = slow.speed * 17.6 / 2.65;
   EXPECT_NEAR(slow.radius, std::sqrt(per_radian * 2.7 - 2.7 * 2.7), Tolerance(1e-5));
   EXPECT_NEAR(slow.radius + per_radian * std::atan(2.7 / slow.radius), 14.0, Tolerance(1e-9));
-  // Just faster there is none, just slower there is more than one.
+  // Slightly faster there is no feasible radius; slightly slower there is an interval of radii.
   const RadiusInterval bounds{5.1, 154.0};
   const double phi = kPi / 2.0;
   EXPECT_FALSE(SteeringRoomRadii(ReferenceCar(), slow.speed * (1.0 + 1e-9), phi, 28.0, bounds));
@@ -765,9 +771,9 @@ TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
 }
 
 TEST(PlanFillets, TakesNoTurnFasterBecauseItsLegIsShorter) {
-  // A right angle and full lock need K = 5.1 m and S = 3.234 s v: the speed falls with the leg to
-  // 0.5 m/s where half of it is 5.1 + 1.617 m, at 13.434 m. With half a ramp on the leg that speed
-  // is kept down to 2 (5.1 + 0.8085) = 11.817 m; below there is no plan.
+  // A right angle at full lock needs K = 5.1 m and S = 3.234 s v. The speed decreases with the leg,
+  // to 0.5 m/s at 13.434 m, where half the leg is 5.1 + 1.617 m. With half a ramp on the leg this
+  // speed is possible down to 2 (5.1 + 0.8085) = 11.817 m; shorter legs have no plan.
   const auto plan = [](double leg) {
     return PlanFillets(ReferenceCar(), {{0, 0}, {60, 0}, {60, leg}}, kSpeed, {});
   };
@@ -796,8 +802,8 @@ TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {
 }
 
 TEST(PlanFillets, TurnsTheWheelsNearThePath) {
-  // A sharp corner with long legs: C.40 alone would take it at 4.68 m/s on full lock, with a ramp
-  // of 15.1 m for an arc of 12.6 m.
+  // A sharp corner with long legs. C.40 alone would allow 4.68 m/s at full lock, with a ramp of
+  // 15.1 m for an arc of 12.6 m.
   const std::vector<Vec2> route{{0, 0}, {59.37, 0}, {-1.5, 48.6}, {117.75, 40}};
   const FilletPlan plan = PlanFillets(ReferenceCar(), route, 7.19, {});
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
@@ -806,8 +812,8 @@ TEST(PlanFillets, TurnsTheWheelsNearThePath) {
     EXPECT_LT(turn.speed, 7.19);
     EXPECT_FALSE(turn.ramp_truncated);
     EXPECT_THAT(turn.note, HasSubstr("the wheels turn too slowly for a radius of"));
-    // As fast as it may be: the ramp leads off the path by a quarter of the car's width, at the
-    // largest radius that C.40 allows at that speed. Both are roots, found to 52 bits.
+    // The highest allowed speed: the ramp deviates from the path by a quarter of the car's width,
+    // at the largest radius that C.40 allows for this speed. Both are roots, found to 52 bits.
     const double S = turn.ramp_distance;
     EXPECT_NEAR(S * S / (24.0 * turn.radius), 0.25 * ReferenceCar().width, Tolerance(1e-9));
     EXPECT_NEAR(turn.tangent_length + S, 0.5 * turn.shorter_leg, Tolerance(1e-9));
@@ -826,13 +832,13 @@ TEST(PlanFillets, SlowerCarFindsSteeringRoom) {
 
 // --- The listing's own distances -----------------------------------------------------------------
 
-/// The distances as listing F.1 has them, with its defects: every event after the first turn
-/// carries the first turn's ramp instead of its own.
+/// The distances of listing F.1, including its defect: every event after the first turn uses the
+/// first turn's ramp.
 struct LiteralEvents {
   std::vector<double> start;         ///< D_{2k-1} [m]
   std::vector<double> end;           ///< D_2k [m]
-  std::vector<double> return_until;  ///< where the window of the return closes [m]
-  double route_end = 0.0;            ///< D_0 [m]; half a ramp of the first turn before the goal
+  std::vector<double> return_until;  ///< end of the window of the return [m]
+  double route_end = 0.0;            ///< D_0 [m], half the first turn's ramp before the goal
 };
 
 LiteralEvents FindLiteralEvents(const FilletPlan& plan) {
@@ -848,7 +854,7 @@ LiteralEvents FindLiteralEvents(const FilletPlan& plan) {
 }
 
 TEST(LiteralEvents, AreAsPrinted) {
-  // D_1 to D_6 and D_0_1 of listing F.1 run in Octave, with the ramp of turn 1 in all of them.
+  // D_1 to D_6 and D_0_1 from running listing F.1 in Octave, all with the ramp of turn 1.
   struct Case {
     FilletPlan plan;
     std::vector<double> events;
@@ -885,7 +891,7 @@ TEST(LiteralEvents, AreAsPrinted) {
 }
 
 TEST(PlanFillets, RefusesArcsThatNeedMoreThanTheirLeg) {
-  // K = 25 m at right angles: twice that on legs of 40 m is 10 m too much.
+  // K = 25 m at right angles: 2 K exceeds the leg of 40 m by 10 m.
   ExpectRefused(PlanGiven(RouteA(), 25.0), PlanStatus::kTurnsOverlap, 2,
                 "the arcs before waypoint 2 exceed their leg by 10 m");
   ExpectRefused(PlanGiven({{0, 0}, {20, 0}, {20, 60}}, 25.0), PlanStatus::kTurnsOverlap, 1,
@@ -895,8 +901,8 @@ TEST(PlanFillets, RefusesArcsThatNeedMoreThanTheirLeg) {
 }
 
 TEST(PlanFillets, RefusesTurnThatWouldSteerBeforeTheOneBeforeIt) {
-  // A gentle turn of 0.01 rad (r = 154 m, S = 0.35 m) 5.9 m before one of 60 deg (r = 5.109 m,
-  // S = 9.69 m): their tangent points are 0.77 + 2.95 m apart, half the ramps differ by 4.67 m.
+  // A gentle turn of 0.01 rad (r = 154 m, S = 0.35 m), 5.9 m before a turn of 60 deg (r = 5.109 m,
+  // S = 9.69 m). Their tangent points are 0.77 + 2.95 m apart; half the ramps differ by 4.67 m.
   const Vec2 b = Vec2{40, 0} + 5.9 * Direction(0.01);
   const Vec2 c = b + 40.0 * Direction(0.01 + kPi / 3.0);
   ExpectRefused(PlanWith({{0, 0}, {40, 0}, b, c}, RadiusConstraint::kHalfLeg),
@@ -925,7 +931,7 @@ TEST(PlanFillets, ChecksItsCaller) {
 
 // --- Open-loop runs of the plans ---------------------------------------------------------------
 
-/// Drives `distance` of a plan; its first waypoint is where the reference point starts.
+/// Rolls out `distance` of a plan; the reference point starts at its first waypoint.
 KinematicState Drive(const std::vector<Vec2>& route, const FilletPlan& plan, double distance,
                      ReferencePoint reference, double step) {
   const Vec2 leg = route[1] - route[0];
@@ -939,7 +945,7 @@ constexpr ReferencePoint kCg = ReferencePoint::kCenterOfGravity;
 constexpr double kStep = 0.1;  // [m]
 
 TEST(OpenLoop, PassOneStopsShortOfFullLock) {
-  // 8.0111 m at omega/v reach 0.4021 rad, not 0.4869.
+  // Over 8.0111 m at omega/v the angle reaches 0.4021 rad, not 0.4869.
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   double peak = 0.0;
@@ -951,13 +957,15 @@ TEST(OpenLoop, PassOneStopsShortOfFullLock) {
 }
 
 TEST(OpenLoop, PassOneYawIsTheClosedFormOfATruncatedTurn) {
-  // Both ramps to delta_p: 2 (v/(L omega)) (-ln cos delta_p) per turn, half of it at the return.
+  // Heading over both ramps to delta_p: 2 (v/(L omega)) (-ln cos delta_p) per turn, half at the
+  // return.
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
   const double peak = 5.1 * kPi / 2.0 * (2.65 / 17.6) / kSpeed;
   const double ramp = kSpeed * 17.6 / (2.7 * 2.65) * -std::log(std::cos(peak));
   const auto at_return = Drive(RouteA(), plan, plan.turns[0].steer_return, kRear, kStep);
   const auto at_end = Drive(RouteA(), plan, plan.path.length(), kRear, kStep);
-  // A fourth-order method at 0.1 m: the yaw's error per ramp is h^4 |psi'''''| S/2880 < 1e-9 rad.
+  // A fourth-order method with steps of 0.1 m: the yaw error per ramp is h^4 |psi'''''| S/2880 <
+  // 1e-9 rad.
   EXPECT_NEAR(at_return.pose.yaw, ramp, Tolerance(1e-9));
   EXPECT_NEAR(at_end.pose.yaw, 2.0 * ramp, Tolerance(3e-9));
 }
@@ -1047,7 +1055,7 @@ TEST_P(OpenLoopEnd, MissesTheGoalAsPrinted) {
   };
   RecordProperty("error_m", fmt::format("{:.10f}", error(0.25 * kStep)));
   EXPECT_NEAR(error(kStep), c.error, Tolerance(Printed(c.decimals)));
-  // Converged: the step's own error is a thousandth of the smallest tolerance above.
+  // Converged: the discretization error is a thousandth of the smallest tolerance above.
   EXPECT_NEAR(error(kStep), error(0.5 * kStep), Tolerance(5e-8));
 }
 
@@ -1076,7 +1084,7 @@ TEST(OpenLoop, MirroredPlanDrivesMirrored) {
     const FilletPlan b = PlanWith(mirrored, RadiusConstraint::kSteeringRoom);
     const Pose2 left = Drive(RouteB(), a, a.path.length(), reference, kStep).pose;
     const Pose2 right = Drive(mirrored, b, b.path.length(), reference, kStep).pose;
-    // 1500 steps, each rounding at 100 m by 1.4e-14.
+    // Rounding of 1500 steps at coordinates of 100 m: 1.4e-14 each.
     EXPECT_NEAR(right.x, left.x, Tolerance(1e-10));
     EXPECT_NEAR(right.y, -left.y, Tolerance(1e-10));
     EXPECT_NEAR(right.yaw, -left.yaw, Tolerance(1e-10));

@@ -15,7 +15,7 @@
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
 
-// Fillets for a car whose wheels stand at d_0 between its turns.
+// Fillet plans of a car whose wheels are at the neutral steering angle d_0 between its turns.
 namespace trackbed {
 namespace {
 
@@ -55,7 +55,7 @@ TEST(NeutralSteering, RampsTakeTheTravelFromItAndBack) {
       const double time = std::abs(steering - neutral) / kRate;
       EXPECT_NEAR(turn.steering, steering, Tolerance(kRounding));
       EXPECT_NEAR(turn.ramp_time, time, Tolerance(kRounding));
-      // Centered on the tangent point: so far before it as after it.
+      // The ramp is centered on the tangent point: equally long before and after it.
       EXPECT_NEAR(turn.steer_start, turn.arc_start_s - 0.5 * kSpeed * time, Tolerance(kRounding));
       EXPECT_NEAR(plan.schedule.At(turn.steer_start), neutral, Tolerance(kRounding));
       EXPECT_NEAR(plan.schedule.At(turn.arc_start_s), 0.5 * (steering + neutral),
@@ -68,21 +68,21 @@ TEST(NeutralSteering, RampsTakeTheTravelFromItAndBack) {
 }
 
 TEST(NeutralSteering, LeavesTheRoomThatItsOwnRampsNeed) {
-  // Legs of 40 m, all turns alike but for their side: C.40 with |delta - d_0| is 20 m = K + S.
+  // Legs of 40 m; all turns differ only in their side. C.40 with |delta - d_0|: 20 m = K + S.
   const FilletPlan plan = PlanFillets(ReferenceCar(), RouteA(), kSpeed, Neutral(0.02));
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   for (const FilletTurn& turn : plan.turns) {
     EXPECT_EQ(turn.active, ActiveConstraint::kSteeringRoom);
     EXPECT_NEAR(turn.tangent_length + turn.ramp_distance, 20.0, Tolerance(kRounding));
   }
-  // A turn away from where the wheels stand has the longer ramp, and so the smaller radius.
+  // A turn away from the neutral angle has the longer ramp, and therefore the smaller radius.
   EXPECT_LT(plan.turns[1].radius, plan.turns[0].radius);
 }
 
 TEST(NeutralSteering, RadiiAgreeWithADenseScan) {
   Random random(20240607);
   int intervals = 0;
-  int beyond = 0;  // intervals that reach past the circle of d_0
+  int beyond = 0;  // intervals that contain radii beyond the circle of d_0
   for (int i = 0; i < 400; ++i) {
     const double angle = Radians(random.Uniform(20.0, 178.0));
     const double leg = random.Uniform(3.0, 60.0);
@@ -99,7 +99,7 @@ TEST(NeutralSteering, RadiiAgreeWithADenseScan) {
     constexpr int kPoints = 4000;
     for (int j = 0; j <= kPoints; ++j) {
       const double r = bounds.low * std::pow(bounds.high / bounds.low, j / double{kPoints});
-      // Both sides of g are below 1000 m: within 1e-11 of zero rounding decides.
+      // Both sides of g are below 1000 m: within 1e-11 of zero the sign is subject to rounding.
       if (radii && r >= radii->low && r <= radii->high) {
         ASSERT_LE(g(r), 1e-11) << "r = " << r;
       } else {
@@ -140,15 +140,15 @@ TEST(NeutralSteering, PredictionOfAStraightRouteIsTheCircleThatTheWheelsDrive) {
   const double curvature = std::tan(0.05) / kWheelbase;
   const double yaw = 40.0 * curvature;
   const Vec2 end(std::sin(yaw) / curvature, (1.0 - std::cos(yaw)) / curvature);
-  // On constant steering the roll-out is Simpson's rule in steps of 0.5 m: its position's error is
-  // (0.5 kappa)^4/2880 of the 40 m, 1e-10 m.
+  // On constant steering the roll-out is Simpson's rule in steps of 0.5 m. The position error is
+  // (0.5 kappa)^4/2880 of the 40 m: 1e-10 m.
   EXPECT_NEAR(plan.verification.goal_distance, (end - straight.back()).norm(), Tolerance(1e-9));
   EXPECT_NEAR(plan.verification.goal_heading, yaw, Tolerance(kRounding));
 }
 
 TEST(NeutralSteering, PredictedHeadingIsTheIntegralOverRampsAndHolds) {
-  // psi = int tan(delta)/L ds: kappa_0 off the turn, (ln cos d_0 - ln cos delta)/(L m) on a ramp of
-  // the slope m, the arc's curvature on the hold.
+  // psi = int tan(delta)/L ds: kappa_0 outside the turn, (ln cos d_0 - ln cos delta)/(L m) on a
+  // ramp of slope m, the arc's curvature on the hold.
   const std::vector<Vec2> route{{0, 0}, {40, 0}, {40, 40}};
   for (const double neutral : {0.01, -0.03}) {
     const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed, Neutral(neutral));
@@ -172,9 +172,9 @@ TEST(NeutralSteering, FindingsTellIt) {
   EXPECT_EQ(DiagnosticsJson(plan).at("neutral_steering_rad"), 0.02);
   EXPECT_EQ(DiagnosticsJson(plan).at("neutral_curvature_radpm"),
             CurvatureForSteering(ReferenceCar(), 0.02));
-  // 0.02 rad over the 17 m before the first turn alone are 0.12 rad and more than a meter.
+  // 0.02 rad over the 17 m before the first turn already give 0.12 rad and more than a meter.
   EXPECT_GT(DiagnosticsJson(plan).at("open_loop").at("deviation_max_m"), 1.0);
-  // What a turn must cost is reckoned from straight wheels.
+  // Predictions per turn assume straight wheels, so there are none with a neutral angle.
   EXPECT_TRUE(plan.turns.empty());
   EXPECT_FALSE(DiagnosticsJson(plan).at("turns").at(0).contains("predicted"));
 

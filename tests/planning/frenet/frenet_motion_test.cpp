@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// From 1 m left to 1.5 m right while speeding up, in 5 s, then straight on.
+/// From 1 m left to 1.5 m right while accelerating, in 5 s, then straight on.
 FrenetMotion Swerve() {
   FrenetPiece first{5.0, QuarticBetween({4.0, 5.0, 0.0}, {0.0, 7.0, 0.0}, 5.0),
                     QuinticBetween({1.0, 0.0, 0.0}, {-1.5, 0.0, 0.0}, 5.0)};
@@ -22,7 +22,7 @@ FrenetMotion Swerve() {
   return {{first, second}};
 }
 
-/// From rest at one offset to rest at another, 20 m on.
+/// From rest at one offset to rest at another, 20 m farther.
 FrenetMotion FromRestToRest() {
   return {{{10.0, QuinticBetween({5.0, 0.0, 0.0}, {25.0, 0.0, 0.0}, 10.0),
             QuinticBetween({0.5, 0.0, 0.0}, {-0.5, 0.0, 0.0}, 20.0), true}}};
@@ -61,7 +61,7 @@ TEST(Trajectory, HasPointsAsCloseAsAskedFor) {
   EXPECT_NEAR(points->back().t, 7.0, Tolerance(1e-12));
   for (std::size_t i = 1; i < points->size(); ++i) {
     EXPECT_GT((*points)[i].t, (*points)[i - 1].t);
-    // The probes may miss the very fastest moment.
+    // The samples may miss the fastest moment.
     EXPECT_LE((*points)[i].distance - (*points)[i - 1].distance, 0.101);
   }
   const auto few = SampleMotion(BentRoad(), Swerve(), 0.25, 100.0);
@@ -79,13 +79,13 @@ TEST(Trajectory, MeasuresTheDistanceDriven) {
       distance += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
           [&](double t) { return FromFrenet(path, motion.At(t))->speed; }, (*points)[i - 1].t,
           (*points)[i].t, 0);
-      // h^2/12 = 3e-5 times what the acceleration jumps by at joints of the path, 0.1 m/s^2.
+      // h^2/12 = 3e-5 times the jump of the acceleration at joints of the path, 0.1 m/s^2.
       EXPECT_NEAR((*points)[i].distance, distance, Tolerance(1e-5));
     }
   }
 }
 
-/// How far the path of a reference leads from the motion it was made of, between all points.
+/// Expects that a reference's path stays on the motion that it was made of, also between points.
 void ExpectFollows(const Path& road, const FrenetMotion& motion) {
   const auto points = SampleMotion(road, motion, 0.2, 0.1);
   ASSERT_TRUE(points);
@@ -121,7 +121,7 @@ TEST(Reference, IsAsFastAsTheMotion) {
   const Reference reference = ToReference(*points);
   for (const TrajectoryPoint& point : *points) {
     EXPECT_NEAR(reference.speed.SpeedAt(point.distance), point.motion.speed, Tolerance(1e-9));
-    // Constant accelerations from point to point: h^2/12 times their changes, summed.
+    // Acceleration is constant between points: h^2/12 times its changes, summed.
     EXPECT_NEAR(reference.speed.TimeAt(point.distance), point.t, Tolerance(1e-4));
   }
 }
@@ -141,7 +141,7 @@ TEST(Trajectory, NeedsAFrameAllAlong) {
   const Path tight({0.0, 0.0, 0.0}, {{50.0, 0.2, 1}});
   const FrenetMotion beyond{{{3.0, Polynomial{{5.0, 3.0}}, Polynomial{{4.0, 0.0, 0.2}}}}};
   EXPECT_FALSE(SampleMotion(tight, beyond, 0.2, 0.1));
-  // d(t) says nothing of the heading of a car at rest.
+  // d(t) does not define the heading of a car at rest.
   const FrenetMotion stands{{{3.0, Polynomial{{5.0}}, Polynomial{{1.0, 0.1}}}}};
   EXPECT_FALSE(SampleMotion(StraightRoad(), stands, 0.2, 0.1));
 }

@@ -14,18 +14,20 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
+// Tests the Frenet planner: its cost against known optima of polynomials, its candidates, and plans
+// among standing and moving boxes, each checked by ExpectDrivable.
 namespace trackbed {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Where a function is smallest. Its value is flat there: half of the digits are left.
+/// Argmin of a function. The function is flat there, so half of the digits are lost.
 template <typename Function>
 double Minimum(const Function& function, double from, double to) {
   return boost::math::tools::brent_find_minima(function, from, to, 26).first;
 }
 
-/// C of a shift over time from one offset to another at 5 m/s.
+/// The cost C of a lateral shift between two offsets at 5 m/s.
 FrenetCost CostOfShift(double from, double to, double duration, const FrenetWeights& weights) {
   const FrenetPiece piece{duration, Polynomial{{0.0, 5.0}},
                           QuinticBetween({from, 0.0, 0.0}, {to, 0.0, 0.0}, duration)};
@@ -62,11 +64,11 @@ TEST(FrenetCost, IsLeastAtTheKnownEndOffset) {
 }
 
 TEST(FrenetCost, IsTheSumOfItsTerms) {
-  // A shift of 2 m in 4 s while speeding up by 1.5 m/s, with every weight another one.
+  // A shift of 2 m in 4 s while accelerating by 1.5 m/s, with a different value for every weight.
   FrenetWeights weights{0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.1, 3};
   const FrenetPiece piece{4.0, QuarticBetween({10.0, 3.0, 0.0}, {0.0, 4.5, 0.0}, 4.0),
                           QuinticBetween({1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, 4.0)};
-  // It gets to 10 + 4 (3 + 4.5)/2 = 25 m.
+  // The end is at 10 + 4 (3 + 4.5)/2 = 25 m.
   const FrenetTarget target{27.0, 5.5};
   FrenetCost cost = PieceCost(piece, target, weights);
   const double lateral = 0.2 * 720.0 * 4.0 / 1024.0 + 0.3 * 1.0 + 0.4 * 4.0;
@@ -74,14 +76,14 @@ TEST(FrenetCost, IsTheSumOfItsTerms) {
   EXPECT_NEAR(cost.lateral, lateral, Tolerance(1e-12));
   EXPECT_NEAR(cost.longitudinal, longitudinal, Tolerance(1e-12));
   EXPECT_NEAR(cost.total, 0.9 * lateral + 1.1 * longitudinal, Tolerance(1e-12));
-  // The literal one: accelerations.
+  // The published cost uses accelerations.
   weights.derivative_order = 2;
   cost = PieceCost(piece, target, weights);
   EXPECT_NEAR(cost.lateral, lateral + 0.2 * (120.0 / 7.0 * 4.0 / 64.0 - 720.0 * 4.0 / 1024.0),
               Tolerance(1e-12));
   EXPECT_NEAR(cost.longitudinal, longitudinal + 0.5 * (1.2 * 2.25 / 4.0 - 12.0 * 2.25 / 64.0),
               Tolerance(1e-12));
-  // Without a wanted station K_s does not count.
+  // Without a target station K_s has no effect.
   EXPECT_NEAR(PieceCost(piece, {std::nullopt, 5.5}, weights).longitudinal,
               cost.longitudinal - 0.6 * 4.0, Tolerance(1e-12));
 }
@@ -164,7 +166,7 @@ TEST(Frenet, KeepsStraightOnWhereNothingIsInTheWay) {
   EXPECT_EQ(plan.reason, "");
   EXPECT_EQ(plan.candidates, 525);
   EXPECT_EQ(plan.checked, 1);
-  // Nothing to pay but for the shortest time: (K_dt + K_st) 2 s.
+  // Only the shortest duration costs something: (K_dt + K_st) 2 s.
   EXPECT_NEAR(plan.cost, 0.4, Tolerance(1e-12));
   for (const TrajectoryPoint& point : plan.points) {
     EXPECT_EQ(point.frenet.d, 0.0);
@@ -181,7 +183,8 @@ TEST(Frenet, PassesABoxOnTheRoomierSide) {
     options.end_times = {4.0, 5.0, 6.0, 7.0};
     const FrenetPlan plan = PlanFrenet(StraightRoad(), request, options);
     ASSERT_TRUE(plan.ok()) << plan.reason;
-    // Inner edge at 0.05 m, safe distance 0.5 m, half the car 0.8625 m: 1.3125 m, and the grid.
+    // Inner edge at 0.05 m, safe distance 0.5 m, half the car 0.8625 m: 1.3125 m, rounded up to the
+    // grid.
     EXPECT_NEAR(plan.motion.At(plan.motion.duration()).d, -side * 1.5, Tolerance(1e-9));
     ExpectDrivable(StraightRoad(), request, options.limits, plan);
   }
@@ -224,14 +227,14 @@ TEST(Frenet, PlansOnlyWhatCanBeDriven) {
 }
 
 TEST(Frenet, ForeseesWhereAMovingBoxWillBe) {
-  // It crosses the road and is in the middle of it when a car that keeps on gets there.
+  // The box crosses the road and is in its middle when a car at constant speed gets there.
   FrenetRequest request = OnPath(5.0);
   request.obstacles = {BoxAt(StraightRoad(), 20.0, -7.0)};
   FrenetOptions options;
   options.end_times = {4.0, 5.0};
   const FrenetPlan waits = PlanFrenet(StraightRoad(), request, options);
   ASSERT_TRUE(waits.ok());
-  EXPECT_EQ(waits.checked, 1);  // while it stands aside
+  EXPECT_EQ(waits.checked, 1);  // while the box is beside the road
   request.obstacles[0].velocity = {0.0, 1.8};
   const FrenetPlan plan = PlanFrenet(StraightRoad(), request, options);
   ASSERT_TRUE(plan.ok()) << plan.reason;
@@ -240,7 +243,8 @@ TEST(Frenet, ForeseesWhereAMovingBoxWillBe) {
 }
 
 TEST(Frenet, LooksBeyondTheEndOfItsMotion) {
-  // At 3 m/s 1.5 m aside take 5.4 s. The cheapest motion takes 2 s and ends 9 m before the box.
+  // At 3 m/s a shift of 1.5 m takes 5.4 s. The cheapest motion takes 2 s and ends 9 m before the
+  // box.
   FrenetRequest request = OnPath(3.0);
   request.obstacles = {BoxAt(StraightRoad(), 20.0, 0.8)};
   FrenetOptions options;
@@ -253,7 +257,7 @@ TEST(Frenet, LooksBeyondTheEndOfItsMotion) {
   const FrenetPlan plan = PlanFrenet(StraightRoad(), request, options);
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_GT(plan.rejected.Of(Rejection::kCollision), 0);
-  // It is clear of the box wherever it has got to after 8 s, going on as its motion ends.
+  // The car is clear of the box after 8 s if it continues from the end of its motion.
   const FrenetState end = plan.motion.At(plan.motion.duration());
   const double later = end.s + end.s_rate * (8.0 - plan.motion.duration());
   EXPECT_TRUE(end.d < -1.3 || later + 3.625 < 20.0 - 1.0 - 0.5) << end.d << ", " << later;
@@ -268,7 +272,7 @@ TEST(Frenet, KeepsItsDistanceFromALeader) {
   const double duration = plan.motion.duration();
   const FrenetState end = plan.motion.At(duration);
   EXPECT_NEAR(end.s_rate, 2.0, Tolerance(1e-9));
-  // Between the bumpers, the car's being 4.45 - 0.825 m ahead of its rear axle.
+  // The gap between the bumpers; the car's front is 4.45 - 0.825 m ahead of its rear axle.
   EXPECT_NEAR(leader.station + 2.0 * duration - (end.s + 3.625), 4.0 + 1.5 * 2.0, Tolerance(1e-9));
   ExpectDrivable(StraightRoad(), request, {}, plan);
 }
@@ -309,7 +313,7 @@ TEST(Frenet, StaysWhereItStands) {
   EXPECT_EQ(plan.motion.At(1.0).d, 1.0);
 }
 
-/// The counts when only one end is tried and rejected.
+/// The rejection counts when only one end state is tried and rejected.
 RejectionCounts CountRejected(const Path& path, const FrenetRequest& request,
                               FrenetOptions options) {
   options.end_offsets.resize(1);
@@ -336,7 +340,7 @@ TEST(Frenet, SaysWhyItRejects) {
   {
     FrenetOptions aside = options;
     aside.end_offsets = {3.0};
-    aside.limits.max_lateral_acceleration = 0.5;  // 5.77 times 3/16 m/s^2 at most
+    aside.limits.max_lateral_acceleration = 0.5;  // the motion needs up to 5.77 times 3/16 m/s^2
     EXPECT_EQ(CountRejected(road, OnPath(8.0), aside).Of(Rejection::kAcceleration), 1);
     // 60 L D/(T^3 v^2) = 0.84 rad/s.
     aside.limits.max_lateral_acceleration = 3.0;
@@ -345,12 +349,12 @@ TEST(Frenet, SaysWhyItRejects) {
     FrenetRequest narrow = OnPath(5.0);
     narrow.road.left = 3.9;
     EXPECT_EQ(CountRejected(road, narrow, aside).Of(Rejection::kRoad), 1);
-    // 3 m, half a car, and 0.09 m that the front swings out before the rear gets there.
+    // Room for 3 m, half a car, and 0.09 m that the front swings out before the rear gets there.
     narrow.road.left = 4.0;
     EXPECT_TRUE(PlanFrenet(road, narrow, aside).ok());
   }
   {
-    // 2 m aside within 4 m: 5.77 times 2/16 per meter.
+    // 2 m aside within 4 m: a slope change of 5.77 times 2/16 per meter.
     FrenetOptions tight = options;
     tight.end_offsets = {2.0};
     tight.limits.time_step = 1.0;
@@ -417,8 +421,8 @@ TEST(Frenet, DoesNotStartInAnObstacleOrWithoutAFrame) {
 }
 
 TEST(Frenet, LeavesASpotThatIsTooCloseAlready) {
-  // A box 0.2 m beside the car, another in its way: it drives on without coming closer to the
-  // first.
+  // One box is 0.2 m beside the car, another in its way. The car proceeds without coming closer to
+  // the first.
   FrenetRequest request = OnPath(5.0);
   request.obstacles = {BoxAt(StraightRoad(), 1.0, 0.2 + 0.8625 + 0.75),
                        BoxAt(StraightRoad(), 30.0, 1.0)};
@@ -445,7 +449,7 @@ TEST(Frenet, IsMirroredWithItsWorld) {
       box.box.center.y *= -1.0;
       box.velocity.y() *= -1.0;
     }
-    // The start is beside the path: no two candidates cost the same.
+    // The start is beside the path, so no two candidates cost the same.
     const FrenetPlan a = PlanAmongBoxes(StraightRoad(), boxes, 0.2);
     const FrenetPlan b = PlanAmongBoxes(StraightRoad(), mirrored, -0.2);
     ASSERT_EQ(a.ok(), b.ok());
@@ -473,11 +477,11 @@ TEST(Frenet, MovesWithItsWorld) {
     const FrenetPlan a = PlanAmongBoxes(here, boxes, 0.2);
     const FrenetPlan b = PlanAmongBoxes(there, moved, 0.2);
     ASSERT_EQ(a.ok(), b.ok());
-    EXPECT_EQ(a.cost, b.cost);  // the frame knows nothing of the world
+    EXPECT_EQ(a.cost, b.cost);  // the Frenet frame is independent of the world's frame
     ASSERT_EQ(a.points.size(), b.points.size());
     for (std::size_t k = 0; k < a.points.size(); ++k) {
       const Pose2 expected = Compose(X_WM, a.points[k].motion.pose);
-      // Rounding at 150 m, over the path's quadratures.
+      // Rounding at 150 m, accumulated over the path's quadratures.
       EXPECT_NEAR((b.points[k].motion.pose.position() - expected.position()).norm(), 0.0,
                   Tolerance(1e-10));
     }

@@ -11,11 +11,13 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
+// Tests the Frenet lattice: a lattice of one layer equals the single-edge planner, and an
+// enumeration of all paths confirms the cheapest one.
 namespace trackbed {
 namespace {
 
-/// Walls 36 m apart from either side of a road of 4 m to each: room on the right, on the left, on
-/// the right, for cars 1.86 m from the middle.
+/// Walls 36 m apart, alternately from either side of a road of 4 m to each side. A car passes on
+/// the right, the left and the right, 1.86 m from the middle.
 std::vector<MovingBox> SlalomBoxes(const Path& path) {
   return {BoxAt(path, 24.0, 1.65, 1.0, 4.7), BoxAt(path, 60.0, -1.65, 1.0, 4.7),
           BoxAt(path, 96.0, 1.65, 1.0, 4.7)};
@@ -48,7 +50,8 @@ TEST(Lattice, OfOneLayerIsFrenet) {
     lattice.layers = 1;
     lattice.spacing = 35.0;
     const FrenetPlan plan = PlanLattice(path, request, lattice);
-    // The same ends: for each speed the time that the way takes at the mean speed.
+    // The lattice has the same end states: each speed reaches its end in the time given by the mean
+    // speed.
     double best = std::numeric_limits<double>::infinity();
     FrenetMotion motion;
     int candidates = 0;
@@ -72,7 +75,7 @@ TEST(Lattice, OfOneLayerIsFrenet) {
       continue;
     }
     ++found;
-    // Their times are the same but for rounding.
+    // The durations agree to rounding.
     EXPECT_NEAR(plan.cost, best, Tolerance(1e-9));
     EXPECT_NEAR(plan.motion.duration(), motion.duration(), Tolerance(1e-12));
     EXPECT_NEAR(plan.motion.At(3.0).d, motion.At(3.0).d, Tolerance(1e-9));
@@ -146,7 +149,7 @@ TEST(Lattice, PlansOnlyWhatCanBeDriven) {
     if (plan.ok()) {
       ++found;
       ExpectDrivable(path, request, options.limits, plan);
-      // What it paid is the sum of its edges.
+      // The plan's cost is the sum of its edges' costs.
       double cost = 0.0;
       for (const FrenetPiece& piece : plan.motion.pieces) {
         cost += PieceCost(piece, {std::nullopt, std::get<KeepSpeed>(request.goal).speed},
@@ -163,7 +166,7 @@ TEST(Lattice, PlansOnlyWhatCanBeDriven) {
 }
 
 TEST(Lattice, LooksCloselyAtWhatItTakes) {
-  // A first check every 20 s sees nothing between the nodes.
+  // With checks only every 20 s, collisions between the nodes go unnoticed.
   FrenetRequest request = OnPath(3.0);
   request.obstacles = SlalomBoxes(StraightRoad());
   LatticeOptions options;
@@ -177,7 +180,8 @@ TEST(Lattice, LooksCloselyAtWhatItTakes) {
 }
 
 TEST(Lattice, IsTheCheapestOfAllWays) {
-  // Two layers, three offsets, one speed: every way by hand, each edge as a lattice of its own.
+  // Two layers, three offsets, one speed: all paths enumerated here, each edge as a separate
+  // lattice.
   const Path path = StraightRoad();
   FrenetRequest request = OnPath(3.0);
   request.obstacles = {BoxAt(path, 34.0, 0.75)};
@@ -219,7 +223,7 @@ TEST(Lattice, StopsAtTheStation) {
   EXPECT_NEAR(end.s, 30.0, Tolerance(1e-9));
   EXPECT_NEAR(end.s_rate, 0.0, Tolerance(1e-9));
   ExpectDrivable(StraightRoad(), request, {}, plan);
-  // A stop beyond the lattice does not show yet.
+  // A stop beyond the lattice has no effect yet.
   request.goal = StopAt{100.0};
   const FrenetPlan far = PlanLattice(StraightRoad(), request, {});
   ASSERT_TRUE(far.ok()) << far.reason;
@@ -238,7 +242,8 @@ TEST(Lattice, FollowsItsLeader) {
   const double duration = plan.motion.duration();
   const FrenetState end = plan.motion.At(duration);
   const FrenetTarget target = TargetAt(request.goal, request.vehicle, duration);
-  // As near as three speeds let it: a layer takes 6 s at 2 m/s, a half step faster or slower 1.5 m.
+  // The speeds allow 1.5 m: a layer takes 6 s at 2 m/s, and speeds half a step faster or slower
+  // miss the station by that much.
   EXPECT_NEAR(end.s, target.station.value(), 2.0);
 }
 
@@ -262,8 +267,8 @@ TEST(Lattice, MeasuresEachEdgeByWhereTheLeaderIsThen) {
 }
 
 TEST(Lattice, IsCalledAgainFromWhereItsMotionIs) {
-  // Every second from where the car is by then, which goes on as planned where nothing new is
-  // found.
+  // Replans every second from the state that the car has reached. Without new obstacles the plan
+  // stays the same.
   const Path path = StraightRoad();
   FrenetRequest request = OnPath(3.0);
   request.road = {4.0, 4.0};

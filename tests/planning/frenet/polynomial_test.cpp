@@ -11,12 +11,12 @@
 namespace trackbed {
 namespace {
 
-/// A motion of a few units.
+/// A motion with random position, speed and acceleration of a few units.
 LineMotion AnyMotion(Random& random) {
   return {random.Uniform(-5.0, 5.0), random.Uniform(-5.0, 5.0), random.Uniform(-2.0, 2.0)};
 }
 
-/// Rounding, times the largest terms of the sums: c_i t^i of some hundred units.
+/// Rounding, relative to the largest terms of the sums: c_i t^i of some hundred units.
 constexpr double kRounding = 1e-11;
 
 TEST(Polynomial, AndItsDerivativesAreTheSums) {
@@ -52,7 +52,7 @@ TEST(Polynomial, IntegratesEveryOrderAsAQuadratureDoes) {
   for (int i = 0; i < 20; ++i) {
     const Polynomial p = QuinticBetween(AnyMotion(random), AnyMotion(random), 3.0);
     for (std::size_t order = 0; order <= 5; ++order) {
-      // Ten nodes are exact up to degree 19.
+      // Gauss quadrature with ten nodes is exact up to degree 19.
       const double expected = boost::math::quadrature::gauss<double, 10>::integrate(
           [&](double t) { return p.At(t, order) * p.At(t, order); }, 0.0, 3.0);
       EXPECT_NEAR(p.IntegralOfSquare(order, 3.0), expected, Tolerance(1e-11 * (1.0 + expected)));
@@ -90,8 +90,8 @@ TEST(Quintic, FromRestToRestCostsWhatIsKnown) {
 }
 
 TEST(Quartic, ChangesSpeedAtTheKnownCost) {
-  // Without acceleration at either end int jerk^2 = 12 dv^2/T^3, int acceleration^2 = 1.2 dv^2/T,
-  // and the way is that at the mean speed.
+  // Without acceleration at either end int jerk^2 = 12 dv^2/T^3 and int acceleration^2 = 1.2
+  // dv^2/T. The distance is that at the mean speed.
   for (const double change : {2.0, -3.0}) {
     for (const double t : {1.5, 6.0}) {
       const Polynomial p = QuarticBetween({7.0, 4.0, 0.0}, {0.0, 4.0 + change, 0.0}, t);
@@ -119,7 +119,7 @@ TEST(Quartic, JoinsBothMotionsWhereverItEnds) {
 }
 
 TEST(Quartic, EndsWhereTheJerkCostsLeast) {
-  // The quintic to any other end costs more: it is the optimum with a free end.
+  // The quintic to any other end costs more: this polynomial is the optimum with a free end.
   const LineMotion from{0.0, 3.0, 0.5};
   const LineMotion to{0.0, 5.0, 0.0};
   const Polynomial quartic = QuarticBetween(from, to, 4.0);

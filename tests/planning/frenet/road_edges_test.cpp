@@ -58,7 +58,7 @@ double DistanceFrom(const TrackEdgeLine& edge, const Vec2& point) {
   return nearest;
 }
 
-/// Points all along the sides of a footprint.
+/// Points along the sides of a footprint.
 std::vector<Vec2> Sides(const OrientedBox& box) {
   std::vector<Vec2> points;
   for (const double side : {-0.5, 0.5}) {
@@ -87,9 +87,9 @@ TEST(RoadEdges, OfARingAreAsFarAsItsRadiiSay) {
   for (const double radius : {kRing, 48.0, 52.0}) {
     const RoadEdges edges = EdgesBeside(CircleOf(radius), track, ReferenceCar(), 0.5);
     for (double s = 0.0; s < 2.0 * kPi * radius; s += 0.3) {
-      // Edges are polylines, their points half a meter of the center line apart, at most 0.54 m on
-      // the outer edge: 0.54^2/(8 * 54) = 0.0007 m inside the circle; the line's own closing error
-      // is 1e-4.
+      // Edges are polylines whose points are half a meter of the center line apart, at most 0.54 m
+      // on the outer edge: 0.54^2/(8 * 54) = 0.0007 m inside the circle. The center line's closing
+      // error is 1e-4.
       EXPECT_NEAR(edges.At(s).left, radius - (kRing - 6.0) - 0.5, Tolerance(1e-3));
       EXPECT_NEAR(edges.At(s).right, kRing + 4.0 - radius - 0.5, Tolerance(1e-3));
     }
@@ -97,7 +97,8 @@ TEST(RoadEdges, OfARingAreAsFarAsItsRadiiSay) {
 }
 
 TEST(RoadEdges, TellTheFootprintsReachOnARing) {
-  // The largest distance of the sides from the origin, and the smallest, by the footprint itself.
+  // The largest and the smallest distance of the sides from the origin, computed from the
+  // footprint.
   const Track track = Ring(4.0, 6.0);
   const VehicleParams car = ReferenceCar();
   const Path path = CircleOf(kRing);
@@ -113,8 +114,9 @@ TEST(RoadEdges, TellTheFootprintsReachOnARing) {
     for (const Vec2& point : Sides(FootprintAt(car, motion->pose))) {
       beyond = std::max({beyond, point.norm() - (kRing + 4.0), kRing - 6.0 - point.norm()});
     }
-    // Exact on a circle but for the polylines (above) and the points in between: a side that is at
-    // its nearest to the center between two of five points 1.1 m apart, 0.55^2/(2*44) = 0.0035 m.
+    // Exact on a circle but for the polylines (above) and for sampling the sides at five points 1.1
+    // m apart. Where a side is nearest to the center between two points, the error is 0.55^2/(2*44)
+    // = 0.0035 m.
     EXPECT_NEAR(ReachBeyond(edges, car, path.At(state.s), state), beyond, Tolerance(0.005));
   }
 }
@@ -140,20 +142,21 @@ TEST(RoadEdges, KeepFootprintsAtTheirDistanceFromATrack) {
     }
     const double beyond = ReachBeyond(edges, car, path.At(state.s), state);
     if (beyond > 0.3) {
-      continue;  // a point beyond an edge would look as if it were inside
+      continue;  // a point beyond an edge would appear to be inside
     }
     within += beyond <= 0.0 ? 1 : 0;
-    // Along the normal of the path instead of that of the edge, which is turned by up to 0.05: off
-    // by 0.05^2/2 of at most 4 m, 0.005 m; the circle, with a sharpness of 0.001/m^2 at most
-    // and 3.7 m ahead of the axle, 0.0085 m; edges of curvature 1/30 between points 1.1 m apart,
-    // 0.005 m.
+    // Distances are measured along the normal of the path, not of the edge, which is turned by up
+    // to 0.05: 0.05^2/2 of at most 4 m is 0.005 m. The path is taken as a circle although its
+    // sharpness is up to 0.001/m^2, 3.7 m ahead of the axle: 0.0085 m. Edges of curvature 1/30
+    // between points 1.1 m apart add 0.005 m.
     EXPECT_NEAR(-beyond, nearest - kDistance, Tolerance(0.019)) << state.s << ' ' << state.d;
   }
   EXPECT_GT(within, 100);
 }
 
 TEST(RoadEdges, AdmitAnyCarThatIsOnThePath) {
-  // From no edge as far as wanted: they are where the car on the path reaches.
+  // The wanted distance of 50 m is never available, so the limits are the car's outline on the
+  // path.
   const Track track = Kidney();
   const VehicleParams car = ReferenceCar();
   const Path path = CenterOf(track);
@@ -166,7 +169,7 @@ TEST(RoadEdges, AdmitAnyCarThatIsOnThePath) {
   }
 }
 
-/// A car at 8 m/s on the middle of a ring, with a box in its way.
+/// A car at 8 m/s on the center line of a ring, with a box in its way.
 struct RingScene {
   RingScene(double right, double left) : track(Ring(right, left)), request(OnPath(8.0)) {
     request.start.s = 20.0;
@@ -184,7 +187,7 @@ void ExpectWithin(const RingScene& scene, const FrenetPlan& plan) {
   double aside = 0.0;
   for (const TrajectoryPoint& point : plan.points) {
     for (const Vec2& corner : FootprintAt(scene.request.vehicle, point.motion.pose).Corners()) {
-      // The polylines, above.
+      // Tolerance of the polylines, as above.
       EXPECT_LE(std::abs(corner.norm() - kRing), 4.5 - 0.3 + Tolerance(0.005));
     }
     aside = std::max(aside, std::abs(point.frenet.d));
@@ -201,7 +204,7 @@ TEST(FrenetPlans, KeepWithinTheEdges) {
 }
 
 TEST(FrenetPlans, TakeTheSideThatTheEdgesLeave) {
-  // Room for 1 + 0.75 + 0.5 + 1.8 m, the box, twice the distance and the car, on one side alone.
+  // Room for 1 + 0.75 + 0.5 + 1.8 m (the box, twice the distance, the car) on one side only.
   const RingScene left(1.5, 4.5);
   const FrenetPlan to_left = PlanFrenet(left.path, left.request, {});
   ASSERT_TRUE(to_left.ok());
@@ -227,7 +230,7 @@ TEST(FrenetPlans, AreNoneWhereTheEdgesLeaveNoRoom) {
 TEST(FrenetPlans, LeadACarBackThatIsBeyondAnEdge) {
   RingScene scene(3.0, 3.0);
   scene.request.obstacles.clear();
-  scene.request.start.d = 2.6;  // half a meter beyond, with the half of its width and 0.3 m
+  scene.request.start.d = 2.6;  // half a meter beyond the edge, with half of its width and 0.3 m
   const FrenetPlan plan = PlanFrenet(scene.path, scene.request, {});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const auto beyond = [&](const TrajectoryPoint& point) {

@@ -26,7 +26,7 @@ OccupancyGrid Clutter(Random& random, int columns, int rows, double share) {
   return grid;
 }
 
-/// A map as it is drawn, the first line on top: # is occupied.
+/// A map from a picture, the first line at the top; # is occupied.
 OccupancyGrid Drawn(const std::vector<std::string>& lines) {
   OccupancyGrid grid;
   grid.columns = static_cast<int>(lines[0].size());
@@ -39,7 +39,7 @@ OccupancyGrid Drawn(const std::vector<std::string>& lines) {
   return grid;
 }
 
-/// Costs by relaxing every edge until nothing changes: no queue, no heuristic.
+/// Costs by relaxing every edge until nothing changes, without a queue or a heuristic.
 std::vector<double> BruteForce(const OccupancyGrid& grid, std::size_t start) {
   std::vector<double> cost(grid.size(), kInfinity);
   cost[start] = 0.0;
@@ -89,7 +89,7 @@ TEST(AStar, CostsWhatBruteForceFinds) {
       ASSERT_EQ(path.ok(), cost[goal] < kInfinity);
       if (path.ok()) {
         ++found;
-        // Sums of at most 1600 steps in another order; the oracle itself tells 1e-9 apart.
+        // Sums of at most 1600 steps in another order; the reference relaxes to 1e-9.
         ASSERT_NEAR(path.cost, cost[goal], Tolerance(2e-9));
         ASSERT_NEAR(DistancesTo(grid, goal)[start], cost[goal], Tolerance(2e-9));
       }
@@ -147,7 +147,7 @@ TEST(AStar, WalksFromCellToNeighborAndCutsNoCorner) {
 }
 
 TEST(AStar, HasAnAdmissibleAndConsistentHeuristic) {
-  // On an empty grid the heuristic is the cost itself: with obstacles costs only rise.
+  // On an empty grid the heuristic equals the cost; obstacles can only increase the cost.
   OccupancyGrid grid;
   grid.columns = 41;
   grid.rows = 31;
@@ -170,7 +170,8 @@ TEST(AStar, LooksAtNoMoreThanItMust) {
   grid.columns = 200;
   grid.rows = 200;
   grid.occupied.assign(200 * 200, 0);
-  // Straight across an empty map the heuristic is exact: one cell after the other.
+  // On a straight line across an empty map the heuristic is exact, so only cells of the path are
+  // expanded.
   const GridPath path = SearchGrid(grid, 0, grid.size() - 1);
   EXPECT_NEAR(path.cost, 199.0 * std::numbers::sqrt2, Tolerance(1e-9));
   EXPECT_LE(path.expansions, 200);
@@ -191,7 +192,7 @@ TEST(AStar, SaysWhyThereIsNoWay) {
   EXPECT_THROW(SearchGrid(walled, 15, 0), InternalError);
 }
 
-// --- Its two drawbacks: it ignores the car's limits, and it is not stable ------------------------
+// --- Two drawbacks: A* ignores the car's limits, and small changes flip its result ---------------
 
 TEST(AStar, JumpsInHeadingByAnEighthOfATurn) {
   const OccupancyGrid grid = Drawn({"..........",  //
@@ -209,7 +210,7 @@ TEST(AStar, JumpsInHeadingByAnEighthOfATurn) {
     const Vec2 in = point(k - 1) - point(k - 2);
     const Vec2 out = point(k) - point(k - 1);
     const double turn = std::abs(std::atan2(Cross(in, out), in.dot(out)));
-    // 0 or 45 degrees, at a single point: no curvature is large enough.
+    // Turns are 0 or 45 degrees at a single point: no finite curvature suffices.
     EXPECT_TRUE(turn < 1e-12 || std::abs(turn - 0.25 * kPi) < 1e-12) << turn;
     sharpest = std::max(sharpest, turn);
   }
@@ -217,8 +218,8 @@ TEST(AStar, JumpsInHeadingByAnEighthOfATurn) {
 }
 
 TEST(AStar, GoesRoundTheOtherSideForASmallShift) {
-  // A box on the straight way, 5 m long: the way leads around it where it reaches out less. Half a
-  // cell of shift is enough to go round the other side.
+  // A box 5 m long on the straight line: the path passes it on the side where it extends less. A
+  // shift of half a cell flips the side.
   const auto side = [](double box_y, double start_y) {
     const OccupancyGrid grid = Rasterize({0.0, 0.0, 0.0}, {{-2.0, -10.0}, {32.0, 10.0}}, 0.5,
                                          {{{15.0, box_y, 0.0}, 5.0, 5.0}}, 1.0);
@@ -233,9 +234,9 @@ TEST(AStar, GoesRoundTheOtherSideForASmallShift) {
     return 0;
   };
   EXPECT_EQ(side(-0.3, 0.0), 1);
-  EXPECT_EQ(side(0.3, 0.0), -1);  // the box, 0.6 m to the left
+  EXPECT_EQ(side(0.3, 0.0), -1);  // shifted box: 0.6 m to the left
   EXPECT_EQ(side(0.0, 0.5), 1);
-  EXPECT_EQ(side(0.0, -0.5), -1);  // the start, 1 m to the right
+  EXPECT_EQ(side(0.0, -0.5), -1);  // shifted start: 1 m to the right
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// The end of the found way, and that every pose on it is free: by no code of the planner's.
+/// Checks the path's end, and by independent code that every pose on it is free.
 void ExpectGood(const HybridAStarProblem& problem, const HybridAStarOptions& options,
                 const HybridAStarResult& result) {
   ASSERT_TRUE(result.ok()) << result.reason;
@@ -29,7 +29,7 @@ void ExpectGood(const HybridAStarProblem& problem, const HybridAStarOptions& opt
   for (const Segment& segment : result.segments) {
     EXPECT_LE(std::abs(segment.curvature), 1.0 / radius + Tolerance(1e-12));
   }
-  // The farthest corner moves by up to 1 + 3.7/5.6 per meter: 1.7 cm in a step's half.
+  // The farthest corner moves by up to 1 + 3.7/5.6 per meter: 1.7 cm in half a step.
   const double missed = Tolerance(0.017);
   for (double s = 0.0; s <= path.length(); s += 0.02) {
     const OrientedBox footprint = FootprintAt(ReferenceCar(), path.At(s).pose);
@@ -39,7 +39,7 @@ void ExpectGood(const HybridAStarProblem& problem, const HybridAStarOptions& opt
   }
 }
 
-/// A row of parked cars beside a lane, with one gap; the goal stands in it.
+/// A row of parked cars beside a lane, with one gap that contains the goal.
 HybridAStarProblem ParkingRow() {
   HybridAStarProblem problem{
       .start = {0.0, 0.0, 0.0}, .goal = {20.0, -6.2, 0.5 * kPi}, .obstacles = {}};
@@ -75,7 +75,7 @@ TEST(HybridAStar, ParksInAGapBackwards) {
   const HybridAStarOptions options;
   const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, options);
   ExpectGood(problem, options, result);
-  // A car that faces the lane in its gap came in backwards.
+  // A car that faces the lane in its gap has entered in reverse.
   EXPECT_EQ(result.segments.front().direction, 1);
   EXPECT_EQ(result.segments.back().direction, -1);
 }
@@ -93,7 +93,7 @@ TEST(HybridAStar, FindsNoWayBackwardsWhereItMayNot) {
 TEST(HybridAStar, GoesThroughMaps) {
   for (const Map& map : Maps()) {
     if (map.name == "passage" || map.name == "clutter") {
-      continue;  // for a point that turns on the spot
+      continue;  // these maps suit only a point that turns on the spot
     }
     SCOPED_TRACE(map.name);
     const HybridAStarProblem problem{.start = {map.problem.start.x(), map.problem.start.y(), 0.0},
@@ -101,7 +101,7 @@ TEST(HybridAStar, GoesThroughMaps) {
                                      .obstacles = map.problem.obstacles};
     for (const bool reverse : {true, false}) {
       if (!reverse && map.name != "open_field") {
-        continue;  // too narrow to turn round in without reversing
+        continue;  // too narrow to turn around without reversing
       }
       HybridAStarOptions options;
       options.reverse = reverse;
@@ -117,7 +117,8 @@ TEST(HybridAStar, GoesThroughMaps) {
 }
 
 TEST(HybridAStar, IsNoCheaperThanWhatIsLeftSays) {
-  // The curve without obstacles and the way on the grid are both less than what was found.
+  // Both heuristics, the curve without obstacles and the path on the grid, are below the cost
+  // found.
   const HybridAStarProblem problem = ParkingRow();
   const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, {});
   ASSERT_TRUE(result.ok());
@@ -141,7 +142,7 @@ TEST(HybridAStar, EndsWithAStatus) {
   EXPECT_EQ(status(free, away, 0), PlanStatus::kBudgetUsedUp);
   EXPECT_EQ(status(free, {{1.0, 0.0, 0.0}, 1.0, 1.0}, 1000), PlanStatus::kStartBlocked);
   EXPECT_EQ(status(free, {{20.0, 6.0, 0.0}, 1.0, 1.0}, 1000), PlanStatus::kGoalBlocked);
-  // Walled in: found out on the grid, before any pose is looked at.
+  // The goal is walled in: the grid search detects that before any pose is checked.
   HybridAStarProblem walled = free;
   for (const auto& [x, y, length, width] :
        {std::tuple{20.0, -3.0, 24.0, 1.0}, {20.0, 17.0, 24.0, 1.0}, {9.0, 7.0, 1.0, 20.0}}) {

@@ -28,7 +28,7 @@ std::shared_ptr<const RoadNetwork> CrossingRoads() {
   return Shared(ReadOpenDrive(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/roads/crossing.xodr"));
 }
 
-/// From the west around the loop and back, for a car that stands at the beginning.
+/// From the west around the loop and back, for a car that starts at the beginning.
 PlanRequest AroundTheLoop() {
   PlanRequest request;
   request.vehicle = ReferenceCar();

@@ -14,6 +14,8 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 
+// Tests the ground along a lane route against closed forms of planes and parabolas and against the
+// lanes' own heights, and its behavior beside lanes, at road ends and at joints.
 namespace trackbed {
 namespace {
 
@@ -32,14 +34,14 @@ std::string Roll(double a) {
 
 const std::vector<LanePlace> kAlong{{"1", -1, 10.0}, {"1", -1, 90.0}};
 
-/// The heights of one straight road to the east.
+/// The ground of one straight road to the east with these heights.
 RouteGround OnStraight(const std::string& heights) {
   RoadText road;
   road.heights = heights;
   return MakeRouteGround(ParseNetwork(road.Xml()), kAlong);
 }
 
-/// Of points on the drivable lanes of a road, the largest distance from the ground [m].
+/// The largest distance of points on a road's drivable lanes from the ground [m].
 double LargestDistance(const Road& road, double from, double to, const Terrain& terrain) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> station(from, to);
@@ -70,16 +72,16 @@ TEST(RouteGround, HasConstantGradeAndBank) {
   std::uniform_real_distribution<double> x(10.0, 90.0);
   std::uniform_real_distribution<double> y(-3.3, 3.3);
   for (int i = 0; i < 1000; ++i) {
-    // A plane: through the x axis at 6 %, and across it by the roll about a line that rises, which
-    // moves a point y tan(roll) sin(grade) back as it lifts it.
+    // A plane: 6 % along the x axis, tilted across it by the roll about a rising line. The roll
+    // moves a point back by y tan(roll) sin(grade) as it lifts it.
     const Vec2 p(x(random), y(random));
     const double grade = 0.06;
     const double across = std::tan(roll) * std::sqrt(1.0 + grade * grade);
     const Terrain::Point at = ground.terrain->At(p);
-    // Points beside the lanes are means with neighboring strips, which become level beyond their
-    // ends: 1 m beside, one that ends 5 m away counts 1/700 and is 0.06 (5 - 10 (1 - e^-0.5)) m =
-    // 64 mm off. Of these 0.1 mm cubic convolution brings 1/16 to the border, from two neighbors,
-    // and 1/16 for each cell of 0.5 m to its slope there.
+    // Points beside the lanes are means with neighboring strips, which level out beyond their ends.
+    // At a lateral distance of 1 m, a strip that ends 5 m away has the weight 1/700 and is off by
+    // 0.06 (5 - 10 (1 - e^-0.5)) m = 64 mm. Cubic convolution passes 1/16 of the resulting 0.1 mm
+    // to the border from two neighbors, and 1/16 per cell of 0.5 m to the slope there.
     EXPECT_NEAR(at.height, 5.0 + grade * p.x() + across * p.y(), Tolerance(2e-5));
     EXPECT_NEAR(at.slope.x(), grade, Tolerance(2e-4));
     EXPECT_NEAR(at.slope.y(), across, Tolerance(2e-4));
@@ -91,7 +93,7 @@ TEST(RouteGround, HasTheParabolaOfAHill) {
   ASSERT_TRUE(ground.ok()) << ground.failure;
   for (double x = 10.0; x < 90.0; x += 0.37) {
     const Terrain::Point at = ground.terrain->At({x, -1.75});
-    EXPECT_NEAR(at.height, 0.08 * x - 0.0008 * x * x, Tolerance(5e-6));  // as above
+    EXPECT_NEAR(at.height, 0.08 * x - 0.0008 * x * x, Tolerance(5e-6));  // tolerance as above
     EXPECT_NEAR(at.slope.x(), 0.08 - 0.0016 * x, Tolerance(1e-4));
   }
 }
@@ -115,7 +117,7 @@ TEST(RouteGround, GoesOnSmoothlyBesideTheLanes) {
     double last = terrain.At({x, -150.0}).height;
     for (double y = -150.0; y < 150.0; y += 0.05) {
       const double height = terrain.At({x, y}).height;
-      // Nowhere as steep as 45 degrees.
+      // The slope is below 45 degrees everywhere.
       EXPECT_LE(std::abs(height - last), 0.05) << x << " " << y;
       last = height;
     }
@@ -158,7 +160,7 @@ TEST(RouteGround, HasNoStepWhereRoadsMeet) {
   for (double x = 97.0; x < 103.0; x += 0.01) {
     EXPECT_NEAR(ground.terrain->At({x, -1.0}).height, 0.05 * x, Tolerance(5e-6));
   }
-  // 5 mm are passed within a cell on either side.
+  // A step of 5 mm is blended within one cell on either side.
   const RouteGround mended = OnTwoRoads(5.005, 0.05);
   ASSERT_TRUE(mended.ok()) << mended.failure;
   EXPECT_NEAR(mended.terrain->At({99.0, -1.0}).height, 4.95, Tolerance(5e-6));
@@ -171,8 +173,8 @@ TEST(RouteGround, RefusesSteps) {
   EXPECT_THAT(OnTwoRoads(5.2, 0.05).failure, HasSubstr("must be at most 0.01 m"));
 }
 
-/// A loop to the left over itself: road 1 to the east, road 2 around by 270 degrees, road 3 to the
-/// south over or under road 1.
+/// A loop to the left across itself: road 1 to the east, road 2 around by 270 degrees, road 3 to
+/// the south over or under road 1.
 RouteGround OnLoop(double grade, bool with_third) {
   constexpr double kRadius = 40.0;
   const double length = 1.5 * kPi * kRadius;
@@ -190,7 +192,7 @@ RouteGround OnLoop(double grade, bool with_third) {
   second.geometry = fmt::format(
       "<geometry s='0' x='100' y='0' hdg='0' length='{}'><arc curvature='{}'/></geometry>", length,
       1.0 / kRadius);
-  // From level to `grade`, without a kink at its beginning.
+  // From level to `grade`, with continuous slope at its start.
   second.heights = Elevation(0.0, 0.0, 0.5 * grade / length);
   second.link =
       "<predecessor elementType='road' elementId='1' contactPoint='end'/>"

@@ -22,7 +22,7 @@ using testing::HasSubstr;
 
 constexpr double kRadius = 50.0;  // [m]
 
-/// Laps on a track from a start on its center line, at the start line unless it is moved.
+/// Laps on a track from a start on its center line, by default at the start line.
 PlanRequest Laps(std::vector<TrackPoint> points, int laps) {
   PlanRequest request;
   request.vehicle = ReferenceCar();
@@ -44,13 +44,14 @@ TEST(CenterLine, GoesRoundAsOftenAsAsked) {
     ASSERT_TRUE(plan.ok()) << plan.reason;
     const double lap = request.on_track.track->length();
     const Path& path = plan.reference.path;
-    // v^2/(2 b) = 16 m to brake behind the line. The path's length is integrated to rounding.
+    // Braking after the line takes v^2/(2 b) = 16 m. The path's length is integrated to rounding.
     EXPECT_NEAR(path.length(), laps * lap + 16.0, Tolerance(1e-6));
     ASSERT_EQ(plan.laps.lines.size(), static_cast<std::size_t>(laps) + 1);
     for (int i = 0; i <= laps; ++i) {
       EXPECT_NEAR(plan.laps.lines[static_cast<std::size_t>(i)], i * lap, Tolerance(1e-6));
     }
-    // On the track's own center line to the last lap: SegmentsThrough states 1e-7 m for a bend.
+    // The path follows the track's center line to the last lap: SegmentsThrough is accurate to 1e-7
+    // m for a bend.
     for (double s = 0.0; s < path.length(); s += 5.0) {
       const PathPoint at = path.At(s);
       const PathPoint expected = request.on_track.track->At(s);
@@ -58,7 +59,7 @@ TEST(CenterLine, GoesRoundAsOftenAsAsked) {
       EXPECT_NEAR(at.curvature, expected.curvature, Tolerance(1e-7));
     }
     EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
-    // It is still at full speed on the finish line.
+    // The car is still at full speed on the finish line.
     EXPECT_NEAR(plan.reference.speed.SpeedAt(plan.laps.lines.back()), 8.0, Tolerance(1e-6));
     EXPECT_TRUE(FindExcesses(plan, request).empty());
   }
@@ -88,15 +89,16 @@ TEST(CenterLine, MayStartBeforeTheLineAndBesideIt) {
   EXPECT_EQ(path.At(0.0).pose.position(), request.start.position());
   EXPECT_NEAR(path.At(0.0).pose.yaw, request.start.yaw, Tolerance(1e-9));
   ASSERT_EQ(plan.laps.lines.size(), 3U);
-  // 30 m to the line; 1.5 m inside of a circle of 50 m, and slanting, about as far.
+  // 30 m to the line, plus or minus the effect of starting 1.5 m inside a circle of 50 m at an
+  // angle.
   EXPECT_NEAR(plan.laps.lines[0], 30.0, 1.0);
   for (const double line : plan.laps.lines) {
     const TrackPlace place = track.Locate(path.At(line).pose.position());
     EXPECT_NEAR(std::remainder(place.s, track.length()), 0.0, Tolerance(1e-4));
   }
-  // In 24 m, three seconds at 8 m/s, it is on the line.
+  // Within 24 m, three seconds at 8 m/s, the path reaches the center line.
   EXPECT_NEAR(track.Locate(path.At(26.0).pose.position()).offset, 0.0, Tolerance(1e-4));
-  // With wheels straight ahead at first.
+  // The path begins with straight wheels.
   EXPECT_NEAR(path.At(0.0).curvature, 0.0, Tolerance(1e-9));
 }
 
@@ -117,7 +119,7 @@ TEST(CenterLine, MayStartFlying) {
   const Plan plan = MakePlan(request, CenterLineOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.reference.speed.SpeedAt(0.0), 8.0);
-  // As the wheels stand, to rounding.
+  // The initial curvature matches the wheels, to rounding.
   EXPECT_NEAR(plan.reference.path.At(0.0).curvature, std::tan(request.start_steering) / 2.7,
               Tolerance(1e-12));
 }
@@ -187,7 +189,7 @@ TEST(MeasureLine, OfACircleIsInClosedForm) {
   EXPECT_NEAR(center.length, 2.0 * kPi * kRadius, Tolerance(1e-3));
   EXPECT_NEAR(center.curvature_square, 2.0 * kPi / kRadius, Tolerance(1e-6));
   EXPECT_NEAR(center.radius_min, kRadius, Tolerance(1e-3));
-  // A closed spline of constant coefficients is constant: a circle 2 m farther out.
+  // A closed spline with constant coefficients is constant: a circle 2 m farther out.
   const ClosedSplineBasis basis(track.length(), 40);
   const LineFindings outside =
       MeasureLine(track, TrackLine(basis, Eigen::MatrixXd::Constant(40, 1, -2.0)));

@@ -24,8 +24,8 @@ namespace {
 using testing::HasSubstr;
 
 TEST(MinimumCurvature, OfARingIsItsOuterCircle) {
-  // Of all closed curves that go around once, the integral of kappa^2 is at least 2 pi times
-  // 2 pi/length: the longest circle that keeps the margin.
+  // Among closed curves that go around once, the integral of kappa^2 is at least 2 pi times 2
+  // pi/length. The optimum is the longest circle within the margin.
   const Track track(RingPoints(50.0, 63, 4.0, 3.0));
   const MinimumCurvatureLine found = FindMinimumCurvature(track, 1.5);
   ASSERT_EQ(found.refused, "");
@@ -37,7 +37,7 @@ TEST(MinimumCurvature, OfARingIsItsOuterCircle) {
   }
 }
 
-/// A track that a line can make something of: an ellipse with a radius of 30 m at its ends.
+/// A track on which a racing line pays off: an ellipse with a radius of 30 m at its ends.
 Track Ellipse() {
   return Track(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0));
 }
@@ -50,13 +50,13 @@ TEST(MinimumCurvature, KeepsItsBounds) {
   for (double s = 0.0; s < track.length(); s += 0.5) {
     const double d = found.line.At(s).d;
     const TrackEdges edges = track.EdgesAt(s);
-    // Kept at points 2.5 m apart; between them the line is off by at most d'' 2.5^2/8, and bends by
-    // less than 1/30 m.
+    // Enforced at points 2.5 m apart. Between them the line deviates by at most d'' 2.5^2/8, with a
+    // bend of less than 1/30 m.
     EXPECT_LE(d, edges.left - 1.2 + Tolerance(0.03));
     EXPECT_GE(d, edges.right + 1.2 - Tolerance(0.03));
     largest = std::max(largest, std::abs(d));
   }
-  EXPECT_GT(largest, 3.7);  // and it uses them
+  EXPECT_GT(largest, 3.7);  // the line uses the full width
 }
 
 TEST(MinimumCurvature, CannotBeBetteredNearby) {
@@ -66,7 +66,8 @@ TEST(MinimumCurvature, CannotBeBetteredNearby) {
   ASSERT_EQ(found.refused, "");
   const double best = MeasureLine(track, found.line).curvature_square;
   EXPECT_LT(best, 0.9 * MeasureLine(track, TrackLine()).curvature_square);
-  // Other splines: bumps of any width and place, added and cut to the bounds at their knots.
+  // Perturbed splines: bumps of random width and position, added and clipped to the bounds at the
+  // knots.
   std::mt19937 random(13);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int trial = 0; trial < 50; ++trial) {
@@ -87,7 +88,7 @@ TEST(MinimumCurvature, CannotBeBetteredNearby) {
     }
     const ClosedSplineBasis basis(track.length(), static_cast<std::size_t>(count));
     const TrackLine other(basis, FitClosedSpline(basis, samples, 5.0));
-    // The found line's steps end below 1e-6 of the integral, and its spline is coarser.
+    // The optimizer stops at steps below 1e-6 of the integral, and its spline is coarser.
     EXPECT_GT(MeasureLine(track, other).curvature_square, (1.0 - 1e-3) * best) << trial;
   }
 }
@@ -111,9 +112,9 @@ TEST(MinimumCurvature, IsPlannedAndFeasible) {
   ASSERT_NE(own, nullptr);
   EXPECT_LT(own->plan.lap.curvature_square, 0.9 * own->center_curvature_square);
   EXPECT_GT(own->plan.lap.radius_min, 32.0);
-  // The second lap leads along the line, the first one but for its beginning: from the center line
-  // it comes onto the line, 3.6 m outside, within three seconds, 24 m; out there a bend of 30 m is
-  // longer by at most 24 x 3.6/30 m.
+  // The second lap follows the racing line, and so does the first except for its start. There the
+  // path moves from the center line to the racing line, 3.6 m outside, within three seconds (24 m).
+  // On the outside a bend of radius 30 m is longer by at most 24 x 3.6/30 m.
   ASSERT_EQ(plan.laps.lines.size(), 3U);
   EXPECT_NEAR(plan.laps.lines[2] - plan.laps.lines[1], own->plan.lap.length, Tolerance(1e-3));
   EXPECT_NEAR(plan.laps.lines[1] - plan.laps.lines[0], own->plan.lap.length, 24.0 * 3.6 / 30.0);
@@ -123,7 +124,8 @@ TEST(MinimumCurvature, IsPlannedAndFeasible) {
   EXPECT_EQ(wide.status, PlanStatus::kNoPath);
 }
 
-/// A closed line through points, evaluated as a track's center line that is hardly smoothed.
+/// The integral of the squared curvature of a closed line through points, evaluated as a track's
+/// center line with little smoothing.
 double CurvatureSquare(const std::vector<Vec2>& line) {
   std::vector<TrackPoint> points;
   for (const Vec2& point : line) {
@@ -137,9 +139,9 @@ INSTANTIATE_TEST_SUITE_P(Racing, TumTracks,
                          testing::Values("Norisring", "Hockenheim", "Spielberg", "Silverstone"),
                          [](const auto& test) { return std::string(test.param); });
 
-// Against the racing lines of TUM's database, which minimize curvature, too. Their clearance from
-// the edges lies between 0.72 and 0.77 m at the tightest places of all tracks (1 to 10 % of their
-// points): 0.75 m. Both lines are taken at points 5 m apart and evaluated alike.
+// Comparison with the racing lines of TUM's database, which also minimize curvature. At the
+// tightest places of all tracks (1 to 10 % of their points) their distance from the edges is 0.72
+// to 0.77 m; here 0.75 m is used. Both lines are sampled 5 m apart and evaluated alike.
 TEST_P(TumTracks, HaveNoMoreCurvatureThanTumsRacingLines) {
   const std::filesystem::path folder =
       std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/tracks";
@@ -161,7 +163,7 @@ TEST_P(TumTracks, HaveNoMoreCurvatureThanTumsRacingLines) {
   const double ratio = CurvatureSquare(ours) / CurvatureSquare(theirs);
   RecordProperty("ratio", std::to_string(ratio));
   EXPECT_LT(ratio, 1.01);
-  EXPECT_GT(ratio, 0.9);  // a line that were much straighter would not be on the same track
+  EXPECT_GT(ratio, 0.9);  // a much straighter line would leave the track
 }
 
 }  // namespace

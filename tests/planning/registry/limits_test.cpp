@@ -7,7 +7,7 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
 
-/// Whether speeds at the limit are had with every planner.
+/// Whether every planner supports speeds at the limit.
 namespace trackbed {
 namespace {
 
@@ -19,7 +19,7 @@ TEST(Limits, AreKeptOnThePathOfEveryPlanner) {
   request.seed = 1;
   int planned = 0;
   for (const PlannerEntry& entry : Planners()) {
-    // These have no path unless they are given segments, a file, roads or a track.
+    // These planners need segments, a file, roads or a track as additional input.
     const std::string name = entry.name;
     if (name == "course" || name == "path_file" || entry.follows_lanes || entry.follows_track) {
       continue;

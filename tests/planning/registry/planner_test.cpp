@@ -25,6 +25,7 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 
+// Tests the guarantees of every registered planner, then properties of the fillet planner.
 namespace trackbed {
 namespace {
 
@@ -43,9 +44,9 @@ PlanRequest Request(std::vector<Vec2> waypoints) {
   return request;
 }
 
-// --- What every planner of the table owes its caller ---------------------------------------------
+// --- Guarantees of every registered planner ------------------------------------------------------
 
-/// A path of continuous curvature as FitPath would give it, from `start`.
+/// A path of continuous curvature from `start`, as FitPath returns it.
 std::shared_ptr<const FittedPath> FittedFrom(const Pose2& start) {
   FittedPath fitted;
   fitted.path = Path(start, {{.length = 10.0},
@@ -59,7 +60,7 @@ std::shared_ptr<const FittedPath> FittedFrom(const Pose2& start) {
   return std::make_shared<const FittedPath>(std::move(fitted));
 }
 
-/// The defaults, and a course or a path for those that cannot do without.
+/// The defaults, plus a course or a path for the planners that require one.
 PlannerOptions DefaultOptions(const PlannerEntry& entry, const PlanRequest& request) {
   PlannerOptions options = entry.defaults;
   if (auto* path = options.As<PathFileOptions>()) {
@@ -104,7 +105,7 @@ TEST_P(EveryPlanner, StartsWhereTheCarIsAndEndsAtGoal) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.reason, "");
   const Path& path = plan.reference.path;
-  // The planners' promise of 1e-9 m.
+  // The accuracy that planners guarantee is 1e-9 m.
   EXPECT_NEAR((path.At(0.0).pose.position() - RouteA().front()).norm(), 0.0, Tolerance(1e-9));
   const Vec2 end = path.At(path.length()).pose.position();
   EXPECT_NEAR((end - plan.goal.position()).norm(), 0.0, Tolerance(1e-9));
@@ -165,12 +166,12 @@ TEST_P(EveryPlanner, IsAsLongAsItsSteps) {
       const PathPoint a = path.At(step * (i - 1));
       const PathPoint b = path.At(step * i);
       length += (b.pose.position() - a.pose.position()).norm();
-      // Where a step leads along the heading, one with a cusp in it aside.
+      // Each step moves along the heading, except at cusps.
       const double turn = std::abs(AngleDifference(b.pose.yaw, a.pose.yaw));
       ASSERT_LE(turn, step / ReferenceCar().min_turning_radius() + Tolerance(1e-9)) << "at " << b.s;
     }
-    // A chord of an arc is short of it by kappa^2 step^3/24: 1.6e-7 of a length of 160 m or less;
-    // a cusp folds one step.
+    // The chord of an arc is shorter than the arc by kappa^2 step^3/24: 1.6e-7 of a length of 160 m
+    // or less. A cusp folds one step.
     const double cusps = static_cast<double>(SplitIntoLegs(path).size() - 1);
     EXPECT_NEAR(length, path.length(), Tolerance(1.6e-7 * 160.0) + cusps * step);
   }
@@ -203,7 +204,7 @@ TEST_P(EveryPlanner, IsMovedWithItsMission) {
   const Plan there = PlanWithDefaults(moved, GetParam());
   ASSERT_TRUE(here.ok() && there.ok()) << there.reason;
   const Path& path = here.reference.path;
-  // Rounding of coordinates of some 250 m, carried through a search.
+  // Rounding of coordinates of some 250 m, propagated through a search.
   ASSERT_NEAR(there.reference.path.length(), path.length(), Tolerance(1e-6));
   for (double s = 0.0; s < path.length(); s += 1.0) {
     const Vec2 expected = ToWorld(by, path.At(s).pose.position());
@@ -231,9 +232,9 @@ TEST_P(EveryPlanner, IsNeverFasterThanTheMissionAndEndsAtRest) {
 TEST_P(EveryPlanner, RefusesWithAReasonAndNoPath) {
   PlanRequest request = Request(RouteA());
   if (GetParam().has_headings) {
-    request.obstacles.push_back({{40.0, 40.0, 0.0}, 1.0, 1.0});  // where it is to go through
+    request.obstacles.push_back({{40.0, 40.0, 0.0}, 1.0, 1.0});  // an obstacle on a waypoint
   } else {
-    request.vehicle.steering_limit = 1e-3;  // a car that needs 2.7 km to turn
+    request.vehicle.steering_limit = 1e-3;  // a turning radius of 2.7 km
   }
   const Plan plan = PlanWithDefaults(request, GetParam());
   EXPECT_FALSE(plan.ok());
@@ -269,7 +270,7 @@ TEST_P(EveryPlanner, ThrowsForNumbersThatAreNone) {
   }
 }
 
-/// Without those that need a road network or a track, whose tests are beside them.
+/// All planners except those that need a road network or a track, which have their own tests.
 std::vector<PlannerEntry> PlannersOfWaypoints() {
   std::vector<PlannerEntry> entries = Planners();
   std::erase_if(entries, [](const PlannerEntry& entry) {

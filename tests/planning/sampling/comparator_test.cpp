@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Two ways from (0, 0) to (10, 0), over (5, height).
+/// Two legs from (0, 0) via (5, height) to (10, 0).
 std::vector<Vec2> Over(double height) {
   return {{0.0, 0.0}, {5.0, height}, {10.0, 0.0}};
 }
@@ -26,7 +26,7 @@ TEST(Comparator, CountsWhatIsLeft) {
   EXPECT_NEAR(Score(Over(0.0), {4.0, 3.0}).length, 3.0 + 6.0, Tolerance(1e-12));
   EXPECT_NEAR(Score(Over(0.0), {12.0, 0.0}).length, 2.0, Tolerance(1e-12));
   EXPECT_NEAR(Score(Over(0.0), {-1.0, 0.0}).length, 11.0, Tolerance(1e-12));
-  // At a corner it is the count of the wind-aware RRT, from the nearest node.
+  // At a corner the score equals the cost of the wind-aware RRT from the nearest node.
   EXPECT_NEAR(Score(Over(12.0), {5.0, 12.0}).length, 13.0, Tolerance(1e-12));
 }
 
@@ -48,9 +48,9 @@ TEST(Comparator, APenaltyTurnsTheChoice) {
   EXPECT_FALSE(around.collides);
   EXPECT_TRUE(IsBetter(around, through));
   EXPECT_NEAR(through.total, through.length + 1000.0, Tolerance(1e-9));
-  // Without one the shorter way is taken, box or not.
+  // Without a penalty the shorter path is better, even through the box.
   EXPECT_TRUE(IsBetter(Score(Over(0.0), {0, 0}, boxes, {}, {.collision_penalty = 0.0}), around));
-  // What is behind the car does not count.
+  // Obstacles behind the car are ignored.
   EXPECT_FALSE(Score(Over(0.0), {7.0, 0.0}, boxes).collides);
 }
 
@@ -63,7 +63,8 @@ TEST(Comparator, UniformWindDoesNotMatter) {
 }
 
 TEST(Comparator, LayersOfWindTurnTheChoice) {
-  // Tailwind above, headwind below, both 1 m/s at V = 3 m/s: it counts a third of the length.
+  // Tailwind above, headwind below, both 1 m/s at V = 3 m/s: each changes the cost by a third of
+  // the length.
   const OrientedBox above{{5.0, 5.0, 0.0}, 20.0, 10.0};
   const OrientedBox below{{5.0, -5.0, 0.0}, 20.0, 10.0};
   const auto layer = [](const OrientedBox& area, double speed) {

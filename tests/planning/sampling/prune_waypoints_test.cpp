@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// As long as the turn is sharp: any law that grows will do.
+/// Tangent length of a corner, proportional to its turn; any increasing law works here.
 double Tangent(double turn) {
   return 3.0 * turn;
 }
@@ -38,8 +38,8 @@ struct Case {
   }
 };
 
-/// A way round boxes, as a tree finds one: some of its lines may touch boxes, which is its own
-/// care.
+/// A path around boxes as a tree might return it. Some of its lines may touch boxes, which the
+/// pruning must tolerate.
 Case RandomCase(Random& random) {
   Case one;
   const int points = 3 + random.Below(6);
@@ -67,7 +67,8 @@ Case RandomCase(Random& random) {
   return one;
 }
 
-/// Sums up a way from the page; a corner without room counts a million meters.
+/// Sums up the cost of a path by the documented formula; a corner without room costs a million
+/// meters.
 double PathCost(const Case& one, const std::vector<Vec2>& few) {
   double cost = -WindScore(InPieces(few), one.wind);
   std::vector<Vec2> all = few;
@@ -90,7 +91,7 @@ double PathCost(const Case& one, const std::vector<Vec2>& few) {
   return cost;
 }
 
-/// Every choice of points, one after the other.
+/// The lowest cost by enumerating all subsets of points.
 double LowestCost(const Case& one) {
   double cheapest = std::numeric_limits<double>::infinity();
   const std::size_t inner = one.way.size() - 2;
@@ -125,7 +126,7 @@ TEST(FewCorners, AreTheCheapestOfAllChoices) {
     const std::vector<Vec2> few = PruneWaypoints(one.way, one.problem());
     ASSERT_EQ(few.front(), one.way.front());
     ASSERT_EQ(few.back(), one.way.back());
-    // Sums of up to 1e7 m, in another order.
+    // Rounding of sums of up to 1e7 m, in another order.
     ASSERT_NEAR(PathCost(one, few), LowestCost(one), Tolerance(1e-7)) << "case " << i;
     fewer += few.size() < one.way.size() ? 1 : 0;
   }

@@ -20,6 +20,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 
+// Tests RRT* on five maps: edges and costs by Boost.Geometry, and path lengths against the shortest
+// path, found by A* over a visibility graph.
 namespace trackbed {
 
 void PrintTo(const Map& map, std::ostream* out) {
@@ -32,7 +34,7 @@ namespace bg = boost::geometry;
 using Point = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Point, false>;
 
-/// What is in the way, seen by Boost.Geometry.
+/// The obstacles of a problem, checked with Boost.Geometry.
 class Surroundings {
  public:
   explicit Surroundings(const RrtStarProblem& problem) : inflation_(problem.inflation) {
@@ -49,7 +51,7 @@ class Surroundings {
   [[nodiscard]] bool IsFree(const Vec2& from, const Vec2& to) const {
     return KeepsOff(bg::model::segment<Point>(Point(from.x(), from.y()), Point(to.x(), to.y())));
   }
-  /// By points at most 1 cm apart.
+  /// Checks points at most 1 cm apart.
   [[nodiscard]] bool IsFreeBySamples(const Vec2& from, const Vec2& to) const {
     const double count = std::ceil((to - from).norm() / 0.01);
     for (double i = 0.0; i <= count; i += 1.0) {
@@ -63,7 +65,7 @@ class Surroundings {
  private:
   template <typename Geometry>
   [[nodiscard]] bool KeepsOff(const Geometry& geometry) const {
-    // What Boost's rounding may take away from a distance that is just enough.
+    // Boost's rounding of a distance that is exactly at the limit.
     constexpr double kRounding = 1e-12;
     return std::all_of(polygons_.begin(), polygons_.end(), [&](const Polygon& polygon) {
       return bg::distance(geometry, polygon) > inflation_ - kRounding;
@@ -74,9 +76,10 @@ class Surroundings {
   std::vector<Polygon> polygons_;
 };
 
-/// Length of the shortest way, at most 1e-4 too long: A* over all that see each other of start,
-/// goal and points round the inflated corners every 2 degrees, as far out as keeps the chords
-/// between them free (1/cos 1 degree = 1 + 1.5e-4 of the bends, a part of the way).
+/// Length of the shortest path, at most 1e-4 too long. A* over the visibility graph of start, goal
+/// and points every 2 degrees around the inflated corners. The points are placed far enough out
+/// that the chords between them are free (1/cos 1 degree = 1 + 1.5e-4 on the bends, which are part
+/// of the path).
 double ShortestWay(const RrtStarProblem& problem) {
   const Surroundings surroundings(problem);
   constexpr double kHalfStep = kPi / 180.0;
@@ -86,7 +89,7 @@ double ShortestWay(const RrtStarProblem& problem) {
     const auto corners = box.Corners();
     for (std::size_t i = 0; i < 4; ++i) {
       for (int k = 0; k < 45; ++k) {
-        // The first corner lies ahead on the left.
+        // The first corner of a box is its front left one.
         const double yaw =
             box.center.yaw + static_cast<double>(i) * kPi / 2.0 + (2 * k + 1) * kHalfStep;
         const Vec2 p = corners[i] + radius * Direction(yaw);
@@ -141,7 +144,7 @@ RrtStarOptions Budget(int iterations) {
   return options;
 }
 
-/// 20 by 10 m without anything in it.
+/// An empty area of 20 by 10 m.
 RrtStarProblem Nothing() {
   return {{2.0, 5.0}, {18.0, 5.0}, {0.0, 0.0}, {20.0, 10.0}, {}, 0.5};
 }
@@ -179,7 +182,7 @@ TEST_P(RrtStarIn, CostsAreLengthsOfWaysFromTheStart) {
   for (std::size_t i = 1; i < result.nodes.size(); ++i) {
     const TreeNode& node = result.nodes[i];
     const TreeNode& parent = result.nodes[node.parent];
-    // One addition.
+    // Rounding of one addition.
     ASSERT_NEAR(node.cost, parent.cost + (node.position - parent.position).norm(),
                 Tolerance(1e-13));
     std::size_t steps = 0;
@@ -240,7 +243,7 @@ TEST_P(RrtStarIn, CostComesNearTheShortestWay) {
   ASSERT_TRUE(std::isfinite(shortest));
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const double cost = PlanRrtStar(problem, Budget(20000), seed).cost;
-    // Nothing is shorter than the shortest way, which is 1e-4 too long itself.
+    // No path is shorter than the shortest one, which is computed up to 1e-4 too long.
     EXPECT_GE(cost, shortest * (1.0 - Tolerance(1e-4)));
     EXPECT_LE(cost, shortest * (1.0 + Tolerance(0.03)));
   }
@@ -271,7 +274,7 @@ TEST_P(RrtStarIn, InformedItComesAsNearTheShortestWay) {
     RrtStarOptions options = Budget(20000);
     options.informed = true;
     const double cost = PlanRrtStar(problem, options, seed).cost;
-    // The bounds of CostComesNearTheShortestWay.
+    // Same bounds as in CostComesNearTheShortestWay.
     EXPECT_GE(cost, shortest * (1.0 - Tolerance(1e-4)));
     EXPECT_LE(cost, shortest * (1.0 + Tolerance(0.03)));
   }
@@ -294,7 +297,7 @@ TEST(RrtStar, SaysWhichEndIsBlocked) {
   RrtStarProblem goal = Nothing();
   goal.obstacles = {Block(17.0, 4.0, 19.0, 6.0)};
   EXPECT_EQ(PlanRrtStar(goal, Budget(100), 1).status, RrtStarStatus::kGoalBlocked);
-  // At exactly the inflation it is still blocked: a path keeps further off.
+  // A distance of exactly the inflation is still blocked: a path must keep a larger distance.
   RrtStarProblem touching = Nothing();
   touching.obstacles = {Block(0.0, 4.0, 1.5, 6.0)};
   EXPECT_EQ(PlanRrtStar(touching, Budget(100), 1).status, RrtStarStatus::kStartBlocked);
@@ -322,7 +325,7 @@ TEST(RrtStar, InAnOpenFieldGoesStraight) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const RrtStarResult result = PlanRrtStar(Nothing(), Budget(2000), seed);
     ASSERT_TRUE(result.ok());
-    // Nodes in between lie a little off the line.
+    // Intermediate nodes lie slightly off the straight line.
     EXPECT_GE(result.cost, 16.0 - Tolerance(1e-12));
     EXPECT_LE(result.cost, 16.0 * 1.01);
   }
@@ -335,8 +338,8 @@ TEST(RrtStar, InformedItLeavesOutMostOfAnOpenField) {
     const RrtStarResult result = PlanRrtStar(Nothing(), options, seed);
     ASSERT_TRUE(result.ok());
     EXPECT_LE(result.cost, 16.0 * 1.01);
-    // The ellipse of a path of 16.16 m around foci 16 m apart has half axes of 8.08 and 1.13 m,
-    // which are 29 m2 of 200 m2: 290 samples, and those before the path was that short.
+    // The ellipse of a path of 16.16 m around foci 16 m apart has semi-axes of 8.08 and 1.13 m. It
+    // covers 29 m2 of 200 m2: 290 samples, plus those drawn before the path was that short.
     EXPECT_LT(result.nodes.size(), 600U);
   }
 }
@@ -349,7 +352,7 @@ TEST(RrtStar, SamplesALineToo) {
   const RrtStarResult result = PlanRrtStar(problem, {.iterations = 300, .step = 2.0}, 1);
   ASSERT_TRUE(result.ok());
   EXPECT_NEAR(result.cost, 30.0, Tolerance(1e-9));
-  // And a point.
+  // An area that is a single point.
   problem = {};
   EXPECT_EQ(PlanRrtStar(problem, {.iterations = 300}, 1).cost, 0.0);
 }
@@ -378,7 +381,7 @@ TEST(RrtStar, StartThatIsTheGoalIsAWayOfNoLength) {
 }
 
 TEST(RrtStar, StepBoundsTheFirstEdges) {
-  // Before there are neighbors to choose from every edge is an extension.
+  // As long as a node has no neighbors to choose from, every edge is an extension.
   RrtStarOptions options = Budget(2000);
   options.step = 0.5;
   const RrtStarResult result = PlanRrtStar(Nothing(), options, 1);
@@ -390,7 +393,7 @@ TEST(RrtStar, StepBoundsTheFirstEdges) {
     }
     furthest = std::max(furthest, nearest);
   }
-  // Each node was within a step of one that was there, to rounding of its position.
+  // Each node was within one step of an existing node, up to rounding of its position.
   EXPECT_LE(furthest, 0.5 + Tolerance(1e-14));
   EXPECT_GT(furthest, 0.49);
 }
@@ -402,7 +405,7 @@ TEST(RrtStar, StopsWhenAsked) {
   const RrtStarResult stopped = PlanRrtStar(Nothing(), options, 1);
   EXPECT_EQ(stopped.iterations, 300);
   EXPECT_TRUE(SameTree(stopped, PlanRrtStar(Nothing(), Budget(300), 1)));
-  EXPECT_TRUE(stopped.ok());  // with what there is
+  EXPECT_TRUE(stopped.ok());  // with the best path so far
 }
 
 TEST(RrtStar, ChecksItsProblemAndOptions) {

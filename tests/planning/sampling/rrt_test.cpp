@@ -23,7 +23,7 @@ RrtProblem Walled() {
           .inflation = 1.0};
 }
 
-/// Whether points every centimeter of an edge keep further than the inflation from all obstacles.
+/// Whether points every centimeter on an edge are farther than the inflation from all obstacles.
 bool IsFreeDensely(const Vec2& from, const Vec2& to, const RrtProblem& problem) {
   const int steps = 1 + static_cast<int>((to - from).norm() / 0.01);
   for (int i = 0; i <= steps; ++i) {
@@ -83,7 +83,7 @@ TEST_P(RrtSeeds, IsTheSameEveryTimeAndBeginsAlikeWithLess) {
 
 TEST_P(RrtSeeds, GivesWhatItGotNearestWithWhenItsBudgetIsUsedUp) {
   RrtProblem problem = Walled();
-  // A box round the goal: nobody gets there.
+  // Walls around the goal make it unreachable.
   for (const double side : {-1.0, 1.0}) {
     problem.obstacles.push_back({{38.0 + 3.0 * side, 5.0, 0.0}, 0.2, 6.2});
     problem.obstacles.push_back({{38.0, 5.0 + 3.0 * side, 0.0}, 6.2, 0.2});
@@ -99,7 +99,7 @@ TEST_P(RrtSeeds, GivesWhatItGotNearestWithWhenItsBudgetIsUsedUp) {
 }
 
 TEST(Rrt, ChecksTheLastEdgeToTheGoalToo) {
-  // A wall of 10 cm between a start and a goal that are nearer than one step.
+  // A wall of 10 cm between a start and a goal that are less than one step apart.
   const RrtProblem problem{.start = {0.0, 0.0},
                            .goal = {1.0, 0.0},
                            .low = {-2.0, -2.0},
@@ -131,7 +131,7 @@ TEST(Rrt, BlockedEndsAndNoBudgetAreStatuses) {
   EXPECT_EQ(PlanRrt(problem, {}, 1).status, RrtStatus::kStartBlocked);
   EXPECT_TRUE(PlanRrt(problem, {}, 1).path.empty());
   problem.start = {2.0, 5.0};
-  problem.goal = {20.0, 23.5};  // within the inflation
+  problem.goal = {20.0, 23.5};  // within the wall's inflation
   EXPECT_EQ(PlanRrt(problem, {}, 1).status, RrtStatus::kGoalBlocked);
 }
 

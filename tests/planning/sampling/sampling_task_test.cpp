@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-/// The keys of a planner that PlanWithLeadIn looks at.
+/// The planner options that PlanWithLeadIn uses.
 struct Options {
   Corners corners = Corners::kRound;
   double lead_in = 4.0;
@@ -22,8 +22,8 @@ struct Asked {
   bool operator==(const Asked&) const = default;
 };
 
-/// Rolling at 3 m/s, it stops within 3 m: the longest straight start is longer by those and the
-/// smallest radius.
+/// A car rolling at 3 m/s that stops within 3 m. The longest lead-in is longer than the default by
+/// that distance and the smallest turning radius.
 PlanRequest Rolling(double first_leg) {
   PlanRequest request;
   request.vehicle = ReferenceCar();
@@ -56,7 +56,8 @@ TEST(PlanWithLeadIn, TriesTheLongestThenAHalfAndAQuarterOfItWithOneTree) {
 }
 
 TEST(PlanWithLeadIn, TriesNoStraightStartTwice) {
-  // All longer ones end half way to the waypoint; the second leaves no longer one at all.
+  // Longer lead-ins are limited to half the distance to the waypoint. For the second request this
+  // limit does not exceed the default lead-in, so there is no longer one.
   EXPECT_EQ(AskedWhenRefused(Rolling(10.0), PlanStatus::kTurnTooTight),
             (std::vector<Asked>{{4.0, 3}, {4.0 + Longer(), 3}}));
   EXPECT_EQ(AskedWhenRefused(Rolling(8.0), PlanStatus::kTurnTooTight),

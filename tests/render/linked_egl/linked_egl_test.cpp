@@ -15,11 +15,11 @@
 #include "trackbed/core/file.h"
 #include "trackbed/render/film.h"
 
-/// A program that links EGL for its own pictures, and films with Trackbed.
+/// A program that links EGL for its own pictures and films with Trackbed.
 namespace trackbed::render {
 namespace {
 
-/// A context as such a program makes one, current in this thread.
+/// A current EGL context as such a program makes it.
 class OwnContext {
  public:
   OwnContext()
@@ -53,7 +53,7 @@ class OwnContext {
     return eglGetCurrentContext() == context_ && eglGetCurrentDisplay() == display_ &&
            eglGetCurrentSurface(EGL_DRAW) == surface_ && eglGetCurrentSurface(EGL_READ) == surface_;
   }
-  /// The color that it clears its surface to.
+  /// Clears the surface to a color and returns the color read back.
   [[nodiscard]] std::array<unsigned char, 4> Cleared(float red, float green, float blue) const {
     using ClearColor = void(float, float, float, float);
     using Clear = void(unsigned);
@@ -100,9 +100,9 @@ class LinkedEgl : public testing::Test {
 TEST_F(LinkedEgl, GetsPictures) {
   const Image picture = Picture("auto");
   ASSERT_EQ(picture.width, 320);
-  // Orange paint has at least a quarter of the whole range more red than blue in light, and nothing
-  // else does without overlays. The car is 1.76 m wide and 1.5 m high, 8 to 15 m away: behind
-  // windows and in shade, at least a hundredth of the picture is paint.
+  // Orange paint has more red than blue by at least a quarter of the full range in light, and
+  // without overlays nothing else does. The car is 1.76 m wide and 1.5 m high, 8 to 15 m away:
+  // despite windows and shade, at least a hundredth of the picture is paint.
   int orange = 0;
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
     orange += picture.rgb[i] > picture.rgb[i + 2] + 64 ? 1 : 0;
