@@ -13,11 +13,11 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// What one update of the steering costs, and what optimal_steering puts on top of NLopt.
+// Times one update of each steering controller, and compares optimal_steering with bare NLopt.
 namespace trackbed::bench {
 namespace {
 
-/// A car that weaves along the route of three turns, never further than 5 cm beside its plan.
+/// A car that weaves along the route of three turns, at most 5 cm beside its plan.
 class Route {
  public:
   Route() : scenario_(Read()), car_(LoadCar(scenario_)), plan_(PlanMission(scenario_, car())) {
@@ -52,7 +52,7 @@ class Route {
   std::vector<ControlInput> inputs_;
 };
 
-/// One update, over and over along the route.
+/// Times single updates along the route.
 void TimeUpdate(benchmark::State& state, const ControllerOptions& options) {
   const Route route;
   const auto controller = MakeSteeringController(options);
@@ -69,7 +69,7 @@ void TimeUpdate(benchmark::State& state, const ControllerOptions& options) {
 
 constexpr double kHorizon = 2.0;  // [m]
 
-/// Searches at every update, whatever the deviation.
+/// Makes optimal_steering search at every update, whatever the deviation.
 OptimalSteeringOptions Searching(SearchMethod method) {
   OptimalSteeringOptions options;
   options.horizon = kHorizon;
@@ -78,7 +78,7 @@ OptimalSteeringOptions Searching(SearchMethod method) {
   return options;
 }
 
-/// One call of NLopt with the roll-outs of one update, and nothing else.
+/// One call of NLopt with the roll-outs of one update and nothing else.
 double BareSteering(nlopt::algorithm algorithm, const VehicleParams& car,
                     const SteeringProblem& problem, const OptimalSteeringOptions& options) {
   struct Data {
@@ -110,7 +110,7 @@ double BareSteering(nlopt::algorithm algorithm, const VehicleParams& car,
   try {
     search.optimize(x, value);
   } catch (const nlopt::roundoff_limited&) {
-    // As far as it gets.
+    // Uses the best point so far.
   }
   return SteeringOfShare(car, problem, x[0]);
 }
@@ -147,7 +147,7 @@ void CompareSteering(benchmark::State& state, const Compared& compared) {
         return stopwatch.Seconds();
       },
       [&] {
-        // The next search begins where the last one ended, as the controller's does.
+        // Each search starts at the result of the previous one, as in the controller.
         double last = problems.front().start;
         const Stopwatch stopwatch;
         for (SteeringProblem& problem : problems) {

@@ -18,13 +18,13 @@ namespace {
 
 constexpr int kFrames = 24;
 
-/// A frame per second: each differs from the one before as no two of a real film do, which the
-/// encoder feels.
+/// One frame per second. Successive frames differ more than in a typical film, which makes encoding
+/// more expensive.
 FilmOptions Options(const char* quality) {
   return {.width = 1280, .height = 720, .fps = 1.0, .camera = "chase", .quality = quality};
 }
 
-/// A run of both plants into the second turn of three_turns, kFrames seconds long.
+/// A run of both plants up to the second turn of three_turns, kFrames seconds long.
 class RunFolder {
  public:
   RunFolder() {
@@ -39,9 +39,9 @@ class RunFolder {
   TempFolder folder_;
 };
 
-/// A film, from when its first picture is drawn (what comes before does not grow with the film)
-/// until the file is complete, against MuJoCo drawing the same scenes and reading them back: with
-/// the same overlays, shadows and samples. Both draw with the library that MUJOCO_GL names.
+/// Times a film from its first picture (earlier work does not grow with the film) until the file is
+/// complete. The baseline: MuJoCo draws the same scenes, with the same overlays, shadows and
+/// samples, and reads them back. Both draw with the library that MUJOCO_GL selects.
 void Film(benchmark::State& state, const char* quality, double limit) {
   if (VideoEncoder() == "off") {
     state.SkipWithError("built without video");
@@ -82,8 +82,7 @@ void Film(benchmark::State& state, const char* quality, double limit) {
   state.counters["frames_per_s"] = kFrames / ours;
 }
 
-/// A picture of draft quality with everything that is drawn over the world, against the same one
-/// without.
+/// Compares a picture of draft quality with all overlays with the same one without them.
 void DraftOverlays(benchmark::State& state) {
   const RunFolder folder;
   const MujocoErrorScope errors;
@@ -101,7 +100,7 @@ void DraftOverlays(benchmark::State& state) {
       },
       [&] {
         mjvScene& scene = painter.SceneAt(frame);
-        // The overlays come after the world, and the first of them is the first decoration.
+        // The overlays follow the world; the first of them is the first decoration.
         const mjvGeom* overlays =
             std::find_if(scene.geoms, scene.geoms + scene.ngeom,
                          [](const mjvGeom& geom) { return geom.objtype == mjOBJ_UNKNOWN; });

@@ -6,8 +6,8 @@
 #include "tests/planning/frenet_scenes.h"
 #include "trackbed/planning/frenet/lattice.h"
 
-// One cycle of planning in the Frenet frame: meant to take at most 1 ms for 525 candidates, and
-// 10 ms in the lattice.
+// Times one planning cycle in the Frenet frame. Goal: at most 1 ms for 525 candidates, and 10 ms
+// for the lattice.
 namespace trackbed::bench {
 namespace {
 

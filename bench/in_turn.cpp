@@ -8,7 +8,7 @@
 namespace trackbed::bench {
 namespace {
 
-/// The value below which a share of the values is; between two of them linearly.
+/// The quantile `share` of the values, interpolated linearly.
 double Quantile(std::vector<double> values, double share) {
   std::sort(values.begin(), values.end());
   const double place = share * static_cast<double>(values.size() - 1);

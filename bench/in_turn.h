@@ -20,23 +20,23 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Does the work once and gives back how long it took [s]: what is not to count is left out there.
+/// Does the work once and returns its time [s], without the parts that do not count.
 using Timed = std::function<double()>;
 
-/// Compares two ways of doing the same work: each round does both, each first every other time, so
-/// that whatever else the machine does falls on both alike. Counters are the medians `ours_s` and
-/// `bare_s` over the rounds, of the rounds' ratios the median and the quartiles (`ratio`,
-/// `ratio_q1` and `ratio_q3`), and the `limit` that the ratio is meant to keep. The benchmark must
-/// be registered with UseManualTime; its time is that of `ours`.
+/// Compares two implementations of the same work. Each round executes both, in alternating order,
+/// so that other load on the machine affects both alike. Counters: the medians over the rounds,
+/// `ours_s` and `bare_s`; the median and quartiles of the rounds' ratios, `ratio`, `ratio_q1` and
+/// `ratio_q3`; and the goal for the ratio, `limit`. The benchmark must be registered with
+/// UseManualTime; its time is that of `ours`.
 ///
 /// Returns the median of `ours` [s].
 double CompareInTurn(benchmark::State& state, double limit, const Timed& ours, const Timed& bare);
 
-/// Counters of a physics step that takes `seconds` and advances by `timestep` [s]: its `step_us`,
-/// `step_cycles` at the processor's nominal frequency, and the `real_time_factor`.
+/// Sets the counters of a physics step that takes `seconds` and advances by `timestep` [s]:
+/// `step_us`, `step_cycles` at the processor's nominal frequency, and `real_time_factor`.
 void CountStep(benchmark::State& state, double seconds, double timestep);
 
-/// A benchmark that reports an exception as its error, so that the others go on.
+/// Wraps a benchmark so that an exception becomes its error and the other benchmarks still run.
 template <typename Function>
 auto Guarded(Function function) {
   return [function = std::move(function)](benchmark::State& state, auto&&... arguments) {
@@ -48,7 +48,7 @@ auto Guarded(Function function) {
   };
 }
 
-/// Registers Guarded(function) under the name, with the arguments that it is to be called with.
+/// Registers Guarded(function) under `name`, with the arguments for its call.
 template <typename Function, typename... Arguments>
 benchmark::internal::Benchmark* RegisterGuarded(const std::string& name, Function function,
                                                 Arguments... arguments) {

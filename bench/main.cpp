@@ -63,8 +63,8 @@ int PrintRecords(const std::vector<std::string>& words) {
 
 }  // namespace
 
-/// Google Benchmark's own main, with what a record of numbers must say to be worth keeping; or
-/// tables of such records.
+/// Google Benchmark's main, which adds the machine's data to records; or prints tables of such
+/// records.
 int main(int argc, char** argv) {
   if (argc > 1 && argv[1][0] != '-') {
     return PrintRecords({argv + 1, argv + argc});

@@ -12,7 +12,7 @@
 
 #include "trackbed/planning/sampling/rrt_star.h"
 
-// The maps of tests/planning/maps.h for the planners of OMPL.
+// Poses the maps of tests/planning/maps.h as problems for OMPL's planners.
 namespace trackbed::bench {
 
 namespace ob = ompl::base;
@@ -22,7 +22,7 @@ inline Vec2 StatePosition(const ob::State* state) {
   return {(*values)[0], (*values)[1]};
 }
 
-/// Whether an edge is free, by the distances that our own searches ask for.
+/// Checks edges with the distance function of Trackbed's own searches.
 class Edges : public ob::MotionValidator {
  public:
   Edges(const ob::SpaceInformationPtr& space, const RrtStarProblem& problem)
@@ -44,7 +44,7 @@ class Edges : public ob::MotionValidator {
   const RrtStarProblem& problem_;
 };
 
-/// The box that is sampled, start, goal and edges of a map, which must outlive it.
+/// OMPL's problem for a map: sampled box, start, goal and edges. The map must outlive it.
 inline ob::ProblemDefinitionPtr MakeProblem(const RrtStarProblem& problem) {
   const auto space = std::make_shared<ob::RealVectorStateSpace>(2);
   ob::RealVectorBounds bounds(2);
@@ -54,7 +54,7 @@ inline ob::ProblemDefinitionPtr MakeProblem(const RrtStarProblem& problem) {
   }
   space->setBounds(bounds);
   const auto information = std::make_shared<ob::SpaceInformation>(space);
-  information->setStateValidityChecker([](const ob::State*) { return true; });  // edges tell all
+  information->setStateValidityChecker([](const ob::State*) { return true; });  // edges do it
   information->setMotionValidator(std::make_shared<Edges>(information, problem));
   information->setup();
   ob::ScopedState<ob::RealVectorStateSpace> start(space);

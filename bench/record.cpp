@@ -42,7 +42,8 @@ struct Record {
   }
 };
 
-/// Without what Google Benchmark appends, as in "ClosedLoop/three_turns/iterations:7/manual_time".
+/// The name without Google Benchmark's suffix, as in
+/// "ClosedLoop/three_turns/iterations:7/manual_time".
 std::string ShortName(const std::string& name) {
   return name.substr(0, std::min(name.find("/iterations:"), name.find("/manual_time")));
 }

@@ -5,16 +5,17 @@
 
 namespace trackbed::bench {
 
-/// The records that Google Benchmark writes (--benchmark_out, JSON), as tables for people.
+/// Prints records of Google Benchmark (--benchmark_out, JSON) as tables.
 
-/// Every ratio of a record with its quartiles and its limit, and every benchmark that failed with
-/// its error. InputError with the file, and the benchmark, when it is no such record.
+/// Lists every ratio of a record with its quartiles and limit, and every failed benchmark with its
+/// error. Throws InputError with the file and the benchmark if the record is invalid.
 std::string RatioTable(const std::filesystem::path& record);
 
-/// What changed from `before` to `after`: of a benchmark with a ratio the ratio, with its
-/// quartiles, else the processor time. Ratios are called better or worse where their quartiles do
-/// not overlap, times where they differ by more than a tenth; times only when both records are of
-/// the same processor, cores and build type. Benchmarks of one record only are named.
+/// Lists the changes from `before` to `after`: of a benchmark with a ratio the ratio and its
+/// quartiles, otherwise the processor time. Ratios count as better or worse if their quartiles do
+/// not overlap, times if they differ by more than a tenth. Times are compared only if both records
+/// have the same processor, number of cores and build type. Benchmarks of only one record are
+/// named.
 std::string ChangeTable(const std::filesystem::path& before, const std::filesystem::path& after);
 
 }  // namespace trackbed::bench

@@ -21,7 +21,7 @@
 #include "trackbed/planning/grid/astar.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 
-// Shortest curves against OMPL's, A* against a plain Dijkstra, and what hybrid A* takes.
+// Compares shortest curves with OMPL's and A* with a plain Dijkstra, and times hybrid A*.
 namespace trackbed::bench {
 namespace {
 
@@ -37,7 +37,7 @@ std::vector<std::pair<Pose2, Pose2>> Pairs() {
   return pairs;
 }
 
-/// The same pairs through both, the curve itself and not only its length.
+/// Both compute the same pairs, including the curve and not only its length.
 template <typename Space, typename Ours, typename Theirs>
 void CompareCurves(benchmark::State& state, const Ours& ours, const Theirs& theirs) {
   const auto pairs = Pairs();
@@ -96,7 +96,7 @@ OccupancyGrid Clutter(int side, double share, std::uint64_t seed) {
   return grid;
 }
 
-/// Dijkstra's algorithm as one writes it down, until the goal is taken from the queue.
+/// A textbook implementation of Dijkstra's algorithm that stops when the goal leaves the queue.
 double PlainDijkstra(const OccupancyGrid& grid, int start, int goal) {
   std::vector<double> cost(grid.size(), std::numeric_limits<double>::infinity());
   using Entry = std::pair<double, int>;
@@ -155,7 +155,7 @@ void CompareAStar(benchmark::State& state, const OccupancyGrid& grid, std::size_
   state.counters["found"] = path.ok() ? 1.0 : 0.0;
 }
 
-/// A wall around the goal but for one gap on its far side.
+/// A wall around the goal with one gap on its far side.
 OccupancyGrid Trap(int side) {
   OccupancyGrid grid = Clutter(side, 0.0, 1);
   for (int i = side / 10; i < side - 2; ++i) {
@@ -180,7 +180,7 @@ void TimeHybridAStar(benchmark::State& state, const HybridAStarProblem& problem,
   state.counters["cost_m"] = result.cost;
 }
 
-/// 190 m of a place with rows of boxes whose gaps are in turn left and right: 150 000 cells.
+/// A site of 190 m with rows of boxes whose gaps alternate left and right: 150 000 cells.
 HybridAStarProblem Rows() {
   HybridAStarProblem problem{.start = {0.0, 0.0, 0.0}, .goal = {170.0, 150.0, 0.5 * kPi}};
   for (int row = 0; row < 5; ++row) {

@@ -17,15 +17,15 @@
 #include "tests/planning/maps.h"
 #include "trackbed/planning/sampling/rrt.h"
 
-// Our RRT against that of OMPL: the same maps, edges, goal bias and test of an edge.
+// Compares Trackbed's RRT with OMPL's: the same maps, edges, goal bias and edge check.
 namespace trackbed::bench {
 namespace {
 
 constexpr double kExpandDistance = 2.0;  // [m]
-constexpr double kGoalBias = 0.05;       // of both by default
+constexpr double kGoalBias = 0.05;       // default of both
 constexpr int kBudget = 20000;           // enough for every map
 
-/// What a search took, an iteration each [s], and the length of its way [m].
+/// Time per iteration [s] and path length [m] of a search.
 struct Run {
   double seconds = 0.0;
   double iterations = 0.0;
@@ -49,8 +49,9 @@ Run Ours(const RrtStarProblem& map, int budget, std::uint64_t seed) {
           result.ok() ? result.length : std::numeric_limits<double>::infinity()};
 }
 
-/// OMPL's, from the first sample to the last: what it sets up is not counted. Its generators draw
-/// on from the program's one seed. It asks whether to end once an iteration.
+/// OMPL's RRT, from the first sample to the last, without its setup. Its random generators share
+/// the program's one seed and continue from run to run. It checks the termination condition once
+/// per iteration.
 Run Ompls(const RrtStarProblem& map, int budget) {
   const ob::ProblemDefinitionPtr definition = MakeProblem(map);
   ompl::geometric::RRT planner(definition->getSpaceInformation());
@@ -69,8 +70,8 @@ Run Ompls(const RrtStarProblem& map, int budget) {
                                          : std::numeric_limits<double>::infinity()};
 }
 
-/// Medians over the seeds, of times of an iteration and of lengths; both ratios are meant to be at
-/// most 1, that of the lengths but for the sway of a median.
+/// Compares medians over the seeds, of times per iteration and of lengths. Goal for both ratios: at
+/// most 1, for the lengths except for the scatter of a median.
 void CompareRrt(benchmark::State& state, const RrtStarProblem& map, int budget) {
   std::vector<double> our_lengths;
   std::vector<double> their_lengths;
@@ -100,7 +101,7 @@ void CompareRrt(benchmark::State& state, const RrtStarProblem& map, int budget) 
   }
 }
 
-/// The map with its goal walled in: every search uses up its budget.
+/// The map with its goal walled in, so that every search uses its whole budget.
 RrtStarProblem WalledIn(RrtStarProblem map) {
   const double reach = 2.0 * map.inflation + 0.5;
   for (const double side : {-1.0, 1.0}) {

@@ -15,12 +15,12 @@
 #include "bench/ompl_plane.h"
 #include "tests/planning/maps.h"
 
-// Our RRT* against that of OMPL: the same maps, step, goal bias, budget and test of an edge.
+// Compares Trackbed's RRT* with OMPL's: the same maps, step, goal bias, budget and edge check.
 namespace trackbed::bench {
 namespace {
 
 constexpr double kStep = 10.0;      // [m]
-constexpr double kGoalBias = 0.05;  // of both by default
+constexpr double kGoalBias = 0.05;  // default of both
 
 struct Run {
   double seconds = 0.0;
@@ -37,8 +37,8 @@ Run Ours(const RrtStarProblem& problem, int iterations, std::uint64_t seed) {
   return {stopwatch.Seconds(), result.cost};
 }
 
-/// OMPL's, from the first sample to the last: what it sets up is not counted. Its generators draw
-/// on from the program's one seed.
+/// OMPL's RRT*, from the first sample to the last, without its setup. Its random generators share
+/// the program's one seed and continue from run to run.
 Run Ompls(const RrtStarProblem& problem, int iterations) {
   const ob::ProblemDefinitionPtr definition = MakeProblem(problem);
   const ob::SpaceInformationPtr information = definition->getSpaceInformation();
@@ -59,8 +59,8 @@ Run Ompls(const RrtStarProblem& problem, int iterations) {
   return run;
 }
 
-/// Medians over the seeds, of times and of costs; both ratios are meant to be at most 1, that of
-/// the costs but for the sway of a median, some thousandths.
+/// Compares medians over the seeds, of times and of costs. Goal for both ratios: at most 1, for the
+/// costs except for the scatter of a median, some thousandths.
 void CompareRrtStar(benchmark::State& state, const RrtStarProblem& problem, int iterations) {
   std::vector<double> ours;
   std::vector<double> ompls;

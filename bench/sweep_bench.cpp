@@ -14,7 +14,7 @@
 namespace trackbed::bench {
 namespace {
 
-/// Three turns on MuJoCo, at speeds of a sample.
+/// A study of three turns on MuJoCo with sampled speeds.
 CheckedStudy SpeedStudy(const TempFolder& folder, int rows, double time_limit) {
   const std::filesystem::path file = folder.path() / "study.yaml";
   WriteFileAtomically(
@@ -28,7 +28,8 @@ CheckedStudy SpeedStudy(const TempFolder& folder, int rows, double time_limit) {
   return CheckStudy(ReadStudy(file));
 }
 
-/// Runs all rows; gives back what it took [s], and adds up what the plants and planners took.
+/// Executes all rows; returns the elapsed time [s] and adds the time of plants and planners to
+/// `working`.
 double RunAll(const CheckedStudy& study, const TempFolder& folder, int jobs,
               std::atomic<double>* working = nullptr) {
   const std::filesystem::path file = folder.path() / "sweep.records";
@@ -47,7 +48,7 @@ double RunAll(const CheckedStudy& study, const TempFolder& folder, int jobs,
   return stopwatch.Seconds();
 }
 
-/// A study on two threads takes at most 1 / 1.9 of its time on one, where there are two processors.
+/// Goal: on two processors, a study on two threads takes at most 1 / 1.9 of its time on one.
 void TwoWorkers(benchmark::State& state) {
   const TempFolder folder;
   const CheckedStudy study = SpeedStudy(folder, 500, 120.0);
@@ -56,7 +57,7 @@ void TwoWorkers(benchmark::State& state) {
       [&] { return RunAll(study, folder, 1); });
 }
 
-/// What a row costs besides planning and driving, with runs of a physics step.
+/// Times the overhead of a row beyond planning and simulation, with runs of one physics step.
 void RowsOfAStudy(benchmark::State& state) {
   constexpr int kRows = 1000;
   const TempFolder folder;

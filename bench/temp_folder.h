@@ -8,7 +8,7 @@
 
 namespace trackbed::bench {
 
-/// A fresh folder that goes when it is left.
+/// A fresh folder that is removed with the object.
 class TempFolder {
  public:
   TempFolder()

@@ -12,7 +12,7 @@ namespace {
 constexpr double kTimestep = 0.002;  // [s]
 constexpr double kDuration = 20.0;   // [s]
 
-/// A slalom at 15 m/s and up to 3 m/s^2 to either side, one command a step and nothing logged.
+/// A slalom at 15 m/s with up to 3 m/s^2 to either side; one command per step, without a log.
 double DriveSlalom(const CarModel& car, const World& world, const std::string& plant) {
   const auto driven = MakePlant(plant, {.car = car, .world = world, .start = {.speed = 15.0}});
   const auto steps = static_cast<int>(std::lround(kDuration / kTimestep));
@@ -24,7 +24,7 @@ double DriveSlalom(const CarModel& car, const World& world, const std::string& p
   return stopwatch.Seconds();
 }
 
-/// A step on Magic Formula tyres against one on MuJoCo's own friction.
+/// Compares a step on Magic Formula tyres with one on MuJoCo's contact friction.
 void TyreStep(benchmark::State& state, const std::string& model) {
   const CarModel car(ComposeScene(FindModel(model, ""), {.timestep = kTimestep}), model);
   const World world;

@@ -2,7 +2,7 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
-# Carried by every target of the project.
+# Linked by every target of the project.
 add_library(trackbed_compiler INTERFACE)
 target_compile_options(
   trackbed_compiler
@@ -16,21 +16,21 @@ target_compile_options(
             -Wnon-virtual-dtor
             -Woverloaded-virtual
             -Wimplicit-fallthrough
-            # Designated initializers leave out what keeps its default; that is their point.
+            # Designated initializers may omit members with defaults.
             -Wno-missing-field-initializers
-            # Clang blames our sources for a deprecated function that libstdc++'s stable_sort calls. GCC
-            # reports our own uses.
+            # Clang blames our sources for a deprecated function that libstdc++'s stable_sort calls.
+            # GCC reports our own uses.
             $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
-            # Debian 12's Boost 1.74 has casts out of an enumeration's range, an error for Clang 16 and later.
-            # Clang 20 no longer has the flag.
+            # Debian 12's Boost 1.74 casts integers outside an enumeration's range, which is an
+            # error for Clang 16 and later. Clang 20 no longer has the flag.
             $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,16>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,20>>:-Wno-enum-constexpr-conversion>
-            # The page of the reports is one long text (ReportPage.cmake).
+            # The report page is one long string literal (ReportPage.cmake).
             $<$<CXX_COMPILER_ID:Clang>:-Wno-overlength-strings>
-            # The same arithmetic on every machine: no fused multiply-add behind the source's back.
+            # No fused multiply-add, so that the arithmetic is the same on every machine.
             -ffp-contract=off
             $<$<BOOL:${TRACKBED_WARNINGS_AS_ERRORS}>:-Werror>)
 if(TRACKBED_FUZZ)
-  # Of Clang: counts which branches were taken.
+  # Clang's coverage instrumentation for libFuzzer.
   target_compile_options(
     trackbed_compiler INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
                                 -fno-omit-frame-pointer)
@@ -47,7 +47,7 @@ if(TRACKBED_SANITIZE)
     INTERFACE ${TRACKBED_SANITIZER_FLAGS}
               -fno-sanitize-recover=all
               -fno-omit-frame-pointer
-              # GCC 12 takes instrumented std::regex for uninitialized.
+              # GCC 12 reports instrumented std::regex as uninitialized.
               $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(trackbed_compiler INTERFACE ${TRACKBED_SANITIZER_FLAGS})
 endif()

@@ -1,9 +1,9 @@
-# How sim finds models/ and scenarios/, so that no installed file holds a path (DataFolder in
-# trackbed/sim/scene.h). Beside the program first; otherwise what PlaceOfData returns, which is
-#   in a shared library of sim     the folder beside the library
-#   for static libraries           written by each CMake build (Place.cmake), for other builds an
-#                                  error that asks for TRACKBED_DATA: libtrackbed_default_place.a,
-#                                  which trackbed.pc names
+# How sim finds models/ and scenarios/ although no installed file contains a path (DataFolder in
+# trackbed/sim/scene.h). It looks beside the program first, then in the result of PlaceOfData:
+#   shared library of sim   the folder beside the library
+#   static libraries        a source file written by each CMake build (Place.cmake); in other builds
+#                           libtrackbed_default_place.a, which trackbed.pc links, reports an error
+#                           that asks for TRACKBED_DATA
 include(Place)
 set(data /${CMAKE_INSTALL_DATADIR}/trackbed)
 file(RELATIVE_PATH data_from_program /${CMAKE_INSTALL_BINDIR} ${data})

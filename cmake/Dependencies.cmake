@@ -1,5 +1,5 @@
-# Libraries come from Debian (scripts/packages/), MuJoCo also from the wheel that scripts/setup unpacks;
-# nothing is downloaded here.
+# Libraries come from Debian (scripts/packages/). MuJoCo may also come from the wheel that
+# scripts/setup unpacks. Nothing is downloaded here.
 include_guard()
 if(NOT DEFINED TRACKBED_MUJOCO AND EXISTS ${PROJECT_SOURCE_DIR}/build/mujoco)
   set(default_mujoco wheel)
@@ -10,7 +10,7 @@ set(TRACKBED_MUJOCO ${default_mujoco} CACHE STRING "MuJoCo: wheel, debian or a f
 include(LibraryDependencies)
 include(MujocoVersion)
 
-# Loaded at run time: only their headers are needed, and by tests the libraries.
+# Loaded at run time: the build needs only the headers, tests also the libraries.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 add_library(egl::egl ALIAS PkgConfig::egl)
@@ -19,7 +19,7 @@ if(TRACKBED_VIDEO)
   add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
 endif()
 
-# trackbed_headers_of(TARGET LIBRARY): the headers of the library for the target, which does not link it.
+# trackbed_headers_of(TARGET LIBRARY): gives the target the library's headers without linking it.
 function(trackbed_headers_of target library)
   target_include_directories(${target}
                              PRIVATE $<BUILD_INTERFACE:$<TARGET_PROPERTY:${library},INTERFACE_INCLUDE_DIRECTORIES>>)
@@ -27,28 +27,28 @@ endfunction()
 
 find_package(CLI11 2 REQUIRED)
 
-# The module testing is a library of GoogleTest matchers; without GoogleTest there is none.
+# The module testing consists of GoogleTest matchers and is not built without GoogleTest.
 if(TRACKBED_BUILD_TESTS)
   find_package(GTest REQUIRED)
 else()
   find_package(GTest QUIET)
 endif()
 
-# A peer: benchmarks need it, tests compare with it where it is.
+# OMPL: required by the benchmarks; tests compare with it if it is installed.
 if(TRACKBED_BENCH)
   find_package(ompl REQUIRED CONFIG PATHS /usr/share/ompl/cmake)
 elseif(TRACKBED_BUILD_TESTS)
   find_package(ompl QUIET CONFIG PATHS /usr/share/ompl/cmake)
 endif()
 if(ompl_FOUND)
-  # Debian's 1.5.2 also lists what it only needs to be built itself.
+  # Debian's 1.5.2 also lists libraries that only its own build needs.
   list(GET OMPL_LIBRARIES 0 ompl_library)
   add_library(ompl::ompl INTERFACE IMPORTED)
   target_link_libraries(ompl::ompl INTERFACE ${ompl_library})
   target_include_directories(ompl::ompl INTERFACE ${OMPL_INCLUDE_DIR})
 endif()
 
-# JavaScript that the reports carry with them, and its licenses.
+# JavaScript that the reports contain, and its licenses.
 macro(trackbed_find_script variable package file)
   find_file(${variable} ${file} PATHS ${ARGN} NO_DEFAULT_PATH)
   if(NOT ${variable})

@@ -1,6 +1,6 @@
-# `cmake --install` installs the program; the package `trackbed`, for CMake and for pkg-config; the
-# models and scenarios; and the documentation. Everything is found from where the package or the
-# program is, so that all of it can be moved.
+# `cmake --install` installs the program, the package `trackbed` for CMake and pkg-config, the
+# models and scenarios, and the documentation. All paths are relative to the package or the program,
+# so the installation can be moved.
 #
 #   trackbed::trackbed   the library: all modules but testing
 #   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_fillet
@@ -14,7 +14,7 @@ include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/trackbed)
 set(data_folder ${CMAKE_INSTALL_DATADIR}/trackbed)
 
-# One header and one target for everything.
+# One header and one target for all modules.
 add_library(trackbed_library INTERFACE)
 trackbed_link_folder(${PROJECT_BINARY_DIR}/modules/library trackbed/trackbed.h
                      ${PROJECT_SOURCE_DIR}/include/trackbed/trackbed.h)
@@ -41,14 +41,14 @@ set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
 set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
 set_target_properties(trackbed PROPERTIES EXPORT_NAME cli)
-# Installs the wheel's or the archive's MuJoCo in a private folder with the layout of an archive. Projects
-# that link Trackbed compile against its headers.
+# Installs MuJoCo from the wheel or the archive into a private folder with the layout of an archive.
+# Projects that link Trackbed compile against its headers.
 set(mujoco_folder ${CMAKE_INSTALL_LIBDIR}/trackbed/mujoco)
 if(TRACKBED_MUJOCO_FOLDER)
   install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/include/mujoco DESTINATION ${mujoco_folder}/include)
   install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/lib/ DESTINATION ${mujoco_folder}/lib
           FILES_MATCHING PATTERN libmujoco.so* PATTERN cmake EXCLUDE)
-  # In the wheel below licenses/, in an archive beside include/ and lib/.
+  # A wheel has them in licenses/, an archive beside include/ and lib/.
   file(GLOB licenses ${TRACKBED_MUJOCO_FOLDER}/licenses/* ${TRACKBED_MUJOCO_FOLDER}/LICENSE*
        ${TRACKBED_MUJOCO_FOLDER}/THIRD_PARTY_NOTICES*)
   install(FILES ${licenses} DESTINATION ${CMAKE_INSTALL_DOCDIR}/mujoco)

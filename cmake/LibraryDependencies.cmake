@@ -1,5 +1,6 @@
-# What Trackbed's libraries are made of: for its own build, and for projects that link the installed
-# package. Projects that link shared libraries, trackbed_SHARED, need only what public headers include.
+# Dependencies of Trackbed's libraries, for Trackbed's own build and for projects that link the
+# installed package. Projects that link shared libraries (trackbed_SHARED) need only the
+# dependencies of public headers.
 find_package(fmt REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(Boost 1.74 REQUIRED CONFIG) # CMake 3.30 deprecates its own module
@@ -18,7 +19,7 @@ find_package(OpenSSL 3 REQUIRED COMPONENTS Crypto)
 find_package(PNG REQUIRED)
 include(${CMAKE_CURRENT_LIST_DIR}/Mujoco.cmake)
 
-# Not by its pkg-config file, which asks for the libraries that a static IPOPT would need.
+# IPOPT's pkg-config file is not used, because it requires libraries that only a static IPOPT needs.
 if(TRACKBED_IPOPT AND NOT TARGET ipopt::ipopt)
   find_path(IPOPT_INCLUDE_DIR IpStdCInterface.h PATH_SUFFIXES coin coin-or REQUIRED)
   find_library(IPOPT_LIBRARY ipopt REQUIRED)
@@ -27,7 +28,8 @@ if(TRACKBED_IPOPT AND NOT TARGET ipopt::ipopt)
                                                 INTERFACE_INCLUDE_DIRECTORIES ${IPOPT_INCLUDE_DIR})
 endif()
 
-# Not by its CMake package, which adds the libraries of what is not used here, such as SQLite.
+# dlib's CMake package is not used, because it adds libraries that are not needed here, such as
+# SQLite.
 if(NOT TARGET dlib::dlib)
   find_path(DLIB_INCLUDE_DIR dlib/global_optimization.h REQUIRED)
   find_library(DLIB_LIBRARY dlib REQUIRED)
@@ -36,7 +38,7 @@ if(NOT TARGET dlib::dlib)
                                               INTERFACE_INCLUDE_DIRECTORIES ${DLIB_INCLUDE_DIR})
 endif()
 
-# libcsv ships neither a pkg-config file nor a CMake package.
+# libcsv has neither a pkg-config file nor a CMake package.
 if(NOT TARGET csv::csv)
   find_path(CSV_INCLUDE_DIR csv.h REQUIRED)
   find_library(CSV_LIBRARY csv REQUIRED)

@@ -1,20 +1,20 @@
 # trackbed_module(PATH [STATIC] [SOURCE_DIR DIR] [KIND NUMERICS|LIGHT] [MODULES module...]
 #                 [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
 #
-# One library per module, static or shared (Shared.cmake), with STATIC always static: public headers
-# in include/trackbed/PATH, sources in src/PATH (or DIR). PATH is `core`, or `planning/fillet` for a
-# part of a larger module; its target is trackbed_planning_fillet, trackbed::planning_fillet for
-# others. MODULES must be declared already, so that the order of the calls is the order of the
-# modules, from the bottom up.
+# Adds one library per module, static or shared (Shared.cmake); with STATIC, always static. Public
+# headers are in include/trackbed/PATH, sources in src/PATH (or DIR). PATH is `core`, or
+# `planning/fillet` for a part of a larger module; its target is then trackbed_planning_fillet,
+# exported as trackbed::planning_fillet. MODULES must be declared before, so that the calls are in
+# the order of the modules, from the bottom up.
 #
-# A target sees the headers of the modules that it links, and no others: each module has an include
-# directory of its own in the build tree, with a link to its headers.
-# KIND is explained in PrecompiledHeaders.cmake; NUMERICS unless it is given.
-# The target header_checks, which is no part of `all`, compiles each public header alone.
+# A target sees only headers of the modules that it links: in the build tree, each module has a
+# separate include directory with a link to its headers.
+# KIND is explained in PrecompiledHeaders.cmake; default: NUMERICS.
+# The target header_checks, which is not part of `all`, compiles each public header alone.
 set_property(GLOBAL PROPERTY TRACKBED_MODULES "")
 add_custom_target(header_checks)
 
-# Makes DIR/LINK point to the folder SOURCE.
+# Makes DIR/LINK a link to the folder SOURCE.
 function(trackbed_link_folder dir link source)
   get_filename_component(parent ${dir}/${link} DIRECTORY)
   file(MAKE_DIRECTORY ${parent})
@@ -82,7 +82,7 @@ function(trackbed_module path)
     set(checks trackbed_${name}_header_checks)
     add_library(${checks} OBJECT EXCLUDE_FROM_ALL ${header_checks})
     target_link_libraries(${checks} PRIVATE trackbed_${name} trackbed_compiler)
-    # Whether they compile is all that is asked.
+    # Compilation is the only check, so no optimization.
     target_compile_options(${checks} PRIVATE -O0)
     add_dependencies(header_checks ${checks})
   endif()

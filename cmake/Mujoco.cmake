@@ -1,13 +1,14 @@
-# The target mujoco::mujoco, for Trackbed's own build and for projects that link the installed package.
+# Defines the target mujoco::mujoco, for Trackbed's build and for projects that link the package.
 #
-#   TRACKBED_MUJOCO  wheel: the release of scripts/packages/mujoco.txt, which scripts/setup unpacks below build/
-#                    debian: find_package(mujoco CONFIG): Debian's libmujoco-dev, or the one that
-#                      mujoco_DIR or CMAKE_PREFIX_PATH lead to
-#                    a folder: an unpacked release archive, or any folder with include/mujoco/mujoco.h
-#                      and lib/libmujoco.so
+#   TRACKBED_MUJOCO  wheel: the release of scripts/packages/mujoco.txt, which scripts/setup unpacks
+#                      below build/
+#                    debian: find_package(mujoco CONFIG): Debian's libmujoco-dev, or the package
+#                      that mujoco_DIR or CMAKE_PREFIX_PATH selects
+#                    a folder: an unpacked release archive, or any folder with
+#                      include/mujoco/mujoco.h and lib/libmujoco.so
 #
-# Sets TRACKBED_MUJOCO_FOLDER to the folder of the wheel or the archive, which `cmake --install` copies;
-# empty for MuJoCo of the system.
+# Sets TRACKBED_MUJOCO_FOLDER to the folder of the wheel or the archive, which `cmake --install`
+# copies; empty for the system's MuJoCo.
 
 # Defines mujoco::mujoco from the folder `root`.
 function(trackbed_mujoco_of root)
@@ -24,14 +25,15 @@ endfunction()
 
 set(TRACKBED_MUJOCO_FOLDER "")
 if(TARGET mujoco::mujoco)
-  # The project that includes this has chosen one.
+  # The including project has already defined the target.
 elseif(TRACKBED_MUJOCO STREQUAL "debian")
   find_package(mujoco CONFIG QUIET)
   if(NOT mujoco_FOUND)
     message(FATAL_ERROR "TRACKBED_MUJOCO=debian: no CMake package mujoco; install Debian's libmujoco-dev, "
                         "or set mujoco_DIR")
   endif()
-  # Debian's 2.2.2 exports a folder of libqhull-dev, which is not there: CMake would refuse the target.
+  # Debian's 2.2.2 exports a missing folder of libqhull-dev, for which CMake would reject the
+  # target.
   get_target_property(folders mujoco::mujoco INTERFACE_INCLUDE_DIRECTORIES)
   set(existing "")
   foreach(folder IN LISTS folders)

@@ -1,5 +1,5 @@
-# Compares the headers of mujoco::mujoco with its library, and refuses versions that Trackbed does not
-# support. Sets TRACKBED_MUJOCO_VERSION. docs/how-to/mujoco-versions.md says what differs.
+# Compares the headers of mujoco::mujoco with its library, and rejects versions that Trackbed does
+# not support. Sets TRACKBED_MUJOCO_VERSION. docs/how-to/mujoco-versions.md lists the differences.
 set(program ${PROJECT_BINARY_DIR}/mujoco_version/version.cpp)
 file(CONFIGURE OUTPUT ${program} CONTENT [[#include <mujoco/mujoco.h>
 
@@ -18,7 +18,7 @@ endif()
 set(mujoco_headers ${CMAKE_MATCH_1})
 set(mujoco_library ${CMAKE_MATCH_2})
 set(TRACKBED_MUJOCO_VERSION ${CMAKE_MATCH_3})
-# Each configuration asks again: the library may have been replaced.
+# Each configuration repeats the check, because the library may have been replaced.
 unset(mujoco_version_exit CACHE)
 unset(mujoco_version_compiles CACHE)
 if(NOT mujoco_headers EQUAL mujoco_library)

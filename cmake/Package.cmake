@@ -1,17 +1,19 @@
-# `cpack -G DEB` in the build folder makes one Debian package of what `cmake --install` installs, for the
-# suite that it is built on. scripts/package builds, makes and checks it; docs/how-to/install.md is for its users.
+# `cpack -G DEB` in the build folder makes one Debian package of everything that `cmake --install`
+# installs, for the suite on which it is built. scripts/package builds, makes and checks it;
+# docs/how-to/install.md describes it for users.
 #
-# finish_package.cmake asks dpkg-shlibdeps for the libraries that the program links. This file adds those that it loads when it
-# draws or encodes, and suggests those that find_package(trackbed) looks for.
+# finish_package.cmake determines the dependencies of linked libraries with dpkg-shlibdeps. This
+# file adds the libraries that are loaded at run time for drawing and encoding, and suggests those
+# that find_package(trackbed) needs.
 find_program(DPKG_QUERY dpkg-query)
 mark_as_advanced(DPKG_QUERY)
-# Only static libraries: Debian wants shared ones in separate packages.
+# Static libraries only: Debian requires separate packages for shared ones.
 if(NOT DPKG_QUERY OR BUILD_SHARED_LIBS)
   return()
 endif()
 
-# Licenses that the package must have beside it: of what the program and the libraries contain. Boost's needs no
-# text beside object code.
+# The package must contain the licenses of all code in the program and libraries. Boost's license
+# requires no text beside object code.
 set(carried_packages node-d3 libjs-dygraphs libjs-three libeigen3-dev nlohmann-json3-dev libcli11-dev)
 foreach(package IN LISTS carried_packages)
   if(NOT EXISTS /usr/share/doc/${package}/copyright)
@@ -33,17 +35,18 @@ function(trackbed_owner_of library variable)
   endif()
 endfunction()
 
-# OSMesa alone, or EGL with Mesa's drivers. One group of alternatives cannot say this, two can.
+# Requires OSMesa, or EGL with Mesa's drivers. One group of alternatives cannot express this, two
+# can.
 set(depends "libosmesa6 | libegl1" "libosmesa6 | libgl1-mesa-dri")
 if(TRACKBED_VIDEO)
   foreach(library IN ITEMS avformat avcodec swscale avutil)
     trackbed_owner_of(${library} owner)
-    list(APPEND depends ${owner}) # nothing if it is empty
+    list(APPEND depends ${owner}) # does nothing if it is empty
   endforeach()
 endif()
 list(JOIN depends ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 
-# LibraryDependencies.cmake finds these; the program needs none of them.
+# Packages that LibraryDependencies.cmake finds; the program needs none of them.
 set(suggests
     g++ libfmt-dev libeigen3-dev libboost-dev nlohmann-json3-dev libyaml-cpp-dev libtinyxml2-dev libproj-dev
     libmuparser-dev libnlopt-dev libnlopt-cxx-dev libtbb-dev libssl-dev libpng-dev libdlib-dev libcsv-dev)
@@ -58,7 +61,7 @@ if(TARGET trackbed_testing)
 endif()
 list(JOIN suggests ", " CPACK_DEBIAN_PACKAGE_SUGGESTS)
 
-# The suite is part of the version: a package for Debian 13 replaces the one for Debian 12.
+# The version contains the suite, so that a package for Debian 13 replaces the one for Debian 12.
 set(CPACK_DEBIAN_PACKAGE_VERSION ${PROJECT_VERSION})
 file(STRINGS /etc/os-release suite REGEX "^VERSION_ID=")
 if(suite MATCHES "([0-9]+)")
@@ -77,7 +80,7 @@ if(TRACKBED_MUJOCO_FOLDER)
 endif()
 configure_file(packaging/copyright.in package/copyright @ONLY)
 
-# Debian's changelog, which lists versions of the package. CHANGELOG.md is beside it.
+# Debian's changelog lists versions of the package. CHANGELOG.md is installed in addition.
 set(changed "Thu, 01 Jan 1970 00:00:00 +0000")
 if(GIT_EXECUTABLE)
   execute_process(COMMAND ${GIT_EXECUTABLE} -C ${PROJECT_SOURCE_DIR} log -1 --format=%aD OUTPUT_VARIABLE committed
@@ -93,7 +96,7 @@ file(CONFIGURE OUTPUT package/changelog CONTENT [[trackbed (@CPACK_DEBIAN_PACKAG
  -- @TRACKBED_MAINTAINER@  @changed@
 ]] @ONLY)
 
-# Read by finish_package.cmake, beside what `cmake --install` installs.
+# Variables for finish_package.cmake: files in addition to those of `cmake --install`.
 set(CPACK_TRACKBED_FILES ${PROJECT_BINARY_DIR}/package)
 set(CPACK_TRACKBED_PACKAGING ${PROJECT_SOURCE_DIR}/packaging)
 

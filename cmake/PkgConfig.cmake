@@ -1,6 +1,6 @@
-# trackbed.pc, for builds without CMake: what the targets of the modules link, as pkg-config says it.
-# A program that links static modules must link all that they use; one that links shared modules, and
-# its compiler, need only what public headers include.
+# Writes trackbed.pc for builds without CMake: the modules' link libraries in pkg-config syntax. A
+# program that links static modules must link everything that they use. A program that links shared
+# modules, and the compiler, need only the dependencies of public headers.
 
 set(mujoco -lmujoco)
 if(TRACKBED_MUJOCO_FOLDER)
@@ -8,8 +8,8 @@ if(TRACKBED_MUJOCO_FOLDER)
   set(mujoco "-L${folder} -Wl,-rpath,${folder} -lmujoco")
 endif()
 
-# Names of pkg-config's, or options for the linker: libcsv and MuJoCo have no .pc file. Boost is
-# headers. Of proj.pc, `--static` would want libraries of curl that only static programs need.
+# pkg-config names, or linker options: libcsv and MuJoCo have no .pc file. Boost is header-only. For
+# proj.pc, `--static` would require libraries of curl that only static programs need.
 set(pkg_config_names
     fmt::fmt=fmt
     Eigen3::Eigen=eigen3
@@ -37,7 +37,7 @@ foreach(module IN LISTS modules)
   if(module STREQUAL "testing")
     continue()
   endif()
-  # The linker wants what is used after what uses it: the modules from the top down.
+  # The linker requires libraries after their users, so the modules are listed from the top down.
   if(module STREQUAL "sim" AND NOT BUILD_SHARED_LIBS)
     list(PREPEND libs -ltrackbed_default_place)
   endif()
@@ -47,7 +47,7 @@ foreach(module IN LISTS modules)
   else()
     get_target_property(links trackbed_${name} LINK_LIBRARIES)
   endif()
-  # Without modules, and without what is only for Trackbed's own build.
+  # Excludes modules and libraries that only Trackbed's own build uses.
   list(FILTER links EXCLUDE REGEX "^trackbed_|^\\$<")
   foreach(library IN LISTS links)
     if(NOT ";${pkg_config_names};" MATCHES ";${library}=([^;]*);")

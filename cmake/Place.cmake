@@ -1,6 +1,6 @@
-# trackbed_add_place(FOLDER): the library trackbed_place, which tells where models/ and scenarios/
-# lie. Each build writes its own: Trackbed's names the source tree, that of a project which has found
-# the installed package the data beside that package. So the libraries hold no path.
+# trackbed_add_place(FOLDER): adds the library trackbed_place, which returns the location of models/
+# and scenarios/. Each build generates one: Trackbed's build names the source tree, a project that
+# uses the installed package names that package's data. So the installed libraries contain no path.
 function(trackbed_add_place folder)
   set(file ${PROJECT_BINARY_DIR}/trackbed_place/place.cpp)
   file(CONFIGURE OUTPUT ${file} CONTENT [[namespace trackbed {

@@ -1,5 +1,5 @@
-# The page of a report as C++: src/report/page/ with the libraries that it needs, made anew when one
-# of them changes.
+# Generates the report page as C++ from src/report/page/ and its libraries, whenever one of them
+# changes.
 set(page_folder ${PROJECT_SOURCE_DIR}/src/report/page)
 set(page_text ${PROJECT_BINARY_DIR}/report/page_text.cpp)
 file(GLOB page_parts CONFIGURE_DEPENDS ${page_folder}/*)
@@ -16,6 +16,7 @@ add_custom_command(
   COMMENT "Putting the page of the reports together"
   VERBATIM)
 target_sources(trackbed_report PRIVATE ${page_text})
-# Ninja then builds the page alone; through the module it would first build all modules below it.
+# With this target, Ninja can build the page alone; through the module it would first build all
+# modules below.
 add_custom_target(trackbed_page_text DEPENDS ${page_text})
 add_dependencies(trackbed_report trackbed_page_text)

@@ -1,5 +1,5 @@
-# SHA-256 of every file in models/: a model whose files are all among them is one that comes with
-# Trackbed, wherever it lies.
+# Generates the SHA-256 of every file in models/. A model counts as shipped, in any location, if the
+# hashes of all its files are among them.
 file(GLOB_RECURSE model_files CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/models/*)
 set(shipped_hashes "")
 foreach(file IN LISTS model_files)

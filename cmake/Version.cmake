@@ -1,4 +1,4 @@
-# trackbed_version: a library with the version as git describes it, refreshed at each build.
+# Adds trackbed_version, a library with the version from git, updated at each build.
 find_package(Git QUIET)
 set(TRACKBED_VERSION_FILE ${PROJECT_BINARY_DIR}/version/version.cpp)
 add_custom_target(

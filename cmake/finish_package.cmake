@@ -1,9 +1,9 @@
-# Run by cpack after it has installed everything into the folder that it packs: adds what only a Debian package has,
-# as Debian's policy wants it.
+# Run by cpack after it has installed everything into the folder that it packs: adds the files that
+# Debian's policy requires.
 set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}${CPACK_PACKAGING_INSTALL_PREFIX})
 set(doc ${root}/share/doc/trackbed)
 
-# Debian's zsh reads the completion of packages there.
+# Debian's zsh looks for completions of packages in vendor-completions.
 file(MAKE_DIRECTORY ${root}/share/zsh)
 file(RENAME ${root}/share/zsh/site-functions ${root}/share/zsh/vendor-completions)
 
@@ -16,7 +16,7 @@ execute_process(COMMAND gzip -9n ${doc}/changelog ${pages} COMMAND_ERROR_IS_FATA
 file(MAKE_DIRECTORY ${root}/share/lintian/overrides)
 file(COPY_FILE ${CPACK_TRACKBED_PACKAGING}/lintian-overrides ${root}/share/lintian/overrides/trackbed)
 
-# CPACK_STRIP_FILES leaves what was not built here, and static libraries as they are.
+# CPACK_STRIP_FILES does not strip static libraries and files that were not built here.
 file(GLOB libraries ${root}/lib/*.a)
 execute_process(COMMAND strip --strip-debug --remove-section=.comment --remove-section=.note
                         --enable-deterministic-archives ${libraries} COMMAND_ERROR_IS_FATAL ANY)

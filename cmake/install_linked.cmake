@@ -1,4 +1,4 @@
-# Installs, below pages_folder, the files and folders of `source` that the pages link and that no other rule
+# Installs into pages_folder the files and folders of `source` that the pages link and no other rule
 # installs: those of tests/, src/, render/, scripts/, packaging/, bench/ and .ci/.
 file(GLOB_RECURSE pages ${source}/docs/*.md)
 list(APPEND pages ${source}/README.md ${source}/CHANGELOG.md ${source}/CONTRIBUTING.md)
@@ -6,7 +6,7 @@ set(linked "")
 foreach(page IN LISTS pages)
   get_filename_component(folder ${page} DIRECTORY)
   file(READ ${page} text)
-  # Square brackets would join elements of a list.
+  # Square brackets would join list elements.
   string(REPLACE "](" "LINK:" text "${text}")
   string(REGEX MATCHALL "LINK:[^)#: ;]+" links "${text}")
   foreach(link IN LISTS links)

@@ -1,6 +1,6 @@
-# Writes OUTPUT, a C++ file with the texts of src/report/page_text.h.
+# Writes OUTPUT, a C++ file that defines the texts of src/report/page_text.h.
 
-# page.html names its parts as <!-- part --> in a line of their own.
+# page.html contains placeholders <!-- part -->, each on a separate line.
 file(READ ${PAGE}/page.html page)
 function(put part text)
   string(FIND "${page}" "<!-- ${part} -->" place)
@@ -16,7 +16,7 @@ function(put part text)
       PARENT_SCOPE)
 endfunction()
 
-# The source that lets a browser take exactly this text, for the page's Content-Security-Policy.
+# The source expression that allows exactly this text in the page's Content-Security-Policy.
 function(allow source text)
   string(SHA256 digest "${text}")
   string(TOUPPER ${digest} digest)
@@ -58,7 +58,7 @@ foreach(part IN ITEMS base map events charts phase_planes series differences fil
 endforeach()
 allow(script_source "${script}")
 put(script "<script>${script}</script>")
-# Only reports of runs have a scene.
+# Only reports of runs have a 3D scene.
 file(READ ${THREE_SCRIPT} three)
 file(READ ${ORBIT_CONTROLS_SCRIPT} orbit_controls)
 allow(three_source "${three}")
@@ -72,14 +72,14 @@ put("style source" "${style_source}")
 put("script sources"
     "${d3_source} ${dygraphs_source} ${three_source} ${orbit_controls_source} ${canvas_source} ${script_source}")
 
-# Only the page of a run that goes on (trackbed watch) has this script, and may connect to its server.
+# Only the page of a live run (trackbed watch) has this script and may connect to its server.
 file(READ ${PAGE}/live.js live)
 set(live "\n\"use strict\";\n${live}")
 allow(live_source "${live}")
 set(live_source " ${live_source}; connect-src 'self'")
 set(live_script "<script>${live}</script>\n")
 
-# What changes from report to report divides the page.
+# The page is split at the texts that differ between reports.
 foreach(cut IN ITEMS live_source title data live_script)
   string(REPLACE "_" " " mark ${cut})
   string(FIND "${page}" "<!-- ${mark} -->" place)

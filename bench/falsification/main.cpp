@@ -1,5 +1,5 @@
-// Which points of a grid the searches of `trackbed falsify` propose, when a table tells what runs
-// there would give: scripts/falsification.
+// Lists the grid points that the searches of `trackbed falsify` propose. A table provides the
+// result of a run at each point: scripts/falsification.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -74,7 +74,7 @@ class Grid {
   std::map<std::vector<long>, Point> points_;
 };
 
-/// The rows of the grid in the order in which a search runs them, the nominal point first.
+/// The rows of the grid in the order in which a search runs them, beginning with the nominal point.
 std::vector<std::size_t> RowsOf(const SearchSpec& spec, const SearchSpace& space, const Grid& grid,
                                 std::size_t most) {
   const Grid::Point& nominal = grid.At(space.nominal());
@@ -121,7 +121,7 @@ int Main(int count, char** arguments) {
     spec.finish = "none";
     for (const bool stop : {true, false}) {
       spec.stop = stop;
-      // A search that ends with the first violation may take what it takes to find one.
+      // A search that stops at the first violation may use as many runs as it needs.
       const std::size_t most = stop ? grid.size() : grid.size() / 10;
       spec.runs = static_cast<int>(most);
       for (int seed = 1; seed <= seeds; ++seed) {
