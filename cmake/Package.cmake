@@ -49,7 +49,7 @@ list(JOIN depends ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 # Packages that LibraryDependencies.cmake finds; the program needs none of them.
 set(suggests
     g++ libfmt-dev libeigen3-dev libboost-dev nlohmann-json3-dev libyaml-cpp-dev libtinyxml2-dev libproj-dev
-    libmuparser-dev libnlopt-dev libnlopt-cxx-dev libtbb-dev libssl-dev libpng-dev libdlib-dev libcsv-dev)
+    libmuparser-dev libnlopt-dev libnlopt-cxx-dev libssl-dev libpng-dev libdlib-dev libcsv-dev)
 if(TRACKBED_IPOPT)
   list(APPEND suggests coinor-libipopt-dev)
 endif()

@@ -24,7 +24,6 @@ set(pkg_config_names
     PNG::PNG=libpng
     Boost::headers=
     Threads::Threads=-pthread
-    TBB::tbb=tbb
     OpenSSL::Crypto=libcrypto
     csv::csv=-lcsv
     "mujoco::mujoco=${mujoco}")

@@ -1,59 +1,36 @@
 #include "trackbed/analysis/parallel.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-
+#include <algorithm>
 #include <atomic>
 #include <future>
 #include <vector>
 
 namespace trackbed {
 
-#ifdef __SANITIZE_THREAD__
-
-// Plain threads for the thread sanitizer, which reports false races inside oneTBB because that
-// library is not instrumented. Races between runs are found with any threads.
 void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::size_t)>& work) {
   std::atomic<std::size_t> next{0};
-  std::vector<std::future<void>> workers;
-  for (int i = 0; i < threads; ++i) {
-    workers.push_back(std::async(std::launch::async, [&] {
+  const auto work_until_done = [&] {
+    try {
       for (std::size_t index = next++; index < count; index = next++) {
         if (!work(index)) {
           next = count;
         }
       }
-    }));
+    } catch (...) {
+      next = count;
+      throw;
+    }
+  };
+  // The futures' destructors wait for their threads, also when this thread's call throws.
+  std::vector<std::future<void>> others;
+  const std::size_t workers = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
+  for (std::size_t i = 1; i < workers; ++i) {
+    others.push_back(std::async(std::launch::async, work_until_done));
   }
-  for (std::future<void>& worker : workers) {
-    worker.get();
+  work_until_done();
+  for (std::future<void>& other : others) {
+    other.get();
   }
 }
-
-#else
-
-void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::size_t)>& work) {
-  // Allows more threads than processors.
-  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
-                                  static_cast<std::size_t>(threads));
-  tbb::task_arena arena(threads);
-  arena.execute([&] {
-    tbb::task_group_context context;
-    tbb::parallel_for(
-        tbb::blocked_range<std::size_t>(0, count, 1),
-        [&](const tbb::blocked_range<std::size_t>& range) {
-          for (std::size_t i = range.begin(); i != range.end(); ++i) {
-            if (!context.is_group_execution_cancelled() && !work(i)) {
-              context.cancel_group_execution();
-            }
-          }
-        },
-        tbb::simple_partitioner(), context);
-  });
-}
-
-#endif
 
 }  // namespace trackbed
