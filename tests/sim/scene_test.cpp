@@ -8,6 +8,7 @@
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/file_name.h"
 #include "trackbed/sim/car_model.h"
 
 namespace trackbed {
@@ -25,7 +26,7 @@ std::string ErrorMessage(const std::filesystem::path& file) {
   return "no error";
 }
 
-/// A binary STL file: a header, the count of triangles, and one with all its points in one place.
+/// A binary STL file: a header, the triangle count, and one triangle whose points coincide.
 std::string Triangle() {
   return std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0');
 }
@@ -86,12 +87,48 @@ TEST(ComposeScene, TakesAssetsAlong) {
   EXPECT_EQ(scene.assets[0].name, "asset0_body.stl");
   EXPECT_EQ(scene.assets[0].content, stl);
   EXPECT_THAT(scene.xml, HasSubstr("file=\"asset0_body.stl\""));
-  EXPECT_THAT(scene.xml, HasSubstr("name=\"body\""));  // what MuJoCo would have called it
+  EXPECT_THAT(scene.xml, HasSubstr("name=\"body\""));  // MuJoCo's default name
   EXPECT_THAT(scene.xml, Not(HasSubstr("meshdir")));
 
   WriteScene(scene, folder.path() / "model.xml");
   EXPECT_EQ(ReadFile(folder.path() / "model.xml"), scene.xml);
   EXPECT_EQ(ReadFile(folder.path() / "asset0_body.stl"), stl);
+}
+
+TEST(ComposeScene, GivesAssetsNamesThatFoldersTake) {
+  const TempFolder folder;
+  for (const std::string& name :
+       {std::string(190, 'x') + ".stl", std::string("a b$(touch c).stl"),
+        std::string("\xff\xfe.stl"), std::string("caf\xc3\xa9.stl"), std::string("a:b.stl")}) {
+    std::filesystem::remove_all(folder.path() / "out");
+    folder.Write(name, Triangle());
+    const auto file =
+        folder.Write("car.xml", "<mujoco><asset><mesh file=\"" + name + "\"/></asset></mujoco>");
+    const Scene scene = ComposeScene(file, {});
+    ASSERT_EQ(scene.assets.size(), 1U);
+    EXPECT_TRUE(IsFileName(scene.assets[0].name)) << name;
+    EXPECT_TRUE(scene.assets[0].name.ends_with(".stl")) << name;
+    std::filesystem::create_directory(folder.path() / "out");
+    WriteScene(scene, folder.path() / "out/model.xml");
+    EXPECT_EQ(ReadFile(folder.path() / "out" / scene.assets[0].name), Triangle()) << name;
+  }
+}
+
+TEST(WriteScene, ReplacesNoFileButTheOneThatIsNamed) {
+  const TempFolder folder;
+  const Scene scene{.xml = "<mujoco/>", .assets = {{"asset0_body.stl", "new"}}};
+  const auto model = folder.Write("model.xml", "old");
+  WriteScene(scene, model);
+  WriteScene(scene, model);  // the same content
+  EXPECT_EQ(ReadFile(model), "<mujoco/>");
+  const auto asset = folder.Write("asset0_body.stl", "mine");
+  EXPECT_THROW(WriteScene(scene, model), RunError);
+  EXPECT_EQ(ReadFile(asset), "mine");
+  std::filesystem::remove(asset);
+  const auto elsewhere = folder.Write("elsewhere", "mine");
+  std::filesystem::create_symlink(elsewhere, asset);
+  EXPECT_THROW(WriteScene(scene, model), RunError);
+  EXPECT_EQ(ReadFile(elsewhere), "mine");
 }
 
 TEST(ComposeScene, NamesFileAndLineOfWhatIsWrong) {
@@ -153,8 +190,8 @@ TEST(LineInCarFile, IsThatOfTheElementInTheCarsOwnFile) {
   EXPECT_EQ(LineInCarFile(scene, line_of("<worldbody")), 7);
   EXPECT_EQ(LineInCarFile(scene, line_of("<body")), 7);
   EXPECT_NE(line_of("<body"), 7);
-  EXPECT_EQ(LineInCarFile(scene, line_of("<compiler")), 0);  // included
-  EXPECT_EQ(LineInCarFile(scene, line_of("<option")), 0);    // added
+  EXPECT_EQ(LineInCarFile(scene, line_of("<compiler")), 0);  // from an included file
+  EXPECT_EQ(LineInCarFile(scene, line_of("<option")), 0);    // added by Trackbed
   EXPECT_EQ(LineInCarFile(scene, 1000), 0);
   EXPECT_EQ(LineInCarFile(scene, 0), 0);
 }
