@@ -49,14 +49,47 @@ bool IsDevice(const fs::path& file) {
 
 namespace {
 
-[[noreturn]] void FailAsTooLarge(const fs::path& file, std::size_t largest) {
+[[noreturn]] void FailAsTooLarge(const fs::path& file, std::size_t max_bytes) {
   throw RunError(
-      fmt::format("cannot read {}: it has more than {} MiB", file.string(), largest >> 20U));
+      fmt::format("cannot read {}: it has more than {} MiB", file.string(), max_bytes >> 20U));
+}
+
+/// "a pipe", "a device", ...
+const char* KindOf(mode_t mode) {
+  return S_ISFIFO(mode)                   ? "a pipe"
+         : S_ISCHR(mode) || S_ISBLK(mode) ? "a device"
+         : S_ISSOCK(mode)                 ? "a socket"
+                                          : "a special file";
+}
+
+void RequireRegular(const fs::path& file, const struct stat& status) {
+  if (S_ISDIR(status.st_mode)) {
+    Fail("read", file, EISDIR);
+  }
+  if (!S_ISREG(status.st_mode)) {
+    throw RunError(fmt::format(
+        "cannot read {}: it is {}; must be a regular file: save the content to one first",
+        file.string(), KindOf(status.st_mode)));
+  }
 }
 
 }  // namespace
 
-std::string ReadFile(const fs::path& file, std::size_t largest) {
+Descriptor OpenInput(const fs::path& file) {
+  struct stat status {};
+  if (::stat(file.c_str(), &status) != 0) {
+    Fail("read", file, errno);
+  }
+  RequireRegular(file, status);  // before opening: that of a device may have an effect
+  Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
+  if (in.get() < 0 || ::fstat(in.get(), &status) != 0) {
+    Fail("read", file, errno);
+  }
+  RequireRegular(file, status);  // another file may have taken its name meanwhile
+  return in;
+}
+
+std::string ReadFile(const fs::path& file, std::size_t max_bytes) {
   std::string content;
   ReadBlocks(
       file,
@@ -64,19 +97,16 @@ std::string ReadFile(const fs::path& file, std::size_t largest) {
         content.append(block);
         return true;
       },
-      largest);
+      max_bytes);
   return content;
 }
 
 void ReadBlocks(const fs::path& file, const std::function<bool(std::string_view block)>& take,
-                std::size_t largest) {
-  Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC));
-  if (in.get() < 0) {
-    Fail("read", file, errno);
-  }
+                std::size_t max_bytes) {
+  const Descriptor in = OpenInput(file);
   struct stat status {};
-  if (::fstat(in.get(), &status) == 0 && static_cast<std::size_t>(status.st_size) > largest) {
-    FailAsTooLarge(file, largest);
+  if (::fstat(in.get(), &status) == 0 && static_cast<std::size_t>(status.st_size) > max_bytes) {
+    FailAsTooLarge(file, max_bytes);
   }
   std::size_t bytes = 0;
   std::array<char, 65536> block{};
@@ -90,8 +120,8 @@ void ReadBlocks(const fs::path& file, const std::function<bool(std::string_view 
     }
     const auto size = static_cast<std::size_t>(got);
     bytes += size;
-    if (bytes > largest) {  // a pipe, or a file that grows
-      FailAsTooLarge(file, largest);
+    if (bytes > max_bytes) {  // a file that grows, or one of /proc
+      FailAsTooLarge(file, max_bytes);
     }
     if (size == 0 || !take({block.data(), size})) {
       return;
@@ -324,7 +354,7 @@ fs::path RealPath(const fs::path& path) {
   return error ? absolute.lexically_normal() : real;
 }
 
-bool LiesIn(const fs::path& real_file, const fs::path& folder) {
+bool IsInside(const fs::path& real_file, const fs::path& folder) {
   const fs::path real_folder = RealPath(folder / "");
   const auto [of_folder, of_file] =
       std::mismatch(real_folder.begin(), real_folder.end(), real_file.begin(), real_file.end());
@@ -334,12 +364,12 @@ bool LiesIn(const fs::path& real_file, const fs::path& folder) {
 
 }  // namespace
 
-std::string WhyUnreadable(const fs::path& name, const fs::path& own,
-                          const std::vector<fs::path>& others) {
+std::string ReadAccessError(const fs::path& name, const fs::path& own,
+                            const std::vector<fs::path>& others) {
   const fs::path real = RealPath(own / name);
-  if ((name.is_relative() && LiesIn(real, own)) ||
+  if ((name.is_relative() && IsInside(real, own)) ||
       std::any_of(others.begin(), others.end(),
-                  [&](const fs::path& folder) { return LiesIn(real, folder); })) {
+                  [&](const fs::path& folder) { return IsInside(real, folder); })) {
     return "";
   }
   return fmt::format(

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <string>
@@ -54,7 +55,7 @@ TEST(WriteFileAtomically, ReplacesTheWholeFile) {
 TEST(CheckCanWrite, TellsWhatWritingWouldAndLeavesNothing) {
   const TempFolder folder;
   CheckCanWrite(folder.path() / "a.txt");
-  CheckCanWrite("/dev/full");  // what a device takes, only writing shows
+  CheckCanWrite("/dev/full");  // a device rejects data only on writing
   EXPECT_THAT(folder.Names(), IsEmpty());
   const fs::path file = folder.Write("there.txt", "as it was");
   CheckCanWrite(file);
@@ -86,7 +87,7 @@ TEST(WriteFileAtomically, LeavesNothingWhenTheTargetIsAFolder) {
 }
 
 TEST(WriteFileAtomically, SaysThatTheDiskIsFull) {
-  // /dev/full answers every write with ENOSPC; a link gives it a name of ours.
+  // /dev/full answers every write with ENOSPC; a link gives it a name in the test's folder.
   const TempFolder folder;
   const fs::path file = folder.path() / "full.csv";
   fs::create_symlink("/dev/full", file);
@@ -97,8 +98,8 @@ TEST(WriteFileAtomically, SaysThatTheDiskIsFull) {
 }
 
 TEST(WriteFileAtomically, KeepsTheOldFileWhenTheTemporaryCannotBeWritten) {
-  // A name has at most 255 bytes: the file's has 250, so that the temporary's, with the process id
-  // in it, has too many.
+  // A name has at most 255 bytes. The file's name has 250, so the temporary's name, which adds the
+  // process id, is too long.
   const TempFolder folder;
   const fs::path file = folder.Write(std::string(250, 'a'), "old");
   EXPECT_THAT(RunErrorMessage([&] { WriteFileAtomically(file, "new"); }), HasSubstr("too long"));
@@ -106,8 +107,8 @@ TEST(WriteFileAtomically, KeepsTheOldFileWhenTheTemporaryCannotBeWritten) {
 }
 
 TEST(WriteFileAtomically, WritesToADevice) {
-  // Through a link of ours: an implementation that replaced the file would lose the link only, and
-  // not, run by root, the machine's /dev/null.
+  // Writes through a link in the test's folder. An implementation that replaced the file would lose
+  // only the link, and not, when run by root, the machine's /dev/null.
   const TempFolder folder;
   const fs::path file = folder.path() / "device";
   fs::create_symlink("/dev/null", file);
@@ -123,9 +124,9 @@ TEST(ReadFile, ReadsNothingOfWhatIsTooLarge) {
   std::filesystem::resize_file(file, 100'000'000'000);
   EXPECT_EQ(RunErrorMessage([&] { ReadFile(file); }),
             "cannot read " + file.string() + ": it has more than 512 MiB");
-  // What tells no size is read until it is too much.
-  EXPECT_EQ(RunErrorMessage([&] { ReadFile("/dev/zero", 1U << 20U); }),
-            "cannot read /dev/zero: it has more than 1 MiB");
+  // A file without a known size is read up to the limit.
+  EXPECT_EQ(RunErrorMessage([&] { ReadFile("/proc/self/status", 16); }),
+            "cannot read /proc/self/status: it has more than 0 MiB");
   const std::filesystem::path just = folder.Write("just.csv", std::string(1000, 'x'));
   EXPECT_EQ(ReadFile(just, 1000).size(), 1000U);
   EXPECT_THAT(RunErrorMessage([&] { ReadFile(just, 999); }), HasSubstr("more than"));
@@ -142,7 +143,7 @@ TEST(TemporaryFile, IsBesideItsFileWithItsExtension) {
   const TempFolder folder;
   {
     TemporaryFile film(folder.path() / "film.mp4");
-    const TemporaryFile other(folder.path() / "film.mp4");  // of another thread
+    const TemporaryFile other(folder.path() / "film.mp4");  // belongs to another thread
     EXPECT_NE(film.path(), other.path());
     EXPECT_EQ(film.path().parent_path(), folder.path());
     EXPECT_EQ(film.path().extension(), ".mp4");
@@ -163,7 +164,7 @@ TEST(TemporaryFile, IsGoneAfterAFailure) {
   EXPECT_THAT(folder.Names(), ElementsAre("target"));
 }
 
-// What killed processes leave has their names, but nobody holds the lock.
+// Files left by killed processes have temporary names, but no process holds their lock.
 TEST(RemoveAbandonedTemporaries, TakesThoseOfKilledProcessesAlone) {
   const TempFolder folder;
   for (const char* name :
@@ -209,6 +210,26 @@ TEST(MakeFolder, MakesItsParentsToo) {
   WriteFileAtomically(folder.path() / "file", "x");
   EXPECT_THAT(RunErrorMessage([&] { MakeFolder(folder.path() / "file" / "c"); }),
               HasSubstr("file"));
+}
+
+TEST(OpenInput, RefusesWhatIsNoRegularFileWithoutWaiting) {
+  const TempFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const std::string rest = "; must be a regular file: save the content to one first";
+  EXPECT_EQ(RunErrorMessage([&] { static_cast<void>(ReadFile(pipe)); }),
+            "cannot read " + pipe.string() + ": it is a pipe" + rest);
+  // A link to a pipe, as in a shell's process substitution.
+  const fs::path link = folder.path() / "link";
+  fs::create_symlink(pipe, link);
+  EXPECT_EQ(RunErrorMessage([&] { static_cast<void>(OpenInput(link)); }),
+            "cannot read " + link.string() + ": it is a pipe" + rest);
+  for (const char* device : {"/dev/null", "/dev/zero"}) {
+    EXPECT_EQ(RunErrorMessage([&] { static_cast<void>(ReadFile(device)); }),
+              std::string("cannot read ") + device + ": it is a device" + rest);
+  }
+  EXPECT_EQ(RunErrorMessage([&] { static_cast<void>(ReadFile(folder.path())); }),
+            "cannot read " + folder.path().string() + ": Is a directory");
 }
 
 }  // namespace
