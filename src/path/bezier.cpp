@@ -93,11 +93,11 @@ double BezierCurve::Length(double from, double to) const {
 }
 
 std::vector<CurvePoint> BezierCurve::Points(double spacing, double start_yaw) const {
-  constexpr double kMostPoints = 1e6;
+  constexpr double kMaxPoints = 1e6;
   TRACKBED_CHECK(spacing > 0.0, "spacing {}", spacing);
-  TRACKBED_REQUIRE(Length() / spacing <= kMostPoints,
+  TRACKBED_REQUIRE(Length() / spacing <= kMaxPoints,
                    "BezierCurve::Points: {} m every {} m; must be at most {} points", Length(),
-                   spacing, kMostPoints);
+                   spacing, kMaxPoints);
   double fastest = 0.0;  // |P'| is at most the largest control point of P'
   for (const Vec2& velocity : polygons_[1]) {
     fastest = std::max(fastest, velocity.norm());

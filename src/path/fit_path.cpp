@@ -11,22 +11,42 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Fits a path to points. Repeated points are dropped, and the rest optionally resampled along
+// straight lines. A spline fit is a quintic smoothing spline over chord length (Reinsch 1967) with
+// the largest smoothing length, found by bisection, that keeps all points within the tolerance. It
+// is then sampled to segments, ever more finely until these keep the tolerance too. A polyline fit
+// joins straight lines by arcs with tangents of at most 1 mm. Points that turn back are reported as
+// reversals.
+
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kMostFitted = 200'000;
-constexpr double kSame = 1e-9;  // [m]; points no further apart are one
+constexpr std::size_t kMaxFittedPoints = 200'000;
+constexpr double kEqualityTolerance = 1e-9;  // [m]; closer points are repetitions
 
-[[noreturn]] void Fail(const std::string& key, std::string message) {
-  throw InputError(Problem{.key = key, .message = std::move(message)});
+[[noreturn]] void Fail(const std::string& key, std::string message, int line = 0) {
+  throw InputError(Problem{.line = line, .key = key, .message = std::move(message)});
 }
 
-/// Every point that differs from the one before, with its chord length.
+/// The line of a given point; 0: not known.
+int LineOf(const PathPoints& given, std::size_t point) {
+  return given.lines.empty() ? 0 : given.lines[point];
+}
+
+/// "row 7 at (1, 2)", or "point 6 at (1, 2)" where rows are not known.
+std::string NameOf(const PathPoints& given, std::size_t point) {
+  const Vec2& at = given.points[point];
+  const int line = LineOf(given, point);
+  return fmt::format("{} {} at ({:.6g}, {:.6g})", line > 0 ? "row" : "point",
+                     line > 0 ? static_cast<std::size_t>(line) : point + 1, at.x(), at.y());
+}
+
+/// The points that differ from their predecessor, with their chord length.
 struct DistinctPoints {
   ChordPoints chords;
-  std::vector<std::size_t> number;  // of each among the given ones
-  std::vector<double> given_u;      // of each given one
-  double period = 0.0;              // [m]; 0 of an open path
+  std::vector<std::size_t> number;  // index of each among the given points
+  std::vector<double> given_u;      // chord length of each given point
+  double period = 0.0;              // [m]; 0 for an open path
 };
 
 DistinctPoints Distinct(const PathPoints& given, bool closed) {
@@ -35,7 +55,7 @@ DistinctPoints Distinct(const PathPoints& given, bool closed) {
   for (std::size_t i = 0; i < given.points.size(); ++i) {
     const Vec2& point = given.points[i];
     const double step = chords.points.empty() ? 0.0 : (point - chords.points.back()).norm();
-    if (chords.points.empty() || step > kSame) {
+    if (chords.points.empty() || step > kEqualityTolerance) {
       chords.u.push_back(chords.u.empty() ? 0.0 : chords.u.back() + step);
       chords.points.push_back(point);
       distinct.number.push_back(i);
@@ -44,7 +64,7 @@ DistinctPoints Distinct(const PathPoints& given, bool closed) {
   }
   if (closed && chords.points.size() > 2) {
     double gap = (chords.points.front() - chords.points.back()).norm();
-    if (gap <= kSame) {
+    if (gap <= kEqualityTolerance) {
       chords.points.pop_back();
       gap = chords.u.back() - *(chords.u.end() - 2);
       chords.u.pop_back();
@@ -55,13 +75,13 @@ DistinctPoints Distinct(const PathPoints& given, bool closed) {
   return distinct;
 }
 
-/// The number of the last one of rising numbers, the first of them 0, that is not above u >= 0.
+/// Index of the last element not above u >= 0 in an ascending list that begins with 0.
 std::size_t LastBefore(const std::vector<double>& rising, double u) {
   const auto after = std::upper_bound(rising.begin(), rising.end(), u);
   return static_cast<std::size_t>(after - rising.begin()) - 1;
 }
 
-/// The point on the straight lines at chord length u.
+/// The point on the polyline at chord length u.
 Vec2 OnLines(const ChordPoints& chords, double u) {
   const std::size_t i = LastBefore(chords.u, u);
   if (i + 1 == chords.u.size()) {
@@ -69,6 +89,33 @@ Vec2 OnLines(const ChordPoints& chords, double u) {
   }
   const double share = (u - chords.u[i]) / (chords.u[i + 1] - chords.u[i]);
   return chords.points[i] + share * (chords.points[i + 1] - chords.points[i]);
+}
+
+void CheckLength(const DistinctPoints& distinct, const PathPoints& given) {
+  const std::vector<double>& u = distinct.chords.u;
+  const double length = std::max(u.back(), distinct.period);
+  if (length <= kMaxPathLength) {
+    return;
+  }
+  std::size_t widest = 1;
+  for (std::size_t i = 2; i < u.size(); ++i) {
+    widest = u[i] - u[i - 1] > u[widest] - u[widest - 1] ? i : widest;
+  }
+  const std::size_t before = distinct.number[widest - 1];
+  const std::size_t after = distinct.number[widest];
+  const bool has_lines = !given.lines.empty();
+  const double gap = u[widest] - u[widest - 1];
+  const bool is_cause = length - gap <= kMaxPathLength;
+  Fail("",
+       fmt::format(
+           "the path is {:.7g} m long; must be at most {:.7g} m: the {} between {} {} and {} "
+           "is {:.7g} m; {}",
+           length, kMaxPathLength, is_cause ? "gap" : "largest gap", has_lines ? "rows" : "points",
+           has_lines ? LineOf(given, before) : static_cast<int>(before) + 1,
+           has_lines ? LineOf(given, after) : static_cast<int>(after) + 1, gap,
+           is_cause ? "correct the point or the unit of the positions, or divide the path"
+                    : "divide the path, or correct the unit of the positions"),
+       is_cause ? LineOf(given, after) : 0);
 }
 
 ChordPoints Resampled(const DistinctPoints& distinct, double spacing) {
@@ -79,9 +126,9 @@ ChordPoints Resampled(const DistinctPoints& distinct, double spacing) {
   }
   const double length = lines.u.back();
   const double count = std::max(1.0, std::ceil(length / spacing));
-  if (count > static_cast<double>(kMostFitted)) {
+  if (count > static_cast<double>(kMaxFittedPoints)) {
     Fail("resample", fmt::format("{:.4g} m every {:.4g} m are more than {} points", length, spacing,
-                                 kMostFitted));
+                                 kMaxFittedPoints));
   }
   ChordPoints resampled;
   const double last = distinct.period > 0.0 ? count - 1.0 : count;
@@ -92,7 +139,7 @@ ChordPoints Resampled(const DistinctPoints& distinct, double spacing) {
   return resampled;
 }
 
-/// The change of direction at each inner point, of a closed path at every one.
+/// Calls `call` with the change of direction at each inner point; on a closed path, at every point.
 template <typename Call>
 void ForEachTurn(const ChordPoints& chords, double period, const Call& call) {
   const std::size_t count = chords.points.size();
@@ -108,7 +155,7 @@ void ForEachTurn(const ChordPoints& chords, double period, const Call& call) {
 std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period) {
   std::vector<HeadingJump> reversals;
   ForEachTurn(chords, period, [&](std::size_t i, double angle, double /*shorter*/) {
-    if (std::abs(angle) > kLargestJump) {
+    if (std::abs(angle) > kMaxHeadingJump) {
       reversals.push_back({.point = i,
                            .s = chords.u[i],
                            .position = chords.points[i],
@@ -119,7 +166,7 @@ std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period)
   return reversals;
 }
 
-/// Straight lines with tiny arcs between them.
+/// Joins straight lines by tiny arcs.
 void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
                  std::vector<double>& stations) {
   constexpr double kTangent = 1e-3;  // [m]
@@ -127,8 +174,8 @@ void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
   std::vector<double> angles(count, 0.0);
   std::vector<double> tangents(count, 0.0);
   ForEachTurn(chords, period, [&](std::size_t i, double angle, double shorter) {
-    const bool is_start = i == 0;  // whose jump a closed path does not drive
-    if (std::abs(angle) > kSame && !is_start) {
+    const bool is_start = i == 0;  // a closed path does not drive the jump at its start
+    if (std::abs(angle) > kEqualityTolerance && !is_start) {
       angles[i] = angle;
       tangents[i] = std::min(kTangent, 0.25 * shorter);
     }
@@ -176,8 +223,8 @@ double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
   return deviation;
 }
 
-/// Fits with the largest smoothing length, which it gives back, that keeps within `tolerance` [m]
-/// of the points that were given and of those that are fitted.
+/// Fits with the largest smoothing length that keeps within `tolerance` [m] of both the given and
+/// the fitted points, and returns it.
 double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordPoints& fitted,
                  double tolerance) {
   const std::vector<double>& knots = spline.knots();
@@ -223,8 +270,102 @@ double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordP
   return good;
 }
 
-/// The station of the point at chord length u: that of its knot, or where it has none of the
-/// nearest point between the knots beside it.
+/// How far a spline gets from the straight line between two knots.
+struct Bulge {
+  double distance = 0.0;   // [m]
+  double plausible = 0.0;  // largest distance of a smooth path that turns with the points [m]
+  double length = 0.0;     // of the spline [m]
+  double chord = 0.0;      // [m]
+  std::size_t knot = 0;    // before it
+
+  /// Both ends may be off by the tolerance.
+  [[nodiscard]] bool IsAside(double tolerance) const {
+    return distance > plausible + tolerance || length > 0.5 * kPi * chord + 2.0 * tolerance;
+  }
+};
+
+double DistanceToLine(const Vec2& p, const Vec2& from, const Vec2& to) {
+  const Vec2 line = to - from;
+  const double share = std::clamp(line.dot(p - from) / line.squaredNorm(), 0.0, 1.0);
+  return (from + share * line - p).norm();
+}
+
+/// A circle through neighboring points turns by half its arcs where their chords meet. An arc
+/// beside a turn phi is at most 2 phi long, and its height is chord/2 tan(phi/2). Splines also
+/// swing by up to a fifth of the chord beside corners further off.
+double PlausibleBulge(double chord, double turn) {
+  constexpr double kSwing = 0.2;
+  return chord * std::max(kSwing, 0.5 * std::tan(0.5 * std::min(turn, 0.5 * kPi)));
+}
+
+/// Between knots the spline is a polynomial of degree 5: sixteen points show how far it gets.
+Bulge BulgeAfter(const SmoothingSpline& spline, std::size_t knot, const Vec2& from, const Vec2& to,
+                 double turn) {
+  constexpr int kPieces = 16;
+  const std::vector<double>& knots = spline.knots();
+  Bulge bulge{.chord = (to - from).norm(), .knot = knot};
+  bulge.plausible = PlausibleBulge(bulge.chord, turn);
+  Vec2 at = spline.At(knots[knot]);
+  for (int k = 1; k <= kPieces; ++k) {
+    const Vec2 next = spline.At(std::lerp(knots[knot], knots[knot + 1], k / double{kPieces}));
+    bulge.length += (next - at).norm();
+    at = next;
+    bulge.distance = std::max(bulge.distance, DistanceToLine(at, from, to));
+  }
+  return bulge;
+}
+
+/// The largest bulge; the first one that is aside, if any is.
+Bulge FindBulge(const SmoothingSpline& spline, const ChordPoints& fitted, double period,
+                double tolerance) {
+  const std::size_t count = fitted.points.size();
+  std::vector<double> turns(count, 0.0);
+  ForEachTurn(fitted, period,
+              [&](std::size_t i, double angle, double /*shorter*/) { turns[i] = std::abs(angle); });
+  Bulge largest;
+  for (std::size_t i = 0; i + 1 < spline.knots().size(); ++i) {
+    const std::size_t next = (i + 1) % count;
+    const Bulge own = BulgeAfter(spline, i, fitted.points[i], fitted.points[next],
+                                 std::max(turns[i], turns[next]));
+    if (own.IsAside(tolerance)) {
+      return own;
+    }
+    largest = own.distance > largest.distance ? own : largest;
+  }
+  return largest;
+}
+
+/// How much shorter the straight lines are without a point.
+double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
+  const double before = i > 0 ? (points[i] - points[i - 1]).norm() : 0.0;
+  const double after = i + 1 < points.size() ? (points[i + 1] - points[i]).norm() : 0.0;
+  return i > 0 && i + 1 < points.size() ? before + after - (points[i + 1] - points[i - 1]).norm()
+                                        : before + after;
+}
+
+[[noreturn]] void RefuseBulge(const Bulge& bulge, const ChordPoints& fitted,
+                              const DistinctPoints& distinct, const PathPoints& given) {
+  const std::vector<Vec2>& points = distinct.chords.points;
+  const std::size_t before = LastBefore(distinct.chords.u, fitted.u[bulge.knot]);
+  const std::size_t after = (before + 1) % points.size();
+  // Of both ends of the gap and their neighbors, the one that takes the line furthest about.
+  std::size_t wrong = before;
+  for (const std::size_t i : {before, after}) {
+    wrong = DetourOf(points, i) > DetourOf(points, wrong) ? i : wrong;
+  }
+  const std::size_t number = distinct.number[wrong];
+  Fail("",
+       fmt::format(
+           "the spline swings up to {:.4g} m aside of the straight line of {:.4g} m from {} "
+           "to {}; must be at most {:.4g} m with these turns. Is {} wrong? Else resample the "
+           "points, which keeps to the straight lines, or use fit: polyline",
+           bulge.distance, bulge.chord, NameOf(given, distinct.number[before]),
+           NameOf(given, distinct.number[after]), bulge.plausible, NameOf(given, number)),
+       LineOf(given, number));
+}
+
+/// The station of the point at chord length u: that of its knot or, if it has none, that of the
+/// nearest point between the adjacent knots.
 double StationOf(const SampledSpline& sampled, const std::vector<double>& knots, const Path& path,
                  double u, const Vec2& point) {
   const std::size_t i = LastBefore(knots, u);
@@ -235,7 +376,7 @@ double StationOf(const SampledSpline& sampled, const std::vector<double>& knots,
   return path.Project({point.x(), point.y(), 0.0}, {sampled.knot_stations[i], to}).s;
 }
 
-/// The largest distance of a distinct point from its station, and its number among them.
+/// The largest distance of a distinct point from its station, and the index of that point.
 std::pair<double, std::size_t> LargestDeviation(const Path& path, const ChordPoints& chords,
                                                 const std::vector<double>& stations) {
   std::pair<double, std::size_t> largest{0.0, 0};
@@ -248,21 +389,32 @@ std::pair<double, std::size_t> LargestDeviation(const Path& path, const ChordPoi
 
 void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct, FittedPath& fitted,
                std::vector<double>& stations) {
-  constexpr double kSpacing = 0.1;  // [m]
-  constexpr int kFinest = 6;        // halvings
+  constexpr double kSpacing = 0.1;  // [m]; larger on a path of more than 100 km
+  constexpr int kMaxHalvings = 6;
+  constexpr double kUsualSegments = 1e6;  // of a long path
+  constexpr std::size_t kMaxSegments = 4'000'000;
   const double tolerance = fitted.options.max_deviation;
   SmoothingSpline spline(knots, distinct.period);
-  // A little is left for the segments, which follow the spline.
+  // Reserve some tolerance for the segments that approximate the spline.
   fitted.smoothing_length = FitWithin(spline, distinct.chords, knots, 0.95 * tolerance);
+  const Bulge bulge = FindBulge(spline, knots, distinct.period, tolerance);
+  if (bulge.IsAside(tolerance)) {
+    RefuseBulge(bulge, knots, distinct, fitted.given);
+  }
+  fitted.bulge = bulge.distance;
   const Vec2 start = spline.At(spline.knots().front());
-  double spacing = kSpacing;
-  for (int halvings = 0; halvings <= kFinest; ++halvings, spacing *= 0.5) {
-    const SampledSpline sampled = Sample(spline, spacing);
+  double spacing = std::max(kSpacing, spline.knots().back() / kUsualSegments);
+  for (int halvings = 0; halvings <= kMaxHalvings; ++halvings, spacing *= 0.5) {
+    const SampledSpline sampled = Sample(spline, spacing, kMaxSegments);
+    if (sampled.is_too_long) {
+      break;
+    }
     if (sampled.points.empty()) {
       Fail("max_deviation", "the spline has a cusp; allow a larger deviation");
     }
     fitted.path =
         Path({start.x(), start.y(), sampled.points.front().yaw}, SegmentsThrough(sampled.points));
+    fitted.bulge_station = sampled.knot_stations[bulge.knot];
     stations.clear();
     for (std::size_t i = 0; i < distinct.chords.u.size(); ++i) {
       stations.push_back(StationOf(sampled, spline.knots(), fitted.path, distinct.chords.u[i],
@@ -285,6 +437,8 @@ void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
   for (const Vec2& point : given.points) {
     TRACKBED_REQUIRE(point.allFinite(), "FitPath: a point at ({}, {})", point.x(), point.y());
   }
+  TRACKBED_REQUIRE(given.lines.empty() || given.lines.size() == given.points.size(),
+                   "FitPath: {} lines for {} points", given.lines.size(), given.points.size());
   for (const auto* list : {&given.yaw, &given.curvature, &given.speed}) {
     TRACKBED_REQUIRE(list->empty() || list->size() == given.points.size(),
                      "FitPath: {} entries for {} points", list->size(), given.points.size());
@@ -294,9 +448,9 @@ void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
   }
 }
 
-/// The largest difference of the given headings from those of the path [rad].
+/// The largest difference between given headings and the path's [rad].
 double HeadingDifference(const FittedPath& fitted) {
-  constexpr double kOpposite = 2.0;  // [rad]; what is less may be counted from another axis
+  constexpr double kOpposite = 2.0;  // [rad]; a smaller one may come from another reference axis
   double largest = 0.0;
   for (std::size_t i = 0; i < fitted.given.yaw.size(); ++i) {
     const double yaw = fitted.path.At(fitted.stations[i]).pose.yaw;
@@ -307,7 +461,8 @@ double HeadingDifference(const FittedPath& fitted) {
            fmt::format("the heading of point {} at ({:.6g}, {:.6g}), {:.4g} rad, is against the "
                        "direction of travel, {:.4g} rad; paths that are driven in reverse are "
                        "not supported",
-                       i + 1, point.x(), point.y(), fitted.given.yaw[i], WrapAngle(yaw)));
+                       i + 1, point.x(), point.y(), fitted.given.yaw[i], WrapAngle(yaw)),
+           LineOf(fitted.given, i));
     }
     largest = std::max(largest, own);
   }
@@ -340,15 +495,16 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
   if (chords.points.size() > 2) {
     const double turn = AngleDifference(direction(1), direction(0));
     const double curvature = 2.0 * std::sin(turn) / (chords.points[2] - chords.points[0]).norm();
-    // Against the tangent at the first point, which is half a chord's turn before its direction.
+    // Relative to the tangent at the first point, which precedes the chord by half its turn.
     yaw -= 0.5 * curvature * chords.u[1] + std::asin(std::clamp(ahead * curvature, -1.0, 1.0));
   }
   Vec2 before = given.points.front();
   for (Vec2& point : given.points) {
     const Vec2 along = point - before;
     before = point;
-    if (along.norm() > kSame) {
-      // On a straight line of length d, tan(phi/2) of the angle to it falls by exp(-d/ahead).
+    if (along.norm() > kEqualityTolerance) {
+      // Along a straight line of length d, tan(phi/2) of the angle phi to the line falls by
+      // exp(-d/ahead).
       const double line = std::atan2(along.y(), along.x());
       const double angle = AngleDifference(line, yaw);
       yaw = line - 2.0 * std::atan(std::tan(0.5 * angle) * std::exp(-along.norm() / ahead));
@@ -369,12 +525,13 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
     Fail("", fmt::format("{} different point{}; must be at least {}", count, count == 1 ? "" : "s",
                          options.closed ? 3 : 2));
   }
+  CheckLength(distinct, fitted.given);
   fitted.repeated = fitted.given.points.size() - count;
   const ChordPoints own =
       options.resample ? Resampled(distinct, *options.resample) : distinct.chords;
-  if (own.points.size() > kMostFitted) {
+  if (own.points.size() > kMaxFittedPoints) {
     Fail("resample", fmt::format("{} points; must be at most {}, give a distance to resample them",
-                                 own.points.size(), kMostFitted));
+                                 own.points.size(), kMaxFittedPoints));
   }
   const auto name_points = [&](std::vector<HeadingJump>& jumps) {
     for (HeadingJump& jump : jumps) {
@@ -410,7 +567,8 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
   const auto [deviation, where] = LargestDeviation(fitted.path, distinct.chords, stations);
   fitted.deviation = deviation;
   fitted.deviation_point = distinct.number[where];
-  // A repeated point is where the one before is; the last of a closed path where it ends.
+  // A repeated point has its predecessor's station; the last point of a closed path, the path's
+  // end.
   for (const double u : distinct.given_u) {
     const std::size_t i = LastBefore(distinct.chords.u, u);
     fitted.stations.push_back(u > distinct.chords.u[i] ? fitted.path.length() : stations[i]);

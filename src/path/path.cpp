@@ -22,13 +22,13 @@ bool IsLineOrArc(const Segment& segment) {
 
 /// Heading change over `distance`, before multiplication by the direction: the integral of the
 /// curvature.
-double Turned(const Segment& segment, double distance) {
+double HeadingChange(const Segment& segment, double distance) {
   return distance * (segment.curvature + distance * (segment.sharpness / 2.0 +
                                                      distance * segment.sharpness_rate / 6.0));
 }
 
 /// Upper bound of the heading change within the first `distance`.
-double MostTurned(const Segment& segment, double distance) {
+double MaxHeadingChange(const Segment& segment, double distance) {
   return distance * (std::abs(segment.curvature) +
                      distance * (std::abs(segment.sharpness) / 2.0 +
                                  distance * std::abs(segment.sharpness_rate) / 6.0));
@@ -40,10 +40,13 @@ Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   if (IsLineOrArc(segment)) {
     return MoveOnArc(start, moved, segment.curvature * moved);
   }
-  const auto yaw = [&](double d) { return start.yaw + segment.direction * Turned(segment, d); };
+  const auto yaw = [&](double d) {
+    return start.yaw + segment.direction * HeadingChange(segment, d);
+  };
   // Ten nodes per half radian integrate cosine and sine to machine precision.
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
-  const double pieces = std::max(1.0, std::ceil(2.0 * MostTurned(segment, std::abs(distance))));
+  const double pieces =
+      std::max(1.0, std::ceil(2.0 * MaxHeadingChange(segment, std::abs(distance))));
   Vec2 position = start.position();
   for (double i = 0.0; i < pieces; i += 1.0) {
     const double from = distance * i / pieces;
@@ -68,7 +71,7 @@ double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p,
   const auto apart = [&](double d) { return (Along(start, segment, d).position() - p).norm(); };
   constexpr double kPrecision = 1e-10;  // [m]
   double best = apart(from) <= apart(to) ? from : to;
-  const double pieces = std::max(1.0, std::ceil(4.0 * MostTurned(segment, to)));
+  const double pieces = std::max(1.0, std::ceil(4.0 * MaxHeadingChange(segment, to)));
   double left = from;
   double at_left = ahead(left);
   for (double i = 1.0; i <= pieces; i += 1.0) {
@@ -130,17 +133,18 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
                    segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
                    segment.direction);
     // The number of quadrature pieces is that of half radians turned.
-    constexpr double kMostTurned = 1e4;
+    constexpr double kMaxHeadingChange = 1e4;
     TRACKBED_REQUIRE(
-        IsLineOrArc(segment) || MostTurned(segment, segment.length) <= kMostTurned,
+        IsLineOrArc(segment) || MaxHeadingChange(segment, segment.length) <= kMaxHeadingChange,
         "Path: a segment of {} m, curvature {}, sharpness {} and {} may turn by {} rad; "
         "must be at most {}",
         segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
-        MostTurned(segment, segment.length), kMostTurned);
+        MaxHeadingChange(segment, segment.length), kMaxHeadingChange);
     starts_.push_back(Along(starts_.back(), segment, segment.length));
     length_ += segment.length;
-    constexpr double kLongest = 1e12;  // [m]; stations are rounded by 0.1 mm there
-    TRACKBED_REQUIRE(length_ <= kLongest, "Path: {} m; must be at most {} m", length_, kLongest);
+    constexpr double kMaxLength = 1e12;  // [m]; stations are rounded by 0.1 mm there
+    TRACKBED_REQUIRE(length_ <= kMaxLength, "Path: {} m; must be at most {} m", length_,
+                     kMaxLength);
     stations_.push_back(length_);
   }
 }
@@ -213,11 +217,11 @@ Projection Path::Project(const Pose2& pose, Stations within) const {
 }
 
 std::vector<PathPoint> Path::Sample(double spacing) const {
-  constexpr double kMostPoints = 2e7;
+  constexpr double kMaxPoints = 2e7;
   TRACKBED_CHECK(spacing > 0.0, "spacing {}", spacing);
-  TRACKBED_REQUIRE(length_ / spacing <= kMostPoints,
+  TRACKBED_REQUIRE(length_ / spacing <= kMaxPoints,
                    "Path::Sample: {} m every {} m; must be at most {} points", length_, spacing,
-                   kMostPoints);
+                   kMaxPoints);
   const auto intervals =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil(length_ / spacing)));
   std::vector<PathPoint> points;

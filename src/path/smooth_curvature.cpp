@@ -31,8 +31,8 @@ Vec2 MeanAtStart(const Path& path, double window) {
 }  // namespace
 
 Path SmoothCurvature(const Path& path, double window) {
-  constexpr double kLongest = 1e6;  // [m]; upper limit for any path
-  TRACKBED_CHECK(window > 0.0 && window <= kLongest && path.length() > 0.0,
+  constexpr double kMaxLength = 1e6;  // [m]; upper limit for any path
+  TRACKBED_CHECK(window > 0.0 && window <= kMaxLength && path.length() > 0.0,
                  "window {}, path of {} m", window, path.length());
   for (const Segment& segment : path.segments()) {
     TRACKBED_CHECK(segment.direction == 1, "a segment of direction {}", segment.direction);

@@ -17,7 +17,7 @@ namespace {
 constexpr int kDegree = 5;
 using Spline = Eigen::Spline<double, 2, Eigen::Dynamic>;
 
-/// The length of path that each point stands for [m].
+/// Length of path that each point represents [m].
 std::vector<double> Weights(const ChordPoints& fitted, double period) {
   const std::size_t count = fitted.u.size();
   std::vector<double> weights(count, 0.0);
@@ -86,7 +86,7 @@ void SmoothingSpline::AddData(const ChordPoints& fitted) {
 }
 
 void SmoothingSpline::AddPenalty() {
-  // P''' is quadratic between knots: three nodes integrate its square exactly.
+  // P''' is quadratic between knots, so three nodes integrate its square exactly.
   const double node = std::sqrt(0.6);
   const std::array<std::pair<double, double>, 3> rule{
       {{-node, 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {node, 5.0 / 9.0}}};
@@ -126,7 +126,7 @@ bool SmoothingSpline::Fit(double smoothing_length) {
   if (!solution.allFinite()) {
     return false;
   }
-  // What is left of the equations is solved for again, which recovers lost digits.
+  // One step of iterative refinement recovers digits lost by rounding.
   solution += solver_.solve(Eigen::MatrixX2d(right_ - matrix * solution));
   if (!solution.allFinite()) {
     return false;
@@ -144,10 +144,10 @@ Vec2 SmoothingSpline::At(double u, int order) const {
   return value;
 }
 
-SampledSpline Sample(const SmoothingSpline& spline, double spacing) {
-  constexpr double kTurn = 0.2;      // [rad]
-  constexpr int kFinest = 12;        // halvings
-  constexpr double kSlowest = 1e-3;  // |P'| is about 1
+SampledSpline Sample(const SmoothingSpline& spline, double spacing, std::size_t max_points) {
+  constexpr double kTurn = 0.2;            // [rad]
+  constexpr int kMaxHalvings = 12;         // halvings
+  constexpr double kMinDerivative = 1e-3;  // |P'| is about 1
   using Quadrature = boost::math::quadrature::gauss<double, 7>;
   const auto length = [&](double from, double to) {
     return Quadrature::integrate([&](double u) { return spline.At(u, 1).norm(); }, from, to);
@@ -159,7 +159,7 @@ SampledSpline Sample(const SmoothingSpline& spline, double spacing) {
     const double before = sampled.points.empty() ? yaw : sampled.points.back().yaw;
     sampled.points.push_back({s, before + AngleDifference(yaw, before),
                               CurvatureFromDerivatives(tangent, spline.At(u, 2))});
-    return tangent.norm() >= kSlowest;
+    return tangent.norm() >= kMinDerivative;
   };
   const std::vector<double>& knots = spline.knots();
   if (!take(knots.front(), 0.0)) {
@@ -170,7 +170,10 @@ SampledSpline Sample(const SmoothingSpline& spline, double spacing) {
     const std::size_t begin = sampled.points.size();
     auto pieces = static_cast<int>(std::ceil((knots[i + 1] - knots[i]) / spacing));
     bool is_fine = false;
-    for (int halvings = 0; !is_fine && halvings <= kFinest; ++halvings, pieces *= 2) {
+    for (int halvings = 0; !is_fine && halvings <= kMaxHalvings; ++halvings, pieces *= 2) {
+      if (begin + static_cast<std::size_t>(pieces) > max_points) {
+        return {.points = {}, .knot_stations = {}, .is_too_long = true};
+      }
       sampled.points.resize(begin);
       is_fine = true;
       double from = knots[i];

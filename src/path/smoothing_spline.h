@@ -3,42 +3,43 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <cstddef>
 #include <vector>
 
 #include "trackbed/path/path.h"
 
 namespace trackbed {
 
-/// Numbers along a path and points there: u is the chord length [m], which rises.
+/// Points along a path by ascending chord length u [m].
 struct ChordPoints {
   std::vector<double> u;
   std::vector<Vec2> points;
 };
 
-/// The smoothing spline of degree 5 of fit_path.h. With `period` > 0 it leads on from the last
-/// point to the first one, which is `period` [m] beyond itself.
+/// The smoothing spline of degree 5 of fit_path.h. With `period` > 0 [m] it is closed: the last
+/// point connects to the first one, and u repeats after `period`.
 class SmoothingSpline {
  public:
-  /// At least two points, at least three of a closed path.
+  /// Needs at least two points, or three for a closed path.
   SmoothingSpline(const ChordPoints& fitted, double period);
 
-  /// Minimizes with the smoothing length l [m]. False, and the spline is as before, where the
-  /// equations have no solution within the machine's precision.
+  /// Fits with the smoothing length l [m]. Returns false and leaves the spline unchanged if the
+  /// equations are singular to machine precision.
   bool Fit(double smoothing_length);
 
-  /// d^order P/du^order, order 0 to 2.
+  /// d^order P/du^order, for order 0 to 2.
   [[nodiscard]] Vec2 At(double u, int order = 0) const;
 
-  /// Parameters from the first to the last point, of a closed path to the first one again: the
-  /// knots, between which the spline is a polynomial.
+  /// The knots, between which the spline is a polynomial: from the first point's u to the last
+  /// point's; for a closed path, to the first point's u one period later.
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
   struct Basis {
-    Eigen::Index first;       // of the coefficients that count, up to the period
-    Eigen::ArrayXXd factors;  // a row for each derivative
+    Eigen::Index first;       // index of the first nonzero coefficient, up to the period
+    Eigen::ArrayXXd factors;  // one row per derivative
   };
   [[nodiscard]] Basis BasisAt(double u, int order) const;
   [[nodiscard]] Eigen::Index Coefficient(Eigen::Index i) const { return i % size_; }
@@ -48,7 +49,7 @@ class SmoothingSpline {
   double period_;
   std::vector<double> knots_;
   Eigen::Array<double, 1, Eigen::Dynamic> all_knots_;
-  Eigen::Index size_ = 0;  // of the coefficients
+  Eigen::Index size_ = 0;  // number of coefficients
   Matrix data_;
   Matrix penalty_;
   Eigen::MatrixX2d right_;
@@ -57,14 +58,15 @@ class SmoothingSpline {
   bool is_analyzed_ = false;
 };
 
-/// The spline as points along it, followed by segments (SegmentsThrough).
+/// Points along the spline, to be joined by segments (SegmentsThrough).
 struct SampledSpline {
   std::vector<CurvePoint> points;
   std::vector<double> knot_stations;  ///< [m]
+  bool is_too_long = false;           ///< more points than allowed
 };
 
-/// At most `spacing` [m] apart and turning by at most 0.2 rad between them. Empty where the spline
-/// stands still or turns on the spot.
-SampledSpline Sample(const SmoothingSpline& spline, double spacing);
+/// Samples at most `spacing` [m] apart that turn by at most 0.2 rad from one to the next. Empty if
+/// the spline has a cusp, or if that takes more than `max_points` points.
+SampledSpline Sample(const SmoothingSpline& spline, double spacing, std::size_t max_points);
 
 }  // namespace trackbed

@@ -1,0 +1,128 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+#include "trackbed/path/fit_path.h"
+
+namespace trackbed {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+
+std::string ErrorOf(const PathPoints& given, const PathFitOptions& options = {}) {
+  try {
+    static_cast<void>(FitPath(given, options));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+double PolylineLength(const std::vector<Vec2>& points) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    length += (points[i] - points[i - 1]).norm();
+  }
+  return length;
+}
+
+double DistanceToPolyline(const Vec2& p, const std::vector<Vec2>& points) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const Vec2 along = points[i] - points[i - 1];
+    const double share = std::clamp(along.dot(p - points[i - 1]) / along.squaredNorm(), 0.0, 1.0);
+    nearest = std::min(nearest, (points[i - 1] + share * along - p).norm());
+  }
+  return nearest;
+}
+
+double LargestBulge(const FittedPath& fitted) {
+  double largest = 0.0;
+  for (const PathPoint& point : fitted.path.Sample(0.5)) {
+    largest = std::max(largest, DistanceToPolyline(point.pose.position(), fitted.given.points));
+  }
+  return largest;
+}
+
+/// Seven points of a winding path, 10 m apart.
+PathPoints SevenPoints() {
+  PathPoints given;
+  for (int i = 0; i < 7; ++i) {
+    given.points.emplace_back(10.0 * i, 3.0 * std::sin(0.7 * i));
+  }
+  return given;
+}
+
+TEST(PathWithAnOutlier, IsRefusedOrStaysNearItsPoints) {
+  for (std::size_t i = 0; i < 7; ++i) {
+    for (int direction = 0; direction < 8; ++direction) {
+      SCOPED_TRACE(std::to_string(i) + " moved to " + std::to_string(direction));
+      PathPoints given = SevenPoints();
+      const double angle = 0.1 + 0.25 * kPi * direction;
+      given.points[i] += 1000.0 * Vec2(std::cos(angle), std::sin(angle));
+      if (!ErrorOf(given).empty()) {
+        continue;
+      }
+      const FittedPath fitted = FitPath(given, {});
+      if (!fitted.reversals.empty()) {
+        continue;
+      }
+      // A half circle is pi/2 times as long as its chord.
+      EXPECT_LE(fitted.path.length(), 0.5 * kPi * PolylineLength(given.points) + 1.0);
+      // Sixteen points of a bump miss its top by (1/32)^2 of its width: a hundredth of the height
+      // for a bump of a fifth of the chord. A line nearby may be nearer than the chord.
+      EXPECT_GE(fitted.bulge, 0.97 * LargestBulge(fitted) - 0.05);
+    }
+  }
+}
+
+TEST(PathWithAnOutlier, NamesThePoint) {
+  PathPoints given = SevenPoints();
+  given.points[0] += Vec2(740.0, 740.0);
+  EXPECT_THAT(ErrorOf(given),
+              AllOf(HasSubstr("the spline swings up to "),
+                    HasSubstr("Is point 1 at (740, 740) wrong?"), HasSubstr("resample")));
+  for (int line = 2; line < 9; ++line) {
+    given.lines.push_back(line);
+  }
+  EXPECT_THAT(ErrorOf(given), HasSubstr("Is row 2 at (740, 740) wrong?"));
+  // The remedies that the message names.
+  EXPECT_EQ(ErrorOf(given, {.fit = PathFit::kPolyline}), "");
+  EXPECT_EQ(ErrorOf(given, {.max_deviation = 0.5, .resample = 1.0}), "");
+}
+
+TEST(PathWithSparsePoints, HasItsBulge) {
+  // A circle through the corners of a square bulges by (sqrt(2) - 1)/2 of its side. The closed
+  // spline comes near it.
+  PathPoints square;
+  square.points = {{0.0, 0.0}, {40.0, 0.0}, {40.0, 40.0}, {0.0, 40.0}};
+  const FittedPath fitted = FitPath(square, {.closed = true});
+  EXPECT_NEAR(fitted.bulge, 20.0 * (std::sqrt(2.0) - 1.0), 0.5);
+  EXPECT_EQ(FitPath(square, {.fit = PathFit::kPolyline}).bulge, 0.0);
+}
+
+TEST(PathOfTheLargestLength, IsFittedWithinItsBound) {
+  PathPoints given;
+  for (int i = 0; i <= 2000; ++i) {
+    const double x = 99.0 * i;
+    given.points.emplace_back(x, 300.0 * std::sin(x / 3000.0));
+  }
+  const FittedPath fitted = FitPath(given, {});
+  EXPECT_GT(fitted.path.length(), 198e3);
+  EXPECT_LE(fitted.path.segments().size(), 1'100'000U);
+  given.points.emplace_back(299e3, 0.0);
+  EXPECT_THAT(ErrorOf(given), HasSubstr("must be at most 200000 m: the gap between points 2001 and "
+                                        "2002 is "));
+}
+
+}  // namespace
+}  // namespace trackbed
