@@ -33,14 +33,15 @@ Sparse ThirdDifferences(Eigen::Index count) {
 
 ClosedSplineBasis::ClosedSplineBasis(double period, std::size_t count)
     : period_(period), count_(count) {
-  TRACKBED_REQUIRE(std::isfinite(period) && period > 0.0 && count >= kLeast,
+  TRACKBED_REQUIRE(std::isfinite(period) && period > 0.0 && count >= kMinFunctions,
                    "ClosedSplineBasis: a period of {} with {} functions; must be above 0 with at "
                    "least {}",
-                   period, count, kLeast);
+                   period, count, kMinFunctions);
 }
 
-ClosedSplineBasis::Local ClosedSplineBasis::At(double t) const {
+ClosedSplineBasis::Local ClosedSplineBasis::At(double t, std::optional<std::size_t> order) const {
   namespace bm = boost::math;
+  const auto wants = [&](std::size_t own) { return !order || *order == own; };
   const double step = period_ / static_cast<double>(count_);
   const double wrapped = t - period_ * std::floor(t / period_);
   const double knot = std::floor(wrapped / step);
@@ -51,9 +52,15 @@ ClosedSplineBasis::Local ClosedSplineBasis::At(double t) const {
     const auto offset = static_cast<Eigen::Index>(k) - 2;
     local.index[k] = (static_cast<Eigen::Index>(knot) + offset + count) % count;
     const double x = fraction - static_cast<double>(offset);
-    local.weight[0][k] = bm::cardinal_b_spline<5>(x);
-    local.weight[1][k] = bm::cardinal_b_spline_prime<5>(x) / step;
-    local.weight[2][k] = bm::cardinal_b_spline_double_prime<5>(x) / (step * step);
+    if (wants(0)) {
+      local.weight[0][k] = bm::cardinal_b_spline<5>(x);
+    }
+    if (wants(1)) {
+      local.weight[1][k] = bm::cardinal_b_spline_prime<5>(x) / step;
+    }
+    if (wants(2)) {
+      local.weight[2][k] = bm::cardinal_b_spline_double_prime<5>(x) / (step * step);
+    }
   }
   return local;
 }

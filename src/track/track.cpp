@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 #include "trackbed/core/angle.h"
@@ -19,7 +21,7 @@ class Curve {
       : basis_(basis), coefficients_(std::move(coefficients)) {}
 
   [[nodiscard]] Vec2 At(double t, std::size_t order) const {
-    return Evaluate(basis_.At(t), coefficients_, order).transpose();
+    return Evaluate(basis_.At(t, order), coefficients_, order).transpose();
   }
   [[nodiscard]] double Length(double from, double to) const {
     return boost::math::quadrature::gauss<double, 7>::integrate(
@@ -39,7 +41,9 @@ class Curve {
   Eigen::MatrixXd coefficients_;
 };
 
-void CheckPoints(const std::vector<TrackPoint>& points) {
+void CheckArguments(const std::vector<TrackPoint>& points, std::optional<double> smoothing) {
+  TRACKBED_REQUIRE(!smoothing || (std::isfinite(*smoothing) && *smoothing > 0.0),
+                   "Track: smoothing {}; must be above 0", *smoothing);
   TRACKBED_REQUIRE(points.size() >= Track::kMinPoints && points.size() <= Track::kMaxPoints,
                    "Track: {} points; must be {} to {}", points.size(), Track::kMinPoints,
                    Track::kMaxPoints);
@@ -61,72 +65,107 @@ double Wrapped(double s, double length) {
   return wrapped < length ? wrapped : 0.0;
 }
 
-}  // namespace
+/// The points over the length of the chords; each stands for half of both chords beside it.
+struct ChordSamples {
+  SplineSamples samples;
+  std::vector<double> chords;  // from each point to the next [m]
+  double period = 0.0;         // [m]
+};
 
-Track::Track(std::vector<TrackPoint> points, std::optional<double> smoothing)
-    : points_(std::move(points)) {
-  CheckPoints(points_);
-  TRACKBED_REQUIRE(!smoothing || (std::isfinite(*smoothing) && *smoothing > 0.0),
-                   "Track: smoothing {}; must be above 0", *smoothing);
-  smoothing_ = smoothing.value_or(0.0);
-  FitCenterLine();
-  PlaceEdges();
+ChordSamples SampleChords(const std::vector<TrackPoint>& points) {
+  const std::size_t count = points.size();
+  ChordSamples sampled;
+  SplineSamples& samples = sampled.samples;
+  samples.values.resize(static_cast<Eigen::Index>(count), 2);
+  sampled.chords.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    sampled.chords[i] = (points[(i + 1) % count].position - points[i].position).norm();
+    samples.t.push_back(sampled.period);
+    samples.values.row(static_cast<Eigen::Index>(i)) = points[i].position.transpose();
+    sampled.period += sampled.chords[i];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    samples.weights.push_back(0.5 * (sampled.chords[(i + count - 1) % count] + sampled.chords[i]));
+  }
+  return sampled;
 }
 
-void Track::FitCenterLine() {
-  const std::size_t count = points_.size();
-  // Over the length of the chords; each point stands for half of both beside it.
-  SplineSamples samples;
-  samples.values.resize(static_cast<Eigen::Index>(count), 2);
-  std::vector<double> chords(count);
-  double period = 0.0;
-  for (std::size_t i = 0; i < count; ++i) {
-    chords[i] = (points_[(i + 1) % count].position - points_[i].position).norm();
-    samples.t.push_back(period);
-    samples.values.row(static_cast<Eigen::Index>(i)) = points_[i].position.transpose();
-    period += chords[i];
+}  // namespace
+
+/// The smoothed center line as points along a lap, before it becomes a path.
+struct Track::CenterLine {
+  double smoothing = 0.0;          // wavelength [m]
+  std::vector<double> deviations;  // of each point, positive to the left of the line [m]
+  std::vector<double> stations;    // of each point [m]
+  std::vector<std::size_t> first;  // the number in `lap` of each point
+  std::vector<CurvePoint> lap;     // from the start line on
+  CurvePoint end;                  // the start line again
+  Vec2 start{0.0, 0.0};            // where it begins [m]
+
+  [[nodiscard]] const CurvePoint& After(std::size_t i) const {
+    return i + 1 < lap.size() ? lap[i + 1] : end;
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    samples.weights.push_back(0.5 * (chords[(i + count - 1) % count] + chords[i]));
-  }
-  if (smoothing_ == 0.0) {
-    smoothing_ = 4.0 * period / static_cast<double>(count);
-  }
+};
+
+Track::CenterLine Track::Smooth(const std::vector<TrackPoint>& points,
+                                std::optional<double> smoothing) {
+  const std::size_t count = points.size();
+  const auto [samples, chords, period] = SampleChords(points);
+  CenterLine line;
+  line.smoothing = smoothing.value_or(4.0 * period / static_cast<double>(count));
   const ClosedSplineBasis basis(period, 2 * count);
-  const Curve curve(basis, FitClosedSpline(basis, samples, smoothing_));
-
-  double squares = 0.0;
+  const Curve curve(basis, FitClosedSpline(basis, samples, line.smoothing));
+  line.start = curve.At(0.0, 0);
   for (std::size_t i = 0; i < count; ++i) {
-    const double deviation = (curve.At(samples.t[i], 0) - points_[i].position).norm();
-    deviation_max_ = std::max(deviation_max_, deviation);
-    squares += deviation * deviation;
+    const Vec2 apart = points[i].position - curve.At(samples.t[i], 0);
+    line.deviations.push_back(std::copysign(apart.norm(), Cross(curve.At(samples.t[i], 1), apart)));
   }
-  deviation_rms_ = std::sqrt(squares / static_cast<double>(count));
-
   // Points at least every quarter of the mean distance, and at those of the track.
   const double step = 0.25 * period / static_cast<double>(count);
-  std::vector<CurvePoint> lap;
   const Vec2 first_tangent = curve.At(0.0, 1);
   double yaw = std::atan2(first_tangent.y(), first_tangent.x());
   double s = 0.0;
   for (std::size_t i = 0; i < count; ++i) {
-    stations_.push_back(s);
+    line.stations.push_back(s);
+    line.first.push_back(line.lap.size());
     const double parts = std::ceil(chords[i] / step);
     for (double k = 0.0; k < parts; k += 1.0) {
       const double t = samples.t[i] + chords[i] * k / parts;
-      lap.push_back(curve.PointAt(t, s, yaw));
-      yaw = lap.back().yaw;
+      line.lap.push_back(curve.PointAt(t, s, yaw));
+      yaw = line.lap.back().yaw;
       s += curve.Length(t, samples.t[i] + chords[i] * (k + 1.0) / parts);
     }
   }
-  length_ = s;
-  const CurvePoint end = curve.PointAt(period, length_, yaw);
-  const double turn = end.yaw - lap.front().yaw;
+  line.end = curve.PointAt(period, s, yaw);
+  return line;
+}
+
+Track::Track(std::vector<TrackPoint> points, std::optional<double> smoothing)
+    : points_(std::move(points)) {
+  CheckArguments(points_, smoothing);
+  const CenterLine line = Smooth(points_, smoothing);
+  smoothing_ = line.smoothing;
+  double squares = 0.0;
+  for (const double deviation : line.deviations) {
+    deviation_max_ = std::max(deviation_max_, std::abs(deviation));
+    squares += deviation * deviation;
+  }
+  deviation_rms_ = std::sqrt(squares / static_cast<double>(points_.size()));
+  BuildPath(line);
+  PlaceEdges(line);
+}
+
+void Track::BuildPath(const CenterLine& line) {
+  stations_ = line.stations;
+  length_ = line.end.s;
+  const std::vector<CurvePoint>& lap = line.lap;
+  const double turn = line.end.yaw - lap.front().yaw;
 
   // The path begins before the start line and ends after it.
   const double extra = std::min(0.5 * length_, 100.0);
-  const auto begin = std::find_if(lap.begin(), lap.end(),
-                                  [&](const CurvePoint& p) { return p.s >= length_ - extra; });
+  auto begin = std::find_if(lap.begin(), lap.end(),
+                            [&](const CurvePoint& p) { return p.s >= length_ - extra; });
+  begin = begin == lap.end() ? std::prev(begin) : begin;  // of points further apart
   extra_ = length_ - begin->s;
   std::vector<CurvePoint> all;
   for (auto point = begin; point != lap.end(); ++point) {
@@ -139,14 +178,17 @@ void Track::FitCenterLine() {
   // Its place at the start line is the curve's: the path before it leads there backwards.
   const std::vector<Segment> segments = SegmentsThrough(all);
   const Path from_origin({0.0, 0.0, all.front().yaw}, segments);
-  const Vec2 shift = curve.At(0.0, 0) - from_origin.At(extra_).pose.position();
+  const Vec2 shift = line.start - from_origin.At(extra_).pose.position();
   path_ = Path({shift.x(), shift.y(), all.front().yaw}, segments);
 }
 
-void Track::PlaceEdges() {
+void Track::PlaceEdges(const CenterLine& line) {
+  const double pieces = static_cast<double>(line.lap.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    // Seen from the smoothed line the point itself is a little off.
-    const double own = Locate(points_[i].position, stations_[i]).offset;
+    // Seen from the smoothed line the point itself is a little off. Its foot is no further from its
+    // station than twice the distance between both, on a line that bends no tighter than that.
+    const double reach = 4.0 * std::abs(line.deviations[i]) + 4.0 * length_ / pieces;
+    const double own = LocateWithin(points_[i].position, stations_[i], reach).offset;
     edges_.push_back({own + points_[i].width_left, own - points_[i].width_right});
   }
   const double count = std::ceil(length_ / kEdgeSpacing);
@@ -177,13 +219,18 @@ TrackEdges Track::EdgesAt(double s) const {
 }
 
 TrackPlace Track::Locate(const Vec2& point, std::optional<double> near) const {
-  Stations within{.from = extra_, .to = extra_ + length_};
-  if (near) {
-    const double reach = std::min(30.0, 0.1 * length_);
-    const double middle = extra_ + Wrapped(*near, length_);
-    within = {middle - reach, middle + reach};
-  }
-  const Projection found = path_.Project({point.x(), point.y(), 0.0}, within);
+  return near ? LocateWithin(point, *near, 30.0)
+              : PlaceOf(path_.Project({point.x(), point.y(), 0.0},
+                                      {.from = extra_, .to = extra_ + length_}));
+}
+
+TrackPlace Track::LocateWithin(const Vec2& point, double near, double reach) const {
+  reach = std::min(reach, std::min(30.0, 0.1 * length_));
+  const double middle = extra_ + Wrapped(near, length_);
+  return PlaceOf(path_.Project({point.x(), point.y(), 0.0}, {middle - reach, middle + reach}));
+}
+
+TrackPlace Track::PlaceOf(const Projection& found) const {
   return {Wrapped(found.s - extra_, length_), found.cross_track};
 }
 
@@ -196,8 +243,58 @@ std::optional<FrenetState> Track::ToFrenet(const MotionState& motion) const {
   return state;
 }
 
+namespace {
+
+constexpr double kMaxRadiusFraction = 0.95;
+
+/// The largest |curvature| of a piece of the line, and the most that its heading may turn.
+struct PieceBend {
+  double curvature = 0.0;  // [1/m]
+  double turn = 0.0;       // [rad]
+};
+
+PieceBend BendOf(const CurvePoint& from, const CurvePoint& to) {
+  const double length = to.s - from.s;
+  if (!(length > 0.0)) {
+    return {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  }
+  const Segment piece = SegmentsThrough({from, to}).front();
+  PieceBend bend{std::max(std::abs(from.curvature), std::abs(to.curvature))};
+  const double vertex = -piece.sharpness / piece.sharpness_rate;
+  if (vertex > 0.0 && vertex < length) {
+    bend.curvature = std::max(bend.curvature, std::abs(piece.CurvatureAt(vertex)));
+  }
+  bend.turn = bend.curvature * length;
+  return bend;
+}
+
+}  // namespace
+
+std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
+                                  std::optional<double> smoothing) {
+  CheckArguments(points, smoothing);
+  const Track::CenterLine line = Track::Smooth(points, smoothing);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t next = (i + 1) % points.size();
+    const std::size_t end = next == 0 ? line.lap.size() : line.first[next];
+    for (std::size_t k = line.first[i]; k < end; ++k) {
+      const PieceBend bend = BendOf(line.lap[k], line.After(k));
+      const bool is_left = line.lap[k].curvature > 0.0;
+      const auto width = [&](std::size_t at) {
+        return is_left ? points[at].width_left + line.deviations[at]
+                       : points[at].width_right - line.deviations[at];
+      };
+      const double inner = std::min(width(i), width(next));
+      // FindFold of the finished track finds slighter folds.
+      if (bend.turn > kPi || bend.curvature * inner > 1.0) {
+        return TrackFold{i, 1.0 / bend.curvature, inner, bend.turn};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<TrackFold> FindFold(const Track& track) {
-  constexpr double kMost = 0.95;  // of the radius
   for (std::size_t i = 0; i < track.points().size(); ++i) {
     const double from = track.StationOf(i);
     const bool is_last = i + 1 == track.points().size();
@@ -207,7 +304,7 @@ std::optional<TrackFold> FindFold(const Track& track) {
       const double curvature = track.At(s).curvature;
       const TrackEdges edges = track.EdgesAt(s);
       const double width = curvature > 0.0 ? edges.left : -edges.right;
-      if (std::abs(curvature) * width > kMost) {
+      if (std::abs(curvature) * width > kMaxRadiusFraction) {
         return TrackFold{i, 1.0 / std::abs(curvature), width};
       }
     }

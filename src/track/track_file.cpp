@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -15,20 +16,20 @@
 namespace trackbed {
 namespace {
 
-constexpr std::uintmax_t kLargestTrackFile = std::uintmax_t{16} << 20U;
-constexpr double kLargestPosition = 1e5;  // [m]
-constexpr double kLargestWidth = 1000.0;  // [m]
-constexpr double kLargestLap = 200e3;     // [m]
-constexpr double kLargestTurn = 150.0;    // at a point [deg]: beyond it the line turns back
+constexpr std::uintmax_t kMaxTrackFileBytes = std::uintmax_t{16} << 20U;
+constexpr double kMaxPosition = 1e5;     // [m]
+constexpr double kMaxWidth = 1000.0;     // [m]
+constexpr double kMaxLapLength = 200e3;  // [m]
+constexpr double kMaxTurn = 150.0;       // at a point [deg]: beyond it the line turns back
 constexpr const char* kFirstColumn = "# x_m";
 
 void CheckSize(const std::filesystem::path& file) {
   std::error_code ignored;
   const std::uintmax_t size = std::filesystem::file_size(file, ignored);
-  if (!ignored && size > kLargestTrackFile) {
+  if (!ignored && size > kMaxTrackFileBytes) {
     throw InputError(Problem{
         .file = file.string(),
-        .message = fmt::format("has {} bytes; a track has at most {}", size, kLargestTrackFile)});
+        .message = fmt::format("has {} bytes; a track has at most {}", size, kMaxTrackFileBytes)});
   }
 }
 
@@ -50,27 +51,49 @@ void CheckShape(const std::string& name, const std::vector<int>& lines,
                 const std::vector<TrackPoint>& points, ProblemList& problems) {
   const std::size_t count = points.size();
   double length = 0.0;
+  double longest = 0.0;
+  std::size_t widest = 0;  // the point before the largest gap
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2& here = points[i].position;
     const Vec2 before = here - points[(i + count - 1) % count].position;
     const Vec2 after = points[(i + 1) % count].position - here;
     length += after.norm();
+    widest = after.norm() > longest ? i : widest;
+    longest = std::max(longest, after.norm());
     const double turn = std::abs(AngleDifference(std::atan2(after.y(), after.x()),
                                                  std::atan2(before.y(), before.x()))) *
                         180.0 / std::numbers::pi;
-    if (turn > kLargestTurn) {
+    if (turn > kMaxTurn) {
       problems.Add({.file = name,
                     .line = lines[i],
                     .message = fmt::format("the center line turns back here, by {:.3g} degrees; "
                                            "must be at most {:.3g} from point to point",
-                                           turn, kLargestTurn)});
+                                           turn, kMaxTurn)});
     }
   }
-  if (length > kLargestLap) {
-    problems.Add({.file = name,
-                  .message = fmt::format("a lap is {:.4g} km long; must be at most {:.4g}",
-                                         length / 1e3, kLargestLap / 1e3)});
+  if (length > kMaxLapLength) {
+    const int end = lines[(widest + 1) % count];
+    problems.Add(
+        {.file = name,
+         .line = end,
+         .message = fmt::format("a lap is {:.4g} km long; must be at most {:.4g}: the gap "
+                                "between rows {} and {} is {:.7g} m",
+                                length / 1e3, kMaxLapLength / 1e3, lines[widest], end, longest)});
   }
+}
+
+std::string DescribeFold(const TrackFold& fold) {
+  return fold.width < fold.radius && fold.turn > 0.0
+             ? fmt::format(
+                   "the center line turns by {:.3g} rad within a quarter of the mean "
+                   "distance of the points; must be at most half a circle: a point may be "
+                   "wrong, or the smoothing too short",
+                   fold.turn)
+             : fmt::format(
+                   "the center line bends on a radius of {:.3g} m, and the inner edge is "
+                   "{:.3g} m from it; must be less than the radius, so that the edge does "
+                   "not fold over",
+                   fold.radius, fold.width);
 }
 
 }  // namespace
@@ -102,18 +125,17 @@ Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothi
         {{table.at(row, x), table.at(row, y)}, table.at(row, right), table.at(row, left)});
     for (const auto& [key, value] :
          {std::pair{"x_m", table.at(row, x)}, {"y_m", table.at(row, y)}}) {
-      if (std::abs(value) > kLargestPosition) {
+      if (std::abs(value) > kMaxPosition) {
         add(row, key,
-            fmt::format("{} is out of range; must be between {} and {}", value, -kLargestPosition,
-                        kLargestPosition));
+            fmt::format("{} is out of range; must be between {} and {}", value, -kMaxPosition,
+                        kMaxPosition));
       }
     }
     for (const auto& [key, value] :
          {std::pair{"w_tr_right_m", table.at(row, right)}, {"w_tr_left_m", table.at(row, left)}}) {
-      if (!(value > 0.0) || value > kLargestWidth) {
+      if (!(value > 0.0) || value > kMaxWidth) {
         add(row, key,
-            fmt::format("{} is out of range; must be above 0 and at most {}", value,
-                        kLargestWidth));
+            fmt::format("{} is out of range; must be above 0 and at most {}", value, kMaxWidth));
       }
     }
     if (row > 0 && points[row].position == points[row - 1].position) {
@@ -126,12 +148,16 @@ Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothi
   problems.ThrowIfAny();
   CheckShape(name, excerpt.lines, points, problems);
   problems.ThrowIfAny();
+  const auto add_fold = [&](const TrackFold& fold) {
+    add(fold.point, "", DescribeFold(fold));
+    problems.ThrowIfAny();
+  };
+  if (const std::optional<TrackFold> fold = FindFold(points, smoothing)) {
+    add_fold(*fold);
+  }
   Track track(std::move(points), smoothing);
   if (const std::optional<TrackFold> fold = FindFold(track)) {
-    add(fold->point, "",
-        fmt::format("the center line bends on a radius of {:.3g} m, and the inner edge is {:.3g} m "
-                    "from it; must be less than the radius, so that the edge does not fold over",
-                    fold->radius, fold->width));
+    add_fold(*fold);
   }
   for (std::size_t i = 0; i < track.points().size(); ++i) {
     const TrackEdges edges = track.EdgesAt(track.StationOf(i));

@@ -3,34 +3,35 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
-/// Closed B-splines of degree 5 with evenly spaced knots: four times continuously differentiable
-/// curves and functions that repeat.
+/// Closed B-splines of degree 5 with evenly spaced knots: periodic curves and functions that are
+/// four times continuously differentiable.
 namespace trackbed {
 
-/// The basis: as many functions as knots, spread over one period.
+/// The basis: as many functions as knots, over one period.
 class ClosedSplineBasis {
  public:
-  static constexpr std::size_t kSupport = 6;  ///< functions that are not 0 at a point
-  static constexpr std::size_t kLeast = 6;    ///< functions
+  static constexpr std::size_t kSupport = 6;       ///< functions that are nonzero at a point
+  static constexpr std::size_t kMinFunctions = 6;  ///< minimum number of functions
 
-  /// The functions that are not 0 at a point, and their values.
+  /// The functions that are nonzero at a point, and their values.
   struct Local {
     std::array<Eigen::Index, kSupport> index{};
-    /// Of the derivatives of order 0, 1 and 2 by the parameter.
+    /// Derivatives of order 0, 1 and 2 with respect to the parameter.
     std::array<std::array<double, kSupport>, 3> weight{};
   };
 
-  /// PreconditionError unless the period is positive and finite and there are at least kLeast
-  /// functions.
+  /// PreconditionError unless the period is positive and finite and there are at least
+  /// kMinFunctions functions.
   ClosedSplineBasis(double period, std::size_t count);
 
   [[nodiscard]] double period() const { return period_; }
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  /// At any finite parameter: it is wrapped.
-  [[nodiscard]] Local At(double t) const;
+  /// The basis at any finite parameter, which is wrapped; with `order`, only of that derivative.
+  [[nodiscard]] Local At(double t, std::optional<std::size_t> order = {}) const;
 
  private:
   double period_;
@@ -41,17 +42,17 @@ class ClosedSplineBasis {
 Eigen::RowVectorXd Evaluate(const ClosedSplineBasis::Local& at, const Eigen::MatrixXd& coefficients,
                             std::size_t order);
 
-/// Points over the parameter, to which a spline is fitted.
+/// Samples of a curve, to which a spline is fitted.
 struct SplineSamples {
   std::vector<double> t;        ///< parameters, within one period
-  std::vector<double> weights;  ///< of each point: the length that it stands for, > 0
+  std::vector<double> weights;  ///< of each point: the length that it represents, > 0
   Eigen::MatrixXd values;       ///< a row for each point
 };
 
 /// The coefficients that minimize
 ///   sum of w_i |P(t_i) - p_i|^2 + (wavelength/(2 pi))^6 integral of |P'''|^2 dt,
-/// the penalty taken of the third differences of the coefficients (P-splines, Eilers and Marx
-/// 1996). Of a wave of length l along the curve, 1/(1 + (wavelength/l)^6) is left: half at
+/// with the penalty evaluated by third differences of the coefficients (P-splines, Eilers and Marx
+/// 1996). A wave of length l along the curve is attenuated to 1/(1 + (wavelength/l)^6): 1/2 at
 /// `wavelength`, 98 % at twice, 1.5 % at half of it. Cost O(count). PreconditionError unless sizes
 /// agree and the wavelength is positive.
 Eigen::MatrixXd FitClosedSpline(const ClosedSplineBasis& basis, const SplineSamples& samples,

@@ -39,6 +39,8 @@ struct TrackPlace {
 /// An edge: closed, the last point leads to the first. Points are evenly spaced in station.
 using TrackEdgeLine = std::vector<Vec2>;
 
+struct TrackFold;
+
 /// Which way round, and how the center line was smoothed. Immutable value.
 ///
 /// The center line is a closed B-spline of degree 5 fitted to the points (closed_spline.h): bends
@@ -88,8 +90,14 @@ class Track {
   static constexpr double kEdgeSpacing = 0.5;  ///< in station [m]
 
  private:
-  void FitCenterLine();
-  void PlaceEdges();
+  friend std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
+                                           std::optional<double> smoothing);
+  struct CenterLine;
+  static CenterLine Smooth(const std::vector<TrackPoint>& points, std::optional<double> smoothing);
+  void BuildPath(const CenterLine& line);
+  void PlaceEdges(const CenterLine& line);
+  [[nodiscard]] TrackPlace LocateWithin(const Vec2& point, double near, double reach) const;
+  [[nodiscard]] TrackPlace PlaceOf(const Projection& found) const;
 
   std::vector<TrackPoint> points_;
   double smoothing_ = 0.0;
@@ -108,10 +116,20 @@ class Track {
 struct TrackFold {
   std::size_t point = 0;  ///< of the track, before the bend's tightest place
   double radius = 0.0;    ///< of the center line [m]
-  double width = 0.0;     ///< to the inner edge [m], more than 95 % of the radius
+  double width = 0.0;     ///< to the inner edge [m]; more than 95 % of the radius, or turn is set
+  /// Most that the line may turn within a quarter of the mean distance of the points [rad]; set by
+  /// the search before the track is made.
+  double turn = 0.0;
 };
 
-/// The first one; none on a track that is fit for use.
+/// The first fold; none on a track that is fit for use.
 std::optional<TrackFold> FindFold(const Track& track);
+
+/// The first clear fold of the track that these points would make: an inner edge beyond the radius,
+/// or a line that turns by more than half a circle within a quarter of the mean distance of the
+/// points. Such a line, of one wrong number, would take long to make and to follow. Errors as
+/// Track. Cost: 5 us a point.
+std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
+                                  std::optional<double> smoothing);
 
 }  // namespace trackbed

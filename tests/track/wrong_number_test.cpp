@@ -1,0 +1,98 @@
+#include "tests/support/wrong_number.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <filesystem>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "tests/support/temp_folder.h"
+#include "tests/track/rings.h"
+#include "trackbed/core/error.h"
+#include "trackbed/core/file.h"
+#include "trackbed/track/track_file.h"
+
+namespace trackbed {
+namespace {
+
+/// Reads a track, which ends within two seconds with a track or with problems in named lines.
+void ExpectBounded(const std::filesystem::path& file) {
+  const auto begun = std::chrono::steady_clock::now();
+  try {
+    static_cast<void>(ReadTrack(file));
+  } catch (const InputError& error) {
+    for (const Problem& problem : error.problems()) {
+      EXPECT_GT(problem.line, 0) << error.what();
+    }
+  }
+  EXPECT_LE(std::chrono::steady_clock::now() - begun, std::chrono::seconds(2));
+}
+
+void TrySlips(const std::string& csv, int count, std::uint64_t seed) {
+  const TempFolder folder;
+  std::mt19937_64 random(seed);
+  for (int i = 0; i < count; ++i) {
+    const std::string wrong = WithWrongNumber(csv, csv.find('\n'), random);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", slip " + std::to_string(i));
+    ExpectBounded(folder.Write("t.csv", wrong));
+  }
+}
+
+TEST(TrackWithAWrongNumber, OfFewPoints) {
+  TrySlips(TrackCsv(RingPoints(20.0, 24, 4.0, 3.0)), 300, 1);
+  TrySlips(TrackCsv(EllipsePoints(500.0, 300.0, 24, 6.0, 7.0)), 300, 2);
+  TrySlips(TrackCsv(EllipsePoints(120.0, 60.0, 9, 5.0, 5.0)), 300, 3);
+}
+
+TEST(TrackWithAWrongNumber, OfTum) {
+  const std::filesystem::path tracks =
+      std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/tracks";
+  std::uint64_t seed = 10;
+  for (const char* name : {"Norisring", "Hockenheim", "Spielberg", "Silverstone"}) {
+    TrySlips(ReadFile(tracks / (std::string(name) + ".csv")), 25, ++seed);
+  }
+}
+
+/// Twenty-four points, one of which lost a digit: the line bends on 0.4 mm there.
+TEST(TrackWithAWrongNumber, IsRefusedBeforeTheTrackIsMade) {
+  std::vector<TrackPoint> points = RingPoints(20.0, 24, 4.0, 3.0);
+  points[18].position.y() = -2.0;
+  const auto fold = FindFold(points, std::nullopt);
+  ASSERT_TRUE(fold);
+  EXPECT_LT(fold->radius, fold->width);
+  const TempFolder folder;
+  ExpectBounded(folder.Write("t.csv", TrackCsv(points)));
+}
+
+/// Points 4 cm apart: their places on the line are looked for near their stations.
+TEST(DenseTrack, IsReadInTimeInProportionToItsPoints) {
+  const TempFolder folder;
+  ExpectBounded(folder.Write("t.csv", TrackCsv(RingPoints(120.0, 20'000, 4.0, 3.0))));
+}
+
+/// The nearest place on the line is near a point's station: a look 30 m around finds the same one.
+TEST(TrackOfTum, HasItsEdgesWhereAFartherLookFindsThem) {
+  for (const char* name : {"Norisring", "Hockenheim", "Spielberg", "Silverstone"}) {
+    const Track track = ReadTrack(std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/tracks" /
+                                  (std::string(name) + ".csv"));
+    for (std::size_t i = 0; i < track.points().size(); ++i) {
+      const TrackPoint& point = track.points()[i];
+      const double own = track.Locate(point.position, track.StationOf(i)).offset;
+      EXPECT_EQ(track.EdgesAt(track.StationOf(i)).left, own + point.width_left) << name << i;
+    }
+  }
+}
+
+/// Points farther apart than the path leads on beyond the start line.
+TEST(SparseTrack, IsMade) {
+  // Half of the distance between the points; waves of 16 points stay.
+  constexpr double kSmoothing = 4e3;
+  const Track track(EllipsePoints(20e3, 20e3, 16, 4.0, 3.0), kSmoothing);
+  EXPECT_NEAR(track.length(), 2.0 * kPi * 20e3, 0.01 * track.length());
+  EXPECT_FALSE(FindFold(track.points(), kSmoothing));
+}
+
+}  // namespace
+}  // namespace trackbed
