@@ -9,8 +9,8 @@ namespace trackbed {
 namespace {
 
 /// Mean number of nodes per cell: upper limit, and value after division.
-constexpr double kMost = 16.0;
-constexpr double kAfter = 4.0;
+constexpr double kMaxNodesPerCell = 16.0;
+constexpr double kNodesPerCell = 4.0;
 
 }  // namespace
 
@@ -52,8 +52,8 @@ void NodeGrid::Add(const Vec2& position, std::size_t node) {
   cells_[static_cast<std::size_t>(at)].push_back({position, node});
   ++count_;
   const auto count = static_cast<double>(count_);
-  if (count > kMost * static_cast<double>(cells_.size())) {
-    Divide(count / kAfter);
+  if (count > kMaxNodesPerCell * static_cast<double>(cells_.size())) {
+    Divide(count / kNodesPerCell);
   }
 }
 

@@ -27,6 +27,35 @@ bool MayBePartial(const PlannerOptions& options) {
   return own.partial.value_or(own.time_limit.has_value());
 }
 
+/// Requires smoothing weights with which the smoothing converges.
+std::vector<OptionProblem> CheckSmoothing(const RrtPlannerOptions& options,
+                                          const CouldReadKey& could_read) {
+  const double step = options.data_weight + 2.0 * options.smoothness_weight;
+  if (!could_read("data_weight") || !could_read("smoothness_weight") ||
+      (step > 0.0 && step < 1.0)) {
+    return {};
+  }
+  return {{"smoothness_weight",
+           fmt::format("data_weight + 2 smoothness_weight is {:.4g}; must be above 0 and below 1 "
+                       "for the smoothing to converge",
+                       step)}};
+}
+
+/// Detours must be repeatable, so a wall-clock limit is rejected, and must return to the route, so
+/// a partial plan is rejected.
+std::vector<OptionProblem> CheckDetour(const RrtPlannerOptions& options) {
+  std::vector<OptionProblem> problems;
+  if (options.time_limit) {
+    problems.push_back({"time_limit",
+                        "not allowed in a detour, whose planning must be repeatable; use "
+                        "iterations"});
+  }
+  if (options.partial.value_or(false)) {
+    problems.push_back({"partial", "not allowed in a detour, which must return to the route"});
+  }
+  return problems;
+}
+
 SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& request) {
   return MakeSamplingTask({.corners = options.corners,
                            .safe_distance = options.safe_distance,
@@ -38,7 +67,7 @@ SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& reque
 }
 
 /// A path through all goals, or the part of it that was found.
-struct Way {
+struct TreePath {
   std::vector<Vec2> points;   ///< from the start through the goals reached, in the car's frame
   std::size_t goals = 0;      ///< number of goals reached
   std::vector<Vec2> nearest;  ///< path along the tree to the node nearest to the next goal
@@ -83,28 +112,31 @@ void AddLeg(const Forest& forest, const std::vector<Vec2>& path, bool is_last,
   AddPruned(task, forest.tangents, options.corner_cost, smooth.path, is_last, points);
 }
 
-Way GrowWay(const Forest& forest, std::uint64_t seed) {
+TreePath GrowPath(const Forest& forest, std::uint64_t seed, long& samples) {
   const RrtPlannerOptions& options = forest.options;
   const SamplingTask& task = forest.task;
   const Pose2& frame = forest.request.start;
-  Way way;
+  TreePath way;
   way.points.emplace_back(0.0, 0.0);
   if (task.lead.x() > 0.0) {
     way.points.push_back(task.lead);
   }
   Vec2 from = task.lead;
   for (const Vec2& goal : task.goals) {
-    const RrtResult tree = PlanRrt({.start = from,
-                                    .goal = goal,
-                                    .low = task.area.low,
-                                    .high = task.area.high,
-                                    .obstacles = task.obstacles,
-                                    .inflation = task.inflation},
-                                   {.iterations = options.iterations,
-                                    .expand_distance = options.expand_distance,
-                                    .goal_bias = options.goal_bias,
-                                    .stop = forest.time_is_over},
-                                   seed + way.goals);
+    const RrtResult tree =
+        PlanRrt({.start = from,
+                 .goal = goal,
+                 .low = task.area.low,
+                 .high = task.area.high,
+                 .obstacles = task.obstacles,
+                 .inflation = task.inflation},
+                {.iterations = static_cast<int>(std::min<long>(
+                     options.iterations, std::max(forest.request.max_samples - samples, 0L))),
+                 .expand_distance = options.expand_distance,
+                 .goal_bias = options.goal_bias,
+                 .stop = forest.time_is_over},
+                seed + way.goals);
+    samples += tree.iterations;
     AddTree(tree, frame, way.tree);
     way.legs.push_back({.status = tree.status,
                         .iterations = tree.iterations,
@@ -129,7 +161,7 @@ Way GrowWay(const Forest& forest, std::uint64_t seed) {
 
 /// One attempt: a path, its plan, and the comparator's score.
 struct Try {
-  Way way;
+  TreePath way;
   Plan plan;
   PathScore score;
 
@@ -157,7 +189,7 @@ std::string DescribeBudget(const RrtPlannerOptions& options, std::size_t trees, 
 }
 
 /// The start of a tree is free: it was checked, or it is a goal that was reached.
-Plan RefusedAs(const Way& way, const Forest& forest) {
+Plan RefusedAs(const TreePath& way, const Forest& forest) {
   if (way.status == RrtStatus::kGoalBlocked) {
     return GoalBlocked(forest.task, way.goals + 1);
   }
@@ -178,7 +210,7 @@ Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
 /// Plans along a path that does not reach its next goal, to the tree's node nearest to that goal.
 /// If the car cannot drive or stand there, because its front extends beyond the node, the last
 /// feasible node before it is used.
-void TakePart(const Forest& forest, Try& next) {
+void UsePartialPath(const Forest& forest, Try& next) {
   const std::vector<Vec2> reached = next.way.points;
   const std::vector<Vec2> nearest = next.way.nearest;
   const Vec2& goal = forest.task.goals[next.way.goals];
@@ -208,13 +240,13 @@ void TakePart(const Forest& forest, Try& next) {
   next.plan.reason += why.empty() ? "" : "; not feasible: " + why;
 }
 
-Try TryTree(const Forest& forest, std::uint64_t seed) {
+Try TryTree(const Forest& forest, std::uint64_t seed, long& samples) {
   Try next;
-  next.way = GrowWay(forest, seed);
+  next.way = GrowPath(forest, seed, samples);
   if (!next.is_partial()) {
     next.plan = PlanAlongRoute(forest, next.way.points);
   } else if (MayBePartial(forest.options) && !next.way.nearest.empty()) {
-    TakePart(forest, next);
+    UsePartialPath(forest, next);
   } else {
     next.plan = RefusedAs(next.way, forest);
   }
@@ -261,8 +293,10 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
   std::optional<Try> best;
   RrtDiagnostics diagnostics;
   bool time_is_over = false;
-  for (int i = 0; i < options.trees && !time_is_over; ++i) {
-    Try next = TryTree(forest, request.seed + (static_cast<std::uint64_t>(i) << 32U));
+  long samples = 0;
+  const auto may_go_on = [&] { return samples < request.max_samples && !time_is_over; };
+  for (int i = 0; i < options.trees && (i == 0 || may_go_on()); ++i) {
+    Try next = TryTree(forest, request.seed + (static_cast<std::uint64_t>(i) << 32U), samples);
     diagnostics.trees.push_back(FindingsOn(next));
     const RrtStatus status = next.way.status;
     const bool hopeless = status == RrtStatus::kGoalBlocked;  // for every tree
@@ -281,6 +315,7 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
                diagnostics);
   diagnostics.legs = std::move(best->way.legs);
   plan.diagnostics.planner = std::move(diagnostics);
+  plan.diagnostics.samples = samples;
   if (plan.ok()) {
     plan.tree = std::move(best->way.tree);
   }
@@ -308,7 +343,9 @@ PlannerEntry RrtPlanner() {
           .keeps_clear = true,
           .searches = true,
           .is_random = true,
-          .may_be_partial = MayBePartial};
+          .may_be_partial = MayBePartial,
+          .check = OnOptions<RrtPlannerOptions, CheckSmoothing>,
+          .check_detour = OnOptions<RrtPlannerOptions, CheckDetour>};
 }
 
 }  // namespace trackbed

@@ -35,9 +35,11 @@ Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
   }
   return route::Refused(
       PlanStatus::kBudgetUsedUp,
-      fmt::format("waypoint {} not reached by {} samples: the nearest node is {:.3g} m away; "
+      fmt::format("waypoint {} not reached by {} samples{}: the nearest node is {:.3g} m away; "
                   "obstacles are inflated by {:.3g} m",
-                  waypoint, options.iterations, left, task.inflation));
+                  waypoint, tree.iterations,
+                  tree.iterations < options.iterations ? ", the last of those allowed" : "", left,
+                  task.inflation));
 }
 
 /// Adds a tree's nodes in the world frame; the root is its own parent.
@@ -52,7 +54,7 @@ void AddNodes(const RrtStarResult& result, const Pose2& frame, std::vector<TreeN
 /// samples could cover it, otherwise the path of a tree.
 RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& task,
                       const BoxIndex& obstacles, const Vec2& from, const Vec2& to,
-                      std::uint64_t seed) {
+                      std::uint64_t seed, long max_samples) {
   const double length = (to - from).norm();
   const double edge =
       options.expand_distance.value_or(0.2 * (task.area.high - task.area.low).norm());
@@ -70,7 +72,8 @@ RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& 
                       .high = task.area.high,
                       .obstacles = task.obstacles,
                       .inflation = task.inflation},
-                     {.iterations = options.iterations,
+                     {.iterations = static_cast<int>(
+                          std::min<long>(options.iterations, std::max(max_samples, 0L))),
                       .step = options.expand_distance.value_or(0.0),
                       .goal_bias = options.goal_bias,
                       .informed = true,
@@ -81,7 +84,7 @@ RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& 
 /// A plan along one tree through all waypoints; `diagnostics` receives its legs.
 Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& request,
                   const SamplingTask& task, const CornerTangents& tangents, std::uint64_t seed,
-                  RrtStarPlanDiagnostics& diagnostics) {
+                  RrtStarPlanDiagnostics& diagnostics, long& samples) {
   diagnostics.legs.clear();
   const BoxIndex obstacles(task.obstacles);
   std::vector<Vec2> points{{0.0, 0.0}};
@@ -91,7 +94,9 @@ Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& reque
   std::vector<TreeNode> tree;
   Vec2 from = task.lead;
   for (std::size_t i = 0; i < task.goals.size(); ++i) {
-    const RrtStarResult found = GrowLeg(options, task, obstacles, from, task.goals[i], seed + i);
+    const RrtStarResult found = GrowLeg(options, task, obstacles, from, task.goals[i], seed + i,
+                                        request.max_samples - samples);
+    samples += found.iterations;
     diagnostics.legs.push_back({.status = found.status,
                                 .iterations = found.iterations,
                                 .nodes = found.nodes.size(),
@@ -121,15 +126,18 @@ Plan PlanStarTrees(const RrtStarPlannerOptions& options, const PlanRequest& requ
   const CornerTangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));
   RrtStarPlanDiagnostics diagnostics;
   Plan plan;
-  for (int i = 0; i < options.trees; ++i) {
-    plan = PlanStarTree(options, request, task, tangents,
-                        request.seed + (static_cast<std::uint64_t>(i) << 32U), diagnostics);
+  long samples = 0;
+  for (int i = 0; i < options.trees && (i == 0 || samples < request.max_samples); ++i) {
+    plan =
+        PlanStarTree(options, request, task, tangents,
+                     request.seed + (static_cast<std::uint64_t>(i) << 32U), diagnostics, samples);
     diagnostics.trees.push_back({plan.status, plan.reason});
     if (plan.ok() || plan.status == PlanStatus::kGoalBlocked) {
       break;  // a blocked goal is blocked for every tree
     }
   }
   plan.diagnostics.planner = std::move(diagnostics);
+  plan.diagnostics.samples = samples;
   return plan;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "trackbed/core/angle.h"
@@ -78,7 +79,9 @@ inline constexpr int kLeadIns = 3;
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {
-  Plan plan = plan_trees(options, request);
+  PlanRequest left = request;
+  Plan plan = plan_trees(options, left);
+  long samples = plan.diagnostics.samples;
   const bool too_near =
       plan.status == PlanStatus::kTurnTooTight || plan.status == PlanStatus::kInfeasible;
   if (!too_near || options.corners == Corners::kRefuse || request.start_speed == 0.0) {
@@ -93,15 +96,20 @@ Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const Pl
     longer.lead_in += more;
     longer.trees = i == 0 ? options.trees : 1;
     const double straight = StraightStart(longer.lead_in, request);
-    if (std::find(tried.begin(), tried.end(), straight) != tried.end()) {
+    if (samples >= request.max_samples ||
+        std::find(tried.begin(), tried.end(), straight) != tried.end()) {
       continue;
     }
     tried.push_back(straight);
-    Plan again = plan_trees(longer, request);
+    left.max_samples = request.max_samples - samples;
+    Plan again = plan_trees(longer, left);
+    samples += again.diagnostics.samples;
     if (again.ok()) {
-      return again;
+      plan = std::move(again);
+      break;
     }
   }
+  plan.diagnostics.samples = samples;
   return plan;
 }
 

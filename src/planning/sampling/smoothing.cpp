@@ -10,7 +10,7 @@ namespace trackbed {
 namespace {
 
 /// Score differences below this are rounding: in uniform wind all paths score alike [m].
-constexpr double kSame = 1e-9;
+constexpr double kEqualityTolerance = 1e-9;
 
 /// Wind score of one straight line.
 double SegmentScore(const Vec2& from, const Vec2& to, const WindScoring& scoring) {
@@ -22,7 +22,7 @@ class Smoother {
  public:
   Smoother(const std::vector<Vec2>& path, const std::vector<OrientedBox>& obstacles,
            double inflation, const WindScoring& wind, const SmoothingOptions& options)
-      : given_(path),
+      : original_(path),
         smooth_(path),
         obstacles_(obstacles),
         inflation_(inflation),
@@ -51,10 +51,11 @@ class Smoother {
     const Vec2& after = smooth_[i + 1];
     const double old = smooth_[i][coordinate];
     Vec2 moved = smooth_[i];
-    moved[coordinate] += options_.data * (given_[i][coordinate] - old) +
+    moved[coordinate] += options_.data * (original_[i][coordinate] - old) +
                          options_.smoothness * (before[coordinate] + after[coordinate] - 2.0 * old);
     if (moved[coordinate] == old || !IsFree(before, moved) || !IsFree(moved, after) ||
-        (!windless_ && Score(before, moved, after) < Score(before, smooth_[i], after) - kSame)) {
+        (!windless_ &&
+         Score(before, moved, after) < Score(before, smooth_[i], after) - kEqualityTolerance)) {
       return 0.0;
     }
     smooth_[i] = moved;
@@ -69,7 +70,7 @@ class Smoother {
     return SegmentScore(before, at, wind_) + SegmentScore(at, after, wind_);
   }
 
-  const std::vector<Vec2>& given_;
+  const std::vector<Vec2>& original_;
   std::vector<Vec2> smooth_;
   BoxIndex obstacles_;
   double inflation_;

@@ -16,8 +16,8 @@
 #include "trackbed/planning/sampling/rrt_planner.h"
 #include "trackbed/world/world.h"
 
-// Plans by RRT that lead only part of the way: as far as the trees came within their samples or
-// their time.
+// Partial RRT plans: they end as near to the goal as the trees came within their samples or their
+// time.
 namespace trackbed {
 namespace {
 
@@ -33,7 +33,7 @@ PlanRequest To(std::vector<Vec2> waypoints, std::vector<OrientedBox> obstacles =
   return request;
 }
 
-/// Right across everything that is sampled; its near side is at x = 29.5 m.
+/// A wall across the whole sampled area; its near side is at x = 29.5 m.
 PlanRequest BeforeAWall() {
   return To({{50.0, 0.0}}, {{{30.0, 0.0, 0.0}, 1.0, 200.0}});
 }
@@ -42,7 +42,7 @@ Vec2 EndPoint(const Plan& plan) {
   return plan.reference.path.At(plan.reference.path.length()).pose.position();
 }
 
-/// The node of a tree that is nearest to a point, of the nodes from `first` on.
+/// The node of a tree nearest to a point, among the nodes from `first` on.
 std::size_t NearestNode(const std::vector<TreeNode>& tree, const Vec2& point,
                         std::size_t first = 0) {
   std::size_t nearest = first;
@@ -54,7 +54,7 @@ std::size_t NearestNode(const std::vector<TreeNode>& tree, const Vec2& point,
   return nearest;
 }
 
-/// How many nodes before `node` on its way from the root a point is; none if it is not on it.
+/// Number of steps from `node` toward the root to the node at `point`; empty if none is there.
 std::optional<int> NodesBefore(const std::vector<TreeNode>& tree, std::size_t node,
                                const Vec2& point) {
   for (int before = 0;; ++before) {
@@ -68,7 +68,7 @@ std::optional<int> NodesBefore(const std::vector<TreeNode>& tree, std::size_t no
   }
 }
 
-/// By the exact distance of boxes alone, every 2 cm, of which the footprint's farthest corner moves
+/// Checks the exact distance of boxes every 2 cm, over which the footprint's farthest corner moves
 /// by 1 + 3.7/5.1 times as much.
 void ExpectClear(const PlanRequest& request, const Plan& plan) {
   const Path& path = plan.reference.path;
@@ -101,7 +101,8 @@ TEST(PartialPlan, EndsAtTheNodeNearestToTheGoal) {
     EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndPoint(plan) - goal).norm(), Tolerance(1e-9));
     EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
   }
-  // Not where the way there has a corner that is too sharp for the car.
+  // The plan stops before the nearest node where the branch has a corner that is too sharp for the
+  // car.
   EXPECT_GE(at_the_nearest, 20);
 }
 
@@ -117,12 +118,12 @@ TEST(PartialPlan, SaysHowFarItLeads) {
   EXPECT_EQ(DiagnosticsJson(plan)["partial_reason"], plan.partial);
   EXPECT_EQ(DiagnosticsJson(plan)["next_waypoint"], 1);
   EXPECT_EQ(DiagnosticsJson(plan)["legs"].at(0)["status"], "iterations");
-  // The mission's goal is what it was.
+  // The mission's goal is unchanged.
   EXPECT_EQ(plan.goal, (Pose2{50.0, 0.0, 0.0}));
 }
 
 TEST(PartialPlan, KeepsClearOfWhatStoppedTheTree) {
-  // Nodes come to within 2.16 m of the wall, where the car's front, 3.625 m ahead, would be in it.
+  // Nodes come to within 2.16 m of the wall. There the car's front, 3.625 m ahead, would be in it.
   PlanRequest request = BeforeAWall();
   for (request.seed = 0; request.seed < 10; ++request.seed) {
     const Plan plan =
@@ -150,7 +151,7 @@ TEST(PartialPlan, IsOfTheTreeThatLeadsNearest) {
       EXPECT_LE(own, tree.value("left_m", own));
     }
     EXPECT_EQ(each.at(DiagnosticsJson(plan)["chosen"].get<std::size_t>())["left_m"], own);
-    // The first of eight trees are those of fewer.
+    // More trees contain the trees of a run with fewer.
     EXPECT_LE(own, left);
     left = own;
     of_one = trees == 1 ? own : of_one;
@@ -175,7 +176,8 @@ TEST(PartialPlan, LeadsThroughTheWaypointsThatAreReached) {
   EXPECT_TRUE(NodesBefore(plan.tree, nearest, EndPoint(plan)));
   EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndPoint(plan) - request.waypoints[2]).norm(),
               Tolerance(1e-9));
-  // Its corner there is rounded: by no more than the car's radius allows it to cut off.
+  // The corner at this node is rounded: the path misses the node by no more than the car's radius
+  // implies.
   EXPECT_LT(
       (plan.reference.path.At(plan.reference.path.Project({20.0, 8.0, 0.0}).s).pose.position() -
        Vec2(20.0, 8.0))
@@ -186,16 +188,16 @@ TEST(PartialPlan, LeadsThroughTheWaypointsThatAreReached) {
 
 TEST(PartialPlan, IsNotTakenUnlessAskedFor) {
   const RrtPlannerOptions options{.trees = 2, .iterations = 200};
-  EXPECT_EQ(MakePlan(BeforeAWall(), options).status, PlanStatus::kBudgetUsedUp);
+  EXPECT_EQ(MakePlan(BeforeAWall(), options)->status, PlanStatus::kBudgetUsedUp);
   RrtPlannerOptions never = options;
   never.partial = false;
   never.time_limit = 1.0;
   EXPECT_FALSE(MayBePartial(never));
-  EXPECT_EQ(MakePlan(BeforeAWall(), never).status, PlanStatus::kBudgetUsedUp);
+  EXPECT_EQ(MakePlan(BeforeAWall(), never)->status, PlanStatus::kBudgetUsedUp);
   RrtPlannerOptions limited = options;
   limited.time_limit = 1.0;
   EXPECT_TRUE(MayBePartial(limited));
-  EXPECT_FALSE(MakePlan(BeforeAWall(), limited).partial.empty());
+  EXPECT_FALSE(MakePlan(BeforeAWall(), limited)->partial.empty());
 }
 
 TEST(PartialPlan, IsNoneWhereTheGoalIsReached) {
@@ -204,12 +206,13 @@ TEST(PartialPlan, IsNoneWhereTheGoalIsReached) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.partial, "");
   EXPECT_EQ(plan.reference.path.segments(),
-            MakePlan(request, RrtPlannerOptions{}).reference.path.segments());
+            MakePlan(request, RrtPlannerOptions{})->reference.path.segments());
 }
 
 TEST(PartialPlan, IsNoneTowardABlockedWaypoint) {
   const PlanRequest request = To({{50.0, 0.0}}, {{{50.0, 1.0, 0.0}, 2.0, 2.0}});
-  EXPECT_EQ(MakePlan(request, RrtPlannerOptions{.partial = true}).status, PlanStatus::kGoalBlocked);
+  EXPECT_EQ(MakePlan(request, RrtPlannerOptions{.partial = true})->status,
+            PlanStatus::kGoalBlocked);
 }
 
 TEST(PartialPlan, IsNoneWhereTheCarWouldStayWhereItIs) {
@@ -230,7 +233,7 @@ TEST(PartialPlan, OfSamplesAloneIsTheSameEveryTime) {
   EXPECT_EQ(DiagnosticsJson(first), DiagnosticsJson(second));
 }
 
-/// A clock that goes on by `step` whenever it is read.
+/// A clock that advances by `step` on every read.
 std::function<double()> Clock(double step) {
   return [time = 0.0, step]() mutable { return time += step; };
 }
@@ -241,11 +244,12 @@ TEST(TimeLimit, EndsTheTreeAndLeadsToItsNearestNode) {
   const Plan limited = MakePlan(request, RrtPlannerOptions{.time_limit = 64.0 / 1024.0});
   ASSERT_TRUE(limited.ok()) << limited.reason;
   EXPECT_THAT(limited.partial, HasSubstr("the nearest feasible path of 1 tree in 0.0625 s"));
-  // Read once at the start, then before every iteration: that after 63 is told that time is over.
+  // The planner reads the clock at the start and before every iteration. The time is over before
+  // the 64th.
   const auto leg = DiagnosticsJson(limited)["legs"].at(0);
   EXPECT_EQ(leg["status"], "stopped");
   EXPECT_EQ(leg["iterations"], 63);
-  // So many samples give the same plan.
+  // The same number of samples without a clock gives the same plan.
   const Plan counted =
       MakePlan(request, RrtPlannerOptions{.trees = 1, .iterations = 63, .partial = true});
   EXPECT_EQ(limited.reference.path.segments(), counted.reference.path.segments());
@@ -255,7 +259,7 @@ TEST(TimeLimit, KeepsTheWayThatWasFoundBefore) {
   PlanRequest request = To({{50.0, 0.0}}, {{{25.0, 0.0, 0.0}, 6.0, 6.0}});
   const Plan one = MakePlan(request, RrtPlannerOptions{.trees = 1});
   ASSERT_TRUE(one.ok()) << one.reason;
-  // Enough for the first tree, none for the second.
+  // Enough time for the first tree, none for the second.
   const double samples = DiagnosticsJson(one)["legs"].at(0)["iterations"];
   request.clock = Clock(1.0);
   const Plan limited = MakePlan(request, RrtPlannerOptions{.time_limit = samples + 2.0});
@@ -275,14 +279,14 @@ TEST(TimeLimit, WithoutPartialPlansIsAReasonToRefuse) {
 }
 
 TEST(TimeLimit, IsKeptByTheCallersClockAlone) {
-  // Less than any tree takes: without a clock, or with one that stands, it changes nothing.
+  // A limit below the time of any tree has no effect without a clock or with a stopped clock.
   PlanRequest request = To({{50.0, 0.0}}, {{{25.0, 0.0, 0.0}, 6.0, 6.0}});
   const Plan without = MakePlan(request, RrtPlannerOptions{});
   const RrtPlannerOptions limited{.time_limit = 1e-9};
-  EXPECT_EQ(MakePlan(request, limited).reference.path.segments(),
+  EXPECT_EQ(MakePlan(request, limited)->reference.path.segments(),
             without.reference.path.segments());
   request.clock = Clock(0.0);
-  EXPECT_EQ(MakePlan(request, limited).reference.path.segments(),
+  EXPECT_EQ(MakePlan(request, limited)->reference.path.segments(),
             without.reference.path.segments());
 }
 
@@ -297,7 +301,7 @@ TEST(PartialPlan, IsNoDetour) {
   request.station = 20.0;
   request.route_station = 20.0;
   request.station_speed = 3.0;
-  // Across the way and all around.
+  // A wall across the whole sampled area.
   request.obstacles = {{{60.0, 0.0, 0.0}, 1.0, 200.0}};
   const Detour detour = PlanDetour(
       request, RrtPlannerOptions{.trees = 1, .iterations = 500, .partial = true}, {.attempts = 1});

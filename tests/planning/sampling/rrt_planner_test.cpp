@@ -19,7 +19,7 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/world/world.h"
 
-// What is the RRT planner's own; what every planner owes its caller is in route_planners_test.cpp.
+// Tests specific to the RRT planner; route_planners_test.cpp tests the guarantees of every planner.
 namespace trackbed {
 namespace {
 
@@ -34,13 +34,13 @@ PlanRequest Across(std::vector<OrientedBox> obstacles) {
   return request;
 }
 
-/// As wide to the left as to the right.
+/// A box centered on the route, equally wide to the left and to the right.
 PlanRequest BoxInTheMiddle() {
   return Across({{{25.0, 0.0, 0.0}, 6.0, 6.0}});
 }
 
-/// Wind with the car on one side of the way and against it on the other, of 9 m/s: at 3 m/s that
-/// counts three times the length.
+/// Wind of 9 m/s, tailwind on one side of the route and headwind on the other. At 3 m/s it changes
+/// the cost by three times the length.
 Wind Layers(double left) {
   const auto layer = [](double y, double speed) {
     return Gust{.velocity = {speed, 0.0},
@@ -73,7 +73,7 @@ TEST(RrtPlanner, DoesNotLookAtWindOfNoWeight) {
   request.wind = Layers(1.0);
   const Plan ignored = MakePlan(request, RrtPlannerOptions{.wind_weight = 0.0});
   EXPECT_EQ(ignored.reference.path.segments(), calm.reference.path.segments());
-  EXPECT_NE(MakePlan(request, RrtPlannerOptions{}).reference.path.segments(),
+  EXPECT_NE(MakePlan(request, RrtPlannerOptions{})->reference.path.segments(),
             calm.reference.path.segments());
 }
 
@@ -103,11 +103,11 @@ TEST(RrtPlanner, BeginsStraightOn) {
   const Plan plan = MakePlan(request, RrtPlannerOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_NEAR(AngleDifference(plan.reference.path.At(0.0).pose.yaw, 0.4), 0.0, Tolerance(1e-9));
-  // Without a lead-in it would begin along its first leg, whichever way the car stands.
+  // Without a lead-in the path begins along its first leg, regardless of the car's heading.
   const Plan without = MakePlan(request, RrtPlannerOptions{.lead_in = 0.0});
   EXPECT_FALSE(without.ok());
   EXPECT_NE(without.reason.find("initial heading error"), std::string::npos) << without.reason;
-  // No further than half way.
+  // The lead-in is limited to half the distance to the goal.
   request.obstacles.clear();
   request.start.yaw = 0.0;
   request.waypoints.back() = {6.0, 0.0};
@@ -117,14 +117,14 @@ TEST(RrtPlanner, BeginsStraightOn) {
 }
 
 TEST(RrtPlanner, BeginsAsFarStraightOnAsThereIsRoomFor) {
-  // A rolling car is too near its first corner at the end of the default lead-in, and a lead-in
-  // that it can stop on ends 15.8 m from its rear axle, 4.6 m before a box. A shorter one does.
+  // With the default lead-in, the rolling car is too near its first corner. A lead-in that it can
+  // stop on ends 15.8 m from its rear axle, 4.6 m before a box. A shorter one fits.
   PlanRequest request = Across({{{22.39, 0.0, 0.0}, 4.0, 4.0}, {{40.0, 5.0, 0.0}, 4.0, 4.0}});
   request.speed.speed = request.start_speed = 4.48;
   RrtPlannerOptions options{.trees = 3};
   const Plan plan = MakePlan(request, options);
   EXPECT_TRUE(plan.ok()) << plan.reason;
-  // A car at rest needs none of them.
+  // A car at rest needs no longer lead-in.
   request.start_speed = 0.0;
   EXPECT_TRUE(MakePlan(request, options).ok());
 }
@@ -165,7 +165,7 @@ TEST(RrtPlanner, GivesItsTree) {
 }
 
 TEST(RrtPlanner, TellsHowFarItCame) {
-  // A wall right across everything that is sampled.
+  // A wall across the whole sampled area.
   PlanRequest request = Across({{{30.0, 0.0, 0.0}, 1.0, 200.0}});
   const Plan plan = MakePlan(request, RrtPlannerOptions{.trees = 2, .iterations = 2000});
   EXPECT_EQ(plan.status, PlanStatus::kBudgetUsedUp);
@@ -173,7 +173,7 @@ TEST(RrtPlanner, TellsHowFarItCame) {
   const auto leg = DiagnosticsJson(plan)["legs"].at(0);
   EXPECT_EQ(leg["status"], "iterations");
   EXPECT_EQ(leg["iterations"], 2000);
-  // The wall is 29.5 m off, and 2.16 m are kept from it.
+  // The near side of the wall is at 29.5 m, and the tree keeps 2.16 m from it.
   const double reached = leg["path_m"].back()[0];
   EXPECT_GT(reached, 25.0);
   EXPECT_LE(reached, 29.5 - 2.16);
@@ -181,7 +181,8 @@ TEST(RrtPlanner, TellsHowFarItCame) {
 }
 
 TEST(RrtPlanner, TellsOfTheTreeThatCameNearest) {
-  // Behind the wall nothing is reached; the first of eight trees are those of fewer.
+  // The goal behind the wall is unreachable. Runs with more trees contain the trees of runs with
+  // fewer.
   const PlanRequest request = Across({{{30.0, 0.0, 0.0}, 1.0, 200.0}});
   std::vector<double> left;
   for (int trees = 1; trees <= 8; ++trees) {
@@ -224,7 +225,7 @@ TEST(RrtPlanner, IsClearOrSaysWhyNotInRandomFields) {
       const PathPoint point = path.At(s);
       ASSERT_LE(std::abs(point.curvature), 1.0 / ReferenceCar().min_turning_radius() + 1e-12);
       for (const OrientedBox& box : request.obstacles) {
-        // Between its own checks the footprint's farthest corner may come 1.8 cm nearer.
+        // Between the planner's own checks the footprint's farthest corner may come 1.8 cm nearer.
         ASSERT_GE(Separation(FootprintAt(ReferenceCar(), point.pose), box), 0.3 - Tolerance(0.018));
       }
     }
@@ -244,7 +245,7 @@ TEST(RoutePlanners, RefuseARouteThatBeginsWhereTheCarStands) {
   request.waypoints = {{-5.0, 0.0}, {0.0, 0.0}, {20.0, 0.0}};
   for (const PlannerEntry& entry : Planners()) {
     if (entry.keeps_clear) {
-      EXPECT_EQ(MakePlan(request, entry.defaults).status, PlanStatus::kDuplicateWaypoints)
+      EXPECT_EQ(MakePlan(request, entry.defaults)->status, PlanStatus::kDuplicateWaypoints)
           << entry.name;
     }
   }

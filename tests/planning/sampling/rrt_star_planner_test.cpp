@@ -13,14 +13,14 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
 
-// What is the RRT* planner's own: the trees are tested in rrt_star_test.cpp, what every planner
-// owes its caller in route_planners_test.cpp.
+// Tests specific to the RRT* planner. rrt_star_test.cpp tests the trees, route_planners_test.cpp
+// the guarantees of every planner.
 namespace trackbed {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// A wall with its end 5 m to the left of the line to the goal, and far more to its right.
+/// A wall that ends 5 m to the left of the line to the goal and extends far to its right.
 PlanRequest AroundAWall() {
   PlanRequest request;
   request.vehicle = ReferenceCar();
@@ -30,19 +30,19 @@ PlanRequest AroundAWall() {
   return request;
 }
 
-/// The shortest path of a point that keeps off the end of that wall, from `lead` on: two tangents
-/// to the circle around the end, and the arc between them.
+/// Length of the shortest path of a point from the end of the lead-in, at x = `lead`, around the
+/// wall's inflated end: two tangents to the circle around the end, and the arc between them.
 double ShortestAround(double lead, double inflation) {
   const double from = std::hypot(30.0 - lead, 5.0);
   const double to = std::hypot(30.0, 5.0);
   const double turn = std::acos(inflation / from) + std::acos(inflation / to);
-  // Seen from the wall's end, which lies above the line by 5 m.
+  // Angles at the wall's end, which lies 5 m above the line.
   const double between = std::atan2(30.0 - lead, 5.0) + std::atan2(30.0, 5.0);
   return std::sqrt(from * from - inflation * inflation) +
          std::sqrt(to * to - inflation * inflation) + inflation * (2.0 * M_PI - between - turn);
 }
 
-/// Of a tree that reached its goals, whether the car can drive its path or not.
+/// Length of the tree's path, whether the car can follow it or not.
 double TreeLength(const Plan& plan) {
   const nlohmann::json own = DiagnosticsJson(plan);
   double length = 0.0;
@@ -68,7 +68,7 @@ TEST(RrtStarPlanner, MoreSamplesNeverLengthenTheTreesPathAndComeNearTheShortest)
       EXPECT_GE(length, shortest - Tolerance(1e-9));
       before = length;
     }
-    // That of 20000 samples on other maps is within 3 % (rrt_star_test.cpp).
+    // 20000 samples on other maps come within 3 % (rrt_star_test.cpp).
     EXPECT_LE(before, shortest * (1.0 + Tolerance(0.03)));
   }
 }
@@ -87,7 +87,7 @@ TEST(RrtStarPlanner, GivesItsTreeAndSaysHowEachOfThemEnded) {
   for (std::size_t i = 0; i < plan.tree.size(); ++i) {
     const TreeNode& node = plan.tree[i];
     const TreeNode& parent = plan.tree.at(node.parent);
-    // Sums of some tens of lengths up to 100 m.
+    // Rounding of sums of some tens of lengths up to 100 m.
     EXPECT_NEAR(node.cost, parent.cost + (node.position - parent.position).norm(),
                 Tolerance(1e-11));
   }
@@ -99,7 +99,7 @@ TEST(RrtStarPlanner, NeedsNoTreeWhereTheStraightLineIsFree) {
   const Plan plan = MakePlan(request, RrtStarPlannerOptions{});
   const auto own = DiagnosticsJson(plan);
   ASSERT_EQ(own["legs"].size(), 3U) << plan.reason;
-  // The first begins behind the lead-in of 4 m.
+  // The first leg begins after the lead-in of 4 m.
   EXPECT_NEAR(own["legs"][0]["cost_m"].get<double>(), 8.0, Tolerance(1e-12));
   EXPECT_NEAR(own["legs"][2]["cost_m"].get<double>(), 20.0, Tolerance(1e-12));
   for (const std::size_t free : {0U, 2U}) {
@@ -112,7 +112,7 @@ TEST(RrtStarPlanner, NeedsNoTreeWhereTheStraightLineIsFree) {
 
 TEST(RrtStarPlanner, SaysHowNearItCame) {
   PlanRequest request = AroundAWall();
-  // No sample lies beyond the ends of the wall.
+  // The sampled area does not reach beyond the ends of the wall.
   request.obstacles = {{{30.0, 0.0, 0.0}, 1.0, 200.0}};
   const Plan plan =
       MakePlan(request, RrtStarPlannerOptions{.margin = 1.0, .trees = 2, .iterations = 300});
@@ -137,6 +137,21 @@ TEST(RrtStarPlanner, BeginsStraightOn) {
   const Plan plan = MakePlan(request, RrtStarPlannerOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_NEAR(plan.reference.path.At(0.0).pose.yaw, 0.4, Tolerance(1e-9));
+}
+
+TEST(RrtStarPlanner, DrawsNoMoreSamplesThanTheRequestAllows) {
+  PlanRequest request = AroundAWall();
+  const RrtStarPlannerOptions options{.trees = 50, .iterations = 4000};
+  request.max_samples = 10;
+  const Plan refused = MakePlan(request, options);
+  EXPECT_EQ(refused.status, PlanStatus::kBudgetUsedUp);
+  EXPECT_EQ(refused.diagnostics.samples, 10);
+  EXPECT_NE(refused.reason.find("not reached by 10 samples, the last of those allowed"),
+            std::string::npos)
+      << refused.reason;
+  request.max_samples = 3000;
+  const Plan plan = MakePlan(request, options);
+  EXPECT_LE(plan.diagnostics.samples, 3000);
 }
 
 }  // namespace
