@@ -11,7 +11,7 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/text_table.h"
 
-// Solutions of CommonRoad: a trajectory of states for each planning problem.
+// Solutions of CommonRoad: one trajectory of states per planning problem.
 namespace trackbed {
 namespace {
 
@@ -49,7 +49,7 @@ double Required(const XMLElement& state, const char* name, double largest,
   return *number;
 }
 
-/// The element of the trajectory, such as ksTrajectory.
+/// The trajectory's element, such as ksTrajectory.
 const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
   const XMLElement* first = nullptr;
   for (const XMLElement* child = root.FirstChildElement(); child != nullptr;
@@ -86,12 +86,13 @@ PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& te
   PathPoints& points = found.points;
   for (const XMLElement* state = trajectory->FirstChildElement(); state != nullptr;
        state = state->NextSiblingElement()) {
-    points.points.emplace_back(Required(*state, "x", kFarthest, file),
-                               Required(*state, "y", kFarthest, file));
-    // A point mass has the velocity along both axes instead of an orientation.
-    const auto vx = Number(*state, "xVelocity", kFastest, file);
-    const auto vy = Number(*state, "yVelocity", kFastest, file);
-    const auto speed = Number(*state, "velocity", kFastest, file);
+    points.points.emplace_back(Required(*state, "x", kMaxPosition, file),
+                               Required(*state, "y", kMaxPosition, file));
+    points.lines.push_back(state->GetLineNum());
+    // A point-mass state has velocities along both axes instead of an orientation.
+    const auto vx = Number(*state, "xVelocity", kMaxPathSpeed, file);
+    const auto vy = Number(*state, "yVelocity", kMaxPathSpeed, file);
+    const auto speed = Number(*state, "velocity", kMaxPathSpeed, file);
     if (const auto yaw = Number(*state, "orientation", 1e6, file)) {
       points.yaw.push_back(*yaw);
     }
@@ -102,7 +103,7 @@ PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& te
       }
       points.speed.push_back(*speed);
     } else if (vx && vy) {
-      points.speed.push_back(std::min(std::hypot(*vx, *vy), kFastest));
+      points.speed.push_back(std::min(std::hypot(*vx, *vy), kMaxPathSpeed));
     }
   }
   for (const auto& [list, name] :

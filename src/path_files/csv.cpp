@@ -17,13 +17,16 @@
 #include "trackbed/core/table.h"
 #include "trackbed/core/text_table.h"
 
-// Tables with a header line of names, which may stand behind a '#'.
+// Reads paths from tables with a header line of column names, which may be commented out by '#'.
+// Columns are found by their usual names (PathColumnNames) or by the caller's, and converted to SI
+// units. Problems are collected with their line and column. Times become speeds if there is no
+// speed column.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The value of one of a unit in SI units.
+/// The value of one `unit` in SI units.
 double InSi(const std::string& unit) {
   static const std::vector<std::pair<std::string, double>> units{
       {"m", 1.0},       {"cm", 0.01},         {"mm", 0.001}, {"km", 1000.0},
@@ -35,7 +38,7 @@ double InSi(const std::string& unit) {
   return found->second;
 }
 
-/// The character between the cells of the first line that is no comment.
+/// The delimiter of the first line that is not a comment.
 char FindDelimiter(const fs::path& file) {
   char delimiter = ',';
   std::string begin;
@@ -62,7 +65,7 @@ char FindDelimiter(const fs::path& file) {
   return delimiter;
 }
 
-/// Of a quantity.
+/// Column of a quantity.
 struct Column {
   std::size_t index;
   double factor;  // to SI units
@@ -74,7 +77,8 @@ enum Quantity { kX, kY, kYaw, kCurvature, kSpeed, kTime, kQuantities };
 
 class CsvPath {
  public:
-  CsvPath(const fs::path& file, const PathColumns& asked) : file_(file), asked_(asked) {}
+  CsvPath(const fs::path& file, const PathColumns& requested)
+      : file_(file), requested_(requested) {}
 
   PathFile Read() {
     const char delimiter = FindDelimiter(file_);
@@ -140,12 +144,12 @@ class CsvPath {
       }
     }
     const std::array<std::pair<const char*, const std::optional<std::string>*>, kQuantities>
-        quantities{{{"x", &asked_.x},
-                    {"y", &asked_.y},
-                    {"yaw", &asked_.yaw},
-                    {"curvature", &asked_.curvature},
-                    {"speed", &asked_.speed},
-                    {"time", &asked_.time}}};
+        quantities{{{"x", &requested_.x},
+                    {"y", &requested_.y},
+                    {"yaw", &requested_.yaw},
+                    {"curvature", &requested_.curvature},
+                    {"speed", &requested_.speed},
+                    {"time", &requested_.time}}};
     for (std::size_t i = 0; i < kQuantities; ++i) {
       Find(static_cast<Quantity>(i), quantities[i].first, *quantities[i].second, line);
     }
@@ -160,40 +164,40 @@ class CsvPath {
       }
     }
     found_.notes.push_back(fmt::format("CSV, columns {}", fmt::join(used, ", ")));
-    TakeTumHeading();
+    ConvertTumHeading();
   }
 
-  /// The racing lines of TUM count their heading from north.
-  void TakeTumHeading() {
+  /// TUM's racing lines measure headings from north.
+  void ConvertTumHeading() {
     const auto has = [&](const char* name) {
       return std::find(names_.begin(), names_.end(), name) != names_.end();
     };
-    if (columns_[kYaw] && names_[columns_[kYaw]->index] == "psi_rad" && !asked_.yaw && has("s_m") &&
-        has("kappa_radpm") && has("vx_mps")) {
+    if (columns_[kYaw] && names_[columns_[kYaw]->index] == "psi_rad" && !requested_.yaw &&
+        has("s_m") && has("kappa_radpm") && has("vx_mps")) {
       columns_[kYaw]->offset = 0.5 * kPi;
       found_.notes.emplace_back("psi_rad is taken from north, as in TUM's racing lines");
     }
   }
 
-  void Find(Quantity quantity, const char* name, const std::optional<std::string>& asked,
+  void Find(Quantity quantity, const char* name, const std::optional<std::string>& requested,
             int line) {
     std::string unit;
     std::optional<std::size_t> index;
     const auto position = [&](const std::string& wanted) -> std::optional<std::size_t> {
       for (std::size_t i = 0; i < names_.size(); ++i) {
-        if (asked ? names_[i] == wanted : boost::iequals(names_[i], wanted)) {
+        if (requested ? names_[i] == wanted : boost::iequals(names_[i], wanted)) {
           return i;
         }
       }
       return std::nullopt;
     };
-    if (asked) {
-      index = position(*asked);
+    if (requested) {
+      index = position(*requested);
     }
     std::vector<std::string> usual;
     for (const PathColumnName& own : PathColumnNames(name)) {
       usual.emplace_back(own.name);
-      if (!asked && !index) {
+      if (!requested && !index) {
         index = position(own.name);
       }
       if (unit.empty() && index && boost::iequals(names_[*index], own.name)) {
@@ -201,8 +205,9 @@ class CsvPath {
       }
     }
     if (!index) {
-      if (asked) {
-        AddError(line, *asked, fmt::format("no such column {}", UnknownName(*asked, names_)));
+      if (requested) {
+        AddError(line, *requested,
+                 fmt::format("no such column {}", UnknownName(*requested, names_)));
         is_broken_ = true;
       } else if (quantity == kX || quantity == kY) {
         AddError(line, name,
@@ -213,17 +218,17 @@ class CsvPath {
       return;
     }
     const std::string si = PathColumnNames(name).front().unit;
-    const std::optional<std::string>* given = quantity <= kY       ? &asked_.position_unit
-                                              : quantity == kYaw   ? &asked_.yaw_unit
-                                              : quantity == kSpeed ? &asked_.speed_unit
+    const std::optional<std::string>* given = quantity <= kY       ? &requested_.position_unit
+                                              : quantity == kYaw   ? &requested_.yaw_unit
+                                              : quantity == kSpeed ? &requested_.speed_unit
                                                                    : nullptr;
     if (given != nullptr && *given) {
       unit = **given;
     }
-    const double largest = quantity <= kY           ? kFarthest
+    const double largest = quantity <= kY           ? kMaxPosition
                            : quantity == kYaw       ? 1e6
-                           : quantity == kSpeed     ? kFastest
-                           : quantity == kCurvature ? kLargestCurvature
+                           : quantity == kSpeed     ? kMaxPathSpeed
+                           : quantity == kCurvature ? kMaxPathCurvature
                                                     : 1e12;
     columns_[quantity] = Column{*index, InSi(unit.empty() ? si : unit), 0.0, largest};
   }
@@ -233,9 +238,9 @@ class CsvPath {
       AddError(line, "", fmt::format("{} cells, the header has {}", cells.size(), names_.size()));
       return;
     }
-    if (found_.points.points.size() >= kMostPathPoints) {
+    if (found_.points.points.size() >= kMaxPathPoints) {
       is_broken_ = true;
-      AddError(line, "", fmt::format("more than {} points", kMostPathPoints));
+      AddError(line, "", fmt::format("more than {} points", kMaxPathPoints));
       return;
     }
     std::array<double, kQuantities> values{};
@@ -258,6 +263,7 @@ class CsvPath {
     }
     PathPoints& points = found_.points;
     points.points.emplace_back(values[kX], values[kY]);
+    points.lines.push_back(line);
     const auto add = [&](Quantity quantity, std::vector<double>& list) {
       if (columns_[quantity]) {
         list.push_back(values[quantity]);
@@ -270,11 +276,11 @@ class CsvPath {
   }
 
   const fs::path& file_;
-  const PathColumns& asked_;
+  const PathColumns& requested_;
   ProblemList problems_;
   bool is_header_known_ = false;
   bool is_broken_ = false;
-  std::vector<std::string> comment_;  // the last one before the header
+  std::vector<std::string> comment_;  // cells of the last comment before the header
   int comment_line_ = 0;
   std::vector<std::string> names_;
   std::array<std::optional<Column>, kQuantities> columns_;

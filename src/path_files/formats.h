@@ -4,15 +4,29 @@
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "trackbed/path_files/path_file.h"
 
 namespace trackbed {
 
-inline constexpr double kFarthest = 1e7;          ///< distance of a position from the origin [m]
-inline constexpr double kFastest = 100.0;         ///< [m/s]
-inline constexpr double kLargestCurvature = 1e6;  ///< [1/m]
-inline constexpr int kDeepest = 64;               ///< largest nesting depth
+inline constexpr double kMaxPosition = 1e7;       ///< distance of a position from the origin [m]
+inline constexpr double kMaxPathSpeed = 100.0;    ///< [m/s]
+inline constexpr double kMaxPathCurvature = 1e6;  ///< [1/m]
+inline constexpr int kMaxDepth = 64;              ///< largest nesting depth
+
+/// A format of path files.
+struct PathFormatEntry {
+  PathFormat format = PathFormat::kAuto;
+  const char* name = "";                                        ///< value of the key `format`
+  const char* description = "";                                 ///< for users
+  std::vector<std::string> endings{};                           ///< of files, in lower case
+  bool (*may_be)(const std::filesystem::path& file) = nullptr;  ///< by its content; null: yes
+  PathFile (*read)(const std::filesystem::path& file, const PathMap& map) = nullptr;
+};
+
+/// The table of formats, one entry each. Files with an ending that is not listed have the first.
+const std::vector<PathFormatEntry>& PathFormats();
 
 PathFile ReadPathCsv(const std::filesystem::path& file, const PathColumns& columns);
 /// Reads a nav_msgs/Path, or a message with a nav_msgs/Path as member `path`.

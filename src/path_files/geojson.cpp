@@ -129,9 +129,9 @@ void Project(std::vector<Vec2>& positions, const Found& line, const PathMap& map
     const Vec2 degrees = positions[i];
     positions[i] = projection.ToMeters(degrees.x(), degrees.y());
     // Farther east, the scale error of the projection exceeds 1/1000 (300 km: 1.0011).
-    constexpr double kFarthestEast = 3e5;
-    if (!positions[i].allFinite() || std::abs(positions[i].x()) > kFarthestEast ||
-        std::abs(positions[i].y()) > kFarthest) {
+    constexpr double kMaxEasting = 3e5;
+    if (!positions[i].allFinite() || std::abs(positions[i].x()) > kMaxEasting ||
+        std::abs(positions[i].y()) > kMaxPosition) {
       Refuse(file, fmt::format("{}[{}]", line.key, i),
              fmt::format("({}, {}) is too far from the origin of the projection, ({}, {})",
                          degrees.x(), degrees.y(), longitude, latitude));
@@ -153,7 +153,7 @@ PathFile ReadGeoJson(const std::filesystem::path& path, const json& root, const 
       map.coordinates == PathCoordinates::kWgs84 ||
       (map.coordinates == PathCoordinates::kAuto && (!system || IsWgs84(*system)));
   PathFile found;
-  found.points.points = Positions(line, file, kFarthest);
+  found.points.points = Positions(line, file, kMaxPosition);
   if (found.points.points.empty()) {
     Refuse(file, line.key, "has no positions");
   }

@@ -65,8 +65,8 @@ class JsonOfYaml : public YAML::EventHandler {
     if (!open_.empty() && open_.back().value.is_object() && !open_.back().key) {
       Fail(mark, "a list or section as a key");
     }
-    if (open_.size() == kDeepest) {
-      Fail(mark, fmt::format("nested deeper than {} levels", kDeepest));
+    if (open_.size() == kMaxDepth) {
+      Fail(mark, fmt::format("nested deeper than {} levels", kMaxDepth));
     }
     open_.push_back({std::move(value), {}, mark});
   }
@@ -98,9 +98,9 @@ class JsonOfYaml : public YAML::EventHandler {
 json ParseJsonText(const std::string& text, const std::string& file) {
   try {
     return json::parse(text, [&](int depth, json::parse_event_t /*event*/, const json& /*value*/) {
-      if (depth > kDeepest) {
-        throw InputError(Problem{.file = file,
-                                 .message = fmt::format("nested deeper than {} levels", kDeepest)});
+      if (depth > kMaxDepth) {
+        throw InputError(Problem{
+            .file = file, .message = fmt::format("nested deeper than {} levels", kMaxDepth)});
       }
       return true;
     });

@@ -55,8 +55,8 @@ PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
     const json& position = Member(pose, "position", key, file);
     const std::string place = key + ".position";
     found.points.points.emplace_back(
-        NumberOf(Member(position, "x", place, file), place + ".x", kFarthest, file),
-        NumberOf(Member(position, "y", place, file), place + ".y", kFarthest, file));
+        NumberOf(Member(position, "x", place, file), place + ".x", kMaxPosition, file),
+        NumberOf(Member(position, "y", place, file), place + ".y", kMaxPosition, file));
     if (pose.contains("orientation")) {
       found.points.yaw.push_back(Yaw(pose["orientation"], key + ".orientation", file));
       ++oriented;

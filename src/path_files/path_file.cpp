@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLargestText = std::size_t{16} << 20U;
+constexpr std::size_t kMaxTextBytes = std::size_t{16} << 20U;
 
 std::string Ending(const fs::path& file) {
   std::string ending = file.extension().string();
@@ -25,42 +25,83 @@ std::string Ending(const fs::path& file) {
   return ending;
 }
 
-/// By the ending; of .json by what it holds. Other endings are tables.
-PathFormat FormatOf(const fs::path& file) {
+/// Whether a .json file holds GeoJSON and not a nav_msgs/Path.
+bool HoldsGeoJson(const fs::path& file) {
+  const nlohmann::json value = ParseJsonText(ReadFile(file, kMaxTextBytes), file.string());
+  return value.is_object() && value.contains("type") && !value.contains("poses");
+}
+
+bool MayBeNavPath(const fs::path& file) {
+  return Ending(file) != ".json" || !HoldsGeoJson(file);
+}
+
+PathFile ReadAsNavPath(const fs::path& file, const PathMap& /*map*/) {
+  const std::string text = ReadFile(file, kMaxTextBytes);
+  const bool is_json = Ending(file) == ".json";
+  return ReadNavPath(
+      file, is_json ? ParseJsonText(text, file.string()) : ParseYamlText(text, file.string()));
+}
+
+/// The format of a file by its ending and content; the first format for other endings.
+const PathFormatEntry& FormatOf(const fs::path& file) {
   const std::string ending = Ending(file);
-  if (ending == ".xml") {
-    return PathFormat::kCommonRoad;
+  for (const PathFormatEntry& entry : PathFormats()) {
+    const bool has_ending =
+        std::find(entry.endings.begin(), entry.endings.end(), ending) != entry.endings.end();
+    if (has_ending && (entry.may_be == nullptr || entry.may_be(file))) {
+      return entry;
+    }
   }
-  if (ending == ".geojson") {
-    return PathFormat::kGeoJson;
-  }
-  return ending == ".yaml" || ending == ".yml" || ending == ".json" ? PathFormat::kNavPath
-                                                                    : PathFormat::kCsv;
+  return PathFormats().front();
 }
 
 PathFile Read(const fs::path& file, const PathMap& map) {
-  const std::string name = file.string();
-  const PathFormat format = map.format == PathFormat::kAuto ? FormatOf(file) : map.format;
-  if (format == PathFormat::kCsv) {
-    return ReadPathCsv(file, map.columns);
+  if (map.format == PathFormat::kAuto) {
+    return FormatOf(file).read(file, map);
   }
-  const std::string text = ReadFile(file, kLargestText);
-  if (format == PathFormat::kCommonRoad) {
-    return ReadCommonRoad(file, text);
-  }
-  if (format == PathFormat::kGeoJson) {
-    return ReadGeoJson(file, ParseJsonText(text, name), map);
-  }
-  if (Ending(file) != ".json") {
-    return ReadNavPath(file, ParseYamlText(text, name));
-  }
-  const nlohmann::json value = ParseJsonText(text, name);
-  const bool is_geographic = map.format == PathFormat::kAuto && value.is_object() &&
-                             value.contains("type") && !value.contains("poses");
-  return is_geographic ? ReadGeoJson(file, value, map) : ReadNavPath(file, value);
+  const std::vector<PathFormatEntry>& formats = PathFormats();
+  const auto given =
+      std::find_if(formats.begin(), formats.end(),
+                   [&](const PathFormatEntry& entry) { return entry.format == map.format; });
+  TRACKBED_CHECK(given != formats.end(), "no format {}", static_cast<int>(map.format));
+  return given->read(file, map);
 }
 
 }  // namespace
+
+const std::vector<PathFormatEntry>& PathFormats() {
+  static const std::vector<PathFormatEntry> formats{
+      {.format = PathFormat::kCsv,
+       .name = "csv",
+       .description = "CSV",
+       .read = [](const fs::path& file,
+                  const PathMap& map) { return ReadPathCsv(file, map.columns); }},
+      {.format = PathFormat::kNavPath,
+       .name = "nav_path",
+       .description = "nav_msgs/Path (YAML, JSON)",
+       .endings = {".yaml", ".yml", ".json"},
+       .may_be = MayBeNavPath,
+       .read = ReadAsNavPath},
+      {.format = PathFormat::kCommonRoad,
+       .name = "commonroad",
+       .description = "CommonRoad solution",
+       .endings = {".xml"},
+       .read =
+           [](const fs::path& file, const PathMap& /*map*/) {
+             return ReadCommonRoad(file, ReadFile(file, kMaxTextBytes));
+           }},
+      {.format = PathFormat::kGeoJson,
+       .name = "geojson",
+       .description = "GeoJSON",
+       .endings = {".geojson", ".json"},
+       .read =
+           [](const fs::path& file, const PathMap& map) {
+             return ReadGeoJson(file, ParseJsonText(ReadFile(file, kMaxTextBytes), file.string()),
+                                map);
+           }},
+  };
+  return formats;
+}
 
 void Refuse(const fs::path& file, const std::string& key, std::string message, int line) {
   throw InputError(
@@ -70,16 +111,19 @@ void Refuse(const fs::path& file, const std::string& key, std::string message, i
 void AddSpeeds(PathPoints& points, const std::vector<double>& times, const std::string& file) {
   for (std::size_t i = 0; i + 1 < times.size(); ++i) {
     const double duration = times[i + 1] - times[i];
+    const int line = points.lines.empty() ? 0 : points.lines[i + 1];
     if (duration <= 0.0) {
       Refuse(file, "time",
              fmt::format("{} s of point {} must be above the previous point's {} s", times[i + 1],
-                         i + 2, times[i]));
+                         i + 2, times[i]),
+             line);
     }
     const double speed = (points.points[i + 1] - points.points[i]).norm() / duration;
-    if (speed > kFastest) {
+    if (speed > kMaxPathSpeed) {
       Refuse(file, "time",
              fmt::format("{:.4g} m/s from point {} to the next; must be at most {} m/s", speed,
-                         i + 1, kFastest));
+                         i + 1, kMaxPathSpeed),
+             line);
     }
     points.speed.push_back(speed);
   }
@@ -90,7 +134,7 @@ void AddSpeeds(PathPoints& points, const std::vector<double>& times, const std::
 
 bool IsNavPathYaml(const fs::path& file) {
   try {
-    const nlohmann::json root = ParseYamlText(ReadFile(file, kLargestText), file.string());
+    const nlohmann::json root = ParseYamlText(ReadFile(file, kMaxTextBytes), file.string());
     const auto has_poses = [](const nlohmann::json& node) {
       return node.is_object() && node.contains("poses");
     };

@@ -4,9 +4,32 @@
 #include <string_view>
 #include <utility>
 
+#include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
+
+namespace {
+
+EnumNames<PathFormat> FormatNames() {
+  EnumNames<PathFormat> names{{PathFormat::kAuto, "auto"}};
+  for (const PathFormatEntry& entry : PathFormats()) {
+    names.emplace_back(entry.format, entry.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string PathFormatList() {
+  const std::vector<PathFormatEntry>& formats = PathFormats();
+  std::string list;
+  for (std::size_t i = 0; i < formats.size(); ++i) {
+    const char* separator = i == 0 ? "" : i + 1 == formats.size() ? " or " : ", ";
+    list += std::string(separator) + formats[i].description;
+  }
+  return list;
+}
 
 void Visit(KeyVisitor& keys, PathColumns& columns) {
   keys.Field({"x", "", "column of the position; default: x_m, x or another usual name"}, columns.x);
@@ -34,15 +57,10 @@ void Visit(KeyVisitor& keys, PathColumns& columns) {
 }
 
 void Visit(KeyVisitor& keys, PathMap& map) {
-  static const EnumNames<PathFormat> formats{{PathFormat::kAuto, "auto"},
-                                             {PathFormat::kCsv, "csv"},
-                                             {PathFormat::kNavPath, "nav_path"},
-                                             {PathFormat::kCommonRoad, "commonroad"},
-                                             {PathFormat::kGeoJson, "geojson"}};
-  keys.Field({"format", "",
-              "of the file: a table, nav_msgs/Path as YAML or JSON, a CommonRoad solution or a "
-              "GeoJSON line string; auto: by its ending and content"},
-             map.format, Need::kOptional, formats);
+  static const EnumNames<PathFormat> formats = FormatNames();
+  static const std::string text =
+      "of the file: " + PathFormatList() + "; auto: by its ending and content";
+  keys.Field({"format", "", text.c_str()}, map.format, Need::kOptional, formats);
   keys.Section({"columns", "", "columns of a CSV file"}, map.columns);
   static const EnumNames<PathCoordinates> coordinates{{PathCoordinates::kAuto, "auto"},
                                                       {PathCoordinates::kWgs84, "wgs84"},

@@ -12,6 +12,8 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
+// Tests the readers of path files (CSV, nav_msgs/Path, CommonRoad, GeoJSON): units, columns, errors
+// with their lines, limits, and arbitrary bytes.
 namespace trackbed {
 namespace {
 
@@ -80,7 +82,7 @@ TEST(PathCsv, ReadsRacingLinesOfTum) {
   EXPECT_EQ(file.points.points[1], Vec2(1.0, 7.0));
   EXPECT_EQ(file.points.curvature, (std::vector<double>{0.01, 0.02}));
   EXPECT_EQ(file.points.speed, (std::vector<double>{20.0, 21.0}));
-  // Headings from north: the line leads north.
+  // Headings are measured from north, and the line points north.
   EXPECT_NEAR(file.points.yaw[0], 0.5 * kPi, Tolerance(1e-15));
   EXPECT_THAT(file.notes.back(), HasSubstr("from north"));
   EXPECT_EQ(Read("track.csv", "# x_m,y_m,w_tr_right_m,w_tr_left_m\n0,0,5,5\n5,0,5,5\n").points[1],
@@ -133,12 +135,12 @@ TEST(PathCsv, SaysWhatIsWrong) {
 
 TEST(PathCsv, IsBoundedInPoints) {
   std::string text = "x,y\n";
-  for (std::size_t i = 0; i <= kMostPathPoints; ++i) {
+  for (std::size_t i = 0; i <= kMaxPathPoints; ++i) {
     text += i % 2 == 0 ? "0,0\n" : "1,0\n";
   }
   EXPECT_THAT(Error("p.csv", text), HasSubstr("more than 1000000 points"));
   text.resize(text.size() - 4);
-  EXPECT_EQ(Read("p.csv", text).points.size(), kMostPathPoints);
+  EXPECT_EQ(Read("p.csv", text).points.size(), kMaxPathPoints);
 }
 
 // --- nav_msgs/Path -------------------------------------------------------------------------------
@@ -153,7 +155,7 @@ std::string Pose(double x, double y, double yaw) {
 TEST(NavPath, IsReadAsJsonAndYaml) {
   const std::string json = fmt::format(R"({{"header": {{"frame_id": "map"}}, "poses": [{}, {}]}})",
                                        Pose(1.0, 2.0, 0.5), Pose(3.0, 4.0, -2.0));
-  // JSON is YAML; ros2 topic echo writes blocks and ends a message by "---".
+  // JSON is valid YAML; ros2 topic echo writes block style and ends a message with "---".
   const std::string yaml =
       "header:\n  stamp: {sec: 12, nanosec: 5}\n  frame_id: map\nposes:\n"
       "- header: {frame_id: map}\n  pose:\n    position: {x: 1.0, y: 2.0, z: 0.0}\n"
@@ -274,9 +276,10 @@ std::string Line(const std::string& coordinates, const std::string& more = "") {
          coordinates + "}}]}";
 }
 
-// By the formulas for the ellipsoid WGS 84 (a = 6378137 m, e^2 = 0.00669437999): at the latitude
-// phi a degree of latitude is pi/180 a (1 - e^2)/(1 - e^2 sin^2 phi)^1.5, one of longitude pi/180 a
-// cos phi/(1 - e^2 sin^2 phi)^0.5; over 0.001 degrees curvature counts for less than 1 mm.
+// The formulas for the ellipsoid WGS 84 (a = 6378137 m, e^2 = 0.00669437999). At latitude phi, a
+// degree of latitude is pi/180 a (1 - e^2)/(1 - e^2 sin^2 phi)^1.5 and a degree of longitude is
+// pi/180 a cos phi/(1 - e^2 sin^2 phi)^0.5. Over 0.001 degrees the curvature contributes less than
+// 1 mm.
 TEST(GeoJson, ProjectsDegrees) {
   const double phi = 48.1 * kPi / 180.0;
   const double w = 1.0 - 0.00669437999 * std::sin(phi) * std::sin(phi);
@@ -334,7 +337,7 @@ TEST(GeoJson, SaysWhatIsWrong) {
 }
 
 TEST(PathFile, ReadsAnyFormatFromAnyBytes) {
-  // Cut off, and with each byte replaced: a message or a path, and nothing else.
+  // Texts truncated, and with each byte replaced: reading gives an error message or a path.
   const std::vector<std::pair<PathFormat, std::string>> texts{
       {PathFormat::kCsv, "x_m,y_m,speed_mps\n1,2,3\n4,5,6\n"},
       {PathFormat::kNavPath,

@@ -18,6 +18,9 @@ enum class PathFormat {
   kGeoJson,     ///< a line string, RFC 7946
 };
 
+/// The formats for users: "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution or GeoJSON".
+std::string PathFormatList();
+
 /// The columns of a CSV file. Columns without a given name are found by their usual names
 /// (PathColumnNames), ignoring case. Units that are not given follow from the suffix of the
 /// column's name, else SI.

@@ -15,21 +15,23 @@ namespace trackbed {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-6;  // of a limit
-constexpr double kSpacing = 0.05;   // [m]
+constexpr double kRounding = 1e-6;  // relative tolerance of a limit
+constexpr double kSpacing = 0.05;   // [m]; more on a path of more than 20 km
+constexpr double kMaxPieces = 4e5;
 
-/// Limits of 0 are not known, and limit nothing.
+/// A limit of 0 is unknown and becomes infinite.
 double OrInfinite(double limit) {
   return limit > 0.0 ? limit : kInfinity;
 }
 
-/// Joins neighboring pieces that exceed a limit.
+/// Merges adjacent pieces that exceed a limit into one fault.
 class FaultFinder {
  public:
   FaultFinder(PathFaultKind kind, double limit) : kind_(kind), limit_(OrInfinite(limit)) {}
 
-  void Take(const Stations& piece, double asked, const Path& path, std::vector<PathFault>& faults) {
-    if (!(asked > limit_ * (1.0 + kRounding))) {
+  void Take(const Stations& piece, double required, const Path& path,
+            std::vector<PathFault>& faults) {
+    if (!(required > limit_ * (1.0 + kRounding))) {
       is_open_ = false;
       return;
     }
@@ -40,8 +42,8 @@ class FaultFinder {
     is_open_ = true;
     PathFault& fault = faults[index_];
     fault.stations.to = piece.to;
-    if (asked > fault.asked) {
-      fault.asked = asked;
+    if (required > fault.required) {
+      fault.required = required;
       fault.s = piece.from;
       fault.position = path.At(piece.from).pose.position();
     }
@@ -60,15 +62,15 @@ PathCheck Reversed(const FittedPath& fitted, PathCheck check) {
                             .stations = {jump.s, jump.s},
                             .s = jump.s,
                             .position = jump.position,
-                            .asked = std::abs(jump.angle),
-                            .limit = kLargestJump});
+                            .required = std::abs(jump.angle),
+                            .limit = kMaxHeadingJump});
   }
   check.max_speed_station = check.faults.front().s;
   check.max_speed_limit = PathFaultKind::kReversal;
   return check;
 }
 
-/// The demand of a piece, and what limits its speed most.
+/// The demand of a piece, and the limit that restricts its speed most.
 std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const PathPoint& begin,
                                               const VehicleParams& vehicle, double speed,
                                               const PathCheck& limits) {
@@ -138,8 +140,10 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
       check.max_speed_limit = kind;
     }
   };
-  ForEachPiece(path, vehicle, kSpacing, [&](const PathPiece& piece) {
-    // The arc in place of a jump is as tight as the polyline is written, not as it is meant.
+  const double spacing = std::max(kSpacing, path.length() / kMaxPieces);
+  ForEachPiece(path, vehicle, spacing, [&](const PathPiece& piece) {
+    // The arc that replaces a heading jump depends on the spacing of the points, not on the
+    // intended path: report the jump instead of its curvature.
     while (jump != jumps.end() && jump->rounded.to <= piece.stations.from + 1e-9) {
       ++jump;
     }
@@ -148,7 +152,7 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
                               .stations = jump->rounded,
                               .s = jump->s,
                               .position = jump->position,
-                              .asked = std::abs(jump->angle),
+                              .required = std::abs(jump->angle),
                               .limit = 0.0});
       limit_speed(0.0, jump->s, PathFaultKind::kHeadingJump);
       ++jump;
@@ -209,13 +213,13 @@ std::string ToString(const PathFault& fault) {
   const std::string place = fmt::format("at s = {:.4g} m, ({:.6g}, {:.6g})", fault.s,
                                         fault.position.x(), fault.position.y());
   const std::string beyond =
-      fmt::format("{:.3g} {} exceeds {:.3g} {} {}, on {:.3g} m", fault.asked, unit, fault.limit,
+      fmt::format("{:.3g} {} exceeds {:.3g} {} {}, on {:.3g} m", fault.required, unit, fault.limit,
                   unit, place, fault.stations.to - fault.stations.from);
   switch (fault.kind) {
     case PathFaultKind::kReversal:
-      return fmt::format("turns back on itself by {:.3g} rad {}", fault.asked, place);
+      return fmt::format("turns back on itself by {:.3g} rad {}", fault.required, place);
     case PathFaultKind::kHeadingJump:
-      return fmt::format("heading jumps by {:.3g} rad {}", fault.asked, place);
+      return fmt::format("heading jumps by {:.3g} rad {}", fault.required, place);
     case PathFaultKind::kSteeringAngle:
       return "steering angle " + beyond;
     case PathFaultKind::kSteeringRate:

@@ -1,39 +1,42 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <sstream>
 #include <utility>
 
+#include "trackbed/core/error.h"
+#include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/common/course_schedule.h"
 
 namespace trackbed {
 namespace {
 
-/// From point to point at most the mean of both speeds.
+/// Between two points, the speed is at most the mean of their speeds.
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
-  constexpr double kSlowest = 0.1;  // [m/s]; the first and last point of a trajectory are at rest
+  constexpr double kMinSpeed = 0.1;  // [m/s]; a trajectory starts and ends at standstill
   const std::vector<double>& speed = fitted.given.speed;
   std::vector<SpeedCap> caps;
   for (std::size_t i = 0; i + 1 < speed.size(); ++i) {
     const double from = fitted.stations[i];
     const double to = fitted.stations[i + 1];
     if (to > from) {
-      caps.push_back({from, to, std::max(0.5 * (speed[i] + speed[i + 1]), kSlowest)});
+      caps.push_back({from, to, std::max(0.5 * (speed[i] + speed[i + 1]), kMinSpeed)});
     }
   }
-  // On a closed path, from the last point back to the first.
+  // On a closed path, add a cap from the last point back to the first.
   const double length = fitted.path.length();
   if (!speed.empty() && fitted.options.closed && fitted.stations.back() < length) {
-    caps.push_back(
-        {fitted.stations.back(), length, std::max(0.5 * (speed.back() + speed.front()), kSlowest)});
+    caps.push_back({fitted.stations.back(), length,
+                    std::max(0.5 * (speed.back() + speed.front()), kMinSpeed)});
   }
   return caps;
 }
 
-/// Steering over the distance. The curvature is continuous where there are no jumps.
+/// Steering over distance. Without heading jumps, the path's curvature is continuous.
 SteeringSchedule ScheduleOf(const FittedPath& fitted, const PlanRequest& request,
                             const std::vector<SpeedCap>& caps) {
   const Path& path = fitted.path;
@@ -98,6 +101,65 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
   return plan;
 }
 
+/// Fits the path. InputError naming the file, unless the problem is that of a key.
+std::shared_ptr<const FittedPath> Fit(PathPoints points, const PathFileOptions& options,
+                                      const std::string& file) {
+  try {
+    return std::make_shared<const FittedPath>(
+        FitPath(AtRearAxle(std::move(points), options.ahead), options.fit));
+  } catch (const InputError& error) {
+    std::vector<Problem> problems = error.problems();
+    for (Problem& problem : problems) {
+      problem.file = problem.key.empty() ? file : problem.file;
+    }
+    throw InputError(std::move(problems));
+  }
+}
+
+void ReadPath(PathFileOptions& options, InputReader& reader) {
+  const std::vector<std::pair<std::string, std::string>> wrong = PathMapProblems(options.map);
+  for (const auto& [key, message] : wrong) {
+    reader.AddError(key, message);
+  }
+  if (!wrong.empty() || options.file.empty() || !reader.CouldRead("max_deviation") ||
+      !reader.CouldRead("resample") || !reader.CouldRead("columns") || !reader.CouldRead("file")) {
+    return;
+  }
+  reader.ReadFile("file", options.file, [&](const std::filesystem::path& file) {
+    PathFile found = ReadPathFile(file, options.map);
+    if (!options.notes) {
+      options.notes = fmt::format("{}", fmt::join(found.notes, "\n"));
+    }
+    options.path = Fit(std::move(found.points), options, file.string());
+  });
+}
+
+std::optional<PlannedStart> StartOf(const PathFileOptions& options) {
+  if (options.path == nullptr) {
+    return std::nullopt;
+  }
+  const PathPoint first = options.path->path.At(0.0);
+  PlannedStart start{.pose = first.pose, .curvature = first.curvature};
+  const std::vector<double>& speed = options.path->given.speed;
+  if (options.speeds == PathSpeeds::kFile && !speed.empty()) {
+    start.speed = speed.front();
+  }
+  return start;
+}
+
+std::vector<InputFile> InputFilesOf(const PathFileOptions& options) {
+  if (options.path == nullptr) {
+    return {};
+  }
+  return {{kPathCsv, PathCsv(options.path->given), "path " + options.file}};
+}
+
+void Resolve(PathFileOptions& options) {
+  options.file = kPathCsv;
+  options.map = {};  // PathCsv uses the default names
+  options.ahead = 0.0;
+}
+
 }  // namespace
 
 PathFileDiagnostics DiagnosticsOf(const FittedPath& fitted) {
@@ -106,6 +168,8 @@ PathFileDiagnostics DiagnosticsOf(const FittedPath& fitted) {
                           .fit = fitted.options.fit,
                           .deviation = fitted.deviation,
                           .deviation_station = fitted.stations[fitted.deviation_point],
+                          .bulge = fitted.bulge,
+                          .bulge_station = fitted.bulge_station,
                           .smoothing_length = fitted.smoothing_length,
                           .heading_difference = fitted.heading_difference,
                           .heading_jumps = fitted.jumps.size()};
@@ -122,6 +186,10 @@ std::string Describe(const FittedPath& fitted) {
                         fitted.deviation, fitted.given.points.size(), fitted.smoothing_length)
           : fmt::format("polyline of {} points, within {:.3g} m", fitted.given.points.size(),
                         fitted.deviation);
+  if (fitted.bulge > fitted.options.max_deviation) {
+    text += fmt::format(", up to {:.3g} m beside the straight lines between them at s = {:.4g} m",
+                        fitted.bulge, fitted.bulge_station);
+  }
   if (fitted.options.resample) {
     text += fmt::format(", resampled every {:.3g} m", *fitted.options.resample);
   }
@@ -131,8 +199,8 @@ std::string Describe(const FittedPath& fitted) {
   if (fitted.repeated > 0) {
     text += fmt::format(", {} repeated points left out", fitted.repeated);
   }
-  constexpr double kNotable = 0.1;  // [rad]
-  if (fitted.heading_difference > kNotable) {
+  constexpr double kMinReportedDifference = 0.1;  // [rad]
+  if (fitted.heading_difference > kMinReportedDifference) {
     text += fmt::format("; the file's headings differ from the path's by up to {:.3g} rad",
                         fitted.heading_difference);
   }
@@ -145,6 +213,8 @@ void Visit(DiagnosticsVisitor& out, const PathFileDiagnostics& own) {
   out.Text("fit", own.fit == PathFit::kSpline ? "spline" : "polyline");
   out.Number("deviation_m", own.deviation);
   out.Number("deviation_s_m", own.deviation_station);
+  out.Number("bulge_m", own.bulge);
+  out.Number("bulge_s_m", own.bulge_station);
   out.Number("smoothing_length_m", own.smoothing_length);
   out.Number("heading_difference_rad", own.heading_difference);
   out.Integer("heading_jumps", own.heading_jumps);
@@ -181,10 +251,16 @@ void Visit(KeyVisitor& keys, PathFileOptions& options) {
 }
 
 PlannerEntry PathFilePlanner() {
+  static const std::string summary = "the path in a file, of any planner: " + PathFormatList();
   return {.name = "path_file",
-          .summary = "the path in a file, of any planner: CSV, nav_msgs/Path, CommonRoad, GeoJSON",
+          .summary = summary.c_str(),
           .defaults = PathFileOptions{},
-          .plan = PlanBy<PathFileOptions, PlanWith>};
+          .plan = PlanBy<PathFileOptions, PlanWith>,
+          .start = OnOptions<PathFileOptions, StartOf>,
+          .read_inputs = OnOptions<PathFileOptions, ReadPath>,
+          .input_files = OnOptions<PathFileOptions, InputFilesOf>,
+          .input_names = {kPathCsv},
+          .resolve = OnOptions<PathFileOptions, Resolve>};
 }
 
 }  // namespace trackbed

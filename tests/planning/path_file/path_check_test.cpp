@@ -39,7 +39,7 @@ VehicleParams CarWithLimits() {
   return car;
 }
 
-// v^2/R = mu g, and v^2/R = a_r.
+// Limits on a circle: v^2/R = mu g (friction) and v^2/R = a_r (roll-over).
 TEST(CheckPath, FindsTheSpeedOfACircle) {
   const VehicleParams car = CarWithLimits();
   constexpr double kRadius = 30.0;
@@ -51,7 +51,7 @@ TEST(CheckPath, FindsTheSpeedOfACircle) {
   const FittedPath fitted = Fit(points, closed);
   const PathCheck grip = CheckPath(fitted, car, {.speed = 8.0});
   EXPECT_TRUE(grip.drivable());
-  // The spline keeps to 1e-5 m of points 1 m apart: its curvature to some 1e-5 of 1/30.
+  // The spline stays within 1e-5 m of points 1 m apart, so its curvature errs by some 1e-5 of 1/30.
   EXPECT_NEAR(grip.max_speed, std::sqrt(0.8 * 9.81 * kRadius), Tolerance(0.02));
   EXPECT_EQ(grip.max_speed_limit, PathFaultKind::kFriction);
   const PathCheck tips = CheckPath(fitted, car, {.speed = 8.0, .rollover_acceleration = 5.0});
@@ -60,52 +60,54 @@ TEST(CheckPath, FindsTheSpeedOfACircle) {
   const PathCheck ice = CheckPath(fitted, car, {.speed = 8.0, .friction = 0.25});
   ASSERT_FALSE(ice.drivable());
   EXPECT_EQ(ice.faults[0].kind, PathFaultKind::kFriction);
-  EXPECT_NEAR(ice.faults[0].asked, 64.0 / kRadius, Tolerance(0.01));
+  EXPECT_NEAR(ice.faults[0].required, 64.0 / kRadius, Tolerance(0.01));
   EXPECT_NEAR(ice.faults[0].limit, 0.25 * 0.8 * 9.81, Tolerance(1e-12));
-  // All of the circle is one stretch.
+  // The whole circle is one stretch.
   EXPECT_EQ(ice.faults.size(), 1U);
   EXPECT_NEAR(ice.faults[0].stations.to, fitted.path.length(), Tolerance(1e-9));
 }
 
-// A bend of kappa(s) = A (1 - cos(2 pi s/l))/2, by segments of 0.1 m: their kappa is quadratic and
-// off by less than 1e-5 of A. d delta/ds = L kappa'/(1 + (L kappa)^2) is searched for its maximum.
+// A bend with kappa(s) = A (1 - cos(2 pi s/l))/2, made of segments of 0.1 m whose quadratic kappa
+// errs by less than 1e-5 of A. The expected rate is the maximum of d delta/ds = L kappa'/(1 + (L
+// kappa)^2).
 TEST(CheckPath, FindsTheSteeringRateOfABend) {
-  constexpr double kMost = 0.1;
+  constexpr double kMaxCurvature = 0.1;
   constexpr double kLength = 60.0;
   const VehicleParams car = ReferenceCar();
   const auto curvature = [](double s) {
-    return 0.5 * kMost * (1.0 - std::cos(2.0 * kPi * s / kLength));
+    return 0.5 * kMaxCurvature * (1.0 - std::cos(2.0 * kPi * s / kLength));
   };
   const auto slope = [&](double s) {
-    const double rate = kMost * kPi / kLength * std::sin(2.0 * kPi * s / kLength);
+    const double rate = kMaxCurvature * kPi / kLength * std::sin(2.0 * kPi * s / kLength);
     return car.wheelbase * std::abs(rate) / (1.0 + std::pow(car.wheelbase * curvature(s), 2));
   };
   std::vector<CurvePoint> bend;
   double steepest = 0.0;
   for (int i = 0; i <= 600; ++i) {
     const double s = 0.1 * i;
-    bend.push_back({s,
-                    0.5 * kMost * (s - kLength / (2.0 * kPi) * std::sin(2.0 * kPi * s / kLength)),
-                    curvature(s)});
+    bend.push_back(
+        {s, 0.5 * kMaxCurvature * (s - kLength / (2.0 * kPi) * std::sin(2.0 * kPi * s / kLength)),
+         curvature(s)});
     steepest = s < 30.0 && slope(s) > slope(steepest) ? s : steepest;
   }
   const Path path({}, SegmentsThrough(bend));
   const FittedPath fitted = Fit(PointsOf(path, 0.5), kClose);
   const double expected = car.steering_rate / slope(steepest);
   const PathCheck check = CheckPath(fitted, car, {.speed = 1.05 * expected});
-  // Into the bend and out of it.
+  // One fault at the entry of the bend and one at its exit.
   ASSERT_EQ(check.faults.size(), 2U);
   for (const PathFault& fault : check.faults) {
     EXPECT_EQ(fault.kind, PathFaultKind::kSteeringRate);
     EXPECT_EQ(fault.limit, car.steering_rate);
-    // Points 0.5 m apart that the spline leaves by 1e-5 m at most bend it by 4e-5 1/m and its rate
-    // by 1e-4 of 0.0052 1/m^2: 2 %; the bend's own curvature leaves less.
-    EXPECT_NEAR(fault.asked, 1.05 * car.steering_rate, Tolerance(0.02 * car.steering_rate));
+    // The spline deviates by at most 1e-5 m from points 0.5 m apart. That changes its curvature by
+    // 4e-5 1/m, and the curvature's rate by 1e-4 of 0.0052 1/m^2: 2 %. The error in the bend's own
+    // curvature is smaller.
+    EXPECT_NEAR(fault.required, 1.05 * car.steering_rate, Tolerance(0.02 * car.steering_rate));
     EXPECT_LT((fault.position - path.At(fault.s).pose.position()).norm(), 1e-3);
     EXPECT_GT(slope(fault.stations.from + 0.3), 0.97 / 1.05 * slope(steepest));
     EXPECT_GT(slope(fault.stations.to - 0.3), 0.97 / 1.05 * slope(steepest));
   }
-  // Within 2 % of its maximum the rate is over 1.4 m to both sides.
+  // The rate is within 2 % of its maximum over 1.4 m on either side.
   EXPECT_NEAR(check.faults[0].s, steepest, Tolerance(1.5));
   EXPECT_NEAR(check.faults[1].s, kLength - steepest, Tolerance(1.5));
   EXPECT_NEAR(check.max_speed, expected, Tolerance(2e-2 * expected));
@@ -113,7 +115,7 @@ TEST(CheckPath, FindsTheSteeringRateOfABend) {
 }
 
 TEST(CheckPath, FindsSteeringBeyondTheCarsAngle) {
-  const VehicleParams car = ReferenceCar();  // turns on 5.1 m
+  const VehicleParams car = ReferenceCar();  // turning radius 5.1 m
   const Path path({}, {{.length = 20.0},
                        {.length = 6.0, .sharpness = 0.25 / 6.0},
                        {.length = 6.0, .curvature = 0.25, .sharpness = -0.25 / 6.0},
@@ -123,7 +125,7 @@ TEST(CheckPath, FindsSteeringBeyondTheCarsAngle) {
   EXPECT_EQ(check.faults[0].kind, PathFaultKind::kSteeringAngle);
   EXPECT_NEAR(check.faults[0].s, 26.0, Tolerance(0.3));
   EXPECT_NEAR(check.faults[0].limit, car.steering_limit, Tolerance(1e-12));
-  // kappa > 1/5.1 from 6 (1 - 0.196/0.25) = 1.294 m before to as much after.
+  // kappa > 1/5.1 from 6 (1 - 0.196/0.25) = 1.294 m before the peak to 1.294 m after it.
   EXPECT_NEAR(check.faults[0].stations.from, 26.0 - 1.294, Tolerance(0.15));
   EXPECT_NEAR(check.faults[0].stations.to, 26.0 + 1.294, Tolerance(0.15));
   EXPECT_EQ(check.max_speed, 0.0);
@@ -137,7 +139,7 @@ TEST(CheckPath, NamesEveryJumpOfAPolyline) {
   ASSERT_EQ(check.faults.size(), 2U);
   EXPECT_EQ(check.faults[0].kind, PathFaultKind::kHeadingJump);
   EXPECT_EQ(check.faults[0].position, Vec2(10.0, 0.0));
-  EXPECT_NEAR(check.faults[0].asked, std::atan(0.1), Tolerance(1e-12));
+  EXPECT_NEAR(check.faults[0].required, std::atan(0.1), Tolerance(1e-12));
   EXPECT_EQ(check.faults[1].position, Vec2(20.0, 1.0));
   EXPECT_EQ(check.max_speed, 0.0);
   EXPECT_THAT(ToString(check.faults[0]), HasSubstr("heading jumps by 0.0997 rad at s = 10 m"));

@@ -55,7 +55,7 @@ TEST(PathFilePlanner, FollowsThePathAsItIs) {
   const nlohmann::json json = DiagnosticsJson(plan);
   EXPECT_EQ(json.at("points"), 81);
   EXPECT_LE(json.at("deviation_m").get<double>(), 0.05);
-  // The kinematic car that steers by the schedule stays on the path: RK4 over knots 0.1 m apart.
+  // A kinematic car steered by the schedule stays on the path (RK4 over knots 0.1 m apart).
   EXPECT_LE(json.at("open_loop").at("deviation_max_m").get<double>(), 1e-3);
 }
 
@@ -69,7 +69,7 @@ TEST(PathFilePlanner, KeepsTheSpeedsOfTheFile) {
   options.path = std::make_shared<const FittedPath>(FitPath(given, {}));
   PlanRequest request = RequestAlong(options);
   request.start_speed = 2.0;
-  EXPECT_EQ(MakePlan(request, options).reference.speed.SpeedAt(30.0), 3.0);
+  EXPECT_EQ(MakePlan(request, options)->reference.speed.SpeedAt(30.0), 3.0);
   options.speeds = PathSpeeds::kFile;
   const Plan plan = MakePlan(request, options);
   ASSERT_TRUE(plan.ok()) << plan.reason;
@@ -80,7 +80,7 @@ TEST(PathFilePlanner, KeepsTheSpeedsOfTheFile) {
   }
 }
 
-// Eleven of twelve points on a circle: from the last one back to the first, too.
+// Eleven of twelve points on a circle. The speeds also apply between the last point and the first.
 TEST(PathFilePlanner, KeepsTheSpeedsOfTheFileAllAround) {
   PathPoints given;
   for (int i = 0; i < 11; ++i) {
@@ -113,7 +113,7 @@ TEST(PathFilePlanner, RefusesHeadingJumpsUnlessAllowed) {
 }
 
 TEST(PathFilePlanner, SaysWhyThereIsNoPath) {
-  EXPECT_EQ(MakePlan(RequestAlong(Bend()), PathFileOptions{}).status, PlanStatus::kNoPath);
+  EXPECT_EQ(MakePlan(RequestAlong(Bend()), PathFileOptions{})->status, PlanStatus::kNoPath);
   const PathFileOptions back = Options({{0.0, 0.0}, {5.0, 0.0}, {1.0, 0.0}});
   const Plan plan = MakePlan(RequestAlong(back), back);
   EXPECT_EQ(plan.status, PlanStatus::kUTurn);
@@ -124,7 +124,7 @@ TEST(PathFilePlanner, RefusesACarThatStartsElsewhere) {
   const PathFileOptions options = Bend();
   PlanRequest request = RequestAlong(options);
   request.start.x += 1.0;
-  EXPECT_THAT(MakePlan(request, options).reason, HasSubstr("initial position"));
+  EXPECT_THAT(MakePlan(request, options)->reason, HasSubstr("initial position"));
 }
 
 }  // namespace

@@ -38,6 +38,8 @@ struct PathFileDiagnostics {
   PathFit fit = PathFit::kSpline;
   double deviation = 0.0;           ///< largest one of the points from the path [m]
   double deviation_station = 0.0;   ///< where [m]
+  double bulge = 0.0;               ///< largest one of a spline from the lines between points [m]
+  double bulge_station = 0.0;       ///< about where [m]
   double smoothing_length = 0.0;    ///< of the spline, 0 without one [m]
   double heading_difference = 0.0;  ///< largest one of the file's headings from the path's [rad]
   std::size_t heading_jumps = 0;    ///< of a polyline

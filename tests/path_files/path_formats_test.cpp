@@ -1,0 +1,68 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/temp_folder.h"
+#include "trackbed/core/error.h"
+#include "trackbed/path_files/path_file.h"
+
+namespace trackbed {
+namespace {
+
+constexpr const char* kCsv = "x,y\n0,0\n3,4\n";
+constexpr const char* kNavPath =
+    R"({"poses": [{"pose": {"position": {"x": 0, "y": 0}}},
+                  {"pose": {"position": {"x": 3, "y": 4}}}]})";
+constexpr const char* kGeoJson =
+    R"({"type": "LineString", "coordinates": [[0, 0], [3, 4]],
+        "crs": {"type": "name", "properties": {"name": "EPSG:25832"}}})";
+
+/// The last point of the path, or the message.
+std::string LastPoint(const std::string& name, const std::string& text, PathFormat format) {
+  const TempFolder folder;
+  PathMap map;
+  map.format = format;
+  try {
+    const Vec2 last = ReadPathFile(folder.Write(name, text), map).points.points.back();
+    return fmt::format("{}, {}", last.x(), last.y());
+  } catch (const InputError& error) {
+    return error.problems().front().message;
+  }
+}
+
+TEST(PathFormats, AreFoundByEndingAndContent) {
+  for (const auto& [name, text] :
+       std::vector<std::pair<const char*, const char*>>{{"a.csv", kCsv},
+                                                        {"a.CSV", kCsv},
+                                                        {"a.txt", kCsv},
+                                                        {"a", kCsv},
+                                                        {"a.yaml", kNavPath},
+                                                        {"a.yml", kNavPath},
+                                                        {"a.YAML", kNavPath},
+                                                        {"a.json", kNavPath},
+                                                        {"a.json", kGeoJson},
+                                                        {"a.JSON", kGeoJson},
+                                                        {"a.geojson", kGeoJson},
+                                                        {"a.GeoJSON", kGeoJson}}) {
+    EXPECT_EQ(LastPoint(name, text, PathFormat::kAuto), "3, 4") << name << " " << text;
+  }
+}
+
+TEST(PathFormats, AreThoseOfTheMapWhateverTheEnding) {
+  for (const char* name : {"a.csv", "a.json", "a.geojson", "a.xml", "a"}) {
+    EXPECT_EQ(LastPoint(name, kCsv, PathFormat::kCsv), "3, 4") << name;
+    EXPECT_EQ(LastPoint(name, kNavPath, PathFormat::kNavPath), "3, 4") << name;
+    EXPECT_EQ(LastPoint(name, kGeoJson, PathFormat::kGeoJson), "3, 4") << name;
+  }
+  EXPECT_NE(LastPoint("a.json", kGeoJson, PathFormat::kNavPath), "3, 4");
+}
+
+TEST(PathFormats, AreListedForUsers) {
+  EXPECT_EQ(PathFormatList(), "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution or GeoJSON");
+}
+
+}  // namespace
+}  // namespace trackbed
