@@ -4,12 +4,11 @@
 
 namespace trackbed {
 
-/// Wall-clock seconds since construction.
+/// Wall-clock time since construction, by a steady clock.
 class Stopwatch {
  public:
-  [[nodiscard]] double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
-  }
+  /// Elapsed time [s], >= 0.
+  [[nodiscard]] double Seconds() const;
 
  private:
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
