@@ -1,4 +1,4 @@
-#include "trackbed/scenario/recording_file.h"
+#include "trackbed/control/recording_file.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -87,7 +87,7 @@ TEST(ReadRecording, ChoosesBetweenSpeedAndAcceleration) {
   EXPECT_EQ(Read(both, PlaybackAxis::kTime, columns).speed.At(0.0), 10.0);
   columns.acceleration = "acceleration_mps2";
   EXPECT_EQ(ErrorMessages(both, PlaybackAxis::kTime, columns),
-            "control.columns: give speed or acceleration, not both");
+            "columns: give speed or acceleration, not both");
   columns.speed.reset();
   EXPECT_TRUE(Read(both, PlaybackAxis::kTime, columns).speed.empty());
   EXPECT_EQ(Read(both, PlaybackAxis::kTime, columns).acceleration.At(0.0), 1.0);
@@ -128,7 +128,7 @@ TEST(ReadRecording, KnowsWhatACarCanBeAskedFor) {
             "r.csv:2: steering_rad: 4.5 is out of range; must be at least -1.5 and at most 1.5\n"
             "r.csv:2: speed_mps: -1 is out of range; must be at least 0 and at most 100\n"
             "r.csv:3: speed_mps: 101 is out of range; must be at least 0 and at most 100");
-  // By distance a car that is told to stand would never get further.
+  // Over distance, a car with a command to stand would never advance.
   EXPECT_EQ(
       ErrorMessages("s_m,steering_rad,speed_mps\n0,0,0\n1,0,2\n2,0,0\n", PlaybackAxis::kDistance),
       "r.csv:2: speed_mps: 0 is out of range; must be above 0 and at most 100");

@@ -1,4 +1,4 @@
-#include "trackbed/scenario/recording_file.h"
+#include "trackbed/control/recording_file.h"
 
 #include <fmt/format.h>
 
@@ -75,8 +75,7 @@ class RecordingExcerpt {
 Recording ReadRecording(const std::filesystem::path& file, PlaybackAxis by,
                         const RecordingColumns& columns) {
   if (columns.speed && columns.acceleration) {
-    throw InputError(
-        Problem{.key = "control.columns", .message = "give speed or acceleration, not both"});
+    throw InputError(Problem{.key = "columns", .message = "give speed or acceleration, not both"});
   }
   const bool by_distance = by == PlaybackAxis::kDistance;
   const std::string axis =
