@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <sstream>
 #include <string_view>
 
 #include "src/cli/listed_names.h"
+#include "src/cli/shell_quote.h"
 #include "trackbed/core/version.h"
 
 namespace trackbed::cli {
@@ -111,23 +113,44 @@ std::string Replaced(const std::string& text, std::string_view what, std::string
   return result + text.substr(at);
 }
 
-/// In single quotes as bash and zsh read them.
-std::string InSingleQuotes(const std::string& text) {
-  return "'" + Replaced(text, "'", "'\\''") + "'";
+/// A text of the program's own, for bash and zsh.
+std::string QuotedText(const std::string& text) {
+  return QuotedForSh(text).value();
+}
+
+/// The names that stand where no option stands: values, and the verbs below.
+Words PositionalWords(const std::vector<CommandInfo>& verbs, const CommandInfo& verb) {
+  Words words = PositionalValues(verb);
+  for (const std::string& below : NamesOf(VerbsBelow(verbs, verb.name))) {
+    words.push_back(below);
+  }
+  return words;
 }
 
 }  // namespace
 
 std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
+  // `compgen -W` would expand the words, and bash inserts what it is offered as it is.
   std::string text =
       "# bash completion of trackbed; written by `trackbed completion bash`.\n"
+      "_trackbed_offer() {  # what, before each: those of the other words that begin with it\n"
+      "  local begin=\"$1\" before=\"$2\" word quoted\n"
+      "  COMPREPLY=()\n"
+      "  shift 2\n"
+      "  for word in \"$@\"; do\n"
+      "    printf -v quoted %q \"$word\"\n"
+      "    if [[ $word == \"$begin\"* || $quoted == \"$begin\"* ]]; then\n"
+      "      COMPREPLY+=(\"$before$quoted\")\n"
+      "    fi\n"
+      "  done\n"
+      "}\n"
       "_trackbed_values() {\n"
-      "  COMPREPLY=($(compgen -W \"$1\" -- \"$cur\"))\n"
+      "  _trackbed_offer \"$cur\" \"\" \"$@\"\n"
       "}\n"
       "_trackbed_list() {  # after the last comma\n"
       "  local done=\"\"\n"
       "  [[ $cur == *,* ]] && done=\"${cur%,*},\"\n"
-      "  COMPREPLY=($(compgen -P \"$done\" -W \"$1\" -- \"${cur##*,}\"))\n"
+      "  _trackbed_offer \"${cur##*,}\" \"$done\" \"$@\"\n"
       "}\n"
       "_trackbed() {\n"
       "  local cur=\"${COMP_WORDS[COMP_CWORD]}\" before=\"${COMP_WORDS[COMP_CWORD-1]}\"\n"
@@ -138,7 +161,7 @@ std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
       "    case \"$verb ${COMP_WORDS[2]}\" in\n";
   for (const CommandInfo& verb : verbs) {
     if (verb.name.find(' ') != std::string::npos) {
-      text += fmt::format("      '{0}') verb='{0}' ;;\n", verb.name);
+      text += fmt::format("      {0}) verb={0} ;;\n", QuotedText(verb.name));
     }
   }
   text +=
@@ -146,64 +169,110 @@ std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
       "  fi\n"
       "  case \"$verb\" in\n";
   const auto add_case = [&](const CommandInfo& verb) {
-    text += fmt::format("    '{}')\n      case \"$before\" in\n", verb.name);
+    text += fmt::format("    {})\n      case \"$before\" in\n", QuotedText(verb.name));
     Words names;
     for (const OptionInfo& option : OptionsOf(verb)) {
       const Words spellings = PartsOf(option.name, ',');
       names.insert(names.end(), spellings.begin(), spellings.end());
       if (!option.value.empty()) {
-        const Words values = ValuesOf(option.value);
+        const std::string values = AllQuoted(ValuesOf(option.value), QuotedForSh);
         text += fmt::format("        {}) {}return ;;\n", fmt::join(spellings, "|"),
-                            values.empty() ? ""
-                                           : fmt::format("_trackbed_{} \"{}\"; ",
-                                                         IsList(option.value) ? "list" : "values",
-                                                         fmt::join(values, " ")));
+                            values.empty()
+                                ? ""
+                                : fmt::format("_trackbed_{} {}; ",
+                                              IsList(option.value) ? "list" : "values", values));
       }
-    }
-    Words others = PositionalValues(verb);
-    for (const std::string& below : NamesOf(VerbsBelow(verbs, verb.name))) {
-      others.push_back(below);
     }
     text += fmt::format(
         "      esac\n"
-        "      if [[ $cur == -* ]]; then _trackbed_values \"{}\"\n"
-        "      else _trackbed_values \"{}\"\n"
+        "      if [[ $cur == -* ]]; then _trackbed_values {}\n"
+        "      else _trackbed_values {}\n"
         "      fi ;;\n",
-        fmt::join(names, " "), fmt::join(others, " "));
+        AllQuoted(names, QuotedForSh), AllQuoted(PositionalWords(verbs, verb), QuotedForSh));
   };
   for (const CommandInfo& verb : verbs) {
     add_case(verb);
   }
   text += fmt::format(
-      "    '') _trackbed_values \"{} --help --version --color\" ;;\n"
+      "    '') _trackbed_values {} --help --version --color ;;\n"
       "  esac\n"
       "}}\n"
       "# Where nothing is found, names of files.\n"
       "complete -o bashdefault -o default -F _trackbed trackbed\n",
-      fmt::join(NamesOf(VerbsBelow(verbs, "")), " "));
+      AllQuoted(NamesOf(VerbsBelow(verbs, "")), QuotedForSh));
   return text;
 }
 
+namespace {
+
+/// The functions of a zsh script that offer names. A specification of _arguments evaluates what
+/// stands in it, and so has the name of such a function alone.
+class ZshOffers {
+ public:
+  /// The function that offers these, or files.
+  std::string OrFiles(const Words& names) { return Function(names, "  _files\n"); }
+
+  /// The function that offers these behind the last comma.
+  std::string List(const Words& names) { return Function(names, "", "  compset -P '*,'\n"); }
+
+  [[nodiscard]] const std::string& text() const { return text_; }
+
+ private:
+  std::string Function(const Words& names, const std::string& after,
+                       const std::string& before = "") {
+    const std::string body = fmt::format("{}  local -a names=({})\n  compadd -a names\n{}", before,
+                                         AllQuoted(names, QuotedForSh), after);
+    const auto [found, is_new] =
+        names_.try_emplace(body, fmt::format("_trackbed_{}", names_.size()));
+    if (is_new) {
+      text_ += fmt::format("{}() {{\n{}}}\n", found->second, body);
+    }
+    return found->second;
+  }
+
+  std::map<std::string, std::string> names_;  // of the functions, by what is in them
+  std::string text_;
+};
+
+/// A text in a specification of _arguments or _describe.
+std::string InZshSpecification(const std::string& text) {
+  return Replaced(Replaced(Replaced(Replaced(text, "\\", "\\\\"), "[", "\\["), "]", "\\]"), ":",
+                  "\\:");
+}
+
+std::string ZshArguments(const std::vector<CommandInfo>& verbs, const CommandInfo& verb,
+                         ZshOffers& offers) {
+  std::string text = fmt::format("    {}) _arguments -s", QuotedText(verb.name));
+  for (const OptionInfo& option : OptionsOf(verb)) {
+    std::string value;
+    if (!option.value.empty()) {
+      const Words values = ValuesOf(option.value);
+      value = fmt::format(":{}:{}", InZshSpecification(option.value),
+                          values.empty()         ? "_files"
+                          : IsList(option.value) ? offers.List(values)
+                                                 : offers.OrFiles(values));
+    }
+    for (const std::string& name : PartsOf(option.name, ',')) {
+      text += " \\\n      " +
+              QuotedText(fmt::format("*{}[{}]{}", name, InZshSpecification(option.text), value));
+    }
+  }
+  const Words others = PositionalWords(verbs, verb);
+  return text +
+         fmt::format(" \\\n      {} ;;\n",
+                     QuotedText(others.empty() ? "*: :_files"
+                                               : fmt::format("*: :{}", offers.OrFiles(others))));
+}
+
+}  // namespace
+
 std::string ZshCompletion(const std::vector<CommandInfo>& verbs) {
-  const auto explained = [](const std::string& text) {
-    return Replaced(Replaced(Replaced(Replaced(text, "\\", "\\\\"), "[", "\\["), "]", "\\]"), ":",
-                    "\\:");
-  };
-  const auto action = [](const std::string& type) {
-    const Words values = ValuesOf(type);
-    return values.empty() ? std::string("_files")
-           : IsList(type) ? fmt::format("_values -s , value {}", fmt::join(values, " "))
-                          : fmt::format("_alternative \"names\\:\\:({})\" \"files\\:\\:_files\"",
-                                        fmt::join(values, " "));
-  };
   std::string text =
-      "#compdef trackbed\n"
-      "# zsh completion of trackbed; written by `trackbed completion zsh`.\n"
       "_trackbed() {\n"
       "  local -a verbs\n"
       "  verbs=(\n";
   for (const CommandInfo& verb : VerbsBelow(verbs, "")) {
-    text += fmt::format("    {}\n", InSingleQuotes(verb.name + ":" + explained(verb.summary)));
+    text += fmt::format("    {}\n", QuotedText(verb.name + ":" + InZshSpecification(verb.summary)));
   }
   text +=
       "  )\n"
@@ -217,56 +286,53 @@ std::string ZshCompletion(const std::vector<CommandInfo>& verbs) {
       "    case \"$verb ${words[2]}\" in\n";
   for (const CommandInfo& verb : verbs) {
     if (verb.name.find(' ') != std::string::npos) {
-      text += fmt::format("      '{0}') verb='{0}'; shift words; (( CURRENT-- )) ;;\n", verb.name);
+      text += fmt::format("      {0}) verb={0}; shift words; (( CURRENT-- )) ;;\n",
+                          QuotedText(verb.name));
     }
   }
   text +=
       "    esac\n"
       "  fi\n"
       "  case \"$verb\" in\n";
+  ZshOffers offers;
   for (const CommandInfo& verb : verbs) {
-    text += fmt::format("    '{}') _arguments -s", verb.name);
-    for (const OptionInfo& option : OptionsOf(verb)) {
-      for (const std::string& name : PartsOf(option.name, ',')) {
-        std::string spec = fmt::format("*{}[{}]", name, explained(option.text));
-        if (!option.value.empty()) {
-          spec += fmt::format(":{}:{}", explained(option.value), action(option.value));
-        }
-        text += " \\\n      " + InSingleQuotes(spec);
-      }
-    }
-    Words others = PositionalValues(verb);
-    for (const std::string& below : NamesOf(VerbsBelow(verbs, verb.name))) {
-      others.push_back(below);
-    }
-    text += fmt::format(
-        " \\\n      {} ;;\n",
-        InSingleQuotes(others.empty() ? "*::_files"
-                                      : fmt::format("*: :_alternative \"names\\:\\:({})\" "
-                                                    "\"files\\:\\:_files\"",
-                                                    fmt::join(others, " "))));
+    text += ZshArguments(verbs, verb, offers);
   }
-  return text +
+  return "#compdef trackbed\n"
+         "# zsh completion of trackbed; written by `trackbed completion zsh`.\n" +
+         offers.text() + text +
          "  esac\n"
          "}\n"
          "_trackbed \"$@\"\n";
 }
 
+namespace {
+
+/// A text of the program's own, for fish.
+std::string OwnTextOfFish(const std::string& text) {
+  return QuotedForFish(text).value();
+}
+
+/// The words as the value of `complete --arguments`, which fish reads a second time: each word is
+/// quoted, and all of them together.
+std::string FishArguments(const Words& words) {
+  return OwnTextOfFish(AllQuoted(words, QuotedForFish));
+}
+
+}  // namespace
+
 std::string FishCompletion(const std::vector<CommandInfo>& verbs) {
-  const auto quoted = [](const std::string& text) {
-    return "'" + Replaced(Replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
-  };
   std::string text = "# fish completion of trackbed; written by `trackbed completion fish`.\n";
   for (const CommandInfo& verb : VerbsBelow(verbs, "")) {
-    text += fmt::format("complete -c trackbed -n __fish_use_subcommand -f -a {} -d {}\n", verb.name,
-                        quoted(verb.summary));
+    text += fmt::format("complete -c trackbed -n __fish_use_subcommand -f -a {} -d {}\n",
+                        FishArguments({verb.name}), OwnTextOfFish(verb.summary));
   }
   for (const CommandInfo& verb : verbs) {
     std::string condition;
     for (const std::string& word : PartsOf(verb.name, ' ')) {
       condition += (condition.empty() ? "" : "; and ") + ("__fish_seen_subcommand_from " + word);
     }
-    const std::string start = fmt::format("complete -c trackbed -n '{}'", condition);
+    const std::string start = fmt::format("complete -c trackbed -n {}", OwnTextOfFish(condition));
     for (const OptionInfo& option : OptionsOf(verb)) {
       text += start;
       for (const std::string& name : PartsOf(option.name, ',')) {
@@ -274,16 +340,17 @@ std::string FishCompletion(const std::vector<CommandInfo>& verbs) {
       }
       if (!option.value.empty()) {
         const Words values = ValuesOf(option.value);
-        text += values.empty() ? " -r" : fmt::format(" -x -a '{}'", fmt::join(values, " "));
+        text += values.empty() ? " -r" : fmt::format(" -x -a {}", FishArguments(values));
       }
-      text += fmt::format(" -d {}\n", quoted(option.text));
+      text += fmt::format(" -d {}\n", OwnTextOfFish(option.text));
     }
     const Words others = PositionalValues(verb);
     if (!others.empty()) {
-      text += fmt::format("{} -a '{}'\n", start, fmt::join(others, " "));
+      text += fmt::format("{} -a {}\n", start, FishArguments(others));
     }
     for (const CommandInfo& below : VerbsBelow(verbs, verb.name)) {
-      text += fmt::format("{} -a {} -d {}\n", start, below.name, quoted(below.summary));
+      text += fmt::format("{} -a {} -d {}\n", start, FishArguments({below.name}),
+                          OwnTextOfFish(below.summary));
     }
   }
   return text;
