@@ -21,6 +21,7 @@
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
@@ -36,7 +37,7 @@ struct SweepVerbOptions {
   std::vector<std::string> only;
   std::string until;
   bool restart = false;
-  int jobs = 0;  // 0: as many as the machine runs threads
+  int jobs = 0;  // 0: number of hardware threads
   ScenarioOptions scenario;
 };
 
@@ -44,7 +45,7 @@ struct SweepVerbOptions {
   throw InputError(Problem{.key = option, .message = std::move(message)});
 }
 
-/// "2/7".
+/// Parses "2/7".
 Shard ParseShard(const std::string& text) {
   Shard shard;
   const std::size_t slash = text.find('/');
@@ -62,13 +63,13 @@ Shard ParseShard(const std::string& text) {
   return shard;
 }
 
-/// Half the width of the interval in "pass_rate:0.01".
+/// Parses "pass_rate:0.01"; returns the half width of the interval.
 std::optional<double> ParseUntil(const std::string& text, const Study& study) {
   if (text.empty()) {
     return std::nullopt;
   }
   constexpr std::string_view kName = "pass_rate:";
-  constexpr std::string_view kPlusMinus = "\u00b1";  // as it is often written
+  constexpr std::string_view kPlusMinus = "\u00b1";  // common spelling
   std::string_view number = text;
   double width = 0.0;
   if (number.starts_with(kName)) {
@@ -89,7 +90,7 @@ std::optional<double> ParseUntil(const std::string& text, const Study& study) {
   return width;
 }
 
-/// That of the task of a Slurm array in which the program runs, or all.
+/// The shard of the Slurm array task in which the program runs, else all rows.
 Shard ShardOfTask() {
   const auto number = [](const char* name) {
     const char* text = std::getenv(name);
@@ -123,18 +124,17 @@ int Sweep(const SweepVerbOptions& options) {
   const std::string& name = study.name;
   const fs::path all = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   const fs::path out = FolderOfShard(all, shard);
-  const OutputFolder folder(out);  // before the work, not after it
-
+  const OutputFolder folder(out, FileNamesOfVerb("sweep"));  // fail before the runs, not after
+  CheckKeptRows(all);
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
-    std::error_code ignored;
-    fs::remove(file, ignored);
+    SweepRecords::Remove(file);
     RemoveKeptRows(all);
   }
   SweepRecords records(file, SweepHeader(checked.points, checked.inputs));
   const std::size_t before = records.count();
   if (before > 0 && !options.scenario.quiet) {
-    fmt::print("{}: {} of {} rows are there already\n", name, before, records.rows());
+    Print("{}: {} of {} rows are there already\n", name, before, records.rows());
   }
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const auto is_interrupted = [] { return interrupted.load(); };
@@ -170,10 +170,10 @@ int Sweep(const SweepVerbOptions& options) {
                   : fmt::format("interrupted after {} of {} rows; the same command goes on",
                                 sweep.rows, sweep.rows_expected);
     const fs::path csv = out / run_folder::kSweepCsv;
-    fmt::print("{}: {}, in {}\n", name, how, csv.string());
-    constexpr std::size_t kMostRows = 100'000;  // more take more memory than their study
-    if (sweep.rows <= kMostRows) {
-      fmt::print("{}", SweepTableText(ReadTextCsv(csv), TerminalWidth()));
+    Print("{}: {}, in {}\n", name, how, csv.string());
+    constexpr std::size_t kMaxRows = 100'000;  // reading more takes more memory than the study
+    if (sweep.rows <= kMaxRows) {
+      Print("{}", Lines{SweepTableText(ReadTextCsv(csv), TerminalWidth())});
     }
   }
   if (shard.count == 1 && (sweep.complete() || stopped)) {

@@ -4,9 +4,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "src/cli/scenario_runs.h"
+#include "src/cli/terminal.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 
@@ -17,12 +18,26 @@ namespace fs = std::filesystem;
 
 constexpr const char* kShardFolder = "shard_";
 
+/// The folders of rows that there are. RunError for links.
+std::vector<fs::path> KeptRows(const fs::path& study) {
+  std::vector<fs::path> folders;
+  std::error_code error;
+  const fs::path rows = FolderBelow(study, run_folder::kRows);
+  for (fs::directory_iterator at(rows, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    if (name.find_first_not_of("0123456789") == std::string::npos) {
+      folders.push_back(FolderBelow(study, fs::path(run_folder::kRows) / name));
+    }
+  }
+  return folders;
+}
+
 }  // namespace
 
 fs::path FolderOfShard(const fs::path& study, const Shard& shard) {
-  return shard.count == 1
-             ? study
-             : study / fmt::format("{}{}_of_{}", kShardFolder, shard.index, shard.count);
+  return shard.count == 1 ? study
+                          : FolderBelow(study, fmt::format("{}{}_of_{}", kShardFolder, shard.index,
+                                                           shard.count));
 }
 
 std::vector<fs::path> RecordsIn(const fs::path& folder) {
@@ -47,30 +62,30 @@ std::vector<fs::path> RecordsIn(const fs::path& folder) {
 }
 
 fs::path FolderOfRow(const fs::path& study, std::size_t row) {
-  return study / "rows" / std::to_string(row);
+  return FolderBelow(study, fs::path(run_folder::kRows) / std::to_string(row));
+}
+
+void CheckKeptRows(const fs::path& study) {
+  for (const fs::path& folder : KeptRows(study)) {
+    RequireNoForeignFiles(folder, run_folder::AllNames());
+  }
 }
 
 void RemoveKeptRows(const fs::path& study) {
-  std::error_code error;
-  std::vector<fs::path> folders;
-  for (fs::directory_iterator at(study / "rows", error), end; !error && at != end;
-       at.increment(error)) {
-    const std::string name = at->path().filename().string();
-    if (at->is_directory(error) && !at->is_symlink(error) &&
-        name.find_first_not_of("0123456789") == std::string::npos &&
-        fs::exists(at->path() / run_folder::kManifest, error)) {
-      folders.push_back(at->path());
-    }
-  }
-  for (const fs::path& folder : folders) {
-    fs::remove_all(folder, error);
+  for (const fs::path& folder : KeptRows(study)) {
+    RemoveResults(folder);
   }
 }
 
 void KeepWorstRows(const SweepRecords& records, const fs::path& study,
                    const ScenarioOptions& options) {
-  const nlohmann::ordered_json& header = records.header();
-  if (!header.contains("keep") || !header["keep"].is_object()) {
+  const JsonValue header = records.Header();
+  const std::optional<JsonValue> keep = header.Find("keep");
+  if (!keep) {
+    return;
+  }
+  if (!keep->IsSection()) {
+    static_cast<void>(keep->Text());  // "all" or "failed": kept as they were run
     return;
   }
   for (const std::size_t row : WorstRows(records)) {
@@ -81,8 +96,8 @@ void KeepWorstRows(const SweepRecords& records, const fs::path& study,
     }
     ScenarioOptions own = options;
     own.overrides = OverridesOfRow(records, row);
-    const auto [locked, result] =
-        DriveScenario({own.Read(header.at("scenario").get<std::string>()), folder}, options.quiet);
+    const auto [locked, result, finishing] =
+        DriveScenario({own.Read(header.At("scenario").Text()), folder}, options.quiet);
     if (result.interrupted) {
       return;
     }
@@ -92,11 +107,11 @@ void KeepWorstRows(const SweepRecords& records, const fs::path& study,
 
 void PrintRowsWithoutRun(const std::string& name, const SweepSummary& sweep) {
   if (sweep.refused + sweep.errors > 0) {
-    std::fflush(stdout);  // behind what is said of all rows
-    fmt::print(stderr,
-               "{}: {} rows without a run: {} refused, {} with an internal error; see the "
-               "column reason\n",
-               name, sweep.refused + sweep.errors, sweep.refused, sweep.errors);
+    std::fflush(stdout);  // keeps the order of both streams
+    PrintTo(stderr,
+            "{}: {} rows without a run: {} refused, {} with an internal error; see the "
+            "column reason\n",
+            name, sweep.refused + sweep.errors, sweep.refused, sweep.errors);
   }
 }
 

@@ -8,9 +8,11 @@
 
 #include "src/cli/scenario_options.h"
 #include "src/cli/sweep_folders.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/sweep.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed::cli {
@@ -34,10 +36,12 @@ int Merge(const MergeOptions& options) {
   const nlohmann::ordered_json header = SweepRecords(files.front()).header();
   const fs::path out =
       options.out.empty() ? fs::path(options.folders.front()) : fs::path(options.out);
-  const OutputFolder folder(out);
-  SweepRecords records(out / run_folder::kSweepRecords, header);
+  const OutputFolder folder(out, FileNamesOfVerb("sweep merge"));
+  CheckKeptRows(out);
+  SweepRecords records(out / run_folder::kSweepRecords, header,
+                       "choose another folder for the table (-o)");
   MergeRecords(files, records);
-  const std::string name = header.value("study", "");
+  const std::string name = records.Header().At("study").Text();
   if (records.count() < records.rows() && !options.partial) {
     throw InputError(Problem{
         .file = out.string(),
@@ -47,9 +51,8 @@ int Merge(const MergeOptions& options) {
   }
   const SweepSummary sweep = WriteSweep(records, {}, folder);
   if (!options.quiet) {
-    fmt::print("{}: {} of {} rows from {} files, {} passed, in {}\n", name, sweep.rows,
-               sweep.rows_expected, files.size(), sweep.passed,
-               (out / run_folder::kSweepCsv).string());
+    Print("{}: {} of {} rows from {} files, {} passed, in {}\n", name, sweep.rows,
+          sweep.rows_expected, files.size(), sweep.passed, (out / run_folder::kSweepCsv).string());
   }
   if (sweep.complete()) {
     ScenarioOptions scenario;

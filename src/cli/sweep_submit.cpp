@@ -4,20 +4,26 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "src/cli/scenario_options.h"
 #include "src/cli/scenario_runs.h"
+#include "src/cli/shell_quote.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
-#include "trackbed/core/file.h"
 
 namespace trackbed::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kOutOption = "--out";
 
 struct SubmitOptions {
   std::string file;
@@ -27,19 +33,29 @@ struct SubmitOptions {
   ScenarioOptions scenario;
 };
 
-/// A word as the shell takes it for that word.
-std::string Quoted(const std::string& word) {
-  std::string quoted = "'";
-  for (const char c : word) {
-    quoted += c == '\'' ? "'\\''" : std::string(1, c);
+/// InputError when `word`, the value of `what`, cannot be quoted.
+std::string Quoted(std::optional<std::string> (*quoted)(std::string_view word),
+                   const std::string& word, const char* what) {
+  const std::optional<std::string> text = quoted(word);
+  if (!text) {
+    throw InputError(Problem{
+        .key = what,
+        .message = fmt::format("'{}' has a control character or is not UTF-8, which a script for "
+                               "Slurm cannot hold; give another name",
+                               word)});
   }
-  return quoted + "'";
+  return *text;
+}
+
+/// Quotes a word for the shell.
+std::string ForSh(const std::string& word, const char* what) {
+  return Quoted(QuotedForSh, word, what);
 }
 
 /// Hands a script to Slurm; its job's number.
 std::string Submit(const std::string& options, const fs::path& script) {
   const std::string command =
-      fmt::format("sbatch --parsable {} {} 2>&1", options, Quoted(script.string()));
+      fmt::format("sbatch --parsable {}{} 2>&1", options, ForSh(script.string(), kOutOption));
   const std::unique_ptr<FILE, int (*)(FILE*)> pipe(::popen(command.c_str(), "r"), ::pclose);
   if (!pipe) {
     throw RunError("cannot run sbatch");
@@ -58,45 +74,99 @@ std::string Submit(const std::string& options, const fs::path& script) {
   return job;
 }
 
+/// The command of a task: it runs the shard of the study that Slurm's variables name.
+std::string SweepCommand(const Study& study, const std::string& program, const fs::path& out) {
+  std::string command =
+      fmt::format("{} sweep {} --out {} --quiet --jobs \"${{SLURM_CPUS_PER_TASK:-1}}\"",
+                  ForSh(program, "program"), ForSh(fs::absolute(study.file).string(), "study"),
+                  ForSh(out.string(), kOutOption));
+  for (const Override& text : study.overrides) {
+    command += " --set " + ForSh(text, "--set");
+  }
+  for (const fs::path& folder : study.asset_folders) {
+    command += " --allow-assets " + ForSh(fs::absolute(folder).string(), "--allow-assets");
+  }
+  return command;
+}
+
+/// The lines that Slurm reads at the head of a script.
+std::string SbatchLines(const std::vector<std::string>& options) {
+  std::string lines = "#!/bin/sh\n";
+  for (const std::string& option : options) {
+    lines += fmt::format("#SBATCH {}\n", Quoted(QuotedForSbatch, option, kOutOption));
+  }
+  return lines;
+}
+
+struct Scripts {
+  std::string array;
+  std::string merge;
+};
+
+Scripts MakeScripts(const Study& study, int tasks, const fs::path& out) {
+  const std::string program = fs::read_symlink("/proc/self/exe").string();
+  const std::string folder = "--chdir=" + out.string();
+  // Slurm replaces % and \ in the path of a log, so the scripts open their logs themselves.
+  const std::string no_log = "--output=/dev/null";
+  const std::string log = fmt::format("exec > {}/", ForSh(out.string(), kOutOption));
+  return {.array = SbatchLines({"--job-name=" + study.name, fmt::format("--array=1-{}", tasks),
+                                "--requeue", no_log, folder}) +
+                   log + "\"task_${SLURM_ARRAY_TASK_ID:-1}.log\" 2>&1\n" +
+                   fmt::format("exec {}\n", SweepCommand(study, program, out)),
+          .merge = SbatchLines({fmt::format("--job-name={}_merge", study.name), no_log, folder}) +
+                   log + "merge.log 2>&1\n" +
+                   fmt::format("exec {} sweep merge {} --quiet\n", ForSh(program, "program"),
+                               ForSh(out.string(), kOutOption))};
+}
+
+/// RunError when Slurm would write over a log that is not of an earlier submission, or through a
+/// link.
+void RequireNoForeignLogs(const fs::path& out, bool submitted) {
+  std::error_code error;
+  for (fs::directory_iterator at(out, error), end; !error && at != end; at.increment(error)) {
+    const std::string name = at->path().filename().string();
+    const bool is_log =
+        name == "merge.log" || (name.starts_with("task_") && name.ends_with(".log"));
+    std::error_code ignored;
+    if (is_log && !(submitted && fs::is_regular_file(at->symlink_status(ignored)))) {
+      throw RunError(
+          fmt::format("{} is in the way of Slurm's logs; move it away, or choose another "
+                      "folder (--out)",
+                      at->path().string()));
+    }
+  }
+}
+
+/// Ends the lock of the folder before tasks write there.
+void WriteScripts(const Scripts& scripts, const fs::path& out) {
+  const std::vector<std::string> names{run_folder::kArraySh, run_folder::kMergeSh};
+  const OutputFolder folder(out, names);
+  RequireNoForeignLogs(out, fs::exists(out / run_folder::kArraySh));
+  ResultWriter writer(folder);
+  writer.Add(run_folder::kArraySh, scripts.array);
+  writer.Add(run_folder::kMergeSh, scripts.merge);
+  writer.Commit(run_folder::kSubmission, {});
+}
+
 int SubmitStudy(const SubmitOptions& options) {
   const Study study = options.scenario.ReadStudyFile(options.file);
   const CheckedStudy checked = CheckStudy(study, /*all=*/false);
   const fs::path out =
       fs::absolute(options.out.empty() ? fs::path("out") / study.name : fs::path(options.out));
-  const std::string program = fs::read_symlink("/proc/self/exe").string();
-  std::string sweep = fmt::format(
-      "{} sweep {} --out {} --quiet --jobs \"${{SLURM_CPUS_PER_TASK:-1}}\"", Quoted(program),
-      Quoted(fs::absolute(options.file).string()), Quoted(out.string()));
-  for (const Override& text : study.overrides) {
-    sweep += " --set " + Quoted(text);
-  }
-  for (const fs::path& folder : study.asset_folders) {
-    sweep += " --allow-assets " + Quoted(fs::absolute(folder).string());
-  }
+  const Scripts scripts = MakeScripts(study, options.tasks, out);
   std::string sbatch;
   for (const std::string& option : options.sbatch) {
-    sbatch += Quoted(option) + " ";
+    sbatch += ForSh(option, "--sbatch") + " ";
   }
-  MakeFolder(out);
-  const auto write = [&](const char* name, const std::string& lines) {
-    WriteFileAtomically(out / name, "#!/bin/sh\n" + lines);
-    return out / name;
-  };
-  const fs::path array = write(
-      "array.sh", fmt::format("#SBATCH --job-name={}\n#SBATCH --array=1-{}\n#SBATCH --requeue\n"
-                              "#SBATCH --output=task_%a.log\n#SBATCH --chdir={}\nexec {}\n",
-                              study.name, options.tasks, out.string(), sweep));
-  const fs::path merge = write(
-      "merge.sh", fmt::format("#SBATCH --job-name={}_merge\n#SBATCH --output=merge.log\n"
-                              "#SBATCH --chdir={}\nexec {} sweep merge {} --quiet\n",
-                              study.name, out.string(), Quoted(program), Quoted(out.string())));
-  const std::string job = Submit(sbatch, array);
+  WriteScripts(scripts, out);
+  const fs::path merge = out / run_folder::kMergeSh;
+  const std::string job = Submit(sbatch, out / run_folder::kArraySh);
   // The merging waits until all tasks have ended well, and goes when one has not.
   const std::string last = Submit(
-      fmt::format("{}--dependency=afterok:{} --kill-on-invalid-dep=yes", sbatch, job), merge);
+      fmt::format("{}--dependency=afterok:{} --kill-on-invalid-dep=yes ", sbatch, job), merge);
   if (!options.scenario.quiet) {
-    fmt::print("{}: {} rows in {} tasks of job {}, then job {} merges them, in {}\n", study.name,
-               CountRows(checked.points), options.tasks, job, last, out.string());
+    Print("{}: {} rows in {} tasks of job {}, then job {} merges them, in {}\n", study.name,
+          CountRows(checked.points), options.tasks, job, last, out.string());
   }
   return kOk;
 }

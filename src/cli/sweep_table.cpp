@@ -16,7 +16,7 @@
 namespace trackbed::cli {
 namespace {
 
-constexpr std::size_t kFewRows = 24;
+constexpr std::size_t kMaxRowsInFull = 24;
 
 std::vector<std::string> WordsOf(const std::string& text, char separator) {
   std::vector<std::string> words;
@@ -123,8 +123,8 @@ std::string SweepTableText(const TextTable& table, std::size_t width) {
   if (table.rows().empty() || at == table.columns().end()) {
     return "";
   }
-  return table.rows().size() <= kFewRows ? RowsText(table, status, width)
-                                         : ExtremesText(table, status, width);
+  return table.rows().size() <= kMaxRowsInFull ? RowsText(table, status, width)
+                                               : ExtremesText(table, status, width);
 }
 
 }  // namespace trackbed::cli

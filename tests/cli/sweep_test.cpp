@@ -32,10 +32,10 @@ TEST(Sweep, WritesATableAndWhereItComesFrom) {
   folder.Write("study.yaml", StudyText(kDistances));
   const Outcome outcome = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
-  // Ten meters ahead cuts the corners; that a run fails is a result, not an error.
+  // A preview of ten meters cuts the corners; a failed run is a result, not an error.
   EXPECT_THAT(outcome.output, StartsWith("study: 3 rows from 3 runs, 2 passed, in "
                                          "out/study/sweep.csv\n"));
-  // And a table of the rows.
+  // The output also shows a table of the rows.
   EXPECT_THAT(outcome.output, testing::ContainsRegex("\n +2\\.5 +passed +0\\.0[0-9]+\n"));
   const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
   EXPECT_THAT(csv, testing::MatchesRegex(
@@ -52,7 +52,8 @@ TEST(Sweep, WritesATableAndWhereItComesFrom) {
 
 TEST(Sweep, WritesTheSameBytesForAnyNumberOfJobs) {
   const TempFolder folder;
-  // One plant or both and three speeds, so that later rows are done before earlier ones.
+  // Rows with one plant or both and three speeds differ in duration, so that later rows finish
+  // before earlier ones.
   folder.Write("study.yaml", StudyText("set: {drive.time_limit: 4, expect: {}}\n"
                                        "vary:\n"
                                        "  drive.plants: [[kinematic, mujoco], [kinematic]]\n"
@@ -71,7 +72,7 @@ TEST(Sweep, WritesTheSameBytesForAnyNumberOfJobs) {
 
 TEST(Sweep, LeavesCellsEmptyThatARunHasNoValueFor) {
   const TempFolder folder;
-  // Half of the shorter leg at the turn of 56 degrees is 18.03 m, and a radius R takes R tan(28
+  // Half of the shorter leg at the turn of 56 degrees is 18.03 m, and a radius R needs R tan(28
   // deg) of it: 40 m do not fit. The second point has no plant mujoco.
   folder.Write("study.yaml",
                StudyText("set: {drive.time_limit: 1, expect: {}}\n"
@@ -84,7 +85,7 @@ TEST(Sweep, LeavesCellsEmptyThatARunHasNoValueFor) {
                          "outputs: [metrics.kinematic.status, "
                          "metrics.mujoco.status, plan.status]\n"));
   const Outcome outcome = Trackbed(folder, "sweep study.yaml");
-  EXPECT_EQ(outcome.code, 0);  // runs that fail are results
+  EXPECT_EQ(outcome.code, 0);  // failed runs are results
   EXPECT_THAT(outcome.output, StartsWith("study: 3 rows from 3 runs, 0 passed, in "
                                          "out/study/sweep.csv\n"));
   EXPECT_THAT(outcome.output,
@@ -110,12 +111,12 @@ TEST(Sweep, FindsTheHighestValueThatPasses) {
   const Outcome outcome = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
-  // Eight meters are halved five times before they are no longer than 0.3 m; and the two ends.
+  // Eight meters are halved five times until they are at most 0.3 m; both ends are evaluated, too.
   std::smatch found;
   ASSERT_TRUE(std::regex_match(
       csv, found, std::regex("control\\.distance,status,runs,reason\n([0-9.]+),found,7,\n")))
       << csv;
-  // `run` says so too: what was found passes, and what is a tolerance above it does not.
+  // `run` agrees: the found value passes, and a value a tolerance above it fails.
   const double highest = std::stod(found[1]);
   const auto run_with = [&](double distance) {
     return Trackbed(folder, "run -q " + ScenarioFile("winding") + " --plant kinematic --set " +
@@ -173,7 +174,7 @@ TEST(Sweep, StudiesCanBeCheckedLikeScenarios) {
   const Outcome outcome = Trackbed(folder, "check s");
   EXPECT_EQ(outcome.code, 0);
   EXPECT_EQ(outcome.output, "s/scenario.yaml: ok\ns/study.yaml: ok\n");
-  // Those that come along too.
+  // The shipped studies are valid, too.
   const Outcome own =
       Trackbed(folder, "check " + std::string(TRACKBED_SOURCE_DIR) + "/scenarios/studies");
   EXPECT_EQ(own.code, 0) << own.output;
@@ -181,8 +182,8 @@ TEST(Sweep, StudiesCanBeCheckedLikeScenarios) {
 
 TEST(Sweep, CtrlCKeepsTheRowsSoFar) {
   const TempFolder folder;
-  // Rows that take minutes. The output folder appears before the first run; the loop gives up
-  // after a minute.
+  // Rows that take minutes. The output folder appears before the first run; the loop gives up after
+  // a minute.
   folder.Write("study.yaml", StudyText("set: {drive.plants: [mujoco]}\n"
                                        "vary: {drive.timestep: [0.00001, 0.00002]}\n"));
   const std::string out = (folder.path() / "r").string();
@@ -197,7 +198,7 @@ TEST(Sweep, CtrlCKeepsTheRowsSoFar) {
   EXPECT_EQ(ReadFile(folder.path() / "r/sweep.csv"), "drive.timestep,status,reason\n");
 }
 
-/// Six short rows, which fail as they end before the goal, the last of which is refused.
+/// Six short rows, which fail because they end before the goal; the program rejects the last one.
 constexpr const char* kShort =
     "set: {drive.plants: [mujoco], drive.time_limit: 0.1, expect: {}}\n"
     "vary: {control.distance: [1, 2, 3, 4, 5, -1]}\n"
@@ -264,6 +265,13 @@ TEST(Sweep, MergesOnlyWhatIsWholeAndBelongsTogether) {
   EXPECT_THAT(Trackbed(folder, "sweep merge r other").output,
               testing::MatchesRegex("other/shard_1_of_3/sweep.records: is of another study than "
                                     "the first \\(overrides.*\n"));
+  // Merging has no --restart.
+  const Outcome into = Trackbed(folder, "sweep merge r -o other/shard_1_of_3");
+  EXPECT_EQ(into.code, 2);
+  EXPECT_THAT(into.output,
+              testing::MatchesRegex("other/shard_1_of_3/sweep.records: has rows of another study "
+                                    "\\(overrides.*\\); choose another folder for the table "
+                                    "\\(-o\\)\n"));
   EXPECT_EQ(Trackbed(folder, "sweep merge empty").output,
             "empty: has neither sweep.records nor folders of shards\n");
   EXPECT_EQ(Trackbed(folder, "sweep study.yaml --shard 4/3").output,
@@ -330,7 +338,7 @@ std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
 
 TEST(Sweep, KeepsTheRunFoldersThatTheStudyAsksFor) {
   const TempFolder folder;
-  // One and 2.5 meters pass, ten fail; the error grows with the distance.
+  // A preview of 1 m and 2.5 m passes, 10 m fails; the error grows with the distance.
   const auto kept = [&](const std::string& keep) {
     folder.Write("study.yaml", StudyText(kDistances + ("keep: " + keep + "\n")));
     const Outcome outcome = Trackbed(folder, "sweep -q study.yaml --restart -o r");
@@ -349,6 +357,67 @@ TEST(Sweep, KeepsTheRunFoldersThatTheStudyAsksFor) {
   EXPECT_EQ(Trackbed(folder, "report -q r/rows/0").code, 0);
 }
 
+TEST(Sweep, RemovesNothingThroughLinks) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kDistances + std::string("keep: all\n")));
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o mine").code, 0);
+  folder.Write("mine/rows/notes.txt", "mine");
+  const std::string row = ReadFile(folder.path() / "mine/rows/1/kinematic.csv");
+  const auto refused = [&](const std::string& target, const std::string& link) {
+    std::filesystem::remove_all(folder.path() / "r");
+    std::filesystem::create_directories((folder.path() / "r" / link).parent_path());
+    std::filesystem::create_symlink(folder.path() / target, folder.path() / "r" / link);
+    for (const char* how : {"", " --restart", " --shard 1/2"}) {
+      if (std::string(link).starts_with("shard") != (std::string(how) == " --shard 1/2")) {
+        continue;
+      }
+      const Outcome outcome = Trackbed(folder, std::string("sweep -q study.yaml -o r") + how);
+      EXPECT_EQ(outcome.code, 2) << outcome.output;
+      EXPECT_EQ(outcome.output, "cannot write to r/" + link +
+                                    ": it is a link, not a folder; remove it, or choose another "
+                                    "output folder (-o)\n");
+    }
+    EXPECT_EQ(ReadFile(folder.path() / "mine/rows/1/kinematic.csv"), row);
+    EXPECT_EQ(ReadFile(folder.path() / "mine/rows/notes.txt"), "mine");
+    EXPECT_EQ(NamesIn(folder.path() / "mine/rows").size(), 4U);
+  };
+  refused("mine/rows", "rows");
+  refused("mine/rows/1", "rows/1");
+  refused("mine/rows/1", "rows/77");
+  refused("mine", "shard_1_of_2");
+  // The output folder itself is the user's choice.
+  std::filesystem::remove_all(folder.path() / "r");
+  std::filesystem::create_symlink("mine", folder.path() / "r");
+  EXPECT_EQ(Trackbed(folder, "sweep -q study.yaml -o r --restart").code, 0);
+}
+
+TEST(Sweep, RestartLeavesTheUsersFilesInKeptRows) {
+  const TempFolder folder;
+  folder.Write("study.yaml", StudyText(kDistances + std::string("keep: all\n")));
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r").code, 0);
+  folder.Write("r/rows/0/notes.txt", "mine");
+  folder.Write("r/rows/1/deep/plan.csv", "mine");
+  folder.Write("r/rows/7/plan.csv", "mine");  // of no run of Trackbed's
+  folder.Write("r/rows/notes.txt", "mine");
+  folder.Write("study.yaml", StudyText(kDistances));
+  const Outcome foreign = Trackbed(folder, "sweep -q study.yaml -o r --restart");
+  EXPECT_EQ(foreign.code, 2);
+  EXPECT_EQ(foreign.output,
+            "r/rows/7 has files that Trackbed has not written, according to its manifest.json: "
+            "plan.csv; move them away, or choose another folder (-o)\n");
+  std::filesystem::rename(folder.path() / "r/rows/7", folder.path() / "r/rows/seven");
+  ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r --restart").code, 0);
+  std::vector<std::string> left;
+  for (const auto& entry :
+       std::filesystem::recursive_directory_iterator(folder.path() / "r/rows")) {
+    if (entry.is_regular_file()) {
+      left.push_back(entry.path().lexically_relative(folder.path() / "r/rows"));
+    }
+  }
+  EXPECT_THAT(left, testing::UnorderedElementsAre("0/notes.txt", "1/deep/plan.csv",
+                                                  "seven/plan.csv", "notes.txt"));
+}
+
 TEST(Sweep, StopsWhenThePassRateIsKnown) {
   const TempFolder folder;
   // Half of the rows pass: in 0.1 s a car at 2.5 m/s drives 0.25 m.
@@ -363,8 +432,8 @@ TEST(Sweep, StopsWhenThePassRateIsKnown) {
                                                          "-j ") +
                                                  jobs + " -o r" + jobs);
     EXPECT_EQ(outcome.code, 0);
-    // The interval is +-0.05 after about (1.96 / 0.05)^2 / 4 = 384 rows, which is looked at every
-    // 100.
+    // The interval is +-0.05 after about (1.96 / 0.05)^2 / 4 = 384 rows; it is checked every 100
+    // rows.
     EXPECT_THAT(outcome.output, testing::MatchesRegex("study: stopped after 400 of 2000 rows, "
                                                       "[0-9]+ passed: all pass rates are known to "
                                                       "..0.05 .95 %., in r./sweep.csv\n"));

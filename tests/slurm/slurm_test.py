@@ -8,6 +8,7 @@ of the tasks is killed and requeued while it runs, and goes on; the merged files
 a study that ran in one process. Needs slurm-wlm and munge; ends with 77 (skipped) without them.
 """
 import getpass
+import json
 import os
 import shutil
 import signal
@@ -21,6 +22,8 @@ SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file_
 SKIPPED = 77
 ROWS = 900
 NODES = ("node1", "node2")
+# All that a shell or Slurm reads as more than a letter; "packjob" would begin the options of another job.
+OUT = "out of $(touch evil) `touch evil` 'a' \"b\" #1 \\ %j packjob; touch evil"
 
 
 def free_port():
@@ -141,13 +144,13 @@ def check(program, work, cluster):
                    "outputs: [metrics.mujoco.distance]\n")
     subprocess.run([program, "sweep", "-q", "-o", "whole", "study.yaml"], cwd=work,
                    env=cluster.environment, check=True)
-    submitted = subprocess.run([program, "sweep", "submit", "study.yaml", "--tasks", "3", "-o", "out"],
+    submitted = subprocess.run([program, "sweep", "submit", "study.yaml", "--tasks", "3", "-o", OUT],
                                cwd=work, env=cluster.environment, capture_output=True, text=True,
                                check=False)
     assert submitted.returncode == 0, submitted.stderr
     words = submitted.stdout.split()
     array, merge = (int(words[i + 1].strip(",")) for i, word in enumerate(words) if word == "job")
-    shard = f"{work}/out/shard_1_of_3"
+    shard = f"{work}/{OUT}/shard_1_of_3"
     wait_for("row of the first task", lambda: rows_of(shard) > 0)
     cluster.tell("scontrol", "requeue", f"{array}_1")
     wait_for("requeued task", lambda: "PENDING" in cluster.state(f"{array}_1"))
@@ -157,9 +160,16 @@ def check(program, work, cluster):
     cluster.tell("scontrol", "update", f"JobId={array}_1", "StartTime=now")
     wait_for("merged study", lambda: cluster.state(merge) & {"COMPLETED", "FAILED", "CANCELLED"},
              seconds=300.0)
-    for name in ("sweep.csv", "sweep.json", "manifest.json"):
-        with open(f"{work}/whole/{name}", "rb") as one, open(f"{work}/out/{name}", "rb") as other:
+    for name in ("sweep.csv", "sweep.json"):
+        with open(f"{work}/whole/{name}", "rb") as one, open(f"{work}/{OUT}/{name}", "rb") as other:
             assert one.read() == other.read(), f"{name} differs"
+    # The manifest of the array's folder lists the submitted scripts, too.
+    with open(f"{work}/whole/manifest.json") as one, open(f"{work}/{OUT}/manifest.json") as other:
+        results = json.load(other)["results"]
+        assert sorted(results) == ["study", "submission"], results
+        assert json.load(one)["results"]["study"] == results["study"], "manifest.json differs"
+    evil = [name for _, _, names in os.walk(work) for name in names if name == "evil"]
+    assert not evil, "the name of the folder was run as a command"
     restarts = [word for word in cluster.tell("scontrol", "show", "job", f"{array}_1",
                                               "--oneliner").split() if word.startswith("Restarts=")]
     assert restarts == ["Restarts=1"], restarts
