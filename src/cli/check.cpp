@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "src/cli/scenario_options.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
@@ -44,10 +45,10 @@ void AddCheck(const Command& command) {
           static_cast<void>(LoadCar(options->scenario.Read(file)));
         }
         if (!options->scenario.quiet) {
-          fmt::print("{}: ok\n", file.string());
+          Print("{}: ok\n", file.string());
         }
       } catch (const InputError& error) {
-        fmt::print(stderr, "{}\n", error.what());
+        PrintTo(stderr, "{}\n", Lines{error.what()});
         exit_code = kBadInput;
       }
     }

@@ -21,6 +21,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/path_files/path_map.h"
 #include "trackbed/planning/path_file/path_check.h"
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/report/path_check.h"
@@ -47,7 +48,7 @@ struct CheckPathOptions {
   ScenarioOptions scenario;
 };
 
-/// The file's name as that of a scenario, of the characters that such names may have.
+/// Turns the file name into a valid name of a scenario.
 std::string NameOf(const fs::path& file) {
   std::string name = file.stem().string();
   std::replace_if(
@@ -57,7 +58,7 @@ std::string NameOf(const fs::path& file) {
   return name.empty() ? "path" : name;
 }
 
-/// A scenario that drives the path, whatever becomes of the car. JSON is YAML.
+/// A scenario that follows the path, without expectations on the car. JSON is valid YAML.
 std::string ScenarioText(const CheckPathOptions& options) {
   const fs::path file = options.file;
   nlohmann::ordered_json plan{
@@ -89,38 +90,38 @@ PathCheckOptions CheckOptions(const Scenario& scenario, const CarModel& car) {
   return options;
 }
 
-void Print(const Scenario& scenario, const FittedPath& fitted, const PathCheck& check,
-           const PathFileOptions& plan) {
-  constexpr std::size_t kMost = 10;
-  fmt::print("{}: {} at {:.3g} m/s with {}\n", scenario.name,
-             check.drivable() ? Toned(Tone::kGood, "drivable") : Toned(Tone::kBad, "not drivable"),
-             scenario.mission.speed, scenario.vehicle.model);
+void PrintCheck(const Scenario& scenario, const FittedPath& fitted, const PathCheck& check,
+                const PathFileOptions& plan) {
+  constexpr std::size_t kMaxFaults = 10;
+  Print("{}: {} at {:.3g} m/s with {}\n", scenario.name,
+        check.drivable() ? Colorize(Tone::kGood, "drivable") : Colorize(Tone::kBad, "not drivable"),
+        scenario.mission.speed, scenario.vehicle.model);
   if (fitted.reversals.empty()) {
-    fmt::print("  {:.4g} m, {}\n", fitted.path.length(), Describe(fitted));
+    Print("  {:.4g} m, {}\n", fitted.path.length(), Describe(fitted));
     if (check.max_speed > 0.0 && std::isfinite(check.max_speed)) {
-      fmt::print("  up to {:.3g} m/s, limited by {} at s = {:.4g} m\n", check.max_speed,
-                 ToString(check.max_speed_limit), check.max_speed_station);
+      Print("  up to {:.3g} m/s, limited by {} at s = {:.4g} m\n", check.max_speed,
+            ToString(check.max_speed_limit), check.max_speed_station);
     } else if (check.max_speed == 0.0) {
-      fmt::print("  at no speed: {} at s = {:.4g} m\n", ToString(check.max_speed_limit),
-                 check.max_speed_station);
+      Print("  at no speed: {} at s = {:.4g} m\n", ToString(check.max_speed_limit),
+            check.max_speed_station);
     }
   }
   std::istringstream notes(plan.notes.value_or(""));
   for (std::string note; std::getline(notes, note);) {
-    fmt::print("  {}\n", WithoutControls(note));
+    Print("  {}\n", note);
   }
-  for (std::size_t i = 0; i < std::min(kMost, check.faults.size()); ++i) {
-    fmt::print("  {}\n", ToString(check.faults[i]));
+  for (std::size_t i = 0; i < std::min(kMaxFaults, check.faults.size()); ++i) {
+    Print("  {}\n", ToString(check.faults[i]));
   }
-  if (check.faults.size() > kMost) {
-    fmt::print("  and {} more\n", check.faults.size() - kMost);
+  if (check.faults.size() > kMaxFaults) {
+    Print("  and {} more\n", check.faults.size() - kMaxFaults);
   }
 }
 
 int Drive(const CheckPathOptions& options, const Scenario& scenario) {
   const fs::path out =
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
-  const auto [folder, result] = DriveScenario({scenario, out}, options.scenario.quiet);
+  const auto [folder, result, finishing] = DriveScenario({scenario, out}, options.scenario.quiet);
   WriteRunFolder(result, folder);
   if (!options.scenario.quiet && !options.json) {
     PrintSummary(result, out);
@@ -140,6 +141,7 @@ int Drive(const CheckPathOptions& options, const Scenario& scenario) {
 
 int CheckPathFile(const CheckPathOptions& options) {
   const fs::path file = options.file;
+  static_cast<void>(OpenInput(file));  // names the file, not a key of the scenario made for it
   const Scenario scenario =
       options.scenario.Parse(ScenarioText(options), "check-path", file.parent_path());
   const auto* plan = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;
@@ -152,9 +154,11 @@ int CheckPathFile(const CheckPathOptions& options) {
   const PathCheck check = CheckPath(fitted, car.unladen(), check_options);
   const PathCheckTitle title{scenario.name, scenario.vehicle.model, plan->notes.value_or("")};
   if (options.json) {
-    fmt::print("{}\n", PathCheckJson(title, fitted, check, check_options).dump(2));
+    const nlohmann::ordered_json json = PathCheckJson(title, fitted, check, check_options);
+    Print("{}\n",
+          Lines{json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace)});
   } else if (!options.scenario.quiet) {
-    Print(scenario, fitted, check, *plan);
+    PrintCheck(scenario, fitted, check, *plan);
   }
   if (!options.report.empty()) {
     const fs::path page = options.report;
@@ -171,9 +175,7 @@ int CheckPathFile(const CheckPathOptions& options) {
 
 void AddCheckPath(const Command& command) {
   const auto options = std::make_shared<CheckPathOptions>();
-  command
-      .AddPositional("file", options->file,
-                     "The path: CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution or GeoJSON")
+  command.AddPositional("file", options->file, "The path: " + PathFormatList())
       .Required()
       .TypeName("FILE");
   command.AddOption("--speed", options->speed, "Speed to check at [m/s]")

@@ -4,11 +4,16 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <sstream>
 #include <utility>
 #include <vector>
 
 #include "src/cli/terminal.h"
 
+// Command line on top of CLI11: Command and Option wrap its apps and options. CommandLine adds help
+// in the usual layout, wrapped to the terminal's width, the option --color to every verb, and
+// shorter messages for missing arguments. VisibleVerbs describes all verbs for completion, manual
+// pages and the reference.
 namespace trackbed::cli {
 
 Option Option::Required() const {
@@ -54,7 +59,7 @@ Option Option::Range(int low, int high) const {
 }
 
 Option Option::Range(double low, double high) const {
-  // CLI::Range lets NaN pass.
+  // CLI::Range accepts NaN.
   option_->check(CLI::Validator(
       [low, high](std::string& text) {
         double value = 0.0;
@@ -117,7 +122,7 @@ namespace {
 
 constexpr const char* kColorOption = "--color";
 
-/// The verbs of `app` and those below them, with `before` in front of their names.
+/// Appends the verbs of `app` and, recursively, their verbs, with `before` prepended to the names.
 void AddVisibleVerbs(const CLI::App& app, const std::string& before,
                      const std::map<const CLI::App*, std::vector<Example>>& examples,
                      std::vector<CommandInfo>& verbs) {
@@ -177,7 +182,7 @@ std::optional<std::string> Missing(const CLI::App& program) {
 
 namespace {
 
-/// Help as other programs print it: value names as they are, texts broken at the terminal's width.
+/// Formats help like other programs: value names as given, text wrapped to the terminal's width.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool positional) const override {
@@ -206,7 +211,7 @@ class HelpFormatter : public CLI::Formatter {
   }
 
  private:
-  /// Wider lines are hard to read.
+  /// Lines beyond 100 characters are hard to read.
   static std::size_t Width() { return std::min<std::size_t>(TerminalWidth(), 100); }
 
   static std::string Item(const std::string& name, const std::string& text) {
@@ -249,7 +254,7 @@ Command CommandLine::AddVerb(const std::string& name, const std::string& summary
 
 void CommandLine::Prepare(CLI::App& verb) {
   verb.group("Verbs");
-  verb.footer("");  // not that of the verb above
+  verb.footer("");  // do not inherit the parent's footer
   verb.add_option_function<std::string>(kColorOption, &ChooseColors,
                                         "Colors: auto (on a terminal, unless NO_COLOR is set), "
                                         "always or never")
@@ -260,8 +265,8 @@ void CommandLine::Prepare(CLI::App& verb) {
 
 namespace {
 
-/// Where the words ask for a verb below another one, nothing is required of the upper one. CLI11
-/// takes the lower verb's name for what is required otherwise.
+/// Drops the required options of a verb if a verb below it is given. Otherwise CLI11 takes the
+/// lower verb's name as a required argument.
 void RequireOnlyOfLowestVerb(CLI::App& program, int argc, char** argv) {
   const auto find = [](CLI::App& app, const char* name) {
     return app.get_subcommands([&](const CLI::App* verb) { return verb->check_name(name); });
@@ -282,14 +287,19 @@ int CommandLine::Parse(int argc, char** argv, int bad_usage) {
   try {
     app_->parse(argc, argv);
   } catch (const CLI::RequiredError& error) {
-    fmt::print(stderr, "{}\nRun with --help for more information.\n",
-               Missing(*app_).value_or(error.what()));
+    PrintTo(stderr, "{}\nRun with --help for more information.\n",
+            Missing(*app_).value_or(error.what()));
     return bad_usage;
   } catch (const CLI::ParseError& error) {
-    return app_->exit(error) == 0 ? 0 : bad_usage;
+    std::ostringstream out;
+    std::ostringstream said;
+    const int code = app_->exit(error, out, said);
+    Print("{}", Lines{out.str()});
+    PrintTo(stderr, "{}", Lines{said.str()});
+    return code == 0 ? 0 : bad_usage;
   }
   if (app_->get_subcommands().empty()) {
-    fmt::print("{}", app_->help());
+    Print("{}", Lines{app_->help()});
     return bad_usage;
   }
   return exit_code_;

@@ -29,46 +29,45 @@ void PrintRow(const char* what, const char* unit, const Difference& difference,
               const std::optional<double>& tolerance) {
   std::string max = fmt::format("{:.3g}", difference.max);
   std::string limit = tolerance ? fmt::format("; at most {:.4g}", *tolerance) : "";
+  SafeText exceeded;
   if (tolerance && !(difference.max <= *tolerance)) {
     const auto [expected, actual] = FormatDistinct(*tolerance, difference.max);
     max = actual;
-    limit = "; at most " + expected + ": " + Toned(Tone::kBad, "EXCEEDED");
+    limit = "; at most " + expected + ": ";
+    exceeded = Colorize(Tone::kBad, "EXCEEDED");
   }
-  fmt::print("    {:<8} {:>9} {:<5} at {:>6.4g} m, {:>6.4g} s; rms {:>9.3g} {}{}\n", what, max,
-             unit, difference.max_s, difference.max_t, difference.rms, unit, limit);
+  Print("    {:<8} {:>9} {:<5} at {:>6.4g} m, {:>6.4g} s; rms {:>9.3g} {}{}{}\n", what, max, unit,
+        difference.max_s, difference.max_t, difference.rms, unit, limit, exceeded);
 }
 
-std::string StatusText(const RunComparison& result) {
-  return !result.verdict.passed ? Toned(Tone::kBad, "FAILED")
-         : result.judged()      ? Toned(Tone::kGood, "passed")
-                                : "compared, no tolerances given";
+SafeText StatusText(const RunComparison& result) {
+  return !result.verdict.passed ? Colorize(Tone::kBad, "FAILED")
+         : result.judged()      ? Colorize(Tone::kGood, "passed")
+                                : SafeText{"compared, no tolerances given"};
 }
 
-void Print(const std::string& name, const RunComparison& result, const fs::path& out) {
-  fmt::print("{}: {}, in {}\n", name, StatusText(result),
-             (out / run_folder::kCompareJson).string());
+void PrintComparison(const std::string& name, const RunComparison& result, const fs::path& out) {
+  Print("{}: {}, in {}\n", name, StatusText(result), (out / run_folder::kCompareJson).string());
   for (const ComparedPair& pair : result.pairs) {
     const PlantComparison& c = pair.comparison;
     if (!c.comparable()) {
-      continue;  // the verdict says so
+      continue;  // reported by the verdict
     }
-    fmt::print("  {} - {}, from {:.4g} m to {:.4g} m\n", c.first, c.second, c.from_s, c.to_s);
+    Print("  {} - {}, from {:.4g} m to {:.4g} m\n", c.first, c.second, c.from_s, c.to_s);
     for (const ComparedQuantity& quantity : ComparedQuantities()) {
       PrintRow(quantity.name, quantity.unit, c.*quantity.difference, pair.bounds.*quantity.bound);
     }
   }
   for (const auto& lines : {result.verdict.failures, result.verdict.notes}) {
     for (const std::string& line : lines) {
-      fmt::print("  {}\n", line);
+      Print("  {}\n", line);
     }
   }
 }
 
-int Finish(const std::string& name, const RunComparison& result, const OutputFolder& out,
-           bool quiet) {
-  WriteComparison(result, out);
+int Finish(const std::string& name, const RunComparison& result, const fs::path& out, bool quiet) {
   if (!quiet) {
-    Print(name, result, out.path());
+    PrintComparison(name, result, out);
   }
   return result.verdict.passed ? kOk : kFailedExpectations;
 }
@@ -87,25 +86,30 @@ int CompareFinished(const CompareOptions& options) {
   const RunComparison result =
       CompareFolders(folders, options.scenario.plants, Tolerances(options));
   const OutputFolder out(options.out.empty() ? "out/compare" : options.out);
-  return Finish(fmt::format("{}", fmt::join(options.files, " and ")), result, out,
+  WriteComparison(result, out);
+  return Finish(fmt::format("{}", fmt::join(options.files, " and ")), result, out.path(),
                 options.scenario.quiet);
 }
 
 int CompareScenario(const ScenarioRun& run, const CompareOptions& options) {
-  const auto [folder, result] = DriveScenario(run, options.scenario.quiet);
-  WriteRunFolder(result, folder);
+  const auto [folder, result, finishing] = DriveScenario(run, options.scenario.quiet);
   if (result.interrupted) {
+    WriteRunFolder(result, folder);
     if (!options.scenario.quiet) {
-      fmt::print("{}: interrupted, in {}\n", run.scenario.name, run.folder.string());
+      Print("{}: interrupted, in {}\n", run.scenario.name, run.folder.string());
     }
     return kInterrupted;
   }
-  return Finish(run.scenario.name, CompareRun(result, Tolerances(options)), folder,
-                options.scenario.quiet);
+  const RunComparison comparison = CompareRun(result, Tolerances(options));
+  ResultWriter writer(folder);
+  AddRunFolder(result, writer);
+  AddComparison(comparison, folder.path(), writer);
+  writer.Commit();
+  return Finish(run.scenario.name, comparison, folder.path(), options.scenario.quiet);
 }
 
 int CompareScenarios(const CompareOptions& options) {
-  static_cast<void>(Tolerances(options));  // before the work, not after it
+  static_cast<void>(Tolerances(options));  // fail before the runs, not after
   const std::vector<ScenarioRun> runs =
       ReadScenarioRuns(options.files, options.scenario, options.out, "out/compare");
   for (const ScenarioRun& run : runs) {

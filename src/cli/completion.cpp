@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/cli/shell_pages.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -29,7 +30,7 @@ void AddCompletion(const Command& command) {
     std::vector<std::string> names;
     for (const auto& [name, make] : shells) {
       if (name == *shell) {
-        fmt::print("{}", make(command.VisibleVerbs()));
+        Print("{}", Lines{make(command.VisibleVerbs())});
         return kOk;
       }
       names.push_back(name);
@@ -39,7 +40,7 @@ void AddCompletion(const Command& command) {
 }
 
 void AddManual(const Command& command) {
-  command.Hide();  // for the build; not in --help
+  command.Hide();  // used by the build; not in --help
   const auto folder = std::make_shared<std::string>();
   command.AddPositional("folder", *folder, "Folder for the manual pages")
       .Required()

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -7,6 +8,7 @@
 #include <sstream>
 
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
@@ -92,11 +94,36 @@ std::string KeyTables(const std::vector<KeySection>& sections) {
   return text;
 }
 
+/// Names in code, separated by commas.
+std::string NameList(const std::vector<std::string>& names) {
+  std::string list;
+  for (const std::string& name : names) {
+    list += (list.empty() ? "" : ", ") + Code(name);
+  }
+  return list;
+}
+
+/// The files of each result, and the results of each verb.
+std::string WrittenNamesTables() {
+  std::string tables = "| result | its files |\n|---|---|\n";
+  for (const ResultNames& result : AllResultNames()) {
+    tables += fmt::format("| {} | {} |\n", result.result, NameList(result.names));
+  }
+  tables += "\n| verb | results | other names | options that name a file |\n|---|---|---|---|\n";
+  for (const VerbNames& verb : AllVerbNames()) {
+    tables += fmt::format("| {} | {} | {} | {} |\n", Code(verb.verb),
+                          fmt::format("{}", fmt::join(verb.results, ", ")), NameList(verb.others),
+                          NameList(verb.explicit_files));
+  }
+  return tables;
+}
+
 std::vector<Block> Blocks(const std::vector<CommandInfo>& verbs) {
   std::vector<Block> blocks{{"verbs", VerbTable(verbs)}};
   for (const CommandInfo& verb : verbs) {
     blocks.push_back({"options of " + verb.name, OptionTable(verb)});
   }
+  blocks.push_back({"written names", WrittenNamesTables()});
   blocks.push_back({"scenario keys", KeyTables(ScenarioKeys())});
   blocks.push_back({"study keys", KeyTables(StudyKeys())});
   blocks.push_back({"identification keys", KeyTables(IdentificationKeys())});

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/control/optimal_steering.h"
 #include "trackbed/core/angle.h"
@@ -18,6 +19,10 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/sim/car_model.h"
 
+// The experiment of Skackauskas et al. 2017: a primary drives one lap at a constant steering angle,
+// and a search finds the constant angle with which a car at another speed ends at the same place.
+// Runs all speeds, matched by time and by arc length, with each search method, and compares the
+// angles with the published ones.
 namespace trackbed::cli {
 namespace {
 
@@ -26,7 +31,7 @@ namespace fs = std::filesystem;
 constexpr const char* kOptimalSteering = "optimal_steering";
 constexpr double kDegree = kPi / 180.0;
 
-/// The defaults are the experiment of Skackauskas et al. 2017.
+/// Defaults are those of Skackauskas et al. 2017.
 struct ExperimentOptions {
   std::string name;
   std::string vehicle = "prius";
@@ -34,15 +39,15 @@ struct ExperimentOptions {
   double primary_speed = 3.0;                      // [m/s]
   double max_steering = 27.0;                      // [deg]
   std::vector<double> speeds{2.5, 2.0, 1.5, 1.0};  // of the car [m/s]
-  std::vector<std::string> searches;               // none: all
+  std::vector<std::string> searches;               // empty: all
   int evaluations = 0;
   std::uint64_t seed = 1;
   std::string out;
   bool quiet = false;
 };
 
-/// The second stage of Skackauskas et al. 2017, whose primary steers 10 deg at 3 m/s: a genetic
-/// algorithm's angles, which lie within 2.3 % of the primary's.
+/// Angles found by the genetic algorithm in the second stage of Skackauskas et al. 2017, where the
+/// primary steers 10 deg at 3 m/s. These angles differ from the primary's 10 deg by at most 2.3 %.
 std::optional<double> Published(const ExperimentOptions& options, double speed) {
   struct Row {
     double speed;    // [m/s]
@@ -91,7 +96,7 @@ std::vector<const SearchEntry*> ChosenSearches(const std::vector<std::string>& c
   return entries;
 }
 
-/// Of every speed, matched by time and by arc length, with every search: in this order.
+/// Results ordered by speed, then by matching (time, arc length), then by search.
 std::vector<Match> MatchAll(const VehicleParams& vehicle, const ExperimentOptions& options,
                             const std::vector<const SearchEntry*>& searches) {
   std::vector<Match> matches;
@@ -114,7 +119,7 @@ std::vector<Match> MatchAll(const VehicleParams& vehicle, const ExperimentOption
   return matches;
 }
 
-/// Off the primary's angle [%].
+/// Deviation from the primary's angle [%].
 double Scatter(const ExperimentOptions& options, const Match& match) {
   return 100.0 * (match.steering / options.steering - 1.0);
 }
@@ -138,8 +143,8 @@ std::string ToCsv(const ExperimentOptions& options, const std::vector<Match>& ma
   return table.ToCsv();
 }
 
-/// Whether all angles of a search that are matched by arc length are as near to the primary's as
-/// the published ones.
+/// Whether all angles of a search that are matched by arc length deviate from the primary's no more
+/// than the published ones.
 bool StaysWithin(const ExperimentOptions& options, const SearchEntry& search,
                  const std::vector<Match>& matches) {
   return std::all_of(matches.begin(), matches.end(), [&](const Match& match) {
@@ -148,22 +153,22 @@ bool StaysWithin(const ExperimentOptions& options, const SearchEntry& search,
   });
 }
 
-void Print(const ExperimentOptions& options, const std::string& car,
-           const std::vector<const SearchEntry*>& searches, const std::vector<Match>& matches) {
-  fmt::print(
-      "{}: the constant angle [deg] that brings {} where one lap at {} deg and {} m/s ends\n",
-      kOptimalSteering, car, ShortestText(options.steering), ShortestText(options.primary_speed));
+void PrintTable(const ExperimentOptions& options, const std::string& car,
+                const std::vector<const SearchEntry*>& searches,
+                const std::vector<Match>& matches) {
+  Print("{}: the constant angle [deg] that brings {} where one lap at {} deg and {} m/s ends\n",
+        kOptimalSteering, car, ShortestText(options.steering), ShortestText(options.primary_speed));
   std::string line = fmt::format("  {:>5} {:<10}", "[m/s]", "matched by");
   for (const SearchEntry* search : searches) {
     line += fmt::format(" {:>11}", search->name);
   }
-  fmt::print("{} {:>9}\n", line, "published");
+  Print("{} {:>9}\n", line, "published");
   for (std::size_t i = 0; i < matches.size(); i += searches.size()) {
     line = fmt::format("  {:>5} {:<10}", ShortestText(matches[i].speed), Name(matches[i].matching));
     for (std::size_t j = i; j < i + searches.size(); ++j) {
       line += fmt::format(" {:>11.3f}", matches[j].steering);
     }
-    fmt::print("{} {:>9}\n", line, PublishedText(options, matches[i], "-"));
+    Print("{} {:>9}\n", line, PublishedText(options, matches[i], "-"));
   }
   for (const bool within : {true, false}) {
     std::vector<const char*> names;
@@ -173,9 +178,9 @@ void Print(const ExperimentOptions& options, const std::string& car,
       }
     }
     if (!names.empty()) {
-      fmt::print("  matched by arc length, {} {} % of the primary's angle: {}\n",
-                 within ? "always within" : "not always within", kPublishedScatter,
-                 fmt::join(names, ", "));
+      Print("  matched by arc length, {} {} % of the primary's angle: {}\n",
+            within ? "always within" : "not always within", kPublishedScatter,
+            fmt::format("{}", fmt::join(names, ", ")));
     }
   }
 }
@@ -197,14 +202,14 @@ int Experiment(const ExperimentOptions& options) {
   const fs::path file = FindModel(options.vehicle, "");
   const CarModel car(ComposeScene(file, {}), file.string());
   if (!options.out.empty()) {
-    PrepareToWrite(options.out);  // before the work, not after it
+    PrepareToWrite(options.out);  // fail before the searches, not after
   }
   const std::vector<Match> matches = MatchAll(car.params(), options, searches);
   if (!options.out.empty()) {
     WriteFileAtomically(options.out, ToCsv(options, matches));
   }
   if (!options.quiet) {
-    Print(options, car.params().name, searches, matches);
+    PrintTable(options, car.params().name, searches, matches);
   }
   return kOk;
 }

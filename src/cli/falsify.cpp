@@ -12,19 +12,23 @@
 #include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/sweep_folders.h"
+#include "src/cli/terminal.h"
 #include "src/cli/text_columns.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/falsify/counterexample.h"
 #include "trackbed/report/report.h"
 
+// `trackbed falsify`: searches a study for a run that fails (falsify.cpp of the library), continues
+// from the records of an interrupted search, and writes the table of runs and falsify.json. If the
+// study is falsified, also writes the run folder of the shrunk counterexample with a scenario for a
+// test suite, optionally with video and report.
 namespace trackbed::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-// What the manifest calls the files beside those of a study.
-constexpr const char* kFalsification = "falsification";
 
 struct FalsifyVerbOptions {
   std::string file;
@@ -34,34 +38,45 @@ struct FalsifyVerbOptions {
   bool video = false;
   std::string gl = FilmOptions{}.gl;
   bool report = false;
-  int jobs = 0;  // 0: as many as the machine runs threads
+  int jobs = 0;  // 0: number of hardware threads
   ScenarioOptions scenario;
 };
 
-/// The records as a table without gaps: what was planned is more than what was run.
-SweepSummary WriteTable(const SweepRecords& records, const OutputFolder& folder) {
+/// Writes the table of the runs made, which may be fewer than planned, and the outcome. The outcome
+/// tells of the counterexample's run folder, so that it is not taken for that of another search.
+SweepSummary WriteOutcome(const SweepRecords& records, nlohmann::ordered_json outcome,
+                          const OutputFolder& folder) {
   nlohmann::ordered_json header = records.header();
   header["rows_expected"] = records.count();
   SweepRecords whole = SweepRecords::InMemory(header);
   for (std::size_t row = 0; row < records.count(); ++row) {
     whole.Append(row, records.Read(row));
   }
-  return WriteSweep(whole, {}, folder);
+  outcome["result"] = outcome.contains(run_folder::kCounterexample)
+                          ? run_folder::ResultHash(folder.path() / run_folder::kCounterexample)
+                          : "";
+  ResultWriter writer(folder);
+  const SweepSummary table = AddSweep(whole, {}, writer);
+  writer.Add(run_folder::kFalsifyJson, JsonText(outcome));
+  writer.Commit(run_folder::kFalsification, {});
+  return table;
 }
 
-/// The run folder of the counterexample, and the scenario for a test suite in it.
-void WriteCounterexample(const FalsifyResult& result, const CheckedSearch& search,
-                         const fs::path& out, const FalsifyVerbOptions& options) {
-  const RunResult run = RunCounterexample(result, search);
-  const OutputFolder folder(out);
-  WriteRunFolder(run, folder);
+/// Writes the run folder of the counterexample, including a scenario for a test suite.
+void WriteCounterexample(const RunResult& run, const CheckedSearch& search, const fs::path& out) {
   const Regression regression =
       MakeRegression(run, search.study.name + "_" + run_folder::kCounterexample);
-  {
-    ResultWriter writer(folder);
-    writer.Add(run_folder::kCounterexampleYaml, RegressionYaml(regression, run));
-    writer.Commit(run_folder::kCounterexample, {});
-  }
+  const OutputFolder folder(out);
+  ResultWriter writer(folder);
+  AddRunFolder(run, writer);
+  writer.Add(run_folder::kCounterexampleYaml, RegressionYaml(regression, run));
+  writer.Commit(run_folder::kCounterexample, {});
+}
+
+/// Adds film and report to the run folder of the counterexample.
+void ShowCounterexample(const RunResult& run, const FalsifyResult& result,
+                        const CheckedSearch& search, const fs::path& out,
+                        const FalsifyVerbOptions& options) {
   if (options.video && run.plan.ok()) {
     const RenderSpec& render = run.scenario.render;
     FilmRun(out, out / run_folder::kVideo,
@@ -79,14 +94,14 @@ void WriteCounterexample(const FalsifyResult& result, const CheckedSearch& searc
   }
 }
 
-/// "18.2", or a dash.
+/// A number such as "18.2", or a dash.
 std::string Cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.5g}", *value) : "-";
 }
 
-/// "16.4 to 18.2", with the ends of the range where it passes up to them.
+/// Range of the key within which the run passes, such as "16.4 to 18.2".
 std::string ReachText(const SearchSpace& space, std::size_t i, const KeyMargin& margin) {
-  const auto end = [&](const std::optional<ReachAlone>& alone) {
+  const auto end = [&](const std::optional<SingleKeyReach>& alone) {
     return alone ? space.Value(i, alone->passes) : space.keys()[i].nominal;
   };
   if (!margin.down && !margin.up) {
@@ -96,9 +111,9 @@ std::string ReachText(const SearchSpace& space, std::size_t i, const KeyMargin& 
 }
 
 void PrintMargins(const FalsifyResult& result, const CheckedSearch& search) {
-  const Shrunk& shrunk = result.shrunk;
+  const ShrinkResult& shrunk = result.shrunk;
   if (shrunk.keys.empty()) {
-    return;  // it was not made smaller
+    return;  // the counterexample was not shrunk
   }
   const SearchSpace& space = search.space;
   std::vector<TextColumn> columns{{{"key"}, "", {}},
@@ -125,67 +140,60 @@ void PrintMargins(const FalsifyResult& result, const CheckedSearch& search) {
     table.Add(std::move(column));
   }
   for (const std::string& line : table.Lines()) {
-    fmt::print("{}\n", line);
-  }
-}
-
-/// Removes the run folder of an earlier search's counterexample.
-void RemoveCounterexample(const fs::path& folder) {
-  std::error_code ignored;
-  if (fs::is_directory(folder, ignored) && !fs::is_symlink(folder, ignored) &&
-      fs::exists(folder / run_folder::kManifest, ignored)) {
-    fs::remove_all(folder, ignored);
+    Print("{}\n", line);
   }
 }
 
 void PrintResult(const FalsifyResult& result, const CheckedSearch& search, const fs::path& out) {
   const std::string& name = search.study.name;
   if (result.status == FalsifyStatus::kInterrupted) {
-    fmt::print("{}: interrupted after {} runs; the same command goes on\n", name, result.runs);
+    Print("{}: interrupted after {} runs; the same command goes on\n", name, result.runs);
     return;
   }
   const std::string time = result.out_of_time ? " (the time was up)" : "";
   if (!result.counterexample) {
-    fmt::print("{}: not falsified in {} runs{}", name, result.runs, time);
+    Print("{}: not falsified in {} runs{}", name, result.runs, time);
     if (result.least) {
-      fmt::print("; the lowest robustness is {:.4g} ({}), row {}", result.least->robustness,
-                 result.least->limit, result.least->row);
+      Print("; the lowest robustness is {:.4g} ({}), row {}", result.least->robustness,
+            result.least->limit, result.least->row);
     }
-    fmt::print("; in {}\n", (out / run_folder::kSweepCsv).string());
+    Print("; in {}\n", (out / run_folder::kSweepCsv).string());
     return;
   }
   const SearchedPoint& worst = *result.counterexample;
-  fmt::print("{}: broken: {} of {} runs failed{}, the first is row {}\n", name, result.violations,
-             result.runs, time, result.first->row);
-  fmt::print("  {}\n", worst.reason);
-  fmt::print(
+  Print("{}: broken: {} of {} runs failed{}, the first is row {}\n", name, result.violations,
+        result.runs, time, result.first->row);
+  Print("  {}\n", worst.reason);
+  Print(
       "  robustness {:.4g} ({}), distance {:.4g} from the nominal point after {} runs to "
       "shrink it{}\n",
       worst.robustness, worst.limit, Distance(worst.point, search.space.nominal()),
       result.shrink_runs,
       result.shrunk.point.empty() || result.shrunk.complete ? "" : ", which were not enough");
   PrintMargins(result, search);
-  fmt::print("  {}\n",
-             (out / run_folder::kCounterexample / run_folder::kCounterexampleYaml).string());
+  Print("  {}\n", (out / run_folder::kCounterexample / run_folder::kCounterexampleYaml).string());
 }
 
 int Falsify(const FalsifyVerbOptions& options) {
   const CheckedSearch search = CheckSearch(options.scenario.ReadStudyFile(options.file));
   const std::string& name = search.study.name;
   const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
-  const OutputFolder folder(out);  // before the work, not after it
+  const OutputFolder folder(out, FileNamesOfVerb("falsify"));  // fail before the search, not after
+  const fs::path counterexample = FolderBelow(out, run_folder::kCounterexample);
+  std::vector<std::string> names = run_folder::AllNames();
+  names.emplace_back(run_folder::kCounterexampleYaml);
+  RequireNoForeignFiles(counterexample, names);
   if (options.video) {
-    CheckFilmName(out / run_folder::kCounterexample / run_folder::kVideo);
+    CheckFilmName(counterexample / run_folder::kVideo);
     CheckGl(options.gl);
   }
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
-    std::error_code ignored;
-    fs::remove(file, ignored);
+    SweepRecords::Remove(file);
   }
   SweepRecords records(file, FalsifyHeader(search));
   if (records.count() > 0 && !options.scenario.quiet) {
-    fmt::print("{}: {} runs are there already\n", name, records.count());
+    Print("{}: {} runs are there already\n", name, records.count());
   }
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   FalsifyResult result;
@@ -202,20 +210,21 @@ int Falsify(const FalsifyVerbOptions& options) {
              },
          .time_limit = options.time});
   }
-  const SweepSummary table = WriteTable(records, folder);
-  {
-    ResultWriter writer(folder);
-    writer.Add(run_folder::kFalsifyJson, ToJson(result, search).dump(2) + "\n");
-    writer.Commit(kFalsification, {});
+  std::optional<RunResult> failed;
+  if (result.status == FalsifyStatus::kBroken) {
+    failed = RunCounterexample(result, search);
+    WriteCounterexample(*failed, search, counterexample);
+  }
+  const SweepSummary table = WriteOutcome(records, ToJson(result, search), folder);
+  if (!failed) {
+    RemoveResults(counterexample);
   }
   if (!options.scenario.quiet) {
     PrintResult(result, search, out);
   }
   PrintRowsWithoutRun(name, table);
-  if (result.status == FalsifyStatus::kBroken) {
-    WriteCounterexample(result, search, out / run_folder::kCounterexample, options);
-  } else {
-    RemoveCounterexample(out / run_folder::kCounterexample);
+  if (failed) {
+    ShowCounterexample(*failed, result, search, counterexample, options);
   }
   if (options.report && result.status != FalsifyStatus::kInterrupted) {
     WriteReport({out}, out / run_folder::kReport);

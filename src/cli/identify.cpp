@@ -48,17 +48,17 @@ std::string InWords(ParameterStatus status) {
 }
 
 void PrintParameters(const IdentificationResult& result) {
-  fmt::print("  {:<24} {:>11} {:>11} {:>14}\n", "parameter", "start", "estimate", "standard error");
+  Print("  {:<24} {:>11} {:>11} {:>14}\n", "parameter", "start", "estimate", "standard error");
   for (const ParameterEstimate& estimate : result.parameters) {
     const bool known = estimate.status != ParameterStatus::kNotIdentified;
     std::string remark = InWords(estimate.status);
     if (!estimate.remark.empty()) {
       remark += (remark.empty() ? "" : ": ") + estimate.remark;
     }
-    fmt::print("  {:<24} {:>11.4g} {:>11} {:>14}{}\n", estimate.parameter.name, estimate.start,
-               known ? fmt::format("{:.4g}", estimate.value) : "",
-               estimate.standard_error ? fmt::format("{:.2g}", *estimate.standard_error) : "",
-               remark.empty() ? "" : "  " + Toned(Tone::kDoubtful, remark));
+    Print("  {:<24} {:>11.4g} {:>11} {:>14}{}{}\n", estimate.parameter.name, estimate.start,
+          known ? fmt::format("{:.4g}", estimate.value) : "",
+          estimate.standard_error ? fmt::format("{:.2g}", *estimate.standard_error) : "",
+          remark.empty() ? "" : "  ", Colorize(Tone::kDoubtful, remark));
   }
 }
 
@@ -72,8 +72,8 @@ const PlantMetrics* Find(const RunResult& run, const std::string& plant) {
 }
 
 void PrintRecords(const IdentificationResult& result) {
-  fmt::print("  {:<26} {:<14} {:>21}  after {:.3g} s: median, 90 %\n", "record", "plant",
-             "yaw rate (rel. rms)", result.study.horizon);
+  Print("  {:<26} {:<14} {:>21}  after {:.3g} s: median, 90 %\n", "record", "plant",
+        "yaw rate (rel. rms)", result.study.horizon);
   for (const IdentifiedRecord& record : result.records) {
     for (const PlantMetrics& fitted : record.fitted.metrics) {
       const PlantMetrics* start = Find(record.start, fitted.plant);
@@ -86,9 +86,9 @@ void PrintRecords(const IdentificationResult& result) {
           windows = fmt::format("{:.3g} m, {:.3g} m", window.position_median, window.position_p90);
         }
       }
-      fmt::print("  {:<26} {:<14} {:>9.3g} -> {:<8.3g}  {}{}\n", record.name, fitted.plant,
-                 start->recorded->yaw_rate_relative_rms, fitted.recorded->yaw_rate_relative_rms,
-                 windows, record.held_out ? "  (held out)" : "");
+      Print("  {:<26} {:<14} {:>9.3g} -> {:<8.3g}  {}{}\n", record.name, fitted.plant,
+            start->recorded->yaw_rate_relative_rms, fitted.recorded->yaw_rate_relative_rms, windows,
+            record.held_out ? "  (held out)" : "");
     }
   }
 }
@@ -96,7 +96,12 @@ void PrintRecords(const IdentificationResult& result) {
 int RunIdentification(const IdentifyOptions& options) {
   const Identification study = ReadIdentification(options.study, Paths(options.asset_folders));
   const fs::path out = options.out.empty() ? fs::path("out") / study.name : fs::path(options.out);
-  const OutputFolder folder(out);
+  const OutputFolder folder(out, IdentificationFiles(study));  // fail before the search
+  for (const auto* list : {&study.fit_scenarios, &study.held_out_scenarios}) {
+    for (const Scenario& scenario : *list) {
+      RequireNoForeignFiles(RecordFolder(out, scenario.name), run_folder::AllNames());
+    }
+  }
   ProgressBar bar(study.name, options.quiet);
   const IdentificationResult result = Identify(
       study, {.progress = [&](double fraction) { bar.Show(fraction); },
@@ -110,9 +115,9 @@ int RunIdentification(const IdentifyOptions& options) {
     WriteReport({out}, out / run_folder::kReport);
   }
   if (!options.quiet) {
-    fmt::print("{}: {}, cost {:.4g} -> {:.4g} over {} windows of {:.3g} s, in {}\n", study.name,
-               result.interrupted ? Toned(Tone::kDoubtful, "interrupted") : "finished",
-               result.start_cost, result.cost, result.windows, study.horizon, out.string());
+    Print("{}: {}, cost {:.4g} -> {:.4g} over {} windows of {:.3g} s, in {}\n", study.name,
+          result.interrupted ? Colorize(Tone::kDoubtful, "interrupted") : SafeText{"finished"},
+          result.start_cost, result.cost, result.windows, study.horizon, out.string());
     PrintParameters(result);
     PrintRecords(result);
   }

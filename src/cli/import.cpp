@@ -7,6 +7,7 @@
 
 #include "src/cli/scenario_options.h"
 #include "src/cli/scenario_runs.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/analysis/run_folder.h"
@@ -30,13 +31,13 @@ struct ImportOptions {
   bool quiet = false;
 };
 
-void Print(const RunResult& result, const fs::path& out) {
+void PrintImport(const RunResult& result, const fs::path& out) {
   const RecordedDrive& drive = *result.scenario.record->data;
   const PlantMetrics& metrics = result.metrics.front();
-  fmt::print("{}: {:.4g} s, {:.4g} m, {:.3g} % valid, in {}\n", result.scenario.name,
-             drive.duration(), metrics.distance, 100.0 * drive.valid_fraction(), out.string());
+  Print("{}: {:.4g} s, {:.4g} m, {:.3g} % valid, in {}\n", result.scenario.name, drive.duration(),
+        metrics.distance, 100.0 * drive.valid_fraction(), out.string());
   for (const std::string& note : drive.notes) {
-    fmt::print("  {}\n", note);
+    Print("  {}\n", note);
   }
 }
 
@@ -48,13 +49,13 @@ int Import(const ImportOptions& options) {
   CheckScenario(scenario);
   const fs::path out =
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
-  const auto [folder, result] = DriveScenario({scenario, out}, options.quiet);
+  const auto [folder, result, finishing] = DriveScenario({scenario, out}, options.quiet);
   WriteRunFolder(result, folder, {.mcap = options.mcap});
   if (options.report && !result.interrupted) {
     WriteReport({out}, out / run_folder::kReport);
   }
   if (!options.quiet) {
-    Print(result, out);
+    PrintImport(result, out);
   }
   return result.interrupted ? kInterrupted : kOk;
 }

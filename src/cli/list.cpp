@@ -121,15 +121,15 @@ const std::vector<Kind>& Kinds() {
   return kinds;
 }
 
-void Print(const Kind& kind) {
+void PrintKind(const Kind& kind) {
   const std::vector<Line> lines = kind.lines();
   std::size_t longest = 18;
   for (const Line& line : lines) {
-    longest = std::max(longest, line.name.size());
+    longest = std::max(longest, SafeLine(line.name).size());
   }
-  fmt::print("{}:\n", Toned(Tone::kHeading, kind.name));
+  Print("{}:\n", Colorize(Tone::kHeading, kind.name));
   for (const Line& line : lines) {
-    fmt::print("  {:<{}} {}\n", line.name, longest, line.text);
+    Print("  {:<{}} {}\n", line.name, longest, line.text);
   }
 }
 
@@ -164,7 +164,7 @@ void AddList(const Command& command) {
     for (const Kind& kind : Kinds()) {
       names.emplace_back(kind.name);
       if (what->empty() || *what == kind.name) {
-        Print(kind);
+        PrintKind(kind);
         found = true;
       }
     }

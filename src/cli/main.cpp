@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "src/cli/interruption.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/error.h"
@@ -19,8 +20,6 @@
 #include "trackbed/sim/car_model.h"
 
 namespace trackbed::cli {
-
-std::atomic<bool> interrupted{false};
 
 namespace {
 
@@ -71,7 +70,7 @@ int Run(int argc, char** argv) {
   for (const Verb& verb : kVerbs) {
     verb.add(line.AddVerb(verb.name, verb.summary));
   }
-  // A word that is no verb would otherwise be called an unexpected argument.
+  // CLI11 would report an unknown verb as an unexpected argument.
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> names;
     bool known = false;
@@ -93,8 +92,9 @@ namespace trackbed {
 
 namespace {
 
-/// Where a standard stream is closed, the next file to be opened would take its number, and be
-/// written to by whoever prints. What takes it here can be read, with no content, but not written.
+/// Opens /dev/null for each closed standard stream. Otherwise the next file opened would take the
+/// stream's number, and output would be written into it. The streams opened here are read-only, so
+/// writing to them fails.
 void OccupyClosedStreams() {
   int descriptor = 0;
   do {
@@ -109,22 +109,12 @@ void OccupyClosedStreams() {
 
 int Main(int argc, char** argv) {
   OccupyClosedStreams();
-  // The first Ctrl-C ends the run and keeps its log; a second one ends the program.
-  struct sigaction action {};
-  action.sa_handler = [](int) { cli::interrupted = true; };
-  sigaction(SIGTERM, &action, nullptr);
-  // A terminal that is closed ends the run, too, unless nohup has said that it shall not.
-  struct sigaction hang_up {};
-  sigaction(SIGHUP, nullptr, &hang_up);
-  if (hang_up.sa_handler != SIG_IGN) {
-    sigaction(SIGHUP, &action, nullptr);
-  }
-  action.sa_flags = static_cast<int>(SA_RESETHAND);
-  sigaction(SIGINT, &action, nullptr);
+  cli::EndOnSignals();
   std::signal(SIGPIPE, SIG_IGN);
-  // Plain stdio: where stderr is closed there is nobody to tell, and telling must not fail.
+  // Uses plain stdio, which does not throw if stderr is closed.
   const auto say = [](const std::string& text) {
-    std::fputs((cli::Toned(cli::Tone::kBad, WithoutControls(text), stderr) + "\n").c_str(), stderr);
+    const cli::SafeText shown = cli::Colorize(cli::Tone::kBad, cli::Lines{text}, stderr);
+    std::fputs((shown.text + "\n").c_str(), stderr);
   };
   int code = cli::kInternal;
   try {
@@ -139,7 +129,7 @@ int Main(int argc, char** argv) {
     say(error.what());
     code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const std::system_error& error) {
-    // What fmt could not print is told as what could not be flushed.
+    // Reports an exception of fmt on output in the same way as a failed flush.
     say(std::ferror(stdout) != 0 ? "cannot write to standard output" : error.what());
     code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const std::exception& error) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/cli/scenario_options.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
@@ -23,9 +24,9 @@ namespace trackbed::cli {
 namespace {
 
 void Row(const char* name, double value, const char* unit) {
-  // Five digits: more than any of it is known to.
-  fmt::print("  {:<26} {:>12.5g}{}\n", name, value,
-             std::string_view(unit).empty() ? "" : fmt::format(" {}", unit));
+  // Five digits exceed the accuracy of all these values.
+  Print("  {:<26} {:>12.5g}{}\n", name, value,
+        std::string_view(unit).empty() ? "" : fmt::format(" {}", unit));
 }
 
 void PrintCar(const CarModel& car) {
@@ -70,10 +71,10 @@ void PrintWheelPair(const CarModel& car) {
   Row("min_turning_radius", p.min_turning_radius(), "m");
 }
 
-void Print(const CarModel& car, const std::string& file) {
+void PrintModel(const CarModel& car, const std::string& file) {
   const VehicleParams& p = car.params();
   const bool steered = p.kind == VehicleKind::kSteered;
-  fmt::print("{} ({}){}\n", p.name, file, steered ? "" : ", differential drive");
+  Print("{} ({}){}\n", p.name, file, steered ? "" : ", differential drive");
   steered ? PrintCar(car) : PrintWheelPair(car);
   Row("length", p.length, "m");
   Row("width", p.width, "m");
@@ -97,9 +98,9 @@ void Print(const CarModel& car, const std::string& file) {
 
 /// From standstill to the top speed in steps of 10 m/s, of slow vehicles in ten.
 std::vector<double> GgvSpeeds(const GgvDiagram& diagram) {
-  constexpr double kFast = 60.0;  // [m/s]
+  constexpr double kMaxTableSpeed = 60.0;  // [m/s]
   const double own = diagram.forces().top_speed;
-  const double top = own > 0.0 ? std::min(own, kFast) : kFast;
+  const double top = own > 0.0 ? std::min(own, kMaxTableSpeed) : kMaxTableSpeed;
   const double step = top > 20.0 ? 10.0 : top / 10.0;
   std::vector<double> speeds;
   for (double speed = 0.0; speed < top * (1.0 + 1e-9); speed += step) {
@@ -110,38 +111,40 @@ std::vector<double> GgvSpeeds(const GgvDiagram& diagram) {
 
 void PrintLinkage(const CarModel& car) {
   const LinkagePolynomials fit = FitLinkage(car.params());
-  fmt::print("<!-- Ackermann's linkage within {:.2g} rad, up to {:.4g} rad -->\n", fit.error,
-             car.params().steering_limit);
+  Print("<!-- Ackermann's linkage within {:.2g} rad, up to {:.4g} rad -->\n", fit.error,
+        car.params().steering_limit);
   for (const auto& [side, coefficients] : {std::pair("fl", fit.left), std::pair("fr", fit.right)}) {
-    fmt::print(
+    Print(
         "<joint name=\"ackermann_{0}\" joint1=\"steer_{0}\" joint2=\"rack\" "
-        "polycoef=\"{1:.6g}\"/>\n",
-        side, fmt::join(coefficients, " "));
+        "polycoef=\"{1}\"/>\n",
+        side, fmt::format("{:.6g}", fmt::join(coefficients, " ")));
   }
 }
 
-/// The largest and smallest acceleration on a level road beside shares of the largest lateral one.
+/// Prints the limits of longitudinal acceleration on a level road, at fractions of the largest
+/// lateral acceleration.
 void PrintGgv(const GgvDiagram& diagram, const std::string& name) {
   constexpr std::array<double, 4> kShares{0.0, 0.5, 0.8, 0.95};
-  fmt::print("g-g-v diagram of {} on a level road of factor 1 [m/s^2]\n", name);
-  fmt::print("{:>8} {:>8}", "v [m/s]", "lateral");
+  Print("g-g-v diagram of {} on a level road of factor 1 [m/s^2]\n", name);
+  Print("{:>8} {:>8}", "v [m/s]", "lateral");
   for (const double share : kShares) {
-    fmt::print(" {:>15}", share == 0.0 ? "straight" : fmt::format("{:g} of lateral", share));
+    Print(" {:>15}", share == 0.0 ? "straight" : fmt::format("{:g} of lateral", share));
   }
-  fmt::print("\n");
+  Print("\n");
   for (const double speed : GgvSpeeds(diagram)) {
     const double lateral = diagram.MaxLateral({.speed = speed});
-    fmt::print("{:>8.4g} {:>8.3f}", speed, lateral);
+    Print("{:>8.4g} {:>8.3f}", speed, lateral);
     for (const double share : kShares) {
       const AccelerationRange range =
           diagram.AccelerationsAt({.speed = speed, .lateral = share * lateral});
-      fmt::print(" {:>15}", fmt::format("{:.3f} {:+.3f}", range.smallest, range.largest));
+      Print(" {:>15}", fmt::format("{:.3f} {:+.3f}", range.smallest, range.largest));
     }
-    fmt::print("\n");
+    Print("\n");
   }
 }
 
-/// The boundary at each speed, from braking over the largest lateral acceleration to driving.
+/// Boundary at each speed, from full braking through the largest lateral acceleration to full
+/// drive.
 Table GgvTable(const GgvDiagram& diagram) {
   Table table({"speed_mps", "lateral_acceleration_mps2", "longitudinal_acceleration_mps2"});
   constexpr int kSteps = 24;
@@ -211,7 +214,7 @@ void AddModel(const Command& command) {
     } else if (options->linkage) {
       PrintLinkage(car);
     } else if (options->save.empty()) {
-      Print(car, file.string());
+      PrintModel(car, file.string());
     } else {
       RemoveAbandonedTemporaries(std::filesystem::path(options->save).parent_path());
       WriteScene(car.scene(), options->save);

@@ -9,8 +9,10 @@
 
 #include "src/cli/diagnostics_text.h"
 #include "src/cli/scenario_options.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed::cli {
@@ -24,7 +26,7 @@ struct PlanOptions {
   ScenarioOptions scenario;
 };
 
-int PlanOne(const PlanOptions& options) {
+int RunPlanVerb(const PlanOptions& options) {
   const Scenario scenario = options.scenario.Read(options.file);
   if (!scenario.plan) {
     throw InputError(Problem{options.file, 0, 0, "plan", "missing; 'trackbed plan' needs one"});
@@ -32,21 +34,21 @@ int PlanOne(const PlanOptions& options) {
   const fs::path out =
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
   const CarModel car = LoadCar(scenario);
-  const OutputFolder folder(out);
+  const OutputFolder folder(out, FileNamesOfVerb("plan"));
   const RunResult planned = PlanRun(scenario, car);
   const Plan& plan = planned.plan;
   WritePlan(planned, folder);
   if (!plan.ok()) {
-    fmt::print(stderr, "{}: no plan ({}): {}\n", scenario.name, ToString(plan.status), plan.reason);
+    PrintTo(stderr, "{}: no plan ({}): {}\n", scenario.name, ToString(plan.status), plan.reason);
     return kFailedExpectations;
   }
   if (!options.scenario.quiet) {
     const double length = plan.reference.path.length();
-    fmt::print("{}: planned {:.3f} m in {:.2f} s, in {}\n", scenario.name, length,
-               plan.reference.speed.TimeAt(length), out.string());
-    fmt::print("{}", DiagnosticsText(plan));
+    Print("{}: planned {:.3f} m in {:.2f} s, in {}\n", scenario.name, length,
+          plan.reference.speed.TimeAt(length), out.string());
+    Print("{}", Lines{DiagnosticsText(plan)});
     if (!plan.partial.empty()) {
-      fmt::print("  partial: {}\n", plan.partial);
+      Print("  partial: {}\n", plan.partial);
     }
   }
   return kOk;
@@ -61,7 +63,7 @@ void AddPlan(const Command& command) {
       .TypeName("DIR");
   options->scenario.AddTo(command);
   command.AddExample("Plan one of the shipped scenarios", "trackbed plan winding");
-  command.OnRun([options] { return PlanOne(*options); });
+  command.OnRun([options] { return RunPlanVerb(*options); });
 }
 
 }  // namespace trackbed::cli

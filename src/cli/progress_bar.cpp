@@ -11,7 +11,7 @@
 namespace trackbed::cli {
 namespace {
 
-/// Plain stdio, which does not throw: where the terminal has been closed there is nobody to tell.
+/// Uses plain stdio, which does not throw if the terminal was closed.
 void Put(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
@@ -20,7 +20,7 @@ void Put(const std::string& text) {
 }  // namespace
 
 ProgressBar::ProgressBar(std::string label, bool quiet)
-    : label_(std::move(label)), visible_(!quiet && ::isatty(STDERR_FILENO) != 0) {
+    : label_(SafeLine(label)), visible_(!quiet && ::isatty(STDERR_FILENO) != 0) {
   Show(0.0);
 }
 
@@ -46,10 +46,10 @@ std::string ProgressBar::TimeLeft(double fraction) {
   if (!begun_ && fraction > 0.0) {
     begun_ = Moment{now, fraction};
   }
-  constexpr double kEnoughTime = 2.0;  // [s] before which it would only be a guess
+  constexpr double kMinElapsed = 2.0;  // [s]; earlier estimates are too inaccurate
   const double took = begun_ ? std::chrono::duration<double>(now - begun_->time).count() : 0.0;
   const double done = begun_ ? fraction - begun_->fraction : 0.0;
-  if (took < kEnoughTime || !(done > 0.0) || fraction >= 1.0) {
+  if (took < kMinElapsed || !(done > 0.0) || fraction >= 1.0) {
     return "";
   }
   return fmt::format(", {} left", DurationText((1.0 - fraction) * took / done));

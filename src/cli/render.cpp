@@ -6,6 +6,7 @@
 
 #include "src/cli/film_of_run.h"
 #include "src/cli/progress_bar.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run_folder.h"
@@ -34,7 +35,7 @@ struct RenderOptions {
   bool quiet = false;
 };
 
-/// "1280x720".
+/// Parses "1280x720".
 std::pair<int, int> ParseSize(const std::string& text) {
   std::pair<int, int> size;
   const char* end = text.data() + text.size();
@@ -49,7 +50,7 @@ std::pair<int, int> ParseSize(const std::string& text) {
       Problem{.key = "--size", .message = fmt::format("'{}' is not of the form 1280x720", text)});
 }
 
-/// "chase (behind the car), side (from its right)".
+/// Formats "chase (behind the car), side (from its right)".
 std::string Listed(const std::vector<FilmChoice>& choices) {
   std::string text;
   for (const FilmChoice& choice : choices) {
@@ -61,7 +62,7 @@ std::string Listed(const std::vector<FilmChoice>& choices) {
 int RenderOne(const RenderOptions& options) {
   const fs::path folder = options.folder;
   FilmOptions film;
-  // What the command does not say, the scenario of the run does.
+  // Options that are not given default to the run's scenario.
   if (const fs::path resolved = folder / run_folder::kScenarioYaml; fs::exists(resolved)) {
     const RenderSpec render = ReadRenderSpec(run_folder::RequireFile(resolved));
     film = {
@@ -85,14 +86,17 @@ int RenderOne(const RenderOptions& options) {
   }
   const char* name = options.at ? run_folder::kPicture : run_folder::kVideo;
   const fs::path out = options.out.empty() ? folder / name : fs::path(options.out);
-  const std::optional<OutputFolder> in_use = UseFolderOf(out, folder);
+  if (options.out.empty()) {
+    RequireNoForeignFile(out);
+  }
+  const std::optional<OutputFolder> in_use = LockFolderOf(out, folder);
   if (options.at) {
     RenderPicture(folder, out, *options.at, film);
   } else {
     FilmRun(folder, out, film, options.quiet);
   }
   if (!options.quiet) {
-    fmt::print("{}\n", out.string());
+    Print("{}\n", out.string());
   }
   return kOk;
 }

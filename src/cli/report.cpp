@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run_folder.h"
@@ -42,15 +43,18 @@ int Report(const ReportOptions& options) {
   const FilmPlace film = ParseFilmPlace(options.film);
   const std::vector<fs::path> paths(options.paths.begin(), options.paths.end());
   const fs::path& first = paths.front();
-  // Of several runs the page is no part of one of them.
+  // A report of several runs belongs to none of their folders.
   const fs::path folder = paths.size() > 1          ? fs::path()
                           : fs::is_directory(first) ? first
                                                     : first.parent_path();
   const fs::path file = options.out.empty() ? folder / run_folder::kReport : fs::path(options.out);
-  const std::optional<OutputFolder> in_use = UseFolderOf(file, folder);
+  if (options.out.empty()) {
+    RequireNoForeignFile(file);
+  }
+  const std::optional<OutputFolder> in_use = LockFolderOf(file, folder);
   WriteReport(paths, file, film);
   if (!options.quiet) {
-    fmt::print("{}\n", file.string());
+    Print("{}\n", file.string());
   }
   return kOk;
 }

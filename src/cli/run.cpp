@@ -4,7 +4,6 @@
 
 #include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
@@ -36,14 +35,15 @@ struct RunOptions {
   ScenarioOptions scenario;
 };
 
-/// The scenario of a row becomes the one to run, with what the row sets before other overrides.
+/// Runs the scenario of a study's row: its settings precede other overrides.
 void TakeRow(RunOptions& options) {
   const fs::path folder = options.sweep;
   const SweepRecords records(folder / run_folder::kSweepRecords);
-  const fs::path scenario = records.header().at("scenario").get<std::string>();
-  const std::string hash = records.header()
-                               .value("inputs", nlohmann::ordered_json::object())
-                               .value("scenario", std::string());
+  const JsonValue header = records.Header();
+  const fs::path scenario = header.At("scenario").Text();
+  const std::optional<JsonValue> inputs = header.Find("inputs");
+  const std::optional<JsonValue> sum = inputs ? inputs->Find("scenario") : std::nullopt;
+  const std::string hash = sum ? sum->Text() : "";
   if (!hash.empty() && Sha256(ReadFile(scenario)) != hash) {
     throw InputError(
         Problem{.file = scenario.string(),
@@ -59,7 +59,7 @@ void TakeRow(RunOptions& options) {
 int RunOne(const ScenarioRun& run, const RunOptions& options) {
   const Scenario& scenario = run.scenario;
   const fs::path& out = run.folder;
-  const auto [folder, result] = DriveScenario(run, options.scenario.quiet);
+  const auto [folder, result, finishing] = DriveScenario(run, options.scenario.quiet);
   WriteRunFolder(result, folder, {.mcap = options.mcap});
   if (!options.scenario.quiet) {
     PrintSummary(result, out);

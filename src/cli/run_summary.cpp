@@ -14,52 +14,54 @@ namespace trackbed::cli {
 namespace {
 
 void PrintManeuver(const ManeuverMetrics& maneuver) {
-  fmt::print("    {}{}, evaluated from {:.2f} s to {:.2f} s of the run\n", maneuver.method,
-             !maneuver.passed   ? ""
-             : *maneuver.passed ? ": " + Toned(Tone::kGood, "passed")
-                                : ": " + Toned(Tone::kBad, "FAILED"),
-             maneuver.begin, maneuver.end);
+  Print("    {}{}{}, evaluated from {:.2f} s to {:.2f} s of the run\n", maneuver.method,
+        maneuver.passed ? ": " : "",
+        !maneuver.passed   ? SafeText{}
+        : *maneuver.passed ? Colorize(Tone::kGood, "passed")
+                           : Colorize(Tone::kBad, "FAILED"),
+        maneuver.begin, maneuver.end);
   for (const auto& [path, value] : maneuver.values) {
     const ShownName name = NameOfMetric("maneuver." + path);
     constexpr std::string_view kGroup = "Maneuver: ";
-    std::string text =
+    SafeText met;
+    const std::string text =
         fmt::format("    {:<44} {:>10.4g}{}",
                     name.label.starts_with(kGroup) ? name.label.substr(kGroup.size()) : name.label,
                     value, name.unit.empty() ? "" : " " + name.unit);
     if (name.limit) {
       const bool at_most = name.limit->relation == StandardLimit::Relation::kAtMost;
-      text += Toned(
+      met = Colorize(
           name.limit->Met(value) ? Tone::kGood : Tone::kBad,
           fmt::format(" ({} {:.4g} to pass)", at_most ? "at most" : "at least", name.limit->bound));
     }
-    fmt::print("{}\n", text);
+    Print("{}{}\n", text, met);
   }
   if (!maneuver.missing.empty()) {
-    fmt::print("    {}\n", maneuver.missing);
+    Print("    {}\n", maneuver.missing);
   }
 }
 
-/// How far a plant is from the record.
+/// Prints the deviation of a plant from the record.
 void PrintRecord(const PlantMetrics& plant) {
   const RecordMetrics& recorded = *plant.recorded;
-  fmt::print(
+  Print(
       "    against the record: yaw rate {:.3g}, lateral acceleration {:.3g} (relative rms); "
       "position max {:.3g} m\n",
       recorded.yaw_rate_relative_rms, recorded.lateral_acceleration_relative_rms,
       recorded.position_max);
   for (const WindowErrors& windows : plant.windows) {
-    fmt::print("    after {:.3g} s, {} windows: ", windows.horizon, windows.count);
+    Print("    after {:.3g} s, {} windows: ", windows.horizon, windows.count);
     if (windows.count > 0) {
-      fmt::print("position {:.3g} m, 90 % {:.3g} m; heading {:.3g} rad, 90 % {:.3g} rad\n",
-                 windows.position_median, windows.position_p90, windows.heading_median,
-                 windows.heading_p90);
+      Print("position {:.3g} m, 90 % {:.3g} m; heading {:.3g} rad, 90 % {:.3g} rad\n",
+            windows.position_median, windows.position_p90, windows.heading_median,
+            windows.heading_p90);
     } else {
-      fmt::print("nothing to measure\n");
+      Print("nothing to measure\n");
     }
   }
 }
 
-/// "rolled over".
+/// A status in words: "rolled over".
 std::string InWords(DriveStatus status) {
   std::string words = ToString(status);
   std::replace(words.begin(), words.end(), '_', ' ');
@@ -69,28 +71,27 @@ std::string InWords(DriveStatus status) {
 }  // namespace
 
 void PrintSummary(const RunResult& result, const std::filesystem::path& folder) {
-  fmt::print("{}: {}, in {}\n", result.scenario.name,
-             result.interrupted       ? Toned(Tone::kDoubtful, "interrupted")
-             : !result.verdict.judged ? "finished, no expectations"
-             : result.verdict.passed  ? Toned(Tone::kGood, "passed")
-                                      : Toned(Tone::kBad, "FAILED"),
-             folder.string());
+  Print("{}: {}, in {}\n", result.scenario.name,
+        result.interrupted       ? Colorize(Tone::kDoubtful, "interrupted")
+        : !result.verdict.judged ? SafeText{"finished, no expectations"}
+        : result.verdict.passed  ? Colorize(Tone::kGood, "passed")
+                                 : Colorize(Tone::kBad, "FAILED"),
+        folder.string());
   for (const PlantMetrics& plant : result.metrics) {
-    fmt::print("  {:<10} ", plant.plant);
+    Print("  {:<10} ", plant.plant);
     if (plant.status == DriveStatus::kCollided) {
-      fmt::print("{} at {:.2f} s, followed until {:.2f} s, {:.2f} m", InWords(plant.status),
-                 plant.contact_t, plant.time, plant.distance);
+      Print("{} at {:.2f} s, followed until {:.2f} s, {:.2f} m", InWords(plant.status),
+            plant.contact_t, plant.time, plant.distance);
     } else {
-      fmt::print("{} {} {:.2f} s, {:.2f} m", InWords(plant.status),
-                 plant.status == DriveStatus::kRolledOver ? "at" : "after", plant.time,
-                 plant.distance);
+      Print("{} {} {:.2f} s, {:.2f} m", InWords(plant.status),
+            plant.status == DriveStatus::kRolledOver ? "at" : "after", plant.time, plant.distance);
     }
     if (plant.tracking) {
       const TrackingMetrics& tracking = *plant.tracking;
-      fmt::print("; cross-track error max {:.4f} m, rms {:.4f} m; goal distance {:.4f} m",
-                 tracking.cross_track_max, tracking.cross_track_rms, tracking.goal_distance);
+      Print("; cross-track error max {:.4f} m, rms {:.4f} m; goal distance {:.4f} m",
+            tracking.cross_track_max, tracking.cross_track_rms, tracking.goal_distance);
     }
-    fmt::print("\n");
+    Print("\n");
     if (plant.maneuver) {
       PrintManeuver(*plant.maneuver);
     }
@@ -99,16 +100,16 @@ void PrintSummary(const RunResult& result, const std::filesystem::path& folder) 
     }
   }
   for (const PlantComparison& between : result.comparisons) {
-    fmt::print("  {} - {}: position max {:.4f} m, heading max {:.4f} rad\n", between.first,
-               between.second, between.position.max, between.heading.max);
+    Print("  {} - {}: position max {:.4f} m, heading max {:.4f} rad\n", between.first,
+          between.second, between.position.max, between.heading.max);
   }
   for (const std::string& failure : result.verdict.failures) {
-    fmt::print("  {}\n", failure);
+    Print("  {}\n", failure);
   }
   for (const std::string& note : result.verdict.notes) {
-    fmt::print("  {}\n", note);
+    Print("  {}\n", note);
   }
-  std::fflush(stdout);  // what follows takes its time, and may fail
+  std::fflush(stdout);  // what follows takes time and may fail
 }
 
 ExitCode ExitCodeOf(const RunResult& result) {

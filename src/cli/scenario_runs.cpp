@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "src/cli/progress_bar.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed::cli {
@@ -46,12 +48,12 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
       if (!interrupted) {
         throw;
       }
-      fmt::print(stderr, "{}\n", error.what());
+      PrintTo(stderr, "{}\n", Lines{error.what()});
       worst = kInterrupted;
     }
     const std::size_t left = runs.size() - i - 1;
     if (worst == kInterrupted && left > 0) {
-      fmt::print(stderr, "interrupted: {} of {} scenarios not run\n", left, runs.size());
+      PrintTo(stderr, "interrupted: {} of {} scenarios not run\n", left, runs.size());
     }
   }
   return worst;
@@ -59,16 +61,27 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
 
 DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet) {
   const CarModel car = LoadCar(run.scenario);
-  OutputFolder folder(run.folder);
+  std::vector<std::string> names = run_folder::AllNames();
+  for (const SceneAsset& asset : car.scene().assets) {
+    names.push_back(asset.name);
+  }
+  OutputFolder folder(run.folder, names);
   std::unique_ptr<ProgressBar> bar;
+  std::optional<FinishingResult> finishing;
   RunResult result = RunMission(
       run.scenario, car, {.drive = [&](const std::string& plant) {
         bar.reset();
         bar = std::make_unique<ProgressBar>(fmt::format("{} {}", run.scenario.name, plant), quiet);
         return DriveHooks{.progress = [&](double fraction) { bar->Show(fraction); },
-                          .interrupted = [] { return interrupted.load(); }};
+                          .interrupted =
+                              [&] {
+                                if (interrupted && !finishing) {
+                                  finishing.emplace();
+                                }
+                                return interrupted.load();
+                              }};
       }});
-  return {std::move(folder), std::move(result)};
+  return {std::move(folder), std::move(result), std::move(finishing)};
 }
 
 }  // namespace trackbed::cli

@@ -2,41 +2,45 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "src/cli/interruption.h"
 #include "src/cli/scenario_options.h"
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/analysis/run.h"
 
 namespace trackbed::cli {
 
-/// A scenario, and the folder that its run is to be written to.
+/// A scenario and the output folder of its run.
 struct ScenarioRun {
   Scenario scenario;
   std::filesystem::path folder;
 };
 
-/// Reads every file before anything is driven: the last one's mistake should not cost a run.
-/// Folders are `out`, if it is given and there is one file; else `<out>/<scenario>`, or without
-/// `out` `<parent>/<scenario>`. InputError as ReadScenario, and when two would write to one folder.
+/// Reads all files before the first run, so that a mistake in the last one is found early. The
+/// output folder is `out` for a single file, else `<out>/<scenario>`, or `<parent>/<scenario>`
+/// without `out`. Throws the errors of ReadScenario, and InputError if two runs would share a
+/// folder.
 std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
                                           const ScenarioOptions& options, const std::string& out,
                                           const std::filesystem::path& parent);
 
-/// Works through the runs until Ctrl-C; then says on stderr how many were not begun. Gives back the
-/// worst exit code. A RunError of `work` is thrown on, but for that of an interrupted film.
+/// Calls `work` for each run until Ctrl-C, then prints the number of skipped runs to stderr.
+/// Returns the worst exit code. Rethrows a RunError of `work`, except that of an interrupted film.
 int ForEachRun(const std::vector<ScenarioRun>& runs,
                const std::function<int(const ScenarioRun& run)>& work);
 
-/// A run that is yet to be written to its folder, which is this process's alone.
+/// A run not yet written, and its output folder, locked by this process.
 struct DrivenScenario {
   OutputFolder folder;
   RunResult result;
+  std::optional<FinishingResult> finishing{};  ///< of an interrupted run, until it is written
 };
 
-/// Runs the scenario with a progress bar until Ctrl-C. The folder is made and locked before the
-/// work, not after it, and not at all for a model that cannot be used.
+/// Runs the scenario with a progress bar until Ctrl-C. Creates and locks the folder before the run,
+/// but not if the model is invalid.
 DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet);
 
 }  // namespace trackbed::cli

@@ -41,15 +41,47 @@ void ChooseColors(const std::string& choice) {
   color_choice = static_cast<ColorChoice>(at - ColorChoices().begin());
 }
 
-std::string Toned(Tone tone, std::string_view text, std::FILE* stream) {
+std::string SafeLine(std::string_view text) {
+  std::string line;
+  for (const char c : WithoutControls(text)) {
+    line += c == '\n' ? "<U+000A>" : c == '\t' ? "<U+0009>" : std::string(1, c);
+  }
+  return line;
+}
+
+namespace {
+
+SafeText Colored(Tone tone, std::string safe, std::FILE* stream) {
   if (!ShowsColors(stream)) {
-    return std::string(text);
+    return {std::move(safe)};
   }
   const fmt::text_style style = tone == Tone::kGood       ? fmt::fg(fmt::terminal_color::green)
                                 : tone == Tone::kBad      ? fmt::fg(fmt::terminal_color::red)
                                 : tone == Tone::kDoubtful ? fmt::fg(fmt::terminal_color::yellow)
                                                           : fmt::text_style(fmt::emphasis::bold);
-  return fmt::format(style, "{}", text);
+  return {fmt::format(style, "{}", safe)};
+}
+
+}  // namespace
+
+SafeText Colorize(Tone tone, std::string_view text, std::FILE* stream) {
+  return Colored(tone, SafeLine(text), stream);
+}
+
+SafeText Colorize(Tone tone, Lines text, std::FILE* stream) {
+  return Colored(tone, WithoutControls(text.text), stream);
+}
+
+SafeText Joined(const std::vector<SafeText>& parts, std::string_view separator) {
+  SafeText all;
+  for (const SafeText& part : parts) {
+    all.text.append(&part == &parts.front() ? "" : separator).append(part.text);
+  }
+  return all;
+}
+
+SafeText detail::Safe(Lines text) {
+  return {WithoutControls(text.text)};
 }
 
 std::size_t TerminalWidth(std::FILE* stream) {

@@ -1,15 +1,20 @@
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
-/// What terminals can do that files and pipes cannot: colors, and a width to keep to.
+/// Terminal output: colors, lines that fit its width, and texts of inputs without the control
+/// characters that a terminal would obey.
 namespace trackbed::cli {
 
-/// What a text means to its reader.
+/// Meaning of a text, shown as its color.
 enum class Tone {
   kGood,      ///< green
   kBad,       ///< red
@@ -17,24 +22,94 @@ enum class Tone {
   kHeading,   ///< bold
 };
 
-/// When to print colors; kAuto: on a terminal, unless NO_COLOR is set and not empty
-/// (no-color.org) or TERM is "dumb".
+/// When to use colors. kAuto: on a terminal, unless NO_COLOR is set and not empty (no-color.org) or
+/// TERM is "dumb".
 enum class ColorChoice { kAuto, kAlways, kNever };
 
 /// "auto", "always" and "never".
 const std::vector<std::string>& ColorChoices();
 
-/// For the rest of the program. InternalError unless it is one of ColorChoices.
+/// Sets the choice for the rest of the program. InternalError unless it is one of ColorChoices.
 void ChooseColors(const std::string& choice);
 
-/// `text` in the tone's color, if `stream` is to have colors.
-std::string Toned(Tone tone, std::string_view text, std::FILE* stream = stdout);
+/// `text` as one line. Names every control character, line feeds and tabs included: "<U+001B>".
+/// Names every byte that is not UTF-8: "<0xFF>".
+std::string SafeLine(std::string_view text);
 
-/// Columns of the terminal: 80 where there is none, at least 40.
+/// A text that is printed unchanged: a safe line, with escape sequences for colors.
+struct SafeText {
+  std::string text;
+};
+
+/// A text of several lines. Printed as SafeLine, but with its line feeds and tabs.
+struct Lines {
+  std::string_view text;
+};
+
+/// The SafeLine of `text` in the tone's color, if `stream` uses colors.
+SafeText Colorize(Tone tone, std::string_view text, std::FILE* stream = stdout);
+
+/// Colors a text of several lines.
+SafeText Colorize(Tone tone, Lines text, std::FILE* stream);
+
+/// `parts` with `separator` between them.
+SafeText Joined(const std::vector<SafeText>& parts, std::string_view separator);
+
+}  // namespace trackbed::cli
+
+template <>
+struct fmt::formatter<trackbed::cli::SafeText> : fmt::formatter<std::string_view> {
+  template <typename Context>
+  auto format(const trackbed::cli::SafeText& safe, Context& context) const {
+    return fmt::formatter<std::string_view>::format(safe.text, context);
+  }
+};
+
+namespace trackbed::cli {
+
+namespace detail {
+
+inline SafeText Safe(SafeText text) {
+  return text;
+}
+
+SafeText Safe(Lines text);
+
+/// Numbers stay, texts become safe lines. Other types are refused: fmt::join would print texts
+/// unchanged.
+template <typename T>
+auto Safe(const T& value) {
+  if constexpr (std::is_convertible_v<const T&, std::string_view>) {
+    return SafeLine(value);
+  } else {
+    static_assert(std::is_arithmetic_v<T>, "print a text or a number");
+    return value;
+  }
+}
+
+template <typename T>
+using Printed = decltype(Safe(std::declval<const T&>()));
+
+}  // namespace detail
+
+/// Prints to `stream` as fmt::print, with every text as its SafeLine. Verbs print by this function
+/// and Print alone. std::system_error if the stream fails.
+template <typename... T>
+void PrintTo(std::FILE* stream, fmt::format_string<detail::Printed<T>...> format,
+             const T&... values) {
+  fmt::print(stream, format, detail::Safe(values)...);
+}
+
+/// PrintTo stdout.
+template <typename... T>
+void Print(fmt::format_string<detail::Printed<T>...> format, const T&... values) {
+  fmt::print(stdout, format, detail::Safe(values)...);
+}
+
+/// Columns of the terminal, at least 40; 80 if `stream` is not a terminal.
 std::size_t TerminalWidth(std::FILE* stream = stdout);
 
-/// `text` broken between words into lines of at most `width` columns. Words that are longer stay
-/// whole.
+/// Wraps `text` between words into lines of at most `width` columns. Longer words are not broken.
 std::vector<std::string> Wrapped(std::string_view text, std::size_t width);
 
 /// "3.2 s", "4 min 5 s", "2 h 3 min".

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct TestOptions {
   std::vector<std::string> paths;
   std::string junit;
-  int jobs = 0;  // 0: as many as the machine runs threads
+  int jobs = 0;  // 0: number of hardware threads
   ScenarioOptions scenario;
 };
 
@@ -37,33 +37,33 @@ void PrintCase(const SuiteCase& one, bool quiet) {
   switch (one.status) {
     case CaseStatus::kPassed:
       if (!quiet) {
-        fmt::print("{} {} ({:.1f} s): {}\n", Toned(Tone::kGood, "pass"), one.file.string(),
-                   one.wall_time, line);
+        Print("{} {} ({:.1f} s): {}\n", Colorize(Tone::kGood, "pass"), one.file.string(),
+              one.wall_time, line);
       }
       break;
     case CaseStatus::kNotJudged:
       if (!quiet) {
-        fmt::print("{} {} ({:.1f} s): {}\n", Toned(Tone::kDoubtful, "not judged"),
-                   one.file.string(), one.wall_time, line);
+        Print("{} {} ({:.1f} s): {}\n", Colorize(Tone::kDoubtful, "not judged"), one.file.string(),
+              one.wall_time, line);
       }
       break;
     case CaseStatus::kFailed:
-      fmt::print("{} {} ({:.1f} s): {}\n", Toned(Tone::kBad, "FAIL"), one.file.string(),
-                 one.wall_time, line);
+      Print("{} {} ({:.1f} s): {}\n", Colorize(Tone::kBad, "FAIL"), one.file.string(),
+            one.wall_time, line);
       break;
     case CaseStatus::kBadInput:
     case CaseStatus::kInternalError:
-      fmt::print(stderr, "{}\n",
-                 Toned(Tone::kBad, fmt::format("{}", fmt::join(one.reasons, "\n")), stderr));
+      PrintTo(stderr, "{}\n",
+              Colorize(Tone::kBad, Lines{fmt::format("{}", fmt::join(one.reasons, "\n"))}, stderr));
       break;
     case CaseStatus::kInterrupted:
       break;
   }
-  std::fflush(stdout);  // lines come as they are known, in a pipe too
+  std::fflush(stdout);  // print each line at once, also into a pipe
 }
 
-/// A bug outranks everything; bad input outranks a failed expectation: the suite did not say what
-/// it was to say.
+/// An internal error takes precedence over bad input, and bad input over failed expectations: with
+/// bad input the result of the suite is incomplete.
 int SuiteExitCode(const std::vector<SuiteCase>& cases) {
   const auto any = [&](CaseStatus status) {
     return std::any_of(cases.begin(), cases.end(),
@@ -91,24 +91,24 @@ void PrintTotal(const std::vector<SuiteCase>& cases, double wall_time) {
       Count{CaseStatus::kInternalError, "with internal errors", Tone::kBad},
       Count{CaseStatus::kInterrupted, "not finished", Tone::kDoubtful},
   };
-  std::vector<std::string> parts;
+  std::vector<SafeText> parts;
   for (const Count& count : kCounts) {
     const auto number = std::count_if(cases.begin(), cases.end(), [&](const SuiteCase& one) {
       return one.status == count.status;
     });
     if (number > 0) {
-      parts.push_back(Toned(count.tone, fmt::format("{} {}", number, count.name)));
+      parts.push_back(Colorize(count.tone, fmt::format("{} {}", number, count.name)));
     }
   }
-  fmt::print("{} scenario{} in {}: {}\n", cases.size(), cases.size() == 1 ? "" : "s",
-             DurationText(wall_time), fmt::join(parts, ", "));
+  Print("{} scenario{} in {}: {}\n", cases.size(), cases.size() == 1 ? "" : "s",
+        DurationText(wall_time), Joined(parts, ", "));
 }
 
 int Test(const TestOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const std::vector<fs::path> files = ScenarioFiles(options.paths, FolderContent::kScenarios);
-  if (!options.junit.empty()) {  // before the work, not after it
+  if (!options.junit.empty()) {  // fail before the runs, not after
     PrepareToWrite(options.junit);
   }
   const std::vector<SuiteCase> cases =

@@ -22,8 +22,8 @@ std::string FlushRight(const std::string& text, std::size_t width) {
 }  // namespace
 
 void TextColumns::Add(TextColumn column) {
-  constexpr std::size_t kNarrow = 9;
-  Laid laid{.heading = {}, .texts = std::move(column.texts), .width = kNarrow};
+  constexpr std::size_t kMinWidth = 9;
+  LaidOutColumn laid{.heading = {}, .texts = std::move(column.texts), .width = kMinWidth};
   for (const auto* texts : {&column.words, &laid.texts}) {
     for (const std::string& text : *texts) {
       laid.width = std::max(laid.width, Width(text));
@@ -59,7 +59,7 @@ std::vector<std::string> TextColumns::Lines(std::size_t count) const {
   }
   std::vector<std::string> lines(height + rows, kIndent);
   for (std::size_t i = 0; i < count; ++i) {
-    const Laid& column = columns_[i];
+    const LaidOutColumn& column = columns_[i];
     const std::size_t empty = height - column.heading.size();
     for (std::size_t line = 0; line < height; ++line) {
       lines[line] += kIndent;

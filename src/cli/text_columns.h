@@ -28,13 +28,13 @@ class TextColumns {
   static constexpr const char* kIndent = " ";
 
  private:
-  struct Laid {
+  struct LaidOutColumn {
     std::vector<std::string> heading;  ///< as lines
     std::vector<std::string> texts;
     std::size_t width;
   };
 
-  std::vector<Laid> columns_;
+  std::vector<LaidOutColumn> columns_;
 };
 
 }  // namespace trackbed::cli

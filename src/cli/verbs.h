@@ -1,12 +1,11 @@
 #pragma once
 
-#include <atomic>
-
 #include "src/cli/command.h"
+#include "src/cli/interruption.h"
 
 namespace trackbed::cli {
 
-/// What a finished verb tells the shell; the contract's exit codes.
+/// Exit codes of the program.
 enum ExitCode {
   kOk = 0,
   kInternal = 1,
@@ -15,10 +14,7 @@ enum ExitCode {
   kInterrupted = 130,
 };
 
-/// Set by Ctrl-C; drives ask for it once per control period.
-extern std::atomic<bool> interrupted;
-
-/// A verb adds its options to `command` and sets what it does.
+/// Adds options to `command` and sets its action.
 using AddVerb = void (*)(const Command& command);
 
 void AddRun(const Command& command);
@@ -42,7 +38,7 @@ void AddCompletion(const Command& command);
 void AddDocs(const Command& command);
 void AddManual(const Command& command);
 
-// Verbs of `sweep`.
+// Verbs below `sweep`.
 void AddSweepMerge(const Command& command);
 void AddSweepSubmit(const Command& command);
 

@@ -10,8 +10,11 @@
 #include "src/cli/progress_bar.h"
 #include "src/cli/scenario_options.h"
 #include "src/cli/sweep_folders.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
+#include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
 
 namespace trackbed::cli {
 namespace {
@@ -23,7 +26,7 @@ struct VerifyVerbOptions {
   std::string out;
   VerifyClaim claim;
   bool restart = false;
-  int jobs = 0;  // 0: as many as the machine runs threads
+  int jobs = 0;  // 0: number of hardware threads
   ScenarioOptions scenario;
 };
 
@@ -34,11 +37,10 @@ int Verify(const VerifyVerbOptions& options) {
   const std::string& name = checked.points.study().name;
   const fs::path out =
       options.out.empty() ? fs::path("out") / (name + "_verify") : fs::path(options.out);
-  const OutputFolder folder(out);  // before the work, not after it
+  const OutputFolder folder(out, FileNamesOfVerb("verify"));  // fail before the runs, not after
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
-    std::error_code ignored;
-    fs::remove(file, ignored);
+    SweepRecords::Remove(file);
   }
   SweepRecords records(file, SweepHeader(checked.points, checked.inputs));
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
@@ -51,17 +53,15 @@ int Verify(const VerifyVerbOptions& options) {
                                .progress = [&](double fraction) { bar.Show(fraction); }});
   }
   const std::string said = ToText(result, options.claim);
-  const SweepSummary table = WriteSweep(records, {}, folder, result.interrupted ? "" : said);
-  {
-    ResultWriter writer(folder);
-    writer.Add("verify.json", ToJson(result, options.claim).dump(2) + "\n");
-    writer.Commit("verification", {});
-  }
+  ResultWriter writer(folder);
+  const SweepSummary table = AddSweep(records, {}, writer, result.interrupted ? "" : said);
+  writer.Add(run_folder::kVerifyJson, JsonText(ToJson(result, options.claim)));
+  writer.Commit(run_folder::kVerification, {});
   if (!options.scenario.quiet) {
     if (result.interrupted) {
-      fmt::print("{}: interrupted after {} runs; the same command goes on\n", name, result.runs);
+      Print("{}: interrupted after {} runs; the same command goes on\n", name, result.runs);
     } else {
-      fmt::print("{}: {}; in {}\n", name, said, (out / run_folder::kSweepCsv).string());
+      Print("{}: {}; in {}\n", name, said, (out / run_folder::kSweepCsv).string());
     }
   }
   PrintRowsWithoutRun(name, table);

@@ -9,6 +9,7 @@
 
 #include "src/cli/run_summary.h"
 #include "src/cli/scenario_runs.h"
+#include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
@@ -41,15 +42,17 @@ WatchOptions OptionsOf(const WatchVerbOptions& options) {
 WatchHooks Hooks() {
   return {.serving =
               [](const std::string& url) {
-                fmt::print("{}  (Ctrl-C ends)\n", url);
-                std::fflush(stdout);
+                Print("{}  (Ctrl-C ends)\n", url);
+                if (std::fflush(stdout) != 0) {
+                  throw RunError("cannot write the address of the page to standard output");
+                }
               },
           .interrupted = [] { return interrupted.load(); },
           .finished = {}};
 }
 
-/// Of a result that is there nothing is left to be set.
-void RefuseScenarioOptions(const WatchVerbOptions& options) {
+/// A finished result has no options to set.
+void RejectScenarioOptions(const WatchVerbOptions& options) {
   const ScenarioOptions& scenario = options.scenario;
   const bool any = options.speed || options.paused || !options.out.empty() ||
                    !scenario.plants.empty() || !scenario.overrides.empty() ||
@@ -66,7 +69,7 @@ int Watch(const WatchVerbOptions& options) {
   const WatchOptions watch = OptionsOf(options);
   WatchHooks hooks = Hooks();
   if (fs::is_directory(what) || what.extension() == ".csv") {
-    RefuseScenarioOptions(options);
+    RejectScenarioOptions(options);
     WatchReport({what}, watch, hooks);
     return kOk;
   }
