@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,57 +14,58 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// "≤ 0.15", "= arrived".
-std::string AskedText(const ordered_json& check) {
-  const std::string relation = check.at("relation").get<std::string>();
-  const ordered_json& bound = check.at("bound");
+/// Bound of a check as text: "≤ 0.15", "= arrived".
+std::string BoundText(const std::string& relation, const ordered_json& bound) {
   const char* sign = relation == "at_most" ? "≤" : relation == "at_least" ? "≥" : "=";
-  // Six digits, as metrics are shown: what was computed is known no better.
+  // Six digits, as metrics are shown.
   return fmt::format("{} {}", sign,
                      bound.is_number_float() ? fmt::format("{:.6g}", bound.get<double>())
                      : bound.is_string()     ? bound.get<std::string>()
                                              : bound.dump());
 }
 
-/// "Robustness of lane: always abs(cross_track_m) < 0.5", shortened.
+/// Label such as "Robustness of lane: always abs(cross_track_m) < 0.5", shortened.
 std::string RequirementLabel(const ShownName& name, const std::string& formula) {
-  constexpr std::size_t kLongest = 120;
-  return fmt::format("{}: {}{}", name.label, formula.substr(0, kLongest),
-                     formula.size() > kLongest ? " …" : "");
+  constexpr std::size_t kMaxFormulaLength = 120;
+  return fmt::format("{}: {}{}", name.label, formula.substr(0, kMaxFormulaLength),
+                     formula.size() > kMaxFormulaLength ? " …" : "");
 }
 
 }  // namespace
 
-ordered_json CheckRows(const ordered_json& verdict) {
+ordered_json CheckRows(const JsonValue& verdict) {
   ordered_json rows = ordered_json::array();
-  for (const ordered_json& check : verdict.value("checks", ordered_json::array())) {
-    const std::string plant = check.at("plant").get<std::string>();
-    const std::string metric = check.at("metric").get<std::string>();
+  const std::optional<JsonValue> checks = verdict.Find("checks");
+  for (const JsonValue& check : checks ? checks->Elements() : std::vector<JsonValue>()) {
+    const std::string plant = check.At("plant").Text();
+    const std::string metric = check.At("metric").Text();
     const bool is_pair = plant.find(" – ") != std::string::npos;
     const ShownName name = is_pair ? NameOfComparison(metric) : NameOfMetric(metric);
-    const std::string formula = check.value("formula", "");
+    const std::optional<JsonValue> formula = check.Find("formula");
+    const std::string relation = check.At("relation").Text();
+    const ordered_json& bound = check.At("bound").Scalar();
     rows.push_back({{"of", plant},
                     {"metric", metric},
-                    {"what", formula.empty() ? name.label : RequirementLabel(name, formula)},
+                    {"what", formula ? RequirementLabel(name, formula->Text()) : name.label},
                     {"unit", name.unit},
-                    {"relation", check.at("relation")},
-                    {"bound", RoundedLeaf(check.at("bound"))},
-                    {"asked", AskedText(check)},
-                    {"found", RoundedLeaf(check.at("value"))},
-                    {"t", RoundedLeaf(check.at("time"))},
-                    {"met", check.at("met").get<bool>()}});
+                    {"relation", relation},
+                    {"bound", RoundedLeaf(bound)},
+                    {"asked", BoundText(relation, bound)},
+                    {"found", RoundedLeaf(check.At("value").Scalar())},
+                    {"t", RoundedLeaf(check.At("time").Scalar())},
+                    {"met", check.At("met").Flag()}});
   }
   return rows;
 }
 
-ordered_json VerdictJson(const ordered_json& verdict) {
-  const ordered_json& passed = verdict.at("passed");
+ordered_json VerdictJson(const JsonValue& verdict) {
+  const JsonValue passed = verdict.At("passed");
   ordered_json shown{{"passed", nullptr}};
-  if (!passed.is_null()) {
-    shown["passed"] = passed.get<bool>();
+  if (!passed.IsNull()) {
+    shown["passed"] = passed.Flag();
   }
   for (const char* list : {"failures", "notes"}) {
-    shown[list] = verdict.at(list).get<std::vector<std::string>>();
+    shown[list] = verdict.At(list).Texts();
   }
   return shown;
 }

@@ -2,14 +2,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "trackbed/analysis/json_file.h"
+
 namespace trackbed {
 
-/// The checks of a verdict, as metrics.json has them, as the rows of a table: {of, metric, what,
-/// unit, relation, bound, asked, found, t, met}. None for a run of an older Trackbed, whose verdict
-/// has failures alone.
-nlohmann::ordered_json CheckRows(const nlohmann::ordered_json& verdict);
+/// Table rows for the checks of a verdict in metrics.json: {of, metric, what, unit, relation,
+/// bound, asked, found, t, met}. Empty for runs of older versions, whose verdicts only have
+/// failures.
+nlohmann::ordered_json CheckRows(const JsonValue& verdict);
 
-/// What the page says of a verdict beside its checks: {passed, failures, notes}.
-nlohmann::ordered_json VerdictJson(const nlohmann::ordered_json& verdict);
+/// The verdict without its checks: {passed, failures, notes}.
+nlohmann::ordered_json VerdictJson(const JsonValue& verdict);
 
 }  // namespace trackbed

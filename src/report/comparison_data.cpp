@@ -16,16 +16,22 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/report/names.h"
 
+// Comparisons on a report page. Pairs come from compare.json (of a comparison folder or next to the
+// runs), from equal plant names in several runs, or, for a single run without a comparison, from
+// its plants. Differences are computed again from the logs; if their maxima do not match
+// compare.json, the logs have changed and the page is refused. Curves are thinned to a common limit
+// of rows.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Rows of all curves together: a chart has no more pixels, and ten pairs are much.
+/// Limit of the rows of all curves together: beyond the resolution of a chart, and small enough for
+/// ten pairs.
 constexpr std::size_t kCurveRows = 3000;
 
-[[noreturn]] void Unfit(const fs::path& file, const std::string& message) {
+[[noreturn]] void FailOutdated(const fs::path& file, const std::string& message) {
   throw InputError(Problem{.file = file.string(), .message = message + "; compare the runs again"});
 }
 
@@ -39,63 +45,61 @@ struct Drive {
 struct Pair {
   Drive first;
   Drive second;
-  fs::path file;         ///< where it has been judged; empty if nowhere
-  ordered_json outcome;  ///< what stands there about it
+  std::optional<JsonValue> outcome;  ///< of a comparison that was judged: its pair in compare.json
 };
 
-/// The pairs of a comparison and its verdict. The runs are those from `at` on.
-void TakeJudged(const fs::path& folder, const std::vector<fs::path>& runs, std::size_t at,
-                std::vector<Pair>& pairs, ordered_json& verdicts) {
-  const fs::path file = folder / run_folder::kCompareJson;
-  VisitJson(file, [&](const ordered_json& json) {
-    const std::size_t last = ComparedRuns(folder).size() - 1;
-    for (const ordered_json& pair : json.at("pairs")) {
-      // Of two runs, a run is named after its folder and its plant.
-      const auto drive = [&](std::size_t which, std::size_t run) {
-        return Drive{run, fs::path(pair.at("plants").at(which).get<std::string>()).filename()};
-      };
-      pairs.push_back({drive(0, at), drive(1, at + last), file, pair});
-    }
-    verdicts.push_back(VerdictJson(json.at("verdict")));
-    if (runs.size() > 1 && last == 0) {
-      verdicts.back()["run"] = at;
-    }
-  });
+/// Adds the pairs and the verdict of a comparison. Run indices start at `at`.
+void AddJudgedPairs(const fs::path& folder, const std::vector<fs::path>& runs, std::size_t at,
+                    std::vector<Pair>& pairs, ordered_json& verdicts) {
+  const JsonValue json = ReadJson(folder / run_folder::kCompareJson);
+  const std::size_t last = ComparedRuns(folder).size() - 1;
+  for (const JsonValue& pair : json.At("pairs").Elements()) {
+    const std::vector<JsonValue> plants = pair.At("plants").Elements(2);
+    // In a comparison of two runs, a name has its folder and its plant.
+    const auto drive = [&](std::size_t which, std::size_t run) {
+      return Drive{run, fs::path(plants[which].Text()).filename()};
+    };
+    pairs.push_back({drive(0, at), drive(1, at + last), pair});
+  }
+  verdicts.push_back(VerdictJson(json.At("verdict")));
+  if (runs.size() > 1 && last == 0) {
+    verdicts.back()["run"] = at;
+  }
 }
 
-bool IsOfItself(const fs::path& run) {
+bool IsSelfComparison(const fs::path& run) {
   const std::vector<fs::path> runs = ComparedRuns(run);
   return std::all_of(runs.begin(), runs.end(), [&](const fs::path& other) {
     return fs::weakly_canonical(other) == fs::weakly_canonical(run);
   });
 }
 
-/// Each plant of the first run with its namesake in every other.
-void TakeNamesakes(const std::vector<std::vector<FinishedDrive>>& drives,
-                   std::vector<Pair>& pairs) {
+/// Pairs each plant of the first run with the plant of the same name in every other run.
+void AddPairsByName(const std::vector<std::vector<FinishedDrive>>& drives,
+                    std::vector<Pair>& pairs) {
   for (std::size_t run = 1; run < drives.size(); ++run) {
     for (const FinishedDrive& first : drives[0]) {
       for (const FinishedDrive& second : drives[run]) {
         if (first.trace.name == second.trace.name) {
-          pairs.push_back({{0, first.trace.name}, {run, second.trace.name}, {}, {}});
+          pairs.push_back({{0, first.trace.name}, {run, second.trace.name}, {}});
         }
       }
     }
   }
 }
 
-/// Each two plants of one run.
-void TakePlants(const std::vector<FinishedDrive>& drives, std::vector<Pair>& pairs) {
+/// Pairs the plants of a single run.
+void AddPairsOfRun(const std::vector<FinishedDrive>& drives, std::vector<Pair>& pairs) {
   for (std::size_t second = 1; second < drives.size(); ++second) {
     for (std::size_t first = 0; first < second; ++first) {
-      pairs.push_back({{0, drives[first].trace.name}, {0, drives[second].trace.name}, {}, {}});
+      pairs.push_back({{0, drives[first].trace.name}, {0, drives[second].trace.name}, {}});
     }
   }
 }
 
-/// What of the runs has no namesake in the first, and what of the first has none in another.
-ordered_json LeftOut(const std::vector<fs::path>& runs,
-                     const std::vector<std::vector<FinishedDrive>>& drives) {
+/// Notes on plants that are in the first run but not in another one, or vice versa.
+ordered_json UnpairedPlants(const std::vector<fs::path>& runs,
+                            const std::vector<std::vector<FinishedDrive>>& drives) {
   ordered_json left_out = ordered_json::array();
   const auto take = [&](std::size_t run, std::size_t other) {
     for (const FinishedDrive& drive : drives[run]) {
@@ -113,13 +117,16 @@ ordered_json LeftOut(const std::vector<fs::path>& runs,
   return left_out;
 }
 
-/// The logs may be others than those that were compared.
-void RefuseIfChanged(const Pair& pair, const PlantComparison& now) {
-  constexpr double kSame = 1e-6;  // [m], [rad], [rad/s]: of rounding on another machine
+/// Rejects a comparison whose logs have changed since.
+void RefuseIfChanged(const JsonValue& outcome, const PlantComparison& now) {
+  constexpr double kEqualityTolerance =
+      1e-6;  // [m], [rad], [rad/s]: of rounding on another machine
   for (const ComparedQuantity& quantity : ComparedQuantities()) {
-    const double then = pair.outcome.at(quantity.key).at("max").get<double>();
-    if (!(std::abs(then - (now.*quantity.difference).max) <= kSame)) {
-      Unfit(pair.file, "does not match the runs' current logs");
+    const std::optional<double> then = outcome.At(quantity.key).At("max").NumberOrNull();
+    const double max = (now.*quantity.difference).max;
+    // Null stands for a maximum that is not finite.
+    if (then ? !(std::abs(*then - max) <= kEqualityTolerance) : std::isfinite(max)) {
+      FailOutdated(outcome.file(), "does not match the runs' current logs");
     }
   }
 }
@@ -153,15 +160,22 @@ ordered_json CurveJson(const Table& differences, std::size_t row_limit) {
   return json;
 }
 
+/// The bounds of a pair, by their names.
+ordered_json TolerancesJson(const JsonValue& tolerances) {
+  ordered_json json = ordered_json::object();
+  for (const auto& [name, bound] : tolerances.Members()) {
+    json[name] = bound.Number();
+  }
+  return json;
+}
+
 ordered_json PairJson(const Pair& pair, const Trace& first, const Trace& second,
                       std::size_t row_limit) {
   ordered_json json{{"first", pair.first.ToJson()}, {"second", pair.second.ToJson()}};
-  if (!pair.file.empty()) {
-    json["tolerances"] = pair.outcome.at("tolerances");
-  }
   const PlantComparison comparison = CompareTraces(first, second);
-  if (!pair.file.empty()) {
-    RefuseIfChanged(pair, comparison);
+  if (pair.outcome) {
+    json["tolerances"] = TolerancesJson(pair.outcome->At("tolerances"));
+    RefuseIfChanged(*pair.outcome, comparison);
   }
   if (comparison.comparable()) {
     ordered_json numbers = ToJson(comparison);
@@ -180,22 +194,22 @@ bool HasComparison(const fs::path& folder) {
 }
 
 std::vector<fs::path> ComparedRuns(const fs::path& folder) {
-  return ReadJson(folder / run_folder::kCompareJson, [&](const ordered_json& json) {
-    std::vector<fs::path> runs;
-    for (const ordered_json& run : json.value("runs", ordered_json::array())) {
-      const fs::path path = folder / run.get<std::string>();  // one from the root on stays so
-      if (runs.empty() || fs::weakly_canonical(runs.front()) != fs::weakly_canonical(path)) {
-        runs.push_back(path);
-      }
+  const JsonValue json = ReadJson(folder / run_folder::kCompareJson);
+  std::vector<fs::path> runs;
+  const std::optional<JsonValue> names = json.Find("runs");
+  for (const std::string& name : names ? names->Texts() : std::vector<std::string>()) {
+    const fs::path path = folder / name;  // absolute paths stay absolute
+    if (runs.empty() || fs::weakly_canonical(runs.front()) != fs::weakly_canonical(path)) {
+      runs.push_back(path);
     }
-    if (runs.empty() && IsRunFolder(folder)) {
-      runs.push_back(folder);
-    }
-    if (runs.empty()) {
-      Unfit(folder / run_folder::kCompareJson, "does not name its runs");
-    }
-    return runs;
-  });
+  }
+  if (runs.empty() && IsRunFolder(folder)) {
+    runs.push_back(folder);
+  }
+  if (runs.empty()) {
+    FailOutdated(folder / run_folder::kCompareJson, "does not name its runs");
+  }
+  return runs;
 }
 
 ordered_json ComparisonData(const std::vector<fs::path>& runs,
@@ -203,28 +217,28 @@ ordered_json ComparisonData(const std::vector<fs::path>& runs,
   std::vector<Pair> pairs;
   ordered_json verdicts = ordered_json::array();
   if (judged) {
-    TakeJudged(*judged, runs, 0, pairs, verdicts);
+    AddJudgedPairs(*judged, runs, 0, pairs, verdicts);
   } else {
     for (std::size_t run = 0; run < runs.size(); ++run) {
-      if (HasComparison(runs[run]) && IsOfItself(runs[run])) {
-        TakeJudged(runs[run], runs, run, pairs, verdicts);
+      if (HasComparison(runs[run]) && IsSelfComparison(runs[run])) {
+        AddJudgedPairs(runs[run], runs, run, pairs, verdicts);
       }
     }
   }
   std::vector<std::vector<FinishedDrive>> drives;
-  // Plants of an interrupted run have not come equally far.
+  // The plants of an interrupted run have driven different distances.
   const bool of_plants =
       pairs.empty() && runs.size() == 1 && PlantCount(runs.front()) > 1 && IsComplete(runs.front());
   if (!pairs.empty() || runs.size() > 1 || of_plants) {
     std::transform(runs.begin(), runs.end(), std::back_inserter(drives), ReadRunFolder);
   }
   if (of_plants) {
-    TakePlants(drives.front(), pairs);
+    AddPairsOfRun(drives.front(), pairs);
   }
   ordered_json left_out = ordered_json::array();
   if (!judged) {
-    TakeNamesakes(drives, pairs);
-    left_out = LeftOut(runs, drives);
+    AddPairsByName(drives, pairs);
+    left_out = UnpairedPlants(runs, drives);
   }
   if (pairs.empty() && verdicts.empty() && left_out.empty()) {
     return {};
@@ -237,8 +251,9 @@ ordered_json ComparisonData(const std::vector<fs::path>& runs,
           std::find_if(drives[drive.run].begin(), drives[drive.run].end(),
                        [&](const FinishedDrive& other) { return other.trace.name == drive.plant; });
       if (found == drives[drive.run].end()) {
-        Unfit(pair.file,
-              fmt::format("of {}, which is not in {}", drive.plant, runs[drive.run].string()));
+        FailOutdated(pair.outcome ? pair.outcome->file() : "",
+                     fmt::format("of {}, which is not in {}", drive.plant,
+                                 runs[drive.run].lexically_normal().string()));
       }
       return found->trace;
     };

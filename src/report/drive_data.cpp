@@ -19,27 +19,27 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kReached = 1e-6;  // [rad]; as in PlantMetrics
-constexpr double kShortest = 0.1;  // [s]; shortest visible interval
+constexpr double kReachedTolerance = 1e-6;  // [rad]; as in PlantMetrics
+constexpr double kMinSpan = 0.1;            // [s]; shortest visible interval
 
 /// Intervals in which the actuator did not reach the command of the previous row.
 std::vector<std::array<double, 2>> RateLimitSpans(const Table& log) {
   const std::vector<double> time = log.Column("t_s");
-  const std::vector<double> asked = log.Column("steering_command_rad");
+  const std::vector<double> commanded = log.Column("steering_command_rad");
   const std::vector<double> reached = log.Column("steering_actuator_rad");
   std::vector<std::array<double, 2>> spans;
   for (std::size_t i = 0; i + 1 < time.size(); ++i) {
-    if (std::abs(asked[i] - reached[i + 1]) <= kReached) {
+    if (std::abs(commanded[i] - reached[i + 1]) <= kReachedTolerance) {
       continue;
     }
-    if (!spans.empty() && time[i] - spans.back()[1] < kShortest) {
+    if (!spans.empty() && time[i] - spans.back()[1] < kMinSpan) {
       spans.back()[1] = time[i + 1];
     } else {
       spans.push_back({time[i], time[i + 1]});
     }
   }
   spans.erase(std::remove_if(spans.begin(), spans.end(),
-                             [](const auto& span) { return span[1] - span[0] < kShortest; }),
+                             [](const auto& span) { return span[1] - span[0] < kMinSpan; }),
               spans.end());
   return spans;
 }

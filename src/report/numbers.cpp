@@ -34,8 +34,8 @@ std::vector<std::size_t> ExtremeRows(const Table& table, std::size_t stretches) 
 }  // namespace
 
 double Rounded(double value) {
-  constexpr double kNothing = 5e-7;
-  if (std::abs(value) < kNothing) {
+  constexpr double kZeroTolerance = 5e-7;
+  if (std::abs(value) < kZeroTolerance) {
     return 0.0;
   }
   const std::string text = fmt::format("{:.6g}", value);

@@ -16,25 +16,25 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostDemands = 4000;
+constexpr std::size_t kMaxDemands = 4000;
 
 ordered_json OrNull(double number) {
   return std::isfinite(number) ? ordered_json(number) : ordered_json();
 }
 
-/// A limit of 0 is not known.
+/// A limit of 0 is unknown.
 ordered_json LimitJson(double limit) {
   return limit > 0.0 ? OrNull(limit) : ordered_json();
 }
 
-/// Speeds of more than this are drawn as this [m/s]: nothing limits a straight.
-constexpr double kMostShown = 100.0;
+/// Limit of the drawn speeds [m/s]; nothing limits the speed on a straight.
+constexpr double kMaxShownSpeed = 100.0;
 
 Table DemandTable(const PathCheck& check) {
   Table table({"s", "x", "y", "curvature", "curvature_rate", "steering", "steering_rate",
                "lateral_acceleration", "speed", "speed_by_steering_rate", "speed_by_friction",
                "speed_by_rollover"});
-  const auto shown = [](double speed) { return std::min(speed, kMostShown); };
+  const auto shown = [](double speed) { return std::min(speed, kMaxShownSpeed); };
   for (const PathDemand& demand : check.demands) {
     table.AddRow({demand.s, demand.position.x(), demand.position.y(), demand.curvature,
                   demand.curvature_rate, demand.steering, demand.steering_rate,
@@ -57,7 +57,7 @@ ordered_json PathCheckJson(const PathCheckTitle& title, const FittedPath& fitted
                       {"to_s_m", fault.stations.to},
                       {"x_m", fault.position.x()},
                       {"y_m", fault.position.y()},
-                      {"asked", fault.asked},
+                      {"asked", fault.required},
                       {"limit", fault.limit},
                       {"unit", UnitOf(fault.kind)},
                       {"text", ToString(fault)}});
@@ -75,6 +75,7 @@ ordered_json PathCheckJson(const PathCheckTitle& title, const FittedPath& fitted
                     {"notes", title.notes},
                     {"fit", fitted.reversals.empty() ? Describe(fitted) : "none"},
                     {"deviation_m", fitted.deviation},
+                    {"bulge_m", fitted.bulge},
                     {"steering_limit_rad", LimitJson(check.steering_limit)},
                     {"steering_rate_limit_radps", LimitJson(check.steering_rate_limit)},
                     {"friction_limit_mps2", LimitJson(check.friction_limit)},
@@ -88,15 +89,15 @@ ordered_json PathCheckReport(const PathCheckTitle& title, const FittedPath& fitt
                              const PathCheck& check, const PathCheckOptions& options) {
   ordered_json json = PathCheckJson(title, fitted, check, options);
   const Table table = DemandTable(check);
-  const std::vector<std::size_t> rows = RowsToShow(table, kMostDemands);
+  const std::vector<std::size_t> rows = RowsToShow(table, kMaxDemands);
   ordered_json columns;
   for (const std::string& column : table.columns()) {
     columns[column] = RoundedColumn(table, column, rows);
   }
   json["demand"] = std::move(columns);
-  // The points as a line; of many some, evenly.
+  // The given points as a line, thinned evenly.
   const std::vector<Vec2>& points = fitted.given.points;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kMostDemands);
+  const std::size_t step = std::max<std::size_t>(1, points.size() / kMaxDemands);
   ordered_json xs = ordered_json::array();
   ordered_json ys = ordered_json::array();
   for (std::size_t i = 0; i < points.size(); i += step) {

@@ -17,17 +17,17 @@ struct CodePointRange {
   code_point last;
 };
 
-constexpr std::array kUnseen{
+constexpr std::array kInvisibleRanges{
     CodePointRange{0x00, 0x08},      CodePointRange{0x0B, 0x1F},     CodePointRange{0x7F, 0x9F},
     CodePointRange{0xAD, 0xAD},      CodePointRange{0x061C, 0x061C}, CodePointRange{0x180E, 0x180E},
     CodePointRange{0x200B, 0x200B},  CodePointRange{0x200E, 0x200F}, CodePointRange{0x2028, 0x202E},
     CodePointRange{0x2060, 0x206F},  CodePointRange{0xFEFF, 0xFEFF}, CodePointRange{0xFFF9, 0xFFFB},
     CodePointRange{0xE0000, 0xE007F}};
 
-bool IsUnseen(code_point c) {
-  return std::any_of(kUnseen.begin(), kUnseen.end(), [c](const CodePointRange& range) {
-    return range.first <= c && c <= range.last;
-  });
+bool IsInvisible(code_point c) {
+  return std::any_of(
+      kInvisibleRanges.begin(), kInvisibleRanges.end(),
+      [c](const CodePointRange& range) { return range.first <= c && c <= range.last; });
 }
 
 bool IsPlain(char c) {
@@ -61,7 +61,7 @@ std::string Readable(const std::string& text) {
       // Skips the remaining bytes of an invalid multibyte character.
       at = std::find_if_not(begin + 1, text.end(), Continues);
       readable += "\xEF\xBF\xBD";
-    } else if (IsUnseen(c)) {
+    } else if (IsInvisible(c)) {
       readable += fmt::format("<U+{:04X}>", c);
     } else {
       readable.append(begin, at);

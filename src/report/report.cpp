@@ -14,6 +14,7 @@
 #include "src/report/run_data.h"
 #include "src/report/study_data.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/run_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/report/live.h"
@@ -26,8 +27,8 @@
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kLargestFilm = std::size_t{128}
-                                     << 20U;  // in a page, which browsers keep in memory
+constexpr std::size_t kMaxFilmBytes = std::size_t{128}
+                                      << 20U;  // in a page, which browsers keep in memory
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
@@ -95,7 +96,7 @@ bool IsStudyAlone(const fs::path& path) {
   return !IsRunFolder(path) && !HasComparison(path) && StudyTable(path);
 }
 
-void RefuseOthers(const std::vector<fs::path>& paths) {
+void CheckFolders(const std::vector<fs::path>& paths) {
   for (auto path = paths.begin(); path != paths.end(); ++path) {
     std::error_code ignored;
     if (!fs::exists(*path, ignored)) {
@@ -140,7 +141,7 @@ struct ShownRuns {
 
 ShownRuns RunsToShow(const std::vector<fs::path>& paths) {
   TRACKBED_CHECK(!paths.empty(), "a report of nothing");
-  RefuseOthers(paths);
+  CheckFolders(paths);
   const fs::path& first = paths.front();
   if (paths.size() > 1 || !HasComparison(first)) {
     return {IsRunFolder(first) ? paths : std::vector<fs::path>(), std::nullopt};
@@ -157,27 +158,6 @@ ShownRuns RunsToShow(const std::vector<fs::path>& paths) {
   return shown;
 }
 
-/// The shortest unique suffix of each path.
-std::vector<std::string> ShortNames(const std::vector<fs::path>& folders) {
-  std::vector<fs::path> rest;
-  std::vector<fs::path> names;
-  for (const fs::path& folder : folders) {
-    const fs::path real = fs::weakly_canonical(folder);
-    names.push_back(real.filename());
-    rest.push_back(real.parent_path());
-  }
-  const auto is_taken_twice = [&](const fs::path& name) {
-    return std::count(names.begin(), names.end(), name) > 1;
-  };
-  while (std::any_of(names.begin(), names.end(), is_taken_twice)) {
-    for (std::size_t i = 0; i < names.size(); ++i) {
-      names[i] = rest[i].filename() / names[i];
-      rest[i] = rest[i].parent_path();
-    }
-  }
-  return {names.begin(), names.end()};
-}
-
 ordered_json MakeReportData(const std::vector<fs::path>& paths, const ShownRuns& shown) {
   if (IsIdentificationFolder(paths.front())) {
     return {{"identification", IdentificationData(paths.front())}};
@@ -191,7 +171,7 @@ ordered_json MakeReportData(const std::vector<fs::path>& paths, const ShownRuns&
   for (const fs::path& folder : shown.folders) {
     plants += PlantCount(folder);
   }
-  const std::vector<std::string> names = ShortNames(shown.folders);
+  const std::vector<std::string> names = ShortRunNames(shown.folders);
   ordered_json data{{"runs", ordered_json::array()}};
   for (std::size_t i = 0; i < shown.folders.size(); ++i) {
     data["runs"].push_back(
@@ -213,7 +193,7 @@ void AddFilms(const ShownRuns& shown, const fs::path& file, FilmPlace place, ord
     }
     ordered_json& run = data["runs"][i];
     if (place == FilmPlace::kEmbedded) {
-      run["film"] = {{"base64", Base64(ReadFile(run_folder::RequireFile(video), kLargestFilm))}};
+      run["film"] = {{"base64", Base64(ReadFile(run_folder::RequireFile(video), kMaxFilmBytes))}};
     } else {
       const fs::path from = fs::weakly_canonical(fs::absolute(file).parent_path());
       run["film"] = {{"url", FileUrl(fs::weakly_canonical(video).lexically_relative(from))}};

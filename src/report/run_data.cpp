@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <map>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -30,15 +30,19 @@
 #include "trackbed/sim/car_model.h"
 #include "trackbed/track/track_file.h"
 
+// Data of one run for a report page, read from its folder: verdict and checks, world, plan, logs
+// and numbers of each plant, and the resolved scenario. Logs are thinned to their row limit
+// (RowsToShow). The scene (vehicle, motion, ground) is added if all plants have state logs. Events
+// and tyre forces need the compiled model and are added last.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kLargestScenario = std::size_t{1} << 20U;
+constexpr std::size_t kMaxScenarioBytes = std::size_t{1} << 20U;
 
-/// What the page calls a column, and whether every log has it.
+/// Name of a log column on the page, and whether every log has it.
 struct Channel {
   const char* name;
   const char* column;
@@ -61,7 +65,7 @@ constexpr std::array kChannels{
     Channel{"longitudinal_acceleration", "longitudinal_acceleration_mps2", false},
     Channel{"clearance", "clearance_m", false}};
 
-/// Adds what lies on the way to what `low` and `high` span.
+/// Extends the box from `low` to `high` by the points of a line.
 void Widen(const ordered_json& line, Vec2& low, Vec2& high) {
   for (const auto& [name, axis] : {std::pair{"x", 0}, std::pair{"y", 1}}) {
     for (const double value : line.at(name).get<std::vector<double>>()) {
@@ -77,18 +81,18 @@ ordered_json LineJson(const Table& table, const std::vector<std::size_t>& rows) 
 }
 
 ordered_json PlanLine(const fs::path& file) {
-  constexpr std::size_t kMaxRows = 20000;  // of plan.csv: 2 km
+  constexpr std::size_t kMaxRows = 20000;  // rows of plan.csv: 2 km
   const Table table = ReadCsvExcerpt(file, {"x_m", "y_m"}).table;
   return LineJson(table, RowsToShow(table, kMaxRows));
 }
 
-/// One plan after the other, each row with the time from which its plan holds; of all of them
-/// together at most so many points, evenly chosen.
+/// New plans in sequence, each with the time from which it holds. Thinned evenly to about 4000
+/// points in total.
 ordered_json NewPlans(const fs::path& file) {
-  constexpr std::size_t kMostPoints = 4000;
+  constexpr std::size_t kMaxPoints = 4000;
   const Table table = ReadCsvExcerpt(file, {"from_t_s", "x_m", "y_m"}).table;
   const std::vector<double> from = table.Column("from_t_s");
-  const std::size_t step = from.size() / kMostPoints + 1;
+  const std::size_t step = from.size() / kMaxPoints + 1;
   ordered_json plans = ordered_json::array();
   for (std::size_t row = 0; row < from.size();) {
     std::vector<std::size_t> rows;
@@ -132,22 +136,22 @@ ordered_json LogJson(const fs::path& file, std::size_t row_limit) {
   return json;
 }
 
-/// How a run ended, and when: {status, t, s, cause}.
-ordered_json EndJson(const ordered_json& metrics) {
-  ordered_json json{{"status", metrics.at("status").get<std::string>()}};
+/// Status, time, station and cause of a run's end: {status, t, s, cause}.
+ordered_json EndJson(const JsonValue& metrics) {
+  ordered_json json{{"status", metrics.At("status").Text()}};
   for (const auto& [name, key] : {std::pair{"t", "status_t"}, std::pair{"s", "status_s"}}) {
-    if (metrics.contains(key)) {
-      json[name] = Rounded(metrics.at(key).get<double>());
+    if (const std::optional<JsonValue> value = metrics.Find(key)) {
+      json[name] = Rounded(value->Number());
     }
   }
-  if (metrics.contains("cause")) {
-    json["cause"] = metrics.at("cause").get<std::string>();
+  if (const std::optional<JsonValue> cause = metrics.Find("cause")) {
+    json["cause"] = cause->Text();
   }
   return json;
 }
 
-ordered_json PlantJson(const fs::path& folder, const std::string& plant,
-                       const ordered_json& metrics, std::size_t row_limit) {
+ordered_json PlantJson(const fs::path& folder, const std::string& plant, const JsonValue& metrics,
+                       std::size_t row_limit) {
   ordered_json json{{"name", plant},
                     {"end", EndJson(metrics)},
                     {"log", LogJson(folder / run_folder::LogCsv(plant), row_limit)}};
@@ -182,7 +186,7 @@ ordered_json WorldJson(const World& world) {
     json["patches"].back()["friction"] = Rounded(patch.friction);
   }
   if (const std::vector<OrientedBox>& walls = MapWalls(world); !walls.empty()) {
-    // All have the direction of the map's rows.
+    // All walls are aligned with the rows of the map.
     json["walls"] = {{"yaw", Rounded(walls.front().center.yaw)},
                      {"height", Rounded(world.map->height)},
                      {"boxes", ordered_json::array()}};
@@ -215,37 +219,37 @@ ordered_json CarJson(const VehicleParams& car) {
           {"grip_acceleration", Rounded(car.friction_lateral * kGravity)}};
 }
 
-/// How the plan was found, the gates it leads through, and its line.
+/// Method, gates and line of the plan.
 ordered_json PlanJson(const fs::path& folder) {
-  ordered_json plan = ReadJson(folder / run_folder::kPlanJson, [](const ordered_json& file) {
-    ordered_json json{{"status", file.at("status").get<std::string>()}};
-    for (const char* key : {"reason", "method"}) {
-      if (file.contains(key)) {
-        json[key] = file.at(key).get<std::string>();
-      }
+  const JsonValue file = ReadJson(folder / run_folder::kPlanJson);
+  ordered_json plan{{"status", file.At("status").Text()}};
+  for (const char* key : {"reason", "method"}) {
+    if (const std::optional<JsonValue> text = file.Find(key)) {
+      plan[key] = text->Text();
     }
-    for (const char* key : {"length_m", "duration_s"}) {
-      if (file.contains(key)) {
-        json[key] = Rounded(file.at(key).get<double>());
-      }
+  }
+  for (const char* key : {"length_m", "duration_s"}) {
+    if (const std::optional<JsonValue> number = file.Find(key)) {
+      plan[key] = Rounded(number->Number());
     }
-    json["cones"] = ordered_json::array();
-    for (const Vec2& cone : GateCones(file)) {
-      json["cones"].push_back({Rounded(cone.x()), Rounded(cone.y())});
+  }
+  plan["cones"] = ordered_json::array();
+  for (const std::vector<Vec2>& cones : GateCones(file)) {
+    for (const Vec2& cone : cones) {
+      plan["cones"].push_back({Rounded(cone.x()), Rounded(cone.y())});
     }
-    return json;
-  });
+  }
   if (plan.at("status") == ToString(PlanStatus::kOk)) {
     plan["line"] = PlanLine(run_folder::RequireFile(folder / run_folder::kPlanCsv));
   }
   return plan;
 }
 
-/// The edges of a track, as many points of both.
+/// The edges of a track, with equal numbers of points.
 ordered_json EdgesJson(const Track& track) {
-  constexpr std::size_t kMostPoints = 2000;
+  constexpr std::size_t kMaxPoints = 2000;
   const auto line = [&](const TrackEdgeLine& edge) {
-    const std::size_t step = edge.size() / kMostPoints + 1;
+    const std::size_t step = edge.size() / kMaxPoints + 1;
     ordered_json json{{"x", ordered_json::array()}, {"y", ordered_json::array()}};
     for (std::size_t i = 0; i < edge.size(); i += step) {
       json["x"].push_back(Rounded(edge[i].x()));
@@ -256,7 +260,7 @@ ordered_json EdgesJson(const Track& track) {
   return {{"left", line(track.left_edge())}, {"right", line(track.right_edge())}};
 }
 
-/// What the page draws the run from in three dimensions, where all plants have their states.
+/// Adds the data of the 3D scene, if all plants have state logs.
 void AddScene(const fs::path& folder, const World& world, std::size_t row_limit,
               ordered_json& run) {
   for (const ordered_json& plant : run["plants"]) {
@@ -279,7 +283,7 @@ void AddScene(const fs::path& folder, const World& world, std::size_t row_limit,
   run["ground"] = GroundJson(world, low.x(), low.y(), high.x(), high.y());
 }
 
-/// What takes the compiled car to know.
+/// Adds the data that needs the compiled car.
 void AddCar(const fs::path& folder, const World& world, std::size_t row_limit, ordered_json& run) {
   const fs::path model = folder / run_folder::kModelXml;
   const CarModel car(ComposeScene(run_folder::RequireFile(model), {}), model.string());
@@ -310,61 +314,79 @@ bool IsRunFolder(const fs::path& folder) {
 }
 
 bool IsComplete(const fs::path& folder) {
-  return ReadJson(folder / run_folder::kMetricsJson,
-                  [](const ordered_json& metrics) { return metrics.at("complete").get<bool>(); });
+  return ReadJson(folder / run_folder::kMetricsJson).At("complete").Flag();
 }
 
 std::size_t PlantCount(const fs::path& folder) {
-  return ReadJson(folder / run_folder::kMetricsJson,
-                  [](const ordered_json& metrics) { return metrics.at("plants").size(); });
+  return ReadJson(folder / run_folder::kMetricsJson).At("plants").Members().size();
 }
+
+namespace {
+
+/// The world of the run as `run` shows it, and its plan.
+World AddWorldAndPlan(const fs::path& folder, const fs::path& scenario, ordered_json& run) {
+  for (const char* map : {kMapYaml, kMapPgm}) {
+    if (fs::exists(folder / map)) {
+      run_folder::RequireFile(folder / map);
+    }
+  }
+  World world = ReadWorld(scenario);
+  run["world"] = WorldJson(world);
+  if (world.road_network) {
+    run["world"]["roads"] = RoadsJson(folder);
+  }
+  if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
+    run["plan"] = PlanJson(folder);
+    if (const auto road = RoadToDraw(world, run["plan"].value("method", ""))) {
+      run["plan"]["road"] = {{"width", Rounded(road->width)}, {"lanes", road->lanes}};
+    }
+    if (const fs::path track = folder / kTrackCsv; fs::exists(track)) {
+      run["plan"]["edges"] = EdgesJson(ReadRunTrack(run_folder::RequireFile(track), scenario));
+    }
+  }
+  return world;
+}
+
+/// A text for each name.
+ordered_json TextsJson(const JsonValue& section) {
+  ordered_json json = ordered_json::object();
+  for (const auto& [name, text] : section.Members()) {
+    json[name] = text.Text();
+  }
+  return json;
+}
+
+}  // namespace
 
 ordered_json RunData(const fs::path& folder, const std::string& name, std::size_t row_limit) {
   const fs::path scenario = run_folder::RequireFile(folder / run_folder::kScenarioYaml);
-  return ReadJson(folder / run_folder::kMetricsJson, [&](const ordered_json& metrics) {
-    ordered_json run{{"name", name},
-                     {"scenario", metrics.at("scenario").get<std::string>()},
-                     {"complete", metrics.at("complete").get<bool>()},
-                     {"seed", metrics.at("seed").get<std::uint64_t>()},
-                     {"versions", metrics.at("versions").get<std::map<std::string, std::string>>()},
-                     {"verdict", VerdictJson(metrics.at("verdict"))}};
-    run["expectations"] = CheckRows(metrics.at("verdict"));
-    for (const char* map : {kMapYaml, kMapPgm}) {
-      if (fs::exists(folder / map)) {
-        run_folder::RequireFile(folder / map);
-      }
-    }
-    const World world = ReadWorld(scenario);
-    run["world"] = WorldJson(world);
-    if (world.road_network) {
-      run["world"]["roads"] = RoadsJson(folder);
-    }
-    if (fs::exists(folder / run_folder::kPlanJson) || fs::exists(folder / run_folder::kPlanCsv)) {
-      run["plan"] = PlanJson(folder);
-      if (const auto road = RoadToDraw(world, run["plan"].value("method", ""))) {
-        run["plan"]["road"] = {{"width", Rounded(road->width)}, {"lanes", road->lanes}};
-      }
-      if (const fs::path track = folder / kTrackCsv; fs::exists(track)) {
-        run["plan"]["edges"] = EdgesJson(ReadRunTrack(run_folder::RequireFile(track), scenario));
-      }
-    }
-    run["plants"] = ordered_json::array();
-    for (const auto& [plant, entry] : metrics.at("plants").items()) {
-      run["plants"].push_back(PlantJson(folder, plant, entry, row_limit));
-      run["plants"].back()["numbers"] = NumbersJson(entry, NameOfMetric);
-    }
-    run["between"] = ordered_json::array();
-    for (ordered_json pair : metrics.at("between")) {
-      const auto plants = pair.at("plants").get<std::vector<std::string>>();
-      pair.erase("plants");
-      run["between"].push_back(
-          {{"plants", plants}, {"numbers", NumbersJson(pair, NameOfComparison)}});
-    }
-    run["resolved"] = ReadFile(scenario, kLargestScenario);
-    AddScene(folder, world, row_limit / 2, run);
-    AddCar(folder, world, row_limit / 2, run);  // last: takes longest
-    return run;
-  });
+  const JsonValue metrics = ReadJson(folder / run_folder::kMetricsJson);
+  constexpr auto kMaxSeed = std::numeric_limits<std::uint64_t>::max();
+  ordered_json run{{"name", name},
+                   {"scenario", metrics.At("scenario").Text()},
+                   {"complete", metrics.At("complete").Flag()},
+                   {"seed", metrics.At("seed").Count(kMaxSeed)},
+                   {"versions", TextsJson(metrics.At("versions"))},
+                   {"verdict", VerdictJson(metrics.At("verdict"))}};
+  run["expectations"] = CheckRows(metrics.At("verdict"));
+  const World world = AddWorldAndPlan(folder, scenario, run);
+  run["plants"] = ordered_json::array();
+  for (const auto& [plant, entry] : metrics.At("plants").Members()) {
+    run["plants"].push_back(PlantJson(folder, plant, entry, row_limit));
+    run["plants"].back()["numbers"] = NumbersJson(entry.json(), NameOfMetric);
+  }
+  run["between"] = ordered_json::array();
+  for (const JsonValue& pair : metrics.At("between").Elements()) {
+    const std::vector<std::string> plants = pair.At("plants").Texts();
+    ordered_json numbers = pair.json();
+    numbers.erase("plants");
+    run["between"].push_back(
+        {{"plants", plants}, {"numbers", NumbersJson(numbers, NameOfComparison)}});
+  }
+  run["resolved"] = ReadFile(scenario, kMaxScenarioBytes);
+  AddScene(folder, world, row_limit / 2, run);
+  AddCar(folder, world, row_limit / 2, run);  // last: takes longest
+  return run;
 }
 
 }  // namespace trackbed

@@ -183,9 +183,9 @@ ordered_json GroundJson(const World& world, double low_x, double low_y, double h
     return nullptr;
   }
   constexpr double kMargin = 60.0;  // [m]; visible distance around the run
-  constexpr double kMostAlong = 160.0;
+  constexpr double kMaxGridLines = 160.0;
   const double span = std::max(high_x - low_x, high_y - low_y) + 2.0 * kMargin;
-  const double step = std::max(1.0, span / kMostAlong);
+  const double step = std::max(1.0, span / kMaxGridLines);
   const auto count = [&](double low, double high) {
     return static_cast<int>(std::ceil((high - low + 2.0 * kMargin) / step)) + 1;
   };

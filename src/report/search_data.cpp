@@ -20,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kIntervals = 10;  // of a key's range, for what was tried of it
+constexpr std::size_t kIntervals = 10;  // of a key's range, to count runs
 
 std::optional<std::size_t> FindColumn(const TextTable& table, const std::string& name) {
   const auto found = std::find(table.columns().begin(), table.columns().end(), name);
@@ -29,15 +29,22 @@ std::optional<std::size_t> FindColumn(const TextTable& table, const std::string&
              : std::optional(static_cast<std::size_t>(found - table.columns().begin()));
 }
 
-/// Equal parts of the range of a key; of a logarithmic one, equal ratios.
+/// Equal intervals of a key's range; on a logarithmic range, equal ratios.
 class Intervals {
  public:
-  explicit Intervals(const ordered_json& distribution)
-      : kind_(distribution.at("distribution").get<std::string>()),
-        from_(distribution.at("from").get<double>()),
-        to_(distribution.at("to").get<double>()) {
-    // Each whole number is as wide as the others, and fewer than ten are not divided.
-    count_ = kind_ == "integer" ? std::min(kIntervals, static_cast<std::size_t>(to_ - from_) + 1)
+  explicit Intervals(const JsonValue& distribution)
+      : kind_(distribution.At("distribution").OneOf({"uniform", "log_uniform", "integer"})),
+        from_(distribution.At("from").Number()),
+        to_(distribution.At("to").Number()) {
+    if (!(from_ < to_)) {
+      distribution.At("to").Refuse("a number above from");
+    }
+    if (kind_ == "log_uniform" && !(from_ > 0.0)) {
+      distribution.At("from").Refuse("a number above 0");
+    }
+    // Whole numbers get equal widths; ranges of fewer than ten are divided into single numbers.
+    constexpr auto kMaxCount = static_cast<double>(kIntervals);
+    count_ = kind_ == "integer" ? static_cast<std::size_t>(std::min(kMaxCount, to_ - from_ + 1.0))
                                 : kIntervals;
   }
 
@@ -48,7 +55,10 @@ class Intervals {
                          : kind_ == "integer"   ? (value - from_ + 0.5) / (to_ - from_ + 1.0)
                                                 : (value - from_) / (to_ - from_);
     const double interval = std::floor(place * static_cast<double>(count_));
-    return static_cast<std::size_t>(std::clamp(interval, 0.0, static_cast<double>(count_ - 1)));
+    // Not a number: a value outside the domain of the logarithm.
+    return interval > 0.0
+               ? static_cast<std::size_t>(std::min(interval, static_cast<double>(count_ - 1)))
+               : 0;
   }
 
  private:
@@ -58,7 +68,7 @@ class Intervals {
   std::size_t count_;
 };
 
-/// The rows that have a robustness: what was run.
+/// Rows with a robustness, that is, rows that were run.
 struct Runs {
   explicit Runs(const TextTable& all) : table(all) {
     const std::optional<std::size_t> column = FindColumn(all, "robustness");
@@ -75,8 +85,8 @@ struct Runs {
   std::vector<double> robustness;  ///< of each of `rows`
 };
 
-/// How often each interval of a key was tried, and failed.
-ordered_json CoverageJson(const ordered_json& distribution, std::size_t column, const Runs& runs) {
+/// Number of runs and failures in each interval of a key.
+ordered_json CoverageJson(const JsonValue& distribution, std::size_t column, const Runs& runs) {
   const Intervals intervals(distribution);
   std::vector<std::size_t> tried(intervals.count(), 0);
   std::vector<std::size_t> failed(intervals.count(), 0);
@@ -90,7 +100,7 @@ ordered_json CoverageJson(const ordered_json& distribution, std::size_t column, 
   return {{"tried", tried}, {"failed", failed}};
 }
 
-/// The runs of the search that were lower than all before them: where steps of a line go down.
+/// Runs of the search with a lower robustness than all before: the steps of the best value so far.
 ordered_json BestSoFar(const Runs& runs, std::size_t searched) {
   ordered_json best = ordered_json::array();
   std::optional<double> least;
@@ -103,37 +113,45 @@ ordered_json BestSoFar(const Runs& runs, std::size_t searched) {
   return best;
 }
 
-/// A key of `margins` in falsify.json, with the ends of where it holds alone as a pair. Where no
-/// run to a side told of them, the nominal value is that end.
-ordered_json MarginJson(const ordered_json& margin) {
-  ordered_json json{{"sensitivity", margin.value("sensitivity", ordered_json())},
-                    {"holds_up_to", margin.value("holds_up_to", ordered_json())}};
-  if (const auto alone = margin.find("alone"); alone != margin.end()) {
-    const auto end = [&](const char* side) -> ordered_json {
-      return alone->contains(side) ? alone->at(side).at("holds_up_to").get<double>()
-                                   : margin.at("nominal").get<double>();
+/// A key of `margins` in falsify.json, with the range in which it passes alone as a pair. On a side
+/// without such a run, the nominal value is the end.
+ordered_json MarginJson(const JsonValue& margin) {
+  const auto number = [&](const char* name) -> ordered_json {
+    const std::optional<JsonValue> value = margin.Find(name);
+    return value ? ordered_json(value->Number()) : ordered_json();
+  };
+  ordered_json json{{"sensitivity", number("sensitivity")}, {"holds_up_to", number("holds_up_to")}};
+  if (const std::optional<JsonValue> alone = margin.Find("alone")) {
+    const auto end = [&](const char* name) {
+      const std::optional<JsonValue> side = alone->Find(name);
+      return (side ? side->At("holds_up_to") : margin.At("nominal")).Number();
     };
     json["alone"] = {end("down"), end("up")};
   }
   return json;
 }
 
-ordered_json PointJson(const ordered_json& falsify, const char* name) {
-  if (!falsify.contains(name)) {
+ordered_json PointJson(const JsonValue& falsify, const char* name, std::size_t rows) {
+  const std::optional<JsonValue> point = falsify.Find(name);
+  if (!point) {
     return nullptr;
   }
-  const ordered_json& point = falsify.at(name);
-  return {{"row", point.at("row").get<std::size_t>()},
-          {"robustness", Rounded(point.at("robustness").get<double>())},
-          {"limit", point.at("limit").get<std::string>()},
-          {"distance", Rounded(point.at("distance").get<double>())},
-          {"reason", point.value("reason", std::string())},
-          {"settings", point.at("settings")}};
+  if (rows == 0) {
+    point->Refuse("no point, as the table has no rows");
+  }
+  const std::optional<JsonValue> reason = point->Find("reason");
+  return {{"row", point->At("row").Count(rows - 1)},
+          {"robustness", Rounded(point->At("robustness").Number())},
+          {"limit", point->At("limit").Text()},
+          {"distance", Rounded(point->At("distance").Number())},
+          {"reason", reason ? reason->Text() : std::string()},
+          {"settings", point->At("settings").Scalars()}};
 }
 
-ordered_json KeysJson(const ordered_json& sweep, const ordered_json& falsify, const Runs& runs) {
+ordered_json KeysJson(const JsonValue& sweep, const JsonValue& falsify, const Runs& runs) {
   ordered_json keys = ordered_json::array();
-  for (const auto& [key, distribution] : sweep.at("vary").items()) {
+  const std::optional<JsonValue> margins = falsify.Find("margins");
+  for (const auto& [key, distribution] : sweep.At("vary").Members()) {
     const std::optional<std::size_t> column = FindColumn(runs.table, key);
     if (!column) {
       continue;
@@ -143,13 +161,13 @@ ordered_json KeysJson(const ordered_json& sweep, const ordered_json& falsify, co
                       {"label", name.label},
                       {"unit", name.unit},
                       {"column", *column},
-                      {"kind", distribution.at("distribution").get<std::string>()},
-                      {"from", distribution.at("from").get<double>()},
-                      {"to", distribution.at("to").get<double>()},
-                      {"nominal", sweep.at("nominal").at(key).get<double>()}};
+                      {"kind", distribution.At("distribution").Text()},
+                      {"from", distribution.At("from").Number()},
+                      {"to", distribution.At("to").Number()},
+                      {"nominal", sweep.At("nominal").At(key).Number()}};
     json.update(CoverageJson(distribution, *column, runs));
-    if (falsify.contains("margins")) {
-      json["margin"] = MarginJson(falsify.at("margins").at(key));
+    if (margins) {
+      json["margin"] = MarginJson(margins->At(key));
     }
     keys.push_back(std::move(json));
   }
@@ -166,43 +184,48 @@ ordered_json SearchData(const fs::path& file, const TextTable& table) {
       !fs::is_regular_file(description, ignored)) {
     return nullptr;
   }
-  const auto sweep = ReadJson(description, [](const ordered_json& json) { return json; });
-  // An earlier search may have left its outcome in the folder of another study.
-  if (!sweep.contains("search")) {
+  const JsonValue sweep = ReadJson(description);
+  // The folder may hold the outcome of an earlier search in another study.
+  const std::optional<JsonValue> search = sweep.Find("search");
+  if (!search) {
     return nullptr;
   }
-  return ReadJson(outcome, [&](const ordered_json& falsify) -> ordered_json {
-    const auto searched = falsify.at("runs").get<std::size_t>();
-    const auto shrunk = falsify.at("shrink_runs").get<std::size_t>();
-    if (falsify.at("study") != sweep.at("study") || searched + shrunk > table.rows().size()) {
-      throw InputError(Problem{
-          .file = outcome.string(),
-          .message = fmt::format("is of other runs than {}, which has {} rows of {}; it is of {} "
-                                 "runs of {}",
-                                 run_folder::kSweepCsv, table.rows().size(),
-                                 sweep.at("study").get<std::string>(), searched + shrunk,
-                                 falsify.at("study").get<std::string>())});
-    }
-    const Runs runs(table);
-    ordered_json json{{"status", falsify.at("status").get<std::string>()},
-                      {"method", sweep.at("search").at("method").get<std::string>()},
-                      {"runs", searched},
-                      {"shrink_runs", shrunk},
-                      {"violations", falsify.at("violations").get<std::size_t>()},
-                      {"out_of_time", falsify.at("out_of_time").get<bool>()},
-                      {"shrunk_completely", falsify.value("shrunk_completely", true)}};
-    for (const char* point : {"first_violation", "least_robust", "counterexample"}) {
-      json[point] = PointJson(falsify, point);
-    }
-    if (const fs::path scenario =
-            file.parent_path() / run_folder::kCounterexample / run_folder::kCounterexampleYaml;
-        falsify.contains("counterexample") && fs::is_regular_file(scenario, ignored)) {
-      json["scenario"] = scenario.string();
-    }
-    json["keys"] = KeysJson(sweep, falsify, runs);
-    json["best"] = BestSoFar(runs, searched);
-    return json;
-  });
+  const JsonValue falsify = ReadJson(outcome);
+  const std::size_t searched = falsify.At("runs").Count();
+  const std::size_t shrunk = falsify.At("shrink_runs").Count();
+  const std::string study = sweep.At("study").Text();
+  const std::string own_study = falsify.At("study").Text();
+  if (own_study != study || searched + shrunk > table.rows().size()) {
+    throw InputError(Problem{
+        .file = outcome.string(),
+        .message = fmt::format(
+            "is of other runs than {}, which has {} rows of {}; it is of {} runs of {}",
+            run_folder::kSweepCsv, table.rows().size(), study, searched + shrunk, own_study)});
+  }
+  const Runs runs(table);
+  const std::optional<JsonValue> complete = falsify.Find("shrunk_completely");
+  ordered_json json{{"status", falsify.At("status").Text()},
+                    {"method", search->At("method").Text()},
+                    {"runs", searched},
+                    {"shrink_runs", shrunk},
+                    {"violations", falsify.At("violations").Count()},
+                    {"out_of_time", falsify.At("out_of_time").Flag()},
+                    {"shrunk_completely", !complete || complete->Flag()}};
+  for (const char* point : {"first_violation", "least_robust", "counterexample"}) {
+    json[point] = PointJson(falsify, point, table.rows().size());
+  }
+  if (const std::optional<JsonValue> result = falsify.Find("result")) {
+    run_folder::RequireResult(file.parent_path() / run_folder::kCounterexample, result->Text(),
+                              outcome);
+  }
+  if (const fs::path scenario =
+          file.parent_path() / run_folder::kCounterexample / run_folder::kCounterexampleYaml;
+      falsify.Find("counterexample") && fs::is_regular_file(scenario, ignored)) {
+    json["scenario"] = scenario.string();
+  }
+  json["keys"] = KeysJson(sweep, falsify, runs);
+  json["best"] = BestSoFar(runs, searched);
+  return json;
 }
 
 }  // namespace trackbed

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "src/report/numbers.h"
@@ -23,9 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMostRows = 4000;  // that a page shows one by one
+constexpr std::size_t kMaxShownRows = 4000;  // shown individually
 
-/// A number as one, an empty cell as null, all else as text.
+/// A number as number, an empty cell as null, anything else as text.
 ordered_json CellJson(const std::string& cell) {
   if (cell.empty()) {
     return nullptr;
@@ -34,30 +33,37 @@ ordered_json CellJson(const std::string& cell) {
   return number ? ordered_json(Rounded(*number)) : ordered_json(cell);
 }
 
-/// What stands in sweep.json beside the table; nothing when there is none.
+/// Content of sweep.json next to the table; empty if the file is missing.
 ordered_json StudyDescription(const fs::path& table) {
   const fs::path file = table.parent_path() / run_folder::kSweepJson;
   std::error_code ignored;
   if (table.filename() != run_folder::kSweepCsv || !fs::is_regular_file(file, ignored)) {
     return ordered_json::object();
   }
-  return ReadJson(file, [&](const ordered_json& json) -> ordered_json {
-    const bool complete = json.at("complete").get<bool>();
-    // A row of the table is the row of the study only where none is missing.
-    const bool has_all = complete && !json.contains("shard");
-    return {{"name", json.at("study").get<std::string>()},
-            {"folder", has_all ? table.parent_path().string() : ""},
-            {"scenario", json.at("scenario").get<std::string>()},
-            {"complete", complete},
-            {"bisected", json.value("/bisect/key"_json_pointer, std::string())},
-            {"stopped", json.value("stopped", std::string())},
-            {"rows_expected", json.at("rows_expected").get<std::size_t>()},
-            {"versions", json.at("versions").get<std::map<std::string, std::string>>()},
-            {"text", json.dump(2)}};
-  });
+  const JsonValue json = ReadJson(file);
+  const bool complete = json.At("complete").Flag();
+  // A row of the table has the study's row number only if none is missing.
+  const bool has_all = complete && !json.Find("shard");
+  const auto text_of = [](const std::optional<JsonValue>& text) {
+    return text ? text->Text() : std::string();
+  };
+  const std::optional<JsonValue> bisect = json.Find("bisect");
+  ordered_json versions = ordered_json::object();
+  for (const auto& [name, version] : json.At("versions").Members()) {
+    versions[name] = version.Text();
+  }
+  return {{"name", json.At("study").Text()},
+          {"folder", has_all ? table.parent_path().string() : ""},
+          {"scenario", json.At("scenario").Text()},
+          {"complete", complete},
+          {"bisected", bisect ? bisect->At("key").Text() : std::string()},
+          {"stopped", text_of(json.Find("stopped"))},
+          {"rows_expected", json.At("rows_expected").Count()},
+          {"versions", versions},
+          {"text", json.json().dump(2)}};
 }
 
-/// A key that was bisected is what the study asks for: an output, before all others.
+/// A bisected key counts as the first output, because it is the result of the study.
 ordered_json ColumnsJson(const TextTable& table, const std::string& file,
                          const std::string& bisected = "") {
   const std::vector<std::string>& names = table.columns();
@@ -115,7 +121,7 @@ ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& befo
                                         [&](const std::vector<std::string>& row) {
                                           return HasPassed(row[static_cast<std::size_t>(status)]);
                                         });
-  const ShownRows shown = StudyRowsToShow(table, kMostRows);
+  const ShownRows shown = StudyRowsToShow(table, kMaxShownRows);
   study["rows"] = ordered_json::array();
   study["row_numbers"] = ordered_json::array();
   study["even_count"] = shown.even.size();
@@ -131,13 +137,13 @@ ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& befo
   }
   if (ordered_json search = SearchData(file, table); !search.is_null()) {
     study["search"] = std::move(search);
-    study["statistics"] = nullptr;  // a search goes where it is worst: its points are no sample
+    study["statistics"] = nullptr;  // not a random sample: a search prefers the worst region
   } else {
     study["statistics"] = StudyStatistics(table);
   }
   if (before) {
     const TextTable other = ReadStudyTable(*before);
-    ColumnsJson(other, before->string());  // that it is one of a study
+    ColumnsJson(other, before->string());  // checks that it is the table of a study
     study["difference"] = StudyDifference(other, before->string(), table, file.string());
     study["difference"]["before"] =
         before->parent_path().filename() != "" ? before->parent_path().string() : before->string();

@@ -22,10 +22,10 @@ namespace {
 using nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
-constexpr std::size_t kFewestRows = 20;
-constexpr std::size_t kMostEffects = 12;     // classes of a parameter in a chart
-constexpr std::size_t kMostCorrelated = 24;  // outputs
-constexpr std::size_t kMostStaircase = 200;  // points of a distribution function
+constexpr std::size_t kMinRows = 20;
+constexpr std::size_t kMaxEffectClasses = 12;      // classes of a parameter in a chart
+constexpr std::size_t kMaxCorrelatedOutputs = 24;  // outputs
+constexpr std::size_t kMaxStaircasePoints = 200;   // points of a distribution function
 
 ordered_json IntervalJson(const Interval& interval) {
   return {Rounded(interval.low), Rounded(interval.high)};
@@ -98,7 +98,7 @@ class StudyAnalysis {
 
   [[nodiscard]] ordered_json Describe() const {
     const std::size_t count = passed_.rows.size();
-    if (count < kFewestRows) {
+    if (count < kMinRows) {
       return nullptr;
     }
     const auto passed =
@@ -112,7 +112,7 @@ class StudyAnalysis {
     json["outputs"] = ordered_json::array();
     for (const std::size_t column : columns_.outputs) {
       const Sample sample = SampleOf(column);
-      if (sample.values.size() >= kFewestRows) {
+      if (sample.values.size() >= kMinRows) {
         ordered_json output = DescribeOutput(sample, /*is_rate=*/false);
         output["name"] = table_.columns()[column];
         json["outputs"].push_back(std::move(output));
@@ -131,7 +131,7 @@ class StudyAnalysis {
   /// Correlation of each pair of outputs, over the rows that have both.
   [[nodiscard]] ordered_json Correlations() const {
     ordered_json json = ordered_json::array();
-    const std::size_t count = std::min(columns_.outputs.size(), kMostCorrelated);
+    const std::size_t count = std::min(columns_.outputs.size(), kMaxCorrelatedOutputs);
     for (std::size_t i = 0; i < count; ++i) {
       for (std::size_t j = 0; j < i; ++j) {
         const std::size_t a = columns_.outputs[j];
@@ -146,7 +146,7 @@ class StudyAnalysis {
             values_b.push_back(*value_b);
           }
         }
-        if (values_a.size() < kFewestRows) {
+        if (values_a.size() < kMinRows) {
           continue;
         }
         if (const auto correlation = CorrelateRanks(values_a, values_b, kConfidence)) {
@@ -188,7 +188,7 @@ class StudyAnalysis {
         json["quantiles"].push_back({shares[i], Rounded(quantiles[i])});
       }
       std::vector<double> steps;
-      const std::size_t points = std::min(kMostStaircase, sample.values.size());
+      const std::size_t points = std::min(kMaxStaircasePoints, sample.values.size());
       for (std::size_t i = 0; i < points; ++i) {
         steps.push_back(static_cast<double>(i) / static_cast<double>(points - 1));
       }
@@ -213,7 +213,7 @@ class StudyAnalysis {
       json["effects"].push_back(
           {{"parameter", varied_[i]},
            {"classes",
-            EffectsOf(Classify(CellsOf(varied_[i], sample), kMostEffects), sample, is_rate)}});
+            EffectsOf(Classify(CellsOf(varied_[i], sample), kMaxEffectClasses), sample, is_rate)}});
     }
     return json;
   }
@@ -226,7 +226,7 @@ class StudyAnalysis {
       values[classes.of_row[i]].push_back(sample.values[i]);
     }
     ordered_json json = ordered_json::array();
-    for (std::size_t i = 0; i < std::min<std::size_t>(values.size(), 2 * kMostEffects); ++i) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(values.size(), 2 * kMaxEffectClasses); ++i) {
       const MeanEstimate mean = EstimateMean(values[i], kConfidence);
       const auto passed =
           static_cast<std::size_t>(std::count(values[i].begin(), values[i].end(), 1.0));

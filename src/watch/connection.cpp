@@ -27,8 +27,8 @@ namespace websocket = beast::websocket;
 using asio::ip::tcp;
 using beast::error_code;
 
-constexpr std::uint32_t kMostHeader = 8192;  // bytes
-constexpr std::size_t kMostMessage = 4096;   // bytes
+constexpr std::uint32_t kMaxHeaderBytes = 8192;  // bytes
+constexpr std::size_t kMaxMessageBytes = 4096;   // bytes
 constexpr std::chrono::seconds kRequestTime{15};
 constexpr std::chrono::seconds kPageTime{600};  // a page with a film may have 170 MB
 constexpr std::chrono::seconds kIdleTime{60};   // the client is pinged after half of it
@@ -48,7 +48,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
     timeout.idle_timeout = kIdleTime;
     timeout.keep_alive_pings = true;
     socket_.set_option(timeout);
-    socket_.read_message_max(kMostMessage);
+    socket_.read_message_max(kMaxMessageBytes);
     socket_.text(true);
   }
 
@@ -58,12 +58,12 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
       if (!error) {
         self->is_open_ = true;
         self->Read();
-        self->TellNews();
+        self->SendUpdates();
       }
     });
   }
 
-  void TellNews() {
+  void SendUpdates() {
     if (!is_open_ || writes_) {
       return;
     }
@@ -77,7 +77,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
                         [self = shared_from_this()](error_code error, std::size_t /*bytes*/) {
                           self->writes_ = false;
                           if (!error) {
-                            self->TellNews();
+                            self->SendUpdates();
                           }
                         });
   }
@@ -92,7 +92,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
       const std::string text = beast::buffers_to_string(self->buffer_.data());
       self->buffer_.consume(self->buffer_.size());
       const std::string problem =
-          self->socket_.got_text() ? self->run_.Obey(text) : "expected text";
+          self->socket_.got_text() ? self->run_.Execute(text) : "expected text";
       if (!problem.empty()) {
         self->Close(problem);
         return;
@@ -127,7 +127,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   void Read() {
     parser_.emplace();
-    parser_->header_limit(kMostHeader);
+    parser_->header_limit(kMaxHeaderBytes);
     stream_.expires_after(kRequestTime);
     http::async_read(stream_, buffer_, *parser_,
                      [self = shared_from_this()](error_code error, std::size_t /*bytes*/) {
@@ -244,7 +244,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   beast::tcp_stream stream_;
   const Site& site_;
   Connections& connections_;
-  beast::flat_buffer buffer_{kMostHeader + 1024};
+  beast::flat_buffer buffer_{kMaxHeaderBytes + 1024};
   std::optional<http::request_parser<http::empty_body>> parser_;
   std::shared_ptr<const std::string> content_;
   std::optional<http::response<http::span_body<const char>>> response_;
@@ -269,11 +269,11 @@ void Connections::AddLive(const std::shared_ptr<LiveConnection>& live) {
   live_.emplace_back(live);
 }
 
-void Connections::TellNews() {
+void Connections::SendUpdates() {
   ForgetExpired(live_);
   for (const std::weak_ptr<LiveConnection>& connection : live_) {
     if (const std::shared_ptr<LiveConnection> live = connection.lock()) {
-      live->TellNews();
+      live->SendUpdates();
     }
   }
 }

@@ -28,7 +28,7 @@ class Connections {
   void Add(boost::asio::ip::tcp::socket socket, const Site& site);
 
   /// Sends news to each WebSocket that is not writing.
-  void TellNews();
+  void SendUpdates();
 
   /// Forgets closed connections.
   void Forget();

@@ -50,8 +50,8 @@ void Pace::SetSpeed(double speed, double simulated, double wall) {
 }
 
 void Pace::KeepUp(double simulated, double wall) {
-  constexpr double kMostLost = 0.1;  // wall clock [s]; less is due to the scheduler
-  if (!paused_ && !std::isinf(speed_) && AllowedAt(wall) - simulated > kMostLost * speed_) {
+  constexpr double kMaxLag = 0.1;  // wall clock [s]; less is due to the scheduler
+  if (!paused_ && !std::isinf(speed_) && AllowedAt(wall) - simulated > kMaxLag * speed_) {
     CountFrom(simulated, wall);
   }
 }
@@ -74,13 +74,13 @@ void DriveClock::Advance(std::size_t plant, double time) {
   const double next = time + period_;
   const double tolerance = 0.5 * period_;  // times are sums of periods, with rounding
   while (!released_) {
-    const bool others_are_here = SlowestTime() > time - tolerance;
+    const bool others_arrived = SlowestTime() > time - tolerance;
     const double moment = pace_.MomentOf(next - tolerance);
     const double wait = moment - Now();
-    if (others_are_here && wait <= 0.0) {
+    if (others_arrived && wait <= 0.0) {
       return;
     }
-    if (others_are_here && std::isfinite(wait)) {
+    if (others_arrived && std::isfinite(wait)) {
       changed_.wait_for(lock, std::chrono::duration<double>(wait));
     } else {
       changed_.wait(lock);

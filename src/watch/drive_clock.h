@@ -23,7 +23,8 @@ class Pace {
   /// Wall-clock time at which `simulated` is allowed; infinite if only another call can allow it.
   [[nodiscard]] double MomentOf(double simulated) const;
 
-  // In these calls the simulation has reached `simulated` at `wall`.
+  // In the calls below, `simulated` is the simulated time reached and `wall` the wall-clock time of
+  // the call.
 
   void Pause(double simulated);
   void Resume(double simulated, double wall);

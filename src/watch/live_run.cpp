@@ -18,8 +18,8 @@ namespace {
 using nlohmann::json;
 using nlohmann::ordered_json;
 
-constexpr double kSlowest = 0.01;
-constexpr double kFastest = 1000.0;
+constexpr double kMinPlaybackSpeed = 0.01;
+constexpr double kMaxPlaybackSpeed = 1000.0;
 
 constexpr std::array kAdded{"rows", "poses", "plans"};
 enum Added : std::size_t { kRows, kPoses, kPlans };
@@ -37,7 +37,8 @@ std::optional<double> ParseSpeed(std::string_view text) {
   double speed = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), speed);
   const bool whole = error == std::errc{} && end == text.data() + text.size();
-  return whole && speed >= kSlowest && speed <= kFastest ? std::optional(speed) : std::nullopt;
+  return whole && speed >= kMinPlaybackSpeed && speed <= kMaxPlaybackSpeed ? std::optional(speed)
+                                                                           : std::nullopt;
 }
 
 LiveRun::LiveRun(const ordered_json& first, std::string id, double control_period, double speed,
@@ -157,13 +158,13 @@ std::optional<std::string> LiveRun::RowsText(Cursor& cursor) const {
   return any ? std::optional(text) : std::nullopt;
 }
 
-std::string LiveRun::Obey(std::string_view message) {
-  const json asked = json::parse(message, nullptr, false);
-  if (asked.is_discarded() || !asked.is_object() || !asked.contains("do") ||
-      !asked["do"].is_string()) {
+std::string LiveRun::Execute(std::string_view message) {
+  const json command = json::parse(message, nullptr, false);
+  if (command.is_discarded() || !command.is_object() || !command.contains("do") ||
+      !command["do"].is_string()) {
     return R"(expected an object such as {"do": "pause"})";
   }
-  const auto what = asked["do"].get<std::string>();
+  const auto what = command["do"].get<std::string>();
   if (what == "pause") {
     clock_.Pause();
   } else if (what == "resume") {
@@ -171,11 +172,12 @@ std::string LiveRun::Obey(std::string_view message) {
   } else if (what == "step") {
     clock_.Step();
   } else if (what == "speed") {
-    const json speed = asked.value("speed", json());
+    const json speed = command.value("speed", json());
     const std::optional<double> parsed =
         ParseSpeed(speed.is_string() ? speed.get<std::string>() : speed.dump());
     if (!parsed || (speed.is_string() && speed != "max")) {
-      return fmt::format(R"("speed" must be a number from {} to {}, or "max")", kSlowest, kFastest);
+      return fmt::format(R"("speed" must be a number from {} to {}, or "max")", kMinPlaybackSpeed,
+                         kMaxPlaybackSpeed);
     }
     clock_.SetSpeed(*parsed);
   } else {

@@ -49,7 +49,7 @@ class LiveRun {
 
   /// Executes a command of a page: {"do": "pause" | "resume" | "step"}, or {"do": "speed", "speed":
   /// number | "max"}. Returns what is wrong with the message, empty if it was executed.
-  std::string Obey(std::string_view message);
+  std::string Execute(std::string_view message);
 
  private:
   struct Plant {

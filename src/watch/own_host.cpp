@@ -19,7 +19,7 @@ std::string_view NameOf(std::string_view host) {
   return host.substr(0, host.find(':'));
 }
 
-bool AreAlike(std::string_view a, std::string_view b) {
+bool EqualIgnoringCase(std::string_view a, std::string_view b) {
   return beast::iequals({a.data(), a.size()}, {b.data(), b.size()});
 }
 
@@ -27,7 +27,7 @@ bool AreAlike(std::string_view a, std::string_view b) {
 
 bool IsOwnHost(std::string_view host, const boost::asio::ip::address& address) {
   const std::string_view name = NameOf(host);
-  if (AreAlike(name, "localhost")) {
+  if (EqualIgnoringCase(name, "localhost")) {
     return address.is_loopback() || address.is_unspecified();
   }
   boost::system::error_code error;
@@ -37,7 +37,7 @@ bool IsOwnHost(std::string_view host, const boost::asio::ip::address& address) {
 
 bool IsOwnOrigin(std::string_view origin, std::string_view host) {
   constexpr std::string_view kScheme = "http://";
-  return origin.starts_with(kScheme) && AreAlike(origin.substr(kScheme.size()), host);
+  return origin.starts_with(kScheme) && EqualIgnoringCase(origin.substr(kScheme.size()), host);
 }
 
 }  // namespace trackbed

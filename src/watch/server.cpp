@@ -22,7 +22,7 @@ namespace asio = boost::asio;
 using asio::ip::tcp;
 using boost::system::error_code;
 
-constexpr std::size_t kMostConnections = 64;
+constexpr std::size_t kMaxConnections = 64;
 /// Interval between checks for news.
 constexpr std::chrono::milliseconds kTick{40};
 
@@ -93,7 +93,7 @@ class Server::Implementation {
         return;
       }
       connections_.Forget();
-      if (connections_.size() < kMostConnections) {
+      if (connections_.size() < kMaxConnections) {
         connections_.Add(std::move(socket), site_);
       }
       Accept();
@@ -108,7 +108,7 @@ class Server::Implementation {
     if (std::exchange(wait_to_accept_, false)) {
       Accept();
     }
-    connections_.TellNews();
+    connections_.SendUpdates();
     timer_.expires_after(kTick);
     timer_.async_wait([this, &stop](error_code error) {
       if (!error) {

@@ -52,9 +52,9 @@ void Serve(Server& server, const WatchHooks& hooks, const std::atomic<bool>& fai
 }
 
 /// Reports the end of a run, which happens in the simulation thread, in the server's thread.
-class Ending {
+class RunFinisher {
  public:
-  Ending(const OutputFolder& folder, Server& server, const WatchHooks& hooks)
+  RunFinisher(const OutputFolder& folder, Server& server, const WatchHooks& hooks)
       : folder_(folder), server_(server), hooks_(hooks) {}
 
   /// Writes the folder, and shows its page unless the run was interrupted.
@@ -68,13 +68,13 @@ class Ending {
       if (live != nullptr) {
         live->Finish();
       }
-      Tell(result);
+      NotifyFinished(result);
     });
   }
 
   /// Calls `finished` once.
-  void Tell(const RunResult& result) {
-    if (!std::exchange(told_, true) && hooks_.finished) {
+  void NotifyFinished(const RunResult& result) {
+    if (!std::exchange(notified_, true) && hooks_.finished) {
       hooks_.finished(result);
     }
   }
@@ -83,7 +83,7 @@ class Ending {
   const OutputFolder& folder_;
   Server& server_;
   const WatchHooks& hooks_;
-  bool told_ = false;  // used in the server's thread
+  bool notified_ = false;  // used in the server's thread
 };
 
 }  // namespace
@@ -92,12 +92,12 @@ RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFo
                    const WatchOptions& options, const WatchHooks& hooks) {
   Server server(options.host, options.port);
   RunResult result = PlanRun(scenario, car);
-  Ending ending(folder, server, hooks);
+  RunFinisher finisher(folder, server, hooks);
   std::atomic<bool> failed{false};
   if (!result.plan.ok()) {
-    ending.Report(result, nullptr);
+    finisher.Report(result, nullptr);
     Serve(server, hooks, failed);
-    ending.Tell(result);
+    finisher.NotifyFinished(result);
     return result;
   }
   const ordered_json first = DataAtBegin(result, car, folder.path());
@@ -110,7 +110,7 @@ RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFo
                         {.drive = [&](const std::string& plant) { return live.HooksOf(plant); },
                          .ended = [&](const std::string& plant) { live.EndOf(plant); },
                          .together = true});
-      ending.Report(result, &live);
+      finisher.Report(result, &live);
     } catch (...) {
       failed = true;
       throw;
@@ -124,7 +124,7 @@ RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFo
   }
   live.Interrupt();
   driven.get();
-  ending.Tell(result);  // if the run ended together with the server
+  finisher.NotifyFinished(result);  // if the run ended together with the server
   return result;
 }
 

@@ -1,7 +1,7 @@
-"""Reports for everybody: contrast in both color schemes, names for what is drawn, tick labels at their
-grid lines, less motion, and paper.
+"""Tests the accessibility of reports: contrast in both color schemes, names of drawn elements, tick labels at
+their grid lines, reduced motion, and print.
 
-access_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
+access_test.py PROGRAM PICTURES [I/N] [unittest's options]: writes pictures of the pages to the folder PICTURES.
 """
 
 import base64
@@ -17,7 +17,8 @@ from browser import Browser, run_tests  # noqa: E402
 PROGRAM = pathlib.Path(sys.argv[1]).resolve()
 PICTURES = pathlib.Path(sys.argv[2]).resolve()
 
-# A patch of ice that throws the car off, an obstacle that is known late, and an expectation not met.
+# A patch of ice that makes the car leave the road, an obstacle that becomes known late, and a
+# failed expectation.
 SCENARIO = """schema: 1
 name: corner
 vehicle: {tyre: magic_formula}
@@ -51,7 +52,7 @@ nominal: {control.distance: 1, mission.speed: 1}
 search: {runs: 20, method: latin_hypercube}
 """
 
-# Of every text that is seen: its contrast with what is behind it (WCAG 2.2, 1.4.3).
+# Contrast of every visible text with its background (WCAG 2.2, 1.4.3).
 CONTRASTS = """
 const parsed = (css) => {
   const [r, g, b, a = 1] = css.match(/[\\d.]+/g).map(Number);
@@ -90,7 +91,7 @@ class Access(unittest.TestCase):
         PICTURES.mkdir(parents=True, exist_ok=True)
         cls.folder = tempfile.TemporaryDirectory()
         cls.root = pathlib.Path(cls.folder.name)
-        # What fails, and what passes: each has colors of its own.
+        # Failed and passed runs have different colors.
         for name, speed, most, code in (("slow", 4, 0.01, 3), ("quick", 4.5, 0.01, 3), ("good", 2, 5, 0)):
             (cls.root / f"{name}.yaml").write_text(SCENARIO % (speed, most))
             cls.trackbed("run", "-q", f"{name}.yaml", "-o", name, code=code)
@@ -232,7 +233,7 @@ class Access(unittest.TestCase):
         )
         self.assertEqual(moving, 0)
         self.browser.settle()
-        # Nothing plays unless it is asked to.
+        # Nothing plays automatically.
         self.assertEqual(self.browser.run("return playback.timer"), None)
 
     def test_paper(self):

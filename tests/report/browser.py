@@ -1,7 +1,7 @@
-"""A headless Chromium without a network but the loopback, for looking at reports.
+"""A headless Chromium for tests of reports, with no network except the loopback interface.
 
 Tests that use it end with run_tests(). As a script: browser.py PAGE PICTURE [WIDTH HEIGHT [JAVASCRIPT]] takes a picture of a page, after
-running something in it.
+running JavaScript in it.
 """
 
 import json
@@ -17,7 +17,7 @@ from selenium.webdriver.chrome.options import Options
 from selenium.webdriver.chrome.service import Service
 
 
-# WebGL by software.
+# Software rendering for WebGL.
 GRAPHICS = ["--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"]
 
 
@@ -45,8 +45,8 @@ class Browser:
         self.profile.cleanup()
 
     def open(self, page, width=1440, height=1000, dark=False):
-        """Opens a file, or a page of a server on the loopback, on a screen of that size, a phone's if it
-        is narrow."""
+        """Opens a file, or a page of a server on the loopback interface, on a screen of that size; a
+        narrow one emulates a phone."""
         served = str(page).startswith("http://")
         call = self.driver.execute_cdp_cmd
         phone = width < 600
@@ -70,7 +70,7 @@ class Browser:
         self.settle()
 
     def settle(self):
-        """Waits for what observers still have to do: two frames, and a moment more."""
+        """Waits for pending observers: two frames and a short delay."""
         time.sleep(0.1)
         self.driver.execute_async_script(
             "const done = arguments[0];"
@@ -84,12 +84,11 @@ class Browser:
         self.driver.save_screenshot(str(file))
 
     def console_errors(self):
-        """What the console says since the last page was opened."""
+        """Messages of the console since the last page was opened."""
         return [entry["message"] for entry in self.driver.get_log("browser")]
 
     def loaded(self):
-        """Every address that was asked for since the last call, and that no policy of the page kept
-        from being asked."""
+        """Every address requested since the last call, except those that the page's policy blocked."""
         urls = {}
         for entry in self.driver.get_log("performance"):
             message = json.loads(entry["message"])["message"]
@@ -102,7 +101,7 @@ class Browser:
 
 
 class PartLoader(unittest.TestLoader):
-    """Takes every Nth test of each class, from the Ith on."""
+    """Keeps every Nth test of each class, beginning with the Ith."""
 
     def __init__(self, part):
         super().__init__()
@@ -113,7 +112,7 @@ class PartLoader(unittest.TestLoader):
 
 
 def run_tests():
-    """The tests of the file that was started as FILE PROGRAM PICTURES [I/N] [unittest's options]: all, or with I/N
+    """Runs the tests of the file that was started as FILE PROGRAM PICTURES [I/N] [unittest's options]; with I/N
     the Ith of N parts."""
     options = sys.argv[3:]
     is_part = bool(options) and re.fullmatch(r"\d+/\d+", options[0])

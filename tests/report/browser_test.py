@@ -1,7 +1,7 @@
-"""Reports as people see them: drives scenarios with the program, makes their reports, opens them in
-a headless Chromium without a network, and uses them.
+"""Tests reports as users see them: runs scenarios with the program, writes their reports, opens them in
+a headless Chromium without a network, and operates them.
 
-browser_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
+browser_test.py PROGRAM PICTURES [I/N] [unittest's options]: writes pictures of the pages to the folder PICTURES.
 """
 
 import os
@@ -55,7 +55,7 @@ def rows_of(file):
 
 
 def value_at(rows, column, moment):
-    """Linear between the rows, held at the ends."""
+    """Interpolates linearly between the rows; constant beyond the ends."""
     moments = [float(row["t_s"]) for row in rows]
     values = [float(row[column]) for row in rows]
     if moment >= moments[-1]:
@@ -66,7 +66,7 @@ def value_at(rows, column, moment):
 
 
 def copy_of_a_result(source, target):
-    """To be edited: without the manifest, which would tell of it."""
+    """Removes the manifest, which would detect edits of the run."""
     shutil.copytree(source, target)
     manifest = os.path.join(target, os.fsencode("manifest.json") if isinstance(target, bytes) else "manifest.json")
     if os.path.exists(manifest):
@@ -90,7 +90,7 @@ class Reports(unittest.TestCase):
         cls.trackbed("report", "slow")
         cls.trackbed("report", "slow", "--film", "beside", "-o", "beside.html")
         cls.trackbed("report", "slow", "quick", "--film", "none", "-o", "both.html")
-        # Their speeds alone differ: by 0.3 m/s where they steer.
+        # The runs differ only in speed: by 0.3 m/s where they steer.
         cls.trackbed("compare", "-q", "slow", "quick", "-o", "judged", "--tolerance", JUDGED, code=3)
         cls.trackbed("report", "judged", "--film", "none")
         cls.trackbed("report", "study")
@@ -125,7 +125,7 @@ class Reports(unittest.TestCase):
         for url in self.browser.loaded():
             self.assertRegex(url, r"^(file|data|blob|chrome):", url[:100])
 
-    # What a page is asked with.
+    # Queries of a page.
 
     def run_in_page(self, script, *arguments):
         return self.browser.run(script, *arguments)
@@ -139,7 +139,7 @@ class Reports(unittest.TestCase):
         return self.run_in_page("return document.querySelectorAll(arguments[0]).length", selector)
 
     def choose(self, selector, option):
-        """Chooses the option of a select that begins so."""
+        """Chooses the option of a select element whose text begins so."""
         self.run_in_page(
             "const s = document.querySelector(arguments[0]);"
             "s.value = Array.from(s.options).find(o => o.text.startsWith(arguments[1])).value;"
@@ -191,7 +191,7 @@ class Reports(unittest.TestCase):
         return float(re.fullmatch(r"t = ([\d.]+) s", self.text("#time")).group(1))
 
     def eventually(self, check):
-        """Waits until a check no longer fails; what moves takes its time."""
+        """Repeats a check until it passes, because animations take time."""
         last = time.monotonic() + 60
         while True:
             try:
@@ -203,7 +203,7 @@ class Reports(unittest.TestCase):
             self.browser.settle()
 
     def point_at(self, quantity, share):
-        """Points at a chart, that share of its width from the left."""
+        """Moves the pointer to a chart, at this fraction of its width from the left."""
         plot = self.box(f"[data-quantity={quantity}] .plot")
         self.mouse("mouseMoved", plot["x"] + 60 + share * (plot["width"] - 60), plot["y"] + 60)
         self.browser.settle()
@@ -227,7 +227,7 @@ class Reports(unittest.TestCase):
         )
         exact = [plant["cross_track"]["max"] for plant in metrics["plants"].values()]
         exact.append(exact[1] - exact[0])
-        self.assertEqual(len(shown), 3)  # the last is their difference
+        self.assertEqual(len(shown), 3)  # the last one is their difference
         for one, other in zip(shown, exact):
             self.assertAlmostEqual(one, other, delta=max(5e-5, 5e-3 * abs(other)))  # three digits, four decimals
         self.assertIn("resolved", self.text("#scenario h2").lower())
@@ -244,19 +244,19 @@ class Reports(unittest.TestCase):
             " .concat(e.getBoundingClientRect().bottom))"
         )
         [between] = metrics["between"]
-        # The plants, furthest from the path first, and then their difference.
+        # The plants, in descending order of cross-track error, followed by their difference.
         plants = sorted(metrics["plants"], key=lambda name: -metrics["plants"][name]["cross_track"]["max"])
         self.assertEqual([row[0] for row in rows], [*plants, "kinematic – mujoco"])
         exact = [metrics["plants"][name]["cross_track"] for name in plants] + [between["position"]]
 
-        def rounded(value):  # to centimeters, below 10 cm to millimeters
+        def rounded(value):  # to centimeters, to millimeters below 10 cm
             return f"{value:.{3 if value < 0.0995 else 2}f} m"
 
         for (name, what, size, place, bottom), own in zip(rows, exact):
             number, _, side = size.rpartition(" ")
             self.assertEqual(number, rounded(own["max"]))
             s, t = re.fullmatch(r"at ([\d.]+) m, ([\d.]+) s", place).groups()
-            # Their last digit is a tenth.
+            # The last digit shown is a tenth.
             self.assertAlmostEqual(float(s), own["max_s"], delta=0.051)
             self.assertAlmostEqual(float(t), own["max_t"], delta=0.051)
             self.assertLess(bottom, 900)
@@ -265,13 +265,14 @@ class Reports(unittest.TestCase):
                 log = rows_of(self.root / "slow" / f"{name}.csv")
                 left = value_at(log, "cross_track_m", own["max_t"]) > 0
                 self.assertEqual(side, "left" if left else "right")
-        # The sentence says it of the one that is furthest off.
+        # The sentence describes the plant with the largest error.
         sentence = self.text("#answer .sentence")
         side = rows[0][2].rpartition(" ")[2]
         self.assertIn(f"{rounded(exact[0]['max'])} to the {side}", sentence)
         self.assertLess(sentence.index(plants[0]), sentence.index(plants[1]))
         self.assertIn(f"stays within {rounded(exact[1]['max'])} of it", sentence)
-        # The page opens where the plants are furthest apart, and every place is a link.
+        # The page opens at the time of the largest difference between the plants, and every place
+        # is a link.
         self.assertAlmostEqual(self.moment(), between["position"]["max_t"], delta=0.006)
         self.run_in_page("document.querySelector('#answer .rows li .place').click()")
         self.assertAlmostEqual(self.moment(), exact[0]["max_t"], delta=0.006)
@@ -295,7 +296,7 @@ class Reports(unittest.TestCase):
         self.assertGreaterEqual(len(drawn), 3)
         self.assertEqual({mark for mark, _ in bars}, {"✓"})
         for one, other in zip(drawn, shares):
-            one = one if one <= 1.001 else 1 / one  # of a lower bound the value lies beyond it
+            one = one if one <= 1.001 else 1 / one  # beyond a lower bound the ratio is inverted
             self.assertAlmostEqual(one, other, delta=0.02)  # some pixels of 400
 
     def test_enlarged_distances_from_the_path(self):
@@ -308,7 +309,8 @@ class Reports(unittest.TestCase):
         heading = value_at(rows, "yaw_rad", moment) - value_at(rows, "heading_error_rad", moment)
         by = 9 * value_at(rows, "cross_track_m", moment)
         self.assertGreater(abs(by), 0.01)
-        # As for the car in its place; half of the time's last digit moves it by 15 mm along the path.
+        # As for the car at its place; half of the time's last digit moves it by 15 mm along the
+        # path.
         self.assertAlmostEqual(x, value_at(rows, "x_m", moment) - by * math.sin(heading), delta=0.03)
         self.assertAlmostEqual(y, value_at(rows, "y_m", moment) + by * math.cos(heading), delta=0.03)
         self.click("#enlarge")
@@ -337,7 +339,7 @@ class Reports(unittest.TestCase):
             scale = (high - low) / (at_high - at_low)
             self.assertEqual(scale > 0, axis == 0)
             for pixel, value in values:
-                # The steering moves by 0.75 mrad within half of the time's last digit.
+                # The steering changes by 0.75 mrad within half of the time's last digit.
                 self.assertAlmostEqual(pixel, low + scale * (value - at_low), delta=abs(scale) * 3e-3 + 0.5)
 
     def test_pointing_at_a_chart_moves_cars_and_obstacle(self):
@@ -350,7 +352,7 @@ class Reports(unittest.TestCase):
             for plant in ("kinematic", "mujoco"):
                 rows = rows_of(self.root / "slow" / f"{plant}.csv")
                 x, y, degrees = self.numbers(f".car[data-track={plant}]")
-                # Six digits of 30 m, and the time to two decimals at 3 m/s.
+                # Six digits of 30 m; the time has two decimals at 3 m/s.
                 self.assertAlmostEqual(x, value_at(rows, "x_m", moment), delta=0.02)
                 self.assertAlmostEqual(y, value_at(rows, "y_m", moment), delta=0.02)
                 yaw = math.degrees(value_at(rows, "yaw_rad", moment))
@@ -373,11 +375,11 @@ class Reports(unittest.TestCase):
 
     def test_steering_shows_what_was_asked_and_done(self):
         self.open("slow/report.html")
-        self.point_at("steering", 0.4)  # the wheels do not follow
+        self.point_at("steering", 0.4)  # the wheels do not follow the command
         rows = rows_of(self.root / "slow/mujoco.csv")
         text = self.text("[data-quantity=steering] .readout[data-track=mujoco]").replace("−", "-")
         done, asked = (float(n) for n in re.fullmatch(r"(-?[\d.]+) \((-?[\d.]+)\)", text).groups())
-        # The rate limit of 0.15 rad/s over half of the last digit of the time, and four decimals.
+        # The rate limit of 0.15 rad/s times half of the time's last digit, plus four decimals.
         delta = 0.15 * 0.005 + 5e-5
         self.assertAlmostEqual(done, value_at(rows, "steering_rad", self.moment()), delta=delta)
         self.assertAlmostEqual(
@@ -393,7 +395,7 @@ class Reports(unittest.TestCase):
         def view():
             a, b, c, d, e, f = self.numbers(".map .world")
             self.assertEqual([b, c], [0, 0])
-            self.assertAlmostEqual(a, -d)  # as long along x as along y
+            self.assertAlmostEqual(a, -d)  # the same scale along x and y
             return a, e, f
 
         whole = view()
@@ -406,7 +408,7 @@ class Reports(unittest.TestCase):
         self.browser.settle()
         near = view()
         self.assertGreater(near[0], 1.3 * whole[0])
-        # What is under the pointer stays there.
+        # The point under the pointer stays there.
         inside = (x - area["x"], y - area["y"])
         for place, before, after in ((inside[0], whole[1], near[1]), (inside[1], whole[2], near[2])):
             self.assertAlmostEqual((place - before) / whole[0], (place - after) / near[0], delta=0.1)
@@ -440,7 +442,7 @@ class Reports(unittest.TestCase):
             )
 
         def colors():
-            """How many pixels of the chart are of each plant's color."""
+            """The number of pixels of the chart in each plant's color."""
             return self.run_in_page(
                 "const canvas = document.querySelectorAll('[data-quantity=speed] canvas')[0];"
                 "const copy = new OffscreenCanvas(canvas.width, canvas.height)"
@@ -460,7 +462,7 @@ class Reports(unittest.TestCase):
         self.assertEqual(shown(), [1, 1, 1])
         alone = colors()
         self.assertEqual(alone[1], 0)
-        self.assertGreater(alone[0], blue)  # what lay below
+        self.assertGreater(alone[0], blue)  # traces that lay below
         self.click(".legend [data-track=mujoco]")
         self.assertEqual(shown(), [2, 2, 2])
         self.assertEqual(colors(), [blue, orange])
@@ -509,7 +511,7 @@ class Reports(unittest.TestCase):
                 lambda: self.assertAlmostEqual(
                     self.run_in_page("return document.querySelector('video').duration || 0"),
                     end,
-                    delta=0.3,  # frames each 0.1 s
+                    delta=0.3,  # frames every 0.1 s
                 )
             )
             self.point_at("speed", 0.5)
@@ -545,7 +547,7 @@ class Reports(unittest.TestCase):
             self.width_is_kept()
             self.browser.picture(PICTURES / f"phone-{page.split('/')[0].split('.')[0]}.png")
         self.open("slow/report.html", width=390, height=844)
-        # A finger along the chart: no mouse is made of that.
+        # Drags a finger along the chart; the browser must not emulate a mouse for it.
         plot = self.box("[data-quantity=speed] .plot")
         touches = [
             {"x": plot["x"] + share * plot["width"], "y": plot["y"] + 60}
@@ -569,7 +571,7 @@ class Reports(unittest.TestCase):
             "const place = e => { const b = e.getBoundingClientRect(); return [b.left, b.right]; };"
             "return [place(box), Array.from(box.querySelectorAll('tr')).map(row => Array.from(row.children).map(place))]"
         )
-        # Of two plants all is in sight; of the rest what a row is of, and some of its values.
+        # With two plants the table fits; otherwise its row headings and some of the values do.
         for page, tables in (
             ("slow/report.html", {"#numbers": 2, "#between": 1}),
             ("both.html", {"#numbers": 1, "#between": 2, "#headline": 1, "#differences": 1}),
@@ -600,12 +602,12 @@ class Reports(unittest.TestCase):
         self.assertTrue(self.run_in_page(has_controls))
         self.mouse("mouseMoved", 2, 2)
         self.assertFalse(self.run_in_page(has_controls))
-        # With keys.
+        # With the keyboard.
         self.run_in_page("document.querySelector('video').focus()")
         self.assertTrue(self.run_in_page(has_controls))
         self.run_in_page("document.querySelector('video').blur()")
         self.assertFalse(self.run_in_page(has_controls))
-        # At a touch, until another thing is touched.
+        # Controls appear on touch and stay until something else is touched.
         self.open("slow/report.html", width=390, height=844)
         for selector, controls in (("video", True), ("#play", False)):
             place = self.box(selector)
@@ -636,7 +638,7 @@ class Reports(unittest.TestCase):
             metrics = json.loads((self.root / run / "metrics.json").read_text())
             exact = metrics["plants"][plant]["cross_track"]["max"]
             self.assertAlmostEqual(one, exact, delta=max(5e-5, 5e-3 * exact))
-        # One color each, the same in the legend, on the map and beside the readings.
+        # One color per run, the same in the legend, on the map and beside the readings.
         colors = self.run_in_page(
             "const of = s => Array.from(document.querySelectorAll(s)).map(e => getComputedStyle(e).color);"
             "return [of('.legend button .dot'), of('.car'), of('.track'),"
@@ -651,7 +653,7 @@ class Reports(unittest.TestCase):
             x, y, _ = self.numbers(f".car[data-track='{run} · {plant}']")
             self.assertAlmostEqual(x, value_at(rows, "x_m", self.moment()), delta=0.03)
             self.assertAlmostEqual(y, value_at(rows, "y_m", self.moment()), delta=0.03)
-        # The obstacle is the same one; what differs in the scenarios is marked.
+        # Both runs have the same obstacle; differences between the scenarios are marked.
         self.assertEqual(
             self.run_in_page("return document.querySelectorAll('.map .obstacle').length"), 1
         )
@@ -694,7 +696,8 @@ class Reports(unittest.TestCase):
                  "the runs follow different paths"]
                 if judged else [],
             )
-            # The curve at the station that is pointed at, and the cars where the first one was.
+            # The difference curve at the station under the pointer, and the cars at the time of the
+            # first one.
             rows = [row for row in rows_of(self.root / "judged/compare.csv") if row["pair"] == "0"]
             self.point_at("difference_yaw_rate", 0.45)
             moment = self.moment()
@@ -708,8 +711,8 @@ class Reports(unittest.TestCase):
                 ("steering", "steering_rad", 0.01),
             ):
                 told = self.text(f"[data-quantity=difference_{quantity}] .readout").replace("−", "-")
-                # The time has two decimals: 15 mm of the way, on which the drives part by less than
-                # half of that, turn by 15 mm over a radius of 5 m, and rates change most.
+                # The time has two decimals, 15 mm of distance. Within half of that the runs differ
+                # little; headings change by 15 mm over a radius of 5 m, and rates change most.
                 self.assertAlmostEqual(float(told), value_at(at, column, station), delta=slack)
             x, _, _ = self.numbers(".car[data-track='slow · kinematic']")
             log = rows_of(self.root / "slow/kinematic.csv")
@@ -720,7 +723,7 @@ class Reports(unittest.TestCase):
             )
             self.assertEqual(len(cursors), 4)
             self.assertLess(max(cursors) - min(cursors), 0.6)
-            # Whoever is hidden is in no pair.
+            # A hidden plant is in no pair.
             self.click(".legend [data-track='quick · mujoco']")
             readouts = self.run_in_page(
                 "return Array.from(document.querySelectorAll("
@@ -769,7 +772,7 @@ class Reports(unittest.TestCase):
             )
 
         def assert_linear(pixels, values):
-            """Pixels are a linear function of the values."""
+            """Asserts that pixels are a linear function of the values."""
             low, high = values.index(min(values)), values.index(max(values))
             slope = (pixels[high] - pixels[low]) / (values[high] - values[low])
             self.assertGreater(abs(slope), 0)
@@ -785,7 +788,7 @@ class Reports(unittest.TestCase):
             assert_linear([x for x, _, _ in points], [float(row[over]) for row in rows])
             assert_linear([y for _, y, _ in points], exact)
             self.assertLess(points[exact.index(max(exact))][1], points[exact.index(min(exact))][1])
-        # Only numbers are drawn.
+        # Only numbers are plotted.
         self.assertEqual(places("plan.status"), [])
         point = self.box(f"[data-output='{column}'] circle[data-row='4']")
         self.mouse("mouseMoved", point["x"] + 4, point["y"] + 4)
@@ -819,12 +822,12 @@ class Reports(unittest.TestCase):
                 ".map(e => [e.dataset.bar, Number(e.querySelector('rect').getAttribute('width'))])"
             )
 
-        # The pass rate is what is shown first.
+        # The pass rate is shown first.
         self.assertEqual(sorted(name for name, _ in shares()), ["method", "x"])
         self.assertEqual(self.count("#influence figure"), 3)
         self.assertEqual(self.count("#study-map .cell:not(.none)"), 2 * 7)
         self.assertEqual(self.count("#distributions figure"), 2)
-        # One falls as the other rises.
+        # The values are perfectly anticorrelated.
         self.assertEqual(self.text("#correlations [data-bar='error'] .bar-name:last-child"), "−1.00")
         worst = self.run_in_page(
             "return Array.from(document.querySelectorAll('#worst tbody tr')).map(e => e.dataset.number)"
@@ -836,7 +839,7 @@ class Reports(unittest.TestCase):
             self.run_in_page("return document.querySelector('#worst tbody tr').dataset.number"), "0"
         )
         self.choose("#influence-of", "error")
-        # 9/13 of the variance, and 3/13.
+        # Shares of 9/13 and 3/13 of the variance.
         (first, wide), (second, narrow) = shares()
         self.assertEqual([first, second], ["x", "method"])
         self.assertAlmostEqual(wide / narrow, 3, delta=0.3)
@@ -845,7 +848,7 @@ class Reports(unittest.TestCase):
         self.browser.picture(PICTURES / "sampled.png")
         self.width_is_kept()
 
-    # What stands in files is text.
+    # Texts of files are shown as text.
 
     def test_text_is_no_markup(self):
         self.open("evil.html")

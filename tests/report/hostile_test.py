@@ -1,6 +1,6 @@
-"""Reports of files that somebody wrote who means harm: markup, script, marks of writing direction,
-emoji, control characters, bytes that are no UTF-8 and words without end, in every text that a page
-shows. All is opened in a headless Chromium.
+"""Tests reports of maliciously written files: markup, scripts, marks of writing direction, emoji,
+control characters, invalid UTF-8 and very long words in every text that a page shows. The pages are
+opened in a headless Chromium.
 
 hostile_test.py PROGRAM PICTURES [I/N] [unittest's options]
 """
@@ -38,7 +38,7 @@ vary: {control.distance: [2, 3], mission.speed: [2, 4]}
 outputs: [metrics.kinematic.distance, plan.status]
 """
 
-# Each says in `hacked` that it ran. None has a slash, so that each can be the name of a file.
+# Each script sets `hacked` if it runs. None contains a slash, so that each can be a file name.
 SCRIPTS = {
     "script": "<script>hacked=1",
     "image": '"><img src=x onerror="hacked=2">',
@@ -59,13 +59,13 @@ WORD = "w" * 4000
 
 
 def hostile(number, slash=True):
-    """A text of all that, different for each number."""
+    """A hostile text, different for each number."""
     middle = (ENDINGS if slash else "") + "".join(SCRIPTS.values())
     return f"{number}:{middle}{''.join(UNSEEN)}{SEEN}"
 
 
 def file_name(number):
-    """A name of a file with most of that, in 255 bytes and without a slash."""
+    """A hostile file name, of at most 255 bytes and without a slash."""
     return f"{number}'\"><img src=x onerror=hacked=9><svg onload=hacked=9>\u202e\u2066\u200f\x1b\x07\n{SEEN}#?%41&amp;"
 
 
@@ -76,7 +76,7 @@ def visible(text):
 
 
 def copy_of_a_result(source, target):
-    """To be edited: without the manifest, which would tell of it."""
+    """Removes the manifest, which would detect edits of the run."""
     shutil.copytree(source, target)
     manifest = os.path.join(target, os.fsencode("manifest.json") if isinstance(target, bytes) else "manifest.json")
     if os.path.exists(manifest):
@@ -118,7 +118,7 @@ class HostileReports(unittest.TestCase):
         return content
 
     def hostile_run(self, folder):
-        """A run whose every text is hostile; the texts, as a page should show them."""
+        """Makes a run in which every text is hostile. Returns the texts as a page should show them."""
         run = self.root / folder
         copy_of_a_result(self.root / "plain", run)
         texts = {}
@@ -148,7 +148,7 @@ class HostileReports(unittest.TestCase):
         texts["car"] = "<img src=x onerror=hacked=1>\u202e"
         model.write_text(named)
         resolved = run / "scenario.resolved.yaml"
-        # YAML itself allows no control characters.
+        # YAML allows no control characters.
         texts["comment"] = "# " + ENDINGS + "".join(SCRIPTS.values()) + "\u202e\u2066" + SEEN
         resolved.write_text(resolved.read_text() + texts["comment"] + "\n")
         texts["folder"] = pathlib.Path(folder).name
@@ -158,8 +158,8 @@ class HostileReports(unittest.TestCase):
         return self.browser.run("return document.body.textContent")
 
     def assert_harmless(self):
-        """Nothing ran, nothing was asked for, no element is there that the page did not make, and
-        the console is empty."""
+        """Checks that no script ran, nothing was requested, the page has only its own elements, and the
+        console is empty."""
         run = self.browser.run
         self.assertIsNone(run("return typeof hacked === 'undefined' ? null : hacked"))
         self.assertEqual(
@@ -170,7 +170,7 @@ class HostileReports(unittest.TestCase):
             ),
             [],
         )
-        # Three of code, data, licenses, and three more of a replay.
+        # Three scripts with code, one with data and one with licenses, and three more for a replay.
         scripts = run("return typeof THREE === 'undefined' ? 5 : 8")
         self.assertEqual(run("return document.scripts.length"), scripts)
         self.assertEqual(self.browser.console_errors(), [])
@@ -180,7 +180,7 @@ class HostileReports(unittest.TestCase):
         self.assertLessEqual(wide, screen)
 
     def hover_everything(self):
-        """Opens what is folded and has every element pointed at, for handlers in attributes."""
+        """Unfolds everything and points at every element, to trigger handlers in attributes."""
         self.browser.run(
             "for (const e of document.querySelectorAll('details')) e.open = true;"
             "for (const e of document.querySelectorAll('#report *'))"
@@ -243,7 +243,8 @@ class HostileReports(unittest.TestCase):
         )  # fmt: skip
         with open(study / "sweep.csv", newline="") as lines:
             rows = list(csv.reader(lines))
-        # Names and values of a parameter, of the status and of an output; the word as a value, too.
+        # Names and values of a parameter, of the status and of an output; the text also occurs as a
+        # value.
         column = rows[0].index("mission.speed")
         printable = {place: "".join(c for c in text if c not in "\x00\r") for place, text in texts.items()}
         texts["parameter"], texts["value"], texts["state"], texts["output"] = (
@@ -258,13 +259,13 @@ class HostileReports(unittest.TestCase):
             csv.writer(lines, lineterminator="\n").writerows(rows)
         self.trackbed("report", study.name, "-o", "study.html")
         self.check("study.html", {place: visible(text) for place, text in texts.items()}, "study")
-        # A dot, which tells what it is of.
+        # A dot, whose tooltip names its row.
         self.browser.open(self.root / "study.html")
         self.browser.run("document.querySelector('.dots circle').dispatchEvent(new MouseEvent('mouseenter'))")
         tip = self.browser.run("return document.querySelector('.tooltip').textContent")
         self.assertIn(visible(texts["parameter"]), tip)
         self.assert_harmless()
-        # A table alone, by the name of its file.
+        # A table alone is named after its file.
         alone = self.root / (file_name(6) + ".csv")
         shutil.copy(study / "sweep.csv", alone)
         self.trackbed("report", alone.name, "-o", "table.html")
@@ -275,7 +276,7 @@ class HostileReports(unittest.TestCase):
         copy_of_a_result(os.fsencode(self.root / "plain"), run)
         with open(os.path.join(run, b"metrics.json"), "rb") as file:
             text = file.read()
-        # JSON with such bytes is no JSON, and says so.
+        # JSON with invalid UTF-8 is rejected with a message.
         with open(os.path.join(run, b"metrics.json"), "wb") as file:
             file.write(text.replace(b'"corner"', b'"c\xf6rner"', 1))
         refused = subprocess.run(
@@ -305,8 +306,8 @@ class HostileReports(unittest.TestCase):
         self.assert_harmless()
 
     def test_every_text_of_the_data(self):
-        """All texts that stand in the data of a page, also those that the program would not let
-        through, such as names of plants that are none."""
+        """All texts in the data of a page, including those that the program would reject, such as
+        names of unknown plants."""
         for name in ("first", "second"):
             copy_of_a_result(self.root / "plain", self.root / "every" / name)
         judged = self.root / "every/judged"
@@ -318,7 +319,7 @@ class HostileReports(unittest.TestCase):
             begin = page.index('id="data">') + len('id="data">')
             end = page.index("</script>", begin)
             texts = {}
-            drawn = set()  # in three dimensions, and not said
+            drawn = set()  # appears only in the 3D scene, not as text
 
             def changed(value, place, texts=texts, drawn=drawn):
                 if isinstance(value, dict):
@@ -327,7 +328,7 @@ class HostileReports(unittest.TestCase):
                     return [changed(entry, f"{place}[{i}]") for i, entry in enumerate(value)]
                 if not isinstance(value, str) or place.endswith((".plan.status", ".kind")):
                     return value
-                # The same text stays the same: drives are found by the names of their plants.
+                # Equal texts stay equal, because runs are matched by the names of their plants.
                 texts.setdefault(value, f"{len(texts)}:{ENDINGS}{''.join(SCRIPTS.values())}{SEEN}")
                 if re.search(r"\.(motion|vehicle|ground)\b", place):
                     drawn.add(texts[value])
@@ -345,7 +346,7 @@ class HostileReports(unittest.TestCase):
             self.assertGreater(sum(text in shown for text in said), 0.5 * len(said))
             self.browser.picture(PICTURES / f"hostile-every-{path.split('/')[0]}.png")
 
-    # The policy, if something got through after all.
+    # The Content-Security-Policy, as second line of defense.
 
     def test_policy_refuses_what_the_page_does_not_have(self):
         self.trackbed("report", "plain", "-o", "policy.html")
@@ -363,7 +364,7 @@ class HostileReports(unittest.TestCase):
         }
         markup = "".join(text for texts in attacks.values() for text in texts)
         (self.root / "attacked.html").write_text(page.replace("<body>", "<body>" + markup, 1))
-        # What the browser's driver itself runs is not subject to the policy.
+        # Scripts of the browser's driver are not subject to the policy.
         listener = self.browser.driver.execute_cdp_cmd(
             "Page.addScriptToEvaluateOnNewDocument",
             {
@@ -381,7 +382,7 @@ class HostileReports(unittest.TestCase):
         self.assertIsNone(self.browser.run("return typeof hacked === 'undefined' ? null : hacked"))
         for url in self.browser.loaded():
             self.assertRegex(url, r"^(file://.*/attacked\.html$|data:|chrome:)", url[:100])
-        # Nor does the page's own script get anywhere, if it were led to try.
+        # The page's own script could not load anything either, even if it were tricked into trying.
         violated = self.browser.driver.execute_async_script(
             "const done = arguments[0]; refused.length = 0;"
             "fetch('https://a.invalid/x').catch(() => {});"

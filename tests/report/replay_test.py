@@ -1,6 +1,6 @@
-"""The replay in three dimensions, in a headless Chromium with WebGL by software.
+"""Tests the 3D replay in a headless Chromium with software WebGL.
 
-replay_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
+replay_test.py PROGRAM PICTURES [I/N] [unittest's options]: writes pictures of the pages to the folder PICTURES.
 """
 
 import csv
@@ -42,7 +42,7 @@ def log_of(file):
 
 
 def at(rows, column, moment):
-    """Linear between the rows, held at the ends."""
+    """Interpolates linearly between the rows; constant beyond the ends."""
     if moment >= rows[-1]["t_s"]:
         return rows[-1][column]
     i = next(k for k, row in enumerate(rows) if row["t_s"] > moment)
@@ -58,7 +58,7 @@ def rotated(quaternion, point):
 
 
 def corners_of(geom, meshes):
-    """Points whose hull holds a geom."""
+    """Points whose convex hull contains a geom."""
     a, b, c = geom["size"]
     kind = geom["type"]
     if kind == "mesh":
@@ -69,7 +69,7 @@ def corners_of(geom, meshes):
 
 
 def car_points(vehicle):
-    """All of a vehicle with its joints at zero, in the frame of its first body."""
+    """Such points of a whole vehicle with its joints at zero, in the frame of its first body."""
     places = []
     for i, body in enumerate(vehicle["bodies"]):
         chain = []
@@ -106,7 +106,7 @@ def hull_of(points):
 
 
 def depth_in(hull, point):
-    """How far inside of all edges a point is; negative outside."""
+    """Distance of a point from the nearest edge, positive inside, negative outside."""
     deep = math.inf
     for (x0, y0), (x1, y1) in zip(hull, hull[1:] + hull[:1]):
         length = math.hypot(x1 - x0, y1 - y0)
@@ -159,7 +159,8 @@ class Replay(unittest.TestCase):
         points = car_points(run["vehicle"])
         log = log_of(self.root / "minute/mujoco.csv")
         states = log_of(self.root / "minute/mujoco.state.csv")
-        # No shadows, and no lines on the ground, which are covered by the car: only itself differs.
+        # Without shadows, and without lines on the ground, which the car covers, only the car
+        # itself differs.
         self.browser.run(
             "for (const car of replay.cars) { car.trail.mesh.material.visible = false;"
             " car.ghost.group.traverse(o => { if (o.material) o.material.visible = false; });"
@@ -203,13 +204,13 @@ class Replay(unittest.TestCase):
                 outline.append(((0.5 + 0.5 * clip[0] / clip[3]) * width, (0.5 + 0.5 * clip[1] / clip[3]) * height))
             hull = hull_of(outline)
             self.assertGreater(len(differs), 1000)
-            # The car rolls and pitches by up to a degree, which moves its roof, 1.5 m up, by 26 mm; the
-            # log is read between rows 33 ms apart; a pixel is some 10 mm there.
+            # The car rolls and pitches by up to a degree, which moves its roof, 1.5 m high, by 26
+            # mm. The log has rows 33 ms apart; a pixel is some 10 mm there.
             outside = [p for p in differs if depth_in(hull, p) < -4]
             self.assertLess(len(outside), 0.002 * len(differs), moment)
-            # Every second pixel is looked at. A car fills its convex outline but for what is between
-            # its wheels, above its bonnet and behind its rear window, and but for glass and tyres that
-            # are as dark as the road.
+            # Only every second pixel is checked. A car fills its convex outline except for the gaps
+            # between the wheels, above the hood and behind the rear window, and except for glass
+            # and tyres that are as dark as the road.
             self.assertGreater(4 * len(differs), 0.75 * area_of(hull), moment)
         self.browser.picture(PICTURES / "replay.png")
 
@@ -236,7 +237,7 @@ class Replay(unittest.TestCase):
                 moment,
             )
             self.assertAlmostEqual(angles[0], at(states, "steer_fl_rad", moment), delta=2e-3)
-            # It spins at 10 rad/s; between rows 33 ms apart it accelerates by little.
+            # The wheel spins at 10 rad/s and accelerates little between rows 33 ms apart.
             off = angles[1] - at(states, "spin_fl_rad", moment)
             self.assertAlmostEqual(math.remainder(off, 2 * math.pi), 0.0, delta=0.02)
 
@@ -269,7 +270,7 @@ class Replay(unittest.TestCase):
 
     def test_first_picture_comes_soon(self):
         self.open("minute/report.html", width=1280, height=900)
-        # A figure for the reader, not a bound: machines differ.
+        # Printed for information, not checked: machines differ.
         print(f"first picture after {self.browser.run('return replay.firstPicture()'):.0f} ms", file=sys.stderr)
 
     def test_scene_is_small(self):

@@ -516,7 +516,7 @@ TEST(ReportPage, LoadsNothing) {
 TEST(ReportPage, StaysSmall) {
   constexpr std::size_t kMaxBytes = 3'000'000;
   const TempFolder folder;
-  // One minute with turns, and several runs longer than that, compared.
+  // One minute with turns, on two and on three plants, and the two runs compared.
   const std::string minute =
       "schema: 1\nname: minute\nmission: {speed: 3, waypoints: [[0, 0], [70, 0], [70, 70], [150, "
       "70]]}\nplan: {method: fillet}\ncontrol: {method: preview}\ndrive: {plants: [kinematic, ";

@@ -1,6 +1,6 @@
-"""Reports of searches in a browser.
+"""Tests reports of searches in a browser.
 
-search_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
+search_test.py PROGRAM PICTURES [I/N] [unittest's options]: writes pictures of the pages to the folder PICTURES.
 """
 
 import csv
@@ -25,7 +25,7 @@ plan: {method: fillet, infeasible: allow}
 control: {method: preview, distance: 2.5}
 """
 
-# What is allowed, a key's distribution, and the runs are filled in.
+# Placeholders: the expectation, a key's distribution, and the number of runs.
 SEARCH = """schema: 1
 name: limit
 scenario: corner.yaml
@@ -113,7 +113,7 @@ class Searches(unittest.TestCase):
         self.assertIn(f"Runs to make it smaller{found['shrink_runs']}", answer)
         self.assertIn("broken/counterexample/counterexample.yaml", answer)
         self.assertIn(f"--row {found['counterexample']['row']} --video --report", answer)
-        # Of each key what stands in the terminal's line of it, and its range.
+        # For each key, the page shows the values of its line in the terminal, and its range.
         for key in ("control.distance", "mission.speed"):
             line = rf"^ *{re.escape(key)} +(\S+) +(\S+) +(\S+) +(\S+ to \S+|-) +(\S+)$"
             nominal, fails, holds, alone, sensitivity = re.search(line, self.printed, re.M).groups()
@@ -124,7 +124,7 @@ class Searches(unittest.TestCase):
             else:  # three digits of five
                 self.assertAlmostEqual(float(cells[4]), float(sensitivity), delta=0.005 * abs(float(sensitivity)) + 5e-5)
         self.assertEqual(self.texts("#margins tbody th"), ["control.distance [m]", "mission.speed [m/s]"])
-        # A search is no sample.
+        # The points of a search are not a sample.
         for section in ("#pass-rate", "#influence", "#distributions", "#correlations"):
             self.assertEqual(self.texts(section), [])
         self.assertEqual(self.run_in_page("return document.querySelector('#worst-order').selectedOptions[0].text"), "lowest")
@@ -142,7 +142,8 @@ class Searches(unittest.TestCase):
             for text in self.attributes("#history .runs .run", "transform")
         ]
         zero = float(re.match(r"M[\d.]+ ([\d.]+)H", self.attributes("#history figure .zero", "d")[0]).group(1))
-        # From the left to the right, lower ones below, and those that failed below the line of 0.
+        # Points go from left to right, with lower values lower, and failed ones below the line of
+        # 0.
         self.assertEqual([x for x, _ in places], sorted(x for x, _ in places))
         values = [float(row["robustness"]) for row in rows]
         order = sorted(range(len(rows)), key=lambda i: values[i])
@@ -150,7 +151,7 @@ class Searches(unittest.TestCase):
         self.assertEqual(heights, sorted(heights, reverse=True))
         for (_, y), value in zip(places, values):
             self.assertEqual(y > zero, value < 0, value)
-        # The line of the lowest so far ends at the lowest run of the search.
+        # The line of the lowest value so far ends at the lowest run of the search.
         line = re.findall(r"[ML]([\d.]+),([\d.]+)", self.attributes("#history figure .best", "d")[0])
         searched = self.outcome("broken")["runs"]
         self.assertAlmostEqual(float(line[-1][1]), max(y for _, y in places[:searched]), delta=0.01)
@@ -187,7 +188,7 @@ class Searches(unittest.TestCase):
         self.assertEqual(len(self.attributes("[data-output='control.distance'] .cell.tried", "x")), len(tenths))
         self.assertEqual(len(self.attributes("#coverage [data-output='mission.speed'] .cell", "x")), 4)
         self.assertEqual(len(self.attributes("#coverage [data-output='control.distance'] .tick-of", "d")), len(rows))
-        # Marks are over the tick of their run; the nominal point is row 0.
+        # Marks are above the tick of their run; the nominal point is row 0.
         for kind, row in (("point", 0), ("counterexample", self.outcome("broken")["counterexample"]["row"])):
             figure = "#coverage [data-output='control.distance']"
             mark = re.match(r"translate\(([\d.]+)", self.attributes(f"{figure} .sign-of.{kind}", "transform")[0]).group(1)
@@ -221,7 +222,7 @@ class Searches(unittest.TestCase):
             )
 
     def test_sizes_far_apart(self):
-        """From 0.5 to -86 the axis is logarithmic, and says so."""
+        """From 0.5 to -86 the axis is logarithmic, and its label says so."""
         table = ["control.distance,mission.speed,status,robustness,limit,phase,reason"]
         for i, value in enumerate([0.5, 0.4, -0.5, 0.3, -86.3, 0.2, -0.4]):
             table.append(f"{1 + 0.1 * i},2,{'failed' if value < 0 else 'passed'},{value},car: y,{'search' if i else 'nominal'},")
@@ -231,7 +232,7 @@ class Searches(unittest.TestCase):
         for name, changes in (("sweep.json", {}), ("falsify.json", {"runs": 7, "shrink_runs": 0})):
             content = json.loads((self.root / "broken" / name).read_text())
             content.update(changes)
-            # What stands in it is text.
+            # The texts of the file are shown as text.
             if name == "falsify.json":
                 content["counterexample"].update(row=2, reason=HOSTILE, limit=HOSTILE)
             (folder / name).write_text(json.dumps(content))
@@ -245,7 +246,7 @@ class Searches(unittest.TestCase):
             float(re.match(r"translate\([\d.]+ ([\d.]+)\)", text).group(1))
             for text in self.attributes("#history .runs .run", "transform")
         ]
-        # ln(1 + 5) of ln(1 + 863) is what 0.5 is to 86.3.
+        # On the logarithmic axis, ln(1 + 5) relates to ln(1 + 863) as 0.5 to 86.3.
         zero = float(re.match(r"M[\d.]+ ([\d.]+)H", self.attributes("#history figure .zero", "d")[0]).group(1))
         self.assertAlmostEqual((y[2] - zero) / (y[4] - zero), 1.7918 / 6.7616, delta=0.001)
 

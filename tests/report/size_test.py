@@ -1,7 +1,7 @@
-"""The page of every shipped scenario is at most 3 MB, without its film.
+"""Tests that the report of every shipped scenario has at most 3 MB without its film.
 
-size_test.py PROGRAM SCENARIOS [I/N]: drives each scenario below a folder, or the Ith of N parts of them, and makes its
-report. Prints their sizes, the largest first, and how large the scene of the replay is for a minute of a plant.
+size_test.py PROGRAM SCENARIOS [I/N]: runs each scenario of a folder, or the Ith of N parts of them, and writes its
+report. Prints the sizes, the largest first, and the size of the replay scene per minute and plant.
 """
 
 import json
@@ -16,7 +16,7 @@ LARGEST_SCENE = 500_000  # [B] for a minute and plant
 
 
 def scene_size(page):
-    """Bytes of the scene for a minute of a plant, of runs that last long enough to tell."""
+    """Size of the replay scene per minute and plant [B], of runs that are long enough."""
     data = json.loads(re.search(r'id="data">(.*?)</script>', page, re.S).group(1))
     sizes = [0]
     for run in data["runs"]:

@@ -1,7 +1,7 @@
-"""A run as one watches it: starts the program, opens its page in a headless Chromium while the run
-goes on, and uses it.
+"""Tests watched runs: starts the program, opens its page in a headless Chromium during the run, and
+operates it.
 
-browser_test.py PROGRAM PICTURES [I/N] [unittest's options]: pictures of the pages are left in a folder.
+browser_test.py PROGRAM PICTURES [I/N] [unittest's options]: writes pictures of the pages to the folder PICTURES.
 """
 
 import json
@@ -54,14 +54,14 @@ class Watch(unittest.TestCase):
             self.process.kill()
             self.process.communicate()
         for message in self.browser.console_errors():
-            # The page tries again to reach a server that has ended.
+            # The page tries to reconnect to a server that has ended.
             self.assertIn("ERR_CONNECTION_REFUSED", message)
             self.assertTrue(self.ended, message)
 
     ended = False
 
     def watch(self, *arguments):
-        """Starts the program; its address."""
+        """Starts the program and returns its address."""
         self.ended = False
         self.process = subprocess.Popen(
             [PROGRAM, "watch", *arguments], cwd=self.root, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
@@ -73,7 +73,7 @@ class Watch(unittest.TestCase):
         return found.group(1)
 
     def end(self, number=signal.SIGINT):
-        """Ends the program as Ctrl-C does; its exit code and what it has said since."""
+        """Interrupts the program like Ctrl-C. Returns its exit code and its output since the start."""
         self.ended = True
         self.process.send_signal(number)
         output, errors = self.process.communicate()
@@ -84,7 +84,7 @@ class Watch(unittest.TestCase):
         return self.browser.run(script, *arguments)
 
     def eventually(self, script, *arguments):
-        """What a script gives, once that is true; a page that loads anew meanwhile is waited for."""
+        """Waits until the result of a script is true, even if the page reloads, and returns it."""
         last = time.monotonic() + 120
         while True:
             try:
@@ -100,14 +100,14 @@ class Watch(unittest.TestCase):
         return self.run_in_page("return tracks.map(track => track.log.t.length)")
 
     def place(self, plant="mujoco"):
-        """Where the map shows the car."""
+        """The position of the car on the map."""
         text = self.run_in_page(
             "return document.querySelector(`.car[data-track='${arguments[0]}']`).getAttribute('transform')", plant
         )
         return [float(number) for number in re.findall(r"-?[\d.]+(?:e-?\d+)?", text)]
 
     def pixels(self):
-        """A digest of what the replay shows."""
+        """A digest of the replay's picture."""
         return self.run_in_page(
             "const canvas = document.querySelector('.replay canvas'); replay.draw(now);"
             "const copy = document.createElement('canvas'); [copy.width, copy.height] = [64, 48];"
@@ -118,7 +118,7 @@ class Watch(unittest.TestCase):
     def test_page_grows_pauses_steps_resumes_and_ends_as_the_report(self):
         url = self.watch("corner.yaml", "--paused")
         self.browser.open(url, width=1280, height=720)
-        # It waits at the start: a row of each plant.
+        # The run waits at its start, with one row per plant.
         self.eventually("return live.state && live.state.paused && tracks.every(track => track.log.t.length === 1)")
         self.assertEqual(self.run_in_page("return document.getElementById('verdict').textContent"), "paused")
         self.assertEqual(self.place()[:2], [0, 0])
@@ -127,7 +127,7 @@ class Watch(unittest.TestCase):
         self.run_in_page("document.getElementById('step').click()")
         self.eventually("return tracks.every(track => track.log.t.length === 2)")
         self.assertEqual(self.run_in_page("return tracks.map(track => track.log.t[1])"), [0.02, 0.02])
-        # The car moves, in map, charts and replay.
+        # The car moves in the map, the charts and the replay.
         self.run_in_page("document.getElementById('pause').click()")
         self.eventually("return duration > 2 && now === duration && live.state && !live.state.paused")
         self.browser.picture(PICTURES / "watch.png")
@@ -142,15 +142,15 @@ class Watch(unittest.TestCase):
         self.assertAlmostEqual(y, log[1], delta=1e-6)
         self.assertGreater(x, 3)
         self.assertNotEqual(self.pixels(), before)
-        # The charts' axes end with the rows, and their readouts are of the newest.
+        # The charts' axes end at the last rows, and their readouts show the newest values.
         shown = self.run_in_page("return document.querySelector('[data-quantity=speed] [data-track=mujoco] span:last-child').textContent")
         self.assertGreater(float(shown), 1)
         self.assertAlmostEqual(self.run_in_page("return Number(document.querySelector('.tools input[type=range]').max)"), log[2])
-        # Where it is paused it stays; a step by the keyboard.
+        # A paused run stays at its time; the keyboard can step it.
         rows = self.rows()
         self.key(".")
         self.eventually("return tracks.every((track, i) => track.log.t.length === arguments[0][i] + 1)", rows)
-        # Who looks back stays there, and is brought to the newest moment again.
+        # A user who looks at an earlier time stays there, and can return to the newest one.
         self.run_in_page("setTime(1)")
         self.assertEqual(self.run_in_page("return document.getElementById('follow').getAttribute('aria-pressed')"), "false")
         self.key(".")
@@ -158,14 +158,14 @@ class Watch(unittest.TestCase):
         self.assertEqual(self.run_in_page("return now"), 1)
         self.run_in_page("document.getElementById('follow').click()")
         self.assertEqual(self.run_in_page("return now === duration"), True)
-        # A page that is loaded anew has everything.
+        # A reloaded page shows everything.
         rows = self.rows()
         self.browser.open(url, width=390, height=844)
         self.eventually("return tracks.every((track, i) => track.log.t.length === arguments[0][i])", rows)
         wide, screen = self.run_in_page("return [document.documentElement.scrollWidth, window.innerWidth]")
         self.assertLessEqual(wide, screen)
         self.browser.picture(PICTURES / "watch_phone.png")
-        # To the end as fast as possible: the report, with its verdict.
+        # Runs to the end at full speed; then the report with its verdict appears.
         self.run_in_page(
             "const s = document.getElementById('speed'); s.value = 'max'; s.dispatchEvent(new Event('change'));"
             "document.getElementById('pause').click()"
@@ -202,7 +202,7 @@ class Watch(unittest.TestCase):
         self.watch("corner.yaml", "--paused", "--port", port, "--seed", "7")
         self.eventually("return data.live.id !== arguments[0] && live.state && live.state.paused", first)
         self.assertIn("seed 7", self.run_in_page("return document.querySelector('header').textContent"))
-        self.ended = True  # what was refused before is still in the console
+        self.ended = True  # earlier refused connections are still in the console
         self.assertEqual(self.end(signal.SIGTERM)[0], 130)
 
     def test_finished_run_is_served_as_its_report(self):
@@ -220,7 +220,7 @@ class Watch(unittest.TestCase):
         self.eventually("return live.state")
         for address in self.browser.loaded():
             self.assertRegex(address, rf"^({re.escape(url)}|data:|blob:|chrome:)", address[:100])
-        # The policy keeps the page's scripts from talking to anybody else.
+        # The policy prevents the page's scripts from connecting to other hosts.
         refused = self.browser.driver.execute_async_script(
             "const done = arguments[0];"
             "fetch('http://127.0.0.1:9/').then(() => done('sent'), (error) => done(String(error)));"

@@ -121,15 +121,15 @@ TEST(LiveRun, ObeysAndTellsOfIt) {
     return messages.empty() ? json() : messages.back();
   };
   EXPECT_EQ(state()["paused"], false);
-  EXPECT_EQ(run.Obey(R"({"do":"pause"})"), "");
+  EXPECT_EQ(run.Execute(R"({"do":"pause"})"), "");
   EXPECT_EQ(state()["paused"], true);
-  EXPECT_EQ(run.Obey(R"({"do":"speed","speed":"max"})"), "");
+  EXPECT_EQ(run.Execute(R"({"do":"speed","speed":"max"})"), "");
   EXPECT_EQ(state()["speed"], "max");
-  EXPECT_EQ(run.Obey(R"({"do":"speed","speed":0.5})"), "");
+  EXPECT_EQ(run.Execute(R"({"do":"speed","speed":0.5})"), "");
   EXPECT_EQ(state()["speed"], 0.5);
-  EXPECT_EQ(run.Obey(R"({"do":"resume"})"), "");
+  EXPECT_EQ(run.Execute(R"({"do":"resume"})"), "");
   EXPECT_EQ(state()["paused"], false);
-  EXPECT_EQ(run.Obey(R"({"do":"step"})"), "");
+  EXPECT_EQ(run.Execute(R"({"do":"step"})"), "");
   EXPECT_EQ(state()["paused"], true);
 }
 
@@ -137,16 +137,16 @@ TEST(LiveRun, SaysWhatIsWrongWithAMessage) {
   LiveRun run(OnePlant(), "abc", 0.02, 1.0, true);
   for (const char* message : {"", "{", "[]", "1", "null", "\"pause\"", "{}", R"({"do":1})",
                               "{\"do\":\"\xff\"}", R"({"do":{"do":"pause"}})"}) {
-    EXPECT_THAT(run.Obey(message), HasSubstr(R"({"do": "pause"})")) << message;
+    EXPECT_THAT(run.Execute(message), HasSubstr(R"({"do": "pause"})")) << message;
   }
-  EXPECT_THAT(run.Obey(std::string(4000, '[')), HasSubstr("expected an object"));
-  EXPECT_THAT(run.Obey(R"({"do":"stop"})"), HasSubstr(R"("resume", "step" or "speed")"));
+  EXPECT_THAT(run.Execute(std::string(4000, '[')), HasSubstr("expected an object"));
+  EXPECT_THAT(run.Execute(R"({"do":"stop"})"), HasSubstr(R"("resume", "step" or "speed")"));
   for (const char* speed : {"0", "-1", "1e9", "\"5\"", "\"\"", "null", "[]", "true"}) {
-    EXPECT_THAT(run.Obey(std::string(R"({"do":"speed","speed":)") + speed + "}"),
+    EXPECT_THAT(run.Execute(std::string(R"({"do":"speed","speed":)") + speed + "}"),
                 HasSubstr("must be a number from 0.01 to 1000"))
         << speed;
   }
-  EXPECT_THAT(run.Obey(R"({"do":"speed"})"), HasSubstr("must be a number"));
+  EXPECT_THAT(run.Execute(R"({"do":"speed"})"), HasSubstr("must be a number"));
   LiveRun::Cursor cursor;
   EXPECT_EQ(HearAll(run, cursor)[0]["speed"], 1.0);  // nothing was done
 }

@@ -309,7 +309,7 @@ TEST(Watch, ServesAFinishedRun) {
       {out}, {},
       {.serving =
            [&](const std::string& url) {
-             // The server already listens; it answers once the run serves.
+             // The server already listens when this is called; it answers once it serves.
              body = std::async(std::launch::async, [url] { return Get(PortOf(url), "/").body(); });
            },
        .interrupted =

@@ -1,10 +1,13 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
-#include <functional>
+#include <limits>
+#include <memory>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
-#include <type_traits>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,32 +17,78 @@
 /// Reads the JSON files of a run folder, as Trackbed writes them.
 namespace trackbed {
 
-/// The JSON in a file. InputError with file, line and column where it is not JSON, and when it is
-/// nested deeper than 64 levels; RunError as ReadFile, or of more than 16 MiB.
+/// Parses a JSON file. InputError with file, line and column if it is not JSON, and if it is nested
+/// deeper than 64 levels; RunError as ReadFile, or if the file is larger than 16 MiB.
 nlohmann::ordered_json ParseJson(const std::filesystem::path& file);
 
-/// Calls `visit` with the JSON in `file`.
+/// Parses `text`, the content of `file` or a part of it. Errors as ParseJson.
+nlohmann::ordered_json ParseJsonOf(const std::string& file, std::string_view text);
+
+/// The content of a JSON file: indented, with a line feed at the end. Bytes that are not UTF-8
+/// become U+FFFD.
+std::string JsonText(const nlohmann::ordered_json& json);
+
+/// A value in a JSON file that Trackbed writes, with its place. Readers of such files use these
+/// getters alone: a file can be changed, cut off or made by anyone.
 ///
-/// Errors: InputError naming the file when it is missing from its run folder
-/// (run_folder::RequireFile), as ParseJson, and when it is not as `visit` takes it to be, which may
-/// throw nlohmann::json::exception. For the last, `problem` may name a key, and have a message
-/// instead of that of the JSON library. Other exceptions of `visit` pass through.
-void VisitJson(const std::filesystem::path& file,
-               const std::function<void(const nlohmann::ordered_json&)>& visit,
-               Problem problem = {});
+/// Errors: every getter throws InputError with file, key ("pairs[0].tolerances"), what was found
+/// and what is allowed.
+class JsonValue {
+ public:
+  /// The root of a document. Messages name `file` and `key`.
+  JsonValue(nlohmann::ordered_json json, std::string file, std::string key = "");
 
-/// VisitJson with a `read` that returns something: returns that.
-template <typename Read>
-auto ReadJson(const std::filesystem::path& file, const Read& read, Problem problem = {}) {
-  std::optional<std::invoke_result_t<const Read&, const nlohmann::ordered_json&>> value;
-  VisitJson(
-      file, [&](const nlohmann::ordered_json& json) { value.emplace(read(json)); },
-      std::move(problem));
-  return *std::move(value);
-}
+  /// A member of a section.
+  [[nodiscard]] JsonValue At(const std::string& name) const;
+  /// A member of a section; none if it is absent.
+  [[nodiscard]] std::optional<JsonValue> Find(const std::string& name) const;
+  /// All members of a section, in the order of the file.
+  [[nodiscard]] std::vector<std::pair<std::string, JsonValue>> Members() const;
+  /// The elements of a list.
+  [[nodiscard]] std::vector<JsonValue> Elements() const;
+  /// The elements of a list of exactly `count`.
+  [[nodiscard]] std::vector<JsonValue> Elements(std::size_t count) const;
 
-/// The cones of the gates in plan.json; none without gates. For use within VisitJson, as it throws
-/// nlohmann::json::exception.
-std::vector<Vec2> GateCones(const nlohmann::ordered_json& plan);
+  [[nodiscard]] std::string Text() const;
+  /// A text that is one of these.
+  [[nodiscard]] std::string OneOf(const std::vector<std::string>& allowed) const;
+  [[nodiscard]] double Number() const;
+  /// None for null, which stands for a number that was not finite.
+  [[nodiscard]] std::optional<double> NumberOrNull() const;
+  /// A whole number from 0 to `max`.
+  [[nodiscard]] std::uint64_t Count(std::uint64_t max = kMaxCount) const;
+  [[nodiscard]] bool Flag() const;
+  [[nodiscard]] std::vector<std::string> Texts() const;
+  [[nodiscard]] bool IsNull() const;
+  [[nodiscard]] bool IsSection() const;
+  /// A text, a number, true, false or null, unchanged.
+  [[nodiscard]] const nlohmann::ordered_json& Scalar() const;
+  /// A section of scalars, unchanged.
+  [[nodiscard]] const nlohmann::ordered_json& Scalars() const;
+  /// The file that the value is in, for messages.
+  [[nodiscard]] const std::string& file() const { return *file_; }
+  /// Any value, unchanged: to be copied or compared only.
+  [[nodiscard]] const nlohmann::ordered_json& json() const { return *json_; }
+
+  /// Refuses the value: "expected `allowed`, found …".
+  [[noreturn]] void Refuse(std::string_view allowed) const;
+
+  static constexpr std::uint64_t kMaxCount = 1'000'000'000;
+
+ private:
+  JsonValue(const JsonValue& parent, const nlohmann::ordered_json& json, std::string key);
+  [[nodiscard]] std::string KeyOf(const std::string& name) const;
+
+  std::shared_ptr<const nlohmann::ordered_json> document_;
+  const nlohmann::ordered_json* json_;  // in the document
+  std::shared_ptr<const std::string> file_;
+  std::string key_;
+};
+
+/// Reads a JSON file of a run folder. InputError as run_folder::RequireFile and ParseJson.
+JsonValue ReadJson(const std::filesystem::path& file);
+
+/// The cones of each gate in plan.json; empty without gates.
+std::vector<std::vector<Vec2>> GateCones(const JsonValue& plan);
 
 }  // namespace trackbed

@@ -1,11 +1,10 @@
-// The tyres in three dimensions: how much of its grip each uses and in which direction, and the
-// marks that they leave.
+// Tyres in the 3D scene: size and direction of the used grip, and skid marks.
 
 const WHEELS = ['fl', 'fr', 'rl', 'rr'];
-const DIAL = 0.62;  // radius of the circle that is a tyre's whole grip [m]
-const SKID = { use: 0.9, width: 0.17 };  // from this share of the grip on; about a tyre's width [m]
+const DIAL = 0.62;  // radius of the circle of full grip [m]
+const SKID = { use: 0.9, width: 0.17 };  // skids from this fraction of the grip; tyre width [m]
 
-/** The shares of the tyres' grip over time: {t, at(wheel, time), used(wheel, row)}; null without. */
+/** Used fraction of the tyres' grip over time: {t, at(wheel, time), used(wheel, row)}; null if not logged. */
 function tyreUse(track) {
   if (!track.tyres) return null;
   const t = numbersOf(track.tyres.t);
@@ -21,14 +20,14 @@ function tyreUse(track) {
   };
 }
 
-/** Where a vehicle's wheels stand on the ground: {x, y, z, yaw}, by name, but for those high above it. */
+/** Ground positions below the wheels by name: {x, y, z, yaw}. Omits wheels high above the ground. */
 function wheelPlaces(vehicle, model, height) {
   const places = {};
   for (const wheel of WHEELS) {
     const i = model.bodies.findIndex((body) => body.joints.some(({ channel }) => channel === `spin_${wheel}_rad`));
     if (i < 0) continue;
     const { elements } = vehicle.nodes[i].matrix;
-    // The wheel turns about its y axis, which stays; ahead is to the right of it.
+    // The wheel spins about its y axis, which keeps its direction; forward is to the right of it.
     const yaw = Math.atan2(-elements[4], elements[5]);
     const [x, y] = [elements[12], elements[13]];
     if (elements[14] - height(x, y) > 0.5) continue;  // in the air
@@ -37,7 +36,7 @@ function wheelPlaces(vehicle, model, height) {
   return places;
 }
 
-/** An arrow of length 1 along x, in the plane. */
+/** A flat arrow of length 1 along x. */
 function arrowGeometry() {
   const shape = new THREE.Shape();
   for (const [i, [x, y]] of [[0, 0.07], [0.62, 0.07], [0.62, 0.2], [1, 0], [0.62, -0.2], [0.62, -0.07], [0, -0.07]].entries()) {
@@ -47,12 +46,12 @@ function arrowGeometry() {
   return new THREE.ShapeBufferGeometry(shape);
 }
 
-/** On the ground under each wheel a circle that is its whole grip, with the force as an arrow. */
+/** Draws a circle of full grip on the ground below each wheel, with the tyre force as an arrow. */
 function makeDials(scene) {
   const ring = new THREE.RingBufferGeometry(DIAL - 0.03, DIAL, 48);
   const disc = new THREE.CircleBufferGeometry(DIAL, 48);
   const arrow = arrowGeometry();
-  // They are seen through the car, as all that is drawn to be read.
+  // Visible through the car.
   const over = (color, opacity) => new THREE.MeshBasicMaterial({ color, transparent: true, opacity, depthTest: false, depthWrite: false, side: THREE.DoubleSide });
   const dials = WHEELS.map(() => {
     const group = new THREE.Group();
@@ -86,7 +85,7 @@ function makeDials(scene) {
   };
 }
 
-/** The marks of tyres that use nearly all of their grip; they grow with time. */
+/** Skid marks of tyres that use nearly all their grip; they grow with time. */
 function makeSkidMarks(track, vehicle, motion, model, height) {
   const use = tyreUse(track);
   if (!use) return null;
