@@ -16,12 +16,12 @@ namespace {
 template <typename Function>
 auto Smooth(double time, Function value) {
   constexpr int kHalf = 16;
-  constexpr double kReach = 0.8;  // [s]
+  constexpr double kSmoothingTime = 0.8;  // [s]
   std::array<double, 2> sum{};
   double weights = 0.0;
   for (int i = -kHalf + 1; i < kHalf; ++i) {
     const double weight = kHalf - std::abs(i);
-    const std::array<double, 2> here = value(time + i * kReach / kHalf);
+    const std::array<double, 2> here = value(time + i * kSmoothingTime / kHalf);
     sum[0] += weight * here[0];
     sum[1] += weight * here[1];
     weights += weight;
@@ -88,7 +88,7 @@ CameraPose Driver(const CameraSubject& subject, double time, double aspect) {
   const Point car = subject.Position(time);
   const double heading = subject.Heading(time);
   const CarBox& box = subject.box();
-  constexpr double kWide = 66.0 * kPi / 180.0;  // horizontal angle of view
+  constexpr double kFieldOfView = 66.0 * kPi / 180.0;  // horizontal angle of view
   CameraPose pose;
   pose.inside = true;
   // The driver's eye: in the middle of the car, to the left, below the roof.
@@ -97,7 +97,7 @@ CameraPose Driver(const CameraSubject& subject, double time, double aspect) {
   pose.paint_scale = subject.box().scale();
   pose.azimuth = heading;
   pose.elevation = -6.0 * kPi / 180.0;
-  pose.view_angle = 2.0 * std::atan(std::tan(0.5 * kWide) / std::max(aspect, 1.0));
+  pose.view_angle = 2.0 * std::atan(std::tan(0.5 * kFieldOfView) / std::max(aspect, 1.0));
   const double level = pose.distance * std::cos(pose.elevation);
   pose.target_x = eye.x() + level * std::cos(heading);
   pose.target_y = eye.y() + level * std::sin(heading);
@@ -167,11 +167,11 @@ CameraSubject::CameraSubject(const Recording& recording)
       lowest_(car_.Position(car_.begin())),
       highest_(lowest_),
       box_(FindCarBox(*recording.model)) {
-  constexpr double kCreep = 0.05;  // a slower car counts as standing [m/s]
+  constexpr double kStandstillSpeed = 0.05;  // a slower car counts as standing [m/s]
   double reverse = 0.0;
   for (const double at : car_.log().times()) {
     const double speed = car_.ReadingsAt(at).speed;
-    reverse = std::abs(speed) < kCreep ? reverse : speed < 0.0 ? 1.0 : 0.0;
+    reverse = std::abs(speed) < kStandstillSpeed ? reverse : speed < 0.0 ? 1.0 : 0.0;
     reverse_.push_back(reverse);
   }
   const auto include = [this](const Point& point) {

@@ -29,7 +29,7 @@ std::string Signed(double value, int digits, const char* unit) {
 }
 
 /// "0.98 m left, 0.12 m ahead": lateral and longitudinal difference, by stations if known.
-std::string ApartText(const Apart& apart) {
+std::string RelativePositionText(const RelativePosition& apart) {
   const double ahead = apart.station.value_or(apart.ahead);
   return fmt::format("{:.2f} m {}, {:.2f} m {}", std::abs(apart.left),
                      apart.left < 0.0 ? "right" : "left", std::abs(ahead),
@@ -52,8 +52,8 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
     shown.push_back({"off path", Signed(*readings.cross_track, 2, " m"), "+0.00 m"});
   }
   if (readings.apart) {
-    shown.push_back(
-        {"difference between plants", ApartText(*readings.apart), "0.00 m right, 0.00 m behind"});
+    shown.push_back({"difference between plants", RelativePositionText(*readings.apart),
+                     "0.00 m right, 0.00 m behind"});
   }
   return shown;
 }
@@ -156,10 +156,11 @@ void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double to
 /// Size of letters with which the legend fits into half of the picture's height, but stays
 /// readable.
 double LegendLetters(const Layout& layout, int height, int lines) {
-  constexpr double kMostShare = 0.5;
-  constexpr double kLeast = 0.75;  // of the size of labels
-  const double room = kMostShare * height - layout.margin - 1.2 * layout.pad;
-  return std::round(std::clamp(room / std::max(1, lines), kLeast * layout.label, layout.label));
+  constexpr double kMaxHeightShare = 0.5;
+  constexpr double kMinLabelShare = 0.75;  // of the size of labels
+  const double room = kMaxHeightShare * height - layout.margin - 1.2 * layout.pad;
+  return std::round(
+      std::clamp(room / std::max(1, lines), kMinLabelShare * layout.label, layout.label));
 }
 
 /// Returns the panel's bottom [px].
@@ -237,8 +238,8 @@ void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, int line, 
 
 /// Shortens folder names that are too long for a picture.
 std::string Shortened(const std::string& title) {
-  constexpr std::size_t kLongest = 32;
-  return title.size() <= kLongest ? title : title.substr(0, kLongest - 3) + "...";
+  constexpr std::size_t kMaxTitleLength = 32;
+  return title.size() <= kMaxTitleLength ? title : title.substr(0, kMaxTitleLength - 3) + "...";
 }
 
 /// Shortens a text to `width` [px], so that it does not overlap the legend.
@@ -300,7 +301,7 @@ Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Reading
 }
 
 OverlayEntry CaptionOverlay() {
-  return EntryOf<CaptionPanels>("caption", "run name, wind, legend and readings");
+  return MakeOverlayEntry<CaptionPanels>("caption", "run name, wind, legend and readings");
 }
 
 }  // namespace trackbed::render

@@ -74,14 +74,14 @@ bool HasErrorScale(const Recording& recording) {
 
 std::vector<double> ErrorFractions(const Recording& recording) {
   constexpr double kSteps = 16.0;
-  constexpr double kHold = 0.6;  // of a step; above 0.5 for hysteresis
+  constexpr double kHysteresis = 0.6;  // of a step; above 0.5 for hysteresis
   const PlantRecording& car = recording.plants.front();
   std::vector<double> fractions;
   double step = -1.0;
   for (const double time : car.times()) {
     const double steps =
         kSteps * std::abs(car.ReadingsAt(time).cross_track.value_or(0.0)) / recording.scales.error;
-    if (step < 0.0 || std::abs(steps - step) > kHold) {
+    if (step < 0.0 || std::abs(steps - step) > kHysteresis) {
       step = std::round(steps);
     }
     fractions.push_back(step / kSteps);
@@ -90,7 +90,7 @@ std::vector<double> ErrorFractions(const Recording& recording) {
 }
 
 OverlayEntry ErrorOverlay() {
-  return EntryOf<ErrorRibbon>("error", "the car's trail colored by its cross-track error");
+  return MakeOverlayEntry<ErrorRibbon>("error", "the car's trail colored by its cross-track error");
 }
 
 }  // namespace trackbed::render

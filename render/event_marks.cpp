@@ -15,13 +15,13 @@ namespace {
 
 using Kind = RunEvent::Kind;
 
-constexpr double kShown = 1.5;     // minimum duration of a line of text [s]
-constexpr double kFlash = 0.6;     // [s]
-constexpr double kSide = 0.4;      // side of a mark [m]
-constexpr double kRim = 0.07;      // dark rim around it [m]
-constexpr double kHeight = 0.030;  // above all trails [m]
+constexpr double kMinTextDuration = 1.5;  // minimum duration of a line of text [s]
+constexpr double kFlash = 0.6;            // [s]
+constexpr double kSide = 0.4;             // side of a mark [m]
+constexpr double kRim = 0.07;             // dark rim around it [m]
+constexpr double kHeight = 0.030;         // above all trails [m]
 constexpr Color kDetected{0.98F, 0.98F, 0.98F};
-constexpr Color kUnder{0.05F, 0.06F, 0.08F};
+constexpr Color kRimColor{0.05F, 0.06F, 0.08F};
 
 Color ColorOf(Kind kind) {
   switch (kind) {
@@ -81,10 +81,11 @@ class EventMarks : public Overlay {
   void Draw(PictureContext& context) override {
     Canvas canvas(context.image, context.font);
     const Layout layout(context.image.width, context.image.height);
-    constexpr std::size_t kMostLines = 3;
+    constexpr std::size_t kMaxLines = 3;
     std::vector<const RunEvent*> shown;
     for (const RunEvent& event : events_) {
-      if (event.from <= context.time && context.time <= std::max(event.to, event.from + kShown)) {
+      if (event.from <= context.time &&
+          context.time <= std::max(event.to, event.from + kMinTextDuration)) {
         // Of several new plans in quick succession, shows only the last.
         if (!shown.empty() && event.kind == Kind::kNewPlan) {
           std::erase_if(shown, [](const RunEvent* other) { return other->kind == Kind::kNewPlan; });
@@ -92,8 +93,8 @@ class EventMarks : public Overlay {
         shown.push_back(&event);
       }
     }
-    if (shown.size() > kMostLines) {
-      shown.erase(shown.begin(), shown.end() - kMostLines);
+    if (shown.size() > kMaxLines) {
+      shown.erase(shown.begin(), shown.end() - kMaxLines);
     }
     double bottom = context.bottom;
     for (auto event = shown.rbegin(); event != shown.rend(); ++event) {
@@ -134,7 +135,7 @@ class EventMarks : public Overlay {
       AddPiece(context, recording_.world, Beside(event.place, -half * c, -half * s),
                Beside(event.place, half * c, half * s), {color, side, height});
     };
-    square((kSide + kRim) * scale, kHeight, kUnder);
+    square((kSide + kRim) * scale, kHeight, kRimColor);
     square(kSide * scale, kHeight + 0.002, ColorOf(event.kind));
   }
 
@@ -144,7 +145,7 @@ class EventMarks : public Overlay {
       const double x = 0.5 * kSide * scale * std::cos(heading + turn * kPi);
       const double y = 0.5 * kSide * scale * std::sin(heading + turn * kPi);
       AddPiece(context, recording_.world, Beside(event.place, -x, -y), Beside(event.place, x, y),
-               {kUnder, 0.4 * kSide * scale, kHeight});
+               {kRimColor, 0.4 * kSide * scale, kHeight});
       AddPiece(context, recording_.world, Beside(event.place, -x, -y), Beside(event.place, x, y),
                {ColorOf(event.kind), 0.25 * kSide * scale, kHeight + 0.002});
     }
@@ -193,7 +194,7 @@ class EventMarks : public Overlay {
 }  // namespace
 
 OverlayEntry EventOverlay() {
-  return EntryOf<EventMarks>(
+  return MakeOverlayEntry<EventMarks>(
       "events", "marks and labels: obstacle detected, new plan, rate limit, collision, roll-over");
 }
 

@@ -97,19 +97,19 @@ void AddCollision(const Recording& recording, std::vector<RunEvent>& events) {
 }
 
 void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
-  constexpr double kOver = 0.5;      // cosine of 60 degrees, as for the status rolled_over
-  constexpr double kLeaning = 0.87;  // cosine of 30 degrees
+  constexpr double kRolledOverCosine = 0.5;  // cosine of 60 degrees, as for the status rolled_over
+  constexpr double kLeaningCosine = 0.87;    // cosine of 30 degrees
   const PlantRecording& car = recording.plants.front();
   const std::vector<double>& times = car.times();
-  const auto first =
-      std::find_if(times.begin(), times.end(), [&](double at) { return car.Upright(at) < kOver; });
+  const auto first = std::find_if(times.begin(), times.end(),
+                                  [&](double at) { return car.Upright(at) < kRolledOverCosine; });
   if (first == times.end() && !recording.roll_over_time) {
     return;
   }
   const double over = recording.roll_over_time.value_or(first == times.end() ? 0.0 : *first);
   // States are recorded less often than rows of the log: the last one may be before `over`.
   auto from = std::upper_bound(times.begin(), times.end(), over);
-  while (from != times.begin() && car.Upright(*(from - 1)) < kLeaning) {
+  while (from != times.begin() && car.Upright(*(from - 1)) < kLeaningCosine) {
     --from;
   }
   if (from == times.end()) {

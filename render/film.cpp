@@ -21,13 +21,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void CheckSide(std::vector<Problem>& problems, const char* key, int value, int most, bool even) {
-  constexpr int kLeast = 64;
-  if (value < kLeast || value > most) {
+void CheckSide(std::vector<Problem>& problems, const char* key, int value, int max, bool even) {
+  constexpr int kMinSide = 64;
+  if (value < kMinSide || value > max) {
     problems.push_back(
         {.file = "",
          .key = key,
-         .message = fmt::format("{} px; allowed are {} to {}", value, kLeast, most)});
+         .message = fmt::format("{} px; allowed are {} to {}", value, kMinSide, max)});
   } else if (even && value % 2 != 0) {
     problems.push_back(
         {.file = "",
@@ -106,7 +106,7 @@ void CheckTime(const char* key, double time, const Times& allowed) {
 }
 
 /// The time range of the film; by default the whole run.
-Times TimesAskedFor(const FilmOptions& options, const Times& run) {
+Times RequestedTimes(const FilmOptions& options, const Times& run) {
   Times times = run;
   if (options.from) {
     CheckTime("from", *options.from, run);
@@ -176,7 +176,7 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
   CheckOptions(options, format.even_sides);
   const MujocoErrorScope errors;
   std::vector<render::Recording> recordings = ReadRecordings(run_folder, options.plants);
-  const auto [begin, end] = TimesAskedFor(options, RecordedTimes(recordings));
+  const auto [begin, end] = RequestedTimes(options, RecordedTimes(recordings));
   render::Painter painter(recordings, options);
   MakeParent(output);
   render::BackgroundOutput film(format.open(output, {.width = options.width,

@@ -50,7 +50,7 @@ class GateLines : public Overlay {
 }  // namespace
 
 OverlayEntry GateOverlay() {
-  return EntryOf<GateLines>("gates", "outlines of the gates that the plan leads through");
+  return MakeOverlayEntry<GateLines>("gates", "outlines of the gates that the plan leads through");
 }
 
 }  // namespace trackbed::render

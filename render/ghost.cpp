@@ -73,7 +73,7 @@ class Ghosts : public Overlay {
     mjvScene& ghost = posed_.get();
     mjvScene& scene = context.scene;
     recording_.plants[car].Pose(context.time, model, *data_);
-    if (context.camera.inside && IsAroundTheCar(context.time, car)) {
+    if (context.camera.inside && BlocksCamera(context.time, car)) {
       return;
     }
     mjv_updateScene(&model, data_.get(), &context.visible, nullptr, &context.view, mjCAT_DYNAMIC,
@@ -102,7 +102,7 @@ class Ghosts : public Overlay {
   }
 
   /// Whether the ghost would hide the road from a camera inside the car.
-  [[nodiscard]] bool IsAroundTheCar(double time, std::size_t ghost) const {
+  [[nodiscard]] bool BlocksCamera(double time, std::size_t ghost) const {
     const Point own = recording_.plants.front().Position(time);
     const Point other = recording_.plants[ghost].Position(time);
     return std::hypot(other.x - own.x, other.y - own.y) <
@@ -135,7 +135,8 @@ class Ghosts : public Overlay {
 }  // namespace
 
 OverlayEntry GhostOverlay() {
-  return EntryOf<Ghosts>("ghosts", "the other plants as translucent cars with their footprints");
+  return MakeOverlayEntry<Ghosts>("ghosts",
+                                  "the other plants as translucent cars with their footprints");
 }
 
 }  // namespace trackbed::render

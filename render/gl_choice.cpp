@@ -20,7 +20,7 @@ std::string Lowered(std::string text) {
 }
 
 /// The library with this name; none for "auto".
-std::optional<GlLibrary> AskedFor(const std::string& gl, const std::string& mujoco_gl) {
+std::optional<GlLibrary> RequestedLibrary(const std::string& gl, const std::string& mujoco_gl) {
   if (gl == "egl" || gl == "osmesa") {
     return gl == "egl" ? GlLibrary::kEgl : GlLibrary::kOsmesa;
   }
@@ -44,12 +44,12 @@ std::optional<GlLibrary> AskedFor(const std::string& gl, const std::string& mujo
   return std::nullopt;
 }
 
-[[noreturn]] void RefuseSecondLibrary(GlLibrary asked_for, GlLibrary in_process) {
+[[noreturn]] void RefuseSecondLibrary(GlLibrary requested, GlLibrary in_process) {
   throw RunError(fmt::format(
       "cannot draw with {}: this program links {} or has drawn with it, and MuJoCo uses one "
       "library "
       "for OpenGL in a process; choose {} or auto, or draw in another process",
-      NameOf(asked_for), NameOf(in_process), in_process == GlLibrary::kEgl ? "egl" : "osmesa"));
+      NameOf(requested), NameOf(in_process), in_process == GlLibrary::kEgl ? "egl" : "osmesa"));
 }
 
 }  // namespace
@@ -73,15 +73,15 @@ GlSurroundings ReadGlSurroundings() {
 }
 
 std::vector<GlLibrary> ChooseGl(const std::string& gl, const GlSurroundings& surroundings) {
-  const std::optional<GlLibrary> asked_for = AskedFor(gl, surroundings.mujoco_gl);
+  const std::optional<GlLibrary> requested = RequestedLibrary(gl, surroundings.mujoco_gl);
   if (surroundings.in_process) {
-    if (asked_for && asked_for != surroundings.in_process) {
-      RefuseSecondLibrary(*asked_for, *surroundings.in_process);
+    if (requested && requested != surroundings.in_process) {
+      RefuseSecondLibrary(*requested, *surroundings.in_process);
     }
     return {*surroundings.in_process};
   }
-  if (asked_for) {
-    return {*asked_for};
+  if (requested) {
+    return {*requested};
   }
   return {GlLibrary::kOsmesa, GlLibrary::kEgl};
 }

@@ -121,13 +121,13 @@ class EglContext final : public GlContext {
  private:
   /// Makes a context of this display current. Returns EGL_SUCCESS or an EGL error.
   EGLint Start(EGLDisplay display) {
-    constexpr std::array<EGLint, 5> kWanted{EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE,
-                                            EGL_OPENGL_BIT, EGL_NONE};
+    constexpr std::array<EGLint, 5> kConfigAttributes{
+        EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
     EGLConfig config = nullptr;
     EGLint count = 0;
     if (egl_.initialize(display, nullptr, nullptr) != EGL_TRUE ||
         egl_.bind_api(EGL_OPENGL_API) != EGL_TRUE ||
-        egl_.choose_config(display, kWanted.data(), &config, 1, &count) != EGL_TRUE) {
+        egl_.choose_config(display, kConfigAttributes.data(), &config, 1, &count) != EGL_TRUE) {
       return egl_.get_error();
     }
     if (count < 1) {

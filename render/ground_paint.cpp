@@ -10,8 +10,8 @@ namespace trackbed::render {
 namespace {
 
 // Heights below all ribbons [m].
-constexpr double kLowest = 0.0010;
-constexpr double kHighest = 0.0018;
+constexpr double kMinPaintHeight = 0.0010;
+constexpr double kMaxPaintHeight = 0.0018;
 
 constexpr double kIce = 0.25;       // up to this factor, patches look like ice
 constexpr float kIceAlpha = 0.45F;  // MuJoCo draws translucent surfaces twice: 1 - 0.55^2 = 0.70
@@ -51,8 +51,8 @@ class Tiler {
       : ground_(ground), tolerance_(tolerance), tiles_(tiles) {}
 
   void Cut(const OrientedBox& box, const Tile& like, double above) {
-    constexpr double kLargest = 2.0;   // [m]; limit unless the ground is a plane
-    constexpr double kSmallest = 0.1;  // [m]
+    constexpr double kMaxTileSide = 2.0;  // [m]; limit unless the ground is a plane
+    constexpr double kMinTileSide = 0.1;  // [m]
     if (IsPlane(ground_, box)) {
       Add(box, like, above);
       return;
@@ -72,10 +72,10 @@ class Tiler {
                                          height(-1.0, 1.0));
     double& longer = box.length >= box.width ? along : across;
     longer = std::max(longer, twist);
-    // Halves the side with the larger deviation. Sides longer than kLargest are always cut, since
-    // the lines may miss features.
-    along = box.length > kLargest ? 1e3 * box.length : box.length > kSmallest ? along : 0.0;
-    across = box.width > kLargest ? 1e3 * box.width : box.width > kSmallest ? across : 0.0;
+    // Halves the side with the larger deviation. Sides longer than kMaxTileSide are always cut,
+    // since the lines may miss features.
+    along = box.length > kMaxTileSide ? 1e3 * box.length : box.length > kMinTileSide ? along : 0.0;
+    across = box.width > kMaxTileSide ? 1e3 * box.width : box.width > kMinTileSide ? across : 0.0;
     if (std::max(along, across) < tolerance_) {
       Add(box, like, above);
     } else if (along >= across) {
@@ -147,13 +147,13 @@ std::vector<Tile> PatchTiles(const World& world) {
   constexpr double kTolerance = 0.0015;  // [m]
   Tiler tiler(world.ground, kTolerance, tiles);
   const auto count = static_cast<double>(world.friction_patches.size());
-  double above = kLowest;
+  double above = kMinPaintHeight;
   for (const FrictionPatch& patch : world.friction_patches) {
     Tile like;
     like.color = PatchColor(patch.friction);
     like.alpha = FrictionAlpha(patch.friction);
     tiler.Cut(patch.area, like, above);
-    above += (kHighest - kLowest) / count;
+    above += (kMaxPaintHeight - kMinPaintHeight) / count;
   }
   return tiles;
 }

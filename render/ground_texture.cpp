@@ -11,7 +11,7 @@ namespace trackbed::render {
 namespace {
 
 constexpr double kSide = 10.0;  // of the texture, on the ground [m]
-constexpr double kLineEvery = 5.0;
+constexpr double kLineSpacing = 5.0;
 constexpr double kLineWidth = 0.05;
 constexpr double kLineLight = 1.12;
 
@@ -41,7 +41,7 @@ double Noise(double u, double v, std::uint32_t cells, std::uint32_t octave) {
 
 bool OnLine(double part) {
   const double place = part * kSide;
-  return std::abs(place - kLineEvery * std::round(place / kLineEvery)) < 0.5 * kLineWidth;
+  return std::abs(place - kLineSpacing * std::round(place / kLineSpacing)) < 0.5 * kLineWidth;
 }
 
 }  // namespace

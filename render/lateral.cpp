@@ -40,13 +40,13 @@ double LetterSize(int height) {
 double LateralView::PixelsPerMeter(int width, int height) const {
   const double along = width / kLength;
   const double largest = recording_.scales.error;
-  return largest > 0.0 ? std::min(along, kFill * 0.5 * height / (kEnlarged * largest)) : along;
+  return largest > 0.0 ? std::min(along, kFill * 0.5 * height / (kMagnification * largest)) : along;
 }
 
 CanvasPoint LateralView::Place(int width, int height, double car, double station,
                                double left) const {
   const double scale = PixelsPerMeter(width, height);
-  return {kBehind * width + scale * (station - car), 0.5 * height - kEnlarged * scale * left};
+  return {kBehind * width + scale * (station - car), 0.5 * height - kMagnification * scale * left};
 }
 
 void LateralView::DrawAxes(Canvas& canvas, Font& font, int width, int height, double car) const {
@@ -54,7 +54,7 @@ void LateralView::DrawAxes(Canvas& canvas, Font& font, int width, int height, do
   const double hairline = std::max(1.0, 0.005 * height);
   const double letters = LetterSize(height);
   // Two or three lines on each side of the path, at round distances.
-  const double reach = 0.5 * height / (kEnlarged * scale);
+  const double reach = 0.5 * height / (kMagnification * scale);
   const double apart = RoundedUp(reach / 4.0);
   for (double left = apart; left < reach; left += apart) {
     for (const double side : {left, -left}) {

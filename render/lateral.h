@@ -12,7 +12,7 @@ namespace trackbed::render {
 /// of the run needs it. Skips plants whose logs lack s_m or cross_track_m.
 class LateralView {
  public:
-  static constexpr double kEnlarged = 10.0;
+  static constexpr double kMagnification = 10.0;
 
   /// The recording must outlive the view.
   explicit LateralView(const Recording& recording) : recording_(recording) {}

@@ -33,7 +33,7 @@ TexturePixels Pixels(Model& model, int texture) {
   }
 }
 
-/// Removes the texture from a shape. Since 3.2, shapes use their material's texture.
+/// Removes the texture from a shape. Since MuJoCo 3.2, shapes use their material's texture.
 template <std::same_as<mjvGeom> Geom>
 void RemoveTexture(Geom& geom) {
   if constexpr (requires { geom.matid; }) {

@@ -10,15 +10,15 @@
 #include "render/scene_handle.h"
 #include "trackbed/sim/mujoco_handles.h"
 
-// Draws each obstacle by its size (LookOf): as the run's own car, stretched to the obstacle's box,
-// as a wall, cone, post or crate. The model's box is drawn in another color or replaced. Until the
-// planner detects an obstacle, and shortly after, the edges of its box are drawn as an outline.
+// Draws each obstacle by its size (ChooseLook): as the run's own car, stretched to the obstacle's
+// box, as a wall, cone, post or crate. The model's box is drawn in another color or replaced. Until
+// the planner detects an obstacle, and shortly after, the edges of its box are drawn as an outline.
 namespace trackbed::render {
 namespace {
 
-constexpr double kStillOutlined = 1.5;  // after the planner detects an obstacle [s]
-constexpr double kEdge = 0.05;          // thickness of outlines and of a crate's edges [m]
-constexpr std::size_t kEdges = 12;      // of a box
+constexpr double kOutlineDuration = 1.5;  // after the planner detects an obstacle [s]
+constexpr double kEdge = 0.05;            // thickness of outlines and of a crate's edges [m]
+constexpr std::size_t kEdges = 12;        // of a box
 
 constexpr Color kUnknown{0.98F, 0.98F, 0.98F};
 constexpr Color kWood{0.72F, 0.61F, 0.44F};
@@ -230,7 +230,7 @@ class Obstacles : public Overlay {
     mjvScene& scene = context.scene;
     const Block block(*own);
     const double since = context.time - known_[i];
-    if (since < kStillOutlined) {
+    if (since < kOutlineDuration) {
       // Around the obstacle's drawn shape, not inside it.
       Block outline = block;
       for (double& half : outline.half) {
@@ -247,7 +247,7 @@ class Obstacles : public Overlay {
       own->rgba[1] = color.g;
       own->rgba[2] = color.b;
     };
-    switch (LookOf(2.0 * block.half[0], 2.0 * block.half[1], 2.0 * block.half[2])) {
+    switch (ChooseLook(2.0 * block.half[0], 2.0 * block.half[1], 2.0 * block.half[2])) {
       case ObstacleLook::kCar:
         own->objtype = kReplaced;
         car_.Add(scene, block, ForwardOf(i, block), kCarPaints[i % kCarPaints.size()]);
@@ -292,7 +292,7 @@ class Obstacles : public Overlay {
 
 }  // namespace
 
-ObstacleLook LookOf(double length, double width, double height) {
+ObstacleLook ChooseLook(double length, double width, double height) {
   const double longer = std::max(length, width);
   const double shorter = std::min(length, width);
   const auto within = [](double value, double low, double high) {
@@ -311,7 +311,7 @@ ObstacleLook LookOf(double length, double width, double height) {
 }
 
 OverlayEntry ObstacleOverlay() {
-  return EntryOf<Obstacles>(
+  return MakeOverlayEntry<Obstacles>(
       "obstacles", "obstacles as cars, walls, cones or crates; as outlines until detected");
 }
 

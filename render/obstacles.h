@@ -16,7 +16,7 @@ enum class ObstacleLook {
 /// The look for a size [m]: cars are 3 to 6 long, 1.4 to 2.3 wide and 1.2 to 2.2 high; walls are at
 /// most 1 wide and at least four times as long; cones and posts are at most 0.6 long and wide,
 /// cones up to 1 high; everything else is a crate. `length` may be the shorter side.
-ObstacleLook LookOf(double length, double width, double height);
+ObstacleLook ChooseLook(double length, double width, double height);
 
 /// The world's obstacles in their looks; obstacles not yet detected by the planner as outlines of
 /// their edges.

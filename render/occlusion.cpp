@@ -66,10 +66,10 @@ double HiddenShare(const UprightBox& box, const CameraPose& camera, const CarBox
 }
 
 double FadedAlpha(double hidden_share) {
-  constexpr double kLeast = 0.25;
-  constexpr double kAll = 0.3;  // of the points; beyond it, the opacity stays at kLeast
+  constexpr double kMinAlpha = 0.25;
+  constexpr double kAll = 0.3;  // of the points; beyond it, the opacity stays at kMinAlpha
   const double part = std::clamp(hidden_share / kAll, 0.0, 1.0);
-  return 1.0 - (1.0 - kLeast) * part * part * (3.0 - 2.0 * part);
+  return 1.0 - (1.0 - kMinAlpha) * part * part * (3.0 - 2.0 * part);
 }
 
 }  // namespace trackbed::render

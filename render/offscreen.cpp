@@ -12,7 +12,7 @@ namespace trackbed::render {
 namespace {
 
 // Minimum size of the buffer [px]: a glyph of the largest font fits into it.
-constexpr int kSmallestBuffer = 128;
+constexpr int kMinBufferSide = 128;
 
 void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
   const std::size_t row = 3 * static_cast<std::size_t>(to.width);
@@ -62,8 +62,8 @@ Offscreen::Offscreen(mjModel& model, int width, int height, int supersampling,
     : width_(width), height_(height), supersampling_(supersampling), gl_(std::move(gl)) {
   TRACKBED_CHECK(supersampling == 1 || supersampling == 2 || supersampling == 4,
                  "{} by {} samples a pixel", supersampling, supersampling);
-  model.vis.global.offwidth = std::max(supersampling * width, kSmallestBuffer);
-  model.vis.global.offheight = std::max(supersampling * height, kSmallestBuffer);
+  model.vis.global.offwidth = std::max(supersampling * width, kMinBufferSide);
+  model.vis.global.offheight = std::max(supersampling * height, kMinBufferSide);
   model.vis.quality.offsamples = 0;
   mjr_defaultContext(&context_);
   MakeMujocoContext(model);
@@ -119,7 +119,7 @@ Image Offscreen::Glyph(char character) {
   image.Resize(context_.charWidthBig[static_cast<unsigned char>(character)],
                context_.charHeightBig);
   const mjrRect cell{0, 0, image.width, image.height};
-  const mjrRect whole{0, 0, kSmallestBuffer, kSmallestBuffer};
+  const mjrRect whole{0, 0, kMinBufferSide, kMinBufferSide};
   mjr_rectangle(whole, 0, 0, 0, 1);
   const std::array<char, 2> text{character, '\0'};
   mjr_text(mjFONT_BIG, text.data(), &context_, 0, 0, 1, 1, 1);

@@ -3,13 +3,10 @@
 #include <png.h>
 
 #include <array>
-#include <boost/crc.hpp>
-#include <cstdint>
-#include <fstream>
-#include <string_view>
 #include <utility>
 
 #include "render/video.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
@@ -24,34 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kHeaderSize = 33;  // length of a PNG's signature and IHDR
 
-std::string BigEndian(std::uint32_t number) {
-  std::string bytes;
-  for (const unsigned shift : {24U, 16U, 8U, 0U}) {
-    bytes += static_cast<char>(number >> shift & 0xffU);
-  }
-  return bytes;
-}
-
-/// The chunk that identifies pictures written by Trackbed: tEXt, "Software" (W3C, Portable Network
-/// Graphics, section 11.3.4).
-const std::string& SoftwareChunk() {
-  static const std::string chunk = [] {
-    const std::string text("tEXtSoftware\0Trackbed", 21);
-    boost::crc_32_type crc;
-    crc.process_bytes(text.data(), text.size());
-    return BigEndian(static_cast<std::uint32_t>(text.size() - 4)) + text +
-           BigEndian(crc.checksum());
-  }();
-  return chunk;
-}
-
-bool IsOwnPicture(const fs::path& file) {
-  std::string begin(kHeaderSize + SoftwareChunk().size(), '\0');
-  std::ifstream in(file, std::ios::binary);
-  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return in && std::string_view(begin).substr(kHeaderSize) == SoftwareChunk();
-}
-
 /// Writes one PNG per picture into a hidden folder until all are complete. Then removes the frames
 /// of an earlier film of that name, that is, the pictures numbered without a gap, which must have
 /// been written by Trackbed, so that frames of two films are never mixed. Without Finish or Keep an
@@ -60,12 +29,7 @@ class FrameOutput : public FilmOutput {
  public:
   explicit FrameOutput(fs::path output) : output_(std::move(output)), frames_(output_) {
     for (int frame = 0; IsThere(frame); ++frame) {
-      const fs::path name = FrameName(output_, frame);
-      if (!IsOwnPicture(name)) {
-        throw RunError(fmt::format(
-            "{} is in the way of the film's frames, but is none itself; choose another name (-o)",
-            name.string()));
-      }
+      RequireOwn(FrameName(output_, frame));
     }
   }
   FrameOutput(const FrameOutput&) = delete;
@@ -83,6 +47,7 @@ class FrameOutput : public FilmOutput {
 
   void Add(const Image& image) override {
     const fs::path frame = FrameName(output_, next_);
+    RequireOwn(frame);  // also behind a gap
     WriteNewFile(frames_.path() / frame.filename(), EncodePng(image), frame);
     ++next_;
   }
@@ -113,9 +78,17 @@ class FrameOutput : public FilmOutput {
   void Keep() override { Finish(); }
 
  private:
-  [[nodiscard]] bool IsThere(int frame) const {
+  static bool IsFile(const fs::path& file) {
     std::error_code ignored;
-    return fs::is_regular_file(fs::symlink_status(FrameName(output_, frame), ignored));
+    return fs::is_regular_file(fs::symlink_status(file, ignored));
+  }
+  [[nodiscard]] bool IsThere(int frame) const { return IsFile(FrameName(output_, frame)); }
+  static void RequireOwn(const fs::path& frame) {
+    if (IsFile(frame) && !HasMark(frame)) {
+      throw RunError(fmt::format(
+          "{} is in the way of the film's frames, but is none itself; choose another name (-o)",
+          frame.string()));
+    }
   }
 
   fs::path output_;
@@ -149,9 +122,9 @@ void BackgroundOutput::Add(const Image& image) {
     std::unique_lock lock(mutex_);
     changed_.wait(lock, [this] { return failure_ || waiting_.size() < kMaxWaiting; });
     Rethrow();
-    if (!spare_.empty()) {
-      copy = std::move(spare_.back());
-      spare_.pop_back();
+    if (!free_images_.empty()) {
+      copy = std::move(free_images_.back());
+      free_images_.pop_back();
     }
   }
   copy = image;
@@ -202,7 +175,7 @@ void BackgroundOutput::Write(const std::stop_token& stop) {
     }
     lock.lock();
     writing_ = false;
-    spare_.push_back(std::move(image));
+    free_images_.push_back(std::move(image));
     failure_ = failure;
     changed_.notify_all();
     if (failure) {
@@ -253,7 +226,7 @@ std::string EncodePng(const Image& image) {
     throw RunError(fmt::format("cannot make a PNG: {}", png.message));
   }
   bytes.resize(size);
-  bytes.insert(kHeaderSize, SoftwareChunk());
+  bytes.insert(kHeaderSize, PictureMark());
   return bytes;
 }
 

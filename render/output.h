@@ -51,7 +51,7 @@ class BackgroundOutput : public FilmOutput {
   std::mutex mutex_;  // guards the members below, except for the thread
   std::condition_variable_any changed_;
   std::deque<Image> waiting_;
-  std::vector<Image> spare_;  // written pictures, whose memory is reused
+  std::vector<Image> free_images_;  // written pictures, whose memory is reused
   bool writing_ = false;
   std::exception_ptr failure_;
   std::jthread thread_;  // last, so that it is joined before the other members are destroyed

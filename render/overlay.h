@@ -101,7 +101,7 @@ struct OverlayEntry {
 
 /// The entry of an overlay whose constructor takes the setup.
 template <typename Own>
-OverlayEntry EntryOf(std::string name, std::string summary) {
+OverlayEntry MakeOverlayEntry(std::string name, std::string summary) {
   return {std::move(name), std::move(summary),
           [](const OverlaySetup& setup) -> std::unique_ptr<Overlay> {
             return std::make_unique<Own>(setup);

@@ -98,7 +98,7 @@ class PlanLines : public Overlay {
 }  // namespace
 
 OverlayEntry PlanOverlay() {
-  return EntryOf<PlanLines>("plan", "the planned path, and replanned ones");
+  return MakeOverlayEntry<PlanLines>("plan", "the planned path, and replanned ones");
 }
 
 }  // namespace trackbed::render

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "trackbed/analysis/json_file.h"
@@ -54,7 +53,7 @@ std::vector<Point> ReadPlan(const fs::path& file) {
   return points;
 }
 
-// One plan after the other, each row with the time from which its plan holds.
+// The plans are stored one after the other; each row has the adoption time of its plan.
 std::vector<NewPlan> ReadNewPlans(const fs::path& file) {
   std::vector<NewPlan> plans;
   std::error_code ignored;
@@ -98,7 +97,7 @@ std::vector<CurvatureProfile> ReadCurvatures(const fs::path& file, double begin)
       profiles.push_back({.from = from[i], .s = {}, .curvature = {}});
     }
     CurvatureProfile& profile = profiles.back();
-    // Where a station comes twice, as at a jump, the first one is as good.
+    // Of rows with equal station, as at a jump, keeps the first.
     if (profile.s.empty() || s[i] > profile.s.back()) {
       profile.s.push_back(s[i]);
       profile.curvature.push_back(curvature[i]);
@@ -112,19 +111,14 @@ std::vector<std::vector<Point>> ReadGates(const fs::path& file) {
   if (!fs::exists(file, ignored)) {
     return {};
   }
-  const auto read = [](const nlohmann::ordered_json& plan) {
-    std::vector<std::vector<Point>> gates;
-    for (const nlohmann::ordered_json& gate :
-         plan.value("gates", nlohmann::ordered_json::array())) {
-      std::vector<Point> cones;
-      for (const Vec2& cone : GateCones({{"gates", nlohmann::ordered_json::array({gate})}})) {
-        cones.push_back({cone.x(), cone.y()});
-      }
-      gates.push_back(std::move(cones));
+  std::vector<std::vector<Point>> gates;
+  for (const std::vector<Vec2>& cones : GateCones(ReadJson(file))) {
+    std::vector<Point>& points = gates.emplace_back();
+    for (const Vec2& cone : cones) {
+      points.push_back({cone.x(), cone.y()});
     }
-    return gates;
-  };
-  return ReadJson(file, read, {.key = "gates"});
+  }
+  return gates;
 }
 
 }  // namespace trackbed::render

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "trackbed/analysis/json_file.h"
@@ -25,6 +24,10 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
+// Reads a run folder for a film: the model, each plant's states and log, the scenario's world,
+// plans, gates and road. Between recorded rows, positions and joint angles are interpolated
+// linearly, and quaternions linearly with normalization (nlerp). The first plant, preferably one of
+// MuJoCo, is shown as the car; the others are ghosts.
 namespace trackbed::render {
 namespace {
 
@@ -39,7 +42,7 @@ MujocoModel LoadModel(const fs::path& file) {
   return CompileScene(ComposeScene(run_folder::RequireFile(file), {}), file.string(), Looks::kKept);
 }
 
-/// The plants whose states lie in the folder.
+/// The plants with a state file in the folder.
 std::vector<std::string> PlantsWithStates(const fs::path& folder) {
   std::vector<std::string> plants;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -54,27 +57,24 @@ std::vector<std::string> PlantsWithStates(const fs::path& folder) {
   return plants;
 }
 
-/// InputError when `metrics.json`, if there is one, tells of a plant that is not among these.
+/// InputError if `metrics.json` exists and contains a plant that is not among `plants`.
 void CheckAllAreThere(const fs::path& folder, const std::vector<std::string>& plants) {
   const fs::path metrics = folder / run_folder::kMetricsJson;
   std::error_code ignored;
   if (!fs::exists(metrics, ignored)) {
     return;
   }
-  const auto visit = [&](const nlohmann::ordered_json& told) {
-    for (const auto& item : told.at("plants").items()) {
-      if (std::find(plants.begin(), plants.end(), item.key()) == plants.end()) {
-        RejectRecording(
-            folder / run_folder::StateCsv(item.key()), "",
-            fmt::format("missing from the run folder, whose metrics.json lists a run on {}",
-                        item.key()));
-      }
+  const JsonValue plants_of_run = ReadJson(metrics).At("plants");
+  for (const auto& [plant, entry] : plants_of_run.Members()) {
+    if (std::find(plants.begin(), plants.end(), plant) == plants.end()) {
+      RejectRecording(
+          folder / run_folder::StateCsv(plant), "",
+          fmt::format("missing from the run folder, whose metrics.json lists a run on {}", plant));
     }
-  };
-  VisitJson(metrics, visit, {.key = "plants"});
+  }
 }
 
-/// The plants of the run, the one to show as the car first.
+/// The plants of the run, beginning with the one shown as the car.
 std::vector<std::string> FindPlants(const fs::path& folder) {
   std::vector<std::string> plants = PlantsWithStates(folder);
   CheckAllAreThere(folder, plants);
@@ -84,27 +84,28 @@ std::vector<std::string> FindPlants(const fs::path& folder) {
   return plants;
 }
 
-/// The plants to film out of those there are.
-std::vector<std::string> Chosen(const fs::path& folder, std::vector<std::string> there_are,
-                                const std::vector<std::string>& asked) {
-  for (const std::string& plant : asked) {
-    if (std::find(there_are.begin(), there_are.end(), plant) == there_are.end()) {
-      RejectRecording(folder, "plants", "unknown plant " + UnknownName(plant, there_are));
+/// The plants to film: `asked`, or all if it is empty.
+std::vector<std::string> SelectPlants(const fs::path& folder, std::vector<std::string> available,
+                                      const std::vector<std::string>& selected) {
+  for (const std::string& plant : selected) {
+    if (std::find(available.begin(), available.end(), plant) == available.end()) {
+      RejectRecording(folder, "plants", "unknown plant " + UnknownName(plant, available));
     }
-    if (std::count(asked.begin(), asked.end(), plant) > 1) {
+    if (std::count(selected.begin(), selected.end(), plant) > 1) {
       RejectRecording(folder, "plants", fmt::format("'{}' is listed twice", plant));
     }
   }
-  return asked.empty() ? std::move(there_are) : asked;
+  return selected.empty() ? std::move(available) : selected;
 }
 
-/// The gates of a plan.json, and their cones.
+/// Reads the gates of a plan.json and their cones.
 void AddGates(const fs::path& file, Recording& recording) {
   for (const std::vector<Point>& cones : ReadGates(file)) {
     for (const Point& cone : cones) {
       recording.cones.push_back(recording.OnGround(cone));
     }
-    // In pairs across the lane, from its entry to its exit: around all of them.
+    // Cones come in pairs across the lane, from entry to exit; the outline connects the outer
+    // pairs.
     if (cones.size() >= 4) {
       const std::size_t last = cones.size() - 1;
       std::vector<Point> corners;
@@ -119,14 +120,14 @@ void AddGates(const fs::path& file, Recording& recording) {
 /// The name of the planner of a plan.json; empty without such a file.
 std::string PlannerOf(const fs::path& file) {
   std::error_code ignored;
-  return fs::exists(file, ignored) ? ReadJson(file,
-                                              [](const nlohmann::ordered_json& plan) {
-                                                return plan.value("method", std::string());
-                                              })
-                                   : std::string();
+  if (!fs::exists(file, ignored)) {
+    return "";
+  }
+  const std::optional<JsonValue> method = ReadJson(file).Find("method");
+  return method ? method->Text() : "";
 }
 
-/// Station of the second log less that of the first [m]; none where one of them has no stations.
+/// Difference of stations, second log less first [m]; none if one of them has no stations.
 std::optional<double> StationBetween(const TimedTable& first, const TimedTable& second,
                                      double time) {
   const std::optional<std::size_t> own = first.Find("s_m");
@@ -137,7 +138,7 @@ std::optional<double> StationBetween(const TimedTable& first, const TimedTable& 
   return second.Value(second.At(time), *other) - first.Value(first.At(time), *own);
 }
 
-/// The largest steering rate of the car at its road wheels [rad/s]; 0 where the model has none.
+/// Largest steering rate of the car at its road wheels [rad/s]; 0 if the model has none.
 double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   const auto number = [&](const char* name) {
     const int id = mj_name2id(&model, mjOBJ_NUMERIC, name);
@@ -147,23 +148,21 @@ double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   return vehicle.steering_rate.value_or(ratio > 0.0 ? number("steering_wheel_rate") / ratio : 0.0);
 }
 
-/// When the car first touches an obstacle, and when it rolls over: as metrics.json has it. Without
-/// that file the log says the former.
+/// Reads the times of first contact and roll-over from metrics.json. Without that file, the log
+/// gives the time of contact only.
 void ReadMishaps(const fs::path& folder, Recording& recording) {
   const PlantRecording& car = recording.plants.front();
   const fs::path metrics = folder / run_folder::kMetricsJson;
   if (std::error_code ignored; fs::exists(metrics, ignored)) {
-    const auto visit = [&](const nlohmann::ordered_json& told) {
-      const nlohmann::ordered_json own =
-          told.at("plants").value(car.plant(), nlohmann::ordered_json::object());
-      if (own.value("collision", false)) {
-        recording.contact_time = own.at("clearance_min_t").get<double>();
-      }
-      if (own.value("status", "") == ToString(DriveStatus::kRolledOver)) {
-        recording.roll_over_time = own.at("status_t").get<double>();
-      }
-    };
-    VisitJson(metrics, visit, {.key = "plants"});
+    const std::optional<JsonValue> own = ReadJson(metrics).At("plants").Find(car.plant());
+    const std::optional<JsonValue> collision = own ? own->Find("collision") : std::nullopt;
+    if (collision && collision->Flag()) {
+      recording.contact_time = own->At("clearance_min_t").Number();
+    }
+    const std::optional<JsonValue> status = own ? own->Find("status") : std::nullopt;
+    if (status && status->Text() == ToString(DriveStatus::kRolledOver)) {
+      recording.roll_over_time = own->At("status_t").Number();
+    }
     return;
   }
   if (const std::optional<std::size_t> clearance = car.log().Find("clearance_m")) {
@@ -175,7 +174,7 @@ void ReadMishaps(const fs::path& folder, Recording& recording) {
   }
 }
 
-/// What the run changed of its car.
+/// Text on parameters of the car that the run changed.
 std::string VehicleNote(const VehicleSpec& vehicle) {
   return vehicle.steering_rate
              ? fmt::format("steering rate set to {:.2f} rad/s", *vehicle.steering_rate)
@@ -240,7 +239,7 @@ void PlantRecording::Pose(double time, const mjModel& model, mjData& data) const
   for (std::size_t i = 0; i < 3; ++i) {
     pose[i] = state_.Value(place, pose_columns_[i]);
   }
-  // q and -q are the same rotation: take the shorter way between the rows.
+  // q and -q are the same rotation: interpolates along the shorter arc.
   double dot = 0.0;
   for (std::size_t i = 3; i < 7; ++i) {
     dot += state_.table().at(place.row, pose_columns_[i]) *
@@ -356,7 +355,7 @@ std::vector<int> ObstacleGeoms(const Recording& recording) {
   return geoms;
 }
 
-Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& asked) {
+Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& selected) {
   std::error_code ignored;
   if (!fs::exists(folder, ignored)) {
     RejectRecording(folder, "", "no such folder");
@@ -368,7 +367,7 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   Recording recording;
   recording.name = fs::weakly_canonical(folder).filename().string();
   recording.model = LoadModel(folder / run_folder::kModelXml);
-  const std::vector<std::string> plants = Chosen(folder, all, asked);
+  const std::vector<std::string> plants = SelectPlants(folder, all, selected);
   for (const std::string& plant : plants) {
     const auto index = std::find(all.begin(), all.end(), plant) - all.begin();
     recording.plants.emplace_back(folder, plant, *recording.model, static_cast<std::size_t>(index));
@@ -409,7 +408,7 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
   }
   recording.new_plans = ReadNewPlans(new_plans);
   recording.curvatures = ReadCurvatures(plan, recording.begin());
-  // The log counts stations on from one plan to the next, and each plan its own from 0.
+  // Stations of the log continue over all plans, those of a plan begin at 0.
   const TimedTable& log = recording.plants.front().log();
   const std::optional<std::size_t> station = log.Find("s_m");
   for (CurvatureProfile& profile : ReadCurvatures(new_plans, recording.begin())) {

@@ -21,7 +21,7 @@
 namespace trackbed::render {
 
 /// Position of another plant's car at the same time, relative to the car.
-struct Apart {
+struct RelativePosition {
   std::string plant;
   double ahead = 0;  ///< along the car's heading [m]
   double left = 0;   ///< to the left [m]
@@ -53,7 +53,7 @@ struct Readings {
   std::optional<double> cross_track;           ///< only when the run had a planned path
   std::optional<double> lateral_acceleration;  ///< if the log has it [m/s^2]
   std::optional<double> tyre_use;              ///< largest fraction of its grip that a tyre uses
-  std::optional<Apart> apart;                  ///< of the first ghost
+  std::optional<RelativePosition> apart;       ///< of the first ghost
   std::optional<Vec2> wind;                    ///< at the car; only if the run has wind [m/s]
 };
 

@@ -16,8 +16,8 @@ constexpr Color kContour{0.52F, 0.40F, 0.26F};
 constexpr double kWidth = 0.09;     // [m]
 constexpr double kHeight = 0.0015;  // above the ground, below all other paint [m]
 constexpr double kMargin = 30.0;    // around the plan and all drives [m]
-constexpr double kMostCells = 4e4;
-constexpr double kLeastSpan = 0.02;  // ground with a smaller height difference counts as level [m]
+constexpr double kMaxReliefCells = 4e4;
+constexpr double kMinSpan = 0.02;  // ground with a smaller height difference counts as level [m]
 
 class Relief : public Overlay {
  public:
@@ -62,12 +62,12 @@ class Relief : public Overlay {
     const Vec2 low(route.lowest().x - kMargin, route.lowest().y - kMargin);
     const Vec2 high(route.highest().x + kMargin, route.highest().y + kMargin);
     const Vec2 sides = high - low;
-    const double step = std::max(1.0, std::sqrt(sides.x() * sides.y() / kMostCells));
+    const double step = std::max(1.0, std::sqrt(sides.x() * sides.y() / kMaxReliefCells));
     const IsolineGrid grid(low, high, step, [this](const Vec2& point) {
       return GroundHeight(recording_.world, point);
     });
     const double span = grid.highest() - grid.lowest();
-    if (span < kLeastSpan) {
+    if (span < kMinSpan) {
       return;
     }
     interval_ = ContourInterval(span);
@@ -113,12 +113,13 @@ class Relief : public Overlay {
 }  // namespace
 
 double ContourInterval(double span) {
-  constexpr double kMostLines = 40.0;
-  return RoundedUp(span / kMostLines);
+  constexpr double kMaxLines = 40.0;
+  return RoundedUp(span / kMaxLines);
 }
 
 OverlayEntry ReliefOverlay() {
-  return EntryOf<Relief>("relief", "contour lines of ground that is not level, and of bumps");
+  return MakeOverlayEntry<Relief>("relief",
+                                  "contour lines of ground that is not level, and of bumps");
 }
 
 }  // namespace trackbed::render

@@ -4,8 +4,8 @@
 
 namespace trackbed::render {
 
-/// Contour lines of ground that is not level, and of each bump and side slope, which makes hills
-/// and bumps visible.
+/// Contour lines of ground that is not level, and of each bump and side slope. They make hills and
+/// bumps visible.
 OverlayEntry ReliefOverlay();
 
 /// Height between contour lines for ground with a height difference of `span` [m]: 1, 2 or 5 times

@@ -12,14 +12,14 @@ namespace {
 
 /// Distance in which height differences are weighted five times.
 double DistanceToSegment(const Point& p, const Point& a, const Point& b) {
-  constexpr double kUp = 5.0;
+  constexpr double kHeightWeight = 5.0;
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   const double squared = dx * dx + dy * dy;
   const double along =
       squared > 0.0 ? std::clamp(((p.x - a.x) * dx + (p.y - a.y) * dy) / squared, 0.0, 1.0) : 0.0;
   return std::hypot(p.x - a.x - along * dx, p.y - a.y - along * dy,
-                    kUp * (p.z - a.z - along * (b.z - a.z)));
+                    kHeightWeight * (p.z - a.z - along * (b.z - a.z)));
 }
 
 bool Replaces(const std::vector<Point>& points, std::size_t first, std::size_t last,
@@ -34,11 +34,11 @@ bool Replaces(const std::vector<Point>& points, std::size_t first, std::size_t l
 
 /// Greedy thinning: extends each piece as far as the tolerance allows, by doubling, then bisection.
 std::vector<std::size_t> ThinOnce(const std::vector<Point>& points, double tolerance) {
-  constexpr std::size_t kLongest = 512;
+  constexpr std::size_t kMaxSkipped = 512;
   std::vector<std::size_t> kept{0};
   while (kept.back() + 1 < points.size()) {
     const std::size_t first = kept.back();
-    const std::size_t limit = std::min(first + kLongest, points.size() - 1);
+    const std::size_t limit = std::min(first + kMaxSkipped, points.size() - 1);
     std::size_t good = first + 1;
     std::size_t step = 1;
     while (good < limit && Replaces(points, first, std::min(good + step, limit), tolerance)) {
@@ -58,13 +58,13 @@ std::vector<std::size_t> ThinOnce(const std::vector<Point>& points, double toler
 }  // namespace
 
 std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance,
-                              std::size_t most) {
+                              std::size_t max_pieces) {
   if (points.empty()) {
     return {};
   }
   std::vector<std::size_t> kept = ThinOnce(points, tolerance);
   // 30 doublings exceed the size of any road.
-  for (int doublings = 0; kept.size() > most + 1 && doublings < 30; ++doublings) {
+  for (int doublings = 0; kept.size() > max_pieces + 1 && doublings < 30; ++doublings) {
     tolerance *= 2.0;
     kept = ThinOnce(points, tolerance);
   }

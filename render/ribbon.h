@@ -23,9 +23,10 @@ struct RibbonStyle {
 ///
 /// Guarantee: every omitted point is within the tolerance of the piece that replaces it, and within
 /// a fifth of it vertically, so that paint does not sink into the ground. The tolerance is
-/// `tolerance` [m], doubled until at most `most` pieces are left. Cost O(n) for roads; a piece
-/// never spans more than 512 points.
-std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance, std::size_t most);
+/// `tolerance` [m], doubled until at most `max_pieces` pieces are left. Cost O(n) for roads; a
+/// piece never spans more than 512 points.
+std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance,
+                              std::size_t max_pieces);
 
 /// Appends one straight piece to the scene, slightly longer than from `a` to `b` to close the
 /// corners between pieces. `normal` is the ground's normal between them. Does nothing if the points

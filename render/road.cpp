@@ -86,16 +86,16 @@ Roadway AlongTrack(const Track& track) {
 }
 
 bool NearTheCamera(const CameraPose& camera, const Point& place) {
-  constexpr double kNear = 0.6;  // of the camera's distance from its target
+  constexpr double kNearFraction = 0.6;  // of the camera's distance from its target
   const double level = camera.distance * std::cos(camera.elevation);
   const double x = place.x - camera.target_x + level * std::cos(camera.azimuth);
   const double y = place.y - camera.target_y + level * std::sin(camera.azimuth);
-  return !camera.inside && std::hypot(x, y) < kNear * level;
+  return !camera.inside && std::hypot(x, y) < kNearFraction * level;
 }
 
 /// Colors the ground beside the road like grass, and lowers it so that the depth buffer separates
 /// the two.
-void DressGround(const mjModel& model, mjvScene& scene) {
+void PaintGround(const mjModel& model, mjvScene& scene) {
   const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
   for (int i = 0; i < scene.ngeom; ++i) {
     mjvGeom& geom = scene.geoms[i];
@@ -156,7 +156,7 @@ class RoadRibbons : public Overlay {
     if (asphalt_.empty()) {
       return;
     }
-    DressGround(*recording_.model, context.scene);
+    PaintGround(*recording_.model, context.scene);
     const Eigen::Vector2d around(context.camera.target_x, context.camera.target_y);
     for (const Tile& tile : asphalt_) {
       if ((tile.center.head<2>() - around).norm() < kAsphaltRange + tile.half_length) {
@@ -261,12 +261,12 @@ class RoadRibbons : public Overlay {
   void AddAsphalt(const Roadway& way) {
     constexpr double kCoarse = 0.1;       // [m]
     constexpr double kTolerance = 0.002;  // [m]
-    constexpr std::size_t kMostPieces = 2000;
+    constexpr std::size_t kMaxRoadPieces = 2000;
     std::vector<Point> middle;
     for (const Spot& spot : way.spots) {
       middle.push_back({spot.point.x, spot.point.y, 0.0});
     }
-    const std::vector<std::size_t> kept = Thin(middle, kCoarse, kMostPieces);
+    const std::vector<std::size_t> kept = Thin(middle, kCoarse, kMaxRoadPieces);
     Tile like;
     like.color = kRoadColor;
     for (std::size_t i = 1; i < kept.size(); ++i) {
@@ -327,7 +327,7 @@ class RoadRibbons : public Overlay {
 }  // namespace
 
 OverlayEntry RoadOverlay() {
-  return EntryOf<RoadRibbons>(
+  return MakeOverlayEntry<RoadRibbons>(
       "road",
       "the road network, or a road along the plan with lanes, verges and posts; on a track, "
       "between its edges");

@@ -10,10 +10,10 @@
 namespace trackbed::render {
 
 Scales ComputeScales(const Recording& recording) {
-  constexpr double kLeastError = 0.05;
+  constexpr double kMinError = 0.05;
   const PlantRecording& car = recording.plants.front();
   Scales scales{.end = recording.end(), .steering = kPi / 180.0};
-  double error = kLeastError;
+  double error = kMinError;
   for (const double time : car.log().times()) {
     const Readings readings = car.ReadingsAt(time);
     error = std::max(error, std::abs(readings.cross_track.value_or(0.0)));

@@ -104,11 +104,11 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
       scene.geoms[i].category = mjCAT_DECOR;  // the ground casts no shadow, not even on itself
     }
   }
-  FadeWhatHidesTheCar(time, camera);
+  FadeOccluders(time, camera);
   if (camera.inside) {
-    LeaveOutTheCar();
+    HideCar();
   } else {
-    DressTheCar();
+    PaintCar();
   }
   scene.flags[mjRND_SKYBOX] = SeesSky(model, recording_.world, camera) ? 1 : 0;
   AimLamps(scene, camera);
@@ -140,7 +140,7 @@ void FilmScene::Aim(const CameraPose& camera) {
   model.vis.map.zfar = static_cast<float>((1000.0 + 2.0 * camera.distance) / model.stat.extent);
 }
 
-void FilmScene::FadeWhatHidesTheCar(double time, const CameraPose& camera) {
+void FilmScene::FadeOccluders(double time, const CameraPose& camera) {
   const PlantRecording& car = recording_.plants.front();
   const Point place = recording_.OnGround(car.Position(time));
   const Pose2 pose{place.x, place.y, car.Heading(time)};
@@ -164,13 +164,13 @@ void FilmScene::FadeWhatHidesTheCar(double time, const CameraPose& camera) {
   }
 }
 
-void FilmScene::LeaveOutTheCar() {
+void FilmScene::HideCar() {
   RemoveGeoms(scene_.get(), [this](const mjvGeom& geom) {
     return geom.objtype == mjOBJ_GEOM && car_parts_[static_cast<std::size_t>(geom.objid)].of_car;
   });
 }
 
-void FilmScene::DressTheCar() {
+void FilmScene::PaintCar() {
   mjvScene& scene = scene_.get();
   const Color color = recording_.plants.front().color();
   for (int i = 0; i < scene.ngeom; ++i) {

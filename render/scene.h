@@ -39,9 +39,9 @@ class FilmScene {
   void Aim(const CameraPose& camera);
   void AddPatches(const CameraPose& camera);
   void AddContactShadow();
-  void FadeWhatHidesTheCar(double time, const CameraPose& camera);
-  void LeaveOutTheCar();
-  void DressTheCar();
+  void FadeOccluders(double time, const CameraPose& camera);
+  void HideCar();
+  void PaintCar();
 
   Recording& recording_;
   const OverlayList& overlays_;

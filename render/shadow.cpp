@@ -18,10 +18,10 @@ constexpr int kShadowMapSide =
 double ShadowReach(const CameraPose& camera) {
   const double half_height = camera.distance * std::tan(0.5 * camera.view_angle);
   // 2 * 3.5 half heights in 4096 texels: 1.6 texels per pixel of a picture with 720 rows.
-  constexpr double kLongest = 3.5;
+  constexpr double kMaxHalfHeights = 3.5;
   // Half the diagonal of a picture of up to 21:9, for a camera that looks down.
   const double seen = 2.5 / std::max(0.1, std::sin(-camera.elevation));
-  return half_height * std::min(kLongest, seen);
+  return half_height * std::min(kMaxHalfHeights, seen);
 }
 
 void FitShadowMap(mjModel& model, const CameraPose& camera) {

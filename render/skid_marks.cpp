@@ -10,9 +10,9 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kSkidWidth = 0.17;     // about the width of a tyre [m]
-constexpr double kSkidHeight = 0.003;   // below plans and trails [m]
-constexpr double kShortestSkid = 0.15;  // minimum length of a piece [m]
+constexpr double kSkidWidth = 0.17;      // about the width of a tyre [m]
+constexpr double kSkidHeight = 0.003;    // below plans and trails [m]
+constexpr double kMinSkidLength = 0.15;  // minimum length of a piece [m]
 constexpr Color kRubber{0.10F, 0.10F, 0.11F};
 
 class SkidMarks : public Overlay {
@@ -37,7 +37,7 @@ class SkidMarks : public Overlay {
         if (begin == begins.end()) {
           still.emplace(wheel.body, here);
         } else if (std::hypot(here.x - begin->second.x, here.y - begin->second.y) <
-                   scale_ * kShortestSkid) {
+                   scale_ * kMinSkidLength) {
           still.insert(*begin);
         } else {
           pieces_.push_back({time, begin->second, here});
@@ -81,7 +81,7 @@ class SkidMarks : public Overlay {
 }  // namespace
 
 OverlayEntry SkidMarkOverlay() {
-  return EntryOf<SkidMarks>("skid", "marks of tyres that use more than 0.9 of their grip");
+  return MakeOverlayEntry<SkidMarks>("skid", "marks of tyres that use more than 0.9 of their grip");
 }
 
 }  // namespace trackbed::render

@@ -173,8 +173,8 @@ void Strip::Draw(Image& image, Font& font, double time) const {
 }
 
 OverlayEntry StripOverlay() {
-  OverlayEntry entry =
-      EntryOf<StripPanel>("strip", "planned curvature and steering over time; only where named");
+  OverlayEntry entry = MakeOverlayEntry<StripPanel>(
+      "strip", "planned curvature and steering over time; only where named");
   entry.by_default = false;
   return entry;
 }

@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kLongestRun = 1e6;  // s, the longest time limit of a drive
+constexpr double kMaxRunDuration = 1e6;  // s, the longest time limit of a drive
 
 [[noreturn]] void RejectTable(const fs::path& file, std::string key, std::string message) {
   throw InputError(
@@ -36,10 +36,10 @@ TimedTable::TimedTable(const fs::path& file) : file_(file), table_(ReadRunTable(
     RejectTable(file_, "", "no rows");
   }
   for (std::size_t row = 0; row < times_.size(); ++row) {
-    if (!(std::abs(times_[row]) <= kLongestRun)) {
+    if (!(std::abs(times_[row]) <= kMaxRunDuration)) {
       RejectTable(file_, "t_s",
                   fmt::format("row {}: {} is out of range; must be at least {} and at most {}",
-                              row + 1, times_[row], -kLongestRun, kLongestRun));
+                              row + 1, times_[row], -kMaxRunDuration, kMaxRunDuration));
     }
     if (row > 0 && !(times_[row] > times_[row - 1])) {
       RejectTable(

@@ -39,12 +39,12 @@ class Trails : public Overlay {
   }
 
  private:
-  struct OfCar {
+  struct CarTrail {
     std::size_t car;
     Trail trail;
   };
   const Recording& recording_;
-  std::vector<OfCar> trails_;
+  std::vector<CarTrail> trails_;
 };
 
 }  // namespace
@@ -96,7 +96,7 @@ void Trail::AddShapes(SceneContext& context, RibbonStyle style) const {
 }
 
 OverlayEntry TrailOverlay() {
-  return EntryOf<Trails>("trail", "the track of each car's rear-axle center");
+  return MakeOverlayEntry<Trails>("trail", "the track of each car's rear-axle center");
 }
 
 }  // namespace trackbed::render

@@ -188,8 +188,8 @@ void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, cons
 }
 
 OverlayEntry ForceOverlay() {
-  return EntryOf<Forces>("forces",
-                         "dials: how much of its grip each tyre uses, and in which direction");
+  return MakeOverlayEntry<Forces>(
+      "forces", "dials: how much of its grip each tyre uses, and in which direction");
 }
 
 }  // namespace trackbed::render

@@ -16,17 +16,17 @@ constexpr double kSpacing = 5.0;  // [m]
 constexpr int kHalfCount = 4;     // positions from the middle to each side: 81 in all
 constexpr double kHeight = 0.004;
 constexpr double kWidth = 0.12;
-constexpr double kLeast = 0.5;  // [m/s]; a weaker wind counts as calm
+constexpr double kMinWindSpeed = 0.5;  // [m/s]; a weaker wind counts as calm
 constexpr double kPerSpeed = 1.0 / 3.0;
-constexpr double kShortest = 0.6;  // [m]; arrow head only
-constexpr double kLongest = 4.0;   // [m]; below the spacing of 5
+constexpr double kMinArrowLength = 0.6;  // [m]; arrow head only
+constexpr double kMaxArrowLength = 4.0;  // [m]; below the spacing of 5
 
 void AddArrow(mjvScene& scene, const Recording& recording, const Vec2& middle, const Vec2& wind,
               double scale) {
   const double speed = wind.norm();
   const Vec2 along = wind / speed;
   const Vec2 across(-along.y(), along.x());
-  const double half = 0.5 * scale * std::clamp(kPerSpeed * speed, kShortest, kLongest);
+  const double half = 0.5 * scale * std::clamp(kPerSpeed * speed, kMinArrowLength, kMaxArrowLength);
   const double head = 0.42 * scale;
   const RibbonStyle style{kWindColor, kWidth * scale, kHeight};
   const Eigen::Vector3d normal = GroundNormal(recording.world, middle);
@@ -84,7 +84,7 @@ class WindArrows : public Overlay {
       for (int column = -kHalfCount; column <= kHalfCount; ++column) {
         const Vec2 place(spacing * (first_x + column), spacing * (first_y + row));
         const Vec2 wind = WindAt(recording_.world, place, context.time);
-        if (wind.norm() >= kLeast) {
+        if (wind.norm() >= kMinWindSpeed) {
           AddArrow(context.scene, recording_, place, wind, camera.paint_scale);
         }
       }
@@ -108,7 +108,8 @@ class WindArrows : public Overlay {
 }  // namespace
 
 OverlayEntry WindOverlay() {
-  return EntryOf<WindArrows>("wind", "wind arrows on the ground, and outlines of gust areas");
+  return MakeOverlayEntry<WindArrows>("wind",
+                                      "wind arrows on the ground, and outlines of gust areas");
 }
 
 }  // namespace trackbed::render

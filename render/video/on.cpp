@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <fstream>
 #include <utility>
 
 #include "render/video.h"
 #include "render/video/libav.h"
 #include "render/video/writer.h"
+#include "trackbed/analysis/written_names.h"
+#include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/render/film.h"
 
@@ -19,17 +22,30 @@ class VideoOutput : public FilmOutput {
  public:
   VideoOutput(fs::path output, FilmCodec codec, const FilmPictures& pictures)
       : output_(std::move(output)),
+        has_boxes_(codec == FilmCodec::kH264),
         temporary_(output_),
         writer_(temporary_.path(), output_, codec, pictures) {}
 
   void Add(const Image& image) override { writer_.Add(image); }
   void Finish() override {
     writer_.Finish();
+    if (has_boxes_) {
+      AppendMark();
+    }
     temporary_.Publish();
   }
 
  private:
+  void AppendMark() const {
+    std::ofstream out(temporary_.path(), std::ios::binary | std::ios::app);
+    out << VideoMark() << std::flush;
+    if (!out) {
+      throw RunError(fmt::format("cannot write {}: no room for its last bytes", output_.string()));
+    }
+  }
+
   fs::path output_;
+  bool has_boxes_;           // MP4, whose last box is Trackbed's mark
   TemporaryFile temporary_;  // before the writer, in order to outlive it
   VideoWriter writer_;
 };

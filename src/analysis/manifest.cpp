@@ -1,11 +1,14 @@
 #include "src/analysis/manifest.h"
 
 #include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
@@ -13,6 +16,13 @@ namespace trackbed {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+
+namespace {
+
+constexpr const char* kNoManifest =
+    "not the manifest of a folder of Trackbed's; choose another folder, or move the file away";
+
+}  // namespace
 
 void EntryMaker::Add(std::string_view content) {
   sum_.Add(content);
@@ -23,21 +33,47 @@ ManifestEntry EntryMaker::Finish() {
   return {size_, sum_.Finish()};
 }
 
-ManifestEntry EntryOf(std::string_view content) {
+ManifestEntry MakeManifestEntry(std::string_view content) {
   return {content.size(), Sha256(content)};
+}
+
+bool Manifest::Lists(const std::string& name) const {
+  return others.contains(name) ||
+         std::any_of(results.begin(), results.end(), [&](const auto& result) {
+           // A result's file list omits its timing.json, because that differs between equal runs.
+           return result.second.contains(name) ||
+                  (name == run_folder::kTimingJson && IsNameOf(result.first, name));
+         });
 }
 
 void Manifest::Take(const std::string& result, ResultFiles files,
                     const std::vector<std::string>& removed) {
   std::erase_if(results, [&](const auto& other) {
-    return std::any_of(other.second.begin(), other.second.end(), [&](const auto& file) {
-      const auto taken = files.find(file.first);
-      return taken != files.end()
-                 ? taken->second != file.second
-                 : std::find(removed.begin(), removed.end(), file.first) != removed.end();
-    });
+    const bool dropped =
+        std::any_of(other.second.begin(), other.second.end(), [&](const auto& file) {
+          const auto taken = files.find(file.first);
+          return taken != files.end()
+                     ? taken->second != file.second
+                     : std::find(removed.begin(), removed.end(), file.first) != removed.end();
+        });
+    if (dropped) {
+      for (const auto& file : other.second) {
+        others.insert(file.first);
+      }
+      if (IsNameOf(other.first, run_folder::kTimingJson)) {
+        others.insert(run_folder::kTimingJson);
+      }
+    }
+    return dropped;
   });
   results[result] = std::move(files);
+  std::erase_if(others, [&](const std::string& name) {
+    return std::find(removed.begin(), removed.end(), name) != removed.end() ||
+           std::any_of(results.begin(), results.end(), [&](const auto& own) {
+             return own.second.contains(name) ||
+                    (name == run_folder::kTimingJson && IsNameOf(own.first, name));
+           });
+  });
 }
 
 std::string Manifest::ToJson() const {
@@ -47,7 +83,10 @@ std::string Manifest::ToJson() const {
       json["results"][result][name] = {{"bytes", entry.size}, {"sha256", entry.sha256}};
     }
   }
-  return json.dump(2) + "\n";
+  if (!others.empty()) {
+    json["others"] = others;
+  }
+  return JsonText(json);
 }
 
 std::optional<Manifest> ReadManifest(const fs::path& folder) {
@@ -62,30 +101,45 @@ std::optional<Manifest> ReadManifest(const fs::path& folder) {
   }
   try {
     Manifest manifest;
+    // Manifests of other programs have this name, too: a web page's, a browser extension's.
     const ordered_json json = ParseJson(file);
-    for (const auto& [result, files] : json.at("results").items()) {
-      for (const auto& [name, entry] : files.items()) {
-        manifest.results[result][name] = {entry.at("bytes").get<std::size_t>(),
-                                          entry.at("sha256").get<std::string>()};
+    if (!json.at("results").is_object() || json.size() > (json.contains("others") ? 2U : 1U)) {
+      throw InputError(Problem{.file = file.string(), .message = kNoManifest});
+    }
+    const JsonValue root(json, file.string());
+    constexpr auto kAnySize = std::numeric_limits<std::uint64_t>::max();
+    for (const auto& [result, files] : root.At("results").Members()) {
+      manifest.results[result] = {};
+      for (const auto& [name, entry] : files.Members()) {
+        manifest.results[result][name] = {entry.At("bytes").Count(kAnySize),
+                                          entry.At("sha256").Text()};
+      }
+    }
+    if (const std::optional<JsonValue> others = root.Find("others")) {
+      for (std::string& name : others->Texts()) {
+        manifest.others.insert(std::move(name));
       }
     }
     return manifest;
   } catch (const nlohmann::json::exception&) {
-    throw InputError(Problem{.file = file.string(), .message = "not the manifest of a folder"});
+    throw InputError(Problem{.file = file.string(), .message = kNoManifest});
   }
 }
 
 namespace {
 
-/// The results that have files of this name.
+/// The results that may have a file of this name. A plan makes a run's other files outdated.
 std::vector<std::string> ResultsWith(const std::string& name) {
-  if (name == run_folder::kCompareCsv || name == run_folder::kCompareJson) {
-    return {run_folder::kComparison};
+  std::vector<std::string> results;
+  for (const ResultNames& own : AllResultNames()) {
+    if (IsNameOf(own.result, name)) {
+      results.push_back(own.result);
+      if (own.result == run_folder::kRun && !IsNameOf(run_folder::kPlan, name)) {
+        results.emplace_back(run_folder::kPlan);
+      }
+    }
   }
-  if (name == run_folder::kSweepCsv || name == run_folder::kSweepJson) {
-    return {run_folder::kStudy};
-  }
-  return {run_folder::kRun, run_folder::kPlan};
+  return results;
 }
 
 bool IsInNone(const std::string& name) {
@@ -109,24 +163,24 @@ void RequireInManifest(const fs::path& file) {
   if (!manifest) {
     return;
   }
-  bool told_of = false;
+  bool is_listed = manifest->others.contains(name);
   std::optional<ManifestEntry> own;
   for (const std::string& result : ResultsWith(name)) {
     const auto files = manifest->results.find(result);
     if (files == manifest->results.end()) {
       continue;
     }
-    told_of = true;
+    is_listed = true;
     if (const auto entry = files->second.find(name); entry != files->second.end()) {
       if (fs::file_size(file, ignored) == entry->second.size) {
-        own = own ? own : EntryOf(ReadFile(file));
+        own = own ? own : MakeManifestEntry(ReadFile(file));
         if (entry->second == *own) {
           return;
         }
       }
     }
   }
-  if (told_of) {
+  if (is_listed) {
     throw InputError(Problem{
         .file = file.string(),
         .message = "does not belong to this run: written by another (interrupted) run, or changed "

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,14 +11,14 @@
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/core/hash.h"
 
-/// manifest.json: which files belong to the results in a folder.
+/// manifest.json: maps files of a folder to the results that they belong to.
 namespace trackbed {
 
-/// Size and SHA-256 of what is added.
+/// Accumulates size and SHA-256 of a content.
 class EntryMaker {
  public:
   void Add(std::string_view content);
-  /// Call last.
+  /// Returns the entry. Must be the last call.
   [[nodiscard]] ManifestEntry Finish();
 
  private:
@@ -25,26 +26,31 @@ class EntryMaker {
   std::size_t size_ = 0;
 };
 
-ManifestEntry EntryOf(std::string_view content);
+ManifestEntry MakeManifestEntry(std::string_view content);
 
-/// By the name of the file.
+/// Entries of a result's files, by file name.
 using ResultFiles = std::map<std::string, ManifestEntry>;
 
-/// By the name of the result.
+/// Entries of a folder, by name of the result.
 struct Manifest {
   std::map<std::string, ResultFiles> results;
+  std::set<std::string> others;  ///< files of results that are no longer whole
 
-  /// Puts in a result, without those that it leaves no longer whole: a file of theirs is replaced
-  /// by another, or `removed`.
+  /// Whether Trackbed has written a file of this name.
+  [[nodiscard]] bool Lists(const std::string& name) const;
+
+  /// Adds a result. Drops other results that this makes incomplete: one of their files is replaced
+  /// by a different one, or is among the `removed`.
   void Take(const std::string& result, ResultFiles files, const std::vector<std::string>& removed);
   [[nodiscard]] std::string ToJson() const;
 };
 
-/// Of the folder; none if it has none. InputError naming the file when it cannot be understood.
+/// Reads the manifest of a folder; none if the folder has none. Throws InputError naming the file
+/// if it is invalid.
 std::optional<Manifest> ReadManifest(const std::filesystem::path& folder);
 
-/// InputError naming `file` unless it is as the manifest of its folder says: one that the manifest
-/// names, or of a kind of result that the manifest has nothing of. Reads the file.
+/// Throws InputError naming `file` if it differs from its entry in the folder's manifest, or is
+/// missing there although the manifest has a result of its kind. Reads the file.
 void RequireInManifest(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
@@ -11,28 +10,42 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "src/analysis/manifest.h"
+#include "src/analysis/own_files.h"
+#include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/file_name.h"
 
+// Output folders with crash-safe results. A folder is locked (flock) while it is written.
+// ResultWriter writes all files of a result into a hidden folder; renaming that folder commits the
+// result, and its files are then moved into place, the manifest last. Both steps can be repeated,
+// so the next process that locks the folder completes an interrupted commit and removes incomplete
+// results. Folders may come from anybody: links are never followed, and only files that Trackbed
+// has written are overwritten or removed (own_files.h).
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Lists the files to remove, as JSON.
+// Lists in the hidden folders: files to remove, as JSON; files that were begun, a line each.
 constexpr const char* kObsolete = ".obsolete";
+constexpr const char* kWritten = ".written";
 
 [[noreturn]] void FailToWrite(const fs::path& file, const std::error_code& error) {
   throw RunError(fmt::format("cannot write {}: {}", file.string(), error.message()));
 }
 
-/// " (process 123)", from the kernel's list of locks; empty where that does not tell.
+/// Process that holds the lock, " (process 123)", from the kernel's list of locks; empty if
+/// unknown.
 std::string Holder(int descriptor) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) {
@@ -42,7 +55,7 @@ std::string Holder(int descriptor) {
       fmt::format("{:02x}:{:02x}:{}", major(status.st_dev), minor(status.st_dev), status.st_ino);
   std::ifstream locks("/proc/locks");
   for (std::string line; std::getline(locks, line);) {
-    // "1: FLOCK  ADVISORY  WRITE 123 fe:00:4711 0 EOF"
+    // Format: "1: FLOCK  ADVISORY  WRITE 123 fe:00:4711 0 EOF"
     std::istringstream words(line);
     std::string number;
     std::string kind;
@@ -58,121 +71,132 @@ std::string Holder(int descriptor) {
   return "";
 }
 
-/// 0, or EWOULDBLOCK when another process has the lock. Where there are no locks, all have it.
+/// Returns EWOULDBLOCK if another process holds the lock, else 0, also on file systems without
+/// locks.
 int TryLock(int descriptor, int how) {
   return ::flock(descriptor, how | LOCK_NB) != 0 && errno == EWOULDBLOCK ? EWOULDBLOCK : 0;
 }
 
-/// Whether it is a folder itself, and not a link to one: a run folder may come from anybody, and
-/// what a link points to must stay there.
+/// Whether the path is a folder and not a link to one. A run folder may come from anybody, and the
+/// target of a link must not be changed.
 bool IsFolder(const fs::path& path) {
   std::error_code ignored;
   return fs::is_directory(fs::symlink_status(path, ignored));
 }
 
-/// The list of files to remove; none where there is no such list.
+/// The names of files to remove; empty if there is no such list.
 std::vector<std::string> ObsoleteNames(const fs::path& complete) {
   std::error_code ignored;
   const fs::path file = complete / kObsolete;
   if (!fs::is_regular_file(fs::symlink_status(file, ignored))) {
     return {};
   }
-  const auto list = nlohmann::json::parse(ReadFile(file), nullptr, false);
-  return list.is_array() && std::all_of(list.begin(), list.end(),
-                                        [](const auto& name) { return name.is_string(); })
-             ? list.get<std::vector<std::string>>()
-             : std::vector<std::string>();
+  try {
+    return JsonValue(ParseJson(file), file.string()).Texts();
+  } catch (const InputError&) {
+    return {};  // a damaged list removes nothing
+  }
 }
 
-/// Removes the names that the list in `complete` has, moves its files into the folder, and the
-/// manifest last. What was done before is not done again.
+/// Removes the obsolete files listed in `complete`, moves its files into the folder, and the
+/// manifest last. Continues an interrupted move. Files of others, here or there, stay.
 void MoveIntoPlace(const fs::path& folder) {
   const fs::path complete = folder / run_folder::kComplete;
+  const auto fail = [&](const fs::path& file, const std::string& why) {
+    throw RunError(
+        fmt::format("cannot write {}: {}; the result is complete in {}, from where the "
+                    "next trackbed that writes here will move it into place",
+                    file.string(), why, complete.string()));
+  };
   const auto check = [&](const fs::path& file, const std::error_code& error) {
     if (error) {
-      throw RunError(
-          fmt::format("cannot write {}: {}; the result is complete in {}, from where the next "
-                      "trackbed that writes here will move it into place",
-                      file.string(), error.message(), complete.string()));
+      fail(file, error.message());
     }
+  };
+  const std::optional<Manifest> before = ReadManifest(folder);
+  const auto is_own = [&](const std::string& name) {
+    return IsOwnOrAbsent(folder, name, before ? &*before : nullptr);
   };
   std::error_code error;
   for (const std::string& name : ObsoleteNames(complete)) {
-    // A name from an old manifest must not lead out of the folder.
-    if (!name.empty() && name.find('/') == std::string::npos &&
-        !fs::is_directory(fs::symlink_status(folder / name, error))) {
+    if (IsFileName(name) && is_own(name)) {
       fs::remove(folder / name, error);
       check(folder / name, error);
     }
   }
+  const std::optional<Manifest> now = ReadManifest(complete);
   std::vector<std::string> names;
   for (fs::directory_iterator at(complete, error), end; !error && at != end; at.increment(error)) {
-    // Only what a ResultWriter has put there.
-    if (fs::is_regular_file(at->symlink_status(error))) {
-      names.push_back(at->path().filename());
+    const std::string name = at->path().filename().string();
+    if (now && now->Lists(name) && IsFileName(name) && name != run_folder::kManifest &&
+        fs::is_regular_file(at->symlink_status(error))) {
+      names.push_back(name);
     }
   }
   check(complete, error);
   for (const std::string& name : names) {
-    if (name != kObsolete && name != run_folder::kManifest) {
-      fs::rename(complete / name, folder / name, error);
-      check(folder / name, error);
+    if (!is_own(name)) {
+      fail(folder / name, "Trackbed has not written the file of that name; move it away");
     }
+    fs::rename(complete / name, folder / name, error);
+    check(folder / name, error);
   }
-  if (fs::exists(complete / run_folder::kManifest, error)) {
+  if (now) {
     fs::rename(complete / run_folder::kManifest, folder / run_folder::kManifest, error);
     check(folder / run_folder::kManifest, error);
   }
-  fs::remove_all(complete, error);
-  check(complete, error);
+  RemoveHiddenFolder(complete, {kObsolete, kWritten});
+}
+
+/// Removes the result that a killed process had not completed.
+void RemovePartial(const fs::path& folder) {
+  const fs::path partial = folder / run_folder::kPartial;
+  std::vector<std::string> names{kObsolete, kWritten, run_folder::kManifest};
+  std::error_code ignored;
+  if (fs::is_regular_file(fs::symlink_status(partial / kWritten, ignored))) {
+    std::istringstream lines(ReadFile(partial / kWritten));
+    for (std::string name; std::getline(lines, name);) {
+      names.push_back(name);
+    }
+  }
+  std::erase_if(names, [](const std::string& name) {
+    return name != kObsolete && name != kWritten && !IsFileName(name);
+  });
+  RemoveHiddenFolder(partial, names);
 }
 
 bool NeedsRecovery(const fs::path& folder) {
   return IsFolder(folder / run_folder::kPartial) || IsFolder(folder / run_folder::kComplete);
 }
 
-/// What a process that was killed left there. Only with the lock.
+/// Completes or removes the results of a killed process. Requires the lock.
 void Recover(const fs::path& folder) {
-  std::error_code error;
-  fs::remove_all(folder / run_folder::kPartial, error);
+  if (IsFolder(folder / run_folder::kPartial)) {
+    RemovePartial(folder);
+  }
   if (IsFolder(folder / run_folder::kComplete)) {
     MoveIntoPlace(folder);
   }
 }
 
-/// Whether the folder has the manifest of a result. InputError as ReadManifest.
-bool HasManifest(const fs::path& folder) {
-  return ReadManifest(folder).has_value();
-}
-
-/// RunError when there are files of names that results have, but no manifest that tells of any:
-/// they are somebody's own.
-void RequireNoForeignFiles(const fs::path& folder) {
-  if (HasManifest(folder)) {
-    return;
-  }
-  std::vector<std::string> names = run_folder::AllNames();
-  for (const char* name : {run_folder::kSweepCsv, run_folder::kSweepJson}) {
-    names.emplace_back(name);
-  }
-  std::vector<std::string> found;
-  std::error_code ignored;
-  for (const std::string& name : names) {
-    if (fs::exists(fs::symlink_status(folder / name, ignored))) {
-      found.push_back(name);
-    }
-  }
-  if (!found.empty()) {
-    throw RunError(
-        fmt::format("{} has files that are of no result, as there is no {}: {}; choose "
-                    "another folder, or remove them",
-                    folder.string(), run_folder::kManifest, fmt::join(found, ", ")));
+/// Throws RunError if the name of a hidden folder is taken, such as by a link.
+void RequireHiddenFolders(const fs::path& folder) {
+  for (const char* name : {run_folder::kPartial, run_folder::kComplete}) {
+    static_cast<void>(FolderBelow(folder, name));
   }
 }
 
 }  // namespace
 
 OutputFolder::OutputFolder(fs::path path, For use) : path_(std::move(path)) {
+  Open(use);
+  if (use == For::kResult && lock_.get() >= 0) {
+    RequireHiddenFolders(path_);
+    RequireNoForeignFiles(path_, run_folder::AllNames());
+  }
+}
+
+void OutputFolder::Open(For use) {
   if (path_.empty()) {
     path_ = ".";
   }
@@ -181,12 +205,18 @@ OutputFolder::OutputFolder(fs::path path, For use) : path_(std::move(path)) {
   }
   lock_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock_.get() < 0) {
-    return;  // absent or unreadable: reading or writing will tell
+    return;  // absent or unreadable: reported on reading or writing
   }
   Lock(use);
   RemoveAbandonedTemporaries(path_);
-  if (use == For::kResult) {
-    RequireNoForeignFiles(path_);
+}
+
+OutputFolder::OutputFolder(fs::path path, const std::vector<std::string>& names)
+    : path_(std::move(path)) {
+  Open(For::kResult);
+  if (lock_.get() >= 0) {
+    RequireHiddenFolders(path_);
+    RequireNoForeignFiles(path_, names);
   }
 }
 
@@ -218,11 +248,11 @@ bool OutputFolder::IsStillThere() const {
           locked.st_dev == now.st_dev && locked.st_ino == now.st_ino);
 }
 
-std::optional<OutputFolder> UseFolderOf(const fs::path& file, const fs::path& result) {
+std::optional<OutputFolder> LockFolderOf(const fs::path& file, const fs::path& result) {
   const fs::path beside = (fs::path(".") / file).parent_path();
   std::error_code ignored;
   if (fs::equivalent(beside, fs::path(".") / result, ignored)) {
-    // A run folder may come from anybody; a link in it must not choose what is overwritten.
+    // A run folder may come from anybody; a link in it must not choose the file to overwrite.
     const fs::file_status status = fs::symlink_status(file, ignored);
     if (fs::exists(status) && !fs::is_regular_file(status)) {
       throw RunError(fmt::format("cannot write {}: it is {}; remove it, or give another place",
@@ -237,20 +267,32 @@ std::optional<OutputFolder> UseFolderOf(const fs::path& file, const fs::path& re
 
 ResultWriter::ResultWriter(const OutputFolder& folder) : folder_(folder.path()) {
   if (!folder.IsStillThere()) {
-    anew_.emplace(folder_);
+    new_folder_.emplace(folder_, std::vector<std::string>());
   }
+  if (std::optional<Manifest> before = ReadManifest(folder_)) {
+    before_ = std::make_shared<const Manifest>(std::move(*before));
+  }
+  RemovePartial(folder_);
   const fs::path partial = folder_ / run_folder::kPartial;
   std::error_code error;
-  fs::remove_all(partial, error);
   fs::create_directory(partial, error);
   if (error) {
     FailToWrite(folder_, error);
   }
+  try {
+    written_.emplace(partial / kWritten, folder_ / kWritten);
+  } catch (const RunError&) {
+    fs::remove(partial, error);
+    throw;
+  }
 }
 
 ResultWriter::~ResultWriter() {
-  std::error_code ignored;
-  fs::remove_all(folder_ / run_folder::kPartial, ignored);
+  try {
+    RemovePartial(folder_);
+  } catch (const std::exception&) {
+    // The next writer reports it.
+  }
 }
 
 void ResultWriter::Add(const std::string& name, std::string_view content) {
@@ -259,15 +301,19 @@ void ResultWriter::Add(const std::string& name, std::string_view content) {
 }
 
 void ResultWriter::Add(const std::string& name, const std::function<std::string()>& next) {
+  if (!IsFileName(name)) {
+    throw RunError(
+        fmt::format("cannot write '{}' to {}: not a plain file name, which has letters, digits, "
+                    "'.', '_' and '-', and no leading dot",
+                    WithoutControls(name), folder_.string()));
+  }
   const fs::path file = folder_ / name;
-  std::error_code error;
-  // Links are replaced, but not what else is in the way: Commit would find it too late.
-  if (fs::is_directory(file, error)) {
-    FailToWrite(file, std::make_error_code(std::errc::is_a_directory));
+  // Commit would find it too late.
+  if (name != run_folder::kManifest && !IsOwnOrAbsent(folder_, name, before_.get())) {
+    FailAsForeign(file);
   }
-  if (fs::exists(file, error) && !fs::is_regular_file(file, error)) {
-    throw RunError(fmt::format("cannot write {}: it is not a regular file", file.string()));
-  }
+  // Before the file: after a kill all files are listed.
+  written_->Write(name + "\n");
   NewFile out(folder_ / run_folder::kPartial / name, file);
   EntryMaker entry;
   for (std::string part = next(); !part.empty(); part = next()) {
@@ -281,32 +327,63 @@ void ResultWriter::Add(const std::string& name, const std::function<std::string(
   names_.push_back(name);
 }
 
+void ResultWriter::EndResult(const std::string& result, std::vector<std::string> obsolete) {
+  for (const auto& file : files_) {
+    TRACKBED_REQUIRE(IsNameOf(result, file.first),
+                     "ResultWriter: AllResultNames lists no file {} of the result {}", file.first,
+                     result);
+  }
+  ended_.push_back({result, std::exchange(files_, {}), std::move(obsolete)});
+}
+
 void ResultWriter::Commit(const std::string& result, std::vector<std::string> obsolete) {
-  const std::optional<Manifest> before = ReadManifest(folder_);
-  Manifest manifest = before.value_or(Manifest{});
-  if (!before) {
-    obsolete.clear();  // what is there is of nobody's result
-  }
-  if (const auto earlier = manifest.results.find(result); earlier != manifest.results.end()) {
-    for (const auto& file : earlier->second) {
-      obsolete.push_back(file.first);
+  EndResult(result, std::move(obsolete));
+  Commit();
+}
+
+std::vector<std::string> ResultWriter::ObsoleteFiles() const {
+  std::set<std::string> candidates;
+  for (const CompletedResult& own : ended_) {
+    candidates.insert(own.obsolete.begin(), own.obsolete.end());
+    if (before_ == nullptr) {
+      continue;
     }
+    if (const auto earlier = before_->results.find(own.result); earlier != before_->results.end()) {
+      for (const auto& file : earlier->second) {
+        candidates.insert(file.first);
+      }
+    }
+    std::copy_if(before_->others.begin(), before_->others.end(),
+                 std::inserter(candidates, candidates.end()),
+                 [&](const std::string& name) { return IsNameOf(own.result, name); });
   }
-  std::error_code error;
-  std::erase_if(obsolete, [&](const std::string& name) {
-    return name == run_folder::kManifest ||
-           !fs::exists(fs::symlink_status(folder_ / name, error)) ||
-           std::find(names_.begin(), names_.end(), name) != names_.end();
-  });
-  manifest.Take(result, files_, obsolete);
+  std::vector<std::string> obsolete;
+  std::error_code ignored;
+  std::copy_if(candidates.begin(), candidates.end(), std::back_inserter(obsolete),
+               [&](const std::string& name) {
+                 return IsFileName(name) && name != run_folder::kManifest &&
+                        fs::exists(fs::symlink_status(folder_ / name, ignored)) &&
+                        IsOwnOrAbsent(folder_, name, before_.get()) &&
+                        std::find(names_.begin(), names_.end(), name) == names_.end();
+               });
+  return obsolete;
+}
+
+void ResultWriter::Commit() {
+  TRACKBED_REQUIRE(files_.empty(), "ResultWriter: Commit before EndResult");
+  const std::vector<std::string> obsolete = ObsoleteFiles();
+  Manifest manifest = before_ == nullptr ? Manifest{} : *before_;
+  for (const CompletedResult& own : ended_) {
+    manifest.Take(own.result, own.files, obsolete);
+  }
   Add(run_folder::kManifest, manifest.ToJson());
-  WriteNewFile(
-      folder_ / run_folder::kPartial / kObsolete,
-      nlohmann::json(obsolete).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
-      folder_ / kObsolete);
-  // The commit point: from here on the new result is moved into place, if not by this process then
-  // by the next one.
-  fs::rename(folder_ / run_folder::kPartial, folder_ / run_folder::kComplete, error);
+  const fs::path partial = folder_ / run_folder::kPartial;
+  WriteNewFile(partial / kObsolete, nlohmann::json(obsolete).dump(), folder_ / kObsolete);
+  written_->Close();
+  // Commit point: from here on the result is moved into place, if not by this process then by the
+  // next.
+  std::error_code error;
+  fs::rename(partial, folder_ / run_folder::kComplete, error);
   if (error) {
     FailToWrite(folder_, error);
   }

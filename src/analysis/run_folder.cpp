@@ -7,28 +7,26 @@
 #include <utility>
 
 #include "src/analysis/manifest.h"
+#include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
-#include "trackbed/path_files/path_file.h"
-#include "trackbed/recording/record_csv.h"
-#include "trackbed/road_network/open_drive.h"
-#include "trackbed/scenario/map_file.h"
+#include "trackbed/core/file_name.h"
+#include "trackbed/core/hash.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/record.h"
-#include "trackbed/scenario/recording_file.h"
-#include "trackbed/sim/plant.h"
-#include "trackbed/track/track_file.h"
 
 namespace trackbed::run_folder {
 namespace {
 
 constexpr std::string_view kStateEnding = ".state.csv";
 
-/// The names of plants come from files, too, and must not lead out of the folder.
+/// File name of a plant. Names of plants may come from files and must not point outside the folder.
 std::string Name(const std::string& plant, std::string_view ending) {
   if (plant.empty() || plant.front() == '.' || plant.find('/') != std::string::npos) {
     throw InputError(Problem{.message = fmt::format("'{}' is no name of a plant", plant)});
   }
-  return PlantFileName(plant).append(ending);
+  return FileNameOf(plant).append(ending);
 }
 
 }  // namespace
@@ -54,7 +52,7 @@ std::string NewPlansTreeCsv(const std::string& plant) {
 }
 
 std::optional<std::string> PlantOfStateCsv(const std::string& file_name) {
-  // Names with a leading dot are files that a writer has not finished.
+  // A leading dot marks files that a writer has not finished.
   if (file_name.size() <= kStateEnding.size() || !file_name.ends_with(kStateEnding) ||
       file_name.front() == '.') {
     return std::nullopt;
@@ -68,26 +66,26 @@ std::optional<std::string> PlantOfStateCsv(const std::string& file_name) {
 }
 
 std::string ResidualsCsv(const std::string& record) {
+  if (!IsFileName(record)) {
+    throw InputError(Problem{.message = fmt::format("'{}' is no name of a record", record)});
+  }
   return record + ".residuals.csv";
 }
 
-std::vector<std::string> AllNames() {
-  std::vector<std::string> names{kManifest,   kScenarioYaml, kModelXml,   kPlanJson,
-                                 kTimingJson, kMetricsJson,  kMcap,       kVideo,
-                                 kPicture,    kReport,       kCompareCsv, kCompareJson};
-  names.emplace_back(kRecordingCsv);
-  names.emplace_back(kRecordCsv);
-  names.emplace_back(kPathCsv);
-  names.emplace_back(kTrackCsv);
-  names.emplace_back(kMapYaml);
-  names.emplace_back(kMapPgm);
-  names.emplace_back(kRoadNetworkXodr);
-  names.insert(names.end(), kPathFiles.begin(), kPathFiles.end());
-  for (const std::string& plant : DrivenPlantNames()) {
-    for (const auto name_of : {LogCsv, StateCsv, NewPlansCsv, NewPlansJson, NewPlansTreeCsv}) {
-      names.push_back(name_of(plant));
+std::vector<std::string> PathFiles() {
+  std::vector<std::string> names{kPlanCsv, kScheduleCsv};
+  for (const PlannerEntry& planner : Planners()) {
+    for (const PlannerTable& table : planner.tables) {
+      names.emplace_back(table.file);
     }
   }
+  names.emplace_back(kTreeCsv);
+  return names;
+}
+
+std::vector<std::string> AllNames() {
+  std::vector<std::string> names = FileNamesOfVerb("compare");
+  names.emplace_back(kManifest);
   return names;
 }
 
@@ -102,7 +100,7 @@ std::filesystem::path RequireFile(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file, ignored)) {
     throw InputError(Problem{.file = file.string(), .message = "is no regular file"});
   }
-  if (!WhyUnreadable(file.filename(), file.parent_path(), {}).empty()) {
+  if (!ReadAccessError(file.filename(), file.parent_path(), {}).empty()) {
     throw InputError(Problem{.file = file.string(), .message = "is a link out of the run folder"});
   }
   RequireInManifest(file);
@@ -120,6 +118,23 @@ std::string ManifestText(const std::filesystem::path& folder) {
 }
 
 }  // namespace
+
+std::string ResultHash(const std::filesystem::path& folder) {
+  const std::string manifest = ManifestText(folder);
+  return manifest.empty() ? "" : Sha256(manifest);
+}
+
+void RequireResult(const std::filesystem::path& folder, const std::string& hash,
+                   const std::filesystem::path& source) {
+  const std::string own = ResultHash(folder);
+  std::error_code ignored;
+  if (std::filesystem::exists(folder / kComplete, ignored) || (!own.empty() && own != hash)) {
+    throw InputError(Problem{.file = folder.string(),
+                             .message = fmt::format("has another result than {} tells of: written "
+                                                    "by another (interrupted) run; run it again",
+                                                    source.filename().string())});
+  }
+}
 
 Reading::Reading(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {
   std::transform(folders_.begin(), folders_.end(), std::back_inserter(manifests_), ManifestText);

@@ -7,6 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <boost/crc.hpp>
 #include <cerrno>
 #include <charconv>
@@ -17,6 +18,11 @@
 
 #include "trackbed/core/error.h"
 
+// Append-only file of a study's rows. The first line is the header (description of the study), each
+// further line one row as JSON, preceded by its CRC-32. Load keeps the offset of every row and
+// truncates the file after the last valid line, so that a killed process loses at most the row
+// being written. A later line replaces an earlier one of the same row. The file is synchronized
+// once per second.
 namespace trackbed {
 namespace {
 
@@ -35,7 +41,7 @@ std::string LineOf(std::string_view json) {
   return fmt::format("{:08x} {}\n", Checksum(json), json);
 }
 
-/// The JSON of a line without its end; nothing when the line is not whole.
+/// The JSON of a line without its line feed; none if the checksum does not match.
 std::optional<std::string_view> JsonOf(std::string_view line) {
   std::uint32_t told = 0;
   if (line.size() <= kChecksumWidth || line[kChecksumWidth - 1] != ' ') {
@@ -59,14 +65,14 @@ std::int64_t Seconds() {
 
 void AddDifferences(const ordered_json& now, const ordered_json& before, const std::string& at,
                     std::vector<std::string>& found) {
-  constexpr std::size_t kMost = 5;
-  constexpr std::size_t kLongest = 60;
-  if (found.size() >= kMost || now == before) {
+  constexpr std::size_t kMaxDifferences = 5;
+  constexpr std::size_t kMaxShownLength = 60;
+  if (found.size() >= kMaxDifferences || now == before) {
     return;
   }
   const auto shown = [](const ordered_json& json) {
     const std::string text = json.is_null() ? "absent" : Dumped(json);
-    return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+    return text.size() <= kMaxShownLength ? text : text.substr(0, kMaxShownLength) + "...";
   };
   if (!now.is_object() || !before.is_object()) {
     found.push_back(fmt::format("{}: {}, was {}", at, shown(now), shown(before)));
@@ -86,12 +92,12 @@ void AddDifferences(const ordered_json& now, const ordered_json& before, const s
   }
 }
 
-/// Calls with every line that has its end, and where it begins, until that returns false.
+/// Calls `take` with every complete line and its offset, until it returns false.
 void ForEachLine(int descriptor, const std::function<bool(std::string_view, std::int64_t)>& take,
                  const std::function<void(int error)>& fail) {
   constexpr std::size_t kBlock = std::size_t{1} << 20U;
   std::string text;
-  std::int64_t begin = 0;  // of the text in the file
+  std::int64_t begin = 0;  // offset of the text in the file
   for (;;) {
     const std::size_t before = text.size();
     text.resize(before + kBlock);
@@ -122,12 +128,18 @@ void ForEachLine(int descriptor, const std::function<bool(std::string_view, std:
   }
 }
 
-/// Whether the file is empty, or has what a process left that was killed within the first line.
-bool IsBegunHeader(int descriptor, std::int64_t size) {
-  std::string head(kChecksumWidth, '\0');
-  const ssize_t got = ::pread(descriptor, head.data(), head.size(), 0);
-  return size < static_cast<std::int64_t>(kChecksumWidth) ||
-         (got == static_cast<ssize_t>(head.size()) && head.back() == ' ');
+/// Opens the file. If there is none, it appears at once with its header: a killed process leaves no
+/// part of one.
+int OpenOrCreate(const std::filesystem::path& file, const ordered_json& header) {
+  constexpr int kFlags = O_RDWR | O_CLOEXEC | O_NOFOLLOW;
+  const int descriptor = ::open(file.c_str(), kFlags);
+  if (descriptor >= 0 || errno != ENOENT) {
+    return descriptor;
+  }
+  TemporaryFile made(file);
+  made.Write(LineOf(Dumped(header)));
+  made.Publish();
+  return ::open(file.c_str(), kFlags);
 }
 
 }  // namespace
@@ -145,15 +157,51 @@ SweepRecords::SweepRecords(std::filesystem::path file, int descriptor)
   }
 }
 
-SweepRecords::SweepRecords(const std::filesystem::path& file, const ordered_json& header)
-    : SweepRecords(file, ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666)) {
-  // As it is after it was written and read.
-  Load(ordered_json::parse(Dumped(header)));
+SweepRecords::SweepRecords(const std::filesystem::path& file, const ordered_json& header,
+                           std::string_view remedy)
+    : SweepRecords(file, OpenOrCreate(file, header)) {
+  // Normalizes the header as writing and reading would.
+  Load(ordered_json::parse(Dumped(header)), remedy);
 }
 
 SweepRecords::SweepRecords(const std::filesystem::path& file)
-    : SweepRecords(file, ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW)) {
+    : SweepRecords(file, ::open(file.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW)) {
   Load(std::nullopt);
+}
+
+bool SweepRecords::IsFileOfRecords(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, ignored))) {
+    return false;
+  }
+  const Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW));
+  bool is_header = false;
+  ForEachLine(
+      in.get(),
+      [&](std::string_view line, std::int64_t /*begin*/) {
+        const std::optional<std::string_view> json = JsonOf(line);
+        is_header = json && ordered_json::parse(*json, nullptr, false).contains("rows_expected");
+        return false;
+      },
+      [&](int error) {
+        throw RunError(fmt::format("cannot read {}: {}", file.string(),
+                                   std::generic_category().message(error)));
+      });
+  return is_header;
+}
+
+void SweepRecords::Remove(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(std::filesystem::symlink_status(file, error))) {
+    return;
+  }
+  if (!IsFileOfRecords(file)) {
+    throw RunError(fmt::format("{} has no rows of a study, so --restart leaves it; move it away",
+                               file.string()));
+  }
+  if (!std::filesystem::remove(file, error)) {
+    throw RunError(fmt::format("cannot remove {}: {}", file.string(), error.message()));
+  }
 }
 
 SweepRecords SweepRecords::InMemory(ordered_json header) {
@@ -163,13 +211,18 @@ SweepRecords SweepRecords::InMemory(ordered_json header) {
 }
 
 void SweepRecords::TakeHeader(ordered_json header) {
-  header_ = std::move(header);
-  constexpr std::size_t kMost = 100'000'000;
-  const std::size_t rows = header_.value("rows_expected", std::size_t{0});
-  if (rows == 0 || rows > kMost) {
-    throw InputError(
-        Problem{.file = file_.string(),
-                .message = fmt::format("tells of {} rows; must be 1 to {}", rows, kMost)});
+  header_.emplace(std::move(header), file_.string());
+  constexpr std::size_t kMaxRows = 100'000'000;
+  const JsonValue expected = header_->At("rows_expected");
+  const std::size_t rows = expected.Count(kMaxRows);
+  if (rows == 0) {
+    expected.Refuse(fmt::format("a whole number from 1 to {}", kMaxRows));
+  }
+  if (const std::optional<JsonValue> columns = header_->Find("columns")) {
+    columns_ = columns->Texts();
+    if (std::find(columns_.begin(), columns_.end(), "status") == columns_.end()) {
+      columns->Refuse("columns with status among them");
+    }
   }
   offsets_.assign(rows, -1);
 }
@@ -179,9 +232,9 @@ void SweepRecords::Fail(const char* what, int error) const {
                              std::generic_category().message(error)));
 }
 
-void SweepRecords::Load(const std::optional<ordered_json>& header) {
+void SweepRecords::Load(const std::optional<ordered_json>& header, std::string_view remedy) {
   bool any_line = false;
-  // Whether to go on.
+  // Returns whether to continue.
   const auto take_row = [&](std::string_view json, std::int64_t begin) {
     std::size_t row = 0;
     if (!json.starts_with(kRowKey)) {
@@ -204,7 +257,7 @@ void SweepRecords::Load(const std::optional<ordered_json>& header) {
           return false;
         }
         if (!std::exchange(any_line, true)) {
-          TakeHeader(ordered_json::parse(*json));
+          TakeHeader(ParseJsonOf(file_.string(), *json));
         } else if (!take_row(*json, begin)) {
           return false;
         }
@@ -216,25 +269,24 @@ void SweepRecords::Load(const std::optional<ordered_json>& header) {
   if (::fstat(descriptor_.get(), &status) != 0) {
     Fail("read", errno);
   }
-  if (!any_line && (!header || !IsBegunHeader(descriptor_.get(), status.st_size))) {
+  if (!any_line && (!header || status.st_size > 0)) {
     throw InputError(Problem{.file = file_.string(), .message = "has no rows of a study"});
   }
-  if (any_line && header && *header != header_) {
+  if (any_line && header && *header != this->header()) {
     throw InputError(Problem{
         .file = file_.string(),
-        .message = fmt::format("has rows of another study ({}); --restart removes them, another "
-                               "folder (-o) keeps them",
-                               fmt::join(Differences(*header, header_), "; "))});
+        .message = fmt::format("has rows of another study ({}); {}",
+                               fmt::join(Differences(*header, this->header()), "; "), remedy)});
   }
   if (!header) {
-    return;  // to be read only
+    return;  // opened for reading only
   }
   if (status.st_size > end_ && ::ftruncate(descriptor_.get(), end_) != 0) {
     Fail("write", errno);
   }
   if (!any_line) {
     TakeHeader(*header);
-    WriteLine(Dumped(header_));
+    WriteLine(Dumped(this->header()));
   }
 }
 
@@ -249,7 +301,7 @@ void SweepRecords::WriteLine(std::string_view json) {
     }
     if (written <= 0) {
       const int error = written < 0 ? errno : ENOSPC;
-      // What fails here is cut off by whoever opens the file next.
+      // If this fails, the incomplete line is removed when the file is next opened.
       [[maybe_unused]] const int ignored = ::ftruncate(descriptor_.get(), end_);
       Fail("write", error);
     }
@@ -298,7 +350,18 @@ ordered_json SweepRecords::Read(std::size_t row) const {
   if (!json) {
     Fail("read", EIO);
   }
-  return ordered_json::parse(*json);
+  return ParseJsonOf(file_.string(), *json);
+}
+
+JsonValue SweepRecords::Entry(std::size_t row) const {
+  return {Read(row), file_.string(), fmt::format("row {}", row)};
+}
+
+const std::vector<std::string>& SweepRecords::Columns() const {
+  if (columns_.empty()) {
+    static_cast<void>(header_->At("columns"));
+  }
+  return columns_;
 }
 
 }  // namespace trackbed

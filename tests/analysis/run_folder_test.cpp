@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <nlohmann/json.hpp>
+
 #include "tests/support/temp_folder.h"
 #include "trackbed/analysis/compare_runs.h"
 #include "trackbed/analysis/run.h"
@@ -20,7 +22,7 @@ Scenario Read(const std::string& name, const std::vector<Override>& overrides) {
   return ReadScenario(fs::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml"), overrides);
 }
 
-// Users' scripts know these names, which docs/cli.md lists.
+// Users' scripts rely on these names, which docs/cli.md lists.
 TEST(RunFolder, NamesItsFilesAsDocumented) {
   EXPECT_THAT(run_folder::AllNames(), testing::IsSupersetOf({"scenario.resolved.yaml",
                                                              "model.xml",
@@ -47,8 +49,8 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
                                                              "kinematic.plan.json",
                                                              "kinematic.tree.csv",
                                                              "mujoco-magic_formula.state.csv"}));
-  // Five of each plant, and the twenty-three others.
-  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 23);
+  // Five files per plant and twenty-four others.
+  EXPECT_EQ(run_folder::AllNames().size(), 5 * DrivenPlantNames().size() + 24);
   EXPECT_STREQ(run_folder::kSweepCsv, "sweep.csv");
   EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
 }
@@ -153,14 +155,14 @@ TEST(RunFolder, RequiresFilesByName) {
   }
 }
 
-// What a run writes and the list does not have would be left there by the next run.
+// A file that a run writes and the list lacks would survive the next run into the folder.
 TEST(RunFolder, ListsWhateverARunAndItsComparisonWrite) {
   const TempFolder folder;
-  // Searched turns, and a new plan on the way.
+  // Contains searched turns and a replan.
   const RunResult run =
       RunMission(Read("obstacle_appears", {"plan.global={method: fillet, objective: turn_local}",
                                            "drive.time_limit=25", "expect={}"}));
-  ASSERT_TRUE(run.plan.ok()) << run.plan.reason;
+  ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
   WriteRunFolder(run, folder.path(), {.mcap = true});
   WriteComparison(CompareRun(run, std::nullopt), folder.path());
   const std::vector<std::string> names = folder.Names();
@@ -171,10 +173,12 @@ TEST(RunFolder, ListsWhateverARunAndItsComparisonWrite) {
 
 TEST(RunFolder, LosesEveryFileOfAnEarlierRun) {
   const TempFolder folder;
+  nlohmann::json files;
   for (const std::string& name : run_folder::AllNames()) {
     folder.Write(name, "of an earlier run");
+    files[name] = {{"bytes", 17}, {"sha256", ""}};
   }
-  folder.Write("manifest.json", R"({"results": {}})");
+  folder.Write("manifest.json", nlohmann::json{{"results", {{"run", files}}}}.dump());
   folder.Write("notes.txt", "mine");
   WriteRunFolder(RunMission(Read("steering_circle",
                                  {"drive.plants=[kinematic]", "expect={}", "mission.duration=1"})),

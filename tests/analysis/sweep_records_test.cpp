@@ -59,7 +59,8 @@ TEST_F(Records, HaveTheLastOfSeveralLinesOfARow) {
   EXPECT_EQ(Open().Read(1)["cells"][0], "11");
 }
 
-// As a killed process, a full disk or a power failure leaves the file: cut off anywhere.
+// A killed process, a full disk or a power failure may truncate the file anywhere behind its
+// header, with which it appears at once.
 TEST_F(Records, GoOnBehindTheLastWholeLineOfAFileThatIsCutOff) {
   {
     SweepRecords records = Open();
@@ -74,12 +75,38 @@ TEST_F(Records, GoOnBehindTheLastWholeLineOfAFileThatIsCutOff) {
   ASSERT_EQ(ends.size(), 3U);
   for (std::size_t size = 0; size <= whole.size(); ++size) {
     WriteFileAtomically(file(), whole.substr(0, size));
+    if (size > 0 && size < ends[0]) {
+      ASSERT_THROW(Open(), InputError) << size;
+      ASSERT_EQ(ReadFile(file()), whole.substr(0, size));
+      continue;
+    }
     SweepRecords records = Open();
     const std::size_t expected = size < ends[1] ? 0U : size < ends[2] ? 1U : 2U;
     ASSERT_EQ(records.count(), expected) << "cut after " << size << " bytes";
     records.Append(4, RowOf(40));
     ASSERT_EQ(Open().count(), expected + 1);
   }
+}
+
+TEST_F(Records, LeaveFilesOfOthers) {
+  for (const std::string text : {"mine", "my notes on it", "0", "deadbeef {", "deadbeef {}\n", "\n",
+                                 "00000000 {\"row\":1}\n", "a,b\n1,2\n", " "}) {
+    WriteFileAtomically(file(), text);
+    EXPECT_FALSE(SweepRecords::IsFileOfRecords(file())) << text;
+    EXPECT_THROW(Open(), InputError) << text;
+    EXPECT_THROW(SweepRecords::Remove(file()), RunError) << text;
+    EXPECT_EQ(ReadFile(file()), text);
+  }
+  std::filesystem::remove(file());
+  SweepRecords::Remove(file());  // there is none
+  { const SweepRecords records = Open(); }
+  EXPECT_TRUE(SweepRecords::IsFileOfRecords(file()));
+  const std::filesystem::path link = file().string() + ".link";
+  std::filesystem::create_symlink(file(), link);
+  EXPECT_THROW(SweepRecords::Remove(link), RunError);
+  EXPECT_TRUE(std::filesystem::exists(file()));
+  SweepRecords::Remove(file());
+  EXPECT_FALSE(std::filesystem::exists(file()));
 }
 
 // Blocks that were not yet written when the power failed read as zeros.
@@ -111,7 +138,7 @@ TEST_F(Records, RefuseAnotherStudyAndSayWhatChanged) {
     EXPECT_THAT(error.what(), testing::HasSubstr("has rows of another study (vary.mission.speed: "
                                                  "[1,3], was [1,2]; repeat: 2, was absent)"));
   }
-  EXPECT_EQ(Open().count(), 0U);  // it is as it was
+  EXPECT_EQ(Open().count(), 0U);  // the file is unchanged
 }
 
 TEST_F(Records, RefuseAFileOfSomethingElse) {

@@ -118,7 +118,7 @@ TEST(Canvas, BlendsARectangleAndRoundsItsCorners) {
 
 TEST(Canvas, FillsEveryPixelOfARectangleOnce) {
   Font font = BlockFont();
-  // Full coverage at half opacity, wherever the edges lie between pixels.
+  // Full coverage at half opacity, for any position of the edges between pixels.
   for (const double shift : {0.0, 0.3, 0.5, 0.9}) {
     Image image;
     image.Resize(60, 30);

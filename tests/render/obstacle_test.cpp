@@ -12,16 +12,16 @@ namespace trackbed::render {
 namespace {
 
 TEST(ObstacleLook, FollowsFromTheSize) {
-  EXPECT_EQ(LookOf(4.4, 1.8, 1.5), ObstacleLook::kCar);
-  EXPECT_EQ(LookOf(1.8, 4.4, 1.5), ObstacleLook::kCar);
-  EXPECT_EQ(LookOf(4.4, 1.8, 0.6), ObstacleLook::kCrate);
-  EXPECT_EQ(LookOf(34.0, 0.6, 2.0), ObstacleLook::kWall);
-  EXPECT_EQ(LookOf(0.4, 0.4, 0.7), ObstacleLook::kCone);
-  EXPECT_EQ(LookOf(0.4, 0.4, 2.0), ObstacleLook::kPost);
-  EXPECT_EQ(LookOf(2.0, 2.0, 1.0), ObstacleLook::kCrate);
+  EXPECT_EQ(ChooseLook(4.4, 1.8, 1.5), ObstacleLook::kCar);
+  EXPECT_EQ(ChooseLook(1.8, 4.4, 1.5), ObstacleLook::kCar);
+  EXPECT_EQ(ChooseLook(4.4, 1.8, 0.6), ObstacleLook::kCrate);
+  EXPECT_EQ(ChooseLook(34.0, 0.6, 2.0), ObstacleLook::kWall);
+  EXPECT_EQ(ChooseLook(0.4, 0.4, 0.7), ObstacleLook::kCone);
+  EXPECT_EQ(ChooseLook(0.4, 0.4, 2.0), ObstacleLook::kPost);
+  EXPECT_EQ(ChooseLook(2.0, 2.0, 1.0), ObstacleLook::kCrate);
 }
 
-/// A car along the x axis and one obstacle.
+/// A car that drives along the x axis, and one obstacle.
 class ObstacleTest : public FilmSceneTest {
  protected:
   ObstacleTest() { overlays_ = {"obstacles"}; }
@@ -39,7 +39,7 @@ class ObstacleTest : public FilmSceneTest {
                     "height: {}}}{}}}\n",
                     x, y, length, width, height, more));
   }
-  /// Red across the left upper edge of that crate: it is thinner than two pixels.
+  /// Brightest red across the left upper edge of the crate; the edge is thinner than two pixels.
   int BrightestOfEdge(const Image& image) const {
     int most = 0;
     for (int i = -6; i <= 6; ++i) {
@@ -47,7 +47,7 @@ class ObstacleTest : public FilmSceneTest {
     }
     return most;
   }
-  /// The scene at a moment, and the middles and sides of what is drawn of the obstacle.
+  /// Passes the scene at a time to `look`, with the centers and sides of the drawn obstacle.
   template <typename Look>
   void AtScene(double time, const char* camera, const Look& look) {
     Recording recording = ReadRecording(folder_.path());
@@ -62,15 +62,15 @@ TEST_F(ObstacleTest, OneThatIsNotKnownIsAnOutlineAndThenACrate) {
   SetObstacle(10.0, 3.0, 2.0, 2.0, 1.0, ", known_from: {time: 0.2}");
   const Image before = Picture("top", 0.1);
   const std::array<int, 3> ground = At(before, 7.0, 3.0);
-  // The middle of its top is seen through, its upper edge is white.
+  // The middle of its top is transparent, its upper edge is white.
   const std::array<int, 3> through = At(before, 10.0, 3.0, 1.0);
   EXPECT_NEAR(through[0], ground[0], 30);
   EXPECT_LT(std::abs(through[0] - through[2]), 20);
   EXPECT_GT(BrightestOfEdge(before), 230);
-  // Wood, (0.72, 0.61, 0.44), has much more red than blue; the outline is still there for 1.5 s.
+  // Wood, (0.72, 0.61, 0.44), has much more red than blue; the outline remains for 1.5 s.
   const Image after = Picture("top", 0.2);
   EXPECT_GT(At(after, 10.0, 3.0, 1.0)[0], At(after, 10.0, 3.0, 1.0)[2] + 40);
-  // The outline stays around it for 1.5 s: twelve white edges.
+  // The outline has twelve white edges and remains for 1.5 s.
   const auto white_edges = [this](double time) {
     int count = 0;
     AtScene(time, "top", [&](const Recording&, const mjvScene& scene) {
@@ -94,22 +94,22 @@ TEST_F(ObstacleTest, OneOfTheSizeOfACarIsACarThatFillsItsBox) {
     double high = -1e9;
     for (int i = 0; i < scene.ngeom; ++i) {
       const mjvGeom& geom = scene.geoms[i];
-      EXPECT_FALSE(geom.objtype == mjOBJ_GEOM && geom.objid == box);  // it has taken its place
-      // Wheels: cylinders as wide as the Prius's tyres, whose hubs are 2.7 m apart.
+      EXPECT_FALSE(geom.objtype == mjOBJ_GEOM && geom.objid == box);  // the vehicle replaces it
+      // Wheels are cylinders as wide as the Prius's tyres, whose hubs are 2.7 m apart.
       if (geom.type == mjGEOM_CYLINDER && geom.objtype != mjOBJ_GEOM && geom.size[0] > 0.30F) {
         low = std::min<double>(low, geom.pos[0]);
         high = std::max<double>(high, geom.pos[0]);
       }
     }
-    // Shrunk from 4.45 to 4.0 m, around the middle of the car, 1.4 m ahead of the rear axle.
+    // Scaled from 4.45 to 4.0 m, about the center of the car, 1.4 m ahead of the rear axle.
     EXPECT_NEAR(high - low, 2.7 * 4.0 / 4.45, Tolerance(1e-4));
     EXPECT_NEAR(low, 14.0 - 1.4 * 4.0 / 4.45, Tolerance(1e-4));
   });
 }
 
 TEST_F(ObstacleTest, WhatStandsBetweenTheCameraAndTheCarFades) {
-  // The camera of `side` is to the right of the car, 12.7 m away: a wall 4 m beside the car is
-  // between them, one on the other side is not.
+  // The camera `side` is 12.7 m to the right of the car: a wall 4 m to the right is between them, a
+  // wall on the left is not.
   for (const auto& [y, hides] : {std::pair(-4.0, true), std::pair(4.0, false)}) {
     std::filesystem::remove(folder_.path() / "model.xml");
     CopyPrius(folder_.path());
@@ -127,7 +127,7 @@ TEST_F(ObstacleTest, WhatStandsBetweenTheCameraAndTheCarFades) {
 }
 
 TEST(Occlusion, IsTheShareOfLinesOfSightThatTheBoxCrosses) {
-  // The camera looks along x from (-20, 0, 1) at the origin, the car's box is around it.
+  // The camera looks along x from (-20, 0, 1) at the origin, where the car's box is.
   CameraPose camera;
   camera.distance = 20.0;
   camera.target_z = 1.0;
@@ -138,8 +138,8 @@ TEST(Occlusion, IsTheShareOfLinesOfSightThatTheBoxCrosses) {
   };
   EXPECT_EQ(share(0.0, 20.0, 5.0), 1.0);
   EXPECT_EQ(share(8.0, 2.0, 5.0), 0.0);
-  // With its margin of half a meter it begins 0.2 m to the left of the middle line: of the points
-  // across, at -0.8, 0 and 0.8, the lines to the last pass it at 0.33 to 0.48.
+  // With its margin of 0.5 m the wall begins 0.2 m to the left of the center line. Of the lines to
+  // the points at -0.8, 0 and 0.8, only the last one crosses it, at 0.33 to 0.48.
   EXPECT_NEAR(share(3.2, 5.0, 5.0), 1.0 / 3.0, Tolerance(1e-9));
   EXPECT_EQ(FadedAlpha(0.0), 1.0);
   EXPECT_DOUBLE_EQ(FadedAlpha(1.0), 0.25);

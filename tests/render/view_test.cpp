@@ -206,7 +206,7 @@ TEST_F(LateralTest, ShowsDistancesTenTimesAsLargeAsStations) {
 TEST_F(LateralTest, GoesOutWhereTheErrorHasNoRoom) {
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m", [](double) { return 3.0; });
   const Recording recording = ReadRecording(folder_.path());
-  // The error scale is 5 m; ten times that would fill 0.85 of 110 px.
+  // The error scale of 5 m fills 0.85 of the 110 px on each side, without tenfold magnification.
   const CanvasPoint place = LateralView(recording).Place(400, 220, 6.0, 6.0, 5.0);
   EXPECT_NEAR(place.y, 110.0 - 0.85 * 110.0, Tolerance(1e-9));
 }

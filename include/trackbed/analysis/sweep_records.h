@@ -10,62 +10,78 @@
 #include <string_view>
 #include <vector>
 
+#include "trackbed/analysis/json_file.h"
 #include "trackbed/core/file.h"
 
 namespace trackbed {
 
 /// The finished rows of a study in a file that only grows, so that a study that was killed at any
-/// moment goes on where it was. The first line says of what study, each further one is a row:
-/// "CRC-32 JSON", the checksum of the JSON in eight hexadecimal digits.
+/// moment can resume. The first line identifies the study, each further line is a row: "CRC-32
+/// JSON", the checksum of the JSON in eight hexadecimal digits.
 ///
-/// A row is appended by one write. What a killed process, a full disk or a power failure left
-/// behind the last whole line is cut off when the file is opened. Of several lines of one row the
-/// last counts. Rows are forced to the disk at most once a second.
+/// A row is appended by one write. An incomplete last line, left by a killed process, a full disk
+/// or a power failure, is cut off when the file is opened. If several lines have the same row, the
+/// last one counts. Rows are forced to the disk at most once a second.
 ///
 /// Memory: 8 bytes for each row that the study has.
 class SweepRecords {
  public:
-  /// Opens the file, or makes it. `header` is of the study as it is now; `rows_expected` in it is
-  /// how many rows it has.
+  /// Opens the file, or creates it at once with its header. `header` describes the current study,
+  /// including its number of rows `rows_expected`.
   ///
-  /// InputError naming the file and the keys in which the study differs from the one whose rows it
-  /// has; RunError when it cannot be read or written.
-  SweepRecords(const std::filesystem::path& file, const nlohmann::ordered_json& header);
-  /// Opens a file that is there, of any study, to be read only, also while a sweep writes to it.
+  /// InputError naming the file, the keys that differ and the `remedy` if the file belongs to
+  /// another study; RunError when it cannot be read or written.
+  SweepRecords(const std::filesystem::path& file, const nlohmann::ordered_json& header,
+               std::string_view remedy = "--restart removes them, another folder (-o) keeps them");
+  /// Opens an existing file of any study for reading only, possibly while a sweep writes to it.
   /// InputError when it has no header.
   explicit SweepRecords(const std::filesystem::path& file);
+  /// Whether the file is a regular one that begins with a header as SweepRecords writes it.
+  static bool IsFileOfRecords(const std::filesystem::path& file);
+  /// Removes the file, if there is one. RunError if it is a link, a folder, or not a file of
+  /// records (IsFileOfRecords).
+  static void Remove(const std::filesystem::path& file);
   /// In memory.
   static SweepRecords InMemory(nlohmann::ordered_json header);
 
-  [[nodiscard]] const nlohmann::ordered_json& header() const { return header_; }
+  /// The header unchanged, to be copied or compared.
+  [[nodiscard]] const nlohmann::ordered_json& header() const { return header_->json(); }
+  /// The header, to be read. InputError as JsonValue.
+  [[nodiscard]] const JsonValue& Header() const { return *header_; }
+  /// The columns of the table, `status` among them. InputError if the header has none.
+  [[nodiscard]] const std::vector<std::string>& Columns() const;
   [[nodiscard]] std::size_t rows() const { return offsets_.size(); }
   [[nodiscard]] bool Has(std::size_t row) const { return offsets_[row] >= 0; }
-  /// How many rows there are, of all.
+  /// Number of rows present.
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  /// Several threads may append at a time. RunError on a full disk: the file then has the rows
-  /// before, and no part of this one.
+  /// Several threads may append at a time. RunError on a full disk: the file then keeps the rows
+  /// before and no part of this one.
   void Append(std::size_t row, const nlohmann::ordered_json& content);
 
-  /// A row that there is.
+  /// Reads a row, which must be present: unchanged, to be copied or compared. InputError if it is
+  /// not JSON.
   [[nodiscard]] nlohmann::ordered_json Read(std::size_t row) const;
+  /// Reads a row, which must be present. InputError as JsonValue and Read.
+  [[nodiscard]] JsonValue Entry(std::size_t row) const;
 
  private:
   SweepRecords(std::filesystem::path file, int descriptor);
-  /// Reads the file; a header, if there is one, must be this one.
-  void Load(const std::optional<nlohmann::ordered_json>& header);
+  /// Reads the file. If `header` is given, the file's header must equal it.
+  void Load(const std::optional<nlohmann::ordered_json>& header, std::string_view remedy = "");
   void TakeHeader(nlohmann::ordered_json header);
   void WriteLine(std::string_view json);
   [[noreturn]] void Fail(const char* what, int error) const;
 
   std::filesystem::path file_;
   Descriptor descriptor_;
-  nlohmann::ordered_json header_;
-  std::vector<std::int64_t> offsets_;  // of the lines; -1: none
+  std::optional<JsonValue> header_;  // known once a constructor returns
+  std::vector<std::string> columns_;
+  std::vector<std::int64_t> offsets_;  // of the lines; -1: row missing
   std::size_t count_ = 0;
-  std::int64_t end_ = 0;                                                // of the file, in bytes
-  std::int64_t synced_ = 0;                                             // when, in seconds
-  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // of appending
+  std::int64_t end_ = 0;     // of the file, in bytes
+  std::int64_t synced_ = 0;  // time of the last sync, in seconds
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // guards appending
 };
 
 /// The paths at which two values differ, "vary.world.friction: [0.3] was [0.5]", at most five.

@@ -1,0 +1,218 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <ostream>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "tests/cli/program.h"
+#include "tests/support/temp_folder.h"
+#include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
+#include "trackbed/core/file.h"
+
+namespace trackbed {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const std::string kSource = TRACKBED_SOURCE_DIR;
+// The drive is short: almost always the verb ends before it.
+const std::string kShort = " --set drive.time_limit=0.1 expect={}";
+
+std::string StudyFile(const std::string& rest) {
+  return "schema: 1\nname: study\nscenario: " + ScenarioFile("winding") +
+         "\nset: {drive.plants: [kinematic], drive.time_limit: 0.1, expect: {metrics: [{metric: "
+         "status, equals: goal_reached}]}}\n" +
+         rest;
+}
+
+/// A verb that writes to a folder.
+struct Verb {
+  std::string name;
+  std::string arguments;
+  std::string out = "r";
+  std::string before{};  ///< shell command that makes what it reads, in that folder or elsewhere
+  NameParts parts{};
+
+  friend void PrintTo(const Verb& verb, std::ostream* out) { *out << verb.name; }
+};
+
+std::vector<Verb> Verbs() {
+  return {
+      {"run", "run " + ScenarioFile("winding") + " --plant kinematic -o r" + kShort},
+      {"plan", "plan " + ScenarioFile("winding") + " -o r"},
+      {"compare",
+       "compare " + ScenarioFile("winding") + " --plants kinematic,single_track -o r" + kShort},
+      {"import", "import " + kSource + "/tests/data/recordings/autoware.csv --map " + kSource +
+                     "/scenarios/real/maps/autoware.yaml --vehicle " + kSource +
+                     "/tests/data/models/small_car.xml -o r"},
+      {"check-path", "check-path path.csv --speed 2 --drive -o r --plant kinematic" + kShort},
+      {"sweep", "sweep sweep.yaml -o r"},
+      {"sweep --restart", "sweep sweep.yaml -o r --restart"},
+      {"sweep merge", "sweep merge shards -o r", "r",
+       TRACKBED_PROGRAM " sweep -q sweep.yaml -o shards --shard 1/2 && " TRACKBED_PROGRAM
+                        " sweep -q sweep.yaml -o shards --shard 2/2"},
+      {"sweep submit", "sweep submit sweep.yaml --tasks 3 -o r"},
+      {"falsify", "falsify falsify.yaml -o r --report"},
+      {"verify", "verify verify.yaml -o r --probability 0.5"},
+      {"identify",
+       "identify identify.yaml -o r",
+       "r",
+       "",
+       {{"vehicle", {"small_car"}}, {"record", {"autoware"}}}},
+      {"report", "report r", "r",
+       TRACKBED_PROGRAM " run -q " + ScenarioFile("winding") + " --plant kinematic -o r" + kShort},
+      {"render", "render r --at 0", "r",
+       TRACKBED_PROGRAM " run -q " + ScenarioFile("winding") + " --plant kinematic -o r" + kShort},
+  };
+}
+
+/// With files or with links of the names that the verb writes.
+class ForeignFiles : public testing::TestWithParam<std::tuple<Verb, bool>> {
+ protected:
+  ForeignFiles() {
+    folder_.Write("path.csv", "x_m,y_m\n0,0\n10,0\n20,0\n");
+    folder_.Write("sweep.yaml", StudyFile("vary: {mission.speed: [1, 2]}\nkeep: all\n"));
+    folder_.Write("falsify.yaml",
+                  StudyFile("vary: {mission.speed: {distribution: uniform, from: 1, to: 4}}\n"
+                            "search: {runs: 2, shrink_runs: 0}\n"));
+    folder_.Write("verify.yaml",
+                  StudyFile("vary: {mission.speed: {distribution: uniform, from: 1, to: 2}}\n"
+                            "sample: {count: 3, method: random}\n"));
+    // It stands in for Slurm's.
+    const fs::path sbatch = folder_.Write("bin/sbatch", "#!/bin/sh\necho 1\n");
+    fs::permissions(sbatch, fs::perms::owner_all);
+    if (verb().name == "identify") {
+      MakeIdentification();
+    }
+    const Outcome made = Shell(folder_, verb().before.empty() ? "true" : verb().before);
+    EXPECT_TRUE(made.code == 0 || made.code == 3) << made.output;
+    if (fs::exists(out())) {
+      fs::copy(out(), folder_.path() / "before", fs::copy_options::recursive);
+    }
+  }
+
+  void MakeIdentification() const {
+    const std::string import = Verbs()[3].arguments;
+    const Outcome imported =
+        Trackbed(folder_, import.substr(0, import.size() - std::string("r").size()) + "autoware");
+    EXPECT_EQ(imported.code, 0) << imported.output;
+    folder_.Write("identify.yaml",
+                  "schema: 1\nname: study\nfit: [autoware/scenario.resolved.yaml]\n"
+                  "parameters: [{name: yaw_inertia, from: 0.02, to: 0.2}]\nstarts: 1\n"
+                  "evaluations: 1\nhorizon: 10\n");
+  }
+
+  [[nodiscard]] static const Verb& verb() { return std::get<0>(GetParam()); }
+  [[nodiscard]] static bool is_link() { return std::get<1>(GetParam()); }
+  [[nodiscard]] fs::path out() const { return folder_.path() / verb().out; }
+
+  void Restore() const {
+    fs::remove_all(out());
+    if (fs::exists(folder_.path() / "before")) {
+      fs::copy(folder_.path() / "before", out(), fs::copy_options::recursive);
+    }
+  }
+
+  [[nodiscard]] Outcome Run() const {
+    return Shell(folder_, "PATH=\"$PWD/bin:$PATH\" timeout 60 " TRACKBED_PROGRAM " " +
+                              verb().arguments + " -q");
+  }
+
+  /// Those that are declared, and those that it writes: from its output folder on.
+  [[nodiscard]] std::vector<std::string> Names() const {
+    const std::string name = verb().name.substr(0, verb().name.find(" --"));
+    std::vector<std::string> names = FileNamesOfVerb(name, verb().parts);
+    Restore();
+    const Outcome whole = Run();
+    EXPECT_TRUE(whole.code == 0 || whole.code == 3) << whole.output;
+    for (const auto& entry : fs::recursive_directory_iterator(out())) {
+      const fs::path written = entry.path().lexically_relative(out());
+      if (entry.is_regular_file() && !fs::exists(folder_.path() / "before" / written)) {
+        names.push_back(written);
+      }
+    }
+    std::sort(names.begin(), names.end());
+    names.erase(std::unique(names.begin(), names.end()), names.end());
+    return names;
+  }
+
+  const TempFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Verbs, ForeignFiles,
+                         testing::Combine(testing::ValuesIn(Verbs()), testing::Bool()),
+                         [](const auto& test) {
+                           std::string name = std::get<0>(test.param).name;
+                           std::replace_if(
+                               name.begin(), name.end(),
+                               [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
+                           return name + (std::get<1>(test.param) ? "_links" : "_files");
+                         });
+
+TEST_P(ForeignFiles, AreNeitherReplacedNorRemoved) {
+  const std::string bytes = "mine\n";
+  const fs::path target = folder_.Write("elsewhere", bytes);
+  const std::vector<std::string> names = Names();
+  EXPECT_FALSE(names.empty());
+  for (const std::string& name : names) {
+    Restore();
+    const fs::path file = out() / name;
+    fs::create_directories(file.parent_path());
+    fs::remove(file);
+    if (is_link()) {
+      fs::create_symlink(target, file);
+    } else {
+      WriteFileAtomically(file, bytes);
+    }
+    const Outcome outcome = Run();
+    const std::string what = name + ": " + outcome.output;
+    EXPECT_EQ(fs::is_symlink(file), is_link()) << what;
+    ASSERT_TRUE(fs::exists(file)) << what;
+    EXPECT_EQ(ReadFile(file), bytes) << what;
+    EXPECT_EQ(ReadFile(target), bytes) << what;
+    // A refusal is one line that names the file.
+    EXPECT_TRUE(outcome.code == 0 || outcome.code == 2 || outcome.code == 3) << what;
+    if (outcome.code == 2) {
+      EXPECT_EQ(std::count(outcome.output.begin(), outcome.output.end(), '\n'), 1) << what;
+      EXPECT_THAT(outcome.output, HasSubstr(fs::path(name).filename().string())) << what;
+    }
+  }
+}
+
+// Notes of the user beside the results.
+TEST_P(ForeignFiles, OfOtherNamesAreInNobodysWay) {
+  const fs::path target = folder_.Write("elsewhere", "mine\n");
+  Restore();
+  Outcome outcome = Run();
+  EXPECT_TRUE(outcome.code == 0 || outcome.code == 3) << outcome.output;
+  std::vector<fs::path> notes{out() / "notes.txt"};
+  for (const auto& entry : fs::recursive_directory_iterator(out())) {
+    if (entry.is_directory()) {
+      notes.push_back(entry.path() / "notes.txt");
+    }
+  }
+  for (const fs::path& note : notes) {
+    if (is_link()) {
+      fs::create_symlink(target, note);
+    } else {
+      WriteFileAtomically(note, "mine\n");
+    }
+  }
+  for (int i = 0; i < 2; ++i) {
+    outcome = Run();
+    EXPECT_TRUE(outcome.code == 0 || outcome.code == 3) << outcome.output;
+    for (const fs::path& note : notes) {
+      EXPECT_TRUE(fs::exists(note) && ReadFile(note) == "mine\n") << note;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
