@@ -8,7 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/run_names.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
@@ -24,17 +26,17 @@ namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
 /// The expectations on the end of a run and on its cross-track error.
-PlantExpectation EndOnly(const PlantExpectation& expect) {
+PlantExpectation EndExpectations(const PlantExpectation& expect) {
   PlantExpectation end{.max_cross_track = expect.max_cross_track, .collision = expect.collision};
   std::copy_if(expect.metrics.begin(), expect.metrics.end(), std::back_inserter(end.metrics),
                [](const MetricExpectation& metric) { return metric.metric == "status"; });
   return end;
 }
 
-Expectations EndsOnly(const Expectations& expect) {
-  Expectations ends{.all = EndOnly(expect.all)};
+Expectations EndExpectations(const Expectations& expect) {
+  Expectations ends{.all = EndExpectations(expect.all)};
   for (const auto& [plant, own] : expect.plants) {
-    ends.plants.emplace_back(plant, EndOnly(own));
+    ends.plants.emplace_back(plant, EndExpectations(own));
   }
   return ends;
 }
@@ -77,6 +79,7 @@ void Judge(const ComparedPair& pair, Verdict& verdict) {
 /// A finished run, read from its folder.
 struct FinishedRun {
   fs::path folder;
+  std::string name;  ///< in results
   std::vector<FinishedDrive> drives;
   Expectations expect;
 
@@ -101,8 +104,8 @@ struct FinishedRun {
   }
 };
 
-FinishedRun ReadRun(const fs::path& folder) {
-  FinishedRun run{.folder = folder, .drives = ReadRunFolder(folder), .expect = {}};
+FinishedRun ReadRun(const fs::path& folder, const std::string& name) {
+  FinishedRun run{.folder = folder, .name = name, .drives = ReadRunFolder(folder), .expect = {}};
   if (run.drives.empty()) {
     throw InputError(
         Problem{.file = folder.string(), .message = "the run has no logs: it had no plan"});
@@ -120,7 +123,8 @@ struct Candidates {
   DifferenceBounds bounds;
 };
 
-std::vector<Candidates> WithinOne(const FinishedRun& run, const std::vector<std::string>& wanted) {
+std::vector<Candidates> CandidatesWithinRun(const FinishedRun& run,
+                                            const std::vector<std::string>& wanted) {
   const std::vector<std::string> plants = wanted.empty() ? run.Plants() : wanted;
   std::vector<Candidates> pairs;
   for (std::size_t i = 0; i < plants.size(); ++i) {
@@ -143,8 +147,8 @@ std::vector<Candidates> AcrossTwo(const FinishedRun& first, const FinishedRun& s
   std::vector<Candidates> pairs;
   const auto add = [&](const std::string& a, const std::string& b) {
     Candidates pair{first.Of(a), second.Of(b), {}};
-    pair.first.trace.name = (first.folder / a).lexically_normal().string();
-    pair.second.trace.name = (second.folder / b).lexically_normal().string();
+    pair.first.trace.name = first.name + "/" + a;
+    pair.second.trace.name = second.name + "/" + b;
     pairs.push_back(std::move(pair));
   };
   if (wanted.size() == 2) {
@@ -168,7 +172,7 @@ std::vector<Candidates> AcrossTwo(const FinishedRun& first, const FinishedRun& s
 }
 
 /// Notes the plants that only one of the two runs has.
-void NoteLeftOut(const FinishedRun& first, const FinishedRun& second, Verdict& verdict) {
+void NoteUnpairedPlants(const FinishedRun& first, const FinishedRun& second, Verdict& verdict) {
   for (const auto& [run, other] : {std::pair(&first, &second), std::pair(&second, &first)}) {
     std::vector<std::string> alone;
     const std::vector<std::string> others = other->Plants();
@@ -178,8 +182,8 @@ void NoteLeftOut(const FinishedRun& first, const FinishedRun& second, Verdict& v
       }
     }
     if (!alone.empty()) {
-      verdict.notes.push_back(fmt::format("not compared: {}, only in {}", fmt::join(alone, ", "),
-                                          run->folder.string()));
+      verdict.notes.push_back(
+          fmt::format("not compared: {}, only in {}", fmt::join(alone, ", "), run->name));
     }
   }
 }
@@ -209,7 +213,7 @@ Trace PathIn(const Table& plan) {
 /// Tolerance for the rounding of another build [m], [rad], [m/s].
 constexpr double kRounding = 1e-6;
 
-bool AreAlike(const Table& first, const Table& second) {
+bool HaveSameRows(const Table& first, const Table& second) {
   if (first.columns() != second.columns() || first.rows() != second.rows()) {
     return false;
   }
@@ -224,20 +228,22 @@ bool AreAlike(const Table& first, const Table& second) {
 }
 
 /// Notes if the two runs have different plans, since a comparison usually assumes a common plan.
-void NoteOtherPlan(const fs::path& first, const fs::path& second, Verdict& verdict) {
-  const bool has_first = fs::exists(first / run_folder::kPlanCsv);
-  const bool has_second = fs::exists(second / run_folder::kPlanCsv);
+void NoteOtherPlan(const FinishedRun& first, const FinishedRun& second, Verdict& verdict) {
+  const fs::path plan_of_first = first.folder / run_folder::kPlanCsv;
+  const fs::path plan_of_second = second.folder / run_folder::kPlanCsv;
+  const bool has_first = fs::exists(plan_of_first);
+  const bool has_second = fs::exists(plan_of_second);
   if (!has_first && !has_second) {
     return;
   }
   if (has_first != has_second) {
     verdict.notes.push_back(
-        fmt::format("only {} followed a plan", (has_first ? first : second).string()));
+        fmt::format("only {} followed a plan", (has_first ? first : second).name));
     return;
   }
-  const Table plan_1 = ReadCsv(run_folder::RequireFile(first / run_folder::kPlanCsv));
-  const Table plan_2 = ReadCsv(run_folder::RequireFile(second / run_folder::kPlanCsv));
-  if (AreAlike(plan_1, plan_2)) {
+  const Table plan_1 = ReadCsv(run_folder::RequireFile(plan_of_first));
+  const Table plan_2 = ReadCsv(run_folder::RequireFile(plan_of_second));
+  if (HaveSameRows(plan_1, plan_2)) {
     return;
   }
   const auto length = [](const Trace& path) {
@@ -286,7 +292,7 @@ RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBou
     result.verdict = run.verdict;
     return result;
   }
-  result.verdict = trackbed::Judge(EndsOnly(run.scenario.expect), run.metrics, {});
+  result.verdict = trackbed::Judge(EndExpectations(run.scenario.expect), run.metrics, {});
   result.verdict.passed = result.verdict.failures.empty();
   for (std::size_t i = 0; i < run.logs.size(); ++i) {
     for (std::size_t j = i + 1; j < run.logs.size(); ++j) {
@@ -310,16 +316,17 @@ RunComparison CompareFolders(const std::vector<fs::path>& folders,
   }
   const run_folder::Reading reading(folders);
   std::vector<FinishedRun> runs;
-  for (const fs::path& folder : folders) {
-    runs.push_back(ReadRun(folder));
+  const std::vector<std::string> names = ShortRunNames(folders);
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    runs.push_back(ReadRun(folders[i], names[i]));
   }
   const std::vector<Candidates> candidates =
-      runs.size() == 1 ? WithinOne(runs[0], plants) : AcrossTwo(runs[0], runs[1], plants);
+      runs.size() == 1 ? CandidatesWithinRun(runs[0], plants) : AcrossTwo(runs[0], runs[1], plants);
   RunComparison result{.runs = folders};
   if (runs.size() == 2) {
-    NoteOtherPlan(runs[0].folder, runs[1].folder, result.verdict);
+    NoteOtherPlan(runs[0], runs[1], result.verdict);
     if (plants.empty()) {
-      NoteLeftOut(runs[0], runs[1], result.verdict);
+      NoteUnpairedPlants(runs[0], runs[1], result.verdict);
     }
   }
   reading.RequireUnchanged();
@@ -379,14 +386,20 @@ DifferenceBounds ParseTolerances(const std::vector<std::string>& texts) {
 }
 
 void WriteComparison(const RunComparison& comparison, const OutputFolder& folder) {
+  ResultWriter writer(folder);
+  AddComparison(comparison, folder.path(), writer);
+  writer.Commit();
+}
+
+void AddComparison(const RunComparison& comparison, const fs::path& folder, ResultWriter& writer) {
   std::vector<std::string> columns{"pair"};
   const Table any = DifferencesOverArcLength({}, {});
   columns.insert(columns.end(), any.columns().begin(), any.columns().end());
   Table table(columns);
   ordered_json json{{"status", comparison.status()}};
   for (const fs::path& run : comparison.runs) {
-    json["runs"].push_back(
-        (run.is_absolute() ? run : fs::relative(run, folder.path())).generic_string());
+    // Relative to the folder, however the run was named.
+    json["runs"].push_back(fs::relative(run, folder).generic_string());
   }
   json["pairs"] = ordered_json::array();
   for (std::size_t pair = 0; pair < comparison.pairs.size(); ++pair) {
@@ -406,10 +419,9 @@ void WriteComparison(const RunComparison& comparison, const OutputFolder& folder
     json["verdict"]["passed"] = nullptr;
   }
   json["versions"] = Versions();
-  ResultWriter writer(folder);
   writer.Add(run_folder::kCompareCsv, table.ToCsv());
-  writer.Add(run_folder::kCompareJson, json.dump(2) + "\n");
-  writer.Commit(run_folder::kComparison, {run_folder::kReport});
+  writer.Add(run_folder::kCompareJson, JsonText(json));
+  writer.EndResult(run_folder::kComparison, {run_folder::kReport});
 }
 
 }  // namespace trackbed

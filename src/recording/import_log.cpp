@@ -23,8 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kShortest = 1.0;     // [s]
-constexpr double kMostSamples = 1e6;  // 130 MB
+constexpr double kMinDuration = 1.0;  // [s]
+constexpr double kMaxSamples = 1e6;   // 130 MB
 
 /// X_WV of the rear axle from X_WS of the measured point.
 Pose2 VehiclePose(const Pose2& X_WS, const LogSensor& X_VS) {
@@ -101,7 +101,7 @@ class Importer {
     drive_.has_throttle = rows_.has[kThrottleSignal];
     NoteRows();
     Check();
-    LayGrid();
+    BuildTimeGrid();
     FitPoses();
     FitSignals();
     FillGaps();
@@ -117,7 +117,7 @@ class Importer {
 
   void RequireRows() const;
   void Check();
-  void LayGrid();
+  void BuildTimeGrid();
   void FitPoses();
   void FitSignals();
   void FillGaps();
@@ -153,8 +153,8 @@ void Importer::RequireRows() const {
     least = least.cwiseMin(position);
     most = most.cwiseMax(position);
   }
-  constexpr double kMoved = 1e-6;  // [m]
-  if ((most - least).norm() < kMoved) {
+  constexpr double kMinExtent = 1e-6;  // [m]
+  if ((most - least).norm() < kMinExtent) {
     Refuse(
         fmt::format("the position never changes ({}, {}): the car stands, or these are other "
                     "columns",
@@ -184,20 +184,20 @@ void Importer::Check() {
   }
 }
 
-void Importer::LayGrid() {
+void Importer::BuildTimeGrid() {
   start_ = std::max(rows_.time.front() + map_.trim, map_.from);
   const double end = std::min(rows_.time.back() - map_.trim, map_.to.value_or(rows_.time.back()));
-  if (end - start_ < kShortest) {
+  if (end - start_ < kMinDuration) {
     Refuse(fmt::format("{:.3g} s of data between {:.3g} s and {:.3g} s; must be at least {} s",
-                       std::max(0.0, end - start_), start_, end, kShortest));
+                       std::max(0.0, end - start_), start_, end, kMinDuration));
   }
   // The tolerance keeps a last sample that rounding would exclude.
   const double count = std::floor((end - start_) * map_.resample.rate + 1e-6) + 1.0;
-  if (count > kMostSamples) {
+  if (count > kMaxSamples) {
     Refuse(
         fmt::format("{:.4g} samples at {} per second; must be at most {:.0e}: set a lower "
                     "resample.rate, or import a part with from and to",
-                    count, map_.resample.rate, kMostSamples));
+                    count, map_.resample.rate, kMaxSamples));
   }
   for (double i = 0.0; i < count; i += 1.0) {
     drive_.samples.push_back({.time = i / map_.resample.rate, .valid = false});
@@ -317,7 +317,7 @@ void Importer::NoteRows() {
   }
   const double mean = (time.back() - time.front()) / static_cast<double>(time.size() - 1);
   Note("{}, read by the map {}: {} of {} rows used, {:.4g} s apart on average, {:.4g} s at most",
-       log_.string(), map_.name, time.size(), rows_.rows, mean, longest);
+       log_.filename().string(), map_.name, time.size(), rows_.rows, mean, longest);
   if (rows_.invalid > 0) {
     Note("{} rows dropped that `valid` excludes", rows_.invalid);
   }

@@ -40,7 +40,7 @@ double UpperQuartile(std::vector<double> values) {
 /// The moments at which the measured point moves with at least a fifth of its RMS speed, with every
 /// yaw multiplied by `scale`. Fewer than 8000 of them, evenly spread.
 std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale) {
-  constexpr std::size_t kMost = 4000;
+  constexpr std::size_t kMaxMoments = 4000;
   std::vector<double> yaw = rows.yaw;
   for (double& angle : yaw) {
     angle *= scale;
@@ -52,7 +52,7 @@ std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale
   }
   const LocalPolynomial fits(rows.time, values, map.resample.half_width, map.resample.degree);
   std::vector<Moment> all;
-  const std::size_t step = std::max<std::size_t>(1, rows.time.size() / kMost);
+  const std::size_t step = std::max<std::size_t>(1, rows.time.size() / kMaxMoments);
   double squares = 0.0;
   for (const LogStretch& stretch : SplitAtGaps(rows.time, map.gap)) {
     for (std::size_t i = stretch.first; i < stretch.end; i += step) {
@@ -96,10 +96,10 @@ const char* YawKey(const LogMap& map) {
 }
 
 void CheckYawRateOfYaw(const LogRows& rows, const LogMap& map, Found& found) {
-  constexpr double kContradicts = 0.7;
-  constexpr double kAgrees = 0.35;
+  constexpr double kContradictionLimit = 0.7;
+  constexpr double kAgreementLimit = 0.35;
   const std::optional<double> misfit = Misfit(Moments(rows, map, 1.0));
-  if (!misfit || *misfit < kContradicts) {
+  if (!misfit || *misfit < kContradictionLimit) {
     return;
   }
   struct Explanation {
@@ -115,7 +115,7 @@ void CheckYawRateOfYaw(const LogRows& rows, const LogMap& map, Found& found) {
                   "the car turns the other way than its path does: look at frame, and at the order "
                   "of position.x and position.y, or set scale: -1"}};
   for (const Explanation& explanation : explanations) {
-    if (Misfit(Moments(rows, map, explanation.scale)).value_or(1.0) < kAgrees) {
+    if (Misfit(Moments(rows, map, explanation.scale)).value_or(1.0) < kAgreementLimit) {
       found.emplace_back(YawKey(map), explanation.text);
       return;
     }
@@ -143,9 +143,9 @@ void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& 
   }
   mean /= static_cast<double>(moments.size());
   const double off = std::atan2(mean.y(), mean.x());
-  constexpr double kConcentrated = 0.9;  // length of the mean direction; 1: constant
+  constexpr double kMinConcentration = 0.9;  // length of the mean direction; 1: constant
   // Driving in reverse gives an offset of half a turn.
-  if (mean.norm() > kConcentrated && std::abs(off) > 0.6 && std::abs(off) < kPi - 0.6) {
+  if (mean.norm() > kMinConcentration && std::abs(off) > 0.6 && std::abs(off) < kPi - 0.6) {
     found.emplace_back(YawKey(map),
                        fmt::format("the car moves {:.3g} rad to the {} of where it points, all the "
                                    "time: look at frame, sensor.yaw and the yaw's offset",
@@ -189,8 +189,8 @@ Ratio RatioTo(const LogSeries& series, const std::vector<Moment>& moments, const
 }
 
 bool IsNear(double value, double wanted) {
-  constexpr double kWithin = 0.15;
-  return std::abs(value / wanted - 1.0) < kWithin;
+  constexpr double kRelativeTolerance = 0.15;
+  return std::abs(value / wanted - 1.0) < kRelativeTolerance;
 }
 
 void CheckSpeed(const LogRows& rows, const std::vector<Moment>& moments, Found& found) {
@@ -245,8 +245,8 @@ void CheckSteering(const LogRows& rows, const std::vector<Moment>& moments, LogS
   const Ratio ratio = RatioTo(rows.signals[signal], moments, [](const Moment& moment) {
     return moment.course_rate / moment.speed;
   });
-  constexpr double kSurely = -0.7;
-  if (ratio.count >= 20 && ratio.correlation < kSurely) {
+  constexpr double kMaxCorrelation = -0.7;
+  if (ratio.count >= 20 && ratio.correlation < kMaxCorrelation) {
     found.emplace_back(
         kLogSignalKeys[signal],
         "the car turns the other way than it steers: set scale: -1, or look at frame");

@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMostNumbers = 50'000'000;  // 400 MB
+constexpr std::size_t kMaxNumbers = 50'000'000;  // 400 MB
 
 /// Column of a signal, and its sign in the frame of the vehicle.
 struct SignalColumn {
@@ -162,12 +162,12 @@ class LogReader {
 
   void Count(std::size_t numbers) {
     kept_ += numbers;
-    if (kept_ > kMostNumbers) {
+    if (kept_ > kMaxNumbers) {
       throw InputError(Problem{
           .file = log_.string(),
           .message = fmt::format("more than {} numbers in the columns that the map names; import a "
                                  "part of it with from and to",
-                                 kMostNumbers)});
+                                 kMaxNumbers)});
     }
   }
 
@@ -283,7 +283,7 @@ void LogReader::ReadPoses() {
 
 void LogReader::ReadOther(const std::string& name, const char* key) {
   const fs::path folder = log_.parent_path();
-  if (const std::string why = WhyUnreadable(name, folder, {}); !why.empty()) {
+  if (const std::string why = ReadAccessError(name, folder, {}); !why.empty()) {
     throw InputError(Problem{.file = log_.string(),
                              .key = fmt::format("{}.file", key),
                              .message = fmt::format("{} {}", name, why)});

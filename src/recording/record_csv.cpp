@@ -109,8 +109,8 @@ RecordedDrive ReadRecordCsv(const std::filesystem::path& file) {
     }
   }
   problems.ThrowIfAny();
-  drive.notes.push_back(
-      fmt::format("{}: {} samples, {:.6g} s apart", file.string(), table.rows(), drive.period));
+  drive.notes.push_back(fmt::format("{}: {} samples, {:.6g} s apart", file.filename().string(),
+                                    table.rows(), drive.period));
   return drive;
 }
 

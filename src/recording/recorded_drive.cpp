@@ -112,10 +112,10 @@ VehicleState StateOf(const RecordedSample& sample, const VehicleParams& vehicle,
 }
 
 StartState StartFrom(const RecordedSample& sample, double steering) {
-  constexpr double kSlowest = 0.2;  // [m/s]
+  constexpr double kMinSpeed = 0.2;  // [m/s]
   StartState start{
       .pose = sample.pose, .speed = std::max(0.0, sample.velocity_V.x()), .steering = steering};
-  if (start.speed >= kSlowest) {
+  if (start.speed >= kMinSpeed) {
     start.lateral_speed = sample.velocity_V.y();
     start.yaw_rate = sample.yaw_rate;
   }

@@ -37,25 +37,30 @@ struct RunComparison {
 /// without a plan fails.
 RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBounds>& tolerances);
 
-/// Finished runs, from their folders alone. Of one: every pair of `plants`, or of all that it has,
-/// judged by `tolerances`, or else by its scenario's expect.between. Of two: each of `plants`, or
-/// of those that both have, in the first and in the second; or, if `plants` are two, the first of
-/// them in the first run and the second in the second; judged by `tolerances` alone, with a note if
-/// their plans differ. With tolerances, plants that ended differently fail. InputError when a
-/// folder is not a complete run, a plant is missing or listed twice, or nothing is left to compare.
+/// Compares finished runs, from their folders alone. One folder: every pair of `plants` (default:
+/// all plants of the run), judged by `tolerances`, or else by the scenario's expect.between. Two
+/// folders: each of `plants` (default: the plants that both runs have) in the first and in the
+/// second run; if `plants` has two names, the first plant of the first run against the second plant
+/// of the second. Two folders are judged by `tolerances` alone, with a note if their plans differ.
+/// With tolerances, plants that ended differently fail. InputError when a folder is not a complete
+/// run, a plant is missing or listed twice, or nothing is left to compare.
 RunComparison CompareFolders(const std::vector<std::filesystem::path>& folders,
                              const std::vector<std::string>& plants,
                              const std::optional<DifferenceBounds>& tolerances);
 
-/// Reads "position=0.1", "heading=", "yaw_rate=" and "steering=" [SI]. InputError for names that
-/// are none of these or given twice, and values that are no numbers of at least 0.
+/// Reads "position=0.1", "heading=", "yaw_rate=" and "steering=" [SI]. InputError for unknown or
+/// repeated names, and for values that are not numbers of at least 0.
 DifferenceBounds ParseTolerances(const std::vector<std::string>& texts);
 
 /// Writes compare.csv (the differences over arc length, with the number of the `pair` in front),
-/// compare.json and manifest.json, all at once (ResultWriter), and removes the report.html of an
-/// earlier comparison. Without tolerances, the verdict is neither passed nor failed. Run folders
-/// are stored relative to its own, unless given as absolute paths. RunError: the earlier comparison
-/// is still there then.
+/// compare.json and manifest.json in one step (ResultWriter), and removes the report.html of an
+/// earlier comparison. Without tolerances, the verdict is neither passed nor failed. Paths of run
+/// folders are stored relative to the output folder, unless given as absolute paths. On a RunError,
+/// the earlier comparison remains.
 void WriteComparison(const RunComparison& comparison, const OutputFolder& folder);
+
+/// Adds the same files as a result of `writer`, which writes to `folder`.
+void AddComparison(const RunComparison& comparison, const std::filesystem::path& folder,
+                   ResultWriter& writer);
 
 }  // namespace trackbed

@@ -21,7 +21,8 @@ namespace trackbed {
 ///
 /// Guarantees: adds no phase (windows are symmetric, except at the ends of a stretch); pose,
 /// velocity and acceleration are exact, to rounding, for motions that are polynomials of `degree`
-/// in time. Samples in gaps are invalid, and interpolated linearly between the gap's ends.
+/// in time. Samples in gaps are marked invalid; their values are interpolated linearly between the
+/// gap's ends.
 /// RecordedDrive::notes lists the processing.
 ///
 /// Errors: InputError with file and line for missing columns (with the nearest spelling), cells

@@ -63,8 +63,9 @@ std::vector<WindowPrediction> PredictWindows(const CarModel& car, const std::str
 std::vector<double> WindowStarts(const RecordedDrive& drive, double horizon, double spacing,
                                  double min_speed);
 
-/// Errors of predictions relative to the record. Quantiles are over windows, linear between the two
-/// nearest. Relative errors are over all states of all windows at which the recorded speed is at
+/// Errors of predictions relative to the record. Quantiles are taken over the windows, linearly
+/// interpolated between the two nearest values. Relative errors are over all states of all windows
+/// at which the recorded speed is at
 /// least `min_speed`: root mean square of the difference over that of the recorded quantity.
 struct WindowErrors {
   double horizon = 0.0;                ///< [s]
