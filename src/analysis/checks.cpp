@@ -24,8 +24,8 @@ const Metric* Find(const std::vector<Metric>& metrics, const std::string& path) 
 }
 
 /// Why a metric that exists in general was not measured in this run.
-std::string WhyMissing(const std::string& path, const std::vector<Metric>& metrics,
-                       const PlantMetrics& plant) {
+std::string MissingMetricReason(const std::string& path, const std::vector<Metric>& metrics,
+                                const PlantMetrics& plant) {
   if (path.starts_with("turns[")) {
     return fmt::format("{} is not available: the run has {} isolated turn{}", path,
                        plant.turns.size(), plant.turns.size() == 1 ? "" : "s");
@@ -134,6 +134,14 @@ std::string CorridorMessage(const Check& check) {
       value, bound, Where(check.at));
 }
 
+std::string OverspeedMessage(const Check& check) {
+  const auto [bound, value] = NumbersApart(check);
+  return fmt::format(
+      "the car is {} m/s faster than planned, more than the {} m/s that the speed control can "
+      "correct{} (default bound; an expectation on overspeed_max overrides it)",
+      value, bound, Where(check.at));
+}
+
 std::string RequirementMessage(const Check& check) {
   if (!check.detail.empty()) {
     return fmt::format("requirement '{}': {}", check.name, check.detail);
@@ -180,7 +188,7 @@ Check CheckMetric(const PlantMetrics& plant, const std::string& path, Relation r
     check.at = found->at;
     check.met = IsMet(found->value, relation, bound);
   } else {
-    check.detail = WhyMissing(path, metrics, plant);
+    check.detail = MissingMetricReason(path, metrics, plant);
   }
   return check;
 }
@@ -249,6 +257,8 @@ std::string FailureMessage(const Check& check) {
         return "";  // reported by kArrival
       case CheckReason::kCorridor:
         return CorridorMessage(check);
+      case CheckReason::kOverspeed:
+        return OverspeedMessage(check);
       case CheckReason::kSteeringRate:
         return fmt::format(
             "steering rate {:.4g} rad/s exceeds the actuator limit of {} rad/s{}; drive.timestep "

@@ -33,7 +33,7 @@ constexpr const char* kRobustness = ".robustness";
 
 /// The only list that changes after startup: RegisterMetric appends to it.
 std::vector<MetricEntry>& Registry() {
-  static std::vector<MetricEntry> entries = OwnMetrics();
+  static std::vector<MetricEntry> entries = BuiltInMetrics();
   return entries;
 }
 
@@ -297,7 +297,7 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
   metrics.plant = plant;
   metrics.yaw_rate_ratio = 1.0;
   if (scenario.plan) {
-    metrics.tracking.emplace();
+    metrics.tracking.emplace().overspeed_max = 0.0;
     constexpr double kAnyTime = std::numeric_limits<double>::infinity();
     if (DisturbedUntil(scenario.disturb, scenario.world.wind, kAnyTime)) {
       metrics.recovery.emplace();

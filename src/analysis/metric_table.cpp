@@ -82,6 +82,16 @@ Reading YawRateRatio(const PlantMetrics& metrics) {
   return metrics.yaw_rate_ratio ? Reading({*metrics.yaw_rate_ratio, {}}) : Reading();
 }
 
+Reading Overspeed(const PlantMetrics& metrics) {
+  if (!metrics.tracking || !metrics.tracking->overspeed_max) {
+    return std::nullopt;
+  }
+  return MetricReading{*metrics.tracking->overspeed_max,
+                       {.span = MetricSpan::kMoment,
+                        .s = metrics.tracking->overspeed_max_s,
+                        .t = metrics.tracking->overspeed_max_t}};
+}
+
 MetricEntry Headline(MetricEntry entry) {
   entry.headline = true;
   return entry;
@@ -95,7 +105,7 @@ MetricEntry Located(MetricEntry entry) {
 
 }  // namespace
 
-std::vector<MetricEntry> OwnMetrics() {
+std::vector<MetricEntry> BuiltInMetrics() {
   using P = PlantMetrics;
   using T = TrackingMetrics;
   using C = ClearanceMetrics;
@@ -116,6 +126,7 @@ std::vector<MetricEntry> OwnMetrics() {
                    At(&T::heading_error_max, &T::heading_error_max_s, &T::heading_error_max_t)})),
       Headline({"goal_distance", "Distance to the goal", "m", Of(&T::goal_distance, kEnd)}),
       {"goal_heading_error", "Heading error at the goal", "rad", Of(&T::goal_heading_error, kEnd)},
+      Located({"overspeed_max", "Maximum speed above the plan", "m/s", Overspeed}),
       Headline(
           Located({"clearance_min", "Minimum clearance", "m", At(&C::min, &C::min_s, &C::min_t)})),
       {"collision", "Collision", "", At(&C::collision, &C::min_s, &C::min_t)},

@@ -8,7 +8,7 @@
 namespace trackbed {
 
 /// The metrics that Trackbed defines, in the order of metrics.json.
-std::vector<MetricEntry> OwnMetrics();
+std::vector<MetricEntry> BuiltInMetrics();
 
 /// A metric of each isolated turn; in metrics.json under `turns[N]`.
 struct TurnMetricEntry {

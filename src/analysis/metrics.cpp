@@ -19,6 +19,18 @@ namespace {
 /// Averaging window of accelerations and rates [s].
 constexpr double kWindow = 0.1;
 
+void MeasureOverspeed(const LogRow& row, TrackingMetrics& metrics) {
+  if (!row.planned_speed) {
+    return;
+  }
+  const double over = std::max(0.0, std::abs(row.state.speed) - *row.planned_speed);
+  if (!metrics.overspeed_max || over > *metrics.overspeed_max) {
+    metrics.overspeed_max = over;
+    metrics.overspeed_max_s = row.tracking->s;
+    metrics.overspeed_max_t = row.state.time;
+  }
+}
+
 TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double corridor) {
   TrackingMetrics metrics{.corridor = corridor};
   double cross_track_squares = 0.0;
@@ -37,6 +49,7 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double cor
       metrics.cross_track_max_s = at.s;
       metrics.cross_track_max_t = row.state.time;
     }
+    MeasureOverspeed(row, metrics);
     if (std::abs(at.heading_error) > metrics.heading_error_max) {
       metrics.heading_error_max = std::abs(at.heading_error);
       metrics.heading_error_max_s = at.s;

@@ -9,8 +9,8 @@
 namespace trackbed {
 namespace {
 
-constexpr double kNotMet = -1.0;
-constexpr double kMet = 1.0;
+constexpr double kViolatedRobustness = -1.0;
+constexpr double kSatisfiedRobustness = 1.0;
 
 std::optional<double> NumberOf(const MetricValue& value) {
   if (const int* number = std::get_if<int>(&value)) {
@@ -25,9 +25,10 @@ std::optional<double> ExtentOf(const Check& check) {
   const std::optional<double> bound = NumberOf(check.bound);
   const std::optional<double> value = NumberOf(check.value);
   const bool is_limit = check.relation != Relation::kEquals && bound && value &&
-                        check.reason != CheckReason::kSteeringRate;
+                        check.reason != CheckReason::kSteeringRate &&
+                        check.reason != CheckReason::kOverspeed;
   if (!is_limit) {
-    return check.met ? std::nullopt : std::optional(kNotMet);
+    return check.met ? std::nullopt : std::optional(kViolatedRobustness);
   }
   const double left = check.relation == Relation::kAtMost ? *bound - *value : *value - *bound;
   const double margin = *bound == 0.0 ? left : left / std::abs(*bound);
@@ -39,7 +40,7 @@ std::optional<double> ExtentOf(const Check& check) {
 
 RunRobustness RobustnessOf(const RunResult& result) {
   if (!result.plan.ok()) {
-    return {.value = kNotMet, .limit = "plan"};
+    return {.value = kViolatedRobustness, .limit = "plan"};
   }
   std::optional<RunRobustness> least;
   for (const Check& check : result.verdict.checks) {
@@ -50,7 +51,7 @@ RunRobustness RobustnessOf(const RunResult& result) {
       least = {.value = *margin, .limit = plants + ": " + check.metric};
     }
   }
-  return least.value_or(RunRobustness{.value = kMet, .limit = {}});
+  return least.value_or(RunRobustness{.value = kSatisfiedRobustness, .limit = {}});
 }
 
 }  // namespace trackbed

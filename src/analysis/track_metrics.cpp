@@ -40,8 +40,9 @@ class LapCounter {
 double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point, double share) {
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
   const auto middle = static_cast<std::ptrdiff_t>(share * static_cast<double>(count));
-  constexpr double kReach = 15.0;  // [m]
-  const auto reach = std::min(static_cast<std::ptrdiff_t>(kReach / Track::kEdgeSpacing), count / 4);
+  constexpr double kSearchDistance = 15.0;  // [m]
+  const auto reach =
+      std::min(static_cast<std::ptrdiff_t>(kSearchDistance / Track::kEdgeSpacing), count / 4);
   double nearest = std::numeric_limits<double>::infinity();
   double inside = 0.0;
   for (std::ptrdiff_t k = middle - reach; k <= middle + reach; ++k) {

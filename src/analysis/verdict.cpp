@@ -21,20 +21,20 @@ bool HasExpectationFor(std::string_view metric, const PlantExpectation& expect) 
                      [&](const MetricExpectation& own) { return own.metric == metric; });
 }
 
-bool AsksAnything(const PlantExpectation& expect) {
+bool HasExpectations(const PlantExpectation& expect) {
   return expect.reach_goal || expect.max_cross_track || expect.rms_cross_track ||
          expect.max_heading_error || expect.min_clearance || expect.collision ||
          !expect.metrics.empty() || !expect.requirements.empty();
 }
 
-bool AsksAnything(const Expectations& expect) {
-  return AsksAnything(expect.all) || !expect.between.empty() ||
+bool HasExpectations(const Expectations& expect) {
+  return HasExpectations(expect.all) || !expect.between.empty() ||
          std::any_of(expect.plants.begin(), expect.plants.end(),
-                     [](const auto& own) { return AsksAnything(own.second); });
+                     [](const auto& own) { return HasExpectations(own.second); });
 }
 
 /// Why a run ended before the goal; appended to the failure message.
-std::string WhyNotAtGoal(const PlantMetrics& metrics) {
+std::string EarlyEndReason(const PlantMetrics& metrics) {
   return !metrics.blocked.empty()   ? fmt::format(" (it {})", metrics.blocked)
          : !metrics.partial.empty() ? fmt::format(" (the plan {})", metrics.partial)
          : !metrics.cause.empty()   ? fmt::format(" ({})", metrics.cause)
@@ -55,9 +55,9 @@ class Expected {
 
   [[nodiscard]] const std::vector<const PlantExpectation*>& parts() const { return parts_; }
 
-  [[nodiscard]] bool HasStatus() const {
-    return std::any_of(parts_.begin(), parts_.end(), [](const PlantExpectation* part) {
-      return HasExpectationFor("status", *part);
+  [[nodiscard]] bool HasMetric(std::string_view metric) const {
+    return std::any_of(parts_.begin(), parts_.end(), [&](const PlantExpectation* part) {
+      return HasExpectationFor(metric, *part);
     });
   }
 
@@ -83,7 +83,7 @@ class Expected {
 /// Checks that the run arrives, or ends in the expected collision. Returns true if it does, or if
 /// the scenario itself has an expectation on the status.
 bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& verdict) {
-  if (expected.HasStatus()) {
+  if (expected.HasMetric("status")) {
     return true;
   }
   const bool collides =
@@ -92,7 +92,7 @@ bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& ve
                               ToString(collides ? DriveStatus::kCollided : DriveStatus::kArrived));
   arrival.reason = CheckReason::kArrival;
   arrival.name = metrics.tracking ? "reach the goal" : "complete the run";
-  arrival.detail = WhyNotAtGoal(metrics);
+  arrival.detail = EarlyEndReason(metrics);
   AddCheck(arrival, verdict);
   if (metrics.clearance && !expected.Collision()) {
     Check contact = CheckMetric(metrics, "collision", Relation::kEquals, "false");
@@ -136,9 +136,26 @@ void JudgeCorridor(const PlantMetrics& metrics, Verdict& verdict) {
   }
 }
 
+/// Notes what the limit of the overspeed is made of where it is exceeded.
+void JudgeOverspeed(const PlantMetrics& metrics, Verdict& verdict) {
+  const TrackingMetrics& tracking = *metrics.tracking;
+  if (!tracking.overspeed_limit || !tracking.overspeed_max) {
+    return;
+  }
+  Check check = CheckMetric(metrics, "overspeed_max", Relation::kAtMost, *tracking.overspeed_limit);
+  check.reason = CheckReason::kOverspeed;
+  if (!check.met) {
+    verdict.notes.push_back(fmt::format(
+        "{}: the car was {:.3g} m/s faster than planned; the speed control corrects up to {:.3g} "
+        "m/s, where it brakes as hard as it may",
+        metrics.plant, *tracking.overspeed_max, *tracking.overspeed_limit));
+  }
+  AddCheck(check, verdict);
+}
+
 void NoteLimitedSteering(const PlantMetrics& metrics, Verdict& verdict) {
-  constexpr double kNoticed = 0.02;
-  if (metrics.maneuver && metrics.maneuver->steering_saturated_fraction > kNoticed) {
+  constexpr double kNotedFraction = 0.02;
+  if (metrics.maneuver && metrics.maneuver->steering_saturated_fraction > kNotedFraction) {
     verdict.notes.push_back(fmt::format("{}: steering limited ({:.0f} % of the time)",
                                         metrics.plant,
                                         100.0 * metrics.maneuver->steering_saturated_fraction));
@@ -230,7 +247,7 @@ void JudgeBetween(const BetweenExpectation& between,
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons) {
   Verdict verdict;
-  verdict.judged = AsksAnything(expect);
+  verdict.judged = HasExpectations(expect);
   for (const PlantMetrics& metrics : plants) {
     verdict.judged = verdict.judged || metrics.tracking || metrics.clearance;
     const Expected expected(expect, metrics.plant);
@@ -240,6 +257,9 @@ Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plant
     JudgeSteeringRate(metrics, verdict);
     if (metrics.tracking && !expected.HasCrossTrack()) {
       JudgeCorridor(metrics, verdict);
+    }
+    if (metrics.tracking && !expected.HasMetric("overspeed_max")) {
+      JudgeOverspeed(metrics, verdict);
     }
     NoteLimitedSteering(metrics, verdict);
     for (const PlantExpectation* part : expected.parts()) {

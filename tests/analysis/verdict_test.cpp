@@ -8,8 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/analysis/run.h"
 
-// What is called arrived or passed: whole runs in which something goes wrong that used to be
-// missed.
+// Verdicts on whole runs with faults that earlier versions reported as arrived or passed.
 namespace trackbed {
 namespace {
 
@@ -23,7 +22,7 @@ RunResult Drive(const std::string& yaml) {
 }
 
 TEST(Verdict, FailsACarThatPassesThroughAThinWallBetweenTwoRows) {
-  // 10 m/s and a second between the rows: the wall of 0.2 m is within no row's footprint.
+  // At 10 m/s with a second between rows, no row's footprint touches the wall of 0.2 m.
   const RunResult run = Drive(
       "mission: {speed: 10, waypoints: [[0, 0], [100, 0], [200, 0]]}\n"
       "world: {obstacles: [{box: {x: 65, y: 0, length: 0.2, width: 3, height: 1}}]}\n"
@@ -33,12 +32,12 @@ TEST(Verdict, FailsACarThatPassesThroughAThinWallBetweenTwoRows) {
     SCOPED_TRACE(run.logs[i].plant);
     EXPECT_EQ(run.logs[i].status, DriveStatus::kCollided);
     EXPECT_EQ(run.metrics[i].clearance->min, 0.0);
-    // The front is there at (64.9 - front)/10; MuJoCo's car may be a little slower.
+    // The front bumper reaches the wall at (64.9 - front)/10; MuJoCo's car may be a little slower.
     const LogRow& first = run.logs[i].rows.front();
     EXPECT_EQ(first.state.pose.x, 0.0);
     EXPECT_NEAR(*run.logs[i].contact_time, 6.13, 0.15);
   }
-  // The contact's force is not missed either.
+  // The contact force is recorded, too.
   EXPECT_GT(run.metrics[1].clearance->force_max, 1000.0);
 }
 
@@ -58,7 +57,7 @@ TEST(Verdict, MeasuresTheDistanceFromThePathBehindItsStart) {
   const RunResult run = Drive(
       "mission: {speed: 3, waypoints: [[0, 0], [30, 0], [60, 0]], start: {x: -20}}\n"
       "plan: {method: fillet, infeasible: allow}\ndrive: {plants: [kinematic]}\n");
-  ASSERT_TRUE(run.plan.ok()) << run.plan.reason;
+  ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
   EXPECT_NEAR(run.metrics[0].tracking->cross_track_max, 20.0, Tolerance(1e-9));
   EXPECT_EQ(run.logs[0].rows.front().tracking->s, 0.0);
   EXPECT_FALSE(run.verdict.passed);
@@ -66,7 +65,7 @@ TEST(Verdict, MeasuresTheDistanceFromThePathBehindItsStart) {
 }
 
 TEST(Verdict, HoldsASmallCarToItsOwnSize) {
-  // Steered a tenth as far as it should be, it stands meters beside its goal of 2 m.
+  // A car that steers a tenth of the commanded angle stops meters away from its goal at 2 m.
   const std::string mission =
       "vehicle: {model: small_car.xml}\nmission: {speed: 1, waypoints: [[0, 0], [2, 0], [2, 2]]}\n"
       "plan: {method: fillet}\ndrive: {plants: [kinematic]}\n";
@@ -80,8 +79,8 @@ TEST(Verdict, HoldsASmallCarToItsOwnSize) {
 }
 
 TEST(Verdict, ArrivesWithinAShareOfTheCarsLength) {
-  // The open loop of these turns ends off its goal; how far off is arrived is the scenario's to
-  // say.
+  // Driven open loop, these turns end beside the goal; the scenario's tolerance decides whether
+  // that counts as arrival.
   const auto status = [](double tolerance) {
     return Drive(
         fmt::format("mission: {{speed: 3, waypoints: [[0, 0], [40, 0], [40, 40]]}}\n"
@@ -122,6 +121,22 @@ TEST(Verdict, IsNotPassedWhereNothingWasAsked) {
   EXPECT_TRUE(Drive(drive + "expect: {metrics: [{metric: time, max: 2}]}\n").verdict.passed);
 }
 
+TEST(Verdict, FailsACarThatIsFasterThanItsSpeedControlCorrects) {
+  PlantMetrics metrics{.plant = "mujoco"};
+  metrics.tracking.emplace();
+  metrics.tracking->overspeed_limit = 1.56;
+  metrics.tracking->overspeed_max = 1.55;
+  EXPECT_THAT(Judge({}, {metrics}, {}).failures, testing::IsEmpty());
+  metrics.tracking->overspeed_max = 2.4;
+  const Verdict verdict = Judge({}, {metrics}, {});
+  EXPECT_THAT(verdict.failures,
+              ElementsAre(HasSubstr("2.4 m/s faster than planned, more than the 1.56 m/s")));
+  EXPECT_THAT(verdict.notes, ElementsAre(HasSubstr("the car was 2.4 m/s faster than planned")));
+  Expectations expect;
+  expect.all.metrics = {{.metric = "overspeed_max", .min = {}, .max = 3.0, .equals = {}}};
+  EXPECT_THAT(Judge(expect, {metrics}, {}).failures, testing::IsEmpty());
+}
+
 TEST(Verdict, FailsWheelsThatTurnFasterThanTheirActuator) {
   PlantMetrics metrics{.plant = "mujoco",
                        .steering_max = 0.3,
@@ -129,7 +144,7 @@ TEST(Verdict, FailsWheelsThatTurnFasterThanTheirActuator) {
                        .steering_rate_limit = 0.1,
                        .steering_limit = 0.25};
   EXPECT_THAT(Judge({}, {metrics}, {}).failures, Contains(HasSubstr("drive.timestep is too long")));
-  // Prescribed wheels do, and that is to be known.
+  // Prescribed wheels may exceed the limits: the run passes, with notes.
   metrics.steering_is_prescribed = true;
   const Verdict verdict = Judge({}, {metrics}, {});
   EXPECT_TRUE(verdict.failures.empty());
@@ -141,7 +156,7 @@ TEST(Verdict, FailsWheelsThatTurnFasterThanTheirActuator) {
           "rad/s"));
 }
 
-std::vector<std::string> Told(const Verdict& verdict) {
+std::vector<std::string> CheckTexts(const Verdict& verdict) {
   std::vector<std::string> told;
   const nlohmann::ordered_json json = ToJson(verdict);
   for (const auto& check : json["checks"]) {
@@ -174,7 +189,7 @@ TEST(Verdict, ListsEveryCheckWithBoundAndValueWhereAndWhen) {
                                 .heading = {.rms = 0.1, .max = 0.125, .max_s = 12.0, .max_t = 4.0}};
   const Verdict verdict = Judge(expect, {metrics}, {between});
   EXPECT_THAT(
-      Told(verdict),
+      CheckTexts(verdict),
       ElementsAre(
           R"({"plant":"mujoco","metric":"status","relation":"equals","bound":"arrived",)"
           R"("value":"arrived","station":20.0,"time":8.0,"met":true})",
@@ -222,7 +237,7 @@ TEST(Verdict, NotesThatContactsSlide) {
 }
 
 TEST(Verdict, TellsOfSlowTurnsAndOfObstaclesOnThePath) {
-  // A corner of 115 degrees after 28 m takes less than 4 m/s.
+  // A corner of 115 degrees after 28 m requires less than 4 m/s.
   const RunResult slow = Drive(
       "mission: {speed: 4, waypoints: [[0, 0], [28, 0], [16, 26]]}\nplan: {method: fillet}\n"
       "drive: {plants: [kinematic]}\n");
@@ -231,7 +246,8 @@ TEST(Verdict, TellsOfSlowTurnsAndOfObstaclesOnThePath) {
       "mission: {speed: 3, waypoints: [[0, 0], [20, 0], [40, 0]]}\nplan: {method: fillet}\n"
       "world: {obstacles: [{box: {x: 30, y: 0, length: 2, width: 2}}]}\n"
       "drive: {plants: [kinematic]}\n");
-  // Its front is 3.625 m ahead of the rear axle, the box begins at 29 m; found to 2 cm.
+  // The car's front is 3.625 m ahead of the rear axle, the box begins at 29 m; the plan's hit is
+  // located to 2 cm.
   EXPECT_THAT(blocked.verdict.notes,
               Contains(HasSubstr("plan: the path hits an obstacle at s = 25.3")));
 }
@@ -242,12 +258,12 @@ TEST(Verdict, TellsOfAPlanThatWasSlowedDown) {
       "drive: {plants: [kinematic]}\n");
   EXPECT_TRUE(run.verdict.passed);
   EXPECT_THAT(run.verdict.notes, Contains(HasSubstr("plan: speed reduced")));
-  // At the car's rate, and the plan's own: nothing is left over for the wheels to catch up.
+  // The plan keeps within the car's steering rate, so the wheels never lag behind.
   EXPECT_LE(run.metrics[0].steering_rate_max, run.metrics[0].steering_rate_limit * (1.0 + 1e-6));
 }
 
 TEST(Verdict, RollingStartsOnBendsAreOnTheirPath) {
-  // Every one of these began on a bend, with the car rolling and its wheels straight.
+  // Each of these paths begins on a bend, while the car starts rolling with straight wheels.
   for (const char* mission : {"waypoints: [[0, 0], [25, 15]], headings: [0, 1.5]",
                               "waypoints: [[0, 0], [20, -15]], headings: [0, -2.5]",
                               "waypoints: [[0, 0], [-10, 20]], headings: [0.5, 3]",

@@ -24,6 +24,7 @@ enum class CheckReason {
   kArrival,       ///< every run must arrive
   kNoContact,     ///< every run must touch no obstacle
   kCorridor,      ///< on a path, stay within one car width of it
+  kOverspeed,     ///< on a path, no faster than the speed control can correct
   kSteeringRate,  ///< steering rate within the actuator's limit
   kCollision,     ///< `expect.collision`
   kComparable,    ///< the station ranges of two compared plants overlap
@@ -88,6 +89,8 @@ void AddCheck(Check check, Verdict& verdict);
 ///   * that it arrives; an expected `status` or `collision: true` replaces that,
 ///   * that it touches no obstacle,
 ///   * on a path, that it stays within one car width of it (`max_cross_track` replaces that),
+///   * on a path, that it is nowhere faster than planned by more than its speed control can correct
+///     (an expectation on `overspeed_max` replaces that),
 ///   * that its wheels turned no faster than the actuator allows, plus 3 % for their compliance;
 ///     faster wheels mean that the timestep is too long for the car.
 ///
