@@ -16,8 +16,9 @@ namespace {
 
 /// Formats a number; uses an exponent for large ones.
 std::string Number(double number) {
-  constexpr double kManyDigits = 1e9;
-  return std::abs(number) <= kManyDigits ? fmt::format("{}", number) : fmt::format("{:g}", number);
+  constexpr double kMaxPlainNumber = 1e9;
+  return std::abs(number) <= kMaxPlainNumber ? fmt::format("{}", number)
+                                             : fmt::format("{:g}", number);
 }
 
 }  // namespace

@@ -69,6 +69,29 @@ Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
   return plan;
 }
 
+/// Requires at least one segment, and either a constant curvature or a ramp in each.
+std::vector<OptionProblem> CheckSegments(const CourseOptions& options,
+                                         const CouldReadKey& could_read) {
+  std::vector<OptionProblem> problems;
+  if (options.segments.empty() && could_read("segments")) {
+    problems.push_back({"segments", "a course needs at least one segment"});
+  }
+  for (std::size_t i = 0; i < options.segments.size(); ++i) {
+    const CoursePiece& piece = options.segments[i];
+    const std::string key = fmt::format("segments[{}]", i);
+    if (!could_read(key) || !could_read(key + ".curvature") ||
+        !could_read(key + ".curvature_from") || !could_read(key + ".curvature_to")) {
+      continue;
+    }
+    if (piece.curvature && (piece.curvature_from || piece.curvature_to)) {
+      problems.push_back({key, "give curvature or curvature_to, not both"});
+    } else if (!piece.curvature && !piece.curvature_to) {
+      problems.push_back({key, "give curvature (0 for a straight), or curvature_to for a ramp"});
+    }
+  }
+  return problems;
+}
+
 }  // namespace
 
 void Visit(DiagnosticsVisitor& out, const CourseSegmentFindings& own) {
@@ -108,7 +131,8 @@ PlannerEntry CoursePlanner() {
   return {.name = "course",
           .summary = "straights, arcs and curvature ramps as given",
           .defaults = CourseOptions{},
-          .plan = PlanBy<CourseOptions, PlanWith>};
+          .plan = PlanBy<CourseOptions, PlanWith>,
+          .check = OnOptions<CourseOptions, CheckSegments>};
 }
 
 }  // namespace trackbed

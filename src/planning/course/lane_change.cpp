@@ -231,7 +231,8 @@ PlannerEntry LaneChangePlanner() {
   return {.name = "lane_change",
           .summary = "double lane change through gates (ISO 3888)",
           .defaults = LaneChangePlannerOptions{},
-          .plan = PlanBy<LaneChangePlannerOptions, PlanWith>};
+          .plan = PlanBy<LaneChangePlannerOptions, PlanWith>,
+          .has_gates = true};
 }
 
 }  // namespace trackbed

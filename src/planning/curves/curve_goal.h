@@ -20,8 +20,8 @@ struct CurveGoal {
   CurveGoal(const Pose2& from, const Pose2& to, double radius) {
     TRACKBED_CHECK(radius > 0.0 && std::isfinite(radius), "radius {}", radius);
     const Vec2 local = ToLocal(from, to.position()) / radius;
-    constexpr double kFarthest = 1e100;  // [radii]; its square is finite
-    TRACKBED_REQUIRE(local.norm() <= kFarthest && std::isfinite(to.yaw - from.yaw),
+    constexpr double kMaxDistance = 1e100;  // [radii]; its square is finite
+    TRACKBED_REQUIRE(local.norm() <= kMaxDistance && std::isfinite(to.yaw - from.yaw),
                      "a curve from {}, {}, yaw {} to {}, {}, yaw {}; must be finite", from.x,
                      from.y, from.yaw, to.x, to.y, to.yaw);
     x = local.x();
@@ -50,7 +50,7 @@ struct CurveGoal {
   }
 
   /// The start relative to the goal, for words that are driven from their end.
-  [[nodiscard]] CurveGoal FromItsEnd() const {
+  [[nodiscard]] CurveGoal FromGoal() const {
     CurveGoal goal = *this;
     goal.x = x * cos + y * sin;
     goal.y = x * sin - y * cos;

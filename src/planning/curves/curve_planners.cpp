@@ -30,12 +30,12 @@ struct FoundCurve {
 };
 
 /// The cheapest of `words` that is free of collisions and may begin as it does; each stop costs
-/// kStop.
+/// kStopPenalty.
 template <typename MayBegin>
 std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionChecker& clear,
                                     const Pose2& from, const std::vector<ShortestCurve>& words,
                                     double min_speed, const MayBegin& may_begin) {
-  constexpr double kStop = 5.0;  // [m]; the same as a change of direction in hybrid A*
+  constexpr double kStopPenalty = 5.0;  // [m]; the same as a change of direction in hybrid A*
   std::vector<FoundCurve> candidates;
   for (std::size_t i = 0; i < words.size(); ++i) {
     std::vector<Segment> own = ToSegments(words[i]);
@@ -43,7 +43,7 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
       const auto stops =
           static_cast<double>(PlanSteps(request.vehicle, own, min_speed).stops.size());
       candidates.push_back({std::move(own), words[i], static_cast<std::ptrdiff_t>(i),
-                            words[i].length + kStop * stops});
+                            words[i].length + kStopPenalty * stops});
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -81,9 +81,9 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
       // the shorter.
       const double bend = CurvatureForSteering(request.vehicle, request.start_steering);
       found = FirstFree(request, clear, stops[0], all, options.min_speed, [&](const auto& own) {
-        constexpr double kSame = 1e-6;  // [1/m]
+        constexpr double kEqualityTolerance = 1e-6;  // [1/m]
         return !own.empty() && own.front().direction > 0 &&
-               std::abs(own.front().curvature - bend) < kSame;
+               std::abs(own.front().curvature - bend) < kEqualityTolerance;
       });
       const LeadIn lead = LeadInForCurves(request, radius, options.min_speed);
       const auto forwards = [](const std::vector<Segment>& own) {

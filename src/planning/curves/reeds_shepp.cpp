@@ -22,19 +22,19 @@ constexpr double kRight = 0.5 * kPi;  // a right angle
 constexpr double kRounding = 1e-12;
 
 /// Wraps an angle of at most a few turns to [-pi, pi].
-double Near(double angle) {
+double WrapToPi(double angle) {
   return angle - 2.0 * kPi * std::nearbyint(angle * (0.5 / kPi));
 }
 
-/// Same as Near, for a sweep that must not be negative: returns pi in place of -pi.
-double NotNegative(double angle) {
-  const double near = Near(angle);
+/// Same as WrapToPi, for a sweep that must not be negative: returns pi in place of -pi.
+double WrapNonNegative(double angle) {
+  const double near = WrapToPi(angle);
   return near < kRounding - kPi ? near + 2.0 * kPi : near;
 }
 
-/// Same as Near, for a sweep that must not be positive: returns -pi in place of pi.
-double NotPositive(double angle) {
-  return -NotNegative(-angle);
+/// Same as WrapToPi, for a sweep that must not be positive: returns -pi in place of pi.
+double WrapNonPositive(double angle) {
+  return -WrapNonNegative(-angle);
 }
 
 /// Square root; rounding may have made the argument negative.
@@ -74,8 +74,8 @@ Sweeps LSL(const CurveGoal& goal, double limit) {
   if (u >= limit || d.y() < -kRounding) {
     return {};  // the first arc would turn to the right
   }
-  const double t = NotNegative(std::atan2(d.y(), d.x()));
-  const double v = NotNegative(goal.yaw - t);
+  const double t = WrapNonNegative(std::atan2(d.y(), d.x()));
+  const double v = WrapNonNegative(goal.yaw - t);
   return v >= -kRounding ? With(t, u, v) : Sweeps{};
 }
 
@@ -87,8 +87,8 @@ Sweeps LSR(const CurveGoal& goal, double limit) {
     return {};
   }
   const double u = Root(square);
-  const double t = NotNegative(std::atan2(d.y() * u + 2.0 * d.x(), d.x() * u - 2.0 * d.y()));
-  const double v = NotNegative(t - goal.yaw);
+  const double t = WrapNonNegative(std::atan2(d.y() * u + 2.0 * d.x(), d.x() * u - 2.0 * d.y()));
+  const double v = WrapNonNegative(t - goal.yaw);
   return t >= -kRounding && v >= -kRounding ? With(t, u, v) : Sweeps{};
 }
 
@@ -100,19 +100,19 @@ Sweeps LRL(const CurveGoal& goal, double /*limit*/) {
     return {};
   }
   const double u = -2.0 * std::asin(std::min(0.25 * std::sqrt(square), 1.0));
-  const double t = NotNegative(std::atan2(d.y(), d.x()) + 0.5 * u + kPi);
-  return t >= -kRounding ? With(t, u, Near(goal.yaw - t + u)) : Sweeps{};
+  const double t = WrapNonNegative(std::atan2(d.y(), d.x()) + 0.5 * u + kPi);
+  return t >= -kRounding ? With(t, u, WrapToPi(goal.yaw - t + u)) : Sweeps{};
 }
 
 /// Solves the outer arcs of a word of four arcs whose inner arcs sweep u and v.
 template <typename Last>
 Sweeps OuterOfFour(const Vec2& d, double u, double v, double yaw, const Last& last) {
-  const double delta = Near(u - v);
+  const double delta = WrapToPi(u - v);
   const double a = std::sin(u) - std::sin(delta);
   const double b = std::cos(u) - std::cos(delta) - 1.0;
   const double turned = std::atan2(d.y() * a - d.x() * b, d.x() * a + d.y() * b);
   const double sign = 2.0 * (std::cos(delta) - std::cos(v) - std::cos(u)) + 3.0;
-  const double tau = NotNegative(sign < 0.0 ? turned + kPi : turned);
+  const double tau = WrapNonNegative(sign < 0.0 ? turned + kPi : turned);
   return With(tau, u, last(tau - u + v - yaw), std::abs(v));
 }
 
@@ -124,7 +124,7 @@ Sweeps LRLR(const CurveGoal& goal, double /*limit*/) {
     return {};
   }
   const double u = std::acos(std::min(0.25 * (2.0 + std::sqrt(square)), 1.0));
-  const Sweeps sweeps = OuterOfFour(d, u, -u, goal.yaw, NotPositive);
+  const Sweeps sweeps = OuterOfFour(d, u, -u, goal.yaw, WrapNonPositive);
   return sweeps.t >= -kRounding && sweeps.v <= kRounding ? sweeps : Sweeps{};
 }
 
@@ -136,7 +136,7 @@ Sweeps LRLRInner(const CurveGoal& goal, double /*limit*/) {
     return {};
   }
   const double u = -std::acos(std::min(rho, 1.0));
-  const Sweeps sweeps = OuterOfFour(d, u, u, goal.yaw, NotNegative);
+  const Sweeps sweeps = OuterOfFour(d, u, u, goal.yaw, WrapNonNegative);
   return sweeps.t >= -kRounding && sweeps.v >= -kRounding ? sweeps : Sweeps{};
 }
 
@@ -150,8 +150,8 @@ Sweeps LRSL(const CurveGoal& goal, double limit) {
     return {};
   }
   // The direction of d plus the angle of (-2, r), by one arctangent.
-  const double t = NotNegative(std::atan2(d.x() * r - 2.0 * d.y(), -2.0 * d.x() - d.y() * r));
-  const double v = NotPositive(goal.yaw - kRight - t);
+  const double t = WrapNonNegative(std::atan2(d.x() * r - 2.0 * d.y(), -2.0 * d.x() - d.y() * r));
+  const double v = WrapNonPositive(goal.yaw - kRight - t);
   const bool fits = t >= -kRounding && v <= kRounding;
   return fits ? With(t, u, v, kRight) : Sweeps{};
 }
@@ -163,8 +163,8 @@ Sweeps LRSR(const CurveGoal& goal, double limit) {
   if (u > kRounding || kRight - u >= limit || d.x() < -kRounding) {
     return {};
   }
-  const double t = NotNegative(std::atan2(d.x(), -d.y()));
-  const double v = NotPositive(t + kRight - goal.yaw);
+  const double t = WrapNonNegative(std::atan2(d.x(), -d.y()));
+  const double v = WrapNonPositive(t + kRight - goal.yaw);
   return v <= kRounding ? With(t, u, v, kRight) : Sweeps{};
 }
 
@@ -176,9 +176,9 @@ Sweeps LRSLR(const CurveGoal& goal, double limit) {
   if (u > kRounding || 2.0 * kRight - u >= limit) {
     return {};
   }
-  const double t =
-      NotNegative(std::atan2((4.0 - u) * d.x() - 2.0 * d.y(), -2.0 * d.x() + (u - 4.0) * d.y()));
-  const double v = NotNegative(t - goal.yaw);
+  const double t = WrapNonNegative(
+      std::atan2((4.0 - u) * d.x() - 2.0 * d.y(), -2.0 * d.x() + (u - 4.0) * d.y()));
+  const double v = WrapNonNegative(t - goal.yaw);
   return t >= -kRounding && v >= -kRounding ? With(t, u, v, 2.0 * kRight) : Sweeps{};
 }
 
@@ -190,7 +190,7 @@ struct Family {
   int count;
   std::array<Bend, 5> bends;
   std::array<Part, 5> parts;
-  bool from_its_end;  ///< reading the word from its end gives another word
+  bool is_asymmetric;  ///< reading the word from its end gives another word
 };
 
 constexpr Bend kL = Bend::kLeft;
@@ -217,7 +217,7 @@ struct Word {
   const Family* family = nullptr;
   bool mirrored = false;
   bool reversed = false;
-  bool from_its_end = false;
+  bool is_asymmetric = false;
   Sweeps sweeps;
 };
 
@@ -246,7 +246,7 @@ ShortestCurve MakeCurve(const Word& word, double radius) {
   for (std::size_t i = 0; i < count; ++i) {
     const int bend = static_cast<int>(word.family->bends[i]);
     const double sweep = PartSweep(word.family->parts[i], word.sweeps);
-    curve.pieces[word.from_its_end ? count - 1 - i : i] = {
+    curve.pieces[word.is_asymmetric ? count - 1 - i : i] = {
         static_cast<Bend>(word.mirrored ? -bend : bend), word.reversed ? -sweep : sweep};
   }
   return curve;
@@ -257,17 +257,17 @@ template <typename Limit, typename Take>
 void ForEachWord(const CurveGoal& goal, const Limit& limit, const Take& take) {
   const std::array<CurveGoal, 4> seen{goal, goal.Reversed(), goal.Mirrored(),
                                       goal.Mirrored().Reversed()};
-  const std::array<CurveGoal, 4> from_end{seen[0].FromItsEnd(), seen[1].FromItsEnd(),
-                                          seen[2].FromItsEnd(), seen[3].FromItsEnd()};
+  const std::array<CurveGoal, 4> from_end{seen[0].FromGoal(), seen[1].FromGoal(),
+                                          seen[2].FromGoal(), seen[3].FromGoal()};
   for (const Family& family : kFamilies) {
     for (std::size_t i = 0; i < seen.size(); ++i) {
-      for (const bool from_its_end : {false, true}) {
-        if (from_its_end && !family.from_its_end) {
+      for (const bool is_asymmetric : {false, true}) {
+        if (is_asymmetric && !family.is_asymmetric) {
           continue;
         }
-        const Sweeps sweeps = family.solve(from_its_end ? from_end[i] : seen[i], limit());
+        const Sweeps sweeps = family.solve(is_asymmetric ? from_end[i] : seen[i], limit());
         if (sweeps.sum < limit()) {
-          take(Word{&family, i >= 2, i % 2 == 1, from_its_end, sweeps});
+          take(Word{&family, i >= 2, i % 2 == 1, is_asymmetric, sweeps});
         }
       }
     }

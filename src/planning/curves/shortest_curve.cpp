@@ -6,10 +6,10 @@ namespace trackbed {
 namespace {
 
 /// Pieces up to this length (in radii) are dropped: they come from rounding of a zero angle.
-constexpr double kNothing = 1e-12;
+constexpr double kMinPieceLength = 1e-12;
 
 bool IsThere(const CurvePiece& piece) {
-  return std::abs(piece.sweep) > kNothing;
+  return std::abs(piece.sweep) > kMinPieceLength;
 }
 
 }  // namespace

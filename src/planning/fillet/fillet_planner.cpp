@@ -146,6 +146,40 @@ Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
   return plan;
 }
 
+std::vector<OptionProblem> CheckConstraint(const FilletOptions& options,
+                                           const CouldReadKey& could_read) {
+  if (!could_read("radius") || !could_read("constraint") || options.radius ||
+      options.constraint != RadiusConstraint::kNone) {
+    return {};
+  }
+  return {{"constraint", "'none' requires plan.radius"}};
+}
+
+double NeutralSteering(const FilletOptions& options) {
+  return options.neutral_steering;
+}
+
+/// Convergence histories: the best radii after each generation of a search.
+Table ConvergenceTable(const PlanDiagnostics& diagnostics) {
+  Table table({"waypoint", "evaluations", "objective", "radius_m"});
+  const auto* all_turns = diagnostics.planner.As<FilletDiagnostics>();
+  for (std::size_t k = 0; k < diagnostics.turns.size(); ++k) {
+    const auto& found = diagnostics.turns[k].Get<FilletTurnFindings>();
+    const double waypoint = found.turn.waypoint;
+    if (found.turn.search) {
+      for (const SearchProgress& best : found.turn.search->result.history) {
+        table.AddRow({waypoint, static_cast<double>(best.evaluations), best.value, best.x[0]});
+      }
+    } else if (all_turns != nullptr && all_turns->search) {
+      for (const SearchProgress& best : all_turns->search->history) {
+        table.AddRow(
+            {waypoint, static_cast<double>(best.evaluations), best.value, DrivenRadii(best.x)[k]});
+      }
+    }
+  }
+  return table;
+}
+
 }  // namespace
 
 void Visit(DiagnosticsVisitor& out, const FilletTurnFindings& own) {
@@ -277,7 +311,10 @@ PlannerEntry FilletPlanner() {
               "(Skackauskas, dissertation)",
           .defaults = FilletOptions{},
           .plan = PlanBy<FilletOptions, PlanWith>,
-          .min_waypoints = kMinFilletWaypoints};
+          .min_waypoints = kMinFilletWaypoints,
+          .check = OnOptions<FilletOptions, CheckConstraint>,
+          .neutral_steering = OnOptions<FilletOptions, NeutralSteering>,
+          .tables = {{"convergence.csv", ConvergenceTable}}};
 }
 
 }  // namespace trackbed

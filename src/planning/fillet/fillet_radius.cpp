@@ -252,11 +252,12 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
 }
 
 ActiveConstraint ActiveAt(const RadiusLimits& limits, double radius) {
-  constexpr double kReached = 1e-3;
-  if (radius >= limits.radii.high * (1.0 - kReached)) {
+  constexpr double kActiveTolerance = 1e-3;
+  if (radius >= limits.radii.high * (1.0 - kActiveTolerance)) {
     return limits.at_high;
   }
-  return radius <= limits.radii.low * (1.0 + kReached) ? limits.at_low : ActiveConstraint::kNone;
+  return radius <= limits.radii.low * (1.0 + kActiveTolerance) ? limits.at_low
+                                                               : ActiveConstraint::kNone;
 }
 
 double ConstraintAt(const VehicleParams& vehicle, RadiusConstraint constraint,

@@ -49,7 +49,7 @@ std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOpt
 
 /// Continues from the end of a piece to the horizon at constant speed and offset; none if the piece
 /// lasts that long.
-std::optional<FrenetPiece> GoingOn(const FrenetPiece& piece, double horizon) {
+std::optional<FrenetPiece> Extrapolate(const FrenetPiece& piece, double horizon) {
   if (!(horizon > piece.duration)) {
     return std::nullopt;
   }
@@ -119,11 +119,11 @@ FrenetCost PieceCost(const FrenetPiece& piece, const FrenetTarget& target,
     offset = piece.d.At(duration);
   }
   const double missed_speed = piece.s.At(duration, 1) - target.speed;
-  const double missed_way = target.station ? station - *target.station : 0.0;
+  const double station_error = target.station ? station - *target.station : 0.0;
   FrenetCost cost;
   cost.lateral = weights.k_dj * roughness + weights.k_d * offset * offset + weights.k_dt * duration;
   cost.longitudinal = weights.k_sj * piece.s.IntegralOfSquare(order, duration) +
-                      weights.k_s * missed_way * missed_way +
+                      weights.k_s * station_error * station_error +
                       weights.k_v * missed_speed * missed_speed + weights.k_st * duration;
   cost.total = weights.k_lat * cost.lateral + weights.k_lon * cost.longitudinal;
   return cost;
@@ -233,12 +233,12 @@ FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
       break;
     }
     ++plan.checked;
-    if (const auto rejection = check.Coarse(candidate.piece, 0.0)) {
+    if (const auto rejection = check.CheckCoarsely(candidate.piece, 0.0)) {
       plan.rejected.Add(*rejection);
       continue;
     }
-    const auto later = GoingOn(candidate.piece, options.horizon);
-    if (later && check.Coarse(*later, candidate.piece.duration) == Rejection::kCollision) {
+    const auto later = Extrapolate(candidate.piece, options.horizon);
+    if (later && check.CheckCoarsely(*later, candidate.piece.duration) == Rejection::kCollision) {
       plan.rejected.Add(Rejection::kCollision);
       continue;
     }
@@ -248,7 +248,7 @@ FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
       plan.rejected.Add(Rejection::kFrame);
       continue;
     }
-    if (const auto flaw = check.Fine(*points)) {
+    if (const auto flaw = check.CheckFinely(*points)) {
       plan.rejected.Add(flaw->rejection);
       continue;
     }

@@ -9,7 +9,7 @@ namespace trackbed {
 namespace {
 
 /// Points closer than this do not form a segment [m].
-constexpr double kShortest = 1e-3;
+constexpr double kMinSegmentLength = 1e-3;
 
 /// Number of equal time intervals of a piece; none where the Frenet frame does not exist.
 std::optional<int> CountIntervals(const Path& path, const FrenetPiece& piece, double time_step,
@@ -104,7 +104,7 @@ Reference ToReference(const std::vector<TrajectoryPoint>& points) {
   TRACKBED_CHECK(!points.empty(), "a trajectory without points");
   std::vector<TrajectoryPoint> kept{points.front()};
   for (const TrajectoryPoint& point : points) {
-    if (point.distance - kept.back().distance >= kShortest) {
+    if (point.distance - kept.back().distance >= kMinSegmentLength) {
       kept.push_back(point);
     }
   }

@@ -50,7 +50,7 @@ class Lattice {
     start.state = request.start;
     start.cost = 0.0;
     layers_.push_back(0);
-    Lay();
+    BuildLayers();
     layers_.push_back(nodes_.size());
   }
 
@@ -78,7 +78,7 @@ class Lattice {
 
  private:
   /// Creates the nodes, layer by layer.
-  void Lay() {
+  void BuildLayers() {
     const double from = request_.start.s;
     const auto* stop = std::get_if<StopAt>(&request_.goal);
     double spacing = options_.spacing;
@@ -173,7 +173,7 @@ class Lattice {
           }
           ++plan_.checked;
           const double time = nodes_[edge.from].time;
-          if (const auto rejection = check.Coarse(edge.piece, time)) {
+          if (const auto rejection = check.CheckCoarsely(edge.piece, time)) {
             plan_.rejected.Add(*rejection);
             continue;
           }
@@ -209,8 +209,8 @@ class Lattice {
     }
     auto points =
         SampleMotion(reference_, motion, options_.limits.time_step, options_.limits.spacing);
-    const auto flaw =
-        points ? check.Fine(*points) : TrajectoryCheck::Flaw{Rejection::kFrame, motion.duration()};
+    const auto flaw = points ? check.CheckFinely(*points)
+                             : TrajectoryCheck::Flaw{Rejection::kFrame, motion.duration()};
     if (flaw) {
       --plan_.passed;
       plan_.rejected.Add(flaw->rejection);

@@ -18,8 +18,8 @@ struct SidePoint {
   double d = 0.0;  // [m]
 };
 
-constexpr int kAlongSide = 5;  // points on each long side
-using SidePoints = std::array<SidePoint, 2 * kAlongSide>;
+constexpr int kPointsPerSide = 5;  // points on each long side
+using SidePoints = std::array<SidePoint, 2 * kPointsPerSide>;
 
 /// The points of both sides; none if a point lies at or beyond the center of curvature.
 std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
@@ -29,9 +29,9 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
   const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
   const double sine = tangent * cosine;
   SidePoints points;
-  for (int i = 0; i < 2 * kAlongSide; ++i) {
+  for (int i = 0; i < 2 * kPointsPerSide; ++i) {
     const int from_rear = i / 2;
-    const double x = car.length * from_rear / (kAlongSide - 1) - car.rear_overhang;
+    const double x = car.length * from_rear / (kPointsPerSide - 1) - car.rear_overhang;
     const double y = i % 2 == 0 ? 0.5 * car.width : -0.5 * car.width;
     const double ahead = x * cosine - y * sine;
     const double aside = frenet.d + x * sine + y * cosine;
@@ -60,10 +60,11 @@ struct EdgeAbeam {
 /// Where the pose's normal crosses the edge near a fraction of the lap. Of several crossings,
 /// returns the one closest to the `expected` offset; without any, `expected`.
 EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, double expected) {
-  constexpr double kReach = 20.0;  // [m]
+  constexpr double kSearchDistance = 20.0;  // [m]
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
   const auto middle = static_cast<std::ptrdiff_t>(share * static_cast<double>(count));
-  const auto reach = std::min(static_cast<std::ptrdiff_t>(kReach / Track::kEdgeSpacing), count / 4);
+  const auto reach =
+      std::min(static_cast<std::ptrdiff_t>(kSearchDistance / Track::kEdgeSpacing), count / 4);
   const Vec2 forward = Direction(pose.yaw);
   const Vec2 left = LeftNormal(forward);
   EdgeAbeam found{.offset = expected};
@@ -87,12 +88,12 @@ EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, 
 }
 
 /// Widens the edges to contain the footprint of a car on the path.
-void Admit(const Path& path, const VehicleParams& car, double spacing,
-           std::vector<RoadWidths>& widths) {
-  constexpr double kLook = 0.2;    // [m]
-  constexpr double kTouch = 2e-3;  // [m], allowance between the looks
+void WidenToFootprint(const Path& path, const VehicleParams& car, double spacing,
+                      std::vector<RoadWidths>& widths) {
+  constexpr double kSampleSpacing = 0.2;     // [m]
+  constexpr double kSampleTolerance = 2e-3;  // [m], allowance between the looks
   const auto last = static_cast<double>(widths.size() - 1);
-  const double count = std::ceil(path.length() / kLook);
+  const double count = std::ceil(path.length() / kSampleSpacing);
   for (double i = 0.0; i <= count; i += 1.0) {
     const PathPoint at = path.At(path.length() * i / std::max(count, 1.0));
     const auto sides = SidesOf(car, at, {.s = at.s});
@@ -100,8 +101,8 @@ void Admit(const Path& path, const VehicleParams& car, double spacing,
       const double place = std::clamp(point.s / spacing, 0.0, last);
       for (const double node : {std::floor(place), std::ceil(place)}) {
         RoadWidths& there = widths[static_cast<std::size_t>(node)];
-        there.left = std::max(there.left, point.d + kTouch);
-        there.right = std::max(there.right, kTouch - point.d);
+        there.left = std::max(there.left, point.d + kSampleTolerance);
+        there.right = std::max(there.right, kSampleTolerance - point.d);
       }
     }
   }
@@ -157,7 +158,7 @@ RoadEdges EdgesBeside(const Path& path, const Track& track, const VehicleParams&
     widths.push_back({.left = left.offset - distance / std::max(left.cosine, 0.5),
                       .right = -right.offset - distance / std::max(right.cosine, 0.5)});
   }
-  Admit(path, vehicle, spacing, widths);
+  WidenToFootprint(path, vehicle, spacing, widths);
   return {spacing, std::move(widths)};
 }
 

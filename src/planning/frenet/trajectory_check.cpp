@@ -14,7 +14,7 @@ constexpr double kNodeSpacing = 0.25;  // [m]
 // Tolerance of a limit that is met exactly.
 constexpr double kRounding = 1e-9;
 // Below this speed d(t) does not determine the heading [m/s].
-constexpr double kSlowest = 0.1;
+constexpr double kMinHeadingSpeed = 0.1;
 
 double HalfDiagonal(const OrientedBox& box) {
   return 0.5 * std::hypot(box.length, box.width);
@@ -78,7 +78,7 @@ TrajectoryCheck::TrajectoryCheck(const Path& path, const FrenetRequest& request,
   left_ = loosened(request.road.left, reach.left);
   right_ = loosened(request.road.right, reach.right);
   if (request.edges) {
-    beyond_ = loosened(0.0, ReachBeyond(*request.edges, request.vehicle, at, request.start));
+    start_excess_ = loosened(0.0, ReachBeyond(*request.edges, request.vehicle, at, request.start));
   }
   const OrientedBox footprint = FootprintAt(request.vehicle, start->pose);
   for (const MovingBox& obstacle : request.obstacles) {
@@ -129,7 +129,7 @@ bool TrajectoryCheck::Collides(double time, const Pose2& pose) const {
 std::optional<Rejection> TrajectoryCheck::CheckPoint(double time, const PathPoint& at,
                                                      const FrenetState& frenet,
                                                      const MotionState& motion,
-                                                     std::optional<Before>& before) const {
+                                                     std::optional<PreviousPoint>& before) const {
   const double v = motion.speed;
   if (!(v <= speed_ && v >= slowest_)) {
     return Rejection::kSpeed;
@@ -150,7 +150,8 @@ std::optional<Rejection> TrajectoryCheck::CheckPoint(double time, const PathPoin
   if (reach.left > left_ || reach.right > right_) {
     return Rejection::kRoad;
   }
-  if (request_.edges && ReachBeyond(*request_.edges, request_.vehicle, at, frenet) > beyond_) {
+  if (request_.edges &&
+      ReachBeyond(*request_.edges, request_.vehicle, at, frenet) > start_excess_) {
     return Rejection::kRoad;
   }
   if (Collides(time, motion.pose)) {
@@ -159,11 +160,12 @@ std::optional<Rejection> TrajectoryCheck::CheckPoint(double time, const PathPoin
   return std::nullopt;
 }
 
-std::optional<Rejection> TrajectoryCheck::Coarse(const FrenetPiece& piece, double time) const {
-  std::optional<Before> before;
+std::optional<Rejection> TrajectoryCheck::CheckCoarsely(const FrenetPiece& piece,
+                                                        double time) const {
+  std::optional<PreviousPoint> before;
   const auto check = [&](double t) -> std::optional<Rejection> {
     const FrenetState frenet = piece.At(t);
-    if (!piece.over_station && frenet.s_rate < kSlowest) {
+    if (!piece.over_station && frenet.s_rate < kMinHeadingSpeed) {
       return Rejection::kSpeed;
     }
     const PathPoint at = table_.At(frenet.s);
@@ -191,9 +193,9 @@ std::optional<Rejection> TrajectoryCheck::Coarse(const FrenetPiece& piece, doubl
   return rejection ? rejection : check(duration);
 }
 
-std::optional<TrajectoryCheck::Flaw> TrajectoryCheck::Fine(
+std::optional<TrajectoryCheck::Flaw> TrajectoryCheck::CheckFinely(
     const std::vector<TrajectoryPoint>& points) const {
-  std::optional<Before> before;
+  std::optional<PreviousPoint> before;
   for (const TrajectoryPoint& point : points) {
     const PathPoint at = path_.At(point.frenet.s);
     if (const auto rejection = CheckPoint(point.t, at, point.frenet, point.motion, before)) {

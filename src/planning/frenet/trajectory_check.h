@@ -29,8 +29,8 @@ class PathTable {
 /// Checks motions against a request and its limits.
 class TrajectoryCheck {
  public:
-  /// Tabulates the path up to the station `to`, for Coarse. Keeps references to all arguments but
-  /// `to`.
+  /// Tabulates the path up to the station `to`, for CheckCoarsely. Keeps references to all
+  /// arguments but `to`.
   TrajectoryCheck(const Path& path, const FrenetRequest& request, const FrenetLimits& limits,
                   double to);
 
@@ -39,24 +39,24 @@ class TrajectoryCheck {
 
   /// Checks a piece that begins `time` after the start, every `time_step` and more closely near its
   /// ends.
-  [[nodiscard]] std::optional<Rejection> Coarse(const FrenetPiece& piece, double time) const;
+  [[nodiscard]] std::optional<Rejection> CheckCoarsely(const FrenetPiece& piece, double time) const;
 
   struct Flaw {
     Rejection rejection;
     double time;  ///< [s]
   };
   /// The first point of a motion that violates a limit.
-  [[nodiscard]] std::optional<Flaw> Fine(const std::vector<TrajectoryPoint>& points) const;
+  [[nodiscard]] std::optional<Flaw> CheckFinely(const std::vector<TrajectoryPoint>& points) const;
 
  private:
-  struct Before {
+  struct PreviousPoint {
     double time;
     double steering;
   };
   [[nodiscard]] std::optional<Rejection> CheckPoint(double time, const PathPoint& at,
                                                     const FrenetState& frenet,
                                                     const MotionState& motion,
-                                                    std::optional<Before>& before) const;
+                                                    std::optional<PreviousPoint>& before) const;
   /// How far the footprint extends to either side of the path, measured from the path's circle of
   /// curvature.
   struct Reach {
@@ -81,7 +81,7 @@ class TrajectoryCheck {
   double steering_rate_ = 0.0;
   double left_ = 0.0;
   double right_ = 0.0;
-  double beyond_ = 0.0;  // how far the start is beyond the edges [m]
+  double start_excess_ = 0.0;  // how far the start is beyond the edges [m]
   struct Obstacle {
     MovingBox box;
     double margin;  // required clearance

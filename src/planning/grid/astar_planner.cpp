@@ -34,7 +34,7 @@ PlanStatus ToPlanStatus(GridStatus status) {
 
 /// Half a cell's diagonal [m]. Obstacles are inflated by it too, so that every point of a free
 /// cell, and of the line to the next cell's center, keeps the inflation's distance from them.
-double OverACell(const AStarOptions& options) {
+double CellInflation(const AStarOptions& options) {
   return 0.5 * std::sqrt(2.0) * options.cell;
 }
 
@@ -70,21 +70,21 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
                      fmt::format("from waypoint {} to {}: {}, after {} cells of {:.3g} m; "
                                  "obstacles are inflated by {:.3g} m",
                                  i - 1, i, ToString(way.status), way.expansions, options.cell,
-                                 inflation + OverACell(options)));
+                                 inflation + CellInflation(options)));
     }
     std::vector<Vec2> leg = WaypointsOnGrid(grid, way, goal);
     leg.front() = points.back();
     found.legs.push_back({.cost = way.cost * options.cell,
                           .expansions = way.expansions,
                           .cells = grid.size(),
-                          .path = WithoutStraightOn(leg)});
+                          .path = WithoutCollinearPoints(leg)});
     if (round) {
       leg = Shortcut(leg, request.obstacles, inflation);
     }
     points.insert(points.end(), leg.begin() + 1, leg.end());
   }
   if (!round) {
-    points = WithoutStraightOn(points);
+    points = WithoutCollinearPoints(points);
   }
   plan.diagnostics.planner = std::move(found);
   return route::AlongPolyline(std::move(plan), request, points, options.corners,
@@ -93,7 +93,7 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
 
 /// First points of polylines that begin at the car's heading, the start included: straight on, then
 /// ahead or to either side, as a goal behind the car requires. Nearest first.
-std::vector<std::vector<Vec2>> WaysOut(const PlanRequest& request) {
+std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request) {
   const double radius = request.vehicle.min_turning_radius();
   const double braking =
       0.5 * request.start_speed * request.start_speed / request.speed.deceleration;
@@ -132,8 +132,8 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
                            (options.corners == Corners::kRound ? options.corner_room : 0.0);
   std::vector<Vec2> stops = request.waypoints;
   stops.front() = request.start.position();
-  const std::vector<std::vector<Vec2>> ways_out = WaysOut(request);
-  for (const std::vector<Vec2>& way : ways_out) {
+  const std::vector<std::vector<Vec2>> departures = DeparturePolylines(request);
+  for (const std::vector<Vec2>& way : departures) {
     stops.push_back(way.back());
   }
   const GridArea area = AreaAround(request.start, stops, request.obstacles, options.margin);
@@ -143,7 +143,7 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
                                CellsIn(area, options.cell), options.cell, kMaxCells));
   }
   const OccupancyGrid grid = Rasterize(request.start, area, options.cell, request.obstacles,
-                                       inflation + OverACell(options));
+                                       inflation + CellInflation(options));
   Plan direct = PlanGrid(options, request, grid, inflation, {request.start.position()});
   const std::vector<Excess> excesses =
       direct.ok() ? FindExcesses(direct, request) : std::vector<Excess>{};
@@ -155,7 +155,7 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
     return direct;
   }
   const BoxIndex obstacles(request.obstacles);
-  for (const std::vector<Vec2>& way : ways_out) {
+  for (const std::vector<Vec2>& way : departures) {
     if (!IsFree(way, obstacles, inflation)) {
       continue;
     }

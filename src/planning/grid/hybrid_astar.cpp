@@ -206,7 +206,7 @@ class HybridAStar {
 
   /// Tries to reach the goal by a curve: the first free one of the cheapest few.
   void TryToEnd(int index, const Node& node) {
-    constexpr std::size_t kTries = 4;
+    constexpr std::size_t kMaxAttempts = 4;
     struct Curve {
       double cost;
       std::vector<Segment> segments;
@@ -228,7 +228,7 @@ class HybridAStar {
     }
     std::stable_sort(curves.begin(), curves.end(),
                      [](const Curve& a, const Curve& b) { return a.cost < b.cost; });
-    curves.resize(std::min(curves.size(), kTries));
+    curves.resize(std::min(curves.size(), kMaxAttempts));
     for (Curve& curve : curves) {
       if (IsFree(node.pose, curve.segments)) {
         best_end_ = curve.cost;

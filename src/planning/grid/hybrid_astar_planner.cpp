@@ -105,7 +105,8 @@ PlannerEntry HybridAStarPlanner() {
       .has_headings = true,
       .goes_backwards = true,
       .searches = true,
-      .may_go_backwards = MayReverse};
+      .may_go_backwards = MayReverse,
+      .detour_defaults = HybridAStarOptions{.radius = {}, .reverse = false}};
 }
 
 }  // namespace trackbed

@@ -17,7 +17,7 @@ namespace trackbed {
 namespace {
 
 /// Why the car's pose differs from the start of the path, for people; empty if it does not.
-std::string WhyElsewhere(const Pose2& car, const Pose2& path) {
+std::string StartPoseError(const Pose2& car, const Pose2& path) {
   constexpr double kPlace = 1e-3;    // [m]
   constexpr double kHeading = 1e-3;  // [rad]
   const double distance = (car.position() - path.position()).norm();
@@ -32,7 +32,7 @@ std::string WhyElsewhere(const Pose2& car, const Pose2& path) {
 }
 
 /// The first place that the car cannot steer through, for people; empty without one.
-std::string WhyTooTight(const VehicleParams& vehicle, const std::vector<Segment>& segments) {
+std::string SteeringLimitError(const VehicleParams& vehicle, const std::vector<Segment>& segments) {
   double station = 0.0;
   for (const Segment& segment : segments) {
     const double end = segment.CurvatureAt(segment.length);
@@ -57,7 +57,7 @@ Plan PlanWith(const LaneRouteOptions& options, const PlanRequest& request) {
                           "needs a road network and a route of at least two places");
   }
   for (const LanePlace& place : lanes.route) {
-    if (const std::string why = WhyNoPlace(*lanes.network, place); !why.empty()) {
+    if (const std::string why = LanePlaceError(*lanes.network, place); !why.empty()) {
       return route::Refused(PlanStatus::kNoPath, why);
     }
   }
@@ -65,10 +65,12 @@ Plan PlanWith(const LaneRouteOptions& options, const PlanRequest& request) {
   if (!found.ok()) {
     return route::Refused(PlanStatus::kNoPath, found.failure);
   }
-  if (const std::string why = WhyElsewhere(request.start, found.path.At(0.0).pose); !why.empty()) {
+  if (const std::string why = StartPoseError(request.start, found.path.At(0.0).pose);
+      !why.empty()) {
     return route::Refused(PlanStatus::kStartBlocked, why);
   }
-  if (const std::string why = WhyTooTight(request.vehicle, found.path.segments()); !why.empty()) {
+  if (const std::string why = SteeringLimitError(request.vehicle, found.path.segments());
+      !why.empty()) {
     return route::Refused(PlanStatus::kTurnTooTight, why);
   }
   Plan plan;

@@ -31,10 +31,10 @@ double SmoothStep(double u) {
 
 /// Whether a piece of a road is short enough and turns little enough for one strip.
 bool IsShort(const Road& road, double from, double to) {
-  constexpr double kLongest = 16.0;  // [m]
-  constexpr double kMostTurn = 0.5;  // [rad]
-  constexpr double kShortest = 0.5;  // [m]
-  if (to - from > kLongest) {
+  constexpr double kMaxLength = 16.0;  // [m]
+  constexpr double kMaxTurn = 0.5;     // [rad]
+  constexpr double kMinLength = 0.5;   // [m]
+  if (to - from > kMaxLength) {
     return false;
   }
   double most = 0.0;
@@ -43,7 +43,7 @@ bool IsShort(const Road& road, double from, double to) {
         most,
         std::abs(road.reference.At(std::lerp(from, to, part), std::lerp(from, to, 0.5)).curvature));
   }
-  return most * (to - from) < kMostTurn || to - from < kShortest;
+  return most * (to - from) < kMaxTurn || to - from < kMinLength;
 }
 
 void Cut(const Road& road, double from, double to, double before, double after,
@@ -128,8 +128,8 @@ std::optional<RoadStrip::Place> RoadStrip::Locate(const Vec2& point_W) const {
     const double along = ahead.dot(offset - t * across.head<2>());
     const double fold = 1.0 - curvature_ * level;
     const double next = std::clamp(s + along / (stretch * std::max(fold, 0.3)), from_, to_);
-    constexpr double kSame = 1e-8;  // [m]
-    if (std::abs(next - s) > kSame) {
+    constexpr double kEqualityTolerance = 1e-8;  // [m]
+    if (std::abs(next - s) > kEqualityTolerance) {
       s = next;
       continue;
     }
@@ -138,8 +138,8 @@ std::optional<RoadStrip::Place> RoadStrip::Locate(const Vec2& point_W) const {
     }
     const double beyond = s == from_ || s == to_ ? std::abs(along) : 0.0;
     const double on = std::min(beyond, along < 0.0 ? before_ : after_);
-    constexpr double kLevelOut = 10.0;  // [m]
-    const double run = on + kLevelOut * (1.0 - std::exp((on - beyond) / kLevelOut));
+    constexpr double kLevelingLength = 10.0;  // [m]
+    const double run = on + kLevelingLength * (1.0 - std::exp((on - beyond) / kLevelingLength));
     const auto [right, left] = Borders(s);
     return Place{
         .s = s,
@@ -157,8 +157,8 @@ std::vector<RoadStrip> CutIntoStrips(const Road& road, double from, double to, d
   std::vector<double> ends{from, to};
   const auto add = [&](const auto& pieces) {
     for (const auto& piece : pieces) {
-      constexpr double kApart = 1e-6;  // [m]
-      if (piece.s > from + kApart && piece.s < to - kApart) {
+      constexpr double kMinSpacing = 1e-6;  // [m]
+      if (piece.s > from + kMinSpacing && piece.s < to - kMinSpacing) {
         ends.push_back(piece.s);
       }
     }

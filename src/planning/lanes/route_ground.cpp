@@ -26,15 +26,15 @@
 namespace trackbed {
 namespace {
 
-constexpr double kGoesOn = 15.0;     // extension along its road before and after the route [m]
-constexpr double kStraightOn = 6.0;  // straight extension beyond the end of that road [m]
-constexpr double kLikeLanes = 1.5;   // width beside the lanes with the lanes' surface [m]
-constexpr double kPasses = 8.0;      // width of the transition to the ground between roads [m]
-constexpr double kReach = kLikeLanes + kPasses;
+constexpr double kRoadExtension = 15.0;  // extension along its road before and after the route [m]
+constexpr double kStraightExtension = 6.0;  // straight extension beyond the end of that road [m]
+constexpr double kLaneSurfaceMargin = 1.5;  // width beside the lanes with the lanes' surface [m]
+constexpr double kBlendWidth = 8.0;  // width of the transition to the ground between roads [m]
+constexpr double kInfluenceDistance = kLaneSurfaceMargin + kBlendWidth;
 constexpr double kMargin = 128.0;        // around the route [m]
 constexpr double kLevelBorder = 24.0;    // width of the level border [m]
 constexpr double kSlopeToBorder = 72.0;  // [m]
-constexpr double kBelow = 1.0;           // height of the border below the lowest road [m]
+constexpr double kBorderDepth = 1.0;     // height of the border below the lowest road [m]
 
 /// Stations of a road that the route needs.
 struct Stretch {
@@ -53,10 +53,10 @@ Stretches NeededStretches(const RoadNetwork& network, const std::vector<LaneStre
     const LaneStretch& own = route[i];
     const double length = network.roads.find(own.road)->second.length;
     const bool backward = own.to < own.from;
-    const double enters = i == 0 ? kStraightOn : 0.0;
-    const double leaves = i + 1 == route.size() ? kStraightOn : 0.0;
-    all[own.road].push_back({std::max(0.0, std::min(own.from, own.to) - kGoesOn),
-                             std::min(length, std::max(own.from, own.to) + kGoesOn),
+    const double enters = i == 0 ? kStraightExtension : 0.0;
+    const double leaves = i + 1 == route.size() ? kStraightExtension : 0.0;
+    all[own.road].push_back({std::max(0.0, std::min(own.from, own.to) - kRoadExtension),
+                             std::min(length, std::max(own.from, own.to) + kRoadExtension),
                              backward ? leaves : enters, backward ? enters : leaves});
   }
   for (auto& [id, stretches] : all) {
@@ -101,7 +101,7 @@ class Surfaces {
   [[nodiscard]] std::vector<const RoadStrip*> Near(const Vec2& middle, double radius) const {
     std::vector<const RoadStrip*> near;
     for (const RoadStrip& strip : strips_) {
-      if ((strip.middle() - middle).norm() < strip.radius() + radius + kReach) {
+      if ((strip.middle() - middle).norm() < strip.radius() + radius + kInfluenceDistance) {
         near.push_back(&strip);
       }
     }
@@ -120,7 +120,7 @@ class Surfaces {
     const RoadStrip* on = nullptr;
     RoadStrip::Place there;
     for (const RoadStrip* strip : near) {
-      const double circle = strip->radius() + kReach;
+      const double circle = strip->radius() + kInfluenceDistance;
       if ((strip->middle() - point).squaredNorm() > circle * circle) {
         continue;
       }
@@ -129,10 +129,12 @@ class Surfaces {
         continue;
       }
       const double away = std::hypot(place->beside, place->beyond - place->straight_on);
-      blend.share = std::max(blend.share, place->share * Fade((away - kLikeLanes) / kPasses));
+      blend.share =
+          std::max(blend.share, place->share * Fade((away - kLaneSurfaceMargin) / kBlendWidth));
       const double square = place->beside * place->beside + place->beyond * place->beyond;
-      constexpr double kLeast = 1e-6;  // [m^2]
-      const double weight = place->share / ((square + kLeast) * (square + kLeast));
+      constexpr double kMinSquaredDistance = 1e-6;  // [m^2]
+      const double weight =
+          place->share / ((square + kMinSquaredDistance) * (square + kMinSquaredDistance));
       sum += weight;
       blend.z += weight * place->z;
       // Adjacent strips meet at their ends, where a step in height is no bridge.
@@ -161,9 +163,9 @@ class Surfaces {
 
   void Compare(const RoadStrip& one, const RoadStrip::Place& a, const RoadStrip& other,
                const RoadStrip::Place& b, const Vec2& point) {
-    constexpr double kMostApart = 0.1;  // [m]
+    constexpr double kMaxHeightDifference = 0.1;  // [m]
     const double apart = std::abs(a.z - b.z);
-    if (apart > std::max(kMostApart, crossing_ ? crossing_->apart : 0.0)) {
+    if (apart > std::max(kMaxHeightDifference, crossing_ ? crossing_->apart : 0.0)) {
       crossing_ = Crossing{one.road().id, a.s, other.road().id, b.s, point, apart};
     }
   }
@@ -211,15 +213,15 @@ std::optional<Terrain> CoarseTerrain(const std::vector<RoadStrip>& strips) {
     high = high.cwiseMax(Vec2(point.x, point.y));
     lowest = std::min(lowest, point.z);
   }
-  constexpr double kLargest = 8000.0;  // [m]
-  if ((high - low).maxCoeff() > kLargest) {
+  constexpr double kMaxSide = 8000.0;  // [m]
+  if ((high - low).maxCoeff() > kMaxSide) {
     return std::nullopt;
   }
   Terrain::Size size;
   size.low = Terrain::kBlock * ((low.array() - kMargin) / Terrain::kBlock).floor();
   size.columns = static_cast<int>(std::ceil((high.x() + kMargin - size.low.x()) / Terrain::kBlock));
   size.rows = static_cast<int>(std::ceil((high.y() + kMargin - size.low.y()) / Terrain::kBlock));
-  size.base = lowest - kBelow;
+  size.base = lowest - kBorderDepth;
   HeightGrid known{size.CoarseColumns(), size.CoarseRows(), {}};
   const auto count = static_cast<std::size_t>(known.columns) * static_cast<std::size_t>(known.rows);
   std::vector<std::pair<double, double>> sums(count);
@@ -313,39 +315,39 @@ bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& ro
 }
 
 /// Why the road cannot be ground at this station, for people; empty if it can.
-std::string WhyNoGround(const Road& road, double s) {
+std::string GroundError(const Road& road, double s) {
   const CubicValue height = road.elevation.At(s);
   const double roll = road.superelevation.At(s).value;
-  constexpr double kSteepest = 1.0;  // as for bumps of the world's ground
-  if (!(std::abs(height.slope) <= kSteepest && std::abs(std::tan(roll)) <= kSteepest &&
+  constexpr double kMaxSlope = 1.0;  // as for bumps of the world's ground
+  if (!(std::abs(height.slope) <= kMaxSlope && std::abs(std::tan(roll)) <= kMaxSlope &&
         std::cos(roll) > 0.0)) {
     return fmt::format(
         "road {} at s = {:.4g} m has a grade of {:.3g} and a superelevation of {:.3g} rad; must be "
         "at most 45 degrees steep",
         road.id, s, height.slope, roll);
   }
-  constexpr double kHighest = 1e4;  // [m]
-  if (!(std::abs(height.value) <= kHighest)) {
+  constexpr double kMaxHeight = 1e4;  // [m]
+  if (!(std::abs(height.value) <= kMaxHeight)) {
     return fmt::format(
         "road {} at s = {:.4g} m is {:.3g} m high; must be at least {} and at most {}", road.id, s,
-        height.value, -kHighest, kHighest);
+        height.value, -kMaxHeight, kMaxHeight);
   }
-  constexpr double kWidest = 50.0;  // [m]
+  constexpr double kMaxLaneBorder = 50.0;  // [m]
   const std::size_t section = road.SectionAt(s);
   for (const Lane& lane : road.sections[section].lanes) {
     const double border = LaneBordersAt(road, section, lane.id, s, s).outer.value;
-    if (IsDrivable(lane) && !(std::abs(border) <= kWidest)) {
+    if (IsDrivable(lane) && !(std::abs(border) <= kMaxLaneBorder)) {
       return fmt::format(
           "lane {} of road {} reaches {:.4g} m from the reference line at s = {:.4g} m; must be at "
           "most {} m on roads that are not level",
-          lane.id, road.id, std::abs(border), s, kWidest);
+          lane.id, road.id, std::abs(border), s, kMaxLaneBorder);
     }
   }
   return "";
 }
 
 /// Why the roads cannot be ground, for people; empty if they can.
-std::string WhyNoGround(const RoadNetwork& network, const Stretches& needed) {
+std::string GroundError(const RoadNetwork& network, const Stretches& needed) {
   double length = 0.0;
   for (const auto& [id, stretches] : needed) {
     const Road& road = network.roads.find(id)->second;
@@ -356,18 +358,18 @@ std::string WhyNoGround(const RoadNetwork& network, const Stretches& needed) {
     for (const Stretch& stretch : stretches) {
       length += stretch.to - stretch.from;
       for (double s = stretch.from; s <= stretch.to; s += 1.0) {
-        if (std::string why = WhyNoGround(road, s); !why.empty()) {
+        if (std::string why = GroundError(road, s); !why.empty()) {
           return why;
         }
       }
     }
   }
-  constexpr double kLongest = 20000.0;  // [m]
-  return length > kLongest ? fmt::format(
-                                 "the route has {:.3g} km of road that is not level; must "
-                                 "be at most {:.3g} km",
-                                 1e-3 * length, 1e-3 * kLongest)
-                           : "";
+  constexpr double kMaxLength = 20000.0;  // [m]
+  return length > kMaxLength ? fmt::format(
+                                   "the route has {:.3g} km of road that is not level; must "
+                                   "be at most {:.3g} km",
+                                   1e-3 * length, 1e-3 * kMaxLength)
+                             : "";
 }
 
 RouteGround GroundOf(const RoadNetwork& network, const std::vector<LaneStretch>& stretches) {
@@ -376,7 +378,7 @@ RouteGround GroundOf(const RoadNetwork& network, const std::vector<LaneStretch>&
     return ground;
   }
   const Stretches needed = NeededStretches(network, stretches);
-  ground.failure = WhyNoGround(network, needed);
+  ground.failure = GroundError(network, needed);
   if (!ground.ok()) {
     return ground;
   }
@@ -405,13 +407,13 @@ RouteGround GroundOf(const RoadNetwork& network, const std::vector<LaneStretch>&
     return ground;
   }
   const Deviation deviation = LargestDeviation(network, stretches, *terrain);
-  constexpr double kMost = 0.01;  // [m]
-  if (!(deviation.distance <= kMost)) {
+  constexpr double kMaxDeviation = 0.01;  // [m]
+  if (!(deviation.distance <= kMaxDeviation)) {
     ground.failure = fmt::format(
         "the surface of road {} has a step or a kink at s = {:.4g} m, x = {:.4g} m, y = {:.4g} m: "
         "smooth ground is {:.3g} m away from it; must be at most {} m",
         deviation.road, deviation.s, deviation.place.x(), deviation.place.y(), deviation.distance,
-        kMost);
+        kMaxDeviation);
     return ground;
   }
   ground.deviation = deviation.distance;

@@ -44,9 +44,9 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
 }
 
 double TyreCurvature(const LapLimits& limits, double squared, double angle, GgvSide side) {
-  constexpr double kBeside = 0.05;  // [rad]; the boundary consists of elliptic arcs
-  const double from = std::max(0.0, angle - kBeside);
-  const double to = std::min(0.5 * std::numbers::pi, angle + kBeside);
+  constexpr double kAngleStep = 0.05;  // [rad]; the boundary consists of elliptic arcs
+  const double from = std::max(0.0, angle - kAngleStep);
+  const double to = std::min(0.5 * std::numbers::pi, angle + kAngleStep);
   const GgvCut a = TyreCut(limits, squared, from, side);
   const GgvCut b = TyreCut(limits, squared, to, side);
   // Length of the boundary between the two tangent points.

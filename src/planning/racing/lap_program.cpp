@@ -17,11 +17,11 @@ namespace trackbed {
 namespace {
 
 /// Stands for infinity, because bounds of rows must be finite; actual values are far smaller.
-constexpr double kOpen = 50.0;
+constexpr double kUnbounded = 50.0;
 /// Keeps a cut at any distance from the lap, because no step may violate it: when a braking point
 /// moves along a straight, intervals change from driving to braking.
-constexpr double kAlways = kOpen;
-constexpr double kLeastRange = 1e-9;  // least distance between the two bounds of a row
+constexpr double kKeepAlways = kUnbounded;
+constexpr double kMinRange = 1e-9;  // least distance between the two bounds of a row
 
 double Squared(double x) {
   return x * x;
@@ -35,9 +35,9 @@ double Excess(const GgvCut& cut, double across, double along) {
 /// Angles at which tangents are laid to a quarter of the diagram near `angle`. Even small steps
 /// change accelerations considerably, so the tangents must follow the boundary closely.
 std::vector<double> CutAngles(double angle) {
-  constexpr std::array<double, 5> kBeside{-0.3, -0.1, 0.0, 0.1, 0.3};
+  constexpr std::array<double, 5> kAngleOffsets{-0.3, -0.1, 0.0, 0.1, 0.3};
   std::vector<double> angles;
-  for (const double by : kBeside) {
+  for (const double by : kAngleOffsets) {
     if (angle + by >= 0.0 && angle + by <= 0.5 * std::numbers::pi) {
       angles.push_back(angle + by);
     }
@@ -108,7 +108,7 @@ void LapProgram::AddRow(const Form& form, double lower, double upper) {
     rows_.emplace_back(row, variable, value);
   }
   lower_.push_back(lower);
-  upper_.push_back(std::max(upper, lower + kLeastRange));
+  upper_.push_back(std::max(upper, lower + kMinRange));
 }
 
 /// Adds the lap time, the sum of 2 l/(v_i + v_j), to second order in speeds and lengths.
@@ -207,7 +207,7 @@ void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
     form.Add(stretch_[next], -ratio * by_length);
     form.Add(curvature_[flat], -ratio * 2.0 * wheelbase * tangent / (1.0 + tangent * tangent));
     if (end == i || ratio > 0.5) {
-      AddRow(form, end == i ? -1.0 - ratio : -kOpen, std::max(0.0, 1.0 - ratio));
+      AddRow(form, end == i ? -1.0 - ratio : -kUnbounded, std::max(0.0, 1.0 - ratio));
     }
   }
 }
@@ -247,7 +247,7 @@ bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, co
   form.Add(curvature_[at], cut.across * side * squared);
   form.Add(SpeedVariable(at), cut.across * across - bound_rate);
   // Where the diagram is not convex, a tangent may cut off the lap itself: keep that feasible.
-  AddRow(form, -kOpen, std::max(0.0, -excess));
+  AddRow(form, -kUnbounded, std::max(0.0, -excess));
   return true;
 }
 
@@ -280,8 +280,8 @@ void LapProgram::TakeMultipliers(const Eigen::VectorXd& multipliers) {
 }
 
 void LapProgram::AddTyres(const Lap& lap, std::size_t i, GgvSide side) {
-  constexpr double kStep = 0.01;  // relative step in the squared speed
-  constexpr double kKeep = 0.3;   // fraction of the largest lateral force
+  constexpr double kStep = 0.01;         // relative step in the squared speed
+  constexpr double kKeepFraction = 0.3;  // fraction of the largest lateral force
   const LapLimits& limits = model_.limits();
   const double squared = Squared(lap.speeds[i]);
   const double across = squared * std::abs(lap.curvature[i]);
@@ -298,7 +298,8 @@ void LapProgram::AddTyres(const Lap& lap, std::size_t i, GgvSide side) {
       const double rate =
           -(Excess(faster, across, along) - Excess(slower, across, along)) / (2.0 * kStep);
       const auto row = static_cast<Eigen::Index>(lower_.size());
-      if (AddCut(lap, i, interval, cut, rate, cut_angle == angle ? kAlways : kKeep * largest)) {
+      if (AddCut(lap, i, interval, cut, rate,
+                 cut_angle == angle ? kKeepAlways : kKeepFraction * largest)) {
         tangents_.push_back({row, interval, interval == i ? 0U : 1U, side});
       }
     }
@@ -325,7 +326,7 @@ void LapProgram::AddForces(const Lap& lap, std::size_t i, GgvSide side) {
                        ForceCut(limits, (1.0 - kStep) * squared, side).bound) /
                       (2.0 * kStep);
   for (const std::size_t interval : {i == 0 ? model_.count() - 1 : i - 1, i}) {
-    AddCut(lap, i, interval, cut, rate, kAlways);
+    AddCut(lap, i, interval, cut, rate, kKeepAlways);
   }
 }
 

@@ -24,13 +24,14 @@ LineShape ShapeAt(const PathPoint& center, const LineOffset& offset) {
 }
 
 OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, double beside) {
-  constexpr double kLargestShare = 0.95;  // largest |d| as a fraction of the center line's radius
+  constexpr double kMaxRadiusFraction =
+      0.95;  // largest |d| as a fraction of the center line's radius
   const TrackEdges edges = track.EdgesAt(s);
   OffsetBounds bounds{edges.right + beside, edges.left - beside};
   if (center.curvature > 0.0) {
-    bounds.upper = std::min(bounds.upper, kLargestShare / center.curvature);
+    bounds.upper = std::min(bounds.upper, kMaxRadiusFraction / center.curvature);
   } else {
-    bounds.lower = std::max(bounds.lower, kLargestShare / std::min(center.curvature, -1e-12));
+    bounds.lower = std::max(bounds.lower, kMaxRadiusFraction / std::min(center.curvature, -1e-12));
   }
   return bounds;
 }

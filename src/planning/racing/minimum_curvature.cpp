@@ -129,8 +129,8 @@ Plan PlanWith(const MinimumCurvatureOptions& options, const PlanRequest& request
 }  // namespace
 
 MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
-  constexpr int kMostIterations = 30;
-  constexpr double kEnough = 1e-6;  // relative change of the integral
+  constexpr int kMaxIterations = 30;
+  constexpr double kConvergenceTolerance = 1e-6;  // relative change of the integral
   CurvatureProblem problem(track, beside);
   MinimumCurvatureLine found{.refused = problem.refused(), .line = {}};
   Eigen::VectorXd line = Eigen::VectorXd::Zero(problem.Variables());
@@ -151,8 +151,8 @@ MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
       next = 0.5 * (line + next);
       next_integral = problem.Integral(next);
     }
-    done = (found.iterations > 1 && next_integral > (1.0 - kEnough) * integral) ||
-           found.iterations == kMostIterations;
+    done = (found.iterations > 1 && next_integral > (1.0 - kConvergenceTolerance) * integral) ||
+           found.iterations == kMaxIterations;
     if (found.iterations == 1 || next_integral < integral) {
       line = next;
       integral = next_integral;

@@ -28,10 +28,10 @@ constexpr double kSameCurvature = 1e-6;  // relative tolerance of the largest cu
 
 /// Number of stations of the programs: at least two per knot, and at most 2.6 m apart.
 std::size_t ProgramStations(const Track& track) {
-  constexpr double kFarthest = 2.6;  // [m]
+  constexpr double kMaxSpacing = 2.6;  // [m]
   const double knots = static_cast<double>(OffsetBasis(track).count());
   return static_cast<std::size_t>(knots *
-                                  std::max(2.0, std::ceil(track.length() / (knots * kFarthest))));
+                                  std::max(2.0, std::ceil(track.length() / (knots * kMaxSpacing))));
 }
 
 /// State of the search: the best lap so far, and why the search ended.
@@ -75,8 +75,8 @@ class LapSearch {
 
   /// Solves one program and tries its step. Returns whether the search is over.
   bool Step() {
-    constexpr double kLeastScale = 1e-3;
-    constexpr double kEnough = 1e-4;  // fraction of the lap time
+    constexpr double kMinScale = 1e-3;
+    constexpr double kConvergenceTolerance = 1e-4;  // fraction of the lap time
     const LapTrust trust{.offset = kTrustOffset * scale_, .squared = kTrustSquared * scale_};
     const SparseQuadraticProgram program = program_.About(line_, lap_, trust, share_);
     const SparseQuadraticSolution solution = Solve(
@@ -86,24 +86,24 @@ class LapSearch {
       found_.end = MinimumTimeEnd::kProgramNotSolved;
       scale_ *= 0.1;
       share_ *= 0.1;
-      return scale_ < kLeastScale;
+      return scale_ < kMinScale;
     }
     program_.TakeMultipliers(solution.multipliers);
     const double promised =
         -(program.linear.dot(solution.x) + 0.5 * solution.x.dot(program.hessian * solution.x));
     const bool within = Beyond(lap_) == 0.0;
     found_.end = MinimumTimeEnd::kConverged;
-    if (within && promised < kEnough * lap_.time) {
+    if (within && promised < kConvergenceTolerance * lap_.time) {
       return true;
     }
     if (Take(solution.x, promised)) {
       return false;
     }
-    if (within && promised < 5.0 * kEnough * lap_.time) {
+    if (within && promised < 5.0 * kConvergenceTolerance * lap_.time) {
       return true;
     }
     found_.end = MinimumTimeEnd::kNoGain;
-    return scale_ < kLeastScale;
+    return scale_ < kMinScale;
   }
 
   /// Takes the step, or the largest fraction of it that improves the lap; false if none does.
@@ -117,7 +117,7 @@ class LapSearch {
                                        : Beyond(lap) == 0.0 && gain > 0.1 * part * promised;
       if (better) {
         scale_ = part == 1.0 && (beyond > 0.0 || gain > 0.75 * promised)
-                     ? std::min(2.0 * scale_, kMostScale)
+                     ? std::min(2.0 * scale_, kMaxScale)
                      : std::max(0.5, part) * scale_;
         share_ = 1.0;
         found_.last_gain = gain;
@@ -136,7 +136,7 @@ class LapSearch {
 
   static constexpr double kTrustOffset = 1.0;   // [m]
   static constexpr double kTrustSquared = 0.3;  // relative, of a squared speed
-  static constexpr double kMostScale = 2.0;
+  static constexpr double kMaxScale = 2.0;
 
   LapModel model_;
   ClosedSplineBasis basis_;

@@ -95,7 +95,7 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
     }
     return at.has_value();
   };
-  constexpr double kLeastSpacing = 0.75;
+  constexpr double kMinSpacing = 0.75;
   const double spacing = Spacing(track);
   for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
     path.passed.push_back(length);
@@ -105,7 +105,7 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
       const double s = stations[i] + span * k / parts;
       // Inside a hairpin points get close, where the finest ripples of the line would limit the
       // speed: leave some out.
-      const bool close = k > 0.0 && length - path.points.back().s < kLeastSpacing * spacing;
+      const bool close = k > 0.0 && length - path.points.back().s < kMinSpacing * spacing;
       if (!close && !add(s)) {
         return std::nullopt;
       }

@@ -22,15 +22,18 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/track/track_file.h"
 
+// Tests minimum-time racing lines: on a ring against the closed form, on hairpins against a family
+// of lines optimized by another search, and against random perturbations of the line.
 namespace trackbed {
 namespace {
 
 using testing::HasSubstr;
 
-// FindMinimumTime ends when a step promises less than this part of the lap time.
-constexpr double kEnough = 5e-4;
+// FindMinimumTime ends when the predicted gain of a step is less than this fraction of the lap
+// time.
+constexpr double kConvergenceTolerance = 5e-4;
 
-/// A point mass with a circle of 8 m/s^2, without drag.
+/// A point mass with a friction circle of 8 m/s^2, without drag.
 LapLimits CircleOfFriction() {
   return {
       .diagram = GgvDiagram({.mass = 1000.0, .rolling_mass = 1000.0}, {EllipticSection(8, 8, 8)}),
@@ -38,7 +41,7 @@ LapLimits CircleOfFriction() {
       .wheelbase = 2.7};
 }
 
-/// The car of the speed profile's validation: 7500 N, 270 kW, drag, an ellipse of 9 and 8 m/s^2.
+/// The car of tests/data/limit_profile: 7500 N, 270 kW, drag, a g-g ellipse of 9 and 8 m/s^2.
 LapLimits RacingCar() {
   LapLimits limits = CircleOfFriction();
   limits.diagram = GgvDiagram({.mass = 1200.0,
@@ -51,7 +54,7 @@ LapLimits RacingCar() {
   return limits;
 }
 
-/// Two straights joined by half circles, counter-clockwise; as wide to both sides.
+/// Two straights joined by half circles, counterclockwise, with equal widths on both sides.
 Track Hairpins(double straight, double radius, double width) {
   constexpr double kSpacing = 4.0;
   const double lap = 2.0 * straight + 2.0 * kPi * radius;
@@ -72,8 +75,8 @@ Track Hairpins(double straight, double radius, double width) {
 }
 
 TEST(MinimumTime, OfARingIsItsInnerCircle) {
-  // v^2 = a r, so that a lap takes 2 pi sqrt(r/a): the shortest circle is the fastest, although
-  // the line of least curvature, from which the search begins, is the longest.
+  // v^2 = a r, so a lap takes 2 pi sqrt(r/a): the smallest circle is the fastest. The search starts
+  // from the line of least curvature, which is the largest circle.
   const Track track(RingPoints(50.0, 63, 4.0, 3.0));
   const MinimumTimeLine found = FindMinimumTime(track, 1.5, CircleOfFriction());
   ASSERT_EQ(found.refused, "");
@@ -81,18 +84,19 @@ TEST(MinimumTime, OfARingIsItsInnerCircle) {
   EXPECT_EQ(found.end, MinimumTimeEnd::kConverged);
   const double fastest = 2.0 * kPi * std::sqrt(48.5 / 8.0);
   EXPECT_NEAR(found.start_time, 2.0 * kPi * std::sqrt(52.5 / 8.0), Tolerance(1e-4 * fastest));
-  EXPECT_NEAR(found.time, fastest, Tolerance(kEnough * fastest));
-  // The time grows with the root of the radius: 2 kEnough of it is 5 cm.
+  EXPECT_NEAR(found.time, fastest, Tolerance(kConvergenceTolerance * fastest));
+  // The lap time grows with the square root of the radius, so 2 kConvergenceTolerance of the radius
+  // is 5 cm.
   for (double s = 0.0; s < track.length(); s += 1.0) {
-    EXPECT_NEAR(found.line.At(s).d, 1.5, Tolerance(2.0 * kEnough * 48.5));
+    EXPECT_NEAR(found.line.At(s).d, 1.5, Tolerance(2.0 * kConvergenceTolerance * 48.5));
   }
 }
 
-/// Lines through hairpins that keep to the outer edge but for a bump to the inner edge in each
-/// bend, with a dip in its middle between two apexes.
+/// Lines through hairpins along the outer edge with a bump to the inner edge in each bend. The bump
+/// may have a dip in its middle, between two apexes.
 class BumpLines {
  public:
-  /// Place of the bump behind the middle of the bend [m], its half widths before and behind that
+  /// Position of the bump behind the middle of the bend [m], its half widths before and after that
   /// [m], its flatness and the depth of the dip [m].
   static constexpr std::size_t kNumbers = 5;
 
@@ -147,7 +151,7 @@ TEST(MinimumTime, OfHairpinsIsFasterThanLateAndEarlyApexes) {
       }
     }
   }
-  // Then downhill from the best of these 70 lines.
+  // A descent from the best of these 70 lines.
   const SearchResult family =
       Search({.lower = {-15.0, 8.0, 8.0, 1.5, 0.0},
               .upper = {15.0, 60.0, 60.0, 8.0, 3.0},
@@ -158,9 +162,10 @@ TEST(MinimumTime, OfHairpinsIsFasterThanLateAndEarlyApexes) {
   const MinimumTimeLine found = FindMinimumTime(track, kBeside, RacingCar());
   ASSERT_EQ(found.refused, "");
   EXPECT_EQ(found.end, MinimumTimeEnd::kConverged);
-  EXPECT_LT(found.time, family.value * (1.0 + kEnough));
+  EXPECT_LT(found.time, family.value * (1.0 + kConvergenceTolerance));
   // From the apex of one bend to that of the other, the car covers the straight and both inner
-  // edges in the direction of the straight, from rest to rest in it, with at most 9 m/s^2.
+  // edges in the straight's direction. It starts and ends at rest in that direction, with at most 9
+  // m/s^2.
   EXPECT_GT(found.time, 4.0 * std::sqrt((kStraight + 2.0 * (kBend - kWidth + kBeside)) / 9.0));
 }
 
@@ -169,7 +174,8 @@ TEST(MinimumTime, CannotBeBetteredNearby) {
   const Track track = Hairpins(40.0, 15.0, 4.0);
   const MinimumTimeLine found = FindMinimumTime(track, kBeside, RacingCar());
   ASSERT_EQ(found.refused, "");
-  // Other splines: bumps of any width and place, added and cut to the bounds at their knots.
+  // Perturbed splines: bumps of random width and position, added and clipped to the bounds at the
+  // knots.
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int trial = 0; trial < 60; ++trial) {
@@ -189,11 +195,12 @@ TEST(MinimumTime, CannotBeBetteredNearby) {
     }
     const ClosedSplineBasis basis(track.length(), static_cast<std::size_t>(count));
     const TrackLine other(basis, FitClosedSpline(basis, samples, 4.0));
-    EXPECT_GT(LapTime(track, other, RacingCar()), (1.0 - kEnough) * found.time) << trial;
+    EXPECT_GT(LapTime(track, other, RacingCar()), (1.0 - kConvergenceTolerance) * found.time)
+        << trial;
   }
 }
 
-/// Two hairpins and a car for which steering matters.
+/// Two hairpins and a car whose steering rate limits the speed.
 struct SteeredLap {
   Track track = Hairpins(60.0, 18.0, 4.0);
   LapLimits limits = CircleOfFriction();
@@ -207,8 +214,8 @@ TEST(MinimumTime, KnowsTheSteeringRate) {
   ASSERT_EQ(found.refused + free.refused, "");
   EXPECT_TRUE(found.improved);
   EXPECT_LT(found.time, found.start_time);
-  // The wheels need time: slower than without, but faster than on the line that knows nothing of
-  // it.
+  // With limited steering rate the lap is slower than without, but faster than on the line that was
+  // optimized without the limit.
   EXPECT_GT(found.time, free.time);
   EXPECT_LT(found.time, 0.99 * LapTime(lap.track, free.line, lap.limits));
 }
@@ -217,15 +224,15 @@ TEST(MinimumTime, KeepsTheCarsSmallestRadius) {
   SteeredLap lap;
   const double radius =
       MeasureLine(lap.track, FindMinimumCurvature(lap.track, 1.2).line).radius_min;
-  // Half a meter more than on the line of least curvature.
+  // The minimum radius is half a meter larger than on the line of least curvature.
   lap.limits.curvature_max = 1.0 / (radius + 0.5);
   const MinimumTimeLine found = FindMinimumTime(lap.track, 1.2, lap.limits);
   ASSERT_EQ(found.refused, "");
-  // Kept at stations 2 m apart; within 1e-3 at those 1 m apart, or refused; closer ones differ
-  // less.
+  // Enforced at stations 2 m apart; violated by at most 1e-3 at stations 1 m apart, or the line is
+  // rejected. Denser stations differ less.
   EXPECT_GT(MeasureLine(lap.track, found.line).radius_min, (radius + 0.5) * (1.0 - 2e-3));
 
-  // The widest circle on a ring has 52.5 m.
+  // The largest circle on this ring has a radius of 52.5 m.
   lap.limits.curvature_max = 1.0 / 60.0;
   EXPECT_THAT(
       FindMinimumTime(Track(RingPoints(50.0, 63, 4.0, 3.0)), 1.5, lap.limits).refused,
@@ -246,7 +253,7 @@ TEST(MinimumTime, RefusesATrackThatIsTooNarrow) {
               HasSubstr("the track is 2 m wide at s = 0 m; the car and its margins need 2.8 m"));
 }
 
-/// Laps of the reference car on hairpins, with a circle of 8 m/s^2.
+/// Laps of the reference car on hairpins, with a friction circle of 8 m/s^2.
 PlanRequest LimitLaps(int laps) {
   PlanRequest request;
   request.vehicle = ReferenceCar();
@@ -268,19 +275,20 @@ TEST(MinimumTime, IsPlannedWithTheLapTimeThatItStates) {
   EXPECT_LT(own->lap_time, own->minimum_curvature_lap_time);
   ASSERT_FALSE(plan.notes.empty());
   EXPECT_THAT(plan.notes.front(), HasSubstr("less than on the line of least curvature"));
-  // The second lap is a flying one. Its path and its speeds are those of every plan: clothoids, and
-  // stations half a meter apart instead of 1 m. The profile is of first order in that distance and
-  // takes the smaller acceleration of both ends: of 10 m/s^2, a change of 1 m/s^2 over 1 m.
+  // The second lap is a flying lap. Path and speeds of the plan use clothoids and stations half a
+  // meter apart instead of 1 m. The profile is first order in that distance and takes the smaller
+  // acceleration of both ends: of 10 m/s^2, a change of 1 m/s^2 over 1 m.
   ASSERT_EQ(plan.laps.lines.size(), 4U);
   const double second = plan.reference.speed.TimeAt(plan.laps.lines[2]) -
                         plan.reference.speed.TimeAt(plan.laps.lines[1]);
   EXPECT_NEAR(second, own->lap_time, Tolerance(0.01 * own->lap_time));
-  // Every corner of the track is passed within the margins.
+  // The path keeps the margin at every point of the track.
   const Track& track = *request.on_track.track;
   for (double s = plan.laps.lines[1]; s < plan.laps.lines[2]; s += 1.0) {
     const TrackPlace place = track.Locate(plan.reference.path.At(s).pose.position());
     const TrackEdges edges = track.EdgesAt(place.s);
-    // Kept at stations 2 m apart: between them off by at most d'' 2^2/8, d'' below 1/15 m.
+    // Enforced at stations 2 m apart: between them the line deviates by at most d'' 2^2/8, with d''
+    // below 1/15 m.
     const double beside = 0.5 * request.vehicle.width + 0.5 - 0.034;
     EXPECT_LE(place.offset, edges.left - beside);
     EXPECT_GE(place.offset, edges.right + beside);
@@ -306,8 +314,8 @@ TEST(MinimumTime, NeedsSpeedsAtTheLimit) {
 struct RaceTrack {
   const char* name;
   const char* file;
-  int iterations;  // a few: each takes a second for a kilometer
-  double gain;     // in the lap time that these reach at least
+  int iterations;  // few, because each takes a second per kilometer
+  double gain;     // minimum gain in lap time with this many iterations
 };
 
 class RaceTracks : public testing::TestWithParam<RaceTrack> {};
@@ -330,7 +338,7 @@ TEST_P(RaceTracks, AreFasterThanTheLineOfLeastCurvature) {
   EXPECT_EQ(found.time, LapTime(track, found.line, RacingCar()));
   for (double s = 0.0; s < track.length(); s += 1.0) {
     const TrackEdges edges = track.EdgesAt(s);
-    // Between stations, at most 2.6 m apart, d'' 2.6^2/8, d'' below 1/10 m.
+    // The deviation between stations, at most 2.6 m apart, is d'' 2.6^2/8, with d'' below 1/10 m.
     EXPECT_LE(found.line.At(s).d, edges.left - 0.75 + Tolerance(0.085));
     EXPECT_GE(found.line.At(s).d, edges.right + 0.75 - Tolerance(0.085));
   }

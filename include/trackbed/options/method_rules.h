@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+/// The rules and files of a registered method's options. Keys are relative to the section of the
+/// method: "segments[2].curvature" for the key "plan.segments[2].curvature".
+namespace trackbed {
+
+/// A problem of the options, at the key to change.
+struct OptionProblem {
+  std::string key;
+  std::string message;  ///< what was found and what is allowed
+};
+
+/// Whether the value of a key was read. A key that was not has already been reported, so that its
+/// checks are skipped.
+using CouldReadKey = std::function<bool(const std::string& key)>;
+
+/// A file that the options name, as a run folder keeps it.
+struct InputFile {
+  std::string name;     ///< in the run folder: "path.csv"
+  std::string content;  ///< of the file in the run folder
+  std::string source;   ///< the kind of file and its name in the options: "path lane.csv"
+};
+
+/// Reads the files that the options name, and collects the problems.
+class InputReader {
+ public:
+  /// Reads a file. InputError and RunError are reported.
+  using Read = std::function<void(const std::filesystem::path& file)>;
+
+  virtual ~InputReader() = default;
+
+  [[nodiscard]] virtual bool CouldRead(const std::string& key) const = 0;
+  /// Whether the scenario has a recorded drive.
+  [[nodiscard]] virtual bool has_record() const = 0;
+  virtual void AddError(const std::string& key, std::string message) = 0;
+  /// Calls `read` with the location of the file `name`, which is the value of `key`. If the
+  /// file may not or cannot be read, reports an error of the key. Keeps the place of a Problem in
+  /// the file, and reports a Problem of another key under that key.
+  virtual void ReadFile(const std::string& key, const std::string& name, const Read& read) = 0;
+};
+
+/// Adapts a function that takes an options struct to a function that takes the options of any
+/// method and passes on further arguments, which are references.
+template <typename Options, auto Function>
+inline constexpr auto OnOptions = [](auto& options, auto&... arguments) {
+  return Function(options.template Get<Options>(), arguments...);
+};
+
+}  // namespace trackbed
