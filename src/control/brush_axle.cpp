@@ -6,12 +6,12 @@
 namespace trackbed {
 
 AxleOperation BrushAxleAt(double stiffness, double friction_force, const AxleForces& forces) {
-  constexpr double kLargestUse = 0.95;
+  constexpr double kMaxFrictionUse = 0.95;
   const double force = std::hypot(forces.longitudinal, forces.lateral);
   if (force == 0.0) {
     return {.slip = 0.0, .stiffness = stiffness};
   }
-  const double use = std::min(force / friction_force, kLargestUse);
+  const double use = std::min(force / friction_force, kMaxFrictionUse);
   const double cosine = forces.lateral / force;
   const double q = 1.0 - std::cbrt(1.0 - use);
   const double secant = stiffness * (1.0 - q + q * q / 3.0);

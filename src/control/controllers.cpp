@@ -19,7 +19,7 @@ namespace trackbed {
 namespace {
 
 /// The registry of controllers, one line each.
-Registry<ControllerEntry>& Table() {
+Registry<ControllerEntry>& ControllerRegistry() {
   static Registry<ControllerEntry> table("controller", {
                                                            ScheduleController(),
                                                            PreviewController(),
@@ -86,15 +86,15 @@ class ValidatingController final : public SteeringController {
 }  // namespace
 
 const std::vector<ControllerEntry>& Controllers() {
-  return Table().entries();
+  return ControllerRegistry().entries();
 }
 
 void RegisterController(ControllerEntry entry) {
-  Table().Add(std::move(entry));
+  ControllerRegistry().Add(std::move(entry));
 }
 
 const ControllerEntry& ControllerFor(const ControllerOptions& options) {
-  return Table().For(options);
+  return ControllerRegistry().For(options);
 }
 
 std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options) {

@@ -14,16 +14,16 @@ namespace {
 enum State { kOffset, kHeading, kActuator, kWheels, kLateral, kYawRate };
 
 /// Slowest speed of the model [m/s]: the tyres' terms are unbounded at rest.
-constexpr double kSlowest = 1.0;
+constexpr double kMinModelSpeed = 1.0;
 /// Shortest steering lag of the model [s].
-constexpr double kShortestLag = 1e-3;
+constexpr double kMinLag = 1e-3;
 
 using Matrix = ErrorModel::Matrix;
 using Vector = ErrorModel::Vector;
 
 double SlowestSpeed(const VehicleParams& vehicle) {
   const CarScale scale = ComputeCarScale(vehicle);
-  return kSlowest * std::min(1.0, scale.length / scale.time);
+  return kMinModelSpeed * std::min(1.0, scale.length / scale.time);
 }
 
 Vector SteadyState(const VehicleParams& vehicle, const Motion& motion, const ErrorModel& model) {
@@ -67,7 +67,7 @@ ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, d
   rates(kOffset, kHeading) = u;
   rates(kHeading, curvature) = -u;
   rates(kActuator, rate) = 1.0;
-  const double lag = std::max(vehicle.steering_delay(), kShortestLag);
+  const double lag = std::max(vehicle.steering_delay(), kMinLag);
   rates(kWheels, kActuator) = 1.0 / lag;
   rates(kWheels, kWheels) = -1.0 / lag;
   if (tyres) {

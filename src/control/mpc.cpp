@@ -10,13 +10,13 @@
 namespace trackbed {
 namespace {
 
-static_assert(MpcOptions::kLongestHorizon <= QuadraticProgram::kMaxVariables);
+static_assert(MpcOptions::kMaxHorizon <= QuadraticProgram::kMaxVariables);
 
 /// z after a step as a linear function of all rates: free + reach w.
 struct Prediction {
   ErrorModel::Vector free;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMaxStates,
-                MpcOptions::kLongestHorizon>
+                MpcOptions::kMaxHorizon>
       reach;
 };
 
@@ -92,7 +92,7 @@ void Visit(KeyVisitor& keys, MpcOptions& options) {
   keys.Field(kRateWeight, options.steering_rate, kWeight);
   Visit(keys, options.tyres);
   keys.Field({"horizon", "", "number of prediction steps"}, options.horizon, Need::kOptional,
-             Range{.min = 1, .max = MpcOptions::kLongestHorizon});
+             Range{.min = 1, .max = MpcOptions::kMaxHorizon});
   keys.Field({"step", "s", "prediction step; at least the control period"}, options.step,
              Need::kOptional, Range{.min = 1e-3, .max = 1.0});
 }

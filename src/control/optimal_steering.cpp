@@ -30,7 +30,7 @@ Deviation Difference(const Pose2& actual, const Pose2& wanted) {
 
 /// Returns the minimizer of the cost in the field `steering`.
 template <typename Cost>
-SteeringMatch Minimise(const Cost& cost, const SteeringInterval& range, const SearchOptions& search,
+SteeringMatch Minimize(const Cost& cost, const SteeringInterval& range, const SearchOptions& search,
                        std::uint64_t seed) {
   const SearchProblem problem{.lower = {range.lower},
                               .upper = {range.upper},
@@ -132,7 +132,7 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
                          weights);
   };
   constexpr std::uint64_t kSeed = 1;  // the same for every update
-  SteeringMatch match = Minimise(cost, {lower, upper, start}, search, kSeed);
+  SteeringMatch match = Minimize(cost, {lower, upper, start}, search, kSeed);
   match.steering = side * std::clamp(SteeringOfShare(vehicle, own, match.steering), -limit, limit);
   return match;
 }
@@ -153,7 +153,7 @@ SteeringMatch MatchSteering(const VehicleParams& vehicle, const CircleExperiment
   const auto cost = [&](double steering) {
     return DeviationCost(Difference(drive(steering, experiment.speed, lap), wanted), {});
   };
-  return Minimise(cost, {-experiment.max_steering, experiment.max_steering, 0.0}, search, seed);
+  return Minimize(cost, {-experiment.max_steering, experiment.max_steering, 0.0}, search, seed);
 }
 
 }  // namespace trackbed

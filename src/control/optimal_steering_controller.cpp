@@ -23,14 +23,14 @@ class OptimalSteeringController final : public SteeringController {
                                   input.vehicle.steering_limit);
     const double speed = std::max(std::abs(input.state.speed), kCrawl);
     const int direction = input.reference.path.BendAt(input.station).direction;
-    deviation_ = ComputeDeviation(input.state.pose, Seen(input, primary.station));
+    deviation_ = ComputeDeviation(input.state.pose, RelativePathPose(input, primary.station));
     const double planned = std::max(options_.horizon ? *options_.horizon : PreviewDistance(input),
                                     options_.time * primary.speed.value_or(speed));
     const double horizon =
         options_.matching == Matching::kTime
             ? planned
             : std::max(planned, ReturnDistance(input.vehicle, speed, deviation_.y));
-    const Pose2 wanted = Seen(input, primary.station + horizon);
+    const Pose2 wanted = RelativePathPose(input, primary.station + horizon);
     const Vec2 aim = ToLocal(input.state.pose, wanted.position());
     const SteeringProblem problem{
         .wanted = {aim.x(), aim.y(), wanted.yaw - input.state.pose.yaw},
@@ -80,7 +80,7 @@ class OptimalSteeringController final : public SteeringController {
   }
 
   /// The path's pose at `station` relative to the car. Its yaw includes full turns in between.
-  static Pose2 Seen(const ControlInput& input, double station) {
+  static Pose2 RelativePathPose(const ControlInput& input, double station) {
     const Path& path = input.reference.path;
     const double here = path.At(input.station).pose.yaw;
     Pose2 pose = path.At(station).pose;
@@ -96,6 +96,19 @@ class OptimalSteeringController final : public SteeringController {
 
 }  // namespace
 
+namespace {
+
+std::vector<OptionProblem> CheckWeights(const OptimalSteeringOptions& options,
+                                        const CouldReadKey& could_read) {
+  if (!could_read("weights.position") || !could_read("weights.heading") ||
+      options.weights.position != 0.0 || options.weights.heading != 0.0) {
+    return {};
+  }
+  return {{"weights", "position and heading must not both be 0"}};
+}
+
+}  // namespace
+
 ControllerEntry OptimalSteering() {
   return {
       .name = "optimal_steering",
@@ -104,7 +117,8 @@ ControllerEntry OptimalSteering() {
       .defaults = OptimalSteeringOptions{},
       .station = StationSource::kProjection,
       .needs_plan = true,
-      .make = MakeBy<OptimalSteeringOptions, OptimalSteeringController>};
+      .make = MakeBy<OptimalSteeringOptions, OptimalSteeringController>,
+      .check = OnOptions<OptimalSteeringOptions, CheckWeights>};
 }
 
 void Visit(KeyVisitor& keys, OptimalSteeringOptions& options) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "trackbed/control/recording_file.h"
 #include "trackbed/control/speed_controller.h"
 
 namespace trackbed {
@@ -41,6 +42,55 @@ class PlaybackController final : public SteeringController {
 /// Advance of the axis within the period.
 double AxisAdvance(const PlaybackOptions& options, double speed, double period) {
   return options.by == PlaybackAxis::kTime ? period : std::abs(speed) * period;
+}
+
+/// The end of a recording over time; none by distance.
+std::optional<double> DurationOf(const PlaybackOptions& options) {
+  const Signal& steering = options.recording.steering;
+  if (options.by != PlaybackAxis::kTime || steering.empty() || steering.knots.back().x() <= 0.0) {
+    return std::nullopt;
+  }
+  return steering.knots.back().x();
+}
+
+const Recording& RecordingOf(const ControllerOptions& options) {
+  return options.Get<PlaybackOptions>().recording;
+}
+
+void SetRecording(PlaybackOptions& options, const Recording& recording) {
+  options.recording = recording;
+}
+
+bool ReplaysRecord(const PlaybackOptions& options) {
+  return options.file.empty();
+}
+
+void ReadInputs(PlaybackOptions& options, InputReader& reader) {
+  if (!reader.CouldRead("file") || !reader.CouldRead("columns")) {
+    return;
+  }
+  if (options.file.empty()) {
+    if (!reader.has_record()) {
+      reader.AddError("file", "missing");
+    } else if (options.by == PlaybackAxis::kDistance) {
+      reader.AddError("by", "a record is replayed over time; remove this");
+    }
+    return;
+  }
+  reader.ReadFile("file", options.file, [&](const std::filesystem::path& file) {
+    options.recording = ReadRecording(file, options.by, options.columns);
+  });
+}
+
+std::vector<InputFile> InputFilesOf(const PlaybackOptions& options) {
+  return {
+      {kRecordingCsv, RecordingCsv(options.recording, options.by), "recording " + options.file}};
+}
+
+void Resolve(ControllerOptions& options, bool from_record) {
+  auto& own = options.Get<PlaybackOptions>();
+  own.file = from_record ? "" : kRecordingCsv;
+  own.columns = {};  // RecordingCsv uses the default names
 }
 
 }  // namespace
@@ -96,7 +146,15 @@ ControllerEntry Playback() {
           .defaults = PlaybackOptions{},
           .station = StationSource::kOdometer,
           .needs_plan = false,
-          .make = MakeBy<PlaybackOptions, PlaybackController>};
+          .make = MakeBy<PlaybackOptions, PlaybackController>,
+          .duration = OnOptions<PlaybackOptions, DurationOf>,
+          .recording = RecordingOf,
+          .replays_record = OnOptions<PlaybackOptions, ReplaysRecord>,
+          .set_recording = OnOptions<PlaybackOptions, SetRecording>,
+          .read_inputs = OnOptions<PlaybackOptions, ReadInputs>,
+          .input_files = OnOptions<PlaybackOptions, InputFilesOf>,
+          .input_names = {kRecordingCsv},
+          .resolve = Resolve};
 }
 
 }  // namespace trackbed

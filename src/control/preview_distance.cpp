@@ -14,7 +14,7 @@ constexpr double kResponses = 3.0;    ///< minimum R over v T
 constexpr double kRampShare = 0.65;   ///< R over S
 /// Ratio of successive sampled stations. A curvature step between two stations is attributed to the
 /// closer one.
-constexpr double kSpread = 1.3;
+constexpr double kSpacingRatio = 1.3;
 
 /// Computes the ramp S [m] over a range of stations that is extended at either end.
 class RampScan {
@@ -69,22 +69,22 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
   bool ahead = true;
   bool behind = true;
   double near = 0.0;
-  for (double far = 0.5 * shortest; near < longest && (ahead || behind); far *= kSpread) {
+  for (double far = 0.5 * shortest; near < longest && (ahead || behind); far *= kSpacingRatio) {
     for (const double side : {1.0, -1.0}) {
-      bool& goes_on = side > 0.0 ? ahead : behind;
-      if (!goes_on) {
+      bool& path_continues = side > 0.0 ? ahead : behind;
+      if (!path_continues) {
         continue;
       }
       const double end = side > 0.0 ? path.length() : 0.0;
       const double left = side * (end - input.station);
-      goes_on = far < left;
+      path_continues = far < left;
       const double s = std::min(far, left);
       if (s <= near) {
         continue;
       }
-      const PathBend bend = path.BendAt(goes_on ? input.station + side * s : end);
+      const PathBend bend = path.BendAt(path_continues ? input.station + side * s : end);
       if (bend.direction != here.direction) {
-        goes_on = false;  // at a cusp the car steers at standstill
+        path_continues = false;  // at a cusp the car steers at standstill
         continue;
       }
       scan.Extend(turned(bend), side * s, s - near);
@@ -102,14 +102,14 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
 /// slows down before curvature steps, so the car meets them at the lowest speed. At least a quarter
 /// of `speed`: a planned stop must not shrink the preview distance to zero.
 double SlowestWithin(const ControlInput& input, double speed, double distance) {
-  constexpr int kLooks = 6;
-  constexpr double kLeast = 0.25;  // of the speed
+  constexpr int kSamples = 6;
+  constexpr double kMinSpeedFraction = 0.25;  // of the speed
   const SpeedProfile& profile = input.reference.speed;
   double slowest = speed;
-  for (int i = -kLooks; i <= kLooks && !profile.knots().empty(); ++i) {
-    const double s = input.station + distance * static_cast<double>(i) / kLooks;
+  for (int i = -kSamples; i <= kSamples && !profile.knots().empty(); ++i) {
+    const double s = input.station + distance * static_cast<double>(i) / kSamples;
     if (s >= 0.0) {
-      slowest = std::min(slowest, std::max(profile.SpeedAt(s), kLeast * speed));
+      slowest = std::min(slowest, std::max(profile.SpeedAt(s), kMinSpeedFraction * speed));
     }
   }
   return slowest;
@@ -143,8 +143,8 @@ double ReturnDistance(const VehicleParams& vehicle, double speed, double offset)
   // to the path; with 1 some oscillate forever, with 2 they converge more slowly.
   constexpr double kShare = 1.5;
   // At lower speeds the steering angle limits the car, not the steering rate.
-  constexpr double kSlowest = 1.25;
-  const double slowest = kSlowest * vehicle.wheelbase * vehicle.steering_rate;
+  constexpr double kMinSpeed = 1.25;
+  const double slowest = kMinSpeed * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =
       vehicle.steering_rate / (vehicle.wheelbase * std::max(std::abs(speed), slowest));
   return kShare * std::cbrt(std::abs(offset) / curvature_rate);

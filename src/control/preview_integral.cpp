@@ -16,7 +16,7 @@ namespace trackbed {
 namespace {
 
 /// Slower cars are modeled as kinematic [m/s]; there the models differ by less than 1e-2.
-constexpr double kSlowest = 1.0;
+constexpr double kMinDynamicSpeed = 1.0;
 
 /// Lateral displacement, `time` from now.
 struct Responses {
@@ -60,7 +60,8 @@ class PreviewIntegral final : public SteeringController {
         options_.distance ? *options_.distance : spread * PreviewDistance(input, options_.delay);
     const double distance =
         std::max({shortest, options_.time * speed, spread * ReturnDistance(input)});
-    const bool dynamic = direction > 0 && input.state.speed >= kSlowest && HasTyres(vehicle);
+    const bool dynamic =
+        direction > 0 && input.state.speed >= kMinDynamicSpeed && HasTyres(vehicle);
 
     using Gauss = boost::math::quadrature::gauss<double, 10>;
     double moved = 0.0;
@@ -96,16 +97,17 @@ class PreviewIntegral final : public SteeringController {
   double Delayed(double wanted, const ControlInput& input) {
     const double periods = options_.delay / input.period;
     const auto whole = static_cast<std::size_t>(periods);
-    if (past_.empty()) {
-      past_.assign(whole + 2, input.state.steering_actuator);
+    if (past_commands_.empty()) {
+      past_commands_.assign(whole + 2, input.state.steering_actuator);
     }
-    std::rotate(past_.begin(), past_.end() - 1, past_.end());
-    past_.front() = wanted;
-    return std::lerp(past_[whole], past_[whole + 1], periods - static_cast<double>(whole));
+    std::rotate(past_commands_.begin(), past_commands_.end() - 1, past_commands_.end());
+    past_commands_.front() = wanted;
+    return std::lerp(past_commands_[whole], past_commands_[whole + 1],
+                     periods - static_cast<double>(whole));
   }
 
   PreviewIntegralOptions options_;
-  std::vector<double> past_;  // newest first
+  std::vector<double> past_commands_;  // newest first
 };
 
 }  // namespace

@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <limits>
 
+#include "src/control/control_keys.h"
+
 namespace trackbed {
-namespace {
-
-constexpr Key kBegin{"at", "s", "start time"};
-
-}  // namespace
-
 namespace {
 
 /// The mean acceleration [m/s^2] over the next period along the profile. The car has the profile's

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/control/control_keys.h"
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
 namespace {
 
 constexpr Range kFrequency{.max = 100.0, .above = 0.0};  // [Hz]
-constexpr Key kBegin{"at", "s", "start time"};
 constexpr Key kAmplitude{"amplitude", "rad", "amplitude of the sine; positive: first to the left"};
 
 /// Steers by a profile over time.

@@ -70,10 +70,10 @@ std::array<AxleOperation, 2> BrushAxles(const VehicleParams& vehicle, const Moti
                                         vehicle.cornering_stiffness_rear};
   std::array<AxleOperation, 2> axles;
   for (std::size_t i = 0; i < axles.size(); ++i) {
-    constexpr double kLeastLoad = 0.05;  // of the load at rest
+    constexpr double kMinLoad = 0.05;  // of the load at rest
     const AxleGrip& axle = limit.axles[i];
     const double load =
-        std::max(kLeastLoad, 1.0 + direction * axle.transfer * hard / (kGravity * axle.weight));
+        std::max(kMinLoad, 1.0 + direction * axle.transfer * hard / (kGravity * axle.weight));
     const double weight = vehicle.mass * kGravity * axle.weight;
     // Each axle carries a share of the lateral force proportional to its share of the weight.
     axles[i] = BrushAxleAt(
