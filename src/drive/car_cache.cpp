@@ -62,7 +62,7 @@ CarModel LoadCar(const Scenario& scenario) {
   return car;
 }
 
-CarCache::CarCache(std::size_t most) : most_(most) {}
+CarCache::CarCache(std::size_t capacity) : capacity_(capacity) {}
 
 CarCache::Car CarCache::Load(const Scenario& scenario) {
   const fs::path file = FindModel(scenario.vehicle.model, scenario.folder);
@@ -118,7 +118,7 @@ CarCache::Car CarCache::Find(const std::string& key, const std::function<CarMode
 }
 
 void CarCache::ForgetOldest() {
-  if (slots_.size() > most_) {
+  if (slots_.size() > capacity_) {
     slots_.erase(std::min_element(slots_.begin(), slots_.end(), [](const auto& a, const auto& b) {
       return a.second.last_use < b.second.last_use;
     }));

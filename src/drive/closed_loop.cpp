@@ -12,15 +12,23 @@
 #include "src/drive/scheduled_steering.h"
 #include "src/drive/segment_sequencer.h"
 #include "src/drive/slip_control.h"
+#include "src/drive/standstill.h"
 #include "src/drive/termination.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 
+// Simulates a controller and a plant in a closed loop. A control period:
+//   1. Observe the plant; switch to a replanned path or the next segment if one is due.
+//   2. End the run if the termination criteria are met (termination.h).
+//   3. Steering and acceleration from the controller, speed options or the plan's speed profile, in
+//      turn changed by disturbances; log the row.
+//   4. Step the plant until the next period. Prescribed angles and steering schedules change with
+//      every step, other commands are held.
 namespace trackbed {
 namespace {
 
-/// Calls back when another hundredth is done.
+/// Calls back at each additional percent.
 class Progress {
  public:
   explicit Progress(const std::function<void(double)>& callback) : callback_(callback) {}
@@ -38,10 +46,10 @@ class Progress {
   int last_ = 0;
 };
 
-/// One run; what it refers to must outlive it.
+/// Simulates one run. Keeps references to its arguments, which must outlive it.
 class ClosedLoop {
  public:
-  ClosedLoop(Plant& plant, SteeringController& controller, const Plan& plan,
+  ClosedLoop(Plant& plant, SteeringController& controller, const FeasiblePlan& plan,
              const LoopConfig& config);
 
   RunLog Run();
@@ -50,25 +58,33 @@ class ClosedLoop {
   /// The state at the beginning of a control period.
   [[nodiscard]] VehicleState Observe(long tick) const;
 
-  /// Takes up a new plan or the next segment if one is due. Where the car is on it; none without a
-  /// path.
+  /// Switches to a new plan or to the next segment if one is due. Returns the projection onto it;
+  /// none without a path.
   std::optional<Projection> FollowPlan(const VehicleState& state, bool at_rest);
 
-  /// How the run ended, if it is over.
+  /// The status if the run has ended.
+  /// Whether the car is at rest to stay: it is not asked to move, or it is at the end of its
+  /// segment and does not move although it is asked to, as on a grade.
+  bool Rests(const VehicleState& state);
+
   std::optional<DriveStatus> Ending(const VehicleState& state, bool at_rest);
 
-  /// Sets the command for the coming period, and logs it in `row`. What the controller was told.
+  /// Computes the command for the coming period, and logs it in `row`. Returns the controller's
+  /// input.
   ControlInput Control(const VehicleState& state, LogRow& row);
   double Steer(const ControlInput& input);
-  /// The wanted acceleration along x [m/s^2] over `input.period`, in the control period of `row`.
+  /// Commanded acceleration along x [m/s^2] over `input.period`, in the control period of `row`.
   double Accelerate(const ControlInput& input, const LogRow& row);
-  /// What is set over time goes first, then what the controller wants, then the plan's profile.
+  /// Acceleration in order of precedence: options over time, the controller, the plan's profile.
   double WantedAcceleration(const ControlInput& input, const Vec2& position);
+  /// LogRow::planned_speed.
+  [[nodiscard]] std::optional<double> PlannedSpeed(const VehicleState& state) const;
 
-  /// Steps the plant through the control period of `row`.
+  /// Steps the plant for the control period of `row`.
   void StepPlant(long tick, const ControlInput& input, const LogRow& row);
   [[nodiscard]] Command CommandAt(int step, const ControlInput& input, const LogRow& row);
-  /// What a schedule says is a function of the distance, and is followed at every step.
+  /// Command of a steering schedule, which is a function of the distance and evaluated in every
+  /// step.
   [[nodiscard]] Command ScheduledCommand(int step, const ControlInput& input, const LogRow& row);
 
   void ReportProgress(const VehicleState& state);
@@ -77,22 +93,24 @@ class ClosedLoop {
   SteeringController& controller_;
   const LoopConfig& config_;
   VehicleState start_;
-  VehicleParams controlled_;  // the vehicle as the controller takes it to be
-  int steps_;                 // of the plant in a control period
+  VehicleParams controlled_;  // the nominal vehicle, known to the controller
+  int steps_;                 // plant steps per control period
   SegmentSequencer sequencer_;
   std::optional<ReplanningMonitor> monitor_;
   FaultInjector faults_;
   Recorder recorder_;
   Termination termination_;
+  Standstill standstill_;
   Progress progress_;
-  Command command_;         // the last one
-  double steering_before_;  // the angle [rad] at which a prescribed steering begins its ramp
-  // A plan that does not end before an obstacle was taken up in this control period: the last
-  // command, which may be to stand, is not yet one of it.
-  bool leads_on_ = false;
+  bool plan_sets_speed_ = false;
+  Command command_;         // the last command
+  double steering_before_;  // start of the ramp of a prescribed steering angle [rad]
+  // Whether a plan that does not stop at an obstacle was adopted in this control period. The last
+  // command, possibly to stop, belongs to the previous plan then and must not end the run.
+  bool continues_past_obstacle_ = false;
 };
 
-ClosedLoop::ClosedLoop(Plant& plant, SteeringController& controller, const Plan& plan,
+ClosedLoop::ClosedLoop(Plant& plant, SteeringController& controller, const FeasiblePlan& plan,
                        const LoopConfig& config)
     : plant_(plant),
       controller_(controller),
@@ -131,12 +149,11 @@ RunLog ClosedLoop::Run() {
     const VehicleState state = Observe(tick);
     LogRow row = recorder_.BeginRow(state, command_, controller_.Values());
     row.measured = faults_.Measure(state.pose);
-    const bool at_rest =
-        tick > 0 && !sequencer_.stationary_steer().InProgress() && IsAtRest(state, command_);
+    const bool at_rest = tick > 0 && Rests(state);
     row.tracking = FollowPlan(state, at_rest);
     if (const std::optional<DriveStatus> status = Ending(state, at_rest)) {
       if (*status != DriveStatus::kDiverged || tick == 0) {
-        recorder_.AddRow(row);  // with the command that led here
+        recorder_.AddRow(row);  // with the last command
       }
       progress_.Report(1.0);
       return recorder_.Finish(*status, termination_.cause());
@@ -150,7 +167,7 @@ RunLog ClosedLoop::Run() {
 
 VehicleState ClosedLoop::Observe(long tick) const {
   VehicleState state = plant_.Observe();
-  // To the nanosecond: 11.7, not 11.700000000000001.
+  // Rounds to nanoseconds: 11.7, not 11.700000000000001.
   state.time = std::round(static_cast<double>(tick) * config_.control_period * 1e9) / 1e9;
   return state;
 }
@@ -160,14 +177,14 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
   if (!tracking) {
     return std::nullopt;
   }
-  leads_on_ = false;
-  // After a collision the plan stays as it is: the car no longer follows it.
+  continues_past_obstacle_ = false;
+  // No replanning after a collision, since the car no longer follows its plan.
   if (monitor_ && !recorder_.contact_time()) {
     const Projection at{sequencer_.station(), tracking->cross_track, tracking->heading_error};
-    if (std::optional<Plan> next = monitor_->Update(state, sequencer_.plan(), at)) {
-      sequencer_.Replace(std::move(*next), state);
+    if (std::optional<FeasiblePlan> next = monitor_->Update(state, sequencer_.plan(), at)) {
+      sequencer_.Replace(*next, state);
       recorder_.AddPlanChange({state.time, sequencer_.offset(), sequencer_.plan()});
-      leads_on_ = sequencer_.plan().blocked.empty();
+      continues_past_obstacle_ = sequencer_.plan().blocked.empty();
       tracking = sequencer_.Project(state);
     }
   }
@@ -181,6 +198,18 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
   return tracking;
 }
 
+bool ClosedLoop::Rests(const VehicleState& state) {
+  // A car that leaves rest at 0.02 m/s^2 moves by more than a Standstill's centimeter within it.
+  constexpr double kMinRestDuration = 1.0;  // [s]
+  const bool steers = sequencer_.stationary_steer().InProgress();
+  const std::optional<double> since = standstill_.Update(state, !steers);
+  if (steers || IsAtRest(state, command_)) {
+    return !steers;
+  }
+  return since && state.time - *since > kMinRestDuration && std::abs(state.speed) < kAtRestSpeed &&
+         sequencer_.IsAtEnd(state);
+}
+
 std::optional<DriveStatus> ClosedLoop::Ending(const VehicleState& state, bool at_rest) {
   const bool steers = sequencer_.stationary_steer().InProgress();
   const bool waits = monitor_ && monitor_->IsWaiting();
@@ -191,8 +220,8 @@ std::optional<DriveStatus> ClosedLoop::Ending(const VehicleState& state, bool at
        .is_last_segment = sequencer_.is_last(),
        .interrupted = config_.hooks.interrupted && config_.hooks.interrupted(),
        .at_rest = at_rest,
-       .to_move = command_.acceleration * command_.gear > 0.0 && !steers,
-       .will_go_on = steers || waits || leads_on_,
+       .to_move = command_.acceleration * command_.gear > 0.0 && !steers && !at_rest,
+       .run_continues = steers || waits || continues_past_obstacle_,
        .contact_time = recorder_.contact_time()});
 }
 
@@ -221,6 +250,7 @@ ControlInput ClosedLoop::Control(const VehicleState& state, LogRow& row) {
   command_.coast = Coasts(config_.speed, state.time);
   row.command = command_;
   row.controller = controller_.Values();
+  row.planned_speed = PlannedSpeed(state);
   return input;
 }
 
@@ -245,12 +275,13 @@ double ClosedLoop::Accelerate(const ControlInput& input, const LogRow& row) {
 }
 
 double ClosedLoop::WantedAcceleration(const ControlInput& input, const Vec2& position) {
-  const double speed = command_.gear * input.state.speed;  // negative when the car rolls back
+  const double speed = command_.gear * input.state.speed;  // negative if the car rolls backward
   std::optional<double> own =
       TimedSpeedControl(config_.speed, input.state.time, speed, input.period);
   if (!own) {
     own = controller_.Accelerate(input);
   }
+  plan_sets_speed_ = !own;
   if (own) {
     return *own;
   }
@@ -260,6 +291,22 @@ double ClosedLoop::WantedAcceleration(const ControlInput& input, const Vec2& pos
   const bool at_limit =
       sequencer_.has_path() && sequencer_.plan().diagnostics.speed_profile.has_value();
   return at_limit ? command_.gear * EaseForSlip(command_.gear * wanted, input.state) : wanted;
+}
+
+std::optional<double> ClosedLoop::PlannedSpeed(const VehicleState& state) const {
+  if (!sequencer_.has_path() || !plan_sets_speed_) {
+    return std::nullopt;
+  }
+  // A stop is judged to the goal tolerance, and so are the speeds on the way to it.
+  const double to = sequencer_.StationFor(state);
+  const double from = to - config_.goal_tolerance * config_.vehicle.length -
+                      std::abs(state.speed) * config_.control_period;
+  const SpeedProfile& plan = sequencer_.speed();
+  double highest = std::max(plan.SpeedAt(from), plan.SpeedAt(to));
+  for (const SpeedProfile::Knot& knot : plan.knots()) {
+    highest = knot.s > from && knot.s < to ? std::max(highest, knot.speed) : highest;
+  }
+  return highest;
 }
 
 void ClosedLoop::StepPlant(long tick, const ControlInput& input, const LogRow& row) {
@@ -281,7 +328,7 @@ Command ClosedLoop::CommandAt(int step, const ControlInput& input, const LogRow&
   }
   Command now = command_;
   if (config_.steering_input == SteeringInput::kPrescribed) {
-    // The wanted angle is that at the end of the period.
+    // The commanded angle holds at the end of the period; steps interpolate.
     now.steering =
         std::lerp(steering_before_, command_.steering, static_cast<double>(step + 1) / steps_);
   }
@@ -315,7 +362,7 @@ void ClosedLoop::ReportProgress(const VehicleState& state) {
 
 }  // namespace
 
-RunLog SimulateClosedLoop(Plant& plant, SteeringController& controller, const Plan& plan,
+RunLog SimulateClosedLoop(Plant& plant, SteeringController& controller, const FeasiblePlan& plan,
                           const LoopConfig& config) {
   CheckLoopArguments(plant, plan, config);
   return ClosedLoop(plant, controller, plan, config).Run();

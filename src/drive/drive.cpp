@@ -17,7 +17,8 @@ SpeedLimits MakeSpeedLimits(const Scenario& scenario) {
 ReplanningConfig MakeReplanningConfig(const Scenario& scenario) {
   return {.avoid = scenario.plan->avoid,
           .replan = scenario.plan->replan,
-          .limits = MakeSpeedLimits(scenario)};
+          .limits = MakeSpeedLimits(scenario),
+          .infeasible = scenario.plan->infeasible};
 }
 
 LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
@@ -47,7 +48,7 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
   return config;
 }
 
-RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const Plan& plan,
+RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const FeasiblePlan& plan,
                   const std::string& plant_name, const DriveHooks& hooks) {
   if (plant_name == kRecordedPlant) {
     return RecordedLog(scenario, car);

@@ -8,6 +8,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/collision_checker.h"
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
@@ -17,27 +18,29 @@
 namespace trackbed {
 namespace {
 
-/// Tells of turns that are driven slower than the mission, unless the plan does already.
-void NoteSlowTurns(Plan& plan, double speed) {
+/// Adds a note on turns driven below the mission's speed, unless the plan has notes.
+void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   const auto slowest =
-      std::min_element(plan.caps.begin(), plan.caps.end(),
+      std::min_element(plan->caps.begin(), plan->caps.end(),
                        [](const SpeedCap& a, const SpeedCap& b) { return a.speed < b.speed; });
-  constexpr double kNoticed = 0.99;  // of the speed
-  if (plan.notes.empty() && slowest != plan.caps.end() && slowest->speed < kNoticed * speed) {
-    plan.notes.push_back(fmt::format("speed reduced to {:.3g} m/s in a turn at s = {:.4g} m",
-                                     slowest->speed, slowest->from));
+  constexpr double kNotedFraction = 0.99;  // of the speed
+  if (plan->notes.empty() && slowest != plan->caps.end() &&
+      slowest->speed < kNotedFraction * speed) {
+    plan.AddNote(fmt::format("speed reduced to {:.3g} m/s in a turn at s = {:.4g} m",
+                             slowest->speed, slowest->from));
   }
 }
 
-/// Tells of what stands on the path of a planner that does not look for obstacles.
-void NoteObstacle(Plan& plan, const VehicleParams& vehicle, const std::vector<OrientedBox>& known) {
+/// Adds a note on an obstacle on the path, for planners that ignore obstacles.
+void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
+                  const std::vector<OrientedBox>& known) {
   const CollisionChecker touching(vehicle, known, 0.0);
-  if (const std::optional<double> s = touching.FirstBlocked(plan.reference.path)) {
-    plan.notes.push_back(fmt::format("the path hits an obstacle at s = {:.4g} m", *s));
+  if (const std::optional<double> s = touching.FirstBlocked(plan->reference.path)) {
+    plan.AddNote(fmt::format("the path hits an obstacle at s = {:.4g} m", *s));
   }
 }
 
-/// The road's factors in a world.
+/// The different friction factors in a world.
 std::vector<double> Roads(const World& world) {
   std::vector<double> roads{world.friction};
   for (const FrictionPatch& patch : world.friction_patches) {
@@ -48,7 +51,7 @@ std::vector<double> Roads(const World& world) {
   return roads;
 }
 
-/// The route over the world's roads; none without them.
+/// The route on the world's road network; empty without one.
 LaneMission MakeLaneMission(const Scenario& scenario) {
   const auto& roads = scenario.world.road_network;
   return roads && roads->data
@@ -56,7 +59,8 @@ LaneMission MakeLaneMission(const Scenario& scenario) {
              : LaneMission{};
 }
 
-/// `diagram` makes the one of the car on given roads, if the mission wants it.
+/// Limits of a speed profile at the limit, if the mission has one. `diagram` returns the g-g-v
+/// diagram for given friction factors.
 template <typename Diagram>
 std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const Diagram& diagram) {
   const auto& profile = scenario.mission.speed_profile;
@@ -67,18 +71,18 @@ std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const Diagram& d
   return SpeedAtLimit{diagram(Roads(scenario.world)), *limits, scenario.world.ground};
 }
 
-Plan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
-              std::optional<SpeedAtLimit> limits) {
+FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
+                      std::optional<SpeedAtLimit> limits) {
   const StartState start = InitialState(scenario, vehicle);
   if (!scenario.plan) {
     Plan plan;
     plan.reference.speed = SpeedProfile({{0.0, MissionSpeed(scenario)}});
     plan.schedule_speed = plan.reference.speed;
-    return plan;
+    return MakeFeasible(std::move(plan), RequestOn({}, vehicle, MakeSpeedLimits(scenario)));
   }
   std::vector<OrientedBox> known;
   for (const Obstacle& obstacle : scenario.world.obstacles) {
-    // What moves will be elsewhere: whoever plans again on the way reckons with that.
+    // Skip moving obstacles if the run replans: the replanner handles them.
     const bool for_later = obstacle.moves() && scenario.plan->replan;
     if (!for_later && IsKnown(obstacle, 0.0, FootprintAt(vehicle, start.pose))) {
       known.push_back(obstacle.footprint);
@@ -104,13 +108,14 @@ Plan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
           },
       .friction = scenario.world.friction,
       .friction_patches = scenario.world.friction_patches,
+      .ground = scenario.world.ground,
       .on_track = scenario.mission.track
                       ? TrackLaps{scenario.mission.track->data, scenario.mission.track->laps}
                       : TrackLaps{},
       .lanes = MakeLaneMission(scenario),
       .infeasible = scenario.plan->infeasible,
       .limits = std::move(limits)};
-  Plan plan = MakePlan(request, scenario.plan->global);
+  FeasiblePlan plan = MakePlan(request, scenario.plan->global);
   if (!plan.ok()) {
     return plan;
   }
@@ -122,7 +127,7 @@ Plan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
     return plan;
   }
   std::erase_if(known, [&](const OrientedBox& box) {
-    return !IsForAvoider(MakeReplanningConfig(scenario), vehicle, plan.reference.path, 0.0, box);
+    return !IsForAvoider(MakeReplanningConfig(scenario), vehicle, plan->reference.path, 0.0, box);
   });
   return PlanAround({.vehicle = vehicle,
                      .plan = plan,
@@ -131,20 +136,25 @@ Plan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
                      .station = 0.0,
                      .station_speed = start.speed,
                      .car = {},
-                     .seed = scenario.seed},
+                     .seed = scenario.seed,
+                     .road = {.friction = request.friction,
+                              .friction_patches = request.friction_patches,
+                              .ground = request.ground,
+                              .infeasible = request.infeasible,
+                              .limits = request.limits}},
                     *scenario.plan->avoid);
 }
 
 }  // namespace
 
-Plan PlanMission(const Scenario& scenario, const CarModel& car) {
+FeasiblePlan PlanMission(const Scenario& scenario, const CarModel& car) {
   return PlanWith(scenario, car.unladen(),
                   LimitsFor(scenario, [&](const std::vector<double>& roads) {
                     return ComputeGgv(car, scenario.vehicle.tyre, roads);
                   }));
 }
 
-Plan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
+FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
   return PlanWith(scenario, vehicle, LimitsFor(scenario, [&](const std::vector<double>& roads) {
                     return FrictionGgv(vehicle, roads);
                   }));

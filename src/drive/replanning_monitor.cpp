@@ -8,11 +8,17 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
+// Decides in every control period whether to plan again:
+//   1. Note the obstacles that become known.
+//   2. On the route, call the avoider (if configured) for obstacles in turns that block the plan,
+//      once its delay has passed.
+//   3. Otherwise replan (if configured) at multiples of its period, or at once if a new obstacle is
+//      within stopping distance.
 namespace trackbed {
 namespace {
 
 constexpr double kSameTime = 1e-9;  // [s]
-/// Further beside its plan than this, or turned or faster by this much, a car has strayed from it.
+/// Deviations from the plan from which a car counts as having strayed.
 constexpr double kStrayed = 0.5;         // [m]
 constexpr double kStrayedHeading = 0.2;  // [rad]
 constexpr double kStrayedSpeed = 1.0;    // [m/s]
@@ -29,18 +35,18 @@ bool IsForAvoider(const ReplanningConfig& config, const VehicleParams& vehicle, 
   return StandsInTurn(vehicle, path, station, obstacle, distance);
 }
 
-ReplanningMonitor::ReplanningMonitor(const Options& options, const Plan& plan)
+ReplanningMonitor::ReplanningMonitor(const Options& options, const FeasiblePlan& plan)
     : options_(options), knowledge_(options.world.obstacles.size()) {
   if (options_.replanning.replan) {
     SetRoute(plan);
   }
 }
 
-std::optional<Plan> ReplanningMonitor::Update(const VehicleState& state, const Plan& plan,
-                                              const Projection& at) {
+std::optional<FeasiblePlan> ReplanningMonitor::Update(const VehicleState& state, const Plan& plan,
+                                                      const Projection& at) {
   UpdateKnowledge(state);
   if (options_.replanning.avoid && driving_.on_route) {
-    if (std::optional<Plan> around = Avoid(state, plan, at.s)) {
+    if (std::optional<FeasiblePlan> around = Avoid(state, plan, at.s)) {
       return around;
     }
   }
@@ -57,13 +63,13 @@ void ReplanningMonitor::UpdateKnowledge(const VehicleState& state) {
     Knowledge& known = knowledge_[i];
     if (!known.since && IsKnown(options_.world.obstacles[i], state.time, footprint)) {
       known.since = state.time;
-      known.avoided = state.time == 0.0;  // the mission's plan was made with it
+      known.avoided = state.time == 0.0;  // the mission's planner knew it
     }
   }
 }
 
-std::optional<Plan> ReplanningMonitor::Avoid(const VehicleState& state, const Plan& plan,
-                                             double station) {
+std::optional<FeasiblePlan> ReplanningMonitor::Avoid(const VehicleState& state, const Plan& plan,
+                                                     double station) {
   const ReplanningConfig& config = options_.replanning;
   const double delay = std::visit([](const auto& options) { return options.delay; }, *config.avoid);
   const double distance =
@@ -91,22 +97,30 @@ std::optional<Plan> ReplanningMonitor::Avoid(const VehicleState& state, const Pl
   if (!in_the_way) {
     return std::nullopt;
   }
-  Plan around = PlanAround({.vehicle = options_.vehicle,
-                            .plan = plan,
-                            .speed = config.limits,
-                            .obstacles = std::move(obstacles),
-                            .station = station,
-                            .station_speed = std::abs(state.speed),
-                            .car = AvoidanceRequest::Car{state.pose, state.steering},
-                            .seed = options_.seed},
-                           *config.avoid);
+  FeasiblePlan around = PlanAround({.vehicle = options_.vehicle,
+                                    .plan = plan,
+                                    .speed = config.limits,
+                                    .obstacles = std::move(obstacles),
+                                    .station = station,
+                                    .station_speed = std::abs(state.speed),
+                                    .car = AvoidanceRequest::Car{state.pose, state.steering},
+                                    .seed = options_.seed,
+                                    .road = Road()},
+                                   *config.avoid);
   if (config.replan) {
-    if (!around.blocked.empty()) {
-      return std::nullopt;  // no curve leads past: something else may
+    if (!around->blocked.empty()) {
+      return std::nullopt;  // the avoider finds no path; replanning may find one
     }
     SetRoute(around);
   }
   return around;
+}
+
+RoadConditions ReplanningMonitor::Road() const {
+  return {.friction = options_.world.friction,
+          .friction_patches = options_.world.friction_patches,
+          .ground = options_.world.ground,
+          .infeasible = options_.replanning.infeasible};
 }
 
 void ReplanningMonitor::SetRoute(const Plan& plan) {
@@ -130,7 +144,9 @@ std::vector<MovingBox> ReplanningMonitor::KnownObstacles(const VehicleState& sta
       continue;
     }
     const OrientedBox box = FootprintAt(obstacle, state.time);
-    // The avoider gets its delay first; what it finds no way around is for here after all.
+    // The avoider handles an obstacle before replanning does, once the avoider's delay has passed.
+    // If it finds no path, replanning handles the
+    // obstacle.
     const bool for_avoider =
         !knowledge_[i].avoided && driving_.on_route &&
         IsForAvoider(options_.replanning, options_.vehicle, path, station, box);
@@ -154,7 +170,7 @@ bool ReplanningMonitor::IsUrgent(const VehicleState& state, const Plan& plan,
   }
   const ReplanOptions& options = *options_.replanning.replan;
   const double speed = std::abs(state.speed);
-  // Comfortable braking from the next look on, and a car's length to spare.
+  // Stopping distance with comfortable braking from the next period on, plus a car length.
   const double stop = speed * options.period +
                       0.5 * speed * speed / options_.replanning.limits.deceleration +
                       options_.vehicle.length;
@@ -165,11 +181,11 @@ bool ReplanningMonitor::IsUrgent(const VehicleState& state, const Plan& plan,
 }
 
 double ReplanningMonitor::HardestBraking(const Path& path, double station, double speed) const {
-  constexpr double kSpacing = 1.0;  // [m]
-  constexpr double kLeast = 0.1;    // [m/s^2]
+  constexpr double kSpacing = 1.0;          // [m]
+  constexpr double kMinDeceleration = 0.1;  // [m/s^2]
   double hardest = MaxDeceleration(options_.vehicle, 1.0);
-  // What is slippery makes it look further.
-  for (double ahead = 0.0; hardest > kLeast && 2.0 * hardest * ahead <= speed * speed;
+  // Low friction extends the range of the search, since the car needs longer to stop.
+  for (double ahead = 0.0; hardest > kMinDeceleration && 2.0 * hardest * ahead <= speed * speed;
        ahead += kSpacing) {
     const PathPoint at = path.At(station + ahead);
     double road = std::numeric_limits<double>::infinity();
@@ -177,8 +193,9 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
       road = std::min(road, RoadFactor(options_.world, corner));
     }
     const double grip = MaxDeceleration(options_.vehicle, road);
-    // What a bend takes of the tyres, at the speed that is left there, leaves the rest of the
-    // ellipse: a third at least, for a car that is too fast for the bend slides anyway.
+    // Friction ellipse: lateral force in a bend, at the speed reached there, reduces the braking
+    // force. At least about a third of it (sqrt 0.1) remains: a car too fast for the bend slides
+    // anyway.
     const double across = (speed * speed - 2.0 * hardest * ahead) * std::abs(at.curvature);
     const double most = MaxLateralAcceleration(options_.vehicle, road);
     const double rest =
@@ -187,7 +204,7 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
     const double downhill = normal.head<2>().dot(Direction(at.pose.yaw)) / normal.z();
     hardest = std::min(hardest, grip * rest - kGravity * std::max(0.0, downhill));
   }
-  return options_.vehicle.max_deceleration > 0.0 ? std::max(hardest, kLeast) : 0.0;
+  return options_.vehicle.max_deceleration > 0.0 ? std::max(hardest, kMinDeceleration) : 0.0;
 }
 
 double ReplanningMonitor::StationOnRoute(const VehicleState& state) const {
@@ -215,11 +232,12 @@ ReplanRequest ReplanningMonitor::RequestFor(const VehicleState& state, const Pla
                      std::abs(plan.reference.speed.SpeedAt(at.s) - speed) > kStrayedSpeed,
           .max_deceleration = HardestBraking(plan.reference.path, at.s, speed),
           .obstacles = KnownObstacles(state, plan.reference.path, at.s),
-          .seed = options_.seed + static_cast<std::uint64_t>(periods_) * 1000};
+          .seed = options_.seed + static_cast<std::uint64_t>(periods_) * 1000,
+          .road = Road()};
 }
 
-std::optional<Plan> ReplanningMonitor::ReplanIfDue(const VehicleState& state, const Plan& plan,
-                                                   const Projection& at) {
+std::optional<FeasiblePlan> ReplanningMonitor::ReplanIfDue(const VehicleState& state,
+                                                           const Plan& plan, const Projection& at) {
   const ReplanOptions& options = *options_.replanning.replan;
   const bool due = state.time >= static_cast<double>(periods_) * options.period - kSameTime;
   if (!due && !IsUrgent(state, plan, at)) {
@@ -233,7 +251,7 @@ std::optional<Plan> ReplanningMonitor::ReplanIfDue(const VehicleState& state, co
   Replanned next = Replan(request, driving_, options);
   constexpr double kNegligible = 0.1;  // [m]
   const bool moves =
-      next.kind != ReplanKind::kKeep && next.plan.reference.path.length() > kNegligible;
+      next.kind != ReplanKind::kKeep && next.plan->reference.path.length() > kNegligible;
   gave_up_ = std::abs(state.speed) < kAtRestSpeed && !moves &&
              !MightClear(options_.vehicle, driving_.route.reference.path, driving_.route_station,
                          request.obstacles, options.settings.safe_distance);

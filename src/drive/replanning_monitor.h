@@ -9,65 +9,68 @@
 
 namespace trackbed {
 
-/// Which local planner an obstacle is for: one in a turn for the avoider, any other for replanning;
-/// if there is only one of the two, all are its.
+/// Which local planner handles an obstacle: the avoider those in a turn, replanning all others. If
+/// only one of the two is configured, it handles all.
 bool IsForAvoider(const ReplanningConfig& config, const VehicleParams& vehicle, const Path& path,
                   double station, const OrientedBox& obstacle);
 
-/// Notices obstacles as they become known, and plans again when that is due: around those that
-/// stand in the way once the avoider's delay has passed, and at the period of replanning.
+/// Tracks which obstacles are known, and plans again when due: around obstacles in the way after
+/// the avoider's delay, and at the period of replanning.
 class ReplanningMonitor {
  public:
   struct Options {
     ReplanningConfig replanning{};
-    VehicleParams vehicle{};  ///< as planners take it to be
+    VehicleParams vehicle{};  ///< nominal vehicle, known to the planners
     World world{};
     std::uint64_t seed = 0;
   };
 
-  /// `plan` is the one that the run begins with.
-  ReplanningMonitor(const Options& options, const Plan& plan);
+  /// `plan` is the initial plan of the run.
+  ReplanningMonitor(const Options& options, const FeasiblePlan& plan);
 
-  /// The new plan, if one is to be taken up, for a car that is `at` on `plan`. Asked once per
-  /// control period, from time 0 on.
-  std::optional<Plan> Update(const VehicleState& state, const Plan& plan, const Projection& at);
+  /// Returns a plan to adopt, if one is due, for a car at the projection `at` on `plan`. Must be
+  /// called once per control period, from time 0 on.
+  std::optional<FeasiblePlan> Update(const VehicleState& state, const Plan& plan,
+                                     const Projection& at);
 
-  /// Whether a car at rest before the end of its route may yet go on: something that is in its way
-  /// moves, or no new plan has been tried since it came to rest.
+  /// Whether a car that stopped before the end of its route may still continue: a moving obstacle
+  /// may clear the way, or no replanning was tried since the stop.
   [[nodiscard]] bool IsWaiting() const;
 
  private:
   struct Knowledge {
-    std::optional<double> since;  ///< when the obstacle became known [s]
+    std::optional<double> since;  ///< time at which the obstacle became known [s]
     bool avoided = false;         ///< the avoider's plans take it into account
   };
 
   void UpdateKnowledge(const VehicleState& state);
-  std::optional<Plan> Avoid(const VehicleState& state, const Plan& plan, double station);
-  /// What is known by now and is for replanning, where it is now.
+  std::optional<FeasiblePlan> Avoid(const VehicleState& state, const Plan& plan, double station);
+  /// Known obstacles that replanning must handle, at their present positions.
   [[nodiscard]] std::vector<MovingBox> KnownObstacles(const VehicleState& state, const Path& path,
                                                       double station) const;
-  /// Whether something that became known this moment cannot wait for the next period: a car that
-  /// brakes comfortably from then on would get too near.
+  /// Whether a newly known obstacle cannot wait for the next period: with comfortable braking from
+  /// then on, the car would come too close to it.
   [[nodiscard]] bool IsUrgent(const VehicleState& state, const Plan& plan,
                               const Projection& at) const;
-  /// The hardest braking on the path ahead, as far as the car takes to stop with it: the least
-  /// friction under its footprint, what bends leave of it at its speed, and downhill [m/s^2]. 0:
-  /// not known.
+  /// Available deceleration on the path ahead, over the stopping distance [m/s^2]: the minimum
+  /// friction under the footprint, reduced by lateral force in bends at the car's speed and by
+  /// downhill slopes. 0 if unknown.
   [[nodiscard]] double HardestBraking(const Path& path, double station, double speed) const;
-  std::optional<Plan> ReplanIfDue(const VehicleState& state, const Plan& plan,
-                                  const Projection& at);
+  std::optional<FeasiblePlan> ReplanIfDue(const VehicleState& state, const Plan& plan,
+                                          const Projection& at);
   [[nodiscard]] ReplanRequest RequestFor(const VehicleState& state, const Plan& plan,
                                          const Projection& at) const;
-  /// Where the car is on the route, near where it can have got to in a period of replanning [m].
+  /// The car's station on the route, searched within the motion of a replanning period [m].
   [[nodiscard]] double StationOnRoute(const VehicleState& state) const;
   void SetRoute(const Plan& plan);
+  /// What new plans are held to.
+  [[nodiscard]] RoadConditions Road() const;
 
   Options options_;
-  std::vector<Knowledge> knowledge_;  // obstacle by obstacle
+  std::vector<Knowledge> knowledge_;  // for each obstacle
   Driving driving_;
-  long periods_ = 0;      // of replanning, so far
-  bool gave_up_ = false;  // the last replanning was from rest, and nothing but standing is left
+  long periods_ = 0;      // replanning periods so far
+  bool gave_up_ = false;  // the last replanning was from rest and found no motion
 };
 
 }  // namespace trackbed

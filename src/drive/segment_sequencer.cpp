@@ -7,6 +7,7 @@
 
 #include "src/drive/path_tracking.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
@@ -33,19 +34,19 @@ int PlanGear(const Plan& plan) {
 
 void StationarySteer::Begin() {
   in_progress_ = true;
-  before_ = std::numeric_limits<double>::infinity();
+  last_steering_ = std::numeric_limits<double>::infinity();
 }
 
 void StationarySteer::Update(double steering) {
-  constexpr double kResting = 1e-4;  // [rad] in a control period
-  in_progress_ = in_progress_ && !(std::abs(steering - before_) < kResting);
-  before_ = steering;
+  constexpr double kMaxSteeringChange = 1e-4;  // [rad] in a control period
+  in_progress_ = in_progress_ && !(std::abs(steering - last_steering_) < kMaxSteeringChange);
+  last_steering_ = steering;
 }
 
-SegmentSequencer::SegmentSequencer(const Plan& plan, const VehicleState& start,
+SegmentSequencer::SegmentSequencer(const FeasiblePlan& plan, const VehicleState& start,
                                    const Options& options)
     : options_(options),
-      has_path_(plan.reference.path.length() > 0.0),
+      has_path_(plan->reference.path.length() > 0.0),
       remaining_(SplitIntoSegments(plan)),
       plan_(std::move(remaining_.front())),
       start_distance_(start.distance) {
@@ -84,17 +85,34 @@ double SegmentSequencer::StationNear(const Pose2& pose) const {
   return plan_.reference.path.Project(pose, StationsAround(options_.vehicle, station_, 0.0)).s;
 }
 
-void SegmentSequencer::Replace(Plan plan, const VehicleState& state) {
+void SegmentSequencer::Replace(const FeasiblePlan& plan, const VehicleState& state) {
   remaining_.clear();
-  Begin(std::move(plan), offset_ + station_, state);
+  Begin(*plan, offset_ + station_, state);
+}
+
+bool SegmentSequencer::IsAtEnd(const VehicleState& state) const {
+  const Path& path = plan_.reference.path;
+  if (!has_path_) {
+    return false;
+  }
+  if (!is_last()) {
+    const double reach = std::min(options_.goal_tolerance, 0.5 * path.length());
+    return StationFor(state) >= path.length() - reach;
+  }
+  // The station tells the end of a loop from its start. Up to half a turn, an arc is at most pi/2
+  // times as long as its chord.
+  const Vec2 place = state.pose.position();
+  const double away = std::min((path.At(path.length()).pose.position() - place).norm(),
+                               (plan_.goal.position() - place).norm());
+  return away <= options_.goal_tolerance &&
+         station_ >= path.length() - 0.5 * kPi * options_.goal_tolerance;
 }
 
 bool SegmentSequencer::Advance(const VehicleState& state) {
-  const double length = plan_.reference.path.length();
-  const double reach = std::min(options_.goal_tolerance, 0.5 * length);
-  if (is_last() || StationFor(state) < length - reach) {
+  if (is_last() || !IsAtEnd(state)) {
     return false;
   }
+  const double length = plan_.reference.path.length();
   Plan next = std::move(remaining_.front());
   remaining_.pop_front();
   Begin(std::move(next), offset_ + length, state);

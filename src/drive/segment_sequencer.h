@@ -5,81 +5,86 @@
 #include <optional>
 
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
 
-/// Plans that stop on the way, to change direction or to turn the wheels, driven segment by
-/// segment.
+/// Splits plans with stops, for a change of direction or for steering at standstill, into segments
+/// that are driven one after the other.
 namespace trackbed {
 
-/// A plan cut at its cusps and stops: the stretches that are driven in one go each, at least one.
+/// Splits a plan at its cusps and stops. At least one segment; the car stops only at its end.
 std::deque<Plan> SplitIntoSegments(const Plan& plan);
 
-/// +1 for a plan that begins forwards, -1 backwards.
+/// Gear at the start of a plan: +1 forward, -1 reverse.
 int PlanGear(const Plan& plan);
 
-/// Holds a car at a cusp, or at a start on a bend, until its wheels have turned to where they are
-/// to be; then it changes gear.
+/// Holds a car at a cusp, or at a start on a bend, until its wheels reach their target; then the
+/// gear changes.
 class StationarySteer {
  public:
   void Begin();
 
-  /// Takes the actuator's angle [rad], once per control period: the steering is over when the
-  /// wheels rest.
+  /// Must be called with the actuator's angle [rad] once per control period. Steering is complete
+  /// when the angle stops changing.
   void Update(double steering);
 
   [[nodiscard]] bool InProgress() const { return in_progress_; }
 
  private:
   bool in_progress_ = false;
-  double before_ = std::numeric_limits<double>::infinity();  // at the last update [rad]
+  double last_steering_ = std::numeric_limits<double>::infinity();  // at the last update [rad]
 };
 
-/// Which segment is driven, and where the car is on it.
+/// Tracks the present segment and the car's position on it.
 ///
-/// Symbols: a station is a distance along the segment that is driven; one of the log counts on over
-/// all segments and plans that were driven before.
+/// Symbols: a station is the distance along the present segment; a station of the log also includes
+/// all segments and plans driven before.
 class SegmentSequencer {
  public:
   struct Options {
     StationSource station_source = StationSource::kProjection;
-    VehicleParams vehicle{};      ///< the wheelbase counts
+    VehicleParams vehicle{};      ///< only the wheelbase is used
     double control_period = 0.0;  ///< [s]
-    double goal_tolerance = 0.0;  ///< a car at rest this near the end is there [m]
+    double goal_tolerance = 0.0;  ///< a car at rest within this distance of the end has arrived [m]
   };
 
-  /// `start` is the car before the first step. One at rest at a start on a bend steers first.
-  SegmentSequencer(const Plan& plan, const VehicleState& start, const Options& options);
+  /// `start` is the car's initial state. A car at rest at a start on a bend steers first.
+  SegmentSequencer(const FeasiblePlan& plan, const VehicleState& start, const Options& options);
 
-  [[nodiscard]] const Plan& plan() const { return plan_; }  ///< the segment
+  [[nodiscard]] const Plan& plan() const { return plan_; }  ///< the present segment
   [[nodiscard]] bool has_path() const { return has_path_; }
   [[nodiscard]] bool is_last() const { return remaining_.empty(); }
-  /// Of the car on the segment, as it was last projected [m].
+  /// Station of the car's last projection [m].
   [[nodiscard]] double station() const { return station_; }
-  /// Of the log, where the segment begins [m].
+  /// Station of the log at which the segment begins [m].
   [[nodiscard]] double offset() const { return offset_; }
-  /// When the segment was begun [s].
+  /// Time at which the segment began [s].
   [[nodiscard]] double start_time() const { return start_time_; }
-  /// The speeds for the station that StationFor gives.
+  /// Speed profile for the station returned by StationFor.
   [[nodiscard]] const SpeedProfile& speed() const;
 
-  /// What a controller is told for `state`: the last projection, or the distance driven since the
-  /// segment was begun [m].
+  /// The station for the controller in `state`: the last projection, or the distance driven since
+  /// the start of the segment [m].
   [[nodiscard]] double StationFor(const VehicleState& state) const;
 
-  /// Projects the car onto the path near where it was. The result is that against the path as it
-  /// is, without extensions, its station that of the log. None without a path.
+  /// Projects the car onto the path near its last station. Returns its deviation from the path
+  /// without extensions, with a station of the log. None without a path.
   std::optional<Projection> Project(const VehicleState& state);
 
-  /// Where a pose that was measured is [m], near the last projection.
+  /// Station of a measured pose, near the last projection [m].
   [[nodiscard]] double StationNear(const Pose2& pose) const;
 
-  /// Drives another plan from here on, instead of everything that was left.
-  void Replace(Plan plan, const VehicleState& state);
+  /// Replaces the remaining plan by another one, which begins here.
+  void Replace(const FeasiblePlan& plan, const VehicleState& state);
 
-  /// Begins the next segment if a car at rest is at the end of this one, and steers for it. Whether
-  /// it did: the car is to be projected anew.
+  /// Whether a car at rest is at the end of the segment: of the last one, within the goal tolerance
+  /// of the goal or the end of the path; of any other one, where Advance leaves it.
+  [[nodiscard]] bool IsAtEnd(const VehicleState& state) const;
+
+  /// Begins the next segment, with steering at standstill, if a car at rest is at the end of the
+  /// present one. Returns whether it did; the car must then be projected again.
   bool Advance(const VehicleState& state);
 
   [[nodiscard]] StationarySteer& stationary_steer() { return stationary_steer_; }
@@ -92,8 +97,8 @@ class SegmentSequencer {
   bool has_path_;
   std::deque<Plan> remaining_;
   Plan plan_;
-  double offset_ = 0.0;          // [m]
-  double start_distance_ = 0.0;  // odometer where the segment begins [m]
+  double offset_ = 0.0;          // station of the log at the segment's start [m]
+  double start_distance_ = 0.0;  // odometer at the segment's start [m]
   double start_time_ = 0.0;      // [s]
   double station_ = 0.0;         // [m]
   StationarySteer stationary_steer_;

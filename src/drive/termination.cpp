@@ -21,10 +21,8 @@ bool HasRolledOver(const VehicleState& state) {
 }
 
 // Longest time in the air, for example over a bump, and longest unintended standstill [s].
-constexpr double kLongestJump = 1.0;
-constexpr double kLongestStandstill = 10.0;
-/// A smaller motion counts as standstill [m]; 1 mm/s over the longest standstill.
-constexpr double kNoMotion = 0.01;
+constexpr double kMaxAirborneTime = 1.0;
+constexpr double kMaxStandstillTime = 10.0;
 
 double DistanceBetween(const Pose2& a, const Pose2& b) {
   return (a.position() - b.position()).norm();
@@ -54,7 +52,7 @@ std::optional<DriveStatus> Termination::Update(const LoopStatus& now) {
     return fault;
   }
   const bool time_over = now.state.time >= end_time_ - half_timestep_;
-  const bool stays = has_path_ && now.at_rest && !now.will_go_on;
+  const bool stays = has_path_ && now.at_rest && !now.run_continues;
   if (now.interrupted || time_over || stays) {
     return StatusAtEnd(now);
   }
@@ -81,26 +79,16 @@ std::optional<DriveStatus> Termination::Fault(const LoopStatus& now) {
     airborne_since_.reset();
   } else if (!airborne_since_) {
     airborne_since_ = now.state.time;
-  } else if (now.state.time - *airborne_since_ > kLongestJump) {
+  } else if (now.state.time - *airborne_since_ > kMaxAirborneTime) {
     cause_ = fmt::format("all wheels are {:.3g} m or more above the road", gap);
     return DriveStatus::kAirborne;
   }
-  if (IsStuck(now)) {
-    cause_ =
-        fmt::format("has not moved since {:.2f} s, although it was to drive", still_since_->time);
+  const std::optional<double> since = standstill_.Update(now.state, now.to_move);
+  if (since && now.state.time - *since > kMaxStandstillTime) {
+    cause_ = fmt::format("has not moved since {:.2f} s, although it was to drive", *since);
     return DriveStatus::kStuck;
   }
   return std::nullopt;
-}
-
-bool Termination::IsStuck(const LoopStatus& now) {
-  const Vec2 place = now.state.pose.position();
-  if (!now.to_move) {
-    still_since_.reset();
-  } else if (!still_since_ || (place - still_since_->place).norm() > kNoMotion) {
-    still_since_ = {now.state.time, place};
-  }
-  return still_since_ && now.state.time - still_since_->time > kLongestStandstill;
 }
 
 DriveStatus Termination::StatusAtEnd(const LoopStatus& now) const {

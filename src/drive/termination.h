@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 
+#include "src/drive/standstill.h"
 #include "trackbed/drive/closed_loop.h"
 #include "trackbed/planning/common/plan.h"
 
@@ -21,7 +22,7 @@ struct LoopStatus {
   bool interrupted = false;              ///< the caller asked to stop
   bool at_rest = false;                  ///< IsAtRest, and the steering is complete
   bool to_move = false;                  ///< the last command is to accelerate
-  bool will_go_on = false;               ///< at rest, but the run continues
+  bool run_continues = false;            ///< at rest, but the run continues
   std::optional<double> contact_time{};  ///< first contact with an obstacle [s]
 };
 
@@ -47,7 +48,6 @@ class Termination {
   [[nodiscard]] bool HasArrived(const LoopStatus& now) const;
   /// Status of a fault of the physics; sets `cause_`.
   std::optional<DriveStatus> Fault(const LoopStatus& now);
-  [[nodiscard]] bool IsStuck(const LoopStatus& now);
 
   bool has_path_;
   bool is_partial_;
@@ -59,11 +59,7 @@ class Termination {
   double wheel_radius_;  // [m]
   std::string cause_;
   std::optional<double> airborne_since_;  // [s]
-  struct Moment {
-    double time = 0.0;  // [s]
-    Vec2 place;         // [m]
-  };
-  std::optional<Moment> still_since_;  // despite a command to move
+  Standstill standstill_;                 // despite a command to move
 };
 
 }  // namespace trackbed

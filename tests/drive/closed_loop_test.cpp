@@ -35,7 +35,8 @@ LoopConfig ConfigFor(double duration) {
 TEST(SimulateClosedLoop, DrivesAPlantOfYourOwnOnACircle) {
   Unicycle plant({.pose = {1.0, 2.0, 0.5}, .speed = 3.0, .steering = 0.1});
   ConstantController controller(0.1);
-  const RunLog log = SimulateClosedLoop(plant, controller, PlanAtSpeed(3.0), ConfigFor(4.0));
+  const RunLog log =
+      SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), ConfigFor(4.0));
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   ASSERT_EQ(log.rows.size(), 201U);
   const double radius = kUnicycleWheelbase / std::tan(0.1);
@@ -55,7 +56,8 @@ TEST(SimulateClosedLoop, DrivesAPlantOfYourOwnOnACircle) {
 TEST(SimulateClosedLoop, ObeysAControllerThatSetsTheSpeed) {
   Unicycle plant({});
   ConstantController controller(0.0, 0.5);
-  const RunLog log = SimulateClosedLoop(plant, controller, PlanAtSpeed(3.0), ConfigFor(6.0));
+  const RunLog log =
+      SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), ConfigFor(6.0));
   for (const LogRow& row : log.rows) {
     const double t = row.state.time;
     // 3000 additions to numbers below 16, half an ulp of 1.8e-15 each.
@@ -67,8 +69,8 @@ TEST(SimulateClosedLoop, ObeysAControllerThatSetsTheSpeed) {
 TEST(SimulateClosedLoop, ArrivesAtTheEndOfAPathWhenItsSpeedsSay) {
   Unicycle plant({});
   ConstantController controller(0.0);
-  const RunLog log =
-      SimulateClosedLoop(plant, controller, PlanAlongRoute({{.length = 50.0}}, 0.0), Config());
+  const RunLog log = SimulateClosedLoop(
+      plant, controller, Drivable(PlanAlongRoute({{.length = 50.0}}, 0.0)), Config());
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   // 4.5 m in 3 s, 42.5 m at 3 m/s, 3 m in 2 s. The mean acceleration of a period is off where the
   // profile has its three knots: by at most a period times the change of acceleration there, half
@@ -87,7 +89,8 @@ TEST(SimulateClosedLoop, DrivesForwardAndReverseSegmentsInTurn) {
   Unicycle plant({});
   ConstantController controller(0.0);
   const RunLog log = SimulateClosedLoop(
-      plant, controller, PlanAlongRoute({{.length = 10.0}, {.length = 6.0, .direction = -1}}, 0.0),
+      plant, controller,
+      Drivable(PlanAlongRoute({{.length = 10.0}, {.length = 6.0, .direction = -1}}, 0.0)),
       Config());
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   EXPECT_NEAR(log.rows.back().state.pose.x, 4.0, Tolerance(0.01));
@@ -104,6 +107,50 @@ TEST(SimulateClosedLoop, DrivesForwardAndReverseSegmentsInTurn) {
   EXPECT_NEAR(farthest, 10.0, Tolerance(0.01));
 }
 
+/// A unicycle that a grade stops `before` meters before x = 10.
+class HeldByAGrade : public Unicycle {
+ public:
+  HeldByAGrade(const StartState& start, double before) : Unicycle(start), end_(10.0 - before) {}
+  void Step(const Command& command) override {
+    Unicycle::Step(command);
+    if (state().pose.x > end_) {
+      state().pose.x = end_;
+      state().speed = 0.0;
+    }
+  }
+
+ private:
+  double end_;
+};
+
+TEST(SimulateClosedLoop, ArrivesWhereAGradeHoldsTheCarAtTheGoal) {
+  // The car stands although it is commanded to drive: within 0.4 m of the goal it arrives after 1
+  // s.
+  for (const double before : {0.002, 0.1, 0.39}) {
+    HeldByAGrade plant({}, before);
+    ConstantController controller(0.0);
+    const RunLog log = SimulateClosedLoop(
+        plant, controller, Drivable(PlanAlongRoute({{.length = 10.0}}, 0.0)), Config());
+    EXPECT_EQ(log.status, DriveStatus::kArrived) << before;
+    EXPECT_LT(log.rows.back().state.time, 12.0) << before;
+  }
+  HeldByAGrade plant({}, 0.41);
+  ConstantController controller(0.0);
+  const RunLog log = SimulateClosedLoop(
+      plant, controller, Drivable(PlanAlongRoute({{.length = 10.0}}, 0.0)), Config());
+  EXPECT_EQ(log.status, DriveStatus::kStuck);
+}
+
+TEST(SimulateClosedLoop, ChangesGearWhereAGradeHoldsTheCarAtACusp) {
+  HeldByAGrade plant({}, 0.1);
+  ConstantController controller(0.0);
+  const RunLog log = SimulateClosedLoop(
+      plant, controller,
+      Drivable(PlanAlongRoute({{.length = 10.0}, {.length = 6.0, .direction = -1}}, 0.0)),
+      Config());
+  EXPECT_EQ(log.status, DriveStatus::kArrived);
+}
+
 TEST(SimulateClosedLoop, CountsFromTheOdometerThatThePlantBeginsWith) {
   const auto stations = [](double odometer) {
     Unicycle plant({});
@@ -111,8 +158,8 @@ TEST(SimulateClosedLoop, CountsFromTheOdometerThatThePlantBeginsWith) {
     ConstantController controller(0.0);
     LoopConfig config = Config();
     config.station_source = StationSource::kOdometer;
-    const RunLog log =
-        SimulateClosedLoop(plant, controller, PlanAlongRoute({{.length = 10.0}}, 0.0), config);
+    const RunLog log = SimulateClosedLoop(
+        plant, controller, Drivable(PlanAlongRoute({{.length = 10.0}}, 0.0)), config);
     EXPECT_EQ(log.status, DriveStatus::kArrived);
     return controller.stations;
   };
@@ -130,7 +177,7 @@ TEST(SimulateClosedLoop, RampsAPrescribedAngleOverTheControlPeriod) {
   ConstantController controller(0.1);
   LoopConfig config = ConfigFor(0.04);
   config.steering_input = SteeringInput::kPrescribed;
-  SimulateClosedLoop(plant, controller, PlanAtSpeed(3.0), config);
+  SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), config);
   ASSERT_EQ(plant.commands.size(), 20U);
   for (int i = 0; i < 10; ++i) {
     EXPECT_NEAR(plant.commands[static_cast<std::size_t>(i)].steering, 0.02 + 0.008 * (i + 1),
@@ -145,7 +192,7 @@ TEST(SimulateClosedLoop, ShowsTheControllerWhatIsMeasured) {
   LoopConfig config = ConfigFor(1.0);
   config.disturbances.noise = {.position = 0.1, .heading = 0.01};
   config.seed = 5;
-  const RunLog log = SimulateClosedLoop(plant, controller, PlanAtSpeed(3.0), config);
+  const RunLog log = SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), config);
   ASSERT_EQ(controller.inputs.size() + 1, log.rows.size());
   for (std::size_t i = 0; i < controller.inputs.size(); ++i) {
     EXPECT_EQ(controller.inputs[i].pose.x, log.rows[i].measured->x);
@@ -165,7 +212,8 @@ TEST(SimulateClosedLoop, EndsAsThePlantDoes) {
   };
   Diverging plant({.speed = 3.0});
   ConstantController controller(0.0);
-  const RunLog log = SimulateClosedLoop(plant, controller, PlanAtSpeed(3.0), ConfigFor(5.0));
+  const RunLog log =
+      SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), ConfigFor(5.0));
   EXPECT_EQ(log.status, DriveStatus::kDiverged);
   EXPECT_EQ(plant.commands.size(), 25U);  // in the middle of the third period: not stepped again
   EXPECT_EQ(log.rows.size(), 3U);         // the log ends before
@@ -185,7 +233,7 @@ TEST(SimulateClosedLoop, CallsBackWithEachRowBeforeItIsSimulatedOn) {
     EXPECT_LE(configurations.at(configurations.rows() - 1, 0), times.back() + 1e-9);  // rounding
     EXPECT_GT(configurations.at(configurations.rows() - 1, 0), times.back() - config.state_period);
   };
-  const RunLog log = SimulateClosedLoop(plant, controller, PlanAtSpeed(3.0), config);
+  const RunLog log = SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), config);
   ASSERT_EQ(times.size(), log.rows.size());
   for (std::size_t i = 0; i < times.size(); ++i) {
     EXPECT_EQ(times[i], log.rows[i].state.time);
@@ -203,7 +251,7 @@ TEST(SimulateClosedLoop, CallsItsHooks) {
     EXPECT_GE(seconds, 0.0);
   };
   config.hooks.progress = [&](double fraction) { progress.push_back(fraction); };
-  const RunLog log = SimulateClosedLoop(plant, controller, PlanAtSpeed(3.0), config);
+  const RunLog log = SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), config);
   EXPECT_EQ(updates, 100);
   ASSERT_FALSE(progress.empty());
   EXPECT_LE(progress.size(), 100U);
@@ -213,7 +261,7 @@ TEST(SimulateClosedLoop, CallsItsHooks) {
   int asked = 0;
   config.hooks.interrupted = [&] { return ++asked > 10; };
   Unicycle again({.speed = 3.0});
-  const RunLog cut = SimulateClosedLoop(again, controller, PlanAtSpeed(3.0), config);
+  const RunLog cut = SimulateClosedLoop(again, controller, Drivable(PlanAtSpeed(3.0)), config);
   EXPECT_EQ(cut.status, DriveStatus::kInterrupted);
   EXPECT_EQ(cut.rows.size(), 11U);
 }
@@ -225,7 +273,7 @@ TEST(SimulateClosedLoop, RepeatsEveryBit) {
     LoopConfig config = ConfigFor(3.0);
     config.disturbances.noise = {.position = 0.1, .heading = 0.01};
     config.configuration_columns = {"x_m", "y_m"};
-    const RunLog log = SimulateClosedLoop(plant, controller, PlanAtSpeed(3.0), config);
+    const RunLog log = SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), config);
     return ToTable(log).ToCsv() + log.configurations.ToCsv();
   };
   EXPECT_EQ(csv(), csv());
@@ -239,7 +287,7 @@ std::string MessageFor(const std::function<void(LoopConfig&, Plan&)>& spoil) {
   Unicycle plant({.speed = 3.0});
   ConstantController controller(0.0);
   try {
-    SimulateClosedLoop(plant, controller, plan, config);
+    SimulateClosedLoop(plant, controller, Drivable(plan), config);
   } catch (const PreconditionError& error) {
     EXPECT_TRUE(plant.commands.empty());
     return error.what();
@@ -309,10 +357,10 @@ TEST(SimulateClosedLoop, StopsAtAnAnswerThatIsNoNumber) {
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), HUGE_VAL}) {
     Unicycle plant({});
     ConstantController steers(bad);
-    EXPECT_THROW(SimulateClosedLoop(plant, steers, PlanAtSpeed(3.0), ConfigFor(1.0)),
+    EXPECT_THROW(SimulateClosedLoop(plant, steers, Drivable(PlanAtSpeed(3.0)), ConfigFor(1.0)),
                  PreconditionError);
     ConstantController accelerates(0.0, bad);
-    EXPECT_THROW(SimulateClosedLoop(plant, accelerates, PlanAtSpeed(3.0), ConfigFor(1.0)),
+    EXPECT_THROW(SimulateClosedLoop(plant, accelerates, Drivable(PlanAtSpeed(3.0)), ConfigFor(1.0)),
                  PreconditionError);
     EXPECT_TRUE(plant.commands.empty());
   }
@@ -338,7 +386,7 @@ TEST(DrivePlant, IsTheLoopOfTheScenariosParts) {
       "drive: {plants: [kinematic]}\n",
       "parts.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const Plan plan = PlanMission(scenario, car.unladen());
+  const FeasiblePlan plan = PlanMission(scenario, car.unladen());
   const RunLog driven = DrivePlant(scenario, car, plan, "kinematic");
   EXPECT_EQ(driven.plant, "kinematic");
   const auto plant = MakePlant(
@@ -362,7 +410,8 @@ TEST(DrivePlant, RefusesAPlanThatIsNotOk) {
       "none.yaml", ".");
   Plan plan;
   plan.status = PlanStatus::kUTurn;
-  EXPECT_THROW(DrivePlant(scenario, LoadCar(scenario), plan, "kinematic"), PreconditionError);
+  EXPECT_THROW(DrivePlant(scenario, LoadCar(scenario), Drivable(plan), "kinematic"),
+               PreconditionError);
 }
 
 }  // namespace

@@ -33,10 +33,10 @@ struct Driven {
 
 Driven Drive(const Scenario& scenario) {
   const CarModel car = LoadCar(scenario);
-  Plan plan = PlanMission(scenario, car.params());
-  EXPECT_TRUE(plan.ok()) << plan.reason;
+  FeasiblePlan plan = PlanMission(scenario, car.params());
+  EXPECT_TRUE(plan.ok()) << plan->reason;
   RunLog log = DrivePlant(scenario, car, plan, scenario.drive.plants.front());
-  return {std::move(plan), std::move(log)};
+  return {plan, std::move(log)};
 }
 
 class Cusps : public ::testing::TestWithParam<std::string> {};

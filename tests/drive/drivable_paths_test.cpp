@@ -20,11 +20,11 @@
 #include "trackbed/planning/path_file/path_check.h"
 #include "trackbed/vehicle/kinematic_car.h"
 
-// Verdicts of CheckPath on random paths, against the kinematic car that drives them.
+// Compares the results of CheckPath on random paths with runs of the kinematic car on them.
 namespace trackbed {
 namespace {
 
-/// What is wrong with a path on purpose.
+/// The deliberate flaw of a path.
 enum class Flaw { kNone, kCorner, kReversal, kJolt };
 
 struct RandomPath {
@@ -32,7 +32,7 @@ struct RandomPath {
   PathFitOptions fit;
   double speed = 0.0;  // [m/s]
   Flaw flaw = Flaw::kNone;
-  std::optional<Vec2> place;  // of the flaw
+  std::optional<Vec2> place;  // position of the flaw
 };
 
 /// Points on a curve of random bends, 0.3 to 2 m apart, with up to 2 cm of noise.
@@ -56,7 +56,7 @@ RandomPath MakePath(std::mt19937& random) {
               : chance < 0.85 ? Flaw::kReversal
                               : Flaw::kJolt;
   if (made.flaw == Flaw::kReversal) {
-    noise = 0.0;  // which would make it less than a reversal
+    noise = 0.0;  // noise could hide the reversal
   }
   const int flawed = static_cast<int>(between(0.3, 0.7) * count);
   Pose2 pose{between(-100.0, 100.0), between(-100.0, 100.0), between(-kPi, kPi)};
@@ -71,7 +71,7 @@ RandomPath MakePath(std::mt19937& random) {
       } else if (made.flaw == Flaw::kReversal) {
         pose.yaw += kPi;
       } else {
-        // To the side by more than the spline may deviate, within a step.
+        // A lateral step larger than the spline's allowed deviation.
         pose.x -= side * 1.5 * std::sin(pose.yaw);
         pose.y += side * 1.5 * std::cos(pose.yaw);
       }
@@ -117,7 +117,8 @@ double LargestError(const ControllerOptions& options, const Path& path, double s
   return largest;
 }
 
-/// TRACKBED_RANDOM_PATHS sets how many paths are made; 1000 take half a minute.
+/// The environment variable TRACKBED_RANDOM_PATHS sets the number of paths; 1000 take half a
+/// minute.
 int Count() {
   const char* count = std::getenv("TRACKBED_RANDOM_PATHS");
   return count == nullptr ? 200 : std::atoi(count);
@@ -146,15 +147,15 @@ TEST(DrivablePaths, AreDrivenAndOthersHaveAPlaceAndAReason) {
       worst = std::max(worst, best);
       continue;
     }
-    // Every fault lies on the path, in its stretch, and asks for more than its limit.
+    // Each fault lies on the path, within its stretch, and exceeds its limit.
     for (const PathFault& fault : check.faults) {
-      EXPECT_GT(fault.asked, fault.limit);
+      EXPECT_GT(fault.required, fault.limit);
       EXPECT_GE(fault.s, fault.stations.from);
       EXPECT_LE(fault.s, fault.stations.to);
       EXPECT_FALSE(ToString(fault).empty());
       if (fault.kind == PathFaultKind::kSteeringRate ||
           fault.kind == PathFaultKind::kSteeringAngle) {
-        // By differences of the path's own curvature over the piece of 0.05 m that begins there.
+        // Differences of the path's own curvature over the piece of 0.05 m that begins there.
         constexpr double kStep = 1e-4;  // [m]
         double angle = 0.0;
         double rate = 0.0;
@@ -167,9 +168,9 @@ TEST(DrivablePaths, AreDrivenAndOthersHaveAPlaceAndAReason) {
           rate = std::max(rate, made.speed * std::abs(steering(s + kStep) - steering(s)) / kStep);
         }
         const bool is_rate = fault.kind == PathFaultKind::kSteeringRate;
-        // Looked at where a piece begins and ends and where its curvature is largest: the rate may
-        // be larger within a piece whose steering turns by a tenth of a radian and more.
-        EXPECT_NEAR(is_rate ? rate : angle, fault.asked, Tolerance(0.1 * fault.asked));
+        // CheckPath samples pieces at their ends and at their largest curvature. Within a piece
+        // whose steering turns by 0.1 rad or more, the rate may be larger.
+        EXPECT_NEAR(is_rate ? rate : angle, fault.required, Tolerance(0.1 * fault.required));
         EXPECT_GT(is_rate ? rate : angle, 0.95 * fault.limit);
       }
     }
@@ -190,7 +191,7 @@ TEST(DrivablePaths, AreDrivenAndOthersHaveAPlaceAndAReason) {
       }
     }
   }
-  // Both kinds are met often.
+  // Both results occur often.
   EXPECT_GT(drivable, Count() / 10);
   EXPECT_GT(flawed, Count() / 5);
   RecordProperty("drivable", drivable);

@@ -107,7 +107,7 @@ TEST(MapWalls, StopACarThatReplans) {
   EXPECT_FALSE(PlanMission(scenario, car.unladen()).ok());
   World empty;
   std::swap(scenario.world, empty);
-  const Plan straight = PlanMission(scenario, car.unladen());
+  const FeasiblePlan straight = PlanMission(scenario, car.unladen());
   std::swap(scenario.world, empty);
   for (const char* plant : {"kinematic", "mujoco:magic_formula"}) {
     const RunLog log = DrivePlant(scenario, LoadCar(scenario), straight, plant);

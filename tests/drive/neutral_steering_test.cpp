@@ -22,8 +22,8 @@ TEST(NeutralSteering, CarDrivesWhatItsPlanPredicts) {
       "test.yaml", ".");
   EXPECT_EQ(InitialState(scenario).steering, 0.02);
   const CarModel car = LoadCar(scenario);
-  const Plan plan = PlanMission(scenario, car.unladen());
-  ASSERT_TRUE(plan.ok()) << plan.reason;
+  const FeasiblePlan plan = PlanMission(scenario, car.unladen());
+  ASSERT_TRUE(plan.ok()) << plan->reason;
   const RunLog log = DrivePlant(scenario, car, plan, "kinematic");
   const LogRow& first = log.rows.front();
   const LogRow& last = log.rows.back();
@@ -33,7 +33,7 @@ TEST(NeutralSteering, CarDrivesWhatItsPlanPredicts) {
   // control period's crawl of it, 1 mm, and its ramps are steps of 3 mm: 1e-3 m each over the
   // ramps.
   const auto predicted = DiagnosticsJson(plan).at("open_loop");
-  const Pose2 goal = plan.reference.path.At(plan.reference.path.length()).pose;
+  const Pose2 goal = plan->reference.path.At(plan->reference.path.length()).pose;
   const double distance = (last.state.pose.position() - goal.position()).norm();
   EXPECT_GT(distance, 5.0);  // the legs are driven on a bend
   EXPECT_NEAR(distance, predicted.at("goal_distance_m").get<double>(), Tolerance(3e-3));

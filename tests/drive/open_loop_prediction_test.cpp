@@ -59,7 +59,7 @@ bool Agrees(const std::string& mission, const std::string& plan) {
                         "2000}\n",
                     "open_loop", TRACKBED_SOURCE_DIR);
   const CarModel car = LoadCar(scenario);
-  const Plan made = PlanMission(scenario, car.unladen());
+  const FeasiblePlan made = PlanMission(scenario, car.unladen());
   if (!made.ok()) {
     return false;
   }
@@ -68,9 +68,9 @@ bool Agrees(const std::string& mission, const std::string& plan) {
   const RunLog log = DrivePlant(scenario, car, made, "kinematic");
   const VehicleState& end = log.rows.back().state;
   EXPECT_NEAR(end.speed, 0.0, 0.01);
-  EXPECT_NEAR((end.pose.position() - made.goal.position()).norm(),
+  EXPECT_NEAR((end.pose.position() - made->goal.position()).norm(),
               predicted["goal_distance_m"].get<double>(), Tolerance(kMillimeter));
-  EXPECT_NEAR(AngleDifference(end.pose.yaw, made.goal.yaw),
+  EXPECT_NEAR(AngleDifference(end.pose.yaw, made->goal.yaw),
               predicted["goal_heading_error_rad"].get<double>(), Tolerance(1e-4));
   return true;
 }

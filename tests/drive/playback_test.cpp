@@ -10,17 +10,17 @@
 #include "tests/geometry/random.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
+#include "trackbed/control/recording_file.h"
 #include "trackbed/core/file.h"
 #include "trackbed/drive/drive.h"
-#include "trackbed/scenario/recording_file.h"
 
-// Recordings, driven.
+// Runs that replay recordings.
 namespace trackbed {
 namespace {
 
-constexpr double kPriusRate = 0.15056818181818182;  // of the steering actuator [rad/s]
+constexpr double kPriusRate = 0.15056818181818182;  // rate limit of the steering actuator [rad/s]
 
-/// 6 s of steering and speed that wander at up to `rate` [rad/s] and 8 m/s^2, on uneven rows.
+/// 6 s of randomly varying steering and speed at up to `rate` [rad/s] and 8 m/s^2, on uneven rows.
 Recording Wandering(std::uint64_t seed, double rate) {
   Random random(seed);
   Recording recording{{}, {}, {}};
@@ -64,7 +64,7 @@ TEST(Playback, OnPrescribedWheelsGivesTheRecordedAngleAndSpeed) {
     for (const LogRow& row : log.rows) {
       const VehicleState& state = row.state;
       EXPECT_NEAR(state.steering, recording.steering.At(state.time), Tolerance(1e-12));
-      // Additions of a few 1e-15, of which the gain takes 4 % back each period.
+      // Additions of a few 1e-15, of which the gain corrects 4 % in each period.
       EXPECT_NEAR(state.speed, recording.speed.At(state.time), Tolerance(1e-12));
     }
   }
@@ -81,7 +81,7 @@ TEST(Playback, ThroughTheActuatorKeepsItsRate) {
                 0.02 * kPriusRate + Tolerance(1e-14));
       behind = std::max(behind, std::abs(state.steering - recording.steering.At(state.time)));
     }
-    EXPECT_GT(behind, 0.01);  // the recording is too fast for it
+    EXPECT_GT(behind, 0.01);  // the recording is faster than the actuator
   }
 }
 
@@ -95,7 +95,7 @@ TEST(Playback, ThroughTheActuatorIsExactWhereTheRateAllows) {
 }
 
 TEST(Playback, BrakesAsHardAsWasRecordedOnMujocoToo) {
-  // From 20 m/s, 6 m/s^2 for 2 s; tyres of 0.9 allow 8.8.
+  // 6 m/s^2 for 2 s from 20 m/s; tyres with a friction of 0.9 allow 8.8 m/s^2.
   const Recording recording{
       {{{0.0, 0.0}}}, {{{0.0, 20.0}, {1.0, 20.0}, {3.0, 8.0}, {4.0, 8.0}}}, {}};
   Scenario scenario = Replay(recording, "mujoco", SteeringInput::kActuator);
@@ -103,8 +103,8 @@ TEST(Playback, BrakesAsHardAsWasRecordedOnMujocoToo) {
   const RunLog log = Drive(scenario);
   ASSERT_EQ(log.rows.size(), 201U);
   for (const LogRow& row : log.rows) {
-    // The gain of 2/s stands up to what the brakes miss by 5 % of 6 m/s^2 with 0.15 m/s; the pitch
-    // of a braking car is 2 degrees, over 0.5 m of height another 0.02 m/s at most.
+    // The brakes err by 5 % of 6 m/s^2, which the gain of 2/s turns into 0.15 m/s. The braking car
+    // pitches by 2 degrees; over a height of 0.5 m that adds at most 0.02 m/s.
     EXPECT_NEAR(row.state.speed, recording.speed.At(row.state.time), Tolerance(0.17));
   }
 }
@@ -113,12 +113,12 @@ TEST(Playback, ByDistanceTurnsTheWheelsWhereTheyWereTurned) {
   Scenario scenario = Replay(Wandering(95, 2.0), "kinematic", SteeringInput::kPrescribed);
   auto& playback = scenario.control.steering.Get<PlaybackOptions>();
   playback.by = PlaybackAxis::kDistance;
-  playback.recording.speed = {{{0.0, 0.3}}};  // 6 mm a period: 20 s for the way of 6 m
+  playback.recording.speed = {{{0.0, 0.3}}};  // 6 mm per period: 20 s for 6 m
   scenario.mission.duration = 20.0;
   const RunLog log = Drive(scenario);
   EXPECT_NEAR(log.rows.back().state.distance, 6.0, Tolerance(1e-11));
   for (const LogRow& row : log.rows) {
-    // A thousand periods of 6 mm add up to 1e-15 each, on slopes of 2 rad/m.
+    // A thousand periods of 6 mm sum to an error of 1e-15 each, on slopes of 2 rad/m.
     EXPECT_NEAR(row.state.steering, playback.recording.steering.At(row.state.distance),
                 Tolerance(1e-11));
   }
@@ -127,7 +127,7 @@ TEST(Playback, ByDistanceTurnsTheWheelsWhereTheyWereTurned) {
 TEST(Playback, WithoutASpeedHoldsTheMissions) {
   Scenario scenario =
       Replay({{{{0.0, 0.0}, {3.0, 0.1}}}, {}, {}}, "kinematic", SteeringInput::kActuator);
-  EXPECT_THROW(CheckScenario(scenario), InputError);  // no speed at all
+  EXPECT_THROW(CheckScenario(scenario), InputError);  // no speed is given
   scenario.mission.speed = 7.0;
   for (const LogRow& row : Drive(scenario).rows) {
     EXPECT_EQ(row.state.speed, 7.0);
@@ -135,7 +135,7 @@ TEST(Playback, WithoutASpeedHoldsTheMissions) {
 }
 
 TEST(Playback, OfItsOwnLogIsTheSameDrive) {
-  // The commands of a run along a path, replayed without one.
+  // Replays the commands of a run along a path without the path.
   const Scenario first = ReadScenario(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/winding.yaml",
                                       {"drive.plants=[kinematic]", "expect={}"});
   const RunLog log = Drive(first);
@@ -154,13 +154,13 @@ TEST(Playback, OfItsOwnLogIsTheSameDrive) {
     const VehicleState& b = replayed.rows[i].state;
     const double before = i > 0 ? log.rows[i - 1].state.speed : 0.0;
     if (a.speed == 0.0 && before > 0.0) {
-      // The log does not tell when within the period the car came to rest: at once, or where it
-      // ends, which is where the replayed one does.
+      // The log does not record when the car came to rest within the period: at its beginning, or
+      // at its end as in the replay.
       untold += 0.5 * before * 0.02;
       EXPECT_LT(untold, 1e-3);
     }
-    // The same actuator reaches the same angles in the same way; the speeds differ by rounding, as
-    // does what 60 s of driving make of them.
+    // The same actuator reaches the same angles by the same operations. The speeds differ by
+    // rounding, and so do the poses after 60 s.
     EXPECT_NEAR(b.steering, a.steering, Tolerance(1e-12));
     EXPECT_NEAR((b.pose.position() - a.pose.position()).norm(), 0.0, Tolerance(1e-9 + untold));
   }

@@ -18,7 +18,7 @@ VehicleParams Prius() {
 }
 
 /// 100 m along x at 3 m/s.
-Plan StraightPlan() {
+FeasiblePlan StraightPlan() {
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: straight\nmission: {speed: 3, waypoints: [[0, 0], [100, 0]]}\n"
       "plan: {method: dubins}\ncontrol: {method: preview}\n",
@@ -62,7 +62,7 @@ std::optional<double> FirstPlan(ReplanningMonitor& monitor, const Plan& plan, do
 TEST(ReplanningMonitor, AvoidsWhatBecomesKnownAfterTheDelay) {
   Obstacle box = BoxAt(70.0, 0.0);
   box.known_from_time = 1.0;
-  const Plan plan = StraightPlan();
+  const FeasiblePlan plan = StraightPlan();
   ReplanningMonitor monitor(Avoiding({box}), plan);
   // The first control period no earlier than 1.9 s.
   const std::optional<double> time = FirstPlan(monitor, plan, 4.0);
@@ -74,7 +74,7 @@ TEST(ReplanningMonitor, AvoidsWhatBecomesKnownAfterTheDelay) {
 TEST(ReplanningMonitor, AvoidsEachObstacleOnce) {
   Obstacle box = BoxAt(70.0, 0.0);
   box.known_from_time = 1.0;
-  const Plan plan = StraightPlan();
+  const FeasiblePlan plan = StraightPlan();
   ReplanningMonitor monitor(Avoiding({box}), plan);
   VehicleState state;
   state.speed = 3.0;
@@ -90,7 +90,7 @@ TEST(ReplanningMonitor, AvoidsEachObstacleOnce) {
 TEST(ReplanningMonitor, KnowsAnObstacleFromItsRangeOn) {
   Obstacle box = BoxAt(60.0, 0.0);
   box.known_from_range = 40.0;
-  const Plan plan = StraightPlan();
+  const FeasiblePlan plan = StraightPlan();
   ReplanningMonitor monitor(Avoiding({box}), plan);
   // Its near side is at 59 m, the car's front ahead of its rear axle: known at front + 40 m = 59 m.
   const VehicleParams car = Prius();
@@ -105,7 +105,7 @@ TEST(ReplanningMonitor, KnowsAnObstacleFromItsRangeOn) {
 TEST(ReplanningMonitor, LeavesThePlanWhereNothingIsInItsWay) {
   Obstacle beside = BoxAt(50.0, 15.0);
   beside.known_from_time = 1.0;
-  const Plan plan = StraightPlan();
+  const FeasiblePlan plan = StraightPlan();
   ReplanningMonitor monitor(Avoiding({beside}), plan);
   EXPECT_FALSE(FirstPlan(monitor, plan, 4.0));
   // Known from the start, the plan was made with it.
@@ -123,12 +123,12 @@ TEST(ReplanningMonitor, WaitsBehindWhatMayClearOnly) {
     replan.settings.road = {1.6, 1.6};
     replan.along.emplace();
     Plan plan = PlanAlongRoute({{.length = 30.0}}, 0.0);
-    ReplanningMonitor monitor(options, plan);
+    ReplanningMonitor monitor(options, Drivable(plan));
     VehicleState state;
     state.pose.x = 4.0;
     for (const double time : {0.0, 0.5, 1.0}) {
       state.time = time;
-      if (std::optional<Plan> next = monitor.Update(state, plan, {.s = 4.0})) {
+      if (std::optional<FeasiblePlan> next = monitor.Update(state, plan, {.s = 4.0})) {
         plan = *next;
         plan.reference.path = Path({}, {{.length = 4.01}});  // it stands where that ends
       }

@@ -44,9 +44,9 @@ RoadDrive DriveOn(const std::string& heights, const std::string& tyre, double sp
           tyre, world, speed, more),
       "heights.yaml", folder.path());
   CarModel car = LoadCar(scenario);
-  Plan plan = PlanMission(scenario, car.unladen());
+  FeasiblePlan plan = PlanMission(scenario, car.unladen());
   RunLog log = DrivePlant(scenario, car, plan, "mujoco");
-  return {std::move(car), std::move(plan), std::move(log)};
+  return {std::move(car), plan, std::move(log)};
 }
 
 std::string Elevation(double a, double b, double c) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "tests/drive/unicycle.h"
 #include "tests/tolerance.h"
 #include "trackbed/control/steering_controller.h"
@@ -83,7 +86,7 @@ TEST(StationarySteer, IsOverWhenTheWheelsRest) {
 }
 
 TEST(SegmentSequencer, CountsStationsOnOverSegments) {
-  SegmentSequencer sequencer(BackAndForth(), StateAt(0.0, 0.0), Options());
+  SegmentSequencer sequencer(Drivable(BackAndForth()), StateAt(0.0, 0.0), Options());
   EXPECT_FALSE(sequencer.stationary_steer().InProgress());  // it starts straight on
   // The wheelbase leaves 0.75 x 2 m to look within: the car moves on meter by meter.
   for (double x = 1.0; x < 9.5; x += 1.0) {
@@ -105,7 +108,8 @@ TEST(SegmentSequencer, CountsStationsOnOverSegments) {
 }
 
 TEST(SegmentSequencer, EndsAfterItsLastSegment) {
-  SegmentSequencer sequencer(PlanAlongRoute({{.length = 10.0}}, 0.0), StateAt(0.0, 0.0), Options());
+  SegmentSequencer sequencer(Drivable(PlanAlongRoute({{.length = 10.0}}, 0.0)), StateAt(0.0, 0.0),
+                             Options());
   for (double x = 0.0; x <= 10.0; x += 1.0) {
     sequencer.Project(StateAt(x, x));
   }
@@ -116,8 +120,8 @@ TEST(SegmentSequencer, EndsAfterItsLastSegment) {
 TEST(SegmentSequencer, ReachesHalfOfAShortSegmentAtLeast) {
   // 0.4 m of tolerance would skip a segment of 0.3 m: half of it has to be driven.
   SegmentSequencer sequencer(
-      PlanAlongRoute({{.length = 0.3}, {.length = 5.0, .direction = -1}}, 0.0), StateAt(0.0, 0.0),
-      Options());
+      Drivable(PlanAlongRoute({{.length = 0.3}, {.length = 5.0, .direction = -1}}, 0.0)),
+      StateAt(0.0, 0.0), Options());
   sequencer.Project(StateAt(0.14, 0.14));
   EXPECT_FALSE(sequencer.Advance(StateAt(0.14, 0.14)));
   sequencer.Project(StateAt(0.16, 0.16));
@@ -125,28 +129,45 @@ TEST(SegmentSequencer, ReachesHalfOfAShortSegmentAtLeast) {
 }
 
 TEST(SegmentSequencer, CountsTheOdometerFromWhereverItBegins) {
-  SegmentSequencer sequencer(BackAndForth(), StateAt(0.0, 100.0),
+  SegmentSequencer sequencer(Drivable(BackAndForth()), StateAt(0.0, 100.0),
                              Options(StationSource::kOdometer));
   EXPECT_EQ(sequencer.StationFor(StateAt(3.0, 104.0)), 4.0);  // not 3, where the car is
   EXPECT_TRUE(sequencer.Advance(StateAt(9.0, 109.7)));
   EXPECT_NEAR(sequencer.StationFor(StateAt(9.0, 110.7)), 1.0, Tolerance(1e-12));
 }
 
+TEST(SegmentSequencer, TellsTheEndOfALoopFromItsStart) {
+  // A circle of 10 m radius ends where it begins.
+  const double around = 2.0 * std::numbers::pi * 10.0;
+  SegmentSequencer sequencer(Drivable(PlanAlongRoute({{.length = around, .curvature = 0.1}}, 3.0)),
+                             StateAt(0.0, 0.0), Options());
+  VehicleState state;
+  ASSERT_TRUE(sequencer.Project(state));
+  EXPECT_FALSE(sequencer.IsAtEnd(state));
+  for (double s = 0.0; s < around; s += 0.5) {
+    const double angle = s / 10.0;
+    state.pose = {10.0 * std::sin(angle), 10.0 - 10.0 * std::cos(angle), angle};
+    state.speed = 25.0;  // 0.5 m in a control period
+    ASSERT_TRUE(sequencer.Project(state));
+    EXPECT_EQ(sequencer.IsAtEnd(state), around - s < 0.4) << s;
+  }
+}
+
 TEST(SegmentSequencer, FollowsTheSpeedsOfItsStationSource) {
   Plan plan = PlanAlongRoute({{.length = 10.0}}, 0.0);
   plan.schedule_speed = SpeedProfile({{0.0, 1.25}});
-  const SegmentSequencer closed(plan, StateAt(0.0, 0.0), Options());
-  const SegmentSequencer open(plan, StateAt(0.0, 0.0), Options(StationSource::kOdometer));
+  const SegmentSequencer closed(Drivable(plan), StateAt(0.0, 0.0), Options());
+  const SegmentSequencer open(Drivable(plan), StateAt(0.0, 0.0), Options(StationSource::kOdometer));
   EXPECT_EQ(open.speed().SpeedAt(5.0), 1.25);
   EXPECT_NE(closed.speed().SpeedAt(5.0), 1.25);
 }
 
 TEST(SegmentSequencer, ReplacesWhatIsLeft) {
-  SegmentSequencer sequencer(BackAndForth(), StateAt(0.0, 0.0), Options());
+  SegmentSequencer sequencer(Drivable(BackAndForth()), StateAt(0.0, 0.0), Options());
   sequencer.Project(StateAt(1.25, 1.25));
   Plan next = PlanAlongRoute({{.length = 7.0}}, 0.0);
   next.reference.path = Path({1.25, 0.0, 0.0}, {{.length = 7.0}});
-  sequencer.Replace(next, StateAt(1.25, 1.25, 2.0));
+  sequencer.Replace(Drivable(next), StateAt(1.25, 1.25, 2.0));
   EXPECT_TRUE(sequencer.is_last());
   EXPECT_EQ(sequencer.start_time(), 2.0);
   EXPECT_NEAR(sequencer.offset(), 1.25, Tolerance(1e-12));
@@ -159,7 +180,7 @@ TEST(SegmentSequencer, SteersBeforeAStartOnABendFromRestAlone) {
   VehicleState rolling = StateAt(0.0, 0.0);
   rolling.speed = 1.0;
   const auto steers = [&](const std::vector<Segment>& segments, const VehicleState& start) {
-    return SegmentSequencer(PlanAlongRoute(segments, start.speed), start, Options())
+    return SegmentSequencer(Drivable(PlanAlongRoute(segments, start.speed)), start, Options())
         .stationary_steer()
         .InProgress();
   };
@@ -169,7 +190,7 @@ TEST(SegmentSequencer, SteersBeforeAStartOnABendFromRestAlone) {
 }
 
 TEST(SegmentSequencer, HasNoProjectionWithoutAPath) {
-  SegmentSequencer sequencer(PlanAtSpeed(3.0), StateAt(0.0, 0.0), Options());
+  SegmentSequencer sequencer(Drivable(PlanAtSpeed(3.0)), StateAt(0.0, 0.0), Options());
   EXPECT_FALSE(sequencer.has_path());
   EXPECT_FALSE(sequencer.Project(StateAt(2.0, 2.0)));
   EXPECT_FALSE(sequencer.stationary_steer().InProgress());

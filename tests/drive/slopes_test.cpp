@@ -33,7 +33,7 @@ Outcome Drive(const std::string& car_name, const std::string& plant, double grad
                   car_name, 20 * direction, grade, plant),
       "slope.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const Plan plan = PlanMission(scenario, car.unladen());
+  const FeasiblePlan plan = PlanMission(scenario, car.unladen());
   const RunLog log = DrivePlant(scenario, car, plan, plant);
   Outcome outcome{.status = log.status};
   double squares = 0.0;

@@ -30,7 +30,7 @@ class TerminationTest : public ::testing::Test {
                                .interrupted = interrupted_,
                                .at_rest = at_rest_,
                                .to_move = to_move_,
-                               .will_go_on = will_go_on_,
+                               .run_continues = run_continues_,
                                .contact_time = contact_time_});
   }
 
@@ -47,7 +47,7 @@ class TerminationTest : public ::testing::Test {
   bool to_move_ = false;
   bool interrupted_ = false;
   bool at_rest_ = true;
-  bool will_go_on_ = false;
+  bool run_continues_ = false;
   std::optional<double> contact_time_;
 };
 
@@ -83,7 +83,7 @@ TEST_F(TerminationTest, GoesOnWhileTheCarMovesOrIsToMove) {
   at_rest_ = false;
   EXPECT_EQ(Ask(), std::nullopt);
   at_rest_ = true;
-  will_go_on_ = true;
+  run_continues_ = true;
   EXPECT_EQ(Ask(), std::nullopt);
 }
 

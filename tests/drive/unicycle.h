@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/sim/plant.h"
 
@@ -123,6 +124,13 @@ inline Plan PlanAtSpeed(double speed) {
   plan.reference.speed = SpeedProfile({{0.0, speed}});
   plan.schedule_speed = plan.reference.speed;
   return plan;
+}
+
+/// Any plan as one that may be driven.
+inline FeasiblePlan Drivable(Plan plan) {
+  PlanRequest request{};
+  request.infeasible = InfeasiblePolicy::kAllow;
+  return MakeFeasible(std::move(plan), request);
 }
 
 }  // namespace trackbed

@@ -15,14 +15,15 @@
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
 
-/// Obstacles in a turn of the seed car's plan, for the tests of the local planners.
+/// Obstacles in a turn of the reference car's plan, for the tests of the local planners.
 namespace trackbed {
 
 inline constexpr double kSpeed = 3.0;     // [m/s]
 inline constexpr double kDistance = 1.5;  // SD [m]
 inline const SpeedLimits kLimits{kSpeed, 1.0, 1.0};
 
-/// Clearance by another library than the planner's: rings of corners, Boost.Geometry's distance.
+/// Clearance by Boost.Geometry, independent of the planner's code: the distance of two corner
+/// rings.
 inline double ByBoost(const OrientedBox& a, const OrientedBox& b) {
   using Point = boost::geometry::model::d2::point_xy<double>;
   using Polygon = boost::geometry::model::polygon<Point, false, true>;
@@ -37,7 +38,7 @@ inline double ByBoost(const OrientedBox& a, const OrientedBox& b) {
   return boost::geometry::distance(polygon_of(a), polygon_of(b));
 }
 
-/// The car on the path at a station; its footprint is laid out anew from the car's numbers.
+/// The footprint of a car on the path at station `s`, computed here from the car's dimensions.
 inline OrientedBox FootprintOn(const Path& path, double s, const VehicleParams& car) {
   const Pose2 rear = path.At(s).pose;
   const double ahead = 0.5 * car.length - car.rear_overhang;
@@ -57,18 +58,18 @@ inline double PathClearance(const Path& path, const std::vector<OrientedBox>& ob
   return clearance;
 }
 
-/// Where the planner's own samples lie 0.05 m apart, the footprint between them comes closer by at
-/// most what a corner 3.7 m from the rear axle moves in half of that while the heading turns at
-/// full lock, 0.025 m x 3.7/5.1, times the angle of its way to the obstacle's side; next to a
-/// minimum that angle is zero, and the loss quadratic: 0.025^2 x (1/5.1 + 1/3.7)/2.
+/// The planner samples the footprint 0.05 m apart. Between two samples a corner 3.7 m from the rear
+/// axle moves 0.025 m x 3.7/5.1 sideways as the heading turns at full lock. The distance falls by
+/// that times the angle between the corner's motion and the obstacle's side. Near a minimum this
+/// angle is zero, so the loss is quadratic: 0.025^2 x (1/5.1 + 1/3.7)/2.
 inline constexpr double kBetweenSamples = 2e-4;  // [m]
-/// A plan's own stretches count as clear when they miss SD by half a millimeter.
-inline constexpr double kTouch = 5e-4 + kBetweenSamples;
+/// The planner accepts its own curves if they miss SD by up to half a millimeter.
+inline constexpr double kClearanceTolerance = 5e-4 + kBetweenSamples;
 
-/// One turn of radius r between two straights, and what stands in it.
+/// One turn of radius r between two straights, with an obstacle.
 struct Course {
   double radius = 20.0;
-  double before = 42.7;  ///< straight, from the start to the arc [m]
+  double before = 42.7;  ///< length of the straight from the start to the arc [m]
   double turn = 0.5 * kPi;
   double after = 42.7;
 
@@ -90,7 +91,7 @@ struct Course {
                     options);
   }
 
-  /// Of the arc, at a share of it.
+  /// Pose on the arc at a fraction `share` of it.
   [[nodiscard]] Pose2 OnArc(double share) const {
     return Global().reference.path.At(before + share * radius * std::abs(turn)).pose;
   }

@@ -13,20 +13,20 @@
 
 namespace trackbed {
 
-/// Compiled cars that scenarios share: compiling one takes as long as some seconds of driving it.
-/// Two scenarios share a car when they make the same physics model of it, payload, ground and
-/// obstacles included. Safe to use from several threads at once.
+/// Compiled cars shared between scenarios: compiling a car takes as long as simulating it for some
+/// seconds. Two scenarios share a car when they have the same physics model, including payload,
+/// ground and obstacles. Thread-safe.
 class CarCache {
  public:
-  /// Keeps the `most` models used last, besides those that somebody holds.
-  explicit CarCache(std::size_t most = 64);
+  /// Keeps the `capacity` most recently used models, and those still referenced elsewhere.
+  explicit CarCache(std::size_t capacity = 64);
 
-  /// The car that LoadCar gives. A car's file is read the first time only. InputError as LoadCar;
-  /// the next call tries again.
+  /// Returns the car of LoadCar. Reads a car's file only the first time. InputError as LoadCar; the
+  /// next call tries again.
   std::shared_ptr<const CarModel> Load(const Scenario& scenario);
 
-  /// Models compiled so far, those that are no longer kept included. A car with a payload or in a
-  /// world is a model besides the bare car.
+  /// Number of models compiled so far, including those no longer kept. A car with a payload or in a
+  /// world counts as a separate model from the bare car.
   [[nodiscard]] std::size_t compiled() const;
 
  private:
@@ -36,12 +36,12 @@ class CarCache {
     std::size_t last_use = 0;
   };
 
-  /// The car of that key, compiled by the first who asks for it.
+  /// The car of that key, compiled by the first thread that asks for it.
   Car Find(const std::string& key, const std::function<CarModel()>& compile);
   void ForgetOldest();
 
-  std::size_t most_;
-  mutable std::mutex mutex_;  // of what follows
+  std::size_t capacity_;
+  mutable std::mutex mutex_;  // guards the members below
   std::unordered_map<std::string, Slot> slots_;
   std::size_t uses_ = 0;
   std::size_t compiled_ = 0;

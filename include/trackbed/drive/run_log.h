@@ -15,14 +15,14 @@ namespace trackbed {
 enum class DriveStatus {
   kArrived,      ///< at rest at the goal, within drive.goal_tolerance; without a path: the
                  ///< mission's duration is over
-  kStopped,      ///< at rest elsewhere, and staying there
+  kStopped,      ///< staying at rest elsewhere
   kBlocked,      ///< at rest before an obstacle without a path around it
   kPartial,      ///< at rest at the end of a partial plan (Plan::partial)
   kTimeLimit,    ///< drive.time_limit is over
   kDiverged,     ///< the simulation diverged (MuJoCo warning); the log ends before
   kSunk,         ///< a wheel is below the road by more than its radius
   kAirborne,     ///< all wheels are above the road by more than their radius, for a second
-  kStuck,        ///< for ten seconds it was to drive, and moved by less than a centimeter
+  kStuck,        ///< moved less than a centimeter in ten seconds although it should drive
   kCollided,     ///< the car touched an obstacle; the log continues for one second
   kRolledOver,   ///< the car leans by more than 60 degrees
   kInterrupted,  ///< the caller asked to stop
@@ -36,20 +36,25 @@ const char* ToString(DriveStatus status);
 struct LogRow {
   VehicleState state;
   Command command;
-  /// Distance and heading error against the path as it is, without extensions (but for a car that
-  /// stops a little beyond its end); none without a path.
+  /// Distance and heading error relative to the path without extensions (except for a car that
+  /// stops slightly beyond the path's end); none without a path.
   std::optional<Projection> tracking;
-  /// Smallest, of the footprint [m], 0 when it touched; none without obstacles.
+  /// Smallest clearance of the footprint [m], 0 on contact; none without obstacles.
   std::optional<double> clearance;
-  std::optional<Pose2> measured;   ///< what the controller saw; none without noise
-  std::vector<double> controller;  ///< diagnostics of its last update: RunLog's columns
-  bool valid = true;               ///< false in a gap of a recorded drive
+  /// Highest speed of the plan over the goal tolerance and one control period behind the car [m/s].
+  /// None without a path, at the end of the run, and where the controller or control.speed sets the
+  /// speed instead of the plan.
+  std::optional<double> planned_speed{};
+  std::optional<Pose2> measured;  ///< the pose that the controller received; none without noise
+  std::vector<double>
+      controller;     ///< diagnostics of its last update; columns as RunLog::controller_columns
+  bool valid = true;  ///< false in a gap of a recorded drive
 };
 
 /// A plan adopted during the run.
 struct PlanChange {
   double time = 0.0;     ///< when it took effect [s]
-  double station = 0.0;  ///< in the log, where its own stations begin [m]
+  double station = 0.0;  ///< station in the log at which the plan's stations begin [m]
   Plan plan;
 };
 
@@ -57,7 +62,7 @@ struct PlanChange {
 struct RunLog {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
-  std::string cause;  ///< of a run that a fault of the physics ended, for people; else empty
+  std::string cause;                            ///< why the physics ended the run; else empty
   std::optional<double> contact_time;           ///< first contact with an obstacle [s]; none: never
   std::vector<std::string> controller_columns;  ///< SteeringController::Columns
   std::vector<LogRow> rows;                     ///< stations continue across plan changes
@@ -65,7 +70,8 @@ struct RunLog {
   Table configurations;  ///< `t_s` and the car's configuration (CarModel::configuration_columns)
 };
 
-/// The rows as `<plant>.csv` has them: columns that need a path or tyres are present if these are.
+/// The rows in the format of `<plant>.csv`. Columns that need a path or tyres are present only with
+/// these.
 Table ToTable(const RunLog& log);
 
 }  // namespace trackbed

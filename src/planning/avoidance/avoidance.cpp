@@ -12,10 +12,18 @@
 #include "src/planning/avoidance/avoidance_stretch.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/open_loop.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/plan_stretch.h"
+#include "trackbed/planning/common/road_hold.h"
 #include "trackbed/world/world.h"
+
+// Local planners: replace the stretches of a plan that come too close to obstacles. Each round
+// finds the first conflict and asks the method for a curve past the obstacle: the curve of
+// Skackauskas (dissertation, listing F.2) as printed, or one repaired until it is feasible. Path,
+// steering schedule, speed caps and diagnostics of the curve are spliced into the plan, and the
+// search continues after the curve. Without a curve, the plan stops before the obstacle.
 
 namespace trackbed {
 namespace {
@@ -23,28 +31,29 @@ namespace {
 using avoidance::Conflict;
 using avoidance::CurveCheck;
 using avoidance::FirstConflict;
-using avoidance::kLook;
+using avoidance::kPathCheckSpacing;
 using avoidance::Replacement;
 using avoidance::ReplacementSearch;
 using avoidance::Stretch;
 using avoidance::StretchSearch;
 
-/// Of the curve's pieces of path [m].
+/// Spacing of the path pieces that replace the curve [m].
 constexpr double kCurveSpacing = 0.1;
-/// Within which the steering is as before and behind a curve whose curvature is another [m].
+/// Length of the steering ramp before and after a curve whose curvature differs from the plan's
+/// [m].
 constexpr double kStep = 1e-6;
 
-/// Whether the curvature of the plan is another than that of a curve that joins it.
+/// Whether the plan's curvature differs from the joining curve's.
 bool Jumps(const PathPoint& plan, const CurvePoint& curve) {
   constexpr double kRounding = 1e-9;  // [1/m]
   return std::abs(plan.curvature - curve.curvature) > kRounding;
 }
 
-/// A method's curve past an obstacle, which the plan can be left for at `from` or later.
+/// Finds a curve past an obstacle; the curve leaves the plan at `from` or later.
 using FindCurve =
     std::function<ReplacementSearch(const Plan& plan, const Conflict& conflict, double from)>;
 
-/// Replaces stretch by stretch what comes nearer than SD to an obstacle.
+/// Replaces each stretch of the plan that comes closer than SD to an obstacle.
 class AroundObstacles {
  public:
   AroundObstacles(const AvoidanceRequest& request, double safe_distance, FindCurve find)
@@ -66,7 +75,8 @@ class AroundObstacles {
       if (!conflict) {
         break;
       }
-      // Each round leaves one obstacle behind, unless the curves around two meet each other's.
+      // Each round clears one obstacle, unless the curves around two obstacles each conflict with
+      // the other obstacle.
       ReplacementSearch found{std::nullopt, "the curves around other obstacles lead back to it"};
       if (round < 2 * request_.obstacles.size()) {
         found = find_(plan_, *conflict, from);
@@ -86,12 +96,18 @@ class AroundObstacles {
  private:
   [[nodiscard]] const Path& path() const { return plan_.reference.path; }
 
-  /// What lies ahead of the car, in stations from there.
+  /// Cuts the plan at the car; stations then count from there.
   void StartAtCar() {
     plan_ = RemainingPlan(plan_, request_.station, request_.station_speed, request_.speed);
-    plan_.diagnostics.avoided.clear();  // of stations that no longer count
+    plan_.diagnostics.avoided.clear();  // stations of the part that was cut off
     plan_.tree.clear();
     MoveDiagnostics({-1.0, -1.0}, -request_.station);
+  }
+
+  /// Keeps the speeds of a plan at the car's limit as caps: its path is about to change.
+  void SpeedsToCaps() {
+    plan_.caps = CapsOf(plan_);
+    plan_.diagnostics.speed_profile.reset();
   }
 
   void SetSpeed(double start_speed, double open_loop_end) {
@@ -99,20 +115,22 @@ class AroundObstacles {
     plan_.schedule_speed = StopAtEnd(open_loop_end, start_speed, request_.speed, plan_.caps);
   }
 
-  /// Puts the curve in place of the plan between its stations; where it is back on the old path.
+  /// Replaces the plan between the curve's stations by the curve. Returns the station at which the
+  /// curve rejoins the old path.
   double Replace(const Replacement& replacement, const OrientedBox& obstacle) {
+    SpeedsToCaps();
     const Path old = path();
     const double leave = replacement.stations.from;
     const auto points = replacement.curve.Points(kCurveSpacing, replacement.start.yaw);
     const double back = leave + points.back().s;
-    const double shift = back - replacement.stations.to;  // of what follows
+    const double shift = back - replacement.stations.to;  // of the path after the curve
     const Stations before{0.0, leave};
     const Stations after{replacement.stations.to, std::numeric_limits<double>::infinity()};
 
     std::vector<Segment> segments = old.Cut(before);
     Append(segments, SegmentsThrough(points));
     Append(segments, old.Cut(after));
-    // A curve from the car starts where the car is, not where it should be.
+    // A curve from the car starts at the car's actual pose, not at its planned pose.
     const Pose2 start = leave > 0.0 ? old.At(0.0).pose : replacement.start;
     plan_.reference.path = Path(start, std::move(segments));
 
@@ -148,7 +166,7 @@ class AroundObstacles {
     return back;
   }
 
-  /// Keeps the stations in the diagnostics those of the new path.
+  /// Shifts the stations in the diagnostics to those of the new path.
   void MoveDiagnostics(const Stations& replaced, double shift) {
     for (MethodDiagnostics& turn : plan_.diagnostics.turns) {
       ReplaceStretch(turn, replaced, shift);
@@ -162,7 +180,7 @@ class AroundObstacles {
     plan_.diagnostics.open_loop = SimulateOpenLoop(request_.vehicle, path(), plan_.schedule, stop);
   }
 
-  /// Adds what there is to know of the replaced stretch to the plan.
+  /// Adds the replaced stretch to the plan's tree, notes and diagnostics.
   void Record(const Replacement& replacement, const OrientedBox& obstacle, const Stations& curve) {
     const std::size_t first = plan_.tree.size();
     for (TreeNode node : replacement.tree) {
@@ -170,7 +188,7 @@ class AroundObstacles {
       plan_.tree.push_back(node);
     }
     plan_.notes.insert(plan_.notes.end(), replacement.notes.begin(), replacement.notes.end());
-    // Driven open loop by the curve's own steering, from its own start (sig1).
+    // Open-loop simulation with the curve's steering only, from the curve's start (sig1).
     const PathPoint start = path().At(curve.from);
     const PathPoint end = path().At(curve.to);
     const std::vector<SteeringSchedule::Knot> own =
@@ -198,13 +216,21 @@ class AroundObstacles {
          .end_heading_error = AngleDifference(driven.pose.yaw, end.pose.yaw)});
   }
 
-  /// Ends the plan where the obstacle comes closer than SD, or as soon as the car can stop.
+  /// Ends the plan where the obstacle comes closer than SD or, if that is too near, at the stopping
+  /// distance.
   void StopBefore(const Conflict& conflict, double from, const std::string& why) {
+    SpeedsToCaps();
     const double start_speed = plan_.reference.speed.SpeedAt(0.0);
     const double speed = plan_.reference.speed.SpeedAt(from);
-    // A car that is too close already brakes twice as hard as it otherwise would.
-    const double shortest = std::max(speed * speed / (4.0 * request_.speed.deceleration), kLook);
-    const Stations before{0.0, std::max(conflict.from - kLook, from + shortest)};
+    // A car that is already too close brakes with twice the usual deceleration, or as hard as the
+    // road allows.
+    const RoadHoldLimits hold =
+        MinRoadHold(path(), {from, std::max(from, conflict.to)},
+                    RequestOn(request_.road, request_.vehicle, request_.speed));
+    const double twice = 2.0 * request_.speed.deceleration;
+    const double hardest = hold.braking > 0.0 ? std::min(twice, hold.braking) : twice;
+    const double shortest = std::max(speed * speed / (2.0 * hardest), kPathCheckSpacing);
+    const Stations before{0.0, std::max(conflict.from - kPathCheckSpacing, from + shortest)};
     plan_.reference.path = Path(path().At(0.0).pose, path().Cut(before));
     plan_.caps = Moved(plan_.caps, before, 0.0);
     plan_.turns = Moved(plan_.turns, before, 0.0);
@@ -245,7 +271,35 @@ BezierAvoidanceDiagnostics DiagnosticsOn(const Stretch& stretch, const Avoidance
                           .passed = corner >= options.safe_distance + 0.5 * request.vehicle.width}};
 }
 
-Plan PlanAroundWith(const BezierAvoidanceOptions& options, const AvoidanceRequest& request) {
+/// Holds a rerouted plan to the limits of the road, with the given policy.
+FeasiblePlan MakeFeasibleOnRoad(Plan plan, const AvoidanceRequest& request,
+                                InfeasiblePolicy infeasible) {
+  PlanRequest constrained = RequestOn(request.road, request.vehicle, request.speed);
+  constrained.infeasible = infeasible;
+  return MakeFeasibleFromHere(std::move(plan), constrained);
+}
+
+/// Plans past the obstacles; if the road does not hold that plan, stops before the first obstacle.
+FeasiblePlan AvoidOrStop(const AvoidanceRequest& request, double safe_distance,
+                         const FindCurve& find) {
+  const InfeasiblePolicy infeasible = request.road.infeasible;
+  FeasiblePlan around =
+      MakeFeasibleOnRoad(AroundObstacles(request, safe_distance, find).Run(), request, infeasible);
+  if (around.ok()) {
+    return around;
+  }
+  const auto none = [&](const Plan&, const Conflict&, double) {
+    return ReplacementSearch{std::nullopt, around->reason};
+  };
+  const Plan stop = AroundObstacles(request, safe_distance, none).Run();
+  FeasiblePlan held = MakeFeasibleOnRoad(stop, request, infeasible);
+  // A moving car cannot refuse: it stops as well as it can.
+  return held.ok() || !request.car ? held
+                                   : MakeFeasibleOnRoad(stop, request, InfeasiblePolicy::kAllow);
+}
+
+FeasiblePlan PlanAroundWith(const BezierAvoidanceOptions& options,
+                            const AvoidanceRequest& request) {
   TRACKBED_CHECK(options.safe_distance >= 0.0 && options.delay >= 0.0 && options.min_speed > 0.0 &&
                      options.max_lateral_acceleration > 0.0 &&
                      options.max_steering_rate_fraction > 0.0 &&
@@ -275,10 +329,11 @@ Plan PlanAroundWith(const BezierAvoidanceOptions& options, const AvoidanceReques
                         }},
         ""};
   };
-  return AroundObstacles(request, options.safe_distance, find).Run();
+  return AvoidOrStop(request, options.safe_distance, find);
 }
 
-Plan PlanAroundWith(const ListingAvoidanceOptions& options, const AvoidanceRequest& request) {
+FeasiblePlan PlanAroundWith(const ListingAvoidanceOptions& options,
+                            const AvoidanceRequest& request) {
   TRACKBED_CHECK(options.safe_distance >= 0.0 && options.delay >= 0.0 &&
                      options.inner_width >= 0.0 && options.outer_width >= 0.0,
                  "safe distance {}, delay {}, free widths {} and {}", options.safe_distance,
@@ -286,7 +341,8 @@ Plan PlanAroundWith(const ListingAvoidanceOptions& options, const AvoidanceReque
   const auto find = [&](const Plan& plan, const Conflict& conflict, double from) {
     return avoidance::FindListingCurve(request, options, plan, conflict, from);
   };
-  return AroundObstacles(request, options.safe_distance, find).Run();
+  return MakeFeasibleOnRoad(AroundObstacles(request, options.safe_distance, find).Run(), request,
+                            InfeasiblePolicy::kAllow);
 }
 
 }  // namespace
@@ -305,7 +361,7 @@ const std::vector<AvoiderEntry>& LocalPlanners() {
 
 bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
                 const OrientedBox& obstacle, double distance) {
-  for (double s = station; s <= path.length(); s += kLook) {
+  for (double s = station; s <= path.length(); s += kPathCheckSpacing) {
     if (Separation(FootprintAt(vehicle, path.At(s).pose), obstacle) < distance) {
       return true;
     }
@@ -313,14 +369,14 @@ bool IsInTheWay(const VehicleParams& vehicle, const Path& path, double station,
   return false;
 }
 
-Plan PlanAround(const AvoidanceRequest& request, const AvoiderOptions& options) {
+FeasiblePlan PlanAround(const AvoidanceRequest& request, const AvoiderOptions& options) {
   TRACKBED_CHECK(request.plan.ok(), "a plan with status {}", ToString(request.plan.status));
   return std::visit([&](const auto& own) { return PlanAroundWith(own, request); }, options);
 }
 
 namespace {
 
-/// What every method of `plan.avoid` has.
+/// Keys shared by all methods of `plan.avoid`.
 template <typename Options>
 void VisitAvoider(KeyVisitor& keys, Options& options) {
   keys.Field({"safe_distance", "m", "minimum distance of the car's footprint from obstacles"},

@@ -25,15 +25,15 @@ constexpr double kCheckSpacing = 0.05;  // [m]
 /// Margins that the search adds to the limits, because it checks the curve at samples only.
 constexpr double kClearanceMargin = 0.02;  // [m]
 constexpr double kLimitMargin = 0.99;
-/// If a constraint is still violated by more than kHopeless after so many evaluations, the search
-/// is abandoned.
-constexpr int kFirstLook = 200;
-constexpr double kHopeless = 0.5;
+/// If a constraint is still violated by more than kMaxRepairableViolation after so many
+/// evaluations, the search is abandoned.
+constexpr int kProbeEvaluations = 200;
+constexpr double kMaxRepairableViolation = 0.5;
 /// A stalled search continues with COBYLA, which builds linear models of objective and constraints.
-constexpr SearchOptions kRescue{
+constexpr SearchOptions kRescueOptions{
     .method = SearchMethod::kCobyla, .evaluations = 300, .tolerance = 1e-5};
 /// Distances are not computed beyond this much more than the required clearance [m].
-constexpr double kFar = 3.0;
+constexpr double kMaxExcessDistance = 3.0;
 
 /// The search's variables: the degrees of freedom that the end conditions leave, in the mirror
 /// frame of the start, in units of the distance between the ends.
@@ -108,12 +108,12 @@ double CrossingY(const Vec2& a, const Vec2& b) {
 }
 
 /// Bernstein polynomials of degree 7 and their first three derivatives at evenly spaced parameters.
-struct Basis {
+struct BasisSamples {
   static constexpr Eigen::Index kSamples = 193;
   using Matrix = Eigen::Matrix<double, kSamples, kDegree + 1>;
   std::array<Matrix, 4> of_order;
 
-  Basis() {
+  BasisSamples() {
     for (std::size_t i = 0; i <= kDegree; ++i) {
       std::vector<Vec2> unit(kDegree + 1, Vec2::Zero());
       unit[i].x() = 1.0;
@@ -128,18 +128,18 @@ struct Basis {
   }
 };
 
-const Basis& TheBasis() {
-  static const Basis basis;
+const BasisSamples& BernsteinBasis() {
+  static const BasisSamples basis;
   return basis;
 }
 
 /// Objective and constraints of the repair, evaluated at the samples of the basis.
 class Evaluation {
  public:
-  /// Each constraint is the worst value over sixteen samples. These vary more smoothly with the
-  /// variables than one worst value over the whole curve, so the search converges better.
+  /// Each constraint is the worst value over sixteen samples. Such worst values vary more smoothly
+  /// with the variables than a single one over the whole curve, so the search converges better.
   static constexpr Eigen::Index kStretch = 16;
-  static constexpr std::size_t kStretches = (Basis::kSamples - 1) / kStretch;
+  static constexpr std::size_t kStretches = (BasisSamples::kSamples - 1) / kStretch;
   static constexpr std::size_t kConstraints = 2 * kStretches + 4;
 
   explicit Evaluation(const CurveProblem& problem)
@@ -180,9 +180,9 @@ class Evaluation {
     for (std::size_t i = 0; i < points.size(); ++i) {
       control.row(static_cast<Eigen::Index>(i)) = points[i].transpose();
     }
-    std::array<Eigen::Matrix<double, Basis::kSamples, 2>, 4> curve;
+    std::array<Eigen::Matrix<double, BasisSamples::kSamples, 2>, 4> curve;
     for (std::size_t order = 0; order < curve.size(); ++order) {
-      curve[order].noalias() = TheBasis().of_order[order] * control;
+      curve[order].noalias() = BernsteinBasis().of_order[order] * control;
     }
 
     const VehicleParams& vehicle = problem_.vehicle;
@@ -195,7 +195,7 @@ class Evaluation {
     double on_side = std::numeric_limits<double>::infinity();  // to the passage's side
     Vec2 last_at_passage{0.0, 0.0};
     constraints_.fill(-1.0);
-    for (Eigen::Index k = 0; k < Basis::kSamples; ++k) {
+    for (Eigen::Index k = 0; k < BasisSamples::kSamples; ++k) {
       const Vec2 first = curve[1].row(k);
       const Vec2 second = curve[2].row(k);
       const Vec2 third = curve[3].row(k);
@@ -204,7 +204,7 @@ class Evaluation {
       const double sharpness = SharpnessFromDerivatives(first, second, third);
       // Trapezoidal rule with the same samples for every curve, so that rounding errors do not
       // jump.
-      length += k == 0 ? 0.0 : 0.5 * (parameter_speed + last_speed) / (Basis::kSamples - 1);
+      length += k == 0 ? 0.0 : 0.5 * (parameter_speed + last_speed) / (BasisSamples::kSamples - 1);
       last_speed = parameter_speed;
       slowest = std::min(slowest, parameter_speed);
       const Vec2 position = curve[0].row(k);
@@ -215,8 +215,8 @@ class Evaluation {
                                         CrossingY(last_at_passage, at_passage));
       }
       last_at_passage = at_passage;
-      const double weight = k == 0 || k == Basis::kSamples - 1 ? 0.5 : 1.0;
-      variation += weight * sharpness * sharpness * parameter_speed / (Basis::kSamples - 1);
+      const double weight = k == 0 || k == BasisSamples::kSamples - 1 ? 0.5 : 1.0;
+      variation += weight * sharpness * sharpness * parameter_speed / (BasisSamples::kSamples - 1);
 
       const double speed = problem_.SpeedAt(length);
       const double tangent = vehicle.wheelbase * curvature;
@@ -240,11 +240,12 @@ class Evaluation {
   }
 
   /// Separation of the footprint at a point of the curve from the nearest obstacle; at most the
-  /// required clearance plus kFar, which the boxes' circumscribed circles suffice to show.
+  /// required clearance plus kMaxExcessDistance, which the boxes' circumscribed circles suffice to
+  /// show.
   [[nodiscard]] double NearestObstacle(const Vec2& rear_axle, const Vec2& forward) const {
     const VehicleParams& vehicle = problem_.vehicle;
     const Vec2 middle = rear_axle + (0.5 * vehicle.length - vehicle.rear_overhang) * forward;
-    double nearest = wanted_ + kFar;
+    double nearest = wanted_ + kMaxExcessDistance;
     for (const Near& near : obstacles_) {
       const double reach = nearest + near.radius;
       if ((middle - near.box.center.position()).squaredNorm() < reach * reach) {
@@ -368,8 +369,8 @@ BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline) 
   std::array<double, kVariables> x{seventh, seventh, 0.0, 0.0, 0.0, 0.0, seventh, seventh};
   Points points = ends.ToPoints(x);
   // P_3 and P_4 fit what remains of the polyline after subtracting the known control points.
-  constexpr Eigen::Index kSamples = Basis::kSamples;
-  const auto& bernstein = TheBasis().of_order[0];
+  constexpr Eigen::Index kSamples = BasisSamples::kSamples;
+  const auto& bernstein = BernsteinBasis().of_order[0];
   Eigen::Matrix<double, kSamples, 2> rest;
   const std::vector<Vec2> samples = Evenly(polyline, kSamples);
   for (Eigen::Index k = 0; k < kSamples; ++k) {
@@ -405,7 +406,7 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
       .constraints = [&](Variables x,
                          std::span<double> values) { evaluation.Constraints(x, values); }};
   int evaluations = 0;
-  const auto again_from = [&](const std::vector<double>& x, const SearchOptions& options) {
+  const auto search_from = [&](const std::vector<double>& x, const SearchOptions& options) {
     if (!x.empty()) {
       moved.start = x;
     }
@@ -414,17 +415,18 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
     return found;
   };
   SearchOptions look = search;
-  look.evaluations = search.evaluations > 0 ? std::min(search.evaluations, kFirstLook) : kFirstLook;
-  SearchResult result = again_from({}, look);
-  if (!result.ok() && result.violation > kHopeless) {
+  look.evaluations =
+      search.evaluations > 0 ? std::min(search.evaluations, kProbeEvaluations) : kProbeEvaluations;
+  SearchResult result = search_from({}, look);
+  if (!result.ok() && result.violation > kMaxRepairableViolation) {
     return std::nullopt;
   }
-  result = again_from(result.x, search);
+  result = search_from(result.x, search);
   if (!result.ok()) {
     // If the search stalls outside the limits, continue with COBYLA, then retry the first method.
-    result = again_from(result.x, kRescue);
+    result = search_from(result.x, kRescueOptions);
     if (result.ok()) {
-      const SearchResult better = again_from(result.x, search);
+      const SearchResult better = search_from(result.x, search);
       result = better.ok() ? better : result;
     }
   }

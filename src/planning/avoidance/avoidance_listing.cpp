@@ -9,24 +9,27 @@
 
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/avoidance/turn_maneuver.h"
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/road_hold.h"
 
 namespace trackbed::avoidance {
 namespace {
 
-/// Of stations that are sums of lengths [m], and of angles that are lengths over radii [rad].
+/// Tolerance of stations that are sums of lengths [m] and of angles that are length over radius
+/// [rad].
 constexpr double kRounding = 1e-9;
 
-/// An arc of the plan with the straights on either side of it.
+/// An arc of the plan with the adjacent straights.
 struct Turn {
   Stations arc;            ///< [m]
   double curvature = 0.0;  ///< signed [1/m]
-  Stations straights;      ///< from the first one's start to the second one's end [m]
+  Stations straights;      ///< from the start of the first straight to the end of the second [m]
 
   [[nodiscard]] double sweep() const { return std::abs(curvature) * (arc.to - arc.from); }
 };
 
-/// The arc on which a station lies; none on a straight or where the curvature changes.
+/// The turn whose arc contains a station; none on a straight or on a clothoid.
 std::optional<Turn> TurnAt(const Path& path, double s) {
   const std::vector<Segment>& segments = path.segments();
   const auto is_straight = [](const Segment& segment) {
@@ -53,7 +56,8 @@ std::optional<Turn> TurnAt(const Path& path, double s) {
   return turn;
 }
 
-/// The listing's problem. Its arc counts from a right angle, whatever the turn's is.
+/// The listing's problem. Its arc is measured from a right angle, whatever the turn's heading
+/// change.
 TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceOptions& options,
                         const Turn& turn, const OrientedBox& obstacle, double beside) {
   TurnManeuver problem;
@@ -63,7 +67,7 @@ TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceO
   problem.turn_angle = 0.5 * kPi;
   problem.reduction = problem.turn_angle - turn.sweep();
   if (std::abs(problem.reduction) < kRounding) {
-    problem.reduction = 0.0;  // a right angle has rules of its own
+    problem.reduction = 0.0;  // the listing has special rules for a right angle
   }
   problem.side = turn.curvature > 0.0 ? TurnSide::kLeft : TurnSide::kRight;
   const double share = (beside - turn.arc.from) / (turn.arc.to - turn.arc.from);
@@ -162,13 +166,19 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
                                   .start_speed = problem.speed,
                                   .speed = problem.speed},
                                  curve);
+  // The listing has one speed and no limit on what it asks of the tyres: the road sets it.
+  const RoadHoldLimits hold = MinRoadHold(path, {turn->arc.from - before, turn->arc.to + after},
+                                          RequestOn(request.road, vehicle, request.speed));
+  const double held = hold.lateral > 0.0 && check.lateral_acceleration > hold.lateral
+                          ? std::sqrt(hold.lateral / check.lateral_acceleration)
+                          : 1.0;
   return {Replacement{
               .stations = {std::max(turn->arc.from - before, from),
                            std::min(turn->arc.to + after, path.length())},
               .start = X_WM,
               .curve = curve,
               .check = check,
-              .speed = problem.speed,
+              .speed = held * problem.speed,
               .passing_side = problem.passing_side(),
               .tree = nodes,
               .notes = NotesOn(check, vehicle, options.safe_distance, conflict.obstacle),

@@ -5,46 +5,55 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/road_hold.h"
 #include "trackbed/world/world.h"
+
+// Finds the stretch of a plan that a curve past an obstacle replaces. RRT* (Karaman and Frazzoli
+// 2011) finds a path on each side of the obstacle. For each demand (comfortable, then slower), side
+// and station of departure, the stations of return are tried in order: Fit guesses a curve along
+// the path of RRT*, RepairCurve makes it feasible. From the first feasible curve, earlier stations
+// of return are tried until one fails.
 
 namespace trackbed::avoidance {
 namespace {
 
-/// Between the stations at which a curve may return to the path; twice that far behind a bend [m].
+/// Spacing of the stations at which a curve may return to the path; doubled after a bend [m].
 constexpr double kReturnStep = 2.0;
-/// From one speed that is tried to the next.
-constexpr double kSlower = 0.6;
-/// A curve that keeps SD is not in conflict for what its path rounds off [m].
-constexpr double kTouch = 5e-4;
+/// Ratio of successive speeds that are tried.
+constexpr double kSpeedRatio = 0.6;
+/// Tolerance for the rounding of a curve to path pieces: a curve that keeps SD is not in conflict
+/// [m].
+constexpr double kRoundingTolerance = 5e-4;
 
 double HalfDiagonal(const OrientedBox& box) {
   return 0.5 * std::hypot(box.length, box.width);
 }
 
-std::vector<PathPoint> Looks(const Path& path, double from, double to) {
+std::vector<PathPoint> SamplePoints(const Path& path, double from, double to) {
   std::vector<PathPoint> points;
-  const double count = std::max(1.0, std::ceil((to - from) / kLook));
+  const double count = std::max(1.0, std::ceil((to - from) / kPathCheckSpacing));
   for (double i = 0.0; i <= count; i += 1.0) {
     points.push_back(path.At(std::lerp(from, to, i / count)));
   }
   return points;
 }
 
-/// The bend in which a station lies: where its curvature keeps its sign, within a tenth.
+/// The bend around a station: the curvature has one sign and at least a tenth of its peak value.
 struct Bend {
   double from = 0.0;       ///< [m]
   double to = 0.0;         ///< [m]
   double curvature = 0.0;  ///< of the largest magnitude, signed [1/m]
 };
 
-/// One side of an obstacle, and the way that RRT* found there.
-struct Way {
+/// One side of an obstacle, and the path that RRT* found there.
+struct SidePath {
   PassingSide passing_side = PassingSide::kInner;
   RrtStarResult tree;
 };
 
-/// What a curve may ask of the car.
+/// Speed and steering rate that a curve may use.
 struct Demand {
   double speed = 0.0;  ///< [m/s]
   double share = 1.0;  ///< of the steering rate
@@ -54,30 +63,33 @@ class StretchFinder {
  public:
   StretchFinder(const AvoidanceRequest& request, const BezierAvoidanceOptions& options,
                 const Plan& plan)
-      : request_(request), options_(options), plan_(plan) {}
+      : request_(request),
+        options_(options),
+        plan_(plan),
+        road_(RequestOn(request.road, request.vehicle, request.speed)) {}
 
   [[nodiscard]] StretchSearch Find(const Conflict& conflict, double from) const {
     const Bend bend = BendAt(conflict);
-    const std::vector<double> leaves = LeavesFor(conflict, bend, from);
-    const std::vector<double> backs = BacksFor(conflict, bend);
+    const std::vector<double> leaves = DepartureStations(conflict, bend, from);
+    const std::vector<double> backs = ReturnStations(conflict, bend);
     if (backs.empty()) {
       return {std::nullopt, "the path ends beside the obstacle"};
     }
     const double full = request_.speed.speed;
     const double beside = StationBeside(path(), request_.vehicle, conflict);
-    const std::vector<Way> ways =
-        WaysFor(conflict, bend, ProblemFor(leaves.front(), backs.back(), {full, 1.0}, from));
+    const std::vector<SidePath> side_paths =
+        FindSidePaths(conflict, bend, ProblemFor(leaves.front(), backs.back(), {full, 1.0}, from));
     int tried = 0;
     for (const Demand& demand : Demands()) {
-      for (const Way& way : ways) {
-        if (demand.speed < full && way.tree.status == RrtStarStatus::kNotReached) {
-          continue;  // that no way was found has nothing to do with speed
+      for (const SidePath& side_path : side_paths) {
+        if (demand.speed < full && side_path.tree.status == RrtStarStatus::kNotReached) {
+          continue;  // RRT* found no path on this side; a lower speed does not help
         }
         for (const double leave : leaves) {
-          // Of the curve that leaves here, taken this fast.
+          // The problem of a curve from `leave` to `back` at this speed.
           const auto problem_to = [&](double back) {
             CurveProblem problem = ProblemFor(leave, back, demand, from);
-            problem.passage = {SideFrame(conflict), LateralSign(bend, way.passing_side)};
+            problem.passage = {SideFrame(conflict), LateralSign(bend, side_path.passing_side)};
             problem.mirror = LateralSign(bend, PassingSide::kInner);
             return problem;
           };
@@ -88,17 +100,18 @@ class StretchFinder {
             std::optional<Repair> repair =
                 RepairCurve(problem, guess, options_.search, request_.seed);
             if (repair) {
-              stretch = Stretch{problem,  std::move(*repair), way.passing_side, leave, back,
-                                way.tree, conflict.obstacle,  beside,           0};
+              stretch = Stretch{problem, std::move(*repair), side_path.passing_side, leave,
+                                back,    side_path.tree,     conflict.obstacle,      beside,
+                                0};
             }
             return repair.has_value();
           };
           for (auto back = backs.begin(); back != backs.end() && !stretch; ++back) {
             const CurveProblem problem = problem_to(*back);
-            if (!attempt(*back, Fit(problem, Guide(way, conflict, bend, problem)))) {
+            if (!attempt(*back, Fit(problem, Guide(side_path, conflict, bend, problem)))) {
               continue;
             }
-            // From a curve that can be driven the search gets further than from a guess.
+            // A feasible curve is a better initial guess than the fit.
             for (auto earlier = back; earlier != backs.begin();) {
               --earlier;
               if (!attempt(*earlier, stretch->repair.curve)) {
@@ -117,7 +130,7 @@ class StretchFinder {
         fmt::format("no feasible curve on {} at {:.3g} m/s or more ({} tried)",
                     options_.passing_side == PassingSideChoice::kAuto
                         ? "either side"
-                        : fmt::format("the {} side", ToString(ways.front().passing_side)),
+                        : fmt::format("the {} side", ToString(side_paths.front().passing_side)),
                     std::min(full, options_.min_speed), tried);
     return {std::nullopt, why};
   }
@@ -125,10 +138,10 @@ class StretchFinder {
  private:
   [[nodiscard]] const Path& path() const { return plan_.reference.path; }
 
-  /// The bend on which a conflict lies, or the conflict itself on a straight.
+  /// The bend that contains a conflict; on a straight, the conflict itself.
   [[nodiscard]] Bend BendAt(const Conflict& conflict) const {
     Bend bend{conflict.from, conflict.to, 0.0};
-    for (const PathPoint& point : Looks(path(), conflict.from, conflict.to)) {
+    for (const PathPoint& point : SamplePoints(path(), conflict.from, conflict.to)) {
       if (std::abs(point.curvature) > std::abs(bend.curvature)) {
         bend = {point.s, point.s, point.curvature};
       }
@@ -136,20 +149,21 @@ class StretchFinder {
     if (bend.curvature == 0.0) {
       return bend;
     }
-    const auto bends_likewise = [&](double s) {
+    const auto is_in_bend = [&](double s) {
       return path().At(s).curvature * bend.curvature > 0.1 * bend.curvature * bend.curvature;
     };
-    while (bend.from - kLook >= 0.0 && bends_likewise(bend.from - kLook)) {
-      bend.from -= kLook;
+    while (bend.from - kPathCheckSpacing >= 0.0 && is_in_bend(bend.from - kPathCheckSpacing)) {
+      bend.from -= kPathCheckSpacing;
     }
-    while (bend.to + kLook <= path().length() && bends_likewise(bend.to + kLook)) {
-      bend.to += kLook;
+    while (bend.to + kPathCheckSpacing <= path().length() &&
+           is_in_bend(bend.to + kPathCheckSpacing)) {
+      bend.to += kPathCheckSpacing;
     }
     return bend;
   }
 
-  /// The distance in which the car can move sideways past the obstacle: a fifth-order shift by D
-  /// has its largest dkappa/ds, 60 D/l^3, at its ends, where the wheels have to turn fast enough.
+  /// Distance that a lateral shift past the obstacle takes. A fifth-order shift by D over l has its
+  /// largest dkappa/ds, 60 D/l^3, at its ends; the steering rate limits it.
   [[nodiscard]] double ShiftLength(const OrientedBox& obstacle) const {
     const double aside =
         HalfDiagonal(obstacle) + options_.safe_distance + 0.5 * request_.vehicle.width;
@@ -158,25 +172,25 @@ class StretchFinder {
     return std::cbrt(60.0 * aside / sharpness);
   }
 
-  /// S: before and after the bend; on a straight, what moving aside takes.
+  /// S, the distance before and after a bend; on a straight, the length of the lateral shift.
   [[nodiscard]] double LeadDistance(const Bend& bend, const OrientedBox& obstacle) const {
     const double delay = request_.speed.speed * options_.delay;
     return bend.curvature != 0.0 ? 1.0 / std::abs(bend.curvature) + delay
                                  : ShiftLength(obstacle) + delay;
   }
 
-  /// Whether the wheels of an ideal drive stand as the path bends: not while they ramp.
-  [[nodiscard]] bool IsSettled(double s) const {
+  /// Whether the scheduled steering angle matches the path's curvature; false on a ramp.
+  [[nodiscard]] bool IsSteeringSettled(double s) const {
     const double planned = SteeringForCurvature(request_.vehicle, path().At(s).curvature);
-    constexpr double kSettled = 1e-3;  // [rad]
-    return std::abs(plan_.schedule.At(s) - planned) < kSettled;
+    constexpr double kSteeringTolerance = 1e-3;  // [rad]
+    return std::abs(plan_.schedule.At(s) - planned) < kSteeringTolerance;
   }
 
-  /// The settled station nearest to s between `from` and `to`, or s where there is none.
+  /// The settled station nearest to s in [from, to]; without one, s clamped to that range.
   [[nodiscard]] double SettledNear(double s, double from, double to) const {
-    for (double away = 0.0; s - away >= from || s + away <= to; away += kLook) {
+    for (double away = 0.0; s - away >= from || s + away <= to; away += kPathCheckSpacing) {
       for (const double candidate : {s - away, s + away}) {
-        if (candidate >= from && candidate <= to && IsSettled(candidate)) {
+        if (candidate >= from && candidate <= to && IsSteeringSettled(candidate)) {
           return candidate;
         }
       }
@@ -184,14 +198,14 @@ class StretchFinder {
     return std::clamp(s, from, to);
   }
 
-  /// The stations at which the car may leave the plan, the preferred one first.
-  [[nodiscard]] std::vector<double> LeavesFor(const Conflict& conflict, const Bend& bend,
-                                              double from) const {
+  /// Stations at which the car may leave the plan, preferred one first.
+  [[nodiscard]] std::vector<double> DepartureStations(const Conflict& conflict, const Bend& bend,
+                                                      double from) const {
     std::vector<double> leaves;
     const double lead = LeadDistance(bend, conflict.obstacle);
     for (const double share : {1.0, 1.5, 2.25}) {
       const double wanted = bend.from - share * lead;
-      // The car leaves from where it is, however its wheels stand.
+      // At the car itself, the wheels need not be settled.
       const double s = request_.car && wanted <= 0.0 ? 0.0
                                                      : SettledNear(std::max(wanted, from), from,
                                                                    std::max(from, conflict.from));
@@ -202,14 +216,15 @@ class StretchFinder {
     return leaves;
   }
 
-  /// The stations at which it may be back, the first one first.
-  [[nodiscard]] std::vector<double> BacksFor(const Conflict& conflict, const Bend& bend) const {
+  /// Stations at which the car may be back on the plan, in ascending order.
+  [[nodiscard]] std::vector<double> ReturnStations(const Conflict& conflict,
+                                                   const Bend& bend) const {
     const double lead = LeadDistance(bend, conflict.obstacle);
     const double last = std::min(path().length(), std::max(bend.to, conflict.to) + 2.0 * lead);
     std::vector<double> backs;
     for (double s = conflict.to + kReturnStep; s < last;
          s += s < bend.to + lead ? kReturnStep : 2.0 * kReturnStep) {
-      if (IsSettled(s)) {
+      if (IsSteeringSettled(s)) {
         backs.push_back(s);
       }
     }
@@ -233,9 +248,10 @@ class StretchFinder {
                          .start_speed = plan_.reference.speed.SpeedAt(leave),
                          .speed = demand.speed,
                          .deceleration = request_.speed.deceleration};
-    // The car can begin to slow down on the way there.
+    // The car can brake on the way to the start of the curve.
     const double before = plan_.reference.speed.SpeedAt(from);
-    const double square = before * before - 2.0 * request_.speed.deceleration * (leave - from);
+    LowerToRoad(problem, {std::min(from, leave), back});
+    const double square = before * before - 2.0 * problem.deceleration * (leave - from);
     problem.start_speed =
         std::min(problem.start_speed, std::sqrt(std::max(square, demand.speed * demand.speed)));
     if (request_.car && leave == 0.0) {
@@ -245,33 +261,46 @@ class StretchFinder {
     return problem;
   }
 
-  /// Across the path at the obstacle, to the left if it passes the obstacle there.
+  /// Lowers the limits to what the road holds under the path that the curve replaces. Of what lies
+  /// beside it, such as a patch, MakeFeasible takes care.
+  void LowerToRoad(CurveProblem& problem, const Stations& within) const {
+    const RoadHoldLimits hold = MinRoadHold(path(), within, road_);
+    if (hold.lateral > 0.0) {
+      problem.lateral_acceleration = std::min(problem.lateral_acceleration, hold.lateral);
+    }
+    if (hold.braking > 0.0) {
+      problem.deceleration = std::min(problem.deceleration, hold.braking);
+    }
+  }
+
+  /// +1 if `passing_side` is to the left of the path at the obstacle, -1 if to the right.
   [[nodiscard]] static double LateralSign(const Bend& bend, PassingSide passing_side) {
     const double inner = bend.curvature < 0.0 ? -1.0 : 1.0;
     return passing_side == PassingSide::kInner ? inner : -inner;
   }
 
-  /// The frame in which sides are told: at the obstacle, along the path beside it.
+  /// Frame that defines the sides: at the obstacle, along the path beside it.
   [[nodiscard]] Pose2 SideFrame(const Conflict& conflict) const {
     return {conflict.obstacle.center.x, conflict.obstacle.center.y,
             path().At(StationBeside(path(), request_.vehicle, conflict)).pose.yaw};
   }
 
-  /// From the most comfortable on: at the mission's speed, then slower down to the slowest allowed.
+  /// Demands in the order in which they are tried: comfortable at the mission's speed, then the
+  /// full steering rate at falling speeds down to the slowest allowed.
   [[nodiscard]] std::vector<Demand> Demands() const {
     const double most = options_.max_steering_rate_fraction;
     std::vector<Demand> demands;
     if (options_.comfortable_steering_rate_fraction < most) {
       demands.push_back({request_.speed.speed, options_.comfortable_steering_rate_fraction});
     }
-    for (double v = request_.speed.speed; v > options_.min_speed; v *= kSlower) {
+    for (double v = request_.speed.speed; v > options_.min_speed; v *= kSpeedRatio) {
       demands.push_back({v, most});
     }
     demands.push_back({std::min(request_.speed.speed, options_.min_speed), most});
     return demands;
   }
 
-  /// Where RRT* looks for a path from start to end.
+  /// The RRT* problem from the start of the curve to its end.
   [[nodiscard]] RrtStarProblem TreeProblem(const MirrorFrame& frame, const CurveProblem& problem,
                                            const Conflict& conflict) const {
     RrtStarProblem tree{.start = {0.0, 0.0},
@@ -288,16 +317,16 @@ class StretchFinder {
     return tree;
   }
 
-  /// A wall from the obstacle outward closes one side of a passage.
+  /// A thin wall from the obstacle outward, which closes one side of a passage.
   [[nodiscard]] static OrientedBox WallOn(const PassageConstraint& passage, double length) {
-    constexpr double kThin = 1e-3;  // [m]
+    constexpr double kWallThickness = 1e-3;  // [m]
     const Vec2 middle = ToWorld(passage.frame, {0.0, passage.side * 0.5 * length});
-    return {{middle.x(), middle.y(), passage.frame.yaw}, kThin, length};
+    return {{middle.x(), middle.y(), passage.frame.yaw}, kWallThickness, length};
   }
 
-  /// The sides that may be tried, with the way that RRT* found on each; the shorter one first.
-  [[nodiscard]] std::vector<Way> WaysFor(const Conflict& conflict, const Bend& bend,
-                                         const CurveProblem& problem) const {
+  /// The sides to try, each with the path that RRT* found there; the shorter path first.
+  [[nodiscard]] std::vector<SidePath> FindSidePaths(const Conflict& conflict, const Bend& bend,
+                                                    const CurveProblem& problem) const {
     const Pose2 beside = SideFrame(conflict);
     const MirrorFrame frame{problem.start.pose, LateralSign(bend, PassingSide::kInner)};
     const auto grow = [&](std::optional<PassingSide> only) {
@@ -324,7 +353,7 @@ class StretchFinder {
                                            : PassingSide::kOuter;
       return {{passing_side, grow(passing_side)}};
     }
-    Way first{PassingSide::kInner, grow(std::nullopt)};
+    SidePath first{PassingSide::kInner, grow(std::nullopt)};
     if (first.tree.ok()) {
       const bool left = GoesThrough({beside, 1.0}, first.tree.path);
       first.passing_side = (left ? 1.0 : -1.0) == LateralSign(bend, PassingSide::kInner)
@@ -336,22 +365,23 @@ class StretchFinder {
     return {first, {other, grow(other)}};
   }
 
-  /// The way by which a curve is guessed: that of the tree up to where it comes closest to the end,
-  /// or, without one, over a point beside the obstacle.
-  [[nodiscard]] std::vector<Vec2> Guide(const Way& way, const Conflict& conflict, const Bend& bend,
-                                        const CurveProblem& problem) const {
+  /// Polyline for the guess of a curve: the path of RRT* up to its point closest to the end;
+  /// without such a path, over a point beside the obstacle.
+  [[nodiscard]] std::vector<Vec2> Guide(const SidePath& side_path, const Conflict& conflict,
+                                        const Bend& bend, const CurveProblem& problem) const {
     const Vec2 end = problem.end.pose.position();
     std::vector<Vec2> guide;
-    if (way.tree.ok()) {
+    if (side_path.tree.ok()) {
       const auto nearest = std::min_element(
-          way.tree.path.begin() + 1, way.tree.path.end(),
+          side_path.tree.path.begin() + 1, side_path.tree.path.end(),
           [&](const Vec2& a, const Vec2& b) { return (a - end).norm() < (b - end).norm(); });
-      guide.assign(way.tree.path.begin(), nearest);
+      guide.assign(side_path.tree.path.begin(), nearest);
     } else {
       const double aside =
           HalfDiagonal(conflict.obstacle) + options_.safe_distance + request_.vehicle.width;
-      guide = {problem.start.pose.position(),
-               ToWorld(SideFrame(conflict), {0.0, LateralSign(bend, way.passing_side) * aside})};
+      guide = {
+          problem.start.pose.position(),
+          ToWorld(SideFrame(conflict), {0.0, LateralSign(bend, side_path.passing_side) * aside})};
     }
     guide.push_back(end);
     return guide;
@@ -360,6 +390,7 @@ class StretchFinder {
   const AvoidanceRequest& request_;
   const BezierAvoidanceOptions& options_;
   const Plan& plan_;
+  PlanRequest road_;
 };
 
 }  // namespace
@@ -367,11 +398,11 @@ class StretchFinder {
 std::optional<Conflict> FirstConflict(const AvoidanceRequest& request, double safe_distance,
                                       const Path& path, double from) {
   std::optional<Conflict> conflict;
-  for (const PathPoint& point : Looks(path, from, path.length())) {
+  for (const PathPoint& point : SamplePoints(path, from, path.length())) {
     const OrientedBox footprint = FootprintAt(request.vehicle, point.pose);
     const auto in_the_way = std::find_if(
         request.obstacles.begin(), request.obstacles.end(), [&](const OrientedBox& obstacle) {
-          return Separation(footprint, obstacle) < safe_distance - kTouch;
+          return Separation(footprint, obstacle) < safe_distance - kRoundingTolerance;
         });
     if (in_the_way != request.obstacles.end()) {
       if (!conflict) {

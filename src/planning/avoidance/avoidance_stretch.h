@@ -12,7 +12,7 @@
 namespace trackbed::avoidance {
 
 /// Spacing of collision checks along a path [m].
-inline constexpr double kLook = 0.1;
+inline constexpr double kPathCheckSpacing = 0.1;
 
 /// A stretch of the plan on which an obstacle is too close.
 struct Conflict {

@@ -23,10 +23,10 @@
 namespace trackbed {
 namespace {
 
-constexpr double kGrid = 0.01;       // [rad]
-constexpr double kTestAhead = 2.0;   // [m]
-constexpr double kTreeStep = 1.0;    // EPS [m]
-constexpr double kNeighbors = 10.0;  // r [m]
+constexpr double kGrid = 0.01;          // [rad]
+constexpr double kProbeDistance = 2.0;  // [m]
+constexpr double kTreeStep = 1.0;       // EPS [m]
+constexpr double kNeighbors = 10.0;     // r [m]
 constexpr std::size_t kIntervals = 500;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -296,7 +296,7 @@ ManeuverRun SimulateManeuver(const TurnManeuver& maneuver, const TurnLayout& lay
   drive.length = drive.samples.back().s;
   drive.duration = drive.length / maneuver.speed;
 
-  const double station = drive.length * (maneuver.obstacle_sixth / 6.0) - kTestAhead;
+  const double station = drive.length * (maneuver.obstacle_sixth / 6.0) - kProbeDistance;
   const auto reached =
       std::find_if(drive.samples.begin() + 1, drive.samples.end(),
                    [&](const ManeuverSample& sample) { return sample.s >= station; });

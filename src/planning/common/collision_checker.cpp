@@ -11,11 +11,11 @@ namespace trackbed {
 namespace {
 
 /// Largest number of bins; bins grow when the boxes are too far apart for it.
-constexpr double kMostBins = 250000.0;
+constexpr double kMaxBins = 250000.0;
 /// Shortest step along a path, as a fraction of the car's length.
 constexpr double kStep = 0.02;
 /// Up to so many boxes, computing all distances once is faster than many small steps.
-constexpr std::size_t kFewBoxes = 16;
+constexpr std::size_t kFullScanLimit = 16;
 
 bool IsBox(const OrientedBox& box) {
   return box.center.position().allFinite() && std::isfinite(box.center.yaw) && box.length >= 0.0 &&
@@ -37,7 +37,7 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
     : vehicle_(vehicle),
       boxes_(std::move(boxes)),
       distance_(distance),
-      farthest_(std::min(kFarthest, vehicle.length)),
+      farthest_(std::min(kMaxClearance, vehicle.length)),
       middle_(0.5 * vehicle.length - vehicle.rear_overhang),
       radius_(0.5 * std::hypot(vehicle.length, vehicle.width)),
       step_(kStep * std::min(1.0, vehicle.length)),
@@ -71,9 +71,9 @@ void CollisionChecker::FillBins() {
     high = high.cwiseMax(boxes_[i].center.position() + reach_of(i));
   }
   const Vec2 size = high - low_;
-  // Bin size: about a car; larger if the boxes' extent needs more than kMostBins, in a row or over
+  // Bin size: about a car; larger if the boxes' extent needs more than kMaxBins, in a row or over
   // an area.
-  bin_ = std::max({farthest_, size.maxCoeff() / kMostBins, std::sqrt(size.prod() / kMostBins)});
+  bin_ = std::max({farthest_, size.maxCoeff() / kMaxBins, std::sqrt(size.prod() / kMaxBins)});
   TRACKBED_REQUIRE(std::isfinite(bin_), "CollisionChecker: boxes over {} x {} m; must be less",
                    size.x(), size.y());
   columns_ = static_cast<int>(size.x() / bin_) + 1;
@@ -129,12 +129,12 @@ double CollisionChecker::Clearance(const Pose2& pose, double at_most) const {
   return clearance;
 }
 
-double CollisionChecker::NextLook(const Pose2& pose, double room, double moved, double at,
-                                  double length) const {
+double CollisionChecker::NextCheck(const Pose2& pose, double room, double moved, double at,
+                                   double length) const {
   if (boxes_.empty()) {
     return length;
   }
-  if (room == farthest_ && boxes_.size() <= kFewBoxes) {
+  if (room == farthest_ && boxes_.size() <= kFullScanLimit) {
     const Vec2 middle = pose.position() + middle_ * Direction(pose.yaw);
     double square = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
@@ -167,7 +167,7 @@ std::optional<double> CollisionChecker::FirstBlocked(const Path& path) const {
     if (s == path.length()) {
       return std::nullopt;
     }
-    s = NextLook(pose, room, moved, s, path.length());
+    s = NextCheck(pose, room, moved, s, path.length());
   }
 }
 
@@ -183,7 +183,7 @@ bool CollisionChecker::IsFree(const Pose2& start, const Segment& segment) const 
     if (d == segment.length) {
       return true;
     }
-    d = NextLook(pose, room, moved, d, segment.length);
+    d = NextCheck(pose, room, moved, d, segment.length);
   }
 }
 

@@ -166,9 +166,9 @@ std::string SlowUntilClear(const VehicleParams& vehicle, const std::vector<Vec2>
       return fmt::format("the rounded path is too close to an obstacle at ({:.4g}, {:.4g})", at.x(),
                          at.y());
     }
-    constexpr double kSlower = 0.8;
+    constexpr double kSpeedRatio = 0.8;
     *corner =
-        AtSpeed(vehicle, limits, *corner, std::max(kSlower * corner->speed, limits.min_speed));
+        AtSpeed(vehicle, limits, *corner, std::max(kSpeedRatio * corner->speed, limits.min_speed));
   }
 }
 
@@ -270,7 +270,7 @@ std::vector<Vec2> Without(const std::vector<Vec2>& polyline, const Sees& sees) {
 
 }  // namespace
 
-std::vector<Vec2> WithoutStraightOn(const std::vector<Vec2>& polyline) {
+std::vector<Vec2> WithoutCollinearPoints(const std::vector<Vec2>& polyline) {
   return Without(polyline, [](const Vec2&, const Vec2&) { return false; });
 }
 

@@ -17,7 +17,7 @@ SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<
                                 const std::vector<double>& stops) {
   // Minimum length of a ramp where the wheels turn at standstill: the schedule is over distance
   // [m].
-  constexpr double kLeast = 1e-6;
+  constexpr double kMinRampLength = 1e-6;
   constexpr double kSpacing = 0.5;  // [m]; the arctangent is within 1e-5 rad of linear over it
   const auto steering = [&](double curvature) { return SteeringForCurvature(vehicle, curvature); };
   const std::vector<SteeringRamp> ramps = RampsOfSteps(vehicle, segments, speed, caps, stops);
@@ -41,14 +41,14 @@ SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<
         taken = ramp->to - end;
         ++ramp;
       } else {
-        to = segment.length - std::min(kLeast, 0.5 * segment.length);
+        to = segment.length - std::min(kMinRampLength, 0.5 * segment.length);
       }
     }
     // Two ramps may meet in the middle of a piece, up to rounding.
     from = std::min(from, to);
     const double parts = segment.sharpness == 0.0 && segment.sharpness_rate == 0.0
                              ? 1.0
-                             : std::ceil(std::max(to - from, kLeast) / kSpacing);
+                             : std::ceil(std::max(to - from, kMinRampLength) / kSpacing);
     for (double k = is_joined || i == 0 ? 0.0 : 1.0; k <= parts; k += 1.0) {
       const double d = std::lerp(from, to, k / parts);
       if (knots.empty() || begin + d > knots.back().distance) {

@@ -38,14 +38,14 @@ std::vector<Step> CurvatureSteps(const VehicleParams& vehicle,
 
 /// The speed at which a ramp, centered on the joint, fills half of the shorter adjacent piece on
 /// either side.
-double RoomSpeed(const VehicleParams& vehicle, const Step& step) {
+double RampSpeedLimit(const VehicleParams& vehicle, const Step& step) {
   return vehicle.steering_rate * step.room / step.steering;
 }
 
 bool ContainsStation(const std::vector<double>& stations, double s) {
-  constexpr double kSame = 1e-9;  // [m]
+  constexpr double kEqualityTolerance = 1e-9;  // [m]
   return std::any_of(stations.begin(), stations.end(),
-                     [&](double station) { return std::abs(station - s) < kSame; });
+                     [&](double station) { return std::abs(station - s) < kEqualityTolerance; });
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ std::vector<SteeringRamp> RampsOfSteps(const VehicleParams& vehicle,
     if (step.cusp || ContainsStation(stops, step.joint)) {
       continue;
     }
-    double at = std::min(speed, RoomSpeed(vehicle, step));
+    double at = std::min(speed, RampSpeedLimit(vehicle, step));
     for (const SpeedCap& cap : caps) {
       if (cap.from <= step.joint && step.joint <= cap.to) {
         at = std::min(at, cap.speed);
@@ -84,7 +84,7 @@ StepSpeeds PlanSteps(const VehicleParams& vehicle, const std::vector<Segment>& s
                      double min_speed) {
   StepSpeeds speeds;
   for (const Step& step : CurvatureSteps(vehicle, segments)) {
-    const double room = RoomSpeed(vehicle, step);
+    const double room = RampSpeedLimit(vehicle, step);
     if (step.cusp) {
       continue;
     }

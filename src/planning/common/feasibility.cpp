@@ -9,41 +9,35 @@
 
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/path_pieces.h"
-#include "trackbed/world/world.h"
+#include "trackbed/planning/common/road_hold.h"
+
+// Checks a plan against the car's limits and repairs it. Start, path, steering rate and
+// accelerations are sampled; the worst excess of each quantity is kept, with the remedy that would
+// help. If slower driving helps, MakeFeasible adds speed caps (steering rate, top speed, lateral
+// acceleration) and lowers the acceleration limits, up to four times; otherwise it refuses the
+// plan. Plans at the limit of the g-g-v diagram get new speeds from SetSpeedsAtLimit instead.
 
 namespace trackbed {
 namespace {
 
-constexpr double kRounding = 1e-6;      // of a limit
-constexpr double kCheckSpacing = 0.1;   // between the stations that are looked at [m]
-constexpr double kSlowest = 0.1;        // no plan is slowed down below this [m/s]
-constexpr double kSamePlace = 1e-3;     // [m]; of the wheelbase where that is less than 1 m
+constexpr double kRounding = 1e-6;      // relative tolerance of a limit
+constexpr double kCheckSpacing = 0.1;   // spacing of the checks along the path [m]
+constexpr double kMinPlanSpeed = 0.1;   // plans that would be slower are refused [m/s]
+constexpr double kSamePlace = 1e-3;     // [m]; per meter of wheelbase if that is shorter than 1 m
 constexpr double kSameHeading = 1e-3;   // [rad]
 constexpr double kSameSteering = 1e-3;  // [rad]
 
-/// The road's factor for a car at a station: the least under its axles.
-double RoadAt(const PlanRequest& request, const Path& path, double s) {
-  if (request.friction_patches.empty()) {
-    return request.friction;
-  }
-  const Pose2 pose = path.At(s).pose;
-  const auto factor = [&](const Vec2& point) {
-    return RoadFactor(request.friction, request.friction_patches, point);
-  };
-  return std::min(factor(pose.position()), factor(ToWorld(pose, {request.vehicle.wheelbase, 0.0})));
-}
-
-/// Keeps the worst of one kind.
-class Worst {
+/// Keeps the worst excess of one quantity.
+class WorstExcess {
  public:
-  Worst(std::string what, std::string unit, Remedy remedy)
+  WorstExcess(std::string what, std::string unit, Remedy remedy)
       : excess_{.what = std::move(what), .unit = std::move(unit), .remedy = remedy} {}
 
-  /// A limit of 0 is not known.
-  void Take(double asked, double limit, double station) {
-    if (limit > 0.0 && asked > limit * (1.0 + kRounding) && asked / limit > ratio_) {
-      ratio_ = asked / limit;
-      excess_.asked = asked;
+  /// A limit of 0 is unknown and never exceeded.
+  void Take(double required, double limit, double station) {
+    if (limit > 0.0 && required > limit * (1.0 + kRounding) && required / limit > ratio_) {
+      ratio_ = required / limit;
+      excess_.required = required;
       excess_.limit = limit;
       excess_.station = station;
     }
@@ -60,7 +54,7 @@ class Worst {
   double ratio_ = 0.0;
 };
 
-/// Calls with every stretch [from, to] of the schedule on which the wheels turn, and the slope.
+/// Calls `call` with from, to and slope of each stretch of the schedule on which the wheels turn.
 template <typename Call>
 void ForEachRamp(const SteeringSchedule& schedule, const Call& call) {
   const std::vector<SteeringSchedule::Knot>& knots = schedule.knots();
@@ -73,31 +67,41 @@ void ForEachRamp(const SteeringSchedule& schedule, const Call& call) {
   }
 }
 
-/// The road's factor over a piece.
-double RoadOver(const PlanRequest& request, const Path& path, const Stations& piece) {
-  return std::min(RoadAt(request, path, piece.from), RoadAt(request, path, piece.to));
+/// The largest v^2 |kappa| over a piece of the path.
+double LateralOver(const RoadHold& road, const Path& path, const Stations& piece) {
+  if (road.uniform()) {
+    return road.Lateral(path, piece.from, 0.0);
+  }
+  const double curvature = path.At(0.5 * (piece.from + piece.to)).curvature;
+  return std::min(road.Lateral(path, piece.from, curvature),
+                  road.Lateral(path, piece.to, curvature));
 }
 
-/// Where the car stands on the way, the wheels may turn on the spot.
+/// Whether the g-g-v diagram of the car made the plan's speeds.
+bool IsAtLimit(const Plan& plan, const PlanRequest& request) {
+  return request.limits || plan.diagnostics.speed_profile;
+}
+
+/// Whether a leg ends at s with a stop on the way, where the wheels may turn at standstill.
 bool EndsAtStop(const std::vector<Stations>& legs, double s) {
-  constexpr double kSame = 1e-6;  // [m]
+  constexpr double kEqualityTolerance = 1e-6;  // [m]
   return std::any_of(legs.begin(), legs.end(), [&](const Stations& leg) {
-    return &leg != &legs.back() && std::abs(leg.to - s) < kSame;
+    return &leg != &legs.back() && std::abs(leg.to - s) < kEqualityTolerance;
   });
 }
 
 void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const PathPoint first = plan.reference.path.At(0.0);
-  Worst place("initial position error", "m", Remedy::kNone);
+  WorstExcess place("initial position error", "m", Remedy::kNone);
   place.Take((first.pose.position() - request.start.position()).norm(),
              kSamePlace * std::min(1.0, request.vehicle.wheelbase), 0.0);
   place.AddTo(found);
-  Worst heading("initial heading error", "rad", Remedy::kNone);
+  WorstExcess heading("initial heading error", "rad", Remedy::kNone);
   heading.Take(std::abs(AngleDifference(first.pose.yaw, request.start.yaw)), kSameHeading, 0.0);
   heading.AddTo(found);
   if (request.start_speed > 0.0) {
     const double steering = SteeringForCurvature(request.vehicle, first.curvature);
-    Worst wheels("initial steering step", "rad", Remedy::kNone);
+    WorstExcess wheels("initial steering step", "rad", Remedy::kNone);
     wheels.Take(std::abs(steering - request.start_steering), kSameSteering, 0.0);
     wheels.AddTo(found);
   }
@@ -105,21 +109,30 @@ void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess
 
 void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const VehicleParams& vehicle = request.vehicle;
-  Worst steering("steering angle", "rad", Remedy::kNone);
-  Worst lateral("lateral acceleration", "m/s^2", Remedy::kLowerSpeed);
-  Worst speed("speed", "m/s", Remedy::kLowerSpeed);
-  Worst rate("steering rate along the path", "rad/s", Remedy::kLowerSpeed);
+  WorstExcess steering("steering angle", "rad", Remedy::kNone);
+  WorstExcess lateral("lateral acceleration", "m/s^2", Remedy::kLowerSpeed);
+  WorstExcess speed("speed", "m/s", Remedy::kLowerSpeed);
+  WorstExcess rate("steering rate along the path", "rad/s", Remedy::kLowerSpeed);
+  WorstExcess slope("pull of gravity", "m/s^2", Remedy::kNone);
   const Path& path = plan.reference.path;
+  const RoadHold road(request);
+  const bool holds_slopes = road.flat() || IsAtLimit(plan, request);
   ForEachPiece(path, vehicle, kCheckSpacing, [&](const PathPiece& piece) {
     const double s = piece.stations.from;
     const double v =
         std::max(plan.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(piece.stations.to));
-    rate.Take(v * piece.slope, vehicle.steering_rate, s);
+    if (!plan.sampled) {
+      rate.Take(v * piece.slope, vehicle.steering_rate, s);
+    }
     steering.Take(SteeringForCurvature(vehicle, piece.curvature), vehicle.steering_limit, s);
-    lateral.Take(v * v * piece.curvature,
-                 MaxLateralAcceleration(vehicle, RoadOver(request, path, piece.stations)), s);
+    lateral.Take(v * v * piece.curvature, LateralOver(road, path, piece.stations), s);
     speed.Take(v, vehicle.top_speed, s);
+    if (!holds_slopes) {
+      const RoadHold::Pull pull = road.Slope(path, s);
+      slope.Take(pull.pull, pull.hold, s);
+    }
   });
+  slope.AddTo(found);
   steering.AddTo(found);
   lateral.AddTo(found);
   rate.AddTo(found);
@@ -127,7 +140,7 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
 }
 
 void CheckSteeringRate(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
-  Worst rate("steering rate", "rad/s", Remedy::kLowerSpeed);
+  WorstExcess rate("steering rate", "rad/s", Remedy::kLowerSpeed);
   const std::vector<Stations> legs = SplitIntoLegs(plan.reference.path, plan.stops);
   ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
     if (EndsAtStop(legs, to)) {
@@ -145,21 +158,24 @@ void CheckSteeringRate(const Plan& plan, const PlanRequest& request, std::vector
 }
 
 void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
-  const VehicleParams& vehicle = request.vehicle;
-  constexpr double kController = 2.0;  // see SpeedControl
-  Worst braking("deceleration", "m/s^2", Remedy::kGentlerBraking);
-  Worst driving("acceleration", "m/s^2", Remedy::kGentlerDriving);
+  constexpr double kController = 2.0;  // times the planned deceleration; see SpeedControl
+  const Path& path = plan.reference.path;
+  const RoadHold road(request);
+  WorstExcess braking("deceleration", "m/s^2", Remedy::kGentlerBraking);
+  WorstExcess driving("acceleration", "m/s^2", Remedy::kGentlerDriving);
   const std::vector<SpeedProfile::Knot>& knots = plan.reference.speed.knots();
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const SpeedProfile::Knot& a = knots[i - 1];
     const SpeedProfile::Knot& b = knots[i];
     const double change = (b.speed * b.speed - a.speed * a.speed) / (2.0 * (b.s - a.s));
-    for (const double s : {a.s, 0.5 * (a.s + b.s), b.s}) {
-      const double road = RoadAt(request, plan.reference.path, s);
+    const double looks =
+        road.uniform() ? 1.0 : std::max(2.0, std::ceil((b.s - a.s) / kCheckSpacing));
+    for (double look = 0.0; look <= looks; look += 1.0) {
+      const double s = std::lerp(a.s, b.s, look / looks);
       if (change < 0.0) {
-        braking.Take(-change, MaxDeceleration(vehicle, road), a.s);
+        braking.Take(-change, road.Braking(path, s), a.s);
       } else {
-        driving.Take(change, MaxAcceleration(vehicle, road), a.s);
+        driving.Take(change, road.Driving(path, s), a.s);
       }
     }
     braking.Take(-change, kController * request.speed.deceleration, a.s);
@@ -168,14 +184,14 @@ void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector
   driving.AddTo(found);
 }
 
-/// Caps that keep what a slower car can keep: steering rate, top speed, and unless the speeds are
-/// at the limit anyway, lateral acceleration.
+/// Speed caps for the limits that depend on speed: steering rate, top speed and, unless the speeds
+/// are at the limit anyway, lateral acceleration.
 std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
   const VehicleParams& vehicle = request.vehicle;
   const Path& path = plan.reference.path;
   std::vector<SpeedCap> caps;
   const double wanted = request.speed.speed;
-  // At the limit, controllers need what is left of the steering rate, too.
+  // At the limit, the controllers need the rest of the steering rate.
   const double rate =
       vehicle.steering_rate * (request.limits ? request.limits->options.share : 1.0);
   if (vehicle.top_speed > 0.0 && vehicle.top_speed < wanted) {
@@ -183,16 +199,17 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
   }
   const auto add = [&](const Stations& piece, double speed) {
     if (!caps.empty() && caps.back().speed == speed && caps.back().to == piece.from) {
-      caps.back().to = piece.to;  // an arc is one
+      caps.back().to = piece.to;  // extend the cap over the arc
     } else if (speed < wanted * (1.0 - kRounding)) {
       caps.push_back({piece.from, piece.to, speed});
     }
   };
+  const RoadHold road(request);
   ForEachPiece(path, vehicle, kCheckSpacing, [&](const PathPiece& piece) {
     double speed = rate / piece.slope;
     if (vehicle.friction_lateral > 0.0 && !request.limits) {
-      const double road = RoadOver(request, path, piece.stations);
-      speed = std::min(speed, std::sqrt(MaxLateralAcceleration(vehicle, road) / piece.curvature));
+      const double lateral = LateralOver(road, path, piece.stations);
+      speed = std::min(speed, std::sqrt(lateral / piece.curvature));
     }
     add(piece.stations, speed);  // infinite on a straight
   });
@@ -214,6 +231,13 @@ std::string Listed(const std::vector<Excess>& excesses) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
+/// A plan may be held to the same limits again, on another start.
+void AddOnce(std::vector<std::string>& notes, std::string note) {
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) {
+    notes.push_back(std::move(note));
+  }
+}
+
 Plan Refuse(const std::vector<Excess>& excesses, const Plan& plan) {
   Plan refused;
   refused.status = PlanStatus::kInfeasible;
@@ -222,15 +246,15 @@ Plan Refuse(const std::vector<Excess>& excesses, const Plan& plan) {
   return refused;
 }
 
-double SlowestOf(const std::vector<SpeedCap>& caps, double speed) {
+double MinSpeedOf(const std::vector<SpeedCap>& caps, double speed) {
   for (const SpeedCap& cap : caps) {
     speed = std::min(speed, cap.speed);
   }
   return speed;
 }
 
-/// The limits that keep the car from sliding where it speeds up or slows down.
-SpeedLimits Gentler(const SpeedLimits& limits, const std::vector<Excess>& excesses) {
+/// Reduced acceleration limits, so that the car does not slide while it speeds up or slows down.
+SpeedLimits ReduceAccelerations(const SpeedLimits& limits, const std::vector<Excess>& excesses) {
   SpeedLimits gentler = limits;
   for (const Excess& excess : excesses) {
     const double below = 0.999 * excess.limit;
@@ -243,8 +267,9 @@ SpeedLimits Gentler(const SpeedLimits& limits, const std::vector<Excess>& excess
   return gentler;
 }
 
-/// The changes made to a plan: "speed reduced to 2.1 m/s where needed".
-std::string Mended(const SpeedLimits& before, const SpeedLimits& after, double slowest) {
+/// Describes the changes made to a plan: "speed reduced to 2.1 m/s where needed".
+std::string DescribeSpeedChanges(const SpeedLimits& before, const SpeedLimits& after,
+                                 double slowest) {
   std::vector<std::string> texts;
   if (slowest < before.speed) {
     texts.push_back(fmt::format("speed reduced to {:.3g} m/s where needed", slowest));
@@ -258,8 +283,9 @@ std::string Mended(const SpeedLimits& before, const SpeedLimits& after, double s
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// The plan with speeds at the limit, which is within it by construction: what is left are paths
-/// that the car cannot follow at any speed, and starts that are too fast.
+/// The plan with speeds at the limit of the g-g-v diagram. Those speeds are feasible by
+/// construction; the remaining excesses are paths that the car cannot follow at any speed, and
+/// starts that are too fast.
 Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
   std::vector<Excess> excesses;
   for (Excess& excess : FindExcesses(plan, request)) {
@@ -268,7 +294,7 @@ Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
     }
   }
   std::vector<SpeedCap> caps = CapsFor(plan, request);
-  if (SlowestOf(caps, request.speed.speed) < kSlowest) {
+  if (MinSpeedOf(caps, request.speed.speed) < kMinPlanSpeed) {
     for (Excess& excess : FindExcesses(plan, request)) {
       excesses.push_back(std::move(excess));
     }
@@ -284,21 +310,69 @@ Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
         return before.speed == 0.0 && after.speed == 0.0;
       });
   if (stuck != knots.end()) {  // a slope that the car can neither climb nor hold
-    excesses.push_back({"speed", kSlowest, 0.0, "m/s", stuck->s, Remedy::kNone});
+    excesses.push_back({"speed", kMinPlanSpeed, 0.0, "m/s", stuck->s, Remedy::kNone});
   }
   if (!excesses.empty() && request.infeasible != InfeasiblePolicy::kAllow) {
     return Refuse(excesses, plan);
   }
   if (!excesses.empty()) {
-    plan.notes.push_back("infeasible, kept anyway: " + Listed(excesses));
+    AddOnce(plan.notes, "infeasible, kept anyway: " + Listed(excesses));
   }
   return plan;
+}
+
+/// The plan after the repair that the request wants, or refused; see MakeFeasible.
+Plan Repaired(Plan plan, const PlanRequest& request) {
+  if (request.limits) {
+    return DriveAtLimit(std::move(plan), request);
+  }
+  std::vector<Excess> first = FindExcesses(plan, request);
+  if (IsAtLimit(plan, request)) {  // the rest of a plan whose speeds the diagram made
+    std::erase_if(first, [](const Excess& excess) { return excess.remedy != Remedy::kNone; });
+  }
+  if (first.empty()) {
+    return plan;
+  }
+  const bool hopeless = std::any_of(first.begin(), first.end(), [](const Excess& excess) {
+    return excess.remedy == Remedy::kNone;
+  });
+  if (request.infeasible == InfeasiblePolicy::kAllow) {
+    AddOnce(plan.notes, "infeasible, kept anyway: " + Listed(first));
+    return plan;
+  }
+  if (hopeless || request.infeasible == InfeasiblePolicy::kRefuse) {
+    return Refuse(first, plan);
+  }
+  const std::vector<SpeedCap> caps = CapsFor(plan, request);
+  const double slowest = MinSpeedOf(caps, request.speed.speed);
+  if (slowest < kMinPlanSpeed) {
+    return Refuse(first, plan);
+  }
+  Plan slower = plan;
+  slower.caps.insert(slower.caps.end(), caps.begin(), caps.end());
+  SpeedLimits limits = request.speed;
+  // Braking for the new caps may itself be too hard, and gentler braking begins earlier, so
+  // iterate.
+  constexpr int kMaxAttempts = 4;
+  std::vector<Excess> left = first;
+  for (int i = 0; i < kMaxAttempts && !left.empty(); ++i) {
+    limits = ReduceAccelerations(limits, left);
+    SetSpeeds(slower, request.start_speed, limits);
+    left = FindExcesses(slower, request);
+  }
+  if (!left.empty()) {
+    return Refuse(left, plan);
+  }
+  slower.notes.push_back(fmt::format("{}: at {:.3g} m/s {}",
+                                     DescribeSpeedChanges(request.speed, limits, slowest),
+                                     request.speed.speed, Listed(first)));
+  return slower;
 }
 
 }  // namespace
 
 std::string ToString(const Excess& excess) {
-  return fmt::format("{} {:.3g} {} exceeds {:.3g} {} at s = {:.4g} m", excess.what, excess.asked,
+  return fmt::format("{} {:.3g} {} exceeds {:.3g} {} at s = {:.4g} m", excess.what, excess.required,
                      excess.unit, excess.limit, excess.unit, excess.station);
 }
 
@@ -321,49 +395,33 @@ std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request) {
   return found;
 }
 
-Plan MakeFeasible(Plan plan, const PlanRequest& request) {
+FeasiblePlan MakeFeasible(Plan plan, const PlanRequest& request) {
   if (!plan.ok()) {
-    return plan;
+    return FeasiblePlan(std::move(plan));
   }
-  if (request.limits) {
-    return DriveAtLimit(std::move(plan), request);
-  }
-  const std::vector<Excess> first = FindExcesses(plan, request);
-  if (first.empty()) {
-    return plan;
-  }
-  const bool hopeless = std::any_of(first.begin(), first.end(), [](const Excess& excess) {
-    return excess.remedy == Remedy::kNone;
-  });
-  if (request.infeasible == InfeasiblePolicy::kAllow) {
-    plan.notes.push_back("infeasible, kept anyway: " + Listed(first));
-    return plan;
-  }
-  if (hopeless || request.infeasible == InfeasiblePolicy::kRefuse) {
-    return Refuse(first, plan);
-  }
-  const std::vector<SpeedCap> caps = CapsFor(plan, request);
-  const double slowest = SlowestOf(caps, request.speed.speed);
-  if (slowest < kSlowest) {
-    return Refuse(first, plan);
-  }
-  Plan slower = plan;
-  slower.caps.insert(slower.caps.end(), caps.begin(), caps.end());
-  SpeedLimits limits = request.speed;
-  // Braking for the caps may be too hard in its turn, and gentler braking begins elsewhere.
-  constexpr int kTries = 4;
-  std::vector<Excess> left = first;
-  for (int i = 0; i < kTries && !left.empty(); ++i) {
-    limits = Gentler(limits, left);
-    SetSpeeds(slower, request.start_speed, limits);
-    left = FindExcesses(slower, request);
-  }
-  if (!left.empty()) {
-    return Refuse(left, plan);
-  }
-  slower.notes.push_back(fmt::format("{}: at {:.3g} m/s {}", Mended(request.speed, limits, slowest),
-                                     request.speed.speed, Listed(first)));
-  return slower;
+  return FeasiblePlan(Repaired(std::move(plan), request));
+}
+
+PlanRequest RequestOn(const RoadConditions& road, const VehicleParams& vehicle,
+                      const SpeedLimits& speed) {
+  return {.vehicle = vehicle,
+          .waypoints = {},
+          .start = {},
+          .speed = speed,
+          .friction = road.friction,
+          .friction_patches = road.friction_patches,
+          .ground = road.ground,
+          .infeasible = road.infeasible,
+          .limits = road.limits};
+}
+
+FeasiblePlan MakeFeasibleFromHere(Plan plan, const PlanRequest& request) {
+  PlanRequest own = request;
+  const PathPoint first = plan.reference.path.At(0.0);
+  own.start = first.pose;
+  own.start_speed = plan.reference.speed.SpeedAt(0.0);
+  own.start_steering = SteeringForCurvature(request.vehicle, first.curvature);
+  return MakeFeasible(std::move(plan), own);
 }
 
 }  // namespace trackbed

@@ -14,7 +14,8 @@ namespace trackbed {
 ///      with w'' = K whose slope at t is the slope of w nearest to 0. Each curve ends where it
 ///      meets w.
 ///   2. w2 + G is the convex hull of w1 + G. This keeps the curvature of w1 where it is convex.
-/// Speeds that keep the limit stay as they are. Only step 1 lowers the first and the last square.
+/// Speeds that keep the limit stay as they are. Only step 1 lowers the first and the last squared
+/// speed.
 /// Cost: O(n) plus the lengths of the curves, about 50 ns per station.
 void LimitJerk(const std::vector<double>& stations, double jerk, std::vector<double>& squares);
 

@@ -7,7 +7,7 @@ namespace trackbed {
 namespace {
 
 /// Steering angles below this are straight [rad].
-constexpr double kSteersStraight = 1e-9;
+constexpr double kStraightSteering = 1e-9;
 
 /// The path of a car whose wheels turn from the start steering to straight ahead at their full
 /// rate: delta(s) = delta_0 (1 - s/S), psi(s) = S/(L delta_0) ln(cos delta(s)/cos delta_0).
@@ -36,7 +36,7 @@ LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond) {
   if (request.start_speed <= 0.0) {
     return lead;
   }
-  if (std::abs(request.start_steering) > kSteersStraight) {
+  if (std::abs(request.start_steering) > kStraightSteering) {
     lead.segments = Straightening(request);
   }
   const double v = request.start_speed;

@@ -45,7 +45,7 @@ class Capability {
   [[nodiscard]] double Margin(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
     const double across = options_.share * diagram_.MaxLateral(demand.point) - demand.point.lateral;
-    const double weight = demand.load - kLeastLoad;
+    const double weight = demand.load - kMinLoad;
     if (across <= 0.0) {
       return std::min(across, weight);
     }
@@ -61,7 +61,7 @@ class Capability {
   [[nodiscard]] double MaxSquared(const LimitStation& at, double most) const;
 
  private:
-  static constexpr double kLeastLoad = 0.05;  // of the weight; less counts as airborne
+  static constexpr double kMinLoad = 0.05;  // of the weight; less counts as airborne
 
   struct Demand {
     GgvPoint point;
@@ -103,9 +103,9 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
   double low = 0.0;
   double at_low = Margin(at, low);
   // On a bank too steep to stand on, the car also needs a minimum speed.
-  constexpr int kTries = 64;
-  for (int i = kTries - 1; at_low < 0.0 && i > 0; --i) {
-    low = most * i / kTries;
+  constexpr int kMaxAttempts = 64;
+  for (int i = kMaxAttempts - 1; at_low < 0.0 && i > 0; --i) {
+    low = most * i / kMaxAttempts;
     at_low = Margin(at, low);
   }
   if (at_low <= 0.0) {
@@ -147,16 +147,16 @@ double Reach(double from, double length, double most, const Can& can) {
 class Passes {
  public:
   Passes(const std::vector<LimitStation>& stations, const Capability& can)
-      : stations_(stations), can_(can) {}
+      : stations_(stations), capability_(can) {}
 
   /// Limits each square to what the car can reach by accelerating from the previous station.
   void Forward(Squares& squares) const {
     for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
       const double length = stations_[i + 1].s - stations_[i].s;
-      const double step = 2.0 * length * can_.MaxAcceleration(stations_[i], squares[i]);
+      const double step = 2.0 * length * capability_.MaxAcceleration(stations_[i], squares[i]);
       const double most = std::clamp(squares[i] + step, 0.0, squares[i + 1]);
       squares[i + 1] = Reach(squares[i], length, most, [&](double squared) {
-        return can_.MaxAcceleration(stations_[i + 1], squared);
+        return capability_.MaxAcceleration(stations_[i + 1], squared);
       });
     }
   }
@@ -165,10 +165,11 @@ class Passes {
   void Backward(Squares& squares) const {
     for (std::size_t i = squares.size() - 1; i-- > 0;) {
       const double length = stations_[i + 1].s - stations_[i].s;
-      const double step = -2.0 * length * can_.MinAcceleration(stations_[i + 1], squares[i + 1]);
+      const double step =
+          -2.0 * length * capability_.MinAcceleration(stations_[i + 1], squares[i + 1]);
       const double most = std::clamp(squares[i + 1] + step, 0.0, squares[i]);
       squares[i] = Reach(squares[i + 1], length, most, [&](double squared) {
-        return -can_.MinAcceleration(stations_[i], squared);
+        return -capability_.MinAcceleration(stations_[i], squared);
       });
     }
   }
@@ -180,7 +181,7 @@ class Passes {
     for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
       const double length = stations_[i + 1].s - stations_[i].s;
       const double braked =
-          squares[i] + 2.0 * length * can_.MinAcceleration(stations_[i], squares[i]);
+          squares[i] + 2.0 * length * capability_.MinAcceleration(stations_[i], squares[i]);
       if (braked <= squares[i + 1]) {
         return;
       }
@@ -190,7 +191,7 @@ class Passes {
 
  private:
   const std::vector<LimitStation>& stations_;
-  const Capability& can_;
+  const Capability& capability_;
 };
 
 void Check(const std::vector<LimitStation>& stations, const LimitOptions& options) {
@@ -255,15 +256,15 @@ LimitSpeeds Result(const std::vector<LimitStation>& stations, const Squares& squ
 /// Alternates smoothing and passes until the passes hardly lower the smoothed squares.
 template <typename Smooth, typename Pass>
 void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
-  constexpr int kRounds = 100;
-  constexpr double kHardly = 1e-4;  // relative decrease of a square
-  for (int round = 0; round < kRounds; ++round) {
+  constexpr int kMaxIterations = 100;
+  constexpr double kMinDecrease = 1e-4;  // relative decrease of a square
+  for (int round = 0; round < kMaxIterations; ++round) {
     smooth(squares);
     const Squares before = squares;
     pass(squares);
     bool lowered = false;
     for (std::size_t i = 0; i < squares.size(); ++i) {
-      lowered = lowered || before[i] - squares[i] > kHardly * before[i];
+      lowered = lowered || before[i] - squares[i] > kMinDecrease * before[i];
     }
     if (!lowered) {
       squares = before;
@@ -275,9 +276,9 @@ void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
 
 /// Repeats forward and backward passes over a lap until its start and end agree. The last square
 /// stands for the first one.
-void GoAround(const Passes& passes, Squares& squares) {
+void PassAroundLap(const Passes& passes, Squares& squares) {
   constexpr int kLaps = 50;
-  constexpr double kSame = 1e-12;
+  constexpr double kEqualityTolerance = 1e-12;
   for (int lap = 0; lap < kLaps; ++lap) {
     const double before = squares.front();
     squares.back() = before;
@@ -285,7 +286,7 @@ void GoAround(const Passes& passes, Squares& squares) {
     squares.front() = squares.back();
     passes.Backward(squares);
     squares.back() = squares.front();
-    if (before - squares.front() <= kSame * before) {
+    if (before - squares.front() <= kEqualityTolerance * before) {
       return;
     }
   }
@@ -351,11 +352,11 @@ LimitSpeeds LimitSpeedsAround(const std::vector<LimitStation>& stations, double 
     squares.push_back(allowed[static_cast<std::size_t>(i)]);
   }
   const Passes passes(lap, can);
-  GoAround(passes, squares);
+  PassAroundLap(passes, squares);
   if (options.jerk > 0.0) {
     const std::vector<double> s = StationList(lap);
     SmoothWithin([&](Squares& lowered) { LimitJerkAround(s, options.jerk, lowered); },
-                 [&](Squares& lowered) { GoAround(passes, lowered); }, squares);
+                 [&](Squares& lowered) { PassAroundLap(passes, lowered); }, squares);
   }
   LimitSpeeds result = Result(lap, squares);
   result.speeds.pop_back();

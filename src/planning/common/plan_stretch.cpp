@@ -28,12 +28,24 @@ SpeedProfile JoinedBy(const SpeedProfile& profile, Stations ahead, double speed,
 std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
                                           double shift) {
   // A knot at the cut belongs to the part that is inserted there.
-  constexpr double kAtTheCut = 1e-9;  // [m]
+  constexpr double kCutTolerance = 1e-9;  // [m]
   std::vector<SteeringSchedule::Knot> knots;
   for (const SteeringSchedule::Knot& knot : schedule.knots()) {
-    if (knot.distance > within.from + kAtTheCut && knot.distance < within.to - kAtTheCut) {
+    if (knot.distance > within.from + kCutTolerance && knot.distance < within.to - kCutTolerance) {
       knots.push_back({knot.distance + shift, knot.steering});
     }
+  }
+  return knots;
+}
+
+std::vector<SteeringSchedule::Knot> SteeringBetween(const SteeringSchedule& schedule,
+                                                    Stations within) {
+  std::vector<SteeringSchedule::Knot> knots{{0.0, schedule.At(within.from)}};
+  Append(knots, Moved(schedule, within, -within.from));
+  const double length = within.to - within.from;
+  constexpr double kDistinct = 1e-9;  // [m]
+  if (length > knots.back().distance + kDistinct) {
+    knots.push_back({length, schedule.At(within.to)});
   }
   return knots;
 }

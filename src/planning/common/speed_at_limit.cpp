@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
@@ -12,15 +13,16 @@
 namespace trackbed {
 namespace {
 
-constexpr double kSamePlace = 1e-9;  // [m]
-/// Stations closer than this share of the spacing are one.
+constexpr double kSamePlace = 1e-9;         // [m]
+const std::string kAtLimit = "speeds at ";  // begins the note of the predicted time
+/// Stations closer than this fraction of the spacing are merged.
 constexpr double kMerged = 0.002;
 
 double LargerOf(double a, double b) {
   return std::abs(a) > std::abs(b) ? a : b;
 }
 
-/// Stations and curvatures of segments that begin at `from`.
+/// Stations with curvature along segments; the first one is at `from`.
 std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double from, double spacing) {
   std::vector<LimitStation> nodes;
   double start = from;
@@ -38,12 +40,12 @@ std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double fro
     start += segment.length;
   }
   if (nodes.size() > 1 && start - nodes.back().s > 0.0) {
-    nodes.back().s = start;  // the end itself
+    nodes.back().s = start;  // the exact end
   }
   return nodes;
 }
 
-/// The ground and the road along a path.
+/// Ground and friction along a path.
 class Surface {
  public:
   Surface(const Path& path, const PlanRequest& request) : path_(path), request_(request) {
@@ -81,7 +83,7 @@ class Surface {
   }
 
  private:
-  /// Of the ground under the center of gravity, as the axles feel it.
+  /// Ground height under the center of gravity, interpolated between the axles.
   [[nodiscard]] double Height(const Pose2& pose) const {
     const Ground& ground = request_.limits->ground;
     return std::lerp(GroundHeight(ground, pose.position()),
@@ -90,8 +92,8 @@ class Surface {
 
   const Path& path_;
   const PlanRequest& request_;
-  double front_ = 0.0;  // of the front axle [m]
-  double share_ = 0.0;  // of the load on it
+  double front_ = 0.0;  // position of the front axle [m]
+  double share_ = 0.0;  // fraction of the load on it
   bool flat_ = true;
 };
 
@@ -102,7 +104,7 @@ void ApplyCaps(const std::vector<SpeedCap>& caps, std::vector<LimitStation>& sta
         cap.from > stations.back().s + kSamePlace) {
       continue;
     }
-    // The speed between two stations is at most that at one of them.
+    // Between two stations the speed does not exceed that at one of them.
     auto first = std::lower_bound(stations.begin(), stations.end(), cap.from + kSamePlace, before);
     auto last = std::lower_bound(stations.begin(), stations.end(), cap.to - kSamePlace, before);
     first = first == stations.begin() ? first : first - 1;
@@ -118,7 +120,7 @@ struct Timed {
   std::optional<LimitExcess> excess;
 };
 
-/// The speeds over parts of a path, each of which ends at rest.
+/// Speeds over the legs of a path, each of which ends at rest.
 Timed SpeedsOver(const std::vector<Stations>& legs, const Path& path, const PlanRequest& request,
                  const std::vector<SpeedCap>& caps) {
   const SpeedAtLimit& limits = *request.limits;
@@ -181,7 +183,7 @@ std::vector<LimitStation> StationsAlong(const Path& path, const Stations& part,
   if (beyond > kSamePlace) {
     segments.push_back({.length = beyond});
   }
-  // A short part from rest to rest needs some stations in between, too.
+  // A short leg from rest to rest needs stations in between.
   constexpr double kPieces = 16.0;
   const double spacing =
       std::min({0.5, 0.2 * request.vehicle.wheelbase, (part.to - part.from) / kPieces});
@@ -211,9 +213,11 @@ std::optional<LimitExcess> SetSpeedsAtLimit(Plan& plan, const PlanRequest& reque
                                   ? fmt::format(", slowest {:.3g} m/s at s = {:.4g} m",
                                                 findings.slowest, findings.slowest_s)
                                   : "";
+  // A rerouted plan has the time of the plan before it.
+  std::erase_if(plan.notes, [](const std::string& note) { return note.starts_with(kAtLimit); });
   if (std::isfinite(findings.predicted_time)) {
-    plan.notes.push_back(fmt::format("speeds at {:.3g} of the limit: predicted time {:.4g} s{}",
-                                     findings.share, findings.predicted_time, slowest));
+    plan.notes.push_back(kAtLimit + fmt::format("{:.3g} of the limit: predicted time {:.4g} s{}",
+                                                findings.share, findings.predicted_time, slowest));
   }
   return timed.excess;
 }

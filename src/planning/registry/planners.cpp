@@ -10,6 +10,7 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/course/course.h"
 #include "trackbed/planning/course/lane_change.h"
+#include "trackbed/planning/course/straight.h"
 #include "trackbed/planning/curves/curve_planners.h"
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/grid/astar_planner.h"
@@ -25,8 +26,8 @@
 namespace trackbed {
 namespace {
 
-/// One line for each planner.
-Registry<PlannerEntry>& Table() {
+/// The table of planners, one line each.
+Registry<PlannerEntry>& RegisteredPlanners() {
   static Registry<PlannerEntry> table("planner", {
                                                      FilletPlanner(),
                                                      LaneChangePlanner(),
@@ -42,6 +43,7 @@ Registry<PlannerEntry>& Table() {
                                                      CenterLinePlanner(),
                                                      MinimumCurvaturePlanner(),
                                                      MinimumTimePlanner(),
+                                                     StraightPlanner(),
                                                  });
   return table;
 }
@@ -103,15 +105,15 @@ void CheckRequest(const PlanRequest& request) {
 }  // namespace
 
 const std::vector<PlannerEntry>& Planners() {
-  return Table().entries();
+  return RegisteredPlanners().entries();
 }
 
 void RegisterPlanner(PlannerEntry entry) {
-  Table().Add(std::move(entry));
+  RegisteredPlanners().Add(std::move(entry));
 }
 
 const PlannerEntry& PlannerFor(const PlannerOptions& options) {
-  return Table().For(options);
+  return RegisteredPlanners().For(options);
 }
 
 bool MayGoBackwards(const PlannerOptions& options) {
@@ -129,15 +131,15 @@ std::optional<double> PlannerSafeDistance(const PlannerOptions& options) {
   return FindNumber("safe_distance", [&](KeyVisitor& keys) { Visit(keys, own); });
 }
 
-Plan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
+FeasiblePlan MakePlan(const PlanRequest& request, const PlannerOptions& options) {
   CheckRequest(request);
   PlannerOptions own = options;
   RequireInRange("MakePlan", [&](KeyVisitor& keys) { Visit(keys, own); });
-  Plan plan = PlannerFor(options).plan(request, options);
-  plan = MakeFeasible(std::move(plan), request);
-  if (plan.ok() && !plan.diagnostics.open_loop) {
-    plan.diagnostics.open_loop = SimulateOpenLoop(
-        request.vehicle, plan.reference.path, plan.schedule, plan.schedule_speed.knots().back().s);
+  FeasiblePlan plan = MakeFeasible(PlannerFor(options).plan(request, options), request);
+  if (plan.ok() && !plan->diagnostics.open_loop) {
+    plan.diagnostics().open_loop =
+        SimulateOpenLoop(request.vehicle, plan->reference.path, plan->schedule,
+                         plan->schedule_speed.knots().back().s);
   }
   return plan;
 }

@@ -32,16 +32,16 @@ double Front(const VehicleParams& vehicle) {
 
 /// The method's options, with the safe distance and horizon of the settings and the given speed
 /// factors.
-FrenetOptions Adapted(FrenetOptions options, const AlongSettings& settings,
-                      const std::vector<double>& factors) {
+FrenetOptions AdaptOptions(FrenetOptions options, const AlongSettings& settings,
+                           const std::vector<double>& factors) {
   options.limits.safe_distance = settings.safe_distance;
   options.horizon = std::max(options.horizon, settings.look_ahead);
   options.speed_factors = factors;
   return options;
 }
 
-LatticeOptions Adapted(LatticeOptions options, const AlongSettings& settings,
-                       const std::vector<double>& factors) {
+LatticeOptions AdaptOptions(LatticeOptions options, const AlongSettings& settings,
+                            const std::vector<double>& factors) {
   options.limits.safe_distance = settings.safe_distance;
   options.speed_factors = factors;
   return options;
@@ -86,7 +86,7 @@ class AlongRoute {
         std::visit([&](const auto& own) { return StopReach(own, speed); }, options_);
     const bool goal_in_reach = frame_.goal - request_.start.s <= reach;
     if (goal_in_reach && Try(StopAt{frame_.goal})) {
-      AlongPlan plan = Taken(ManeuverType::kProceed);
+      AlongPlan plan = AcceptedPlan(ManeuverType::kProceed);
       plan.to_goal = true;
       return plan;
     }
@@ -102,33 +102,33 @@ class AlongRoute {
       if (!Try(KeepSpeed{request_.wanted}, factors)) {
         return false;
       }
-      if (!leader || LeadsPast(*leader)) {
+      if (!leader || PassesObstacle(*leader)) {
         return true;
       }
       if (!for_now) {
-        for_now = Taken(ManeuverType::kApproach);
+        for_now = AcceptedPlan(ManeuverType::kApproach);
       }
       return false;
     };
     if (on({falling.front()})) {
-      return Taken(ManeuverType::kProceed);
+      return AcceptedPlan(ManeuverType::kProceed);
     }
-    if (leader && leader->speed >= kStandsBelow &&
+    if (leader && leader->speed >= kStandstillSpeed &&
         Try(FollowLeader{leader->rear, std::min(leader->speed, request_.wanted), settings_.gap,
                          settings_.time_gap})) {
-      return Taken(ManeuverType::kFollow);
+      return AcceptedPlan(ManeuverType::kFollow);
     }
     if (on(all)) {
-      return Taken(ManeuverType::kProceed);
+      return AcceptedPlan(ManeuverType::kProceed);
     }
     for (auto factor = falling.begin() + 1; factor != falling.end(); ++factor) {
       if (on({*factor})) {
-        return Taken(ManeuverType::kProceed);
+        return AcceptedPlan(ManeuverType::kProceed);
       }
     }
-    if (leader && leader->speed < kStandsBelow &&
+    if (leader && leader->speed < kStandstillSpeed &&
         Try(StopAt{leader->rear - Front(request_.vehicle) - settings_.gap})) {
-      return Taken(ManeuverType::kStop);
+      return AcceptedPlan(ManeuverType::kStop);
     }
     return for_now ? *for_now : AlongPlan{.kind = ManeuverType::kNone, .found = found_};
   }
@@ -147,7 +147,7 @@ class AlongRoute {
                                 .edges = frame_.edges};
     found_ = std::visit(
         [&](const auto& own) {
-          return Find(frame_.path, request, Adapted(own, settings_, factors));
+          return Find(frame_.path, request, AdaptOptions(own, settings_, factors));
         },
         options_);
     if (!found_.ok()) {
@@ -196,14 +196,14 @@ class AlongRoute {
   }
 
   [[nodiscard]] bool BrakingIsClear() const {
-    constexpr double kTouch = 1e-2;  // [m], tolerance for clearance between samples
+    constexpr double kClearanceTolerance = 1e-2;  // [m], tolerance for clearance between samples
     const double began = found_.motion.duration();
     // A start closer than the safe distance may keep its distance.
     const OrientedBox footprint = FootprintAt(request_.vehicle, points_.front().motion.pose);
     std::vector<double> margins;
     for (const MovingBox& obstacle : request_.obstacles) {
       margins.push_back(std::min(settings_.safe_distance, Separation(footprint, obstacle.box)) -
-                        kTouch);
+                        kClearanceTolerance);
     }
     return std::all_of(points_.begin(), points_.end(), [&](const TrajectoryPoint& point) {
       if (point.t <= began) {
@@ -250,19 +250,19 @@ class AlongRoute {
     if (!frame_.edges) {
       return true;
     }
-    constexpr double kTouch = 1e-3;  // [m]
+    constexpr double kClearanceTolerance = 1e-3;  // [m]
     const auto beyond = [&](const TrajectoryPoint& point) {
       return ReachBeyond(*frame_.edges, request_.vehicle, frame_.path.At(point.frenet.s),
                          point.frenet);
     };
-    const double most = std::max(0.0, beyond(points_.front())) + kTouch;
+    const double most = std::max(0.0, beyond(points_.front())) + kClearanceTolerance;
     return std::all_of(points_.begin(), points_.end(), [&](const TrajectoryPoint& point) {
       return point.t <= found_.motion.duration() || beyond(point) <= most;
     });
   }
 
   /// Whether the motion ends beside the obstacle, laterally clear of it, or beyond it.
-  [[nodiscard]] bool LeadsPast(const Leader& leader) const {
+  [[nodiscard]] bool PassesObstacle(const Leader& leader) const {
     const FrenetState end = found_.motion.At(found_.motion.duration());
     const double room = 0.5 * request_.vehicle.width + settings_.safe_distance;
     return end.d - room >= leader.left || end.d + room <= leader.right ||
@@ -270,7 +270,7 @@ class AlongRoute {
                leader.rear + leader.speed * found_.motion.duration();
   }
 
-  [[nodiscard]] AlongPlan Taken(ManeuverType kind) const {
+  [[nodiscard]] AlongPlan AcceptedPlan(ManeuverType kind) const {
     return {.kind = kind, .found = found_, .points = points_};
   }
 
@@ -323,9 +323,9 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
   // A step of curvature k from straight to a bend needs the longest window. While the curvature
   // rises by k over the window w, |d(steering)/dt| <= v L k/w; steering = atan(L curvature) rises
   // fastest at the beginning. Smoothing tightens the bend itself by (k w)^2/24.
-  constexpr double kLook = 0.5;  // [m]
-  double window = 0.1;           // [m]
-  for (const PathPoint& point : path.Sample(kLook)) {
+  constexpr double kSampleSpacing = 0.5;  // [m]
+  double window = 0.1;                    // [m]
+  for (const PathPoint& point : path.Sample(kSampleSpacing)) {
     double v = speed.speed;
     for (const SpeedCap& cap : route.caps) {
       if (cap.from <= point.s && point.s <= cap.to) {

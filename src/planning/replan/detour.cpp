@@ -16,23 +16,29 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/world/world.h"
 
+// Searches for a detour around static obstacles by any planner that keeps clear of them. The detour
+// leaves the driven path on a straight, at once or where the car could have stopped, and returns to
+// the route on one of up to three straights behind the last blocked stretch. Planners without
+// headings get straight first and last legs of 10, 6 or 3 m. The comparator chooses the best path,
+// and only if it is better than the current one.
+
 namespace trackbed {
 namespace {
 
-/// Between the points at which ways are looked at [m].
-constexpr double kLook = 0.1;
-/// Less curvature than this is straight [1/m].
+/// Spacing of checks along paths [m].
+constexpr double kPathCheckSpacing = 0.1;
+/// Curvature below this is straight [1/m].
 constexpr double kStraight = 1e-4;
-/// Lengths that a path with corners goes straight on first and last [m]: long ones leave room for
-/// gentle corners, short ones fit before what is near.
-constexpr std::array<double, 3> kStraightOn{10.0, 6.0, 3.0};
-/// Between the places at which to come back [m], and how many of them.
-constexpr double kBackStep = 5.0;
-constexpr int kBacks = 3;
-/// For how long the route is straight after the way has come back, at the mission's speed [s].
-constexpr double kSettle = 2.0;
-/// What a route keeps of the driven path, at least [m] and [s].
-constexpr double kLead = 0.5;
+/// Lengths of the first and last straight of a path with corners [m]: long ones leave room for
+/// gentle corners, short ones fit before nearby obstacles.
+constexpr std::array<double, 3> kStraightLengths{10.0, 6.0, 3.0};
+/// Spacing of the places to return to the route [m], and their number.
+constexpr double kReturnSpacing = 5.0;
+constexpr int kReturnPoints = 3;
+/// Straight driving required after the return to the route, as time at the mission's speed [s].
+constexpr double kSettlingTime = 2.0;
+/// Minimum part of the driven path that a route keeps [m] and [s].
+constexpr double kMinLead = 0.5;
 constexpr double kLeadTime = 0.5;
 
 bool IsStraight(const Path& path, double s) {
@@ -40,25 +46,24 @@ bool IsStraight(const Path& path, double s) {
   return std::abs(at.curvature) < kStraight && std::abs(at.sharpness) < kStraight;
 }
 
-/// The first station at or beyond `from` from which the path is straight for `length`, or to its
-/// end.
+/// The first station from `from` on where the path is straight for `length` or to its end.
 std::optional<double> StraightFrom(const Path& path, double from, double length) {
   double straight = 0.0;
-  for (double s = from; s <= path.length(); s += kLook) {
-    straight = IsStraight(path, s) ? straight + kLook : 0.0;
+  for (double s = from; s <= path.length(); s += kPathCheckSpacing) {
+    straight = IsStraight(path, s) ? straight + kPathCheckSpacing : 0.0;
     if (straight > length) {
-      return s - (straight - kLook);
+      return s - (straight - kPathCheckSpacing);
     }
   }
   const double left = path.length() - straight;
   return straight > 0.0 ? std::optional(std::max(from, left)) : std::nullopt;
 }
 
-/// What a joint between two pieces of path takes of the speed, as CapsOfSteps does it.
+/// Speed cap at a joint between two pieces of path, as in CapsOfSteps.
 std::vector<SpeedCap> CapOfJoint(const VehicleParams& vehicle, const Path& path, double s,
                                  double speed) {
-  const double before = path.At(s - kLook).curvature;
-  const double after = path.At(s + kLook).curvature;
+  const double before = path.At(s - kPathCheckSpacing).curvature;
+  const double after = path.At(s + kPathCheckSpacing).curvature;
   const double joint = StepSpeed(vehicle, before, after);
   if (joint >= speed) {
     return {};
@@ -78,7 +83,7 @@ std::vector<Vec2> SamplePoints(const Path& path) {
   return points;
 }
 
-/// Whether a car at `speed` can come down to every cap in time.
+/// Whether a car at `speed` can slow down to every cap in time.
 bool CanSlowDown(const std::vector<SpeedCap>& caps, double speed, const SpeedLimits& limits) {
   return std::all_of(caps.begin(), caps.end(), [&](const SpeedCap& cap) {
     const double slower = speed * speed - 2.0 * limits.deceleration * std::max(cap.from, 0.0);
@@ -94,15 +99,15 @@ class DetourSearch {
 
   Detour Run() {
     Detour detour;
-    detour.current = Score(WayAsItIs());
+    detour.current = Score(CurrentPath());
     detour.best.total = std::numeric_limits<double>::infinity();
     if (!detour.current.collides) {
       detour.why = "no static obstacle blocks the path";
       return detour;
     }
     const Path& path = request_.driven.reference.path;
-    const double lead = request_.station + kLead + kLeadTime * request_.station_speed;
-    // At once, or once the car could have stopped.
+    const double lead = request_.station + kMinLead + kLeadTime * request_.station_speed;
+    // Leave at once, or once the car could have stopped.
     const double braking =
         0.5 * request_.station_speed * request_.station_speed / request_.speed.deceleration;
     std::vector<double> leaves;
@@ -124,9 +129,12 @@ class DetourSearch {
           Try(leave, back, static_cast<std::uint64_t>(attempt), detour);
         }
       }
-      if (!detour.route) {
-        break;  // what finds nothing anywhere will not do so with another seed
+      if (!detour.route || IsBudgetUsed(detour)) {
+        break;  // another seed would not help
       }
+    }
+    if (!detour.route && IsBudgetUsed(detour)) {
+      detour.why += fmt::format("; the search ended after {} random samples", detour.samples);
     }
     if (detour.route && !IsBetter(detour.best, detour.current)) {
       detour.route.reset();
@@ -137,19 +145,22 @@ class DetourSearch {
   }
 
  private:
-  /// A plan from the car on, and between which of its stations it is the planner's.
+  /// A plan from the car on, and the stations between which the planner's path replaces the route.
   struct JoinedPlan {
-    Plan plan;
+    FeasiblePlan plan;
     Stations replaced;  ///< [m]
   };
 
-  /// Asks the planner for a path between two stations, and keeps it if it is the best so far.
+  /// Asks the planner for a path between two stations; keeps the best path so far.
   void Try(double leave, double back, std::uint64_t attempt, Detour& detour) const {
-    for (const double straight_on : kStraightOn) {
+    for (const double straight_on : kStraightLengths) {
+      if (IsBudgetUsed(detour)) {
+        return;
+      }
       ++detour.tried;
-      std::optional<JoinedPlan> found = Between(leave, back, straight_on, attempt, detour.why);
+      std::optional<JoinedPlan> found = Between(leave, back, straight_on, attempt, detour);
       if (found) {
-        const PathScore score = Score(SamplePoints(found->plan.reference.path));
+        const PathScore score = Score(SamplePoints(found->plan->reference.path));
         if (IsBetter(score, detour.best)) {
           detour.best = score;
           detour.route = std::move(found->plan);
@@ -158,19 +169,21 @@ class DetourSearch {
         return;
       }
       if (entry_.has_headings) {
-        return;  // those do not go straight on
+        return;  // planners with headings need no straight legs
       }
     }
   }
 
-  [[nodiscard]] std::vector<Vec2> WayAsItIs() const {
+  static bool IsBudgetUsed(const Detour& detour) { return detour.samples >= kMaxDetourSamples; }
+
+  [[nodiscard]] std::vector<Vec2> CurrentPath() const {
     const Path& path = request_.route.reference.path;
     return SamplePoints(Path(path.At(request_.route_station).pose,
                              path.Cut({request_.route_station, path.length()})));
   }
 
-  /// A path from the car on. Its center line keeps as far from what does not block it as the
-  /// footprint's sides do.
+  /// Scores a path from the car on. The required distance of its center line is that of the
+  /// footprint's sides or rear, whichever is nearer, plus 0.9 of the safe distance.
   [[nodiscard]] PathScore Score(const std::vector<Vec2>& way) const {
     const VehicleParams& car = request_.vehicle;
     const double inflation =
@@ -183,48 +196,47 @@ class DetourSearch {
                      choice_.comparator);
   }
 
-  /// Where to come back to the route: straight, and with some of it left.
+  /// Stations at which to return to the route: straight, with some of the route left.
   [[nodiscard]] std::vector<double> Backs() const {
     const Path& path = request_.route.reference.path;
     const std::vector<Stations> blocked = BlockedStretches(
         request_.vehicle, path, request_.route_station, request_.obstacles, request_.safe_distance);
     const double behind = blocked.empty() ? request_.route_station : blocked.back().to;
     std::vector<double> backs;
-    double from = behind + kStraightOn.front();
-    while (static_cast<int>(backs.size()) < kBacks) {
-      const auto back = StraightFrom(path, from, kSettle * request_.speed.speed);
+    double from = behind + kStraightLengths.front();
+    while (static_cast<int>(backs.size()) < kReturnPoints) {
+      const auto back = StraightFrom(path, from, kSettlingTime * request_.speed.speed);
       if (!back) {
         break;
       }
       backs.push_back(*back);
-      from = *back + kBackStep;
+      from = *back + kReturnSpacing;
     }
-    // At the end only where there is nowhere else: it would leave out what the mission leads
-    // through.
-    if (backs.empty() && behind < path.length() - 2.0 * kLook) {
+    // Return at the end only if there is no other place: that skips the waypoints in between.
+    if (backs.empty() && behind < path.length() - 2.0 * kPathCheckSpacing) {
       backs.push_back(path.length());
     }
     return backs;
   }
 
   std::optional<JoinedPlan> Between(double leave, double back, double straight_on,
-                                    std::uint64_t attempt, std::string& why) const {
+                                    std::uint64_t attempt, Detour& detour) const {
+    std::string& why = detour.why;
     const Path& driven = request_.driven.reference.path;
     const Path& route = request_.route.reference.path;
     const Pose2 from = driven.At(leave).pose;
     const Pose2 to = route.At(back).pose;
-    if ((to.position() - from.position()).norm() < kLead) {
+    if ((to.position() - from.position()).norm() < kMinLead) {
       why = "it would leave the path where it returns to it";
       return std::nullopt;
     }
     const double speed = std::min(request_.station_speed, request_.speed.speed);
-    PlanRequest request{.vehicle = request_.vehicle,
-                        .waypoints = {from.position()},
-                        .obstacles = request_.obstacles,
-                        .start = from,
-                        .start_speed = speed,
-                        .speed = request_.speed,
-                        .seed = request_.seed + attempt};
+    PlanRequest request = RequestOn(request_.road, request_.vehicle, request_.speed);
+    request.waypoints = {from.position()};
+    request.obstacles = request_.obstacles;
+    request.start = from;
+    request.start_speed = speed;
+    request.seed = request_.seed + attempt;
     if (entry_.has_headings) {
       request.waypoints.push_back(to.position());
       request.headings = {from.yaw, to.yaw};
@@ -233,7 +245,9 @@ class DetourSearch {
       const Vec2 before = to.position() - straight_on * Direction(to.yaw);
       request.waypoints.insert(request.waypoints.end(), {on, before, to.position()});
     }
+    request.max_samples = kMaxDetourSamples - detour.samples;
     const Plan way = MakePlan(request, planner_);
+    detour.samples += way.diagnostics.samples;
     if (!way.ok() || !way.partial.empty() || !way.stops.empty()) {
       const std::string own =
           way.stops.empty() ? way.reason + way.partial : std::string("it would require a stop");
@@ -251,7 +265,25 @@ class DetourSearch {
     return Joined(leave, way, back, why);
   }
 
-  /// The driven path up to `leave`, the detour, the route from `back` on.
+  /// Steering of the driven motion's own samples within `driven`, and of the path's segments
+  /// beyond.
+  [[nodiscard]] SteeringSchedule JoinedSchedule(const Path& path, const std::vector<SpeedCap>& caps,
+                                                const Stations& driven) const {
+    const double lead = driven.to - driven.from;
+    std::vector<SteeringSchedule::Knot> knots = SteeringBetween(request_.driven.schedule, driven);
+    const Stations beyond{lead, path.length()};
+    const SteeringSchedule rest = CourseSchedule(request_.vehicle, path.Cut(beyond),
+                                                 request_.speed.speed, Moved(caps, beyond, -lead));
+    constexpr double kDistinct = 1e-9;  // [m]
+    for (const SteeringSchedule::Knot& knot : rest.knots()) {
+      if (lead + knot.distance > knots.back().distance + kDistinct) {
+        knots.push_back({lead + knot.distance, knot.steering});
+      }
+    }
+    return SteeringSchedule::Through(std::move(knots));
+  }
+
+  /// Joins the driven path up to `leave`, the detour, and the route from `back` on.
   std::optional<JoinedPlan> Joined(double leave, const Plan& way, double back,
                                    std::string& why) const {
     const Path& driven = request_.driven.reference.path;
@@ -282,12 +314,20 @@ class DetourSearch {
     }
     plan.reference.speed =
         StopAtEnd(path.length(), request_.station_speed, request_.speed, plan.caps);
-    plan.schedule =
-        CourseSchedule(request_.vehicle, path.segments(), request_.speed.speed, plan.caps);
+    plan.sampled = request_.driven.sampled;
+    plan.schedule = plan.sampled ? JoinedSchedule(path, plan.caps, {request_.station, leave})
+                                 : CourseSchedule(request_.vehicle, path.segments(),
+                                                  request_.speed.speed, plan.caps);
     plan.schedule_speed = plan.reference.speed;
     plan.goal = request_.route.goal;
     plan.tree = way.tree;
-    return JoinedPlan{std::move(plan), {lead, beyond}};
+    FeasiblePlan held = MakeFeasibleFromHere(
+        std::move(plan), RequestOn(request_.road, request_.vehicle, request_.speed));
+    if (!held.ok()) {
+      why = held->reason;
+      return std::nullopt;
+    }
+    return JoinedPlan{std::move(held), {lead, beyond}};
   }
 
   const DetourRequest& request_;
@@ -303,7 +343,7 @@ std::vector<Stations> BlockedStretches(const VehicleParams& vehicle, const Path&
                                        double distance) {
   std::vector<Stations> stretches;
   bool blocked = false;
-  for (double s = station; s <= path.length(); s += kLook) {
+  for (double s = station; s <= path.length(); s += kPathCheckSpacing) {
     const OrientedBox footprint = FootprintAt(vehicle, path.At(s).pose);
     const bool here = std::any_of(
         obstacles.begin(), obstacles.end(),

@@ -12,8 +12,9 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
                                                  const std::vector<MovingBox>& obstacles,
                                                  double distance, double look_ahead,
                                                  double offset) {
-  constexpr double kStep = 0.1;    // [s]
-  constexpr double kTouch = 1e-2;  // [m], tolerance for planners that check clearance at samples
+  constexpr double kStep = 0.1;  // [s]
+  constexpr double kClearanceTolerance =
+      1e-2;  // [m], tolerance for planners that check clearance at samples
   // Only the profile ahead: times before a stop in it may be infinite.
   const SpeedProfile ahead =
       Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
@@ -21,7 +22,7 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
   const auto too_near = [&](double time, const MovingBox& obstacle) {
     const OrientedBox footprint =
         FootprintAt(vehicle, Compose(reference.path.At(station_at(time)).pose, {0.0, offset, 0.0}));
-    return Separation(footprint, obstacle.At(time)) < distance - kTouch;
+    return Separation(footprint, obstacle.At(time)) < distance - kClearanceTolerance;
   };
   const auto steps = static_cast<int>(std::ceil(look_ahead / kStep));
   for (int i = 0; i <= steps; ++i) {
@@ -44,30 +45,31 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
 
 bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station,
                   const OrientedBox& obstacle, double distance) {
-  constexpr double kBent = 1e-3;  // [1/m]
+  constexpr double kMinBendCurvature = 1e-3;  // [1/m]
   const std::vector<Stations> stretches =
       BlockedStretches(vehicle, path, station, {obstacle}, distance);
   return std::any_of(stretches.begin(), stretches.end(), [&](const Stations& stretch) {
     const std::vector<Segment> within = path.Cut(stretch);
     return std::any_of(within.begin(), within.end(), [&](const Segment& segment) {
-      return std::abs(segment.curvature) > kBent ||
-             std::abs(segment.CurvatureAt(segment.length)) > kBent;
+      return std::abs(segment.curvature) > kMinBendCurvature ||
+             std::abs(segment.CurvatureAt(segment.length)) > kMinBendCurvature;
     });
   });
 }
 
 bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
                 const std::vector<MovingBox>& obstacles, double distance) {
-  constexpr double kAhead = 30.0;   // [m]
-  constexpr double kWithin = 60.0;  // [s]
-  constexpr double kStep = 0.5;     // [m] and [s]
+  constexpr double kLookAheadDistance = 30.0;  // [m]
+  constexpr double kLookAheadTime = 60.0;      // [s]
+  constexpr double kStep = 0.5;                // [m] and [s]
   for (const MovingBox& obstacle : obstacles) {
     if (obstacle.velocity == Vec2::Zero()) {
       continue;
     }
-    for (double s = station; s <= std::min(station + kAhead, path.length()); s += kStep) {
+    for (double s = station; s <= std::min(station + kLookAheadDistance, path.length());
+         s += kStep) {
       const OrientedBox footprint = FootprintAt(vehicle, path.At(s).pose);
-      for (double time = 0.0; time <= kWithin; time += kStep) {
+      for (double time = 0.0; time <= kLookAheadTime; time += kStep) {
         if (Separation(footprint, obstacle.At(time)) < distance) {
           return true;
         }

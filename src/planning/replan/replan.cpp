@@ -8,38 +8,47 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/course_schedule.h"
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/plan_stretch.h"
+#include "trackbed/planning/common/road_hold.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
+// Replanning while driving. If the plan is clear and the car on it, the plan is kept. Otherwise the
+// options are tried in order: resume the route if the car is back on it; a motion along the route
+// (PlanAlongRoute) that proceeds or follows; a detour around static obstacles (PlanDetour); a
+// motion that stops behind an obstacle; and braking along the driven plan, comfortably if that
+// suffices and else up to the hardest braking.
+
 namespace trackbed {
 namespace {
 
-/// A plan that ends at the goal is kept for its last meters, unless something comes in the way.
+/// A plan that ends at the goal is kept over its last meters, unless there is a conflict.
 constexpr double kLastMeters = 1.0;
-/// As near as this to the route, a car is back on it.
+/// Within these tolerances of the route, a car is back on it.
 constexpr double kBackOffset = 0.02;     // [m]
 constexpr double kBackHeading = 0.005;   // [rad]
 constexpr double kBackSteering = 0.002;  // [rad]
-/// No path is shorter than this, unless it has no length [m].
-constexpr double kNoWay = 1e-3;
-/// Room that is left before an obstacle when the car has to brake for it [m].
+/// Paths shorter than this become empty [m].
+constexpr double kMinPathLength = 1e-3;
+/// Distance to keep from an obstacle when the car brakes for it [m].
 constexpr double kBrakeRoom = 0.5;
 
 bool Stands(const MovingBox& box) {
-  return box.velocity.norm() < kStandsBelow;
+  return box.velocity.norm() < kStandstillSpeed;
 }
 
 std::string Place(const OrientedBox& box) {
   return fmt::format("({:.4g}, {:.4g})", box.center.x, box.center.y);
 }
 
-/// A plan that follows a motion.
+/// Converts a motion to a plan.
 Plan ToPlan(const VehicleParams& vehicle, const std::vector<TrajectoryPoint>& points,
             const Pose2& goal) {
   Plan plan;
+  plan.sampled = true;
   plan.reference = ToReference(points);
   plan.schedule_speed = plan.reference.speed;
   plan.goal = goal;
@@ -61,29 +70,34 @@ class Replanning {
   Replanned Run() {
     auto conflict = NextConflict(driving_.plan.reference, driving_.station);
     if (request_.strayed && !conflict) {
-      // Beside the plan as far as the car is.
+      // Check the plan with the car's lateral offset.
       const Pose2 beside = driving_.plan.reference.path.At(driving_.station).pose;
       conflict = NextConflict(driving_.plan.reference, driving_.station,
                               ToLocal(beside, request_.car.pose.position()).y());
     }
     const bool stuck = !driving_.plan.blocked.empty();
-    if (!conflict && !stuck && !request_.strayed && (driving_.on_route || NearlyThere())) {
+    if (!conflict && !stuck && !request_.strayed && (driving_.on_route || IsNearGoal())) {
       return Keep();
     }
     AlongPlan along;
+    FeasiblePlan motion;
     if (options_.along) {
       along = Along();
     }
-    // Behind a leader the route is clear only up to where it is too near.
+    if (along.ok()) {
+      motion = Motion(along);
+      along = motion.ok() ? along : AlongPlan{};
+    }
+    // Behind a leader, the route is clear only up to the leader.
     if (!driving_.on_route && (!along.ok() || along.kind == ManeuverType::kProceed)) {
-      if (auto back = BackOnRoute()) {
+      if (auto back = RejoinedRoute()) {
         return std::move(*back);
       }
     }
     if (along.kind == ManeuverType::kProceed || along.kind == ManeuverType::kFollow) {
-      return Follow(along);
+      return Follow(std::move(motion), along);
     }
-    // Another start has other candidates: what is driven may lead past what none of them do.
+    // Another start has other candidates: the plan may pass an obstacle that none of them passes.
     const bool is_free = !conflict && !request_.strayed;
     if (is_free && !stuck) {
       return Keep();
@@ -91,10 +105,10 @@ class Replanning {
     if (options_.detour) {
       Detour detour = FindDetour();
       diagnostics_.detour = FindingsOn(detour);
-      // Detours know only what stands.
-      if (detour.route && !NextConflict(detour.route->reference, 0.0)) {
+      // Detours consider static obstacles only, so check against the moving ones.
+      if (detour.route && !NextConflict((*detour.route)->reference, 0.0)) {
         diagnostics_.kind = "detour";
-        detour.route->diagnostics.replan = diagnostics_;
+        detour.route->diagnostics().replan = diagnostics_;
         return {ReplanKind::kRoute, std::move(*detour.route)};
       }
     }
@@ -102,7 +116,7 @@ class Replanning {
       return Keep();
     }
     if (along.ok()) {
-      return Follow(along);
+      return Follow(std::move(motion), along);
     }
     if (!conflict && request_.strayed) {
       conflict = AheadOfTheCar();
@@ -111,7 +125,22 @@ class Replanning {
   }
 
  private:
-  [[nodiscard]] Replanned Keep() const { return {ReplanKind::kKeep, driving_.plan}; }
+  [[nodiscard]] static Replanned Keep() { return {ReplanKind::kKeep, FeasiblePlan()}; }
+
+  /// Holds a new plan to the car and its road, as `infeasible` says.
+  [[nodiscard]] FeasiblePlan Held(Plan plan, InfeasiblePolicy infeasible,
+                                  double deceleration = 0.0) const {
+    PlanRequest constrained = RequestOn(request_.road, request_.vehicle, request_.speed);
+    constrained.infeasible = infeasible;
+    constrained.speed.deceleration = std::max(constrained.speed.deceleration, deceleration);
+    return MakeFeasibleFromHere(std::move(plan), constrained);
+  }
+
+  /// Of a plan that cannot be slowed down without another look at what moves.
+  [[nodiscard]] InfeasiblePolicy WithoutSlowingDown() const {
+    return request_.road.infeasible == InfeasiblePolicy::kAllow ? InfeasiblePolicy::kAllow
+                                                                : InfeasiblePolicy::kRefuse;
+  }
 
   [[nodiscard]] std::optional<PredictedConflict> NextConflict(const Reference& reference,
                                                               double station,
@@ -120,7 +149,7 @@ class Replanning {
                            options_.settings.safe_distance, options_.settings.look_ahead, offset);
   }
 
-  /// What a car that drives on at its own speed, not at the planned one, gets too near to.
+  /// Conflict of a car that continues at its actual speed, not at the planned one.
   [[nodiscard]] std::optional<PredictedConflict> AheadOfTheCar() const {
     const double speed = request_.car.speed;
     const Plan plan = StopAfter(
@@ -132,14 +161,14 @@ class Replanning {
     return conflict;
   }
 
-  /// Of the plan that is driven [m].
+  /// Remaining length of the driven plan [m].
   [[nodiscard]] double LeftToDrive() const {
     return driving_.plan.reference.path.length() - driving_.station;
   }
 
-  [[nodiscard]] bool NearlyThere() const { return LeftToDrive() < kLastMeters; }
+  [[nodiscard]] bool IsNearGoal() const { return LeftToDrive() < kLastMeters; }
 
-  /// The planned motion beside the car, or the car's own.
+  /// The planned motion beside the car; the car's own if it has strayed.
   [[nodiscard]] MotionState Start() const {
     if (request_.strayed) {
       return request_.car;
@@ -157,8 +186,8 @@ class Replanning {
     return start;
   }
 
-  /// The rest of the route, if the motion has come back to it.
-  [[nodiscard]] std::optional<Replanned> BackOnRoute() const {
+  /// The rest of the route, if the motion has returned to it and it is clear.
+  [[nodiscard]] std::optional<Replanned> RejoinedRoute() const {
     const MotionState start = Start();
     const Path& path = driving_.route.reference.path;
     constexpr double kSearch = 5.0;  // [m]
@@ -171,27 +200,57 @@ class Replanning {
         std::abs(steering - on_route) > kBackSteering) {
       return std::nullopt;
     }
-    Plan rest = RemainingPlan(driving_.route, at.s, start.speed, request_.speed);
-    if (NextConflict(rest.reference, 0.0)) {
+    FeasiblePlan rest = Held(RemainingPlan(driving_.route, at.s, start.speed, request_.speed),
+                             request_.road.infeasible);
+    if (!rest.ok() || NextConflict(rest->reference, 0.0)) {
       return std::nullopt;
     }
-    rest.diagnostics.replan = ReplanDiagnostics{.kind = "back_on_route"};
+    rest.diagnostics().replan = ReplanDiagnostics{.kind = "back_on_route"};
     return Replanned{ReplanKind::kRoute, std::move(rest)};
   }
 
-  /// The mission's speed, or that of what lies ahead: a slow turn, and the way to slow down to it.
+  /// The mission's speed, or that of a slow stretch within 2 s plus the distance to slow down to
+  /// it.
   [[nodiscard]] double WantedSpeed(double speed) const {
-    constexpr double kSooner = 2.0;  // [s]
+    constexpr double kSpeedLeadTime = 2.0;  // [s]
     double wanted = request_.speed.speed;
     for (const SpeedCap& cap : CapsOf(driving_.route)) {
       const double down = std::max(
           0.0, (speed * speed - cap.speed * cap.speed) / (2.0 * request_.speed.deceleration));
-      const double reach = driving_.route_station + kSooner * speed + down;
+      const double reach = driving_.route_station + kSpeedLeadTime * speed + down;
       if (cap.from <= reach && driving_.route_station <= cap.to) {
         wanted = std::min(wanted, cap.speed);
       }
     }
     return wanted;
+  }
+
+  /// The limits of a motion on its road.
+  struct Within {
+    SpeedLimits speed;
+    AlongOptions options;
+  };
+
+  /// Lowers the limits of motions to what the road holds under the route as far as they look.
+  [[nodiscard]] Within OnThisRoad(double speed) const {
+    Within within{request_.speed, *options_.along};
+    const double fastest = std::max(speed, request_.speed.speed);
+    const double reach = fastest * options_.settings.look_ahead +
+                         0.5 * fastest * fastest / request_.speed.deceleration;
+    const Path& path = driving_.route.reference.path;
+    const RoadHoldLimits hold = MinRoadHold(
+        path,
+        {driving_.route_station,
+         std::max(driving_.route_station, std::min(driving_.route_station + reach, path.length()))},
+        RequestOn(request_.road, request_.vehicle, request_.speed));
+    const auto lower = [](double& limit, double held) {
+      limit = held > 0.0 ? std::min(limit, held) : limit;
+    };
+    lower(within.speed.acceleration, hold.driving);
+    lower(within.speed.deceleration, hold.braking);
+    std::visit([&](auto& own) { lower(own.limits.max_lateral_acceleration, hold.lateral); },
+               within.options);
+    return within;
   }
 
   [[nodiscard]] AlongPlan Along() const {
@@ -203,26 +262,31 @@ class Replanning {
     if (!frenet) {
       return {};
     }
+    const Within within = OnThisRoad(start.speed);
     return PlanAlongRoute(driving_.frame,
                           {.vehicle = request_.vehicle,
-                           .speed = request_.speed,
+                           .speed = within.speed,
                            .wanted = WantedSpeed(start.speed),
                            .start = *frenet,
                            .obstacles = request_.obstacles},
-                          options_.settings, *options_.along);
+                          options_.settings, within.options);
   }
 
-  Replanned Follow(const AlongPlan& along) {
+  [[nodiscard]] FeasiblePlan Motion(const AlongPlan& along) const {
     Plan plan = ToPlan(request_.vehicle, along.points, driving_.route.goal);
-    diagnostics_.along = along;
-    diagnostics_.kind = "motion";
-    plan.diagnostics.replan = diagnostics_;
     if (along.kind == ManeuverType::kStop) {
       plan.blocked = "stops behind the obstacle: no feasible motion past it";
     } else if (!along.to_goal) {
       plan.blocked = "stops: no feasible motion found";
     }
-    return {ReplanKind::kMotion, std::move(plan)};
+    return Held(std::move(plan), WithoutSlowingDown());
+  }
+
+  Replanned Follow(FeasiblePlan motion, const AlongPlan& along) {
+    diagnostics_.along = along;
+    diagnostics_.kind = "motion";
+    motion.diagnostics().replan = diagnostics_;
+    return {ReplanKind::kMotion, std::move(motion)};
   }
 
   [[nodiscard]] Detour FindDetour() const {
@@ -237,7 +301,8 @@ class Replanning {
                           .safe_distance = options_.settings.safe_distance,
                           .wind = request_.wind,
                           .time = request_.time,
-                          .seed = request_.seed};
+                          .seed = request_.seed,
+                          .road = request_.road};
     for (const MovingBox& obstacle : request_.obstacles) {
       if (Stands(obstacle)) {
         request.obstacles.push_back(obstacle.box);
@@ -261,8 +326,8 @@ class Replanning {
     return found;
   }
 
-  /// Along the plan that is driven, to rest before the place of the conflict: comfortably if that
-  /// is in time, else as hard as it takes, else as hard as the car can.
+  /// Stops along the driven plan before the place of the conflict: comfortably if possible,
+  /// otherwise as hard as necessary, at most as hard as the car can.
   Replanned Brake(const PredictedConflict& conflict) {
     const MovingBox& obstacle = request_.obstacles[conflict.obstacle];
     const double speed = std::max(Start().speed, request_.car.speed);
@@ -270,32 +335,36 @@ class Replanning {
     const double braking = Stands(obstacle) ? BrakingWithin(room, speed) : BrakingFor(speed);
     const double shortest = speed * speed / (2.0 * braking);
     const bool comfortable = braking <= ComfortableBraking();
-    // What stands leaves time to come near; what moves may be gone or come nearer.
+    // Approach a static obstacle before braking; a moving one may come closer, so brake at once.
     const double way = Stands(obstacle) && comfortable ? std::max(shortest, room) : shortest;
-    if (way < kNoWay && LeftToDrive() < kNoWay) {
-      return Keep();  // it ends here anyway
+    if (way < kMinPathLength && LeftToDrive() < kMinPathLength) {
+      return Keep();  // the plan ends here anyway
     }
-    Plan plan = StopAfter(way, speed, comfortable);
-    if (!Stands(obstacle) && !PutsOff(plan, conflict)) {
+    Plan stop = StopAfter(way, speed, comfortable);
+    if (!Stands(obstacle) && !DelaysConflict(stop, conflict)) {
       return Keep();
     }
-    plan.goal = driving_.route.goal;
-    plan.blocked =
+    stop.goal = driving_.route.goal;
+    stop.blocked =
         fmt::format("stops before the obstacle at {}: no path around it", Place(obstacle.box));
     diagnostics_.kind = "brake";
     diagnostics_.deceleration = braking;
-    plan.diagnostics.replan = diagnostics_;
-    return {ReplanKind::kStop, std::move(plan)};
+    stop.diagnostics.replan = diagnostics_;
+    FeasiblePlan held = Held(stop, request_.road.infeasible, braking);
+    if (!held.ok()) {  // braking is what is left, even if the road holds less
+      held = Held(stop, InfeasiblePolicy::kAllow, braking);
+    }
+    return {ReplanKind::kStop, std::move(held)};
   }
 
-  /// Whether the car that follows `plan` has more time before it gets too near to something than
-  /// with the conflict that it brakes for. What comes from behind reaches it the sooner.
-  [[nodiscard]] bool PutsOff(const Plan& plan, const PredictedConflict& conflict) const {
+  /// Whether `plan` delays the next conflict beyond the one that the car brakes for. Braking
+  /// hastens a collision from behind.
+  [[nodiscard]] bool DelaysConflict(const Plan& plan, const PredictedConflict& conflict) const {
     const auto braked = NextConflict(plan.reference, 0.0);
     return !braked || braked->time >= conflict.time;
   }
 
-  /// Hard braking is never more than this; on ice, the comfortable one neither [m/s^2].
+  /// Upper limit of hard braking, and on ice of comfortable braking [m/s^2].
   [[nodiscard]] double HardestBraking() const {
     return request_.max_deceleration > 0.0 ? request_.max_deceleration
                                            : request_.speed.deceleration;
@@ -305,14 +374,15 @@ class Replanning {
     return std::min(request_.speed.deceleration, HardestBraking());
   }
 
-  /// The deceleration that comes to rest within `room` from `speed`, no less than the comfortable
-  /// one and no more than the hardest.
+  /// The deceleration that stops from `speed` within `room`, at least the comfortable one and at
+  /// most the hardest.
   [[nodiscard]] double BrakingWithin(double room, double speed) const {
-    const double needed = 0.5 * speed * speed / std::max(room, kNoWay);
+    const double needed = 0.5 * speed * speed / std::max(room, kMinPathLength);
     return std::min(std::max(needed, ComfortableBraking()), HardestBraking());
   }
 
-  /// The mildest braking that keeps clear of everything known, what moves too; else the hardest.
+  /// The mildest braking that keeps clear of all known obstacles, moving ones included; otherwise
+  /// the hardest.
   [[nodiscard]] double BrakingFor(double speed) const {
     const double hardest = HardestBraking();
     constexpr int kSteps = 8;
@@ -327,8 +397,8 @@ class Replanning {
     return hardest;
   }
 
-  /// From `speed` beside the car to rest after `way` along the driven plan; or, comfortably, at its
-  /// end if that is nearer.
+  /// A plan that stops from `speed` after `way` along the driven plan. A comfortable stop is at the
+  /// end of the driven plan if that is nearer.
   [[nodiscard]] Plan StopAfter(double way, double speed, bool comfortable) const {
     const Path& path = driving_.plan.reference.path;
     const double from = driving_.station;
@@ -339,20 +409,24 @@ class Replanning {
     }
     Plan plan;
     plan.reference.path =
-        Path(path.At(from).pose,
-             to - from < kNoWay ? std::vector<Segment>{} : SegmentsBetween(path, {from, to}));
+        Path(path.At(from).pose, to - from < kMinPathLength ? std::vector<Segment>{}
+                                                            : SegmentsBetween(path, {from, to}));
     const Path& own = plan.reference.path;
-    // Caps are for a car that drives on; hard braking obeys them anyway or cannot.
+    // Hard braking has no use for caps: it obeys them anyway, or cannot.
     plan.caps =
         comfortable ? Moved(CapsOf(driving_.plan), {from, to}, -from) : std::vector<SpeedCap>{};
     SpeedLimits limits = request_.speed;
     limits.deceleration = ComfortableBraking();
     plan.reference.speed = StopAtEnd(own.length(), speed, limits, plan.caps);
-    plan.schedule = own.length() > 0.0
-                        ? CourseSchedule(request_.vehicle, own.segments(),
-                                         std::max(request_.speed.speed, speed), plan.caps)
-                        : SteeringSchedule::Constant(
-                              SteeringForCurvature(request_.vehicle, path.At(from).curvature));
+    // The samples of a motion have their own steering; between them the path may bend faster.
+    plan.sampled = driving_.plan.sampled;
+    plan.schedule =
+        plan.sampled && own.length() > 0.0
+            ? SteeringSchedule::Through(SteeringBetween(driving_.plan.schedule, {from, to}))
+        : own.length() > 0.0 ? CourseSchedule(request_.vehicle, own.segments(),
+                                              std::max(request_.speed.speed, speed), plan.caps)
+                             : SteeringSchedule::Constant(
+                                   SteeringForCurvature(request_.vehicle, path.At(from).curvature));
     plan.schedule_speed = plan.reference.speed;
     return plan;
   }

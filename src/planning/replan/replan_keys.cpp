@@ -3,7 +3,6 @@
 
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/common/route.h"
-#include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/replan/replan.h"
 
@@ -25,8 +24,8 @@ void VisitRoadSide(KeyVisitor& keys, const Key& key, double& width) {
 std::vector<PlannerEntry> DetourPlanners() {
   std::vector<PlannerEntry> fit;
   for (PlannerEntry entry : Planners()) {
-    if (auto* hybrid = entry.defaults.As<HybridAStarOptions>()) {
-      hybrid->reverse = false;
+    if (entry.detour_defaults) {
+      entry.defaults = *entry.detour_defaults;
     }
     if (entry.keeps_clear && !MayGoBackwards(entry.defaults)) {
       fit.push_back(entry);

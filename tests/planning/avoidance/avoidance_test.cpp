@@ -14,11 +14,13 @@
 #include "tests/tolerance.h"
 #include "trackbed/planning/common/plan.h"
 
+// Tests the Bezier avoidance of obstacles in turns: clearance by an independent library,
+// continuity, steering limits, mirror symmetry, and random turns with obstacles.
 namespace trackbed {
 namespace {
 
-/// The rate at which an ideal drive of the path turns its wheels, from differences of the angle
-/// over stretches of 0.1 m, in the mean over each of which the rate cannot be larger than within.
+/// The largest steering rate of an ideal run along the path, from angle differences over intervals
+/// of 0.1 m. Such a mean rate cannot exceed the largest rate within the interval.
 double MaxSteeringRate(const Plan& plan, const VehicleParams& car, Stations within) {
   const Path& path = plan.reference.path;
   double fastest = 0.0;
@@ -30,19 +32,20 @@ double MaxSteeringRate(const Plan& plan, const VehicleParams& car, Stations with
   return fastest;
 }
 
-/// Holds a plan that has been led around obstacles against everything that it claims.
+/// Checks a rerouted plan against all its guarantees.
 void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<OrientedBox>& obstacles,
                 const BezierAvoidanceOptions& options) {
   const VehicleParams car = ReferenceCar();
   const Path& path = plan.reference.path;
-  EXPECT_GE(PathClearance(path, obstacles, car, {}), options.safe_distance - Tolerance(kTouch));
+  EXPECT_GE(PathClearance(path, obstacles, car, {}),
+            options.safe_distance - Tolerance(kClearanceTolerance));
   ASSERT_FALSE(plan.diagnostics.avoided.empty());
   const nlohmann::json stretches = DiagnosticsJson(plan)["avoid"];
   for (const nlohmann::json& stretch : stretches) {
     const Stations curve{stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>()};
     EXPECT_GE(PathClearance(path, obstacles, car, curve),
               options.safe_distance - Tolerance(kBetweenSamples));
-    // The curvature between two pieces of the path is that of the curve: joined without a jump.
+    // Position, heading and curvature are continuous where the curve joins the plan.
     for (const double s : {curve.from, curve.to}) {
       if (s > 0.0 && s < path.length()) {
         constexpr double kAside = 1e-7;  // [m]; within it the curvature may change by 0.02 x 1e-7
@@ -60,7 +63,7 @@ void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<Oriented
     }
     EXPECT_LE(MaxSteeringRate(plan, car, curve), car.steering_rate);
   }
-  // The rest of the way moves by what the curve's pieces of path miss: see SegmentsThrough.
+  // The remaining path shifts by the error of the curve's path segments: see SegmentsThrough.
   const Vec2 end = path.At(path.length()).pose.position();
   const Vec2 goal = global.reference.path.At(global.reference.path.length()).pose.position();
   EXPECT_LE((end - goal).norm(), Tolerance(1e-6));
@@ -76,7 +79,7 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
   const Plan global = course.Global();
   ASSERT_TRUE(global.ok()) << global.reason;
   const Pose2 at = course.OnArc(c.sixth / 6.0);
-  const OrientedBox obstacle{{at.x, at.y, 0.0}, 2.0, 2.0};  // along the axes, as in the listing
+  const OrientedBox obstacle{{at.x, at.y, 0.0}, 2.0, 2.0};  // axis-aligned, as in the listing
   BezierAvoidanceOptions options;
   options.passing_side = c.passing_side;
 
@@ -85,8 +88,8 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
   ExpectSafe(plan, global, {obstacle}, options);
   EXPECT_TRUE(plan.caps.empty()) << "there is room to pass at full speed";
 
-  // Beside the obstacle the path runs nearer to the turn's center, or farther from it, than the
-  // obstacle does.
+  // Next to the obstacle, the path passes nearer to the turn's center than the obstacle, or farther
+  // from it, according to the side.
   const Vec2 center{course.before, c.side * course.radius};
   const Path& path = plan.reference.path;
   double beside = 0.0;
@@ -109,7 +112,8 @@ TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
   const Plan plan = Around(left.Global(), {{{at.x, at.y, 0.3}, 3.0, 1.5}});
   const Plan mirrored = Around(right.Global(), {{{at.x, -at.y, -0.3}, 3.0, 1.5}});
   ASSERT_EQ(plan.blocked, "");
-  // Tree and curve are looked for in a mirror: the same numbers, laid out on the other side.
+  // Tree and curve are computed for the mirrored problem, so the numbers are the same on the other
+  // side.
   ASSERT_NEAR(plan.reference.path.length(), mirrored.reference.path.length(), Tolerance(1e-9));
   for (double s = 0.0; s < plan.reference.path.length(); s += 1.0) {
     const Pose2 a = plan.reference.path.At(s).pose;
@@ -119,7 +123,7 @@ TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
   }
 }
 
-/// A wall of boxes from the obstacle outward, 1 m apart: nothing fits through.
+/// A wall of boxes 1 m apart from the obstacle outward, without a passable gap.
 std::vector<OrientedBox> WithWall(const Course& course, double share, double toward_center) {
   const Pose2 at = course.OnArc(share);
   std::vector<OrientedBox> boxes;
@@ -133,7 +137,7 @@ std::vector<OrientedBox> WithWall(const Course& course, double share, double tow
 TEST(PlanAround, TakesTheOnlyRingThatIsFree) {
   const Course course;
   const Plan global = course.Global();
-  // To the left is the turn's center.
+  // The turn's center is on the left.
   const Plan outer = Around(global, WithWall(course, 0.5, 1.0));
   ASSERT_EQ(outer.blocked, "");
   EXPECT_EQ(DiagnosticsJson(outer)["avoid"][0]["passing_side"], "outer");
@@ -157,7 +161,8 @@ TEST(PlanAround, StopsBeforeWhatItFindsNoWayAround) {
   EXPECT_EQ(DiagnosticsJson(plan)["blocked"], plan.blocked);
   EXPECT_TRUE(plan.ok()) << "the way there can be driven";
   const Path& path = plan.reference.path;
-  EXPECT_GE(PathClearance(path, wall, ReferenceCar(), {}), kDistance - Tolerance(kTouch));
+  EXPECT_GE(PathClearance(path, wall, ReferenceCar(), {}),
+            kDistance - Tolerance(kClearanceTolerance));
   EXPECT_LE(PathClearance(path, wall, ReferenceCar(), {}), kDistance + 0.3);
   EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
   EXPECT_EQ(plan.goal, global.goal);
@@ -180,7 +185,7 @@ TEST(PlanAround, StartsAtTheCarsPoseAndSteering) {
   const VehicleParams vehicle = ReferenceCar();
   const Pose2 at = course.OnArc(0.6);
   const std::vector<OrientedBox> obstacles{{{at.x, at.y, 0.0}, 2.0, 2.0}};
-  // 10 m into the arc's lead, a little beside the path, the wheels a little to the right.
+  // 10 m into the arc's approach, slightly beside the path, the wheels slightly to the right.
   const AvoidanceRequest::Car car{{30.0, 0.08, 0.01}, -0.02};
   const Plan plan = PlanAround({.vehicle = vehicle,
                                 .plan = global,
@@ -219,7 +224,7 @@ TEST(PlanAround, AnObstacleFarAheadOfTheCarLeavesItsPathUntilThen) {
 }
 
 TEST(PlanAround, SlowsDownWhereTheWheelsWouldTurnTooSlowly) {
-  // The turn begins 8 m from the start, and a wide obstacle stands 4 m into it.
+  // The turn begins 8 m from the start; a wide obstacle stands 4 m into it.
   const Course course{.radius = 15.0, .before = 8.0, .turn = 1.2, .after = 40.0};
   const Plan global = course.Global();
   const Pose2 at = course.OnArc(4.0 / (15.0 * 1.2));
@@ -235,7 +240,8 @@ TEST(PlanAround, SlowsDownWhereTheWheelsWouldTurnTooSlowly) {
   }
 }
 
-/// 500 random turns in ten batches: a safe plan or a reason, never an unsafe one called good.
+/// 500 random turns in ten batches: each gives a safe plan or a reason, never an unsafe plan
+/// reported as ok.
 class RandomObstacles : public testing::TestWithParam<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Batches, RandomObstacles, testing::Range(0, 10));
@@ -251,7 +257,7 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
                         .after = random.Uniform(5.0, 60.0)};
     const Plan global = course.Global();
     if (!global.ok()) {
-      // The wheels would have to start turning before the car does.
+      // The wheels would have to start turning before the car starts.
       ASSERT_EQ(global.status, PlanStatus::kSteersBeforeStart) << global.reason;
       continue;
     }
@@ -275,13 +281,13 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
     }
     if (plan.diagnostics.avoided.empty()) {
       EXPECT_GE(PathClearance(plan.reference.path, {obstacle}, ReferenceCar(), {}),
-                options.safe_distance - Tolerance(kTouch));
+                options.safe_distance - Tolerance(kClearanceTolerance));
       continue;
     }
     ++passed;
     ExpectSafe(plan, global, {obstacle}, options);
   }
-  // Most turns leave room: what is too close to the start or the end is the exception.
+  // Most turns have room: only a few obstacles are too close to the start or the end.
   EXPECT_GE(passed, 40);
 }
 

@@ -18,7 +18,8 @@
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
 
-/// The local planner `listing`: the plan's turn is the listing's problem, its curve the plan.
+/// The local planner `listing`: it treats each turn of the plan as the listing's problem and
+/// replaces it by the listing's curve.
 namespace trackbed {
 namespace {
 
@@ -55,7 +56,7 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
   const Plan plan = Around(course.Global(), {box}, options);
   ASSERT_EQ(plan.blocked, "");
 
-  TurnManeuver problem;  // its defaults are the course's
+  TurnManeuver problem;  // the defaults match Course
   problem.reduction = c.reduction;
   problem.side = c.side > 0.0 ? TurnSide::kLeft : TurnSide::kRight;
   problem.obstacle_sixth = c.sixth;
@@ -71,7 +72,8 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
   const std::vector<Vec2> points = ReadControlPoints(stretch);
   ASSERT_EQ(points.size(), 8U);
   for (std::size_t k = 0; k < 8; ++k) {
-    // M begins S = 22.7 m before the arc, 20 m from the start. Sums of lengths up to 100 m.
+    // M begins S = 22.7 m before the arc, 20 m from the start. Rounding of sums of lengths up to
+    // 100 m.
     EXPECT_NEAR(points[k].x(), 20.0 + expected[k].x(), Tolerance(1e-9)) << k;
     EXPECT_NEAR(points[k].y(), expected[k].y(), Tolerance(1e-9)) << k;
   }
@@ -86,7 +88,7 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
 }
 
 TEST(Listing, PassesOnThePrintedPoints) {
-  // Section 5.10, with the height of P_3 that this seed's tree gives it. P_0 is at (20, 0).
+  // Section 5.10, with the height of P_3 that this seed's tree yields. P_0 is at (20, 0).
   const Course course{.turn = 75.0 * kPi / 180.0};
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
   const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
@@ -103,7 +105,8 @@ TEST(Listing, PassesOnThePrintedPoints) {
 }
 
 TEST(Listing, IsDrivenHoweverNearItComes) {
-  // Section 5.10: 0.6 to 1.5 m on the outside, 4 m and more on the inside, of 1.5 m.
+  // Section 5.10, with a safe distance of 1.5 m: 0.6 to 1.5 m on the outside, 4 m and more on the
+  // inside.
   const Course course{.turn = 75.0 * kPi / 180.0};
   const OrientedBox box = BoxAt(course.OnArc(0.5));
   const Plan outer = Around(course.Global(), {box}, OptionsFor(PassingSideChoice::kOuter));
@@ -153,8 +156,8 @@ TEST(Listing, TakesTheNearestSixth) {
 }
 
 TEST(Listing, SteersStraightAgainBehindACurveThatEndsBent) {
-  // P_5 of a right turn lies beside the tangent on which P_6 and P_7 are: the curve ends with a
-  // curvature of (6/7) h/(S/2)^2, where h = cos(1.2) sin(1.2) is how far beside.
+  // P_5 of a right turn lies beside the tangent that contains P_6 and P_7. The curve therefore ends
+  // with a curvature of (6/7) h/(S/2)^2, where h = cos(1.2) sin(1.2) is the lateral offset.
   const Course course{.turn = -1.2};
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
   const double back = DiagnosticsJson(plan)["avoid"][0]["return_s_m"].get<double>();
@@ -173,20 +176,20 @@ TEST(Listing, MendedTurnsMirrorEachOther) {
     return ReadControlPoints(
         DiagnosticsJson(Around(course.Global(), {BoxAt(course.OnArc(0.5))}, options))["avoid"][0]);
   };
-  // P_5 of the right turn is shifted along x by the cosine of its angle (L9).
+  // L9: P_5 of the right turn is shifted along x by the cosine of the turn's angle.
   EXPECT_NEAR(points_of(right)[5].x() - points_of(left)[5].x(), std::cos(1.2), Tolerance(1e-9));
   options.literal = {};
   for (std::size_t k = 0; k < 8; ++k) {
-    if (k != 3) {  // rounding down to whole meters has no mirror image
+    if (k != 3) {  // rounding down to whole meters is not mirror symmetric
       EXPECT_NEAR(points_of(right)[k].x(), points_of(left)[k].x(), Tolerance(1e-9)) << k;
       EXPECT_NEAR(points_of(right)[k].y(), -points_of(left)[k].y(), Tolerance(1e-9)) << k;
     }
   }
 }
 
-/// Why the listing has no curve there.
-std::string WhyBlocked(const Course& course, const OrientedBox& box,
-                       const ListingAvoidanceOptions& options = {}) {
+/// Why the listing has no curve for this obstacle.
+std::string BlockedMessage(const Course& course, const OrientedBox& box,
+                           const ListingAvoidanceOptions& options = {}) {
   const Plan plan = Around(course.Global(), {box}, options);
   EXPECT_TRUE(plan.diagnostics.avoided.empty());
   EXPECT_EQ(DiagnosticsJson(plan)["blocked"], plan.blocked);
@@ -195,32 +198,32 @@ std::string WhyBlocked(const Course& course, const OrientedBox& box,
 }
 
 TEST(Listing, StopsBeforeWhatItHasNoCurveFor) {
-  EXPECT_EQ(WhyBlocked({}, {{20.0, 0.0, 0.0}, 2.0, 2.0}),
+  EXPECT_EQ(BlockedMessage({}, {{20.0, 0.0, 0.0}, 2.0, 2.0}),
             "stops before the obstacle at (20, 0): the listing only handles obstacles in turns of "
             "constant radius");
   const Course tight{.radius = 10.0};
-  EXPECT_THAT(WhyBlocked(tight, BoxAt(tight.OnArc(0.5))),
+  EXPECT_THAT(BlockedMessage(tight, BoxAt(tight.OnArc(0.5))),
               HasSubstr("): passing on the inside needs 10.2784 m (safe distance, obstacle "
                         "diagonal, car width and the 1 m kept free); the turn radius is 10 m"));
 }
 
 TEST(Listing, NeedsStraightsBeforeAndAfterTheTurn) {
   const Course early{.before = 22.0};
-  EXPECT_THAT(WhyBlocked(early, BoxAt(early.OnArc(0.5))),
+  EXPECT_THAT(BlockedMessage(early, BoxAt(early.OnArc(0.5))),
               HasSubstr("): the listing needs straights of 22.7 m before and 15.79 m after the "
                         "turn; found 22 m and 42.7 m"));
   const Course late{.turn = -1.2, .after = 20.0};
-  EXPECT_THAT(WhyBlocked(late, BoxAt(late.OnArc(0.5))),
+  EXPECT_THAT(BlockedMessage(late, BoxAt(late.OnArc(0.5))),
               HasSubstr("): the listing needs straights of 22.7 m before and 22.7 m after the "
                         "turn; found 42.7 m and 20 m"));
-  // No more than it takes is enough.
+  // Straights of exactly the required length suffice.
   const Course enough{.before = 22.7, .turn = -1.2, .after = 22.7};
   EXPECT_EQ(Around(enough.Global(), {BoxAt(enough.OnArc(0.5))}, ListingAvoidanceOptions{}).blocked,
             "");
 }
 
 TEST(Listing, TurnsWithItsRoute) {
-  // The same problem, moved and turned: the same curve in the frame of the maneuver.
+  // The same problem, moved and turned, gives the same curve in the frame of the maneuver.
   const Course course;
   const OrientedBox box = BoxAt(course.OnArc(0.6));
   const Pose2 X_WN{-30.0, 12.0, 2.1};

@@ -29,7 +29,7 @@ TEST(CollisionChecker, TellsTheRoomOfEveryPose) {
   const CollisionChecker clear(ReferenceCar(), boxes, 0.4);
   for (int i = 0; i < 5000; ++i) {
     const Pose2 pose = RandomPose(random, 80.0);
-    double nearest = CollisionChecker::kFarthest;
+    double nearest = CollisionChecker::kMaxClearance;
     for (const OrientedBox& box : boxes) {
       nearest = std::min(nearest, Separation(FootprintAt(ReferenceCar(), pose), box) - 0.4);
     }
@@ -38,7 +38,7 @@ TEST(CollisionChecker, TellsTheRoomOfEveryPose) {
 }
 
 TEST(CollisionChecker, TellsTheRoomOfASmallCarAmongManyWalls) {
-  // Long walls beside small blocks, as maps have them; a car of 0.45 m tells apart 0.45 m.
+  // Long walls next to small blocks, as in maps; a car of 0.45 m resolves gaps of 0.45 m.
   Random random(3);
   VehicleParams car = ReferenceCar();
   for (double* length : {&car.wheelbase, &car.length, &car.width, &car.rear_overhang}) {
@@ -77,7 +77,7 @@ TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
                                                {.length = 10.0}});
     const std::optional<double> blocked = clear.FirstBlocked(path);
     blocked_ones += blocked ? 1 : 0;
-    // Half a step of 2 cm, times what the farthest corner moves per meter: 1 + 0.2 3.7 = 1.75.
+    // Half a step of 2 cm times the motion of the farthest corner per meter: 1 + 0.2 3.7 = 1.75.
     const double missed = 0.01 * 1.75;
     const double end = blocked ? *blocked - 0.02 : path.length();
     for (double s = 0.0; s < end; s += 0.005) {
@@ -94,8 +94,8 @@ TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
 }
 
 TEST(CollisionChecker, SkipsOnlyLooksThatChangeNothing) {
-  // Few boxes let it skip looks on long stretches; as many copies of them that it does not are to
-  // give the very same station.
+  // With few boxes the checker skips tests on long stretches. With many copies of the same boxes it
+  // skips none, and must return exactly the same station.
   Random random(4);
   int blocked_ones = 0;
   for (int i = 0; i < 200; ++i) {
@@ -109,7 +109,7 @@ TEST(CollisionChecker, SkipsOnlyLooksThatChangeNothing) {
     const Vec2 to = few.front().center.position();
     const Pose2 from = RandomPose(random, 500.0);
     const Vec2 way = to - from.position();
-    // Straight toward one of them, or along an arc near it.
+    // Straight toward one of the boxes, or along an arc near it.
     const Segment segment{.length = way.norm(), .curvature = random.Uniform(-1e-4, 1e-4)};
     const Pose2 start{from.x, from.y, std::atan2(way.y(), way.x())};
     const std::optional<double> blocked = skips.FirstBlocked(Path(start, {segment}));
@@ -121,14 +121,14 @@ TEST(CollisionChecker, SkipsOnlyLooksThatChangeNothing) {
 }
 
 TEST(CollisionChecker, TakesBoxesThousandsOfKilometersApart) {
-  // Bins of 4 m all over would be 10^11.
+  // Bins of 4 m over the whole area would number 10^11.
   const std::vector<OrientedBox> boxes{{{0.0, 0.0, 0.0}, 2.0, 2.0}, {{1e6, 1e6, 0.5}, 2.0, 2.0}};
   const CollisionChecker clear(ReferenceCar(), boxes, 0.5);
   for (const OrientedBox& box : boxes) {
     EXPECT_FALSE(clear.IsFree(box.center));
     EXPECT_TRUE(clear.IsFree({box.center.x + 20.0, box.center.y, 0.0}));
   }
-  EXPECT_EQ(clear.Clearance({5e5, 5e5, 0.0}), CollisionChecker::kFarthest);
+  EXPECT_EQ(clear.Clearance({5e5, 5e5, 0.0}), CollisionChecker::kMaxClearance);
 }
 
 TEST(CollisionChecker, RefusesPosesAndBoxesThatAreNoNumbers) {
@@ -151,7 +151,7 @@ TEST(CollisionChecker, FindsABoxInTheWayOfACarOfAMillimeter) {
   for (double* length : {&car.wheelbase, &car.length, &car.width, &car.rear_overhang}) {
     *length *= 1e-4;
   }
-  // Less than 2 cm of way, with the box in the middle of it.
+  // Less than 2 cm of path, with the box halfway.
   const CollisionChecker clear(car, {{{5e-3, 0.0, 0.0}, 1e-3, 1e-3}}, 3e-5);
   EXPECT_TRUE(clear.FirstBlocked(Path({}, {{.length = 1e-2}})).has_value());
   EXPECT_FALSE(clear.IsFree(Pose2{}, Segment{.length = 1e-2}));
@@ -159,7 +159,7 @@ TEST(CollisionChecker, FindsABoxInTheWayOfACarOfAMillimeter) {
 
 TEST(CollisionChecker, IsFreeWithoutBoxes) {
   const CollisionChecker clear(ReferenceCar(), {}, 0.5);
-  EXPECT_EQ(clear.Clearance({}), CollisionChecker::kFarthest);
+  EXPECT_EQ(clear.Clearance({}), CollisionChecker::kMaxClearance);
   EXPECT_FALSE(clear.FirstBlocked(Path({}, {{.length = 100.0}})));
 }
 

@@ -21,7 +21,7 @@ CollisionChecker NothingInTheWay() {
   return {ReferenceCar(), {}, 0.0};
 }
 
-/// Curvature without jumps, its rate what the wheels can follow at the profile's speed.
+/// Expects continuous curvature whose rate the wheels can follow at the profile's speed.
 void ExpectDrivable(const RoundedCorners& rounded) {
   const auto& segments = rounded.path.segments();
   double curvature = 0.0;
@@ -37,7 +37,7 @@ void ExpectDrivable(const RoundedCorners& rounded) {
     }
     for (const double d : {0.0, 0.5 * segment.length, segment.length}) {
       const double kappa = segment.CurvatureAt(d);
-      // ddelta/dt of delta = atan(L kappa).
+      // The steering rate d delta/dt for delta = atan(L kappa).
       const double rate = speed * 2.7 * segment.sharpness / (1.0 + 2.7 * 2.7 * kappa * kappa);
       EXPECT_LE(std::abs(rate), ReferenceCar().steering_rate * (1.0 + Tolerance(1e-9)));
     }
@@ -50,13 +50,13 @@ TEST(CornerAt, TurnsByTheHeadingChangeBetweenTangentPoints) {
   for (const double h : {0.05, 0.25 * kPi, 0.5 * kPi, -0.5 * kPi, 2.5}) {
     for (const double speed : {0.5, 1.5, 3.0}) {
       const RoundCorner corner = CornerAt(ReferenceCar(), h, speed, kLimits.max_curvature);
-      // ramp, arc, ramp: kappa^2/sigma and kappa times the arc make up h.
+      // Ramp, arc, ramp: kappa^2/sigma plus kappa times the arc length gives h.
       const double ramp = corner.curvature / corner.sharpness;
       EXPECT_LE(corner.curvature * ramp, std::abs(h) * (1.0 + Tolerance(1e-12)));
       EXPECT_LE(corner.curvature, kLimits.max_curvature);
       EXPECT_TRUE(corner.curvature == kLimits.max_curvature ||
                   std::abs(corner.curvature * ramp - std::abs(h)) < Tolerance(1e-12));
-      // No sharper than the arc alone, which needs tan(|h|/2)/kappa_max.
+      // Longer than the arc alone, which needs tan(|h|/2)/kappa_max.
       EXPECT_GT(corner.tangent_length, std::tan(0.5 * std::abs(h)) / kLimits.max_curvature);
     }
   }
@@ -125,12 +125,13 @@ TEST(RoundCorners, KeepsClearByGoingSlowerOrRefuses) {
     }
     return rounded;
   };
-  // Inside the curve: in its way at 3 m/s, not when the corner is taken more slowly.
+  // A box inside the curve: it blocks the corner at 3 m/s, but not when the corner is driven more
+  // slowly.
   const RoundedCorners slower = with_box(26.2, 3.8);
   ASSERT_EQ(slower.status, PlanStatus::kOk) << slower.reason;
   ASSERT_EQ(slower.caps.size(), 1U);
   EXPECT_LT(slower.caps[0].speed, 3.0);
-  // On the leg itself no speed helps.
+  // Driving slowly does not help against a box on the leg itself.
   EXPECT_EQ(with_box(10.0, 0.5).status, PlanStatus::kCollides);
   EXPECT_THAT(with_box(10.0, 0.5).reason, HasSubstr("obstacle"));
 }
@@ -153,7 +154,7 @@ TEST(RoundCorners, MirrorsWithItsPolyline) {
 TEST(Shortcut, LeavesOutWhatCanBeSeenPast) {
   const std::vector<Vec2> points{{0, 0}, {1, 0}, {2, 0}, {3, 1}, {4, 2}, {5, 2}, {6, 2}};
   EXPECT_EQ(Shortcut(points, {}, 0.5), (std::vector<Vec2>{{0, 0}, {6, 2}}));
-  EXPECT_EQ(WithoutStraightOn(points), (std::vector<Vec2>{{0, 0}, {2, 0}, {4, 2}, {6, 2}}));
+  EXPECT_EQ(WithoutCollinearPoints(points), (std::vector<Vec2>{{0, 0}, {2, 0}, {4, 2}, {6, 2}}));
   const std::vector<OrientedBox> boxes{{{1.8, 1.8, 0.0}, 1.0, 1.0}};
   const std::vector<Vec2> kept = Shortcut(points, boxes, 0.6);
   EXPECT_GT(kept.size(), 2U);

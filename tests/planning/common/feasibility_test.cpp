@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <random>
+#include <type_traits>
+#include <utility>
 
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
@@ -163,6 +165,58 @@ TEST(Feasibility, BrakesGentlyOnIce) {
 
 /// Random missions for every waypoint planner: a successful plan starts at the car's pose, speed
 /// and steering, whatever these are.
+// Only MakeFeasible makes one, and it does not change afterwards.
+static_assert(!std::is_constructible_v<FeasiblePlan, Plan>);
+static_assert(!std::is_convertible_v<Plan, FeasiblePlan>);
+static_assert(std::is_same_v<decltype(*std::declval<FeasiblePlan&>()), const Plan&>);
+
+TEST(Feasibility, TakesTheSlopeOffWhatTheRoadHolds) {
+  // mu g = 0.9 * 0.15 * 9.81 = 1.32 m/s^2; braking at 1.5 is limited to that, less g sin(theta)
+  // downhill: 1.32 * 0.9988 - 9.81 * 0.0499 = 0.833.
+  PlanRequest request = Request(3.0, {{0.0, 0.0}});
+  request.friction = 0.15;
+  const std::vector<CoursePiece> straight{{.length = 60.0, .curvature = 0.0}};
+  const auto hardest = [&](double grade) {
+    request.ground.grade = {grade, 0.0};
+    const Plan plan = Course(request, straight);
+    EXPECT_TRUE(plan.ok()) << plan.reason;
+    return -plan.reference.speed.AccelerationAt(plan.reference.path.length() - 1e-6);
+  };
+  EXPECT_NEAR(hardest(0.0), 0.999 * 1.3244, Tolerance(1e-3));
+  EXPECT_NEAR(hardest(-0.05), 0.999 * 0.8333, Tolerance(1e-3));
+  // Uphill, gravity helps: that is not counted, but the load is less.
+  EXPECT_NEAR(hardest(0.05), 0.999 * 1.3227, Tolerance(1e-3));
+}
+
+TEST(Feasibility, RefusesASlopeThatTheRoadDoesNotHold) {
+  PlanRequest request = Request(3.0, {{0.0, 0.0}});
+  request.friction = 0.1;               // 0.88 m/s^2
+  request.ground.grade = {-0.15, 0.0};  // 1.46 m/s^2
+  const Plan plan = Course(request, {{.length = 60.0, .curvature = 0.0}});
+  EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
+  EXPECT_NE(plan.reason.find("pull of gravity 1.46 m/s^2"), std::string::npos) << plan.reason;
+  request.ground.grade = {0.0, 0.15};  // across
+  EXPECT_EQ(Course(request, {{.length = 60.0, .curvature = 0.0}}).status, PlanStatus::kInfeasible);
+}
+
+TEST(Feasibility, SlowsDownMoreWhereTheRoadFallsToTheOutside) {
+  PlanRequest request = Request(18.0, {{0.0, 0.0}});
+  const std::vector<CoursePiece> bend{{.length = 200.0, .curvature = 0.0},
+                                      {.length = 60.0, .curvature_to = 0.05},
+                                      {.length = 30.0, .curvature = 0.05}};
+  const auto slowest = [&](double grade) {
+    request.ground.grade = {grade, 0.0};
+    const Plan plan = Course(request, bend);
+    EXPECT_TRUE(plan.ok()) << plan.reason;
+    return plan.reference.speed.SpeedAt(260.5);
+  };
+  // In the arc of the left bend the car heads along y. A fall along x is one to its right, outside:
+  // v^2 = 20 m (8.83 * 0.995 - 0.976) m/s^2.
+  EXPECT_NEAR(slowest(-0.1), 12.5, 0.05);
+  EXPECT_NEAR(slowest(0.0), 13.29, 0.01);
+  EXPECT_NEAR(slowest(0.1), slowest(0.0), 0.05);  // a bank that helps does not count
+}
+
 TEST(Feasibility, EveryPlanThatIsOkBeginsAsTheCarDoes) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

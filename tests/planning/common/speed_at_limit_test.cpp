@@ -31,7 +31,7 @@ PlanRequest Request() {
   return request;
 }
 
-/// A plan along a path from the origin, with today's speeds.
+/// A plan along a path from the origin, with the speed profile of SetSpeeds.
 Plan PlanAlong(std::vector<Segment> segments, const PlanRequest& request) {
   Plan plan;
   plan.reference.path = Path({}, std::move(segments));
@@ -56,7 +56,7 @@ TEST(SpeedAtLimit, IsThatOfFrictionInABend) {
   EXPECT_EQ(speed.SpeedAt(0.0), 0.0);
   EXPECT_EQ(speed.SpeedAt(240.0), 0.0);
   EXPECT_NEAR(speed.SpeedAt(120.0), std::sqrt(kGrip * 40.0), Tolerance(1e-4));
-  // From rest at the full grip, until the bend is near.
+  // From rest at full grip, until the bend limits the speed.
   EXPECT_NEAR(speed.SpeedAt(10.0), std::sqrt(2.0 * kGrip * 10.0), Tolerance(1e-3));
   ASSERT_TRUE(plan.diagnostics.speed_profile);
   EXPECT_NEAR(plan.diagnostics.speed_profile->predicted_time, speed.TimeAt(240.0), Tolerance(1e-9));
@@ -65,8 +65,8 @@ TEST(SpeedAtLimit, IsThatOfFrictionInABend) {
 }
 
 TEST(SpeedAtLimit, KeepsTheSteeringRate) {
-  // On the clothoid dkappa/ds = 1/1200: v L kappa'/(1 + (L kappa)^2) <= omega, slowest at its
-  // start.
+  // On the clothoid dkappa/ds = 1/1200: v L kappa'/(1 + (L kappa)^2) <= omega, which is slowest at
+  // the clothoid's start.
   PlanRequest request = Request();
   request.vehicle.steering_rate = 0.02;
   const Plan plan = MakeFeasible(PlanAlong(Bend(), request), request);
@@ -94,7 +94,7 @@ TEST(SpeedAtLimit, StopsAtCuspsAndStops) {
 }
 
 TEST(SpeedAtLimit, DrivesPartsThatAreShorterThanTheSpacing) {
-  // 0.2 m from rest to rest: 2 sqrt(d/a).
+  // From rest to rest over 0.2 m takes 2 sqrt(d/a).
   const PlanRequest request = Request();
   Plan plan = PlanAlong({{.length = 0.2}, {.length = 0.2, .direction = -1}}, request);
   plan = MakeFeasible(plan, request);
@@ -124,11 +124,11 @@ TEST(SpeedAtLimit, KnowsRoadAndSlopes) {
   EXPECT_EQ(stations.front().s, 0.0);
   EXPECT_EQ(stations.back().s, 60.0);
   for (const LimitStation& at : stations) {
-    // Heights of some meters, differences over 1.25 m.
+    // Rounding of heights of some meters, differences over 1.25 m.
     EXPECT_NEAR(at.grade, 0.1, Tolerance(1e-14));
     EXPECT_NEAR(at.bank, -0.05, Tolerance(1e-15));
     EXPECT_NEAR(at.crest, 0.0, Tolerance(1e-14));
-    // Ice from 20 to 40 m, under either axle.
+    // Ice from 20 to 40 m, under at least one axle.
     const bool on_ice = at.s >= 17.5 && at.s <= 40.0;
     EXPECT_EQ(at.road, on_ice ? 0.25 : 1.0) << at.s;
   }
@@ -150,7 +150,7 @@ TEST(SpeedAtLimit, RefusesAStartThatIsTooFast) {
   EXPECT_EQ(kept.notes.size(), 2U);
 }
 
-// On ice of 0.25 the tyres hold 2 m/s^2 of the 4.4 m/s^2 that a slope of 1 in 2 takes.
+// On ice of friction 0.25 the tyres hold 2 m/s^2 of the 4.4 m/s^2 that a slope of 1 in 2 requires.
 TEST(SpeedAtLimit, RefusesASlopeThatTheCarCannotHold) {
   PlanRequest request = Request();
   request.friction = 0.25;
@@ -162,7 +162,8 @@ TEST(SpeedAtLimit, RefusesASlopeThatTheCarCannotHold) {
   EXPECT_NE(refused.reason.find("speed 0.1 m/s exceeds 0 m/s"), std::string::npos)
       << refused.reason;
   request.infeasible = InfeasiblePolicy::kAllow;
-  for (const std::string& note : MakeFeasible(plan, request).notes) {
+  const Plan kept = MakeFeasible(plan, request);
+  for (const std::string& note : kept.notes) {
     EXPECT_EQ(note.find("inf s"), std::string::npos) << note;
   }
 }

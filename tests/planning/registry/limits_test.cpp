@@ -45,7 +45,7 @@ TEST(Limits, AreKeptOnThePathOfEveryPlanner) {
     EXPECT_LE(fast.diagnostics.speed_profile->braking_max, 4.8 + Tolerance(0.1)) << entry.name;
     ++planned;
   }
-  EXPECT_EQ(planned, 8);
+  EXPECT_GE(planned, 8);
 }
 
 }  // namespace

@@ -22,11 +22,11 @@
 #include "trackbed/planning/sampling/rrt_star_planner.h"
 #include "trackbed/world/world.h"
 
-// What every planner that keeps clear of obstacles owes its caller, beyond planner_test.cpp.
+// Guarantees of every obstacle-avoiding planner, in addition to those in planner_test.cpp.
 namespace trackbed {
 namespace {
 
-constexpr double kSafe = 0.3;  // of all defaults [m]
+constexpr double kSafe = 0.3;  // the default safe distance of all planners [m]
 
 std::vector<PlannerEntry> Planning() {
   std::vector<PlannerEntry> entries;
@@ -46,13 +46,13 @@ PlanRequest Between(const Pose2& start, const Pose2& goal, std::vector<OrientedB
   return request;
 }
 
-/// Boxes on both sides of the way.
+/// Boxes on both sides of the route.
 PlanRequest Aisle() {
   return Between({0.0, 0.0, 0.0}, {40.0, 6.0, 0.3},
                  {{{20.0, 9.0, 0.2}, 4.0, 4.0}, {{22.0, -4.0, -0.4}, 5.0, 3.0}});
 }
 
-/// And one in the middle of it, a little to the right.
+/// As Aisle(), with more room and a third box in the middle of the route, slightly to the right.
 PlanRequest Blocked() {
   PlanRequest request = Aisle();
   request.obstacles.push_back({{19.0, 1.5, 0.7}, 2.0, 2.0});
@@ -80,8 +80,8 @@ class EveryRoutePlanner : public ::testing::TestWithParam<PlannerEntry> {
   }
 };
 
-/// Every pose, by the exact distance of boxes alone: a sample each 2 cm, of which the farthest
-/// corner moves by 1 + 3.7/5.1 times as much.
+/// Checks every pose by exact box distances: one sample every 2 cm, over which the farthest corner
+/// moves by 1 + 3.7/5.1 times as much.
 void ExpectClear(const PlanRequest& request, const Plan& plan) {
   const Path& path = plan.reference.path;
   for (double s = 0.0; s <= path.length(); s += 0.02) {
@@ -169,7 +169,7 @@ TEST_P(EveryRoutePlanner, SaysWhenTheGoalCannotBeReached) {
     request.obstacles.push_back({{x, y, 0.0}, length, width});
   }
   const Plan plan = Make(request);
-  // Samples alone never tell that there is no way.
+  // A sampling planner cannot prove that there is no path.
   EXPECT_EQ(plan.status, GetParam().is_random ? PlanStatus::kBudgetUsedUp : PlanStatus::kNoPath);
   EXPECT_NE(plan.reason, "");
   EXPECT_EQ(plan.reference.path.length(), 0.0);
@@ -186,9 +186,9 @@ TEST_P(EveryRoutePlanner, SaysWhenItsBudgetIsUsedUp) {
     far.waypoints.back() = {1e6, 1e6};
     options = GetParam().defaults;
     if (auto* rrt_star = options.As<RrtStarPlannerOptions>()) {
-      rrt_star->expand_distance = 2.0;  // by default it grows with the distance
+      rrt_star->expand_distance = 2.0;  // by default it depends on the distance to the goal
     }
-    EXPECT_EQ(MakePlan(far, options).status, PlanStatus::kBudgetUsedUp);
+    EXPECT_EQ(MakePlan(far, options)->status, PlanStatus::kBudgetUsedUp);
   }
 }
 
@@ -216,7 +216,7 @@ TEST_P(EveryRoutePlanner, PlansWithEverySeed) {
 }
 
 TEST_P(EveryRoutePlanner, IsNotMovedByWindThatBlowsAlikeEverywhere) {
-  // It counts the same on all ways from the start to the goal.
+  // Uniform wind adds the same cost to all paths from the start to the goal.
   PlanRequest request = Blocked();
   const Plan calm = Make(request);
   request.wind.velocity = {4.0, -7.0};
@@ -233,13 +233,14 @@ TEST_P(EveryRoutePlanner, LeadsThroughEveryWaypoint) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const Path& path = plan.reference.path;
   for (const Vec2& waypoint : request.waypoints) {
-    // A rounded corner passes it on the inside, by less than an arc, T tan(h/4): 5.3 m at 0.51 rad.
+    // A rounded corner passes the waypoint on the inside, by less than an arc does: T tan(h/4), 5.3
+    // m at 0.51 rad.
     const double away = std::abs(path.Project({waypoint.x(), waypoint.y(), 0.0}).cross_track);
     EXPECT_LE(away, GetParam().has_headings ? Tolerance(1e-6) : 0.68);
   }
 }
 
-/// The request as seen by someone who stands elsewhere.
+/// The request, transformed by `by`.
 PlanRequest Moved(const PlanRequest& request, const Pose2& by) {
   PlanRequest moved = request;
   for (std::size_t i = 0; i < moved.waypoints.size(); ++i) {
@@ -271,7 +272,7 @@ TEST_P(EveryRoutePlanner, MovesWithTheWorld) {
     const Path& path = here.reference.path;
     ASSERT_NEAR(there.reference.path.length(), path.length(), Tolerance(1e-6));
     for (double s = 0.0; s < path.length(); s += 1.0) {
-      // Rounding of coordinates of some 150 m, carried through the search's arcs.
+      // Rounding of coordinates of some 150 m, propagated through the search's arcs.
       EXPECT_LE(Apart(Compose(by, path.At(s).pose), there.reference.path.At(s).pose),
                 Tolerance(1e-6));
     }
@@ -292,7 +293,7 @@ TEST_P(EveryRoutePlanner, MirrorsWithTheWorld) {
     const Plan right = Make(mirrored);
     ASSERT_EQ(left.status, right.status);
     if (GetParam().is_random) {
-      ExpectClear(mirrored, right);  // samples are not mirrored
+      ExpectClear(mirrored, right);  // the random samples are not mirrored
       continue;
     }
     if (GetParam().has_ties) {
@@ -317,7 +318,7 @@ TEST_P(EveryRoutePlanner, BeginsForwardsWhenItRolls) {
   const Plan back = Make(request);
   ASSERT_TRUE(back.ok()) << back.reason;
   EXPECT_EQ(back.reference.path.segments().front().direction, -1);
-  // A car that rolls forwards cannot begin like that.
+  // A car that rolls forward cannot start in reverse.
   request.start_speed = 2.0;
   const Plan plan = Make(request);
   ASSERT_TRUE(plan.ok()) << plan.reason;
@@ -342,7 +343,7 @@ TEST_P(EveryRoutePlanner, StopsWhereItChangesDirection) {
 INSTANTIATE_TEST_SUITE_P(Table, EveryRoutePlanner, ::testing::ValuesIn(Planning()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// --- What is each one's own ----------------------------------------------------------------------
+// --- Properties of single planners ---------------------------------------------------------------
 
 TEST(CurvePlanners, TakeAnotherWordWhereTheShortestIsBlocked) {
   PlanRequest request = Between({0.0, 0.0, 0.0}, {0.0, 24.0, kPi}, {});
@@ -358,9 +359,10 @@ TEST(CurvePlanners, TakeAnotherWordWhereTheShortestIsBlocked) {
 }
 
 TEST(CurvePlanners, RefuseRadiiThatTheCarCannotTurnOn) {
-  EXPECT_EQ(MakePlan(Aisle(), DubinsOptions{.radius = 5.0}).status, PlanStatus::kTurnTooTight);
-  EXPECT_EQ(MakePlan(Aisle(), ReedsSheppOptions{.radius = 5.0}).status, PlanStatus::kTurnTooTight);
-  EXPECT_EQ(MakePlan(Aisle(), HybridAStarOptions{.radius = 5.0}).status, PlanStatus::kTurnTooTight);
+  EXPECT_EQ(MakePlan(Aisle(), DubinsOptions{.radius = 5.0})->status, PlanStatus::kTurnTooTight);
+  EXPECT_EQ(MakePlan(Aisle(), ReedsSheppOptions{.radius = 5.0})->status, PlanStatus::kTurnTooTight);
+  EXPECT_EQ(MakePlan(Aisle(), HybridAStarOptions{.radius = 5.0})->status,
+            PlanStatus::kTurnTooTight);
 }
 
 TEST(PlannedStops, TakesHeadingsFromTheLegsIfThereAreNone) {
@@ -370,10 +372,10 @@ TEST(PlannedStops, TakesHeadingsFromTheLegsIfThereAreNone) {
   const std::vector<Pose2> stops = PlannedStops(request);
   ASSERT_EQ(stops.size(), 3U);
   EXPECT_EQ(stops[0], request.start);
-  EXPECT_NEAR(stops[1].yaw, 0.25 * kPi, Tolerance(1e-12));  // from the start to the goal
+  EXPECT_NEAR(stops[1].yaw, 0.25 * kPi, Tolerance(1e-12));  // direction from the start to the goal
   EXPECT_NEAR(stops[2].yaw, 0.5 * kPi, Tolerance(1e-12));
   request.headings = {7.0, 1.0, 2.0};
-  EXPECT_EQ(PlannedStops(request)[0].yaw, 0.1);  // where the car stands
+  EXPECT_EQ(PlannedStops(request)[0].yaw, 0.1);  // the car's own heading
   EXPECT_EQ(PlannedStops(request)[1].yaw, 1.0);
   request.headings.pop_back();
   EXPECT_THROW(MakePlan(request, DubinsOptions{}), InternalError);
@@ -382,7 +384,7 @@ TEST(PlannedStops, TakesHeadingsFromTheLegsIfThereAreNone) {
 TEST(AStarPlanner, RefusesCornersWhenAsked) {
   const Plan plan = MakePlan(Blocked(), AStarOptions{.corners = Corners::kRefuse});
   EXPECT_EQ(plan.status, PlanStatus::kTurnTooTight);
-  // A step of the grid turns by 45 degrees.
+  // The path along the grid turns by steps of 45 degrees.
   EXPECT_NE(plan.reason.find("jumps by"), std::string::npos) << plan.reason;
   EXPECT_NE(plan.reason.find("0.785"), std::string::npos) << plan.reason;
   const Plan straight =

@@ -19,10 +19,12 @@
 #include "trackbed/track/track.h"
 #include "trackbed/world/world.h"
 
+// Tests both methods of planning along a route (Frenet and lattice) in scenes with standing and
+// moving boxes, the search for a leader, and the smoothed route frame.
 namespace trackbed {
 namespace {
 
-constexpr double kBeyond = 80.0;  // [m]
+constexpr double kExtension = 80.0;  // [m]
 
 Plan PlanOn(const Path& path, double speed) {
   Plan plan;
@@ -32,10 +34,10 @@ Plan PlanOn(const Path& path, double speed) {
   return plan;
 }
 
-/// A car on a straight route of 200 m, 40 m from its start.
+/// A car on a straight route of 200 m, 40 m after its start.
 struct Scene {
   RouteFrame frame =
-      MakeRouteFrame(ReferenceCar(), PlanOn(StraightRoad(), 3.0), {3.0, 2.0, 3.0}, kBeyond);
+      MakeRouteFrame(ReferenceCar(), PlanOn(StraightRoad(), 3.0), {3.0, 2.0, 3.0}, kExtension);
   AlongRequest request{.vehicle = ReferenceCar(),
                        .speed = {3.0, 2.0, 3.0},
                        .wanted = 3.0,
@@ -57,7 +59,7 @@ class EveryAlongMethod : public testing::TestWithParam<AlongEntry> {};
 INSTANTIATE_TEST_SUITE_P(Planning, EveryAlongMethod, testing::ValuesIn(AlongMethods()),
                          [](const auto& of) { return std::string(of.param.name); });
 
-/// It ends at rest, with stations and times that rise and the limits kept.
+/// Expects a plan that ends at rest, with increasing stations and times, within the limits.
 void ExpectEndsAtRest(const Scene& scene, const AlongPlan& plan) {
   ASSERT_FALSE(plan.points.empty());
   EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
@@ -66,7 +68,8 @@ void ExpectEndsAtRest(const Scene& scene, const AlongPlan& plan) {
     const TrajectoryPoint& point = plan.points[i];
     EXPECT_GT(point.t, plan.points[i - 1].t);
     EXPECT_GE(point.distance, plan.points[i - 1].distance);
-    // 5 % above the limit as the motions' own tolerance is; braking keeps the limit itself.
+    // 5 % above the limit is the tolerance of the sampled motions; braking respects the limit
+    // exactly.
     EXPECT_LE(point.motion.speed, 1.05 * scene.request.speed.speed + 1e-9);
     EXPECT_GE(point.motion.acceleration, -scene.request.speed.deceleration * 1.05);
   }
@@ -82,7 +85,7 @@ TEST_P(EveryAlongMethod, GoesOnAtItsSpeedWhereNothingIsInTheWay) {
   EXPECT_NEAR(end.s_rate, 3.0, Tolerance(1e-9));
   EXPECT_NEAR(end.d, 0.0, Tolerance(1e-9));
   ExpectEndsAtRest(scene, plan);
-  // Then braking: v^2/(2 a) = 1.5 m.
+  // The braking distance after the motion: v^2/(2 a) = 1.5 m.
   EXPECT_NEAR(plan.points.back().frenet.s - end.s, 1.5, Tolerance(1e-9));
 }
 
@@ -110,14 +113,14 @@ TEST_P(EveryAlongMethod, StopsItsGapBehindWhatStandsInANarrowRoad) {
   Scene scene;
   scene.settings.road = {1.5, 1.5};
   scene.settings.gap = 2.0;
-  // 12.5 m to where it stops: half of speed times 8 s.
+  // The car needs 12.5 m to stop: half the speed times 8 s.
   const double stop = scene.request.start.s + 12.5;
   scene.request.obstacles = {BoxAt(scene.frame.path, stop + Front() + 2.0 + 1.0, 0.0)};
   const AlongPlan plan =
       PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
   ASSERT_EQ(plan.kind, ManeuverType::kStop) << plan.found.reason;
   ExpectEndsAtRest(scene, plan);
-  // At the station itself, or at one of the offsets before it.
+  // The plan ends at the station itself, or at one of the station offsets before it.
   EXPECT_LE(plan.points.back().frenet.s, stop + Tolerance(1e-6));
   EXPECT_GE(plan.points.back().frenet.s, stop - 4.0);
 }
@@ -127,8 +130,8 @@ TEST_P(EveryAlongMethod, ApproachesWhatStandsTooFarAwayToStopThere) {
   scene.settings.road = {1.5, 1.5};
   scene.request.wanted = 3.0;
   scene.request.obstacles = {BoxAt(scene.frame.path, 40.0 + 20.0 + Front(), 0.0)};
-  // Motions that take 4 s or less do not stop 16 m ahead, nor do layers of which the last is 8 m
-  // ahead; and there is no slow way on.
+  // Motions of 4 s or less cannot stop 16 m ahead, and lattice layers that end 8 m ahead cannot
+  // either. A slow motion is not available.
   AlongOptions options = GetParam().defaults;
   if (auto* frenet = std::get_if<FrenetOptions>(&options)) {
     frenet->end_times = {2.0, 3.0, 4.0};
@@ -139,13 +142,13 @@ TEST_P(EveryAlongMethod, ApproachesWhatStandsTooFarAwayToStopThere) {
   const AlongPlan plan = PlanAlongRoute(scene.frame, scene.request, scene.settings, options);
   EXPECT_EQ(plan.kind, ManeuverType::kApproach) << plan.found.reason;
   ExpectEndsAtRest(scene, plan);
-  // Clear even if it is the last one that is found.
+  // The end of the motion must be clear even if it is the only motion found.
   const double front = plan.points.back().frenet.s + Front();
   EXPECT_LT(front + scene.settings.safe_distance, 40.0 + 20.0 + Front() - 1.0);
 }
 
 TEST_P(EveryAlongMethod, NeverLeadsToWhereItCannotStop) {
-  // Fast toward a wall, from all distances: what is found ends at rest before it, or nothing is.
+  // Fast toward a wall, from all distances: a plan, if found, ends at rest before the wall.
   Scene scene;
   scene.settings.road = {1.5, 1.5};
   scene.request.speed = {15.0, 2.0, 3.0};
@@ -166,7 +169,7 @@ TEST_P(EveryAlongMethod, NeverLeadsToWhereItCannotStop) {
 }
 
 TEST_P(EveryAlongMethod, DoesNotLeadPastANearGoal) {
-  // From 3 m/s the car stops within 3^2/(2*3) = 1.5 m at best: from nearer starts it cannot.
+  // From 3 m/s the car needs at least 3^2/(2*3) = 1.5 m to stop, so it cannot from nearer starts.
   for (double left = 4.0; left >= -4.0; left -= 0.25) {
     for (const double offset : {0.0, 0.3, -1.0}) {
       Scene scene;
@@ -183,9 +186,9 @@ TEST_P(EveryAlongMethod, DoesNotLeadPastANearGoal) {
 }
 
 TEST_P(EveryAlongMethod, LeavesRoomToReturnToTheRouteBeforeTheGoal) {
-  // Two turns of the tightest radius r shift a car by d over the length sqrt(d (4 r - d)). At
-  // 12 m/s and 2 m/s^2 braking takes 36 m, more than motions that stop at the goal are long: those
-  // that keep a speed must leave the room.
+  // Two turns of the tightest radius r shift a car by d over the length sqrt(d (4 r - d)). At 12
+  // m/s and 2 m/s^2 braking takes 36 m, longer than the motions that stop at the goal. Motions that
+  // keep their speed must leave room for braking.
   const double radius = ReferenceCar().wheelbase / std::tan(ReferenceCar().steering_limit);
   int found = 0;
   for (double left = 80.0; left >= 0.0; left -= 4.0) {
@@ -212,16 +215,16 @@ TEST_P(EveryAlongMethod, LeavesRoomToReturnToTheRouteBeforeTheGoal) {
 }
 
 TEST_P(EveryAlongMethod, BrakesNoFasterThroughABendThanTheWheelsTurn) {
-  // At 5 m/s the wheels would have to turn at 2.7 m * 5 m/s * 0.025 /m^2 = 0.34 rad/s of 0.15
-  // rad/s. From these starts some motions at 5 m/s end before the bend, and the braking after them
-  // is in it.
+  // At 5 m/s the wheels would have to turn at 2.7 m * 5 m/s * 0.025 /m^2 = 0.34 rad/s; their limit
+  // is 0.15 rad/s. From these starts some motions at 5 m/s end before the bend, and the braking
+  // that follows them is in the bend.
   int found = 0;
   for (double start = 20.0; start <= 55.0; start += 2.5) {
     Scene scene;
     scene.frame.path = Path({}, {{.length = 60.0},
                                  {.length = 4.0, .sharpness = 0.025},
                                  {.length = 150.0, .curvature = 0.1}});
-    scene.frame.goal = scene.frame.path.length() - kBeyond;
+    scene.frame.goal = scene.frame.path.length() - kExtension;
     scene.request.speed = {5.0, 2.0, 3.0};
     scene.request.wanted = 5.0;
     scene.request.start.s = start;
@@ -259,7 +262,7 @@ TEST_P(EveryAlongMethod, FollowsWhatMovesSlowlyInANarrowRoad) {
   const FrenetState end = plan.found.motion.At(duration);
   if (std::holds_alternative<FrenetOptions>(GetParam().defaults)) {
     EXPECT_NEAR(end.s_rate, 1.5, Tolerance(1e-9));
-    // Behind its rear end by gap and time gap, or by one of the offsets more.
+    // The car follows the leader's rear end by gap and time gap, or by one station offset more.
     const double wanted = 51.0 + 1.5 * (duration - 1.0) - Front() - 2.0;
     EXPECT_LE(end.s, wanted + Tolerance(1e-9));
     EXPECT_GE(end.s, wanted - 4.0 - Tolerance(1e-9));
@@ -273,7 +276,7 @@ TEST_P(EveryAlongMethod, StopsAtTheEndOfTheRoute) {
       PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
   ASSERT_EQ(plan.kind, ManeuverType::kProceed) << plan.found.reason;
   EXPECT_TRUE(plan.to_goal);
-  // The station offsets end before the goal; none is cheaper than the goal itself.
+  // All station offsets end before the goal; none is cheaper than the goal itself.
   EXPECT_NEAR(plan.points.back().frenet.s, scene.frame.goal, Tolerance(1e-6));
   EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
 }
@@ -320,7 +323,7 @@ TEST(LeaderIn, IsTheNearestInTheLane) {
   request.start.s = 20.0;
   const AlongSettings settings{.safe_distance = 0.5};
   const double room = 0.5 * ReferenceCar().width + 0.5;
-  // 1.5 m wide: beside the lane from 0.75 + room on.
+  // An obstacle 1.5 m wide is outside the lane from a lateral distance of 0.75 + room on.
   request.obstacles = {BoxAt(path, 60.0, 0.0), BoxAt(path, 40.0, 0.75 + room + 0.01),
                        BoxAt(path, 10.0, 0.0), BoxAt(path, 50.0, -(0.75 + room - 0.01))};
   request.obstacles[3].velocity = {2.0, 5.0};
@@ -331,7 +334,7 @@ TEST(LeaderIn, IsTheNearestInTheLane) {
   EXPECT_NEAR(leader->speed, 2.0, Tolerance(1e-12));
   EXPECT_NEAR(leader->left, -(room - 0.01), Tolerance(1e-12));
   EXPECT_NEAR(leader->right, -(room - 0.01) - 1.5, Tolerance(1e-12));
-  // Not so far ahead.
+  // The leader is beyond this look-ahead distance.
   EXPECT_FALSE(LeaderIn(path, request, settings, 48.0));
 }
 
@@ -340,28 +343,28 @@ TEST(LeaderIn, IsTheNearestInTheLane) {
 TEST(MakeRouteFrame, OfAStraightRouteIsTheRouteAndGoesOn) {
   const Scene scene;
   EXPECT_NEAR(scene.frame.goal, 200.0, Tolerance(1e-9));
-  EXPECT_NEAR(scene.frame.path.length(), 200.0 + kBeyond, Tolerance(1e-9));
+  EXPECT_NEAR(scene.frame.path.length(), 200.0 + kExtension, Tolerance(1e-9));
   EXPECT_EQ(scene.frame.path.At(137.0).pose.y, 0.0);
 }
 
 TEST(MakeRouteFrame, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
-  // A quarter turn of 12 m radius between straights: kappa 1/12, steering atan(2.7/12).
+  // A quarter turn of radius 12 m between straights: kappa 1/12, steering atan(2.7/12).
   const double speed = 2.0;
   const Path path({0.0, 0.0, 0.0}, {{60.0, 0.0}, {6.0 * M_PI, 1.0 / 12.0}, {60.0, 0.0}});
   const SpeedLimits limits{speed, 2.0, 3.0};
-  const RouteFrame frame = MakeRouteFrame(ReferenceCar(), PlanOn(path, speed), limits, kBeyond);
+  const RouteFrame frame = MakeRouteFrame(ReferenceCar(), PlanOn(path, speed), limits, kExtension);
   const double window = speed * ReferenceCar().wheelbase / 12.0 / ReferenceCar().steering_rate;
   double before = 0.0;
-  constexpr double kStep = 0.2;  // [m]: the joints of its segments are 0.1 m apart
+  constexpr double kStep = 0.2;  // [m]; the joints of the frame's segments are 0.1 m apart
   for (double s = kStep; s < frame.goal; s += kStep) {
     const double now = SteeringForCurvature(ReferenceCar(), frame.path.At(s).curvature);
-    // A thousandth for the terms of (k w)^4 of the arc, which smoothing makes tighter: with k w =
-    // 0.25, 0.004 of the factor 1 + (k w)^2/24, squared over 2.
+    // The tolerance of 1/1000 covers the terms of (k w)^4 of the arc, which smoothing makes
+    // tighter: with k w = 0.25, 0.004 of the factor 1 + (k w)^2/24, squared over 2.
     const double rate = (now - before) / kStep * speed;
     EXPECT_LE(std::abs(rate), 1.001 * ReferenceCar().steering_rate) << s;
     before = now;
   }
-  // Within window^2/24 of the largest curvature, 0.12 m.
+  // Within window^2/24 of the largest curvature: 0.12 m.
   const double deviation = window * window / 24.0 / 12.0 * 1.1;
   for (double s = 0.0; s < frame.goal; s += 0.5) {
     EXPECT_LE(std::abs(path.Project(frame.path.At(s).pose).cross_track), deviation);
@@ -373,9 +376,9 @@ TEST(MakeRouteFrame, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
 TEST(MakeRouteFrame, IsSharperWhereTheRouteIsSlow) {
   const Path path({0.0, 0.0, 0.0}, {{60.0, 0.0}, {8.0 * M_PI, 1.0 / 8.0}, {60.0, 0.0}});
   Plan plan = PlanOn(path, 6.0);
-  // Between a tenth and nine tenths of the bend's curvature: eight tenths of the window.
+  // The distance from a tenth to nine tenths of the bend's curvature is eight tenths of the window.
   const auto ramp = [&] {
-    const RouteFrame frame = MakeRouteFrame(ReferenceCar(), plan, {6.0, 2.0, 3.0}, kBeyond);
+    const RouteFrame frame = MakeRouteFrame(ReferenceCar(), plan, {6.0, 2.0, 3.0}, kExtension);
     const auto reaches = [&](double curvature) {
       double s = 0.0;
       while (frame.path.At(s).curvature < curvature) {
@@ -387,14 +390,14 @@ TEST(MakeRouteFrame, IsSharperWhereTheRouteIsSlow) {
   };
   const double turning =
       SteeringForCurvature(ReferenceCar(), 1.0 / 8.0) / ReferenceCar().steering_rate;
-  // The arc's own curvature grows by (k w)^2/24 = 0.11 at 6 m/s and 0.11^2, so that nine tenths
-  // come sooner.
+  // The smoothed arc's curvature is larger by (k w)^2/24 = 0.11 at 6 m/s and 0.11^2, so nine tenths
+  // are reached earlier.
   EXPECT_NEAR(ramp(), 0.8 * 6.0 * turning, Tolerance(0.1221 * 6.0 * turning));
   plan.caps = {{50.0, 95.0, 2.0}};
   EXPECT_NEAR(ramp(), 0.8 * 2.0 * turning, Tolerance(0.0123 * 2.0 * turning + 0.1));
 }
 
-/// A lap of a ring of radius 60 m at 8 m/s, 30 m from its start.
+/// A lap of a ring of radius 60 m at 8 m/s, 30 m after its start.
 struct RingLap {
   RingLap(double left_at_first, double left) {
     std::vector<TrackPoint> points = RingPoints(kRadius, 150, 3.0, left);
@@ -434,8 +437,9 @@ TEST_P(EveryAlongMethod, KeepsWithinTheEdgesOfATrackUntilItStands) {
   EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
   for (const TrajectoryPoint& point : plan.points) {
     for (const Vec2& corner : FootprintAt(lap.request.vehicle, point.motion.pose).Corners()) {
-      // Edges are polylines with half a meter between their points: 0.5^2/(8*55) = 0.0006 m; the
-      // sides touch them between five points, 0.55^2/(2*55) = 0.003 m.
+      // Edges are polylines with points half a meter apart: 0.5^2/(8*55) = 0.0006 m. The car's
+      // sides are checked at five points, and may touch an edge between two of them: 0.55^2/(2*55)
+      // = 0.003 m.
       EXPECT_LE(corner.norm(), RingLap::kRadius + 3.0 - RingLap::kDistance + Tolerance(0.004));
       EXPECT_GE(corner.norm(), RingLap::kRadius - 5.0 + RingLap::kDistance - Tolerance(0.004));
     }
@@ -443,8 +447,8 @@ TEST_P(EveryAlongMethod, KeepsWithinTheEdgesOfATrackUntilItStands) {
 }
 
 TEST(PlanAlongRoute, BrakesBackToTheLineWhereItsOffsetLeadsOffTheTrack) {
-  // Wide up to 100 m alone: past the box at 68 m to the left, but there is no room for the 32 m in
-  // which a car that brakes with 1 m/s^2 stands, 4 m of it ahead of its rear axle.
+  // The lane is wide only up to 100 m. The car can pass the box at 68 m on the left, but then lacks
+  // the 32 m that it needs to stop at 1 m/s^2, of which 4 m are ahead of its rear axle.
   RingLap lap(5.0, 2.0);
   lap.request.speed.deceleration = 1.0;
   const AlongPlan plan = PlanAlongRoute(lap.frame, lap.request, lap.settings, FrenetOptions{});

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "tests/planning/frenet_scenes.h"
 #include "tests/tolerance.h"
@@ -23,7 +24,7 @@ namespace {
 
 constexpr SpeedLimits kSpeed{3.0, 1.0, 2.0};
 
-/// 120 m along x at 3 m/s, the car at 20 m, a box of 4 m by 9 m across the way at 50 m.
+/// 120 m along x at 3 m/s, the car at 20 m, a box of 4 m by 9 m across the path at 50 m.
 DetourRequest Blocked() {
   DetourRequest request{.vehicle = ReferenceCar(), .speed = kSpeed};
   const Path path({0.0, 0.0, 0.0}, {{120.0, 0.0}});
@@ -51,10 +52,11 @@ TEST(BlockedStretches, AreWhereTheFootprintIsTooNear) {
   const std::vector<OrientedBox> boxes{{{50.0, 0.0, 0.0}, 4.0, 1.0}, {{80.0, 1.9, 0.0}, 2.0, 1.0}};
   const auto stretches = BlockedStretches(ReferenceCar(), path, 10.0, boxes, 0.6);
   ASSERT_EQ(stretches.size(), 2U);
-  // Looked at every 0.1 m.
+  // Sampled every 0.1 m.
   EXPECT_NEAR(stretches[0].from, 48.0 - 0.6 - 3.625, Tolerance(0.1));
   EXPECT_NEAR(stretches[0].to, 52.0 + 0.6 + 0.825, Tolerance(0.1));
-  // The other one is 1.4 - 0.8625 = 0.5375 m beside: sqrt(0.6^2 - 0.5375^2) = 0.267 m of ends.
+  // The other box is 1.4 - 0.8625 = 0.5375 m beside the path: its ends add sqrt(0.6^2 - 0.5375^2) =
+  // 0.267 m.
   EXPECT_NEAR(stretches[1].from, 79.0 - 0.267 - 3.625, Tolerance(0.1));
   EXPECT_NEAR(stretches[1].to, 81.0 + 0.267 + 0.825, Tolerance(0.1));
   EXPECT_EQ(BlockedStretches(ReferenceCar(), path, 60.0, boxes, 0.6).size(), 1U);
@@ -79,30 +81,30 @@ TEST_P(EveryDetour, LeadsRoundAndBack) {
   ASSERT_TRUE(detour.route) << detour.why;
   const Plan& plan = *detour.route;
   const Path& path = plan.reference.path;
-  // From where the car is, as it was going, to the goal.
+  // The detour begins at the car's pose on the driven path and ends at the goal.
   EXPECT_EQ(path.At(0.0).pose, request.driven.reference.path.At(20.0).pose);
   EXPECT_EQ(path.At(0.0).curvature, 0.0);
   EXPECT_EQ(plan.reference.speed.SpeedAt(0.0), 3.0);
   EXPECT_EQ(plan.goal, request.route.goal);
-  // Headings of joints agree to 1e-6 rad, over 100 m.
+  // Headings match to 1e-6 rad at the joints, over 100 m.
   EXPECT_NEAR(path.At(path.length()).pose.x, 120.0, Tolerance(1e-4));
   EXPECT_NEAR(path.At(path.length()).pose.y, 0.0, Tolerance(2e-4));
   EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
-  // Keeps the planner's distance of 0.3 m, less 1 cm between its samples.
+  // The path keeps the planner's distance of 0.3 m, less 1 cm between its samples.
   for (double s = 0.0; s < path.length(); s += 0.02) {
     const PathPoint at = path.At(s);
     EXPECT_GE(Separation(FootprintAt(ReferenceCar(), at.pose), request.obstacles[0]), 0.28) << s;
     EXPECT_LE(std::abs(at.curvature), 1.0 / 5.1 + 1e-9);
     EXPECT_GT(at.direction, 0);
   }
-  // No braking beyond the limit on the way to slow corners.
+  // Braking before slow corners stays within the limit.
   for (double s = 0.0; s < path.length(); s += 0.1) {
     EXPECT_GE(plan.reference.speed.AccelerationAt(s), -kSpeed.deceleration - 1e-9);
   }
   for (const SpeedCap& cap : plan.caps) {
     EXPECT_LE(plan.reference.speed.SpeedAt(0.5 * (cap.from + cap.to)), cap.speed + 1e-9);
   }
-  // Nor is any step of curvature taken faster than leads 0.1 m off, at the joints too.
+  // Every curvature step, also at the joints, is slow enough to cause less than 0.1 m of offset.
   double joint = 0.0;
   for (std::size_t i = 1; i < path.segments().size(); ++i) {
     const Segment& before = path.segments()[i - 1];
@@ -121,7 +123,7 @@ TEST_P(EveryDetour, IsTheSameEveryTime) {
   const Detour first = PlanDetour(Blocked(), GetParam(), {});
   const Detour second = PlanDetour(Blocked(), GetParam(), {});
   ASSERT_TRUE(first.route && second.route);
-  EXPECT_EQ(first.route->reference.path.segments(), second.route->reference.path.segments());
+  EXPECT_EQ((*first.route)->reference.path.segments(), (*second.route)->reference.path.segments());
   EXPECT_EQ(first.tried, second.tried);
 }
 
@@ -129,7 +131,7 @@ TEST_P(EveryDetour, IsNotTakenWhereStayingScoresBetter) {
   const Detour detour =
       PlanDetour(Blocked(), GetParam(), {.comparator = {.collision_penalty = 0.0}});
   EXPECT_FALSE(detour.route);
-  // There was one, longer than going straight on.
+  // A detour exists, but it costs more than the current path.
   EXPECT_GT(detour.best.total, detour.current.total);
   EXPECT_TRUE(std::isfinite(detour.best.total));
   EXPECT_NE(detour.why.find("scores"), std::string::npos) << detour.why;
@@ -150,7 +152,8 @@ TEST_P(EveryDetour, SaysWhyThereIsNone) {
 }
 
 TEST(PlanDetour, GoesTheWayTheWindBlows) {
-  // A box in the middle: both ways round are equally long, but the wind blows harder on the left.
+  // A box in the middle: both ways around it are equally long, but the wind is stronger on the
+  // left.
   DetourRequest request = Blocked();
   request.obstacles = {{{50.0, 0.0, 0.0}, 4.0, 8.0}};
   const auto side_of = [&](double strength) {
@@ -162,7 +165,7 @@ TEST(PlanDetour, GoesTheWayTheWindBlows) {
         PlanDetour(request, PlannerOptions{RrtPlannerOptions{}}, {.attempts = 12});
     EXPECT_TRUE(detour.route) << detour.why;
     double side = 0.0;
-    const Path& path = detour.route->reference.path;
+    const Path& path = (*detour.route)->reference.path;
     for (double s = 0.0; s < path.length(); s += 0.5) {
       const double y = path.At(s).pose.y;
       side = std::abs(y) > std::abs(side) ? y : side;
@@ -190,7 +193,7 @@ TEST(PlanDetour, RefusesPlannersThatCannot) {
 }
 
 TEST(PlanDetour, NeedsAWayBetweenItsEnds) {
-  // Past the box, half a meter before the goal: it would leave at the goal, and come back there.
+  // Past the box, half a meter before the goal: the detour would leave and rejoin at the goal.
   DetourRequest request = Blocked();
   request.obstacles = {{{108.0, 1.0, 0.0}, 4.0, 9.0}};
   request.station = 119.5;
@@ -201,7 +204,7 @@ TEST(PlanDetour, NeedsAWayBetweenItsEnds) {
 }
 
 TEST(PlanDetour, LeadsOnFromBehindTheStartOfThePlan) {
-  // An impact has thrown the car back: the plan goes straight on before its start.
+  // An impact has thrown the car back: the plan is extended straight before its start.
   DetourRequest request = Blocked();
   const Path rest({20.0, 0.0, 0.0}, {{100.0, 0.0}});
   request.driven.reference = {rest, StopAtEnd(100.0, 0.0, kSpeed)};
@@ -209,12 +212,34 @@ TEST(PlanDetour, LeadsOnFromBehindTheStartOfThePlan) {
   request.station_speed = 0.0;
   const Detour detour = PlanDetour(request, Forwards(), {});
   ASSERT_TRUE(detour.route) << detour.why;
-  const Path& path = detour.route->reference.path;
+  const Path& path = (*detour.route)->reference.path;
   EXPECT_NEAR(path.At(0.0).pose.x, 18.5, Tolerance(1e-9));
-  // Joined without a gap, it ends at the goal; the planner's curves end there to 1e-6 m.
+  // The joined path ends at the goal; the planner's curves end there to 1e-6 m.
   const Pose2 end = path.At(path.length()).pose;
   EXPECT_NEAR(end.x, 120.0, Tolerance(1e-5));
   EXPECT_NEAR(end.y, 0.0, Tolerance(1e-5));
+}
+
+/// Walls of growing width across the path: the trees find a way around some of them only.
+TEST(DetourOfRandomTrees, DrawsABoundedNumberOfSamples) {
+  for (const char* name : {"rrt", "rrt_star"}) {
+    const auto& entries = Planners();
+    const auto entry = std::find_if(entries.begin(), entries.end(), [&](const PlannerEntry& each) {
+      return each.name == std::string(name);
+    });
+    ASSERT_NE(entry, entries.end());
+    for (const double width : {6.0, 12.0, 30.0, 60.0}) {
+      DetourRequest request = Blocked();
+      request.obstacles = {{{44.0, 1.0, 0.0}, 2.0, width}};
+      const Detour detour = PlanDetour(request, entry->defaults, {});
+      EXPECT_LE(detour.samples, kMaxDetourSamples) << name << ", " << width << " m";
+      if (!detour.route && detour.samples == kMaxDetourSamples) {
+        EXPECT_NE(detour.why.find("; the search ended after 200000 random samples"),
+                  std::string::npos)
+            << detour.why;
+      }
+    }
+  }
 }
 
 }  // namespace

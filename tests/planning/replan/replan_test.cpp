@@ -14,6 +14,8 @@
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/world/world.h"
 
+// Tests replanning: predicted conflicts with standing and moving boxes, the choice of action
+// (proceed, stop, brake, detour), and random scenes.
 namespace trackbed {
 namespace {
 
@@ -28,7 +30,7 @@ Plan StraightPlan(double length, double start_speed) {
   return plan;
 }
 
-/// On a straight route of 150 m, 30 m from its start, at 3 m/s.
+/// A car on a straight route of 150 m, 30 m after its start, at 3 m/s.
 struct Scene {
   Driving driving;
   ReplanRequest request{.vehicle = ReferenceCar(), .speed = kSpeed};
@@ -45,22 +47,22 @@ struct Scene {
     options.settings.road = {5.0, 5.0};
   }
 
-  /// Across the way, `ahead` of the car's front.
+  /// Places an obstacle across the route, `ahead` of the car's front.
   void Block(double ahead, double width = 2.0) {
     request.obstacles.push_back(
         BoxAt(driving.route.reference.path, 30.0 + kFront + ahead + 1.0, 0.0, 2.0, width));
   }
   [[nodiscard]] Replanned Go() const { return Replan(request, driving, options); }
 
-  /// Takes a plan up, and drives it for a distance.
+  /// Adopts a plan and advances the car along it by a distance.
   void Drive(const Replanned& next, double distance) {
     driving.plan = next.plan;
     driving.on_route = next.kind == ReplanKind::kRoute;
     driving.station = distance;
-    const PathPoint at = next.plan.reference.path.At(distance);
+    const PathPoint at = next.plan->reference.path.At(distance);
     request.car.pose = at.pose;
     request.car.curvature = at.curvature;
-    request.car.speed = next.plan.reference.speed.SpeedAt(distance);
+    request.car.speed = next.plan->reference.speed.SpeedAt(distance);
     driving.route_station = at.pose.x;
   }
 };
@@ -74,7 +76,7 @@ TEST(PredictConflict, WithWhatStandsIsWhenTheFrontGetsNear) {
   const auto met = PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.5, 12.0);
   ASSERT_TRUE(met);
   EXPECT_EQ(met->obstacle, 1U);
-  // Looked at every 0.1 s, that is 0.3 m; a centimeter too near is near enough.
+  // Sampled every 0.1 s, that is 0.3 m. A violation of one centimeter counts as a conflict.
   const double station = 59.0 - kFront - 0.5;
   EXPECT_GE(met->station, station);
   EXPECT_LE(met->station, station + 0.31);
@@ -84,11 +86,11 @@ TEST(PredictConflict, WithWhatStandsIsWhenTheFrontGetsNear) {
 
 TEST(PredictConflict, ReckonsWithWhatMoves) {
   const Reference reference{Path({0.0, 0.0, 0.0}, {{150.0, 0.0}}), SpeedProfile({{0.0, 3.0}})};
-  // Crosses from the right at 1 m/s, over the path 8 s from now, where the car then is.
+  // A box that crosses from the right at 1 m/s, over the path 8 s from now, where the car then is.
   std::vector<MovingBox> boxes{BoxAt(reference.path, 30.0 + 24.0, -8.0, 1.0, 1.0)};
   boxes[0].velocity = {0.0, 1.0};
   EXPECT_TRUE(PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.3, 12.0));
-  // 5 s earlier or later it does no harm.
+  // Crossing 5 s earlier or later, it causes no conflict.
   for (const double shift : {-5.0, 5.0}) {
     std::vector<MovingBox> other = boxes;
     other[0].box.center.y += shift;
@@ -126,23 +128,23 @@ TEST(PredictConflict, ReckonsWithAnOffset) {
 TEST(MightClear, CountsWhatIsOrComesInTheWay) {
   const Path path({0.0, 0.0, 0.0}, {{150.0, 0.0}});
   std::vector<MovingBox> boxes{BoxAt(path, 50.0, 0.0)};
-  EXPECT_FALSE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));  // it stands
+  EXPECT_FALSE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));  // a standing box
   boxes[0].velocity = {0.0, 1.0};
   EXPECT_TRUE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));
-  boxes[0].box.center.y = 20.0;  // and is gone
+  boxes[0].box.center.y = 20.0;  // it has passed and moves away
   EXPECT_FALSE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));
-  boxes[0].velocity = {0.0, -1.0};  // or comes back
+  boxes[0].velocity = {0.0, -1.0};  // it comes back across the path
   EXPECT_TRUE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));
 }
 
-// --- what comes of it
+// --- actions
 
 TEST(Replan, KeepsARouteThatIsClear) {
   Scene scene;
   EXPECT_EQ(scene.Go().kind, ReplanKind::kKeep);
   scene.request.obstacles = {BoxAt(scene.driving.route.reference.path, 50.0, 4.0)};
   EXPECT_EQ(scene.Go().kind, ReplanKind::kKeep);
-  // Beyond the look-ahead of 12 s.
+  // The conflict is beyond the look-ahead of 12 s.
   scene.Block(40.0);
   EXPECT_EQ(scene.Go().kind, ReplanKind::kKeep);
 }
@@ -155,13 +157,13 @@ TEST(Replan, LeadsPastAndBackOntoTheRoute) {
   bool back = false;
   double nearest = 1e9;
   for (int look = 0; look < 80 && !back; ++look) {
-    // Nothing jumps.
-    const PathPoint start = next.plan.reference.path.At(0.0);
+    // Position, heading and curvature are continuous at the start.
+    const PathPoint start = next.plan->reference.path.At(0.0);
     EXPECT_NEAR(start.pose.x, scene.request.car.pose.x, Tolerance(1e-6));
     EXPECT_NEAR(start.pose.y, scene.request.car.pose.y, Tolerance(1e-6));
     EXPECT_NEAR(start.pose.yaw, scene.request.car.pose.yaw, Tolerance(1e-6));
     EXPECT_NEAR(start.curvature, scene.request.car.curvature, Tolerance(1e-5));
-    EXPECT_NEAR(next.plan.reference.speed.SpeedAt(0.0), scene.request.car.speed, Tolerance(1e-6));
+    EXPECT_NEAR(next.plan->reference.speed.SpeedAt(0.0), scene.request.car.speed, Tolerance(1e-6));
     scene.Drive(next, 1.5);
     nearest = std::min(nearest, Separation(FootprintAt(ReferenceCar(), scene.request.car.pose),
                                            scene.request.obstacles[0].box));
@@ -175,10 +177,10 @@ TEST(Replan, LeadsPastAndBackOntoTheRoute) {
   }
   EXPECT_TRUE(back);
   EXPECT_GE(nearest, scene.options.settings.safe_distance - 0.01);
-  const Path& path = next.plan.reference.path;
+  const Path& path = next.plan->reference.path;
   EXPECT_NEAR(path.At(path.length()).pose.x, 150.0, Tolerance(1e-9));
   EXPECT_EQ(path.At(0.0).pose.y, 0.0);
-  EXPECT_TRUE(next.plan.blocked.empty());
+  EXPECT_TRUE(next.plan->blocked.empty());
   EXPECT_EQ(DiagnosticsJson(next.plan)["replan"]["kind"], "back_on_route");
 }
 
@@ -187,10 +189,10 @@ TEST(Replan, StopsBehindWhatItCannotPass) {
   scene.Block(14.0, 20.0);
   const Replanned next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kMotion);
-  EXPECT_FALSE(next.plan.blocked.empty());
-  const double end = 30.0 + next.plan.reference.path.length();
+  EXPECT_FALSE(next.plan->blocked.empty());
+  const double end = 30.0 + next.plan->reference.path.length();
   EXPECT_LE(end + kFront + scene.options.settings.safe_distance, 30.0 + kFront + 14.0);
-  EXPECT_EQ(next.plan.reference.speed.knots().back().speed, 0.0);
+  EXPECT_EQ(next.plan->reference.speed.knots().back().speed, 0.0);
 }
 
 TEST(Replan, BrakesAsHardAsItMustWhereNoMotionIsLeft) {
@@ -198,14 +200,14 @@ TEST(Replan, BrakesAsHardAsItMustWhereNoMotionIsLeft) {
   scene.Block(2.0, 20.0);  // braking at the limit takes 9/4 m
   const Replanned next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kStop);
-  EXPECT_NEAR(next.plan.reference.path.length(), 2.25, Tolerance(1e-9));
-  EXPECT_NE(next.plan.blocked.find("stops before the obstacle at (36.62, 0)"), std::string::npos)
-      << next.plan.blocked;
+  EXPECT_NEAR(next.plan->reference.path.length(), 2.25, Tolerance(1e-9));
+  EXPECT_NE(next.plan->blocked.find("stops before the obstacle at (36.62, 0)"), std::string::npos)
+      << next.plan->blocked;
 }
 
-/// Distance from the front to the place of the obstacle, less what is to be kept of it.
+/// Distance from the front to the obstacle, less the required distance.
 double RoomBefore(const Scene& scene, double ahead) {
-  // Half a meter before the conflict, which is a centimeter inside the safe distance.
+  // The car stops half a meter before the conflict, which is a centimeter inside the safe distance.
   return ahead - scene.options.settings.safe_distance + 0.01 - 0.5;
 }
 
@@ -216,10 +218,10 @@ TEST(Replan, BrakesNoHarderThanTheObstacleNeeds) {
     scene.request.max_deceleration = 8.0;
     const Replanned next = scene.Go();
     ASSERT_EQ(next.kind, ReplanKind::kStop);
-    // The conflict is found to 0.1 ms, that is 0.3 mm.
+    // The conflict is located to 0.1 ms, that is 0.3 mm.
     const double room = RoomBefore(scene, ahead);
-    EXPECT_NEAR(next.plan.reference.path.length(), room, Tolerance(5e-4));
-    EXPECT_NEAR(next.plan.reference.speed.AccelerationAt(0.0), -std::max(2.0, 4.5 / room),
+    EXPECT_NEAR(next.plan->reference.path.length(), room, Tolerance(5e-4));
+    EXPECT_NEAR(next.plan->reference.speed.AccelerationAt(0.0), -std::max(2.0, 4.5 / room),
                 Tolerance(0.02));
   }
 }
@@ -230,33 +232,34 @@ TEST(Replan, BrakesAtTheCarsLimitWhereThatIsNotEnough) {
   scene.request.max_deceleration = 8.0;
   const Replanned next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kStop);
-  EXPECT_NEAR(next.plan.reference.path.length(), 4.5 / 8.0, Tolerance(1e-9));
-  // On ice that is less than what is comfortable elsewhere.
+  EXPECT_NEAR(next.plan->reference.path.length(), 4.5 / 8.0, Tolerance(1e-9));
+  // On ice the limit is below the usual comfortable deceleration.
   scene.request.max_deceleration = 1.0;
   const Replanned on_ice = scene.Go();
-  EXPECT_NEAR(on_ice.plan.reference.path.length(), 4.5, Tolerance(1e-9));
-  EXPECT_NEAR(on_ice.plan.reference.speed.AccelerationAt(0.0), -1.0, Tolerance(1e-9));
+  EXPECT_NEAR(on_ice.plan->reference.path.length(), 4.5, Tolerance(1e-9));
+  EXPECT_NEAR(on_ice.plan->reference.speed.AccelerationAt(0.0), -1.0, Tolerance(1e-9));
 }
 
 TEST(Replan, BrakesForWhatComesAsHardAsThatTakes) {
   Scene scene;
   scene.request.max_deceleration = 8.0;
   scene.Block(2.0, 2.0);
-  // It crosses from the right: at its own speed the car would meet it, stopped it would not.
+  // The box crosses from the right: it would meet the car at its present speed, but not if it
+  // stops.
   scene.request.obstacles[0].box.center.y = -4.0;
   scene.request.obstacles[0].velocity = {0.0, 3.0};
   scene.options.settings.road = {1.0, 1.0};
   const Replanned next = scene.Go();
   if (next.kind == ReplanKind::kStop) {
-    EXPECT_FALSE(PredictConflict(ReferenceCar(), next.plan.reference, 0.0, scene.request.obstacles,
+    EXPECT_FALSE(PredictConflict(ReferenceCar(), next.plan->reference, 0.0, scene.request.obstacles,
                                  scene.options.settings.safe_distance, 12.0));
-    EXPECT_GE(next.plan.reference.speed.AccelerationAt(0.0), -8.0 - 1e-9);
+    EXPECT_GE(next.plan->reference.speed.AccelerationAt(0.0), -8.0 - 1e-9);
   }
 }
 
 TEST(Replan, DoesNotBrakeForWhatComesFromBehind) {
-  // A box 12 m behind the car's rear axle that comes up at 5 m/s, in a road too narrow to let it
-  // pass: it reaches a car that brakes the sooner.
+  // A box 12 m behind the car's rear axle approaches at 5 m/s on a road too narrow to pass. Braking
+  // hastens the collision from behind.
   Scene scene;
   scene.request.max_deceleration = 8.0;
   scene.options.settings.road = {1.0, 1.0};
@@ -266,14 +269,14 @@ TEST(Replan, DoesNotBrakeForWhatComesFromBehind) {
   ASSERT_TRUE(PredictConflict(ReferenceCar(), scene.driving.plan.reference, 30.0,
                               scene.request.obstacles, safe, 12.0));
   EXPECT_EQ(scene.Go().kind, ReplanKind::kKeep);
-  // Head on it reaches a car that brakes later.
+  // In a head-on approach, braking delays the collision.
   scene.request.obstacles = {BoxAt(scene.driving.route.reference.path, 60.0, 0.0)};
   scene.request.obstacles[0].velocity = {-5.0, 0.0};
   EXPECT_EQ(scene.Go().kind, ReplanKind::kStop);
 }
 
 TEST(Replan, AsksForNoMoreThanTheLimitBeyondThePlansEnd) {
-  // 0.4 m before the goal, pushed to 3 m/s: what is left of the path is too short to stop on.
+  // 0.4 m before the goal, pushed to 3 m/s: the remaining path is too short to stop on.
   Scene scene;
   scene.request.strayed = true;
   scene.driving.station = 149.6;
@@ -284,11 +287,11 @@ TEST(Replan, AsksForNoMoreThanTheLimitBeyondThePlansEnd) {
       BoxAt(scene.driving.route.reference.path, 149.6 + kFront + 1.7, 0.0, 1.0, 20.0));
   const Replanned next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kStop);
-  EXPECT_NEAR(next.plan.reference.path.length(), 0.75, Tolerance(1e-9));
+  EXPECT_NEAR(next.plan->reference.path.length(), 0.75, Tolerance(1e-9));
 }
 
 TEST(Replan, BrakesFromBehindTheStartOfThePlan) {
-  // An impact has thrown the car back behind where its plan begins.
+  // An impact has thrown the car back behind the start of its plan.
   for (const double speed : {0.0, 1.0, 3.0}) {
     for (const double behind : {0.05, 0.4, 1.5}) {
       Scene scene;
@@ -301,7 +304,7 @@ TEST(Replan, BrakesFromBehindTheStartOfThePlan) {
           BoxAt(scene.driving.route.reference.path, -behind + kFront + 1.1, 0.0, 1.0, 20.0));
       const Replanned next = scene.Go();
       ASSERT_EQ(next.kind, ReplanKind::kStop) << speed << " m/s, " << behind << " m";
-      const Path& path = next.plan.reference.path;
+      const Path& path = next.plan->reference.path;
       EXPECT_NEAR(path.At(0.0).pose.x, -behind, Tolerance(1e-12));
       EXPECT_NEAR(path.At(path.length()).pose.x, -behind + path.length(), Tolerance(1e-12));
       EXPECT_NEAR(path.length(), 0.5 * speed * speed / 8.0, Tolerance(1e-9));
@@ -318,8 +321,9 @@ TEST(Replan, TakesADetourWhereNoMotionLeadsPast) {
   const Replanned next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kRoute) << DiagnosticsJson(next.plan).dump();
   EXPECT_EQ(DiagnosticsJson(next.plan)["replan"]["kind"], "detour");
-  EXPECT_TRUE(next.plan.blocked.empty());
-  // Without a penalty it is not worth the way: the motion that stops or goes on for now is.
+  EXPECT_TRUE(next.plan->blocked.empty());
+  // Without a penalty the detour is not worth its length: keep the motion that stops or proceeds
+  // for now.
   scene.options.comparator = DetourChoice{.comparator = {.collision_penalty = 0.0}};
   EXPECT_EQ(scene.Go().kind, ReplanKind::kMotion);
 }
@@ -343,11 +347,11 @@ TEST(Replan, StartsFromTheCarThatHasStrayed) {
   scene.request.car = {.pose = {30.0, 0.8, 0.1}, .curvature = 0.02, .speed = 2.5};
   const Replanned next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kMotion);
-  const PathPoint start = next.plan.reference.path.At(0.0);
+  const PathPoint start = next.plan->reference.path.At(0.0);
   EXPECT_NEAR(start.pose.y, 0.8, Tolerance(1e-9));
   EXPECT_NEAR(start.pose.yaw, 0.1, Tolerance(1e-9));
   EXPECT_NEAR(start.curvature, 0.02, Tolerance(1e-5));
-  EXPECT_NEAR(next.plan.reference.speed.SpeedAt(0.0), 2.5, Tolerance(1e-9));
+  EXPECT_NEAR(next.plan->reference.speed.SpeedAt(0.0), 2.5, Tolerance(1e-9));
 }
 
 TEST(Replan, KeepsItsLastMetersToTheGoal) {
@@ -362,17 +366,17 @@ TEST(Replan, TriesAgainWhenItWasStuck) {
   Scene scene;
   scene.Block(8.0, 20.0);
   Replanned next = scene.Go();
-  scene.Drive(next, next.plan.reference.path.length());
+  scene.Drive(next, next.plan->reference.path.length());
   scene.request.car.speed = 0.0;
-  // The way is free again.
+  // The route is free again.
   scene.request.obstacles.clear();
   next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kRoute);
-  EXPECT_EQ(next.plan.reference.speed.SpeedAt(0.0), 0.0);
-  EXPECT_GT(next.plan.reference.speed.SpeedAt(20.0), 2.9);
+  EXPECT_EQ(next.plan->reference.speed.SpeedAt(0.0), 0.0);
+  EXPECT_GT(next.plan->reference.speed.SpeedAt(20.0), 2.9);
 }
 
-/// A car anywhere about its plan, before its start and beyond its end too, as impacts leave it.
+/// A car anywhere near its plan, also before its start and beyond its end, as impacts leave it.
 Scene RandomScene(std::mt19937& random) {
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -421,15 +425,15 @@ TEST(Replan, AnswersWhereverTheCarIs) {
       continue;
     }
     ++stops;
-    const SpeedProfile& speed = next.plan.reference.speed;
+    const SpeedProfile& speed = next.plan->reference.speed;
     const double hardest = std::max(scene.request.max_deceleration, kSpeed.deceleration);
     EXPECT_EQ(speed.knots().back().speed, 0.0);
     for (const SpeedProfile::Knot& knot : speed.knots()) {
-      // The numbers of a profile are a few operations on numbers below 200.
+      // Rounding: a profile takes a few operations on numbers below 200.
       EXPECT_GE(speed.AccelerationAt(knot.s), -hardest - Tolerance(1e-9));
     }
-    // It can be planned from there again.
-    scene.Drive(next, next.plan.reference.path.length());
+    // Planning can continue from the end of the new plan.
+    scene.Drive(next, next.plan->reference.path.length());
     scene.request.car.speed = 0.0;
     EXPECT_NO_THROW(scene.Go());
   }
@@ -439,7 +443,7 @@ TEST(Replan, AnswersWhereverTheCarIs) {
 TEST(Replan, IsTheSameEveryTime) {
   Scene scene;
   scene.Block(22.0);
-  EXPECT_EQ(scene.Go().plan.reference.path.segments(), scene.Go().plan.reference.path.segments());
+  EXPECT_EQ(scene.Go().plan->reference.path.segments(), scene.Go().plan->reference.path.segments());
 }
 
 TEST(Replan, NeedsAMethod) {

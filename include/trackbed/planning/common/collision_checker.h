@@ -10,35 +10,36 @@
 
 namespace trackbed {
 
-/// Whether a car's footprint keeps a distance from boxes, asked many thousand times. Immutable.
+/// Tests whether a car's footprint keeps a distance from boxes; fast for many queries. Immutable.
 class CollisionChecker {
  public:
-  /// Clearances are told apart up to this [m] by cars that are longer.
-  static constexpr double kFarthest = 4.0;
+  /// Cap on clearances for cars longer than this [m].
+  static constexpr double kMaxClearance = 4.0;
 
-  /// `distance` [m], >= 0, is what the footprint keeps from every box. PreconditionError unless the
-  /// boxes are finite. Takes no more memory the farther apart they are, from 2 km on for a car.
+  /// `distance` [m], >= 0, is the required distance of the footprint from every box.
+  /// PreconditionError unless the boxes are finite. Memory stops growing with the extent of the
+  /// boxes, from about 2 km for a car.
   CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance);
 
-  /// No clearance beyond this is told apart [m]: the car's length, at most kFarthest.
+  /// The cap on clearances [m]: the car's length, at most kMaxClearance.
   [[nodiscard]] double farthest() const { return farthest_; }
 
-  /// What is left between the footprint and the nearest box beyond the distance [m]: exact,
-  /// negative when it is too near, `at_most` or farthest() when it is more. PreconditionError for
-  /// a pose that is not finite. Cost: some ns for each box near by, about 50 ns for each of those
-  /// that may be the nearest.
+  /// The clearance of the footprint from the nearest box minus the required distance [m]: exact,
+  /// negative when the footprint is too near, and capped at `at_most` and farthest().
+  /// PreconditionError for a pose that is not finite. Cost: some ns for each nearby box, about 50
+  /// ns for each that may be the nearest.
   [[nodiscard]] double Clearance(const Pose2& pose,
                                  double at_most = std::numeric_limits<double>::infinity()) const;
 
   [[nodiscard]] bool IsFree(const Pose2& pose) const { return Clearance(pose, 0.0) >= 0.0; }
 
-  /// The first station at which the car is too near to a box, or none. Goes forward by as much as
-  /// the clearance surely allows, and by 2 cm where there is none, a car shorter than 1 m by a
-  /// fiftieth of its length: what is found free is off by half of that times the turn of the
-  /// footprint's farthest corner at most.
+  /// The first station at which the car is too near to a box, or none. Advances by the distance
+  /// that the clearance guarantees to be free, and at least by 2 cm (for a car shorter than 1 m, a
+  /// fiftieth of its length). The clearance may therefore be violated by at most half that step
+  /// times the rotation of the footprint's farthest corner.
   [[nodiscard]] std::optional<double> FirstBlocked(const Path& path) const;
 
-  /// Whether an arc or a line is free from its start to its end; the same, without a path.
+  /// Whether an arc or a line is free from its start to its end; as FirstBlocked, without a path.
   [[nodiscard]] bool IsFree(const Pose2& start, const Segment& segment) const;
 
  private:
@@ -49,17 +50,17 @@ class CollisionChecker {
   double farthest_;
   double middle_;  // of the footprint, ahead of the rear axle
   double radius_;  // of the circle around the footprint
-  double step_;    // along a path at least
+  double step_;    // smallest step along a path
   double reach_;   // from the rear axle to the footprint's farthest corner
 
   void FillBins();
 
-  // Where along a path to look next after a look at `at` that found `room`: as far on as the room
-  // surely allows. `moved`: by the footprint, per meter of path.
-  [[nodiscard]] double NextLook(const Pose2& pose, double room, double moved, double at,
-                                double length) const;
+  // The next station to test after station `at`, where the clearance was `room`: as far ahead as
+  // that guarantees to be free. `moved`: motion of the footprint per meter of path.
+  [[nodiscard]] double NextCheck(const Pose2& pose, double room, double moved, double at,
+                                 double length) const;
 
-  // Which boxes matter for a car whose footprint's middle is in a bin of the plane.
+  // The boxes that matter for a car whose footprint's middle is in a bin of the plane.
   [[nodiscard]] const std::vector<int>* Near(const Vec2& middle) const;
   double bin_ = 0.0;  // side of a bin [m]
   Vec2 low_{0.0, 0.0};

@@ -60,6 +60,9 @@ struct TreeNode {
   double cost = 0.0;        ///< length of the path from the start along the tree [m]
 };
 
+/// Default of PlanRequest::max_samples: about 24 s of RRT*.
+inline constexpr long kMaxSamples = 2'000'000;
+
 /// What is to be reached, by whatever method. Planners keep no state and have no clock of their
 /// own: the same values give the same plan. Only a planner with a time limit looks at the caller's
 /// clock, and with one its plan depends on how fast the machine is.
@@ -78,13 +81,26 @@ struct PlanRequest {
   /// The time now [s], from any beginning; asked by planners with a time limit alone. Empty: time
   /// limits are not kept.
   std::function<double()> clock{};
+  /// Random samples that the planner may draw in all its trees, whatever its options say: a bound
+  /// of its work, about 12 us each. See PlanDiagnostics::samples.
+  long max_samples = kMaxSamples;
   double friction = 1.0;                          ///< of the road, a factor on the tyres' own
   std::vector<FrictionPatch> friction_patches{};  ///< where it is another
+  Ground ground{};                                ///< whose slopes take of what the road holds
   TrackLaps on_track{};                           ///< for planners that follow a track
   LaneMission lanes{};                            ///< for planners that follow lanes
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
   /// How speeds at the car's limit are found; none: they follow `speed`.
   std::optional<SpeedAtLimit> limits{};
+};
+
+/// The road that a plan is held to, and what becomes of one that asks more of the car.
+struct RoadConditions {
+  double friction = 1.0;                          ///< as PlanRequest::friction
+  std::vector<FrictionPatch> friction_patches{};  ///< likewise
+  Ground ground{};                                ///< likewise
+  InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
+  std::optional<SpeedAtLimit> limits{};  ///< as PlanRequest::limits
 };
 
 /// What a planner gives back. With any status but kOk there is a reason and no path.
@@ -107,8 +123,11 @@ struct Plan {
   std::vector<IsolatedTurn> turns;  ///< whose cost to an open-loop run can be told
   std::vector<std::string> notes;   ///< what to know of it, for people: that it was slowed down
   PlanDiagnostics diagnostics;      ///< how it was found, for plan.json
-  PlannedLaps laps;                 ///< of a plan on a track
-  std::vector<TreeNode> tree;       ///< of every RRT or RRT* that was used, one after the other
+  /// Whether the path interpolates samples of a motion at most 0.1 m apart: `schedule` then has its
+  /// steering rate, between the samples the path may bend faster.
+  bool sampled = false;
+  PlannedLaps laps;            ///< of a plan on a track
+  std::vector<TreeNode> tree;  ///< of every RRT or RRT* that was used, one after the other
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };

@@ -11,6 +11,10 @@ namespace trackbed {
 std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
                                           double shift);
 
+/// Open-loop steering between two distances, counted from the first one, with a knot at each end.
+std::vector<SteeringSchedule::Knot> SteeringBetween(const SteeringSchedule& schedule,
+                                                    Stations within);
+
 /// The parts of the caps that lie within two stations, shifted by `shift`.
 std::vector<SpeedCap> Moved(const std::vector<SpeedCap>& caps, Stations within, double shift);
 

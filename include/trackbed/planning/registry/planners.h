@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/planner.h"
 
 /// The registry of planners.
@@ -33,6 +34,6 @@ std::optional<double> PlannerSafeDistance(const PlannerOptions& options);
 /// Plans with the planner that `options` belong to, and makes the plan feasible (feasibility.h).
 /// Never throws for a mission that cannot be planned; InternalError for one that the caller should
 /// have refused (a non-finite number), PreconditionError for options out of their keys' ranges.
-Plan MakePlan(const PlanRequest& request, const PlannerOptions& options);
+FeasiblePlan MakePlan(const PlanRequest& request, const PlannerOptions& options);
 
 }  // namespace trackbed

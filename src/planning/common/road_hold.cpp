@@ -1,0 +1,119 @@
+#include "trackbed/planning/common/road_hold.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "trackbed/world/world.h"
+
+namespace trackbed {
+namespace {
+
+/// `grip` [m/s^2] less gravity's share `against` [1]. 0 stays 0: unknown.
+double SubtractGravity(double grip, double against) {
+  return std::max(0.0, grip - kGravity * std::max(0.0, against));
+}
+
+}  // namespace
+
+RoadHold::RoadHold(const PlanRequest& request) : request_(request), flat_(IsFlat(request.ground)) {}
+
+double RoadHold::Factor(const Pose2& pose) const {
+  if (request_.friction_patches.empty()) {
+    return request_.friction;
+  }
+  const auto factor = [&](const Vec2& point) {
+    return RoadFactor(request_.friction, request_.friction_patches, point);
+  };
+  return std::min(factor(pose.position()),
+                  factor(ToWorld(pose, {request_.vehicle.wheelbase, 0.0})));
+}
+
+RoadHold::Tilt RoadHold::TiltAt(const PathPoint& at) const {
+  if (flat_) {
+    return {};
+  }
+  const Vec2 rear = at.pose.position();
+  const Vec2 forward = Direction(at.pose.yaw);
+  const bool two_axles = request_.vehicle.kind == VehicleKind::kSteered;
+  const double wheelbase = request_.vehicle.wheelbase;
+  const Vec2 front = two_axles ? Vec2(rear + wheelbase * forward) : rear;
+  const Vec2 slope =
+      0.5 * (GroundSlope(request_.ground, rear) + GroundSlope(request_.ground, front));
+  // Along the car, bumps shorter than the wheelbase tilt it by the heights of its axles.
+  const double along =
+      two_axles
+          ? (GroundHeight(request_.ground, front) - GroundHeight(request_.ground, rear)) / wheelbase
+          : slope.dot(forward);
+  const double across = slope.dot(LeftNormal(forward));
+  return {.load = 1.0 / std::sqrt(1.0 + along * along + across * across),
+          .up = at.direction * along / std::hypot(1.0, along),
+          .left = across / std::hypot(1.0, across)};
+}
+
+double RoadHold::Lateral(const Path& path, double s, double curvature) const {
+  if (uniform()) {
+    return MaxLateralAcceleration(request_.vehicle, request_.friction);
+  }
+  const PathPoint at = path.At(s);
+  const Tilt tilt = TiltAt(at);
+  // On a positive curvature the center of the turn is to the left, in either gear.
+  const double against = curvature > 0.0   ? tilt.left
+                         : curvature < 0.0 ? -tilt.left
+                                           : std::abs(tilt.left);
+  return SubtractGravity(MaxLateralAcceleration(request_.vehicle, Factor(at.pose) * tilt.load),
+                         against);
+}
+
+double RoadHold::Braking(const Path& path, double s) const {
+  if (uniform()) {
+    return MaxDeceleration(request_.vehicle, request_.friction);
+  }
+  const PathPoint at = path.At(s);
+  const Tilt tilt = TiltAt(at);
+  return SubtractGravity(MaxDeceleration(request_.vehicle, Factor(at.pose) * tilt.load), -tilt.up);
+}
+
+double RoadHold::Driving(const Path& path, double s) const {
+  if (uniform()) {
+    return MaxAcceleration(request_.vehicle, request_.friction);
+  }
+  const PathPoint at = path.At(s);
+  const Tilt tilt = TiltAt(at);
+  return SubtractGravity(MaxAcceleration(request_.vehicle, Factor(at.pose) * tilt.load), tilt.up);
+}
+
+RoadHold::Pull RoadHold::Slope(const Path& path, double s) const {
+  if (flat_) {
+    return {};
+  }
+  const PathPoint at = path.At(s);
+  const Tilt tilt = TiltAt(at);
+  const double road = Factor(at.pose) * tilt.load;
+  const Pull along{kGravity * std::abs(tilt.up), tilt.up < 0.0
+                                                     ? MaxDeceleration(request_.vehicle, road)
+                                                     : MaxAcceleration(request_.vehicle, road)};
+  const Pull across{kGravity * std::abs(tilt.left), MaxLateralAcceleration(request_.vehicle, road)};
+  const auto ratio = [](const Pull& each) { return each.hold > 0.0 ? each.pull / each.hold : 0.0; };
+  return ratio(along) > ratio(across) ? along : across;
+}
+
+RoadHoldLimits MinRoadHold(const Path& path, Stations within, const PlanRequest& request) {
+  constexpr double kSpacing = 0.1;  // [m]
+  const RoadHold road(request);
+  const auto at = [&](double s) {
+    return RoadHoldLimits{road.Lateral(path, s, 0.0), road.Braking(path, s), road.Driving(path, s)};
+  };
+  RoadHoldLimits least = at(within.from);
+  if (road.uniform()) {
+    return least;
+  }
+  const double count = std::ceil(std::max(0.0, within.to - within.from) / kSpacing);
+  for (double i = 1.0; i <= count; i += 1.0) {
+    const RoadHoldLimits next = at(std::lerp(within.from, within.to, i / count));
+    least = {std::min(least.lateral, next.lateral), std::min(least.braking, next.braking),
+             std::min(least.driving, next.driving)};
+  }
+  return least;
+}
+
+}  // namespace trackbed
