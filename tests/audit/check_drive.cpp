@@ -2,9 +2,9 @@
 //
 // 1. The times, rows and physics steps must belong to one drive.
 // 2. The smallest gap between the footprint and each obstacle is computed anew over all physics
-// steps and compared with the reported clearance and collision.
+//    steps and compared with the reported clearance and collision.
 // 3. The distance of each pose from the plan then in effect, as a polyline, is compared with the
-// reported cross-track error and the corridor.
+//    reported cross-track error and the corridor.
 // 4. Steering angles and rates must keep the car's limits; the end must agree with `arrived`.
 // 5. A run that passed must meet its expectations, and a run that failed must violate one.
 
@@ -171,8 +171,11 @@ class DriveCheck {
     CheckObstacles();
     CheckTracking();
     CheckSteering();
+    CheckOverspeed();
     if (status_ == "arrived") {
       CheckArrival();
+    } else if (status_ == "stuck") {
+      CheckStuck();
     } else if (record_.passed) {
       Report("verdict", fmt::format("passed, but ended as {}", status_));
     }
@@ -188,7 +191,7 @@ class DriveCheck {
 
   /// By how much a yaw in the log may differ from that in the physics [rad].
   [[nodiscard]] double SameYaw() const {
-    return record_.mission.leans_on_slope ? 0.05 * 0.1 : 1e-6;
+    return record_.mission.leans_on_slope ? 0.05 * 0.2 : 1e-6;
   }
 
   /// Whether all numbers used by the checks are finite.
@@ -382,6 +385,53 @@ class DriveCheck {
     return rate;
   }
 
+  /// No car that passed was faster than any of its plans by more than the bound on the overspeed.
+  /// At its place it may have been planned to be slower still: the program's value is no smaller.
+  void CheckOverspeed() {
+    const std::vector<double> speed = drive_.log.Column("speed_mps");
+    const double told = drive_.metrics.value("overspeed_max", 0.0);
+    fast_ = drive_.overspeed_bound && told > *drive_.overspeed_bound;
+    if (!drive_.overspeed_bound || drive_.metrics.value("collision", false)) {
+      return;
+    }
+    double planned = 0.0;
+    for (const double v : record_.plan.Column("speed_mps")) {
+      planned = std::max(planned, std::abs(v));
+    }
+    if (drive_.changes.rows() > 0) {
+      for (const double v : drive_.changes.Column("speed_mps")) {
+        planned = std::max(planned, std::abs(v));
+      }
+    }
+    for (std::size_t i = 0; i + 1 < speed.size(); ++i) {  // the last row has no command
+      const double over = std::abs(speed[i]) - planned;
+      if (over > told + 1e-6) {
+        Report("overspeed", fmt::format("says {:.4g} m/s, was {:.4g} m/s faster than any plan at "
+                                        "{:.5g} s",
+                                        told, over, rows_[i].t));
+        return;
+      }
+    }
+    if (record_.passed && fast_) {
+      Report("overspeed", fmt::format("passed, {:.4g} m/s faster than planned; {:.4g} m/s are "
+                                      "allowed",
+                                      told, *drive_.overspeed_bound));
+    }
+  }
+
+  /// A car that stands at the goal has arrived, whatever it is commanded.
+  void CheckStuck() {
+    const TimedPose& last = rows_.back();
+    const std::vector<Driven> plans = DrivenPlans(record_.plan, drive_.changes, 0.0);
+    const Point goal = record_.mission.goal.value_or(Point{plans.back().end.x, plans.back().end.y});
+    const double away = std::hypot(last.x - goal.x, last.y - goal.y);
+    // Of a loop, the start is as near.
+    const bool has_driven = drive_.metrics.at("distance").get<double>() > record_.car.length;
+    if (away <= tolerances_.goal_position * record_.car.length && has_driven) {
+      Report("stuck_at_goal", fmt::format("stuck {:.4g} m from the goal", away));
+    }
+  }
+
   void CheckArrival() {
     const TimedPose& last = rows_.back();
     const Mission& mission = record_.mission;
@@ -436,7 +486,7 @@ class DriveCheck {
     }
     const bool clear = !mission.min_clearance || gap_ > *mission.min_clearance + missed_;
     const bool in_time = !mission.max_time || rows_.back().t < *mission.max_time - kSameTime;
-    if (inside_ && slow_wheels_ && clear && in_time) {
+    if (inside_ && slow_wheels_ && !fast_ && clear && in_time) {
       Report("verdict", "failed, but arrived and kept all that is checked");
     }
   }
@@ -449,6 +499,7 @@ class DriveCheck {
   std::vector<TimedPose> poses_;
   bool touched_ = false;                                  ///< an obstacle, within tolerance
   bool inside_ = false;                                   ///< the corridor throughout
+  bool fast_ = false;                                     ///< the overspeed exceeds its bound
   bool slow_wheels_ = false;                              ///< within the steering rate limit
   double gap_ = std::numeric_limits<double>::infinity();  ///< to the nearest obstacle [m]
   double missed_ = 0.0;  ///< by how much the gap may be smaller between two steps [m]
@@ -473,11 +524,13 @@ std::vector<Finding> Check(const Record& record, const Tolerances& tolerances) {
     }
     return findings;
   }
-  add(CheckPlan(record.plan, record, nullptr, tolerances));
+  add(CheckPlan(record.plan, record, nullptr, false, tolerances));
   for (const Drive& drive : record.drives) {
     add(CheckDrive(drive, record, tolerances));
-    for (const Table& plan : PlansTakenUp(drive.changes)) {
-      for (Finding& finding : CheckPlan(plan, record, &drive, tolerances)) {
+    const std::vector<Table> plans = PlansTakenUp(drive.changes);
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+      const bool kept = i < drive.kept.size() && drive.kept[i];
+      for (Finding& finding : CheckPlan(plans[i], record, &drive, kept, tolerances)) {
         findings.push_back({finding.kind, drive.plant + ", taken up on the way: " + finding.text});
       }
     }

@@ -51,13 +51,42 @@ struct Largest {
   }
 };
 
+/// The largest of something over what is there for it.
+class Worst {
+ public:
+  void Take(double asked, double hold, double s) {
+    if (asked > ratio_ * hold) {
+      ratio_ = asked / hold;
+      asked_ = asked;
+      hold_ = hold;
+      s_ = s;
+    }
+  }
+
+  [[nodiscard]] double ratio() const { return ratio_; }
+
+  void Report(const char* kind, const char* what, double more, std::vector<Finding>& found) const {
+    if (ratio_ > more) {
+      found.push_back({kind, fmt::format("asks {:.4g} m/s^2 {} at s = {:.5g} m; there are {:.4g}",
+                                         asked_, what, s_, hold_)});
+    }
+  }
+
+ private:
+  double ratio_ = 0.0;
+  double asked_ = 0.0;
+  double hold_ = 0.0;
+  double s_ = 0.0;
+};
+
 class PlanCheck {
  public:
-  PlanCheck(const trackbed::Table& table, const Record& record, const Drive* taken_up_in,
+  PlanCheck(const trackbed::Table& table, const Record& record, const Drive* taken_up_in, bool kept,
             const Tolerances& tolerances)
       : rows_(PlanRows(table)),
         record_(record),
         at_start_(taken_up_in == nullptr),
+        kept_(kept),
         tolerances_(tolerances),
         // A replan starts with the current wheel angle, which may exceed the limit a little.
         steering_limit_(
@@ -71,7 +100,9 @@ class PlanCheck {
     }
     CheckGeometry();
     CheckSteering();
-    CheckAccelerations();
+    if (!kept_) {
+      CheckAccelerations();
+    }
     if (at_start_) {
       CheckStart();
       CheckEnd();
@@ -152,49 +183,90 @@ class PlanCheck {
   }
 
   /// v dv/ds as a mean over each interval, v^2 kappa at the points; combined by the friction
-  /// circle.
+  /// circle. Gravity counts where it pulls against the car.
   void CheckAccelerations() {
-    const Mission& mission = record_.mission;
-    const double grip = record_.car.friction * mission.road_friction * kGravity;
     const double more = 1.0 + tolerances_.plan_limit;
-    Largest driving, braking, lateral, combined;
+    Worst driving, braking, lateral, combined, held;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       const PlanRow& a = rows_[i];
-      lateral.Take(a.speed * a.speed * std::abs(a.curvature), a.s);
+      const Ground ground = GroundAt(i);
+      const double pull = a.curvature > 0.0 ? ground.left : -ground.left;
+      const double across_a = a.speed * a.speed * std::abs(a.curvature);
+      lateral.Take(across_a + std::max(0.0, pull), ground.grip, a.s);
+      held.Take(std::hypot(ground.up, ground.left), ground.grip, a.s);
       if (i + 1 == rows_.size() || rows_[i + 1].s <= a.s) {
         continue;
       }
       const PlanRow& b = rows_[i + 1];
       const double along = 0.5 * (b.speed * b.speed - a.speed * a.speed) / (b.s - a.s);
-      driving.Take(along, a.s);
-      braking.Take(-along, a.s);
+      driving.Take(along, record_.mission.acceleration, a.s);
+      const double brakes = std::min(ground.grip, record_.car.brake_deceleration);
+      if (along < 0.0) {
+        braking.Take(-along + std::max(0.0, -ground.up), brakes, a.s);
+      } else {
+        held.Take(along + std::max(0.0, ground.up), ground.grip, a.s);
+      }
       // On either side of a curvature step, only the smaller value is certain.
-      const double across = std::min(a.speed * a.speed * std::abs(a.curvature),
-                                     b.speed * b.speed * std::abs(b.curvature));
-      combined.Take(std::hypot(along, across), a.s);
+      const double across = std::min(across_a, b.speed * b.speed * std::abs(b.curvature));
+      combined.Take(std::hypot(along, across), ground.grip, a.s);
     }
-    if (lateral.value > grip * more) {
-      Report("plan_lateral", fmt::format("asks {:.4g} m/s^2 across at s = {:.5g} m; tyres and road "
-                                         "hold {:.4g}",
-                                         lateral.value, lateral.s, grip));
+    lateral.Report("plan_lateral", "across", more, findings_);
+    braking.Report("plan_braking", "to brake", more, findings_);
+    driving.Report("plan_acceleration", "to speed up", more, findings_);
+    held.Report("plan_hold", "on its slope", more, findings_);
+    if (lateral.ratio() <= more && braking.ratio() <= more) {
+      combined.Report("plan_combined", "along and across together", more, findings_);
     }
-    const double brakes = std::min(grip, record_.car.brake_deceleration);
-    if (braking.value > brakes * more) {
-      Report("plan_braking", fmt::format("asks a deceleration of {:.4g} m/s^2 at s = {:.5g} m; the "
-                                         "car has {:.4g}",
-                                         braking.value, braking.s, brakes));
+  }
+
+  /// Grip of the road and pull of gravity at a row [m/s^2].
+  struct Ground {
+    double grip = 0.0;
+    double up = 0.0;    ///< against the direction of travel
+    double left = 0.0;  ///< toward the right of the car
+  };
+
+  /// At the edge of a patch, the grip of the better neighboring row counts: the plan's own samples
+  /// may lie on either side.
+  [[nodiscard]] Ground GroundAt(std::size_t i) const {
+    const Mission& mission = record_.mission;
+    double factor = FactorAt(rows_[i]);
+    if (i > 0) {
+      factor = std::max(factor, FactorAt(rows_[i - 1]));
     }
-    if (driving.value > mission.acceleration * more) {
-      Report("plan_acceleration", fmt::format("speeds up at {:.4g} m/s^2 at s = {:.5g} m, allowed "
-                                              "are {:.4g}",
-                                              driving.value, driving.s, mission.acceleration));
+    if (i + 1 < rows_.size()) {
+      factor = std::max(factor, FactorAt(rows_[i + 1]));
     }
-    if (combined.value > grip * more && lateral.value <= grip * more &&
-        braking.value <= brakes * more) {
-      Report("plan_combined", fmt::format("asks {:.4g} m/s^2 along and across together at s = "
-                                          "{:.5g} m; tyres and road hold {:.4g}",
-                                          combined.value, combined.s, grip));
+    const PlanRow& row = rows_[i];
+    const double x = std::cos(row.yaw);
+    const double y = std::sin(row.yaw);
+    const double along = row.direction * (mission.grade.x * x + mission.grade.y * y);
+    const double across = mission.grade.y * x - mission.grade.x * y;
+    const double cosine = 1.0 / std::sqrt(1.0 + along * along + across * across);
+    return {record_.car.friction * factor * kGravity * cosine,
+            kGravity * along / std::hypot(1.0, along), kGravity * across / std::hypot(1.0, across)};
+  }
+
+  /// The factor under the more slippery axle.
+  [[nodiscard]] double FactorAt(const PlanRow& row) const {
+    const double wheelbase = record_.car.wheelbase;
+    return std::min(FactorAt(row.x, row.y), FactorAt(row.x + wheelbase * std::cos(row.yaw),
+                                                     row.y + wheelbase * std::sin(row.yaw)));
+  }
+
+  [[nodiscard]] double FactorAt(double x, double y) const {
+    double factor = record_.mission.road_friction;
+    for (const Patch& patch : record_.mission.patches) {
+      const TimedPose& center = patch.area.center;
+      const double dx = x - center.x;
+      const double dy = y - center.y;
+      const double ahead = dx * std::cos(center.yaw) + dy * std::sin(center.yaw);
+      const double aside = dy * std::cos(center.yaw) - dx * std::sin(center.yaw);
+      if (std::abs(ahead) <= 0.5 * patch.area.length && std::abs(aside) <= 0.5 * patch.area.width) {
+        factor = patch.factor;
+      }
     }
+    return factor;
   }
 
   void CheckStart() {
@@ -265,6 +337,7 @@ class PlanCheck {
   std::vector<PlanRow> rows_;
   const Record& record_;
   bool at_start_;
+  bool kept_;
   const Tolerances& tolerances_;
   double steering_limit_;  ///< [rad]
   std::vector<Finding> findings_;
@@ -273,8 +346,8 @@ class PlanCheck {
 }  // namespace
 
 std::vector<Finding> CheckPlan(const trackbed::Table& rows, const Record& record,
-                               const Drive* taken_up_in, const Tolerances& tolerances) {
-  return PlanCheck(rows, record, taken_up_in, tolerances).Run();
+                               const Drive* taken_up_in, bool kept, const Tolerances& tolerances) {
+  return PlanCheck(rows, record, taken_up_in, kept, tolerances).Run();
 }
 
 }  // namespace audit

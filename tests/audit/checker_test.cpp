@@ -278,6 +278,27 @@ TEST(Checker, FindsAPlanThatBrakesHarderThanTheCar) {
   EXPECT_THAT(KindsIn(record), ElementsAre("plan_braking"));
 }
 
+TEST(Checker, FindsAPlanThatAPatchDoesNotHold) {
+  // The plan brakes at 2 m/s^2 over its last 6.25 m; 0.9 * 0.2 * 9.81 m/s^2 are 1.77.
+  Record record = GoodRun();
+  record.mission.patches = {{{{0.0, 37.0, 0.0, 0.5}, 4.0, 3.0, {}}, 0.2}};
+  EXPECT_THAT(KindsIn(record), ElementsAre("plan_braking"));
+  record.mission.patches[0].area.center.y = 3.0;  // beside the car
+  EXPECT_THAT(Check(record), IsEmpty());
+}
+
+TEST(Checker, FindsAPlanThatAGradeDoesNotHold) {
+  Record record = GoodRun();
+  record.mission.road_friction = 0.3;  // 0.9 * 0.3 * 9.81 = 2.65 m/s^2
+  EXPECT_THAT(Check(record), IsEmpty());
+  record.mission.grade = {-0.1, 0.0};  // downhill, by 0.98 m/s^2
+  EXPECT_THAT(KindsIn(record), ElementsAre("plan_braking"));
+  record.mission.grade = {0.1, 0.0};
+  EXPECT_THAT(Check(record), IsEmpty());
+  record.mission.grade = {0.0, 0.3};  // across, by 2.82 m/s^2
+  EXPECT_THAT(KindsIn(record), ElementsAre("plan_hold", "plan_lateral"));
+}
+
 TEST(Checker, FindsAPlanThatSpeedsUpTooMuch) {
   Record record = GoodRun();
   record.plan = StraightPlan(
@@ -307,7 +328,7 @@ Table BentPlan(double speed, const std::function<double(double)>& curvature) {
 
 std::set<std::string> KindsOfPlan(Record record, const Table& plan) {
   std::set<std::string> kinds;
-  for (const Finding& finding : CheckPlan(plan, record, &record.drives[0], {})) {
+  for (const Finding& finding : CheckPlan(plan, record, &record.drives[0], false, {})) {
     kinds.insert(finding.kind);
   }
   return kinds;

@@ -1,8 +1,9 @@
 // Random scenarios for the audit, reproducible by index.
 //
-// The index selects planner, controller and plant in turn. A SplitMix-like generator seeded with
-// the index draws the rest: the car's size, the route and the start, replanning, obstacles,
-// friction, ground, weather, disturbances and expectations.
+// The index selects planner, controller and plant in turn. A Mersenne Twister seeded by the index
+// draws the rest: the car's size, the route and the start, replanning, obstacles, friction, ground,
+// weather, disturbances and expectations.
+
 #include "tests/audit/random_scenarios.h"
 
 #include <fmt/format.h>
@@ -316,7 +317,7 @@ struct Generator {
     trackbed::Ground& ground = scenario.world.ground;
     const double chance = dice.Between(0.0, 1.0);
     if (chance < 0.4) {
-      ground.grade = {dice.Between(-0.1, 0.1), dice.Between(-0.1, 0.1)};
+      ground.grade = {dice.Between(-0.2, 0.2), dice.Between(-0.2, 0.2)};
     }
     const Vec2 at = OnTheWay();
     const Pose2 place{at.x(), at.y(), dice.Between(-kPi, kPi)};
@@ -347,7 +348,7 @@ struct Generator {
       const Vec2 at = OnTheWay();
       scenario.world.friction_patches.push_back(
           {{{at.x(), at.y(), dice.Between(-kPi, kPi)}, 20.0 * size, 10.0 * size},
-           dice.Between(0.2, 1.2)});
+           dice.Between(0.15, 1.2)});
     }
   }
 
@@ -451,7 +452,7 @@ Scenario RandomScenario(std::size_t index, int attempt) {
   generator.Layers();
   generator.Obstacles();
   if (generator.dice.Chance(0.15)) {
-    scenario.world.friction = generator.dice.Between(0.3, 0.9);
+    scenario.world.friction = generator.dice.Between(0.15, 0.9);
   }
   if (generator.dice.Chance(0.2)) {
     scenario.expect.all.max_cross_track = generator.size * generator.dice.Between(0.1, 1.0);

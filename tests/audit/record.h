@@ -28,6 +28,12 @@ struct Car {
   }
 };
 
+/// An area of another friction.
+struct Patch {
+  Box area;
+  double factor = 1.0;  ///< on the tyre friction
+};
+
 /// The task that the scenario sets.
 struct Mission {
   TimedPose start;                          ///< rear axle at t = 0
@@ -45,25 +51,29 @@ struct Mission {
   /// A payload beside the center line rolls the car, by at most 0.05 rad. On a slope of 0.1, the
   /// yaw of a rolled car seen from above differs from the plan's.
   bool leans_on_slope = false;
-  double road_friction = 1.0;  ///< largest factor on the tyre friction
+  double road_friction = 1.0;    ///< factor on the tyre friction outside the patches
+  std::vector<Patch> patches{};  ///< later ones override earlier ones
+  Point grade{};  ///< dz/dx and dz/dy of a ground that is a plane; 0 for any other ground
   std::vector<Box> obstacles{};
   std::vector<std::size_t> planned_around{};  ///< indices of those that the plan must avoid
 };
 
-/// One plant's drive.
+/// One plant's run.
 struct Drive {
   std::string plant;
-  bool has_wheels = false;           ///< moved by forces: they are a little soft
-  trackbed::Table log{{"t_s"}};      ///< <plant>.csv
-  trackbed::Table steps{{"t_s"}};    ///< <plant>.state.csv with a row at every physics step
-  trackbed::Table changes{{"t_s"}};  ///< <plant>.plan.csv; without rows if there were none
-  nlohmann::json metrics{};          ///< its entry in metrics.json
+  bool has_wheels = false;                  ///< moved by forces: compliant steering
+  trackbed::Table log{{"t_s"}};             ///< <plant>.csv
+  trackbed::Table steps{{"t_s"}};           ///< <plant>.state.csv with a row per physics step
+  trackbed::Table changes{{"t_s"}};         ///< <plant>.plan.csv; no rows without a replan
+  std::optional<double> overspeed_bound{};  ///< of the check on it [m/s]; none: not checked
+  std::vector<bool> kept{};  ///< of each plan in `changes`: a note says that it exceeds a limit
+  nlohmann::json metrics{};  ///< its entry in metrics.json
 };
 
 struct Record {
   std::string name;
   bool plan_ok = false;
-  std::string blocked{};          ///< why the plan ends before the goal; else empty
+  std::string blocked{};          ///< why the plan ends before the goal, or empty
   trackbed::Table plan{{"s_m"}};  ///< plan.csv
   bool passed = false;            ///< the verdict
   std::vector<Drive> drives{};

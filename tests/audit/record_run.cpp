@@ -19,14 +19,14 @@ using trackbed::Table;
 const std::vector<std::string> kPlanColumns{
     "s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"};
 
-/// A plan as plan.csv has it, after the time from which it is driven if that is given.
+/// Adds the rows of a plan as in plan.csv; `from`: time of adoption, as an additional first column.
 void AddPlan(Table& table, const trackbed::Plan& plan, std::optional<double> from) {
   const trackbed::Reference& reference = plan.reference;
   for (const trackbed::Stations& leg : trackbed::SplitIntoLegs(reference.path)) {
     const trackbed::Reference part = trackbed::Excerpt(reference, leg);
     for (const trackbed::PathPoint& point : part.path.Sample(0.1)) {
       if (point.s == 0.0 && leg.from > 0.0) {
-        continue;  // the end of the leg before
+        continue;  // repeats the end of the previous leg
       }
       std::vector<double> row{leg.from + point.s,
                               point.pose.x,
@@ -53,8 +53,29 @@ Table Changes(const trackbed::RunLog& log) {
   return table;
 }
 
+/// The bound of the check on the overspeed, from the verdict of metrics.json.
+std::optional<double> OverspeedBound(const nlohmann::json& verdict, const std::string& plant) {
+  for (const nlohmann::json& check : verdict.at("checks")) {
+    if (check.at("plant") == plant && check.at("metric") == "overspeed_max") {
+      return check.at("bound").get<double>();
+    }
+  }
+  return std::nullopt;
+}
+
+/// Whether each new plan of a run says that it exceeds a limit.
+std::vector<bool> Kept(const trackbed::RunLog& log) {
+  std::vector<bool> kept;
+  for (const trackbed::PlanChange& change : log.changes) {
+    kept.push_back(std::any_of(
+        change.plan.notes.begin(), change.plan.notes.end(),
+        [](const std::string& note) { return note.starts_with("infeasible, kept anyway"); }));
+  }
+  return kept;
+}
+
 Car CarFrom(const trackbed::CarModel& model) {
-  // Plans are made for the car without its payload, whose mass only slows it down.
+  // Plans are computed for the car without its payload; the payload's mass only affects braking.
   const trackbed::VehicleParams& params = model.unladen();
   Car car{.length = params.length,
           .width = params.width,
@@ -103,7 +124,13 @@ Mission MissionFrom(const trackbed::Scenario& scenario, const trackbed::VehicleP
     }
   }
   for (const trackbed::FrictionPatch& patch : scenario.world.friction_patches) {
-    mission.road_friction = std::max(mission.road_friction, patch.friction);
+    const trackbed::OrientedBox& box = patch.area;
+    mission.patches.push_back(
+        {{{0.0, box.center.x, box.center.y, box.center.yaw}, box.length, box.width, {}},
+         patch.friction});
+  }
+  if (trackbed::IsPlane(scenario.world.ground)) {
+    mission.grade = {scenario.world.ground.grade.x(), scenario.world.ground.grade.y()};
   }
   const bool keeps_clear =
       scenario.plan && (trackbed::PlannerFor(scenario.plan->global).keeps_clear);
@@ -113,7 +140,7 @@ Mission MissionFrom(const trackbed::Scenario& scenario, const trackbed::VehicleP
                                  box.length,
                                  box.width,
                                  {obstacle.velocity.x(), obstacle.velocity.y()}});
-    // Those that become known later it cannot have kept clear of.
+    // The planner cannot avoid obstacles that become known later.
     const bool known = !obstacle.known_from_time && !obstacle.known_from_range;
     if (keeps_clear && known && !obstacle.moves()) {
       mission.planned_around.push_back(mission.obstacles.size() - 1);
@@ -129,7 +156,8 @@ Record RecordRun(trackbed::Scenario scenario) {
   trackbed::CheckScenario(scenario);
   const trackbed::CarModel model = trackbed::LoadCar(scenario);
   const trackbed::RunResult result = trackbed::RunMission(scenario, model);
-  Record record{.name = scenario.name, .plan_ok = result.plan.ok(), .blocked = result.plan.blocked};
+  Record record{
+      .name = scenario.name, .plan_ok = result.plan.ok(), .blocked = result.plan->blocked};
   record.car = CarFrom(model);
   record.mission = MissionFrom(scenario, model.unladen());
   record.plan = Table(kPlanColumns);
@@ -144,6 +172,8 @@ Record RecordRun(trackbed::Scenario scenario) {
                              .log = ToTable(log),
                              .steps = log.configurations,
                              .changes = Changes(log),
+                             .overspeed_bound = OverspeedBound(metrics.at("verdict"), log.plant),
+                             .kept = Kept(log),
                              .metrics = metrics.at("plants").at(log.plant)});
   }
   return record;
