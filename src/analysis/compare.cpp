@@ -16,12 +16,16 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/record.h"
 
+// Compares two runs at equal station. The traces are interpolated linearly at every station where
+// either has a row and both have been; gaps of recorded runs are skipped. Differences are the
+// second run minus the first. The rms is the exact integral over arc length of the piecewise linear
+// difference; the maximum is taken over the rows.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Where a station lies among the rows of a trace: `share` of the way from row `before` to the
+/// Position of a station between two rows of a trace: fraction `share` from row `before` to the
 /// next.
 struct Place {
   std::size_t before = 0;
@@ -46,8 +50,8 @@ Pose2 PoseIn(const Trace& trace, const Place& place) {
           std::lerp(a.yaw, b.yaw, place.share)};
 }
 
-/// The second run minus the first at one station.
-struct Apart {
+/// Second run minus first run at one station.
+struct RowDifference {
   double s = 0.0;
   double first_t = 0.0;
   double second_t = 0.0;
@@ -55,17 +59,17 @@ struct Apart {
   double yaw = 0.0;
   double yaw_rate = 0.0;
   double steering = 0.0;
-  bool after_gap = false;  // of the stations that are compared
+  bool after_gap = false;  // follows a gap in the compared stations
 };
 
-/// Whether a place is in no gap of a recorded run.
+/// Whether the place lies outside the gaps of a recorded run.
 bool IsValid(const Trace& trace, const Place& place) {
   return trace.valid.empty() || ((place.share >= 1.0 || trace.valid[place.before]) &&
                                  (place.share <= 0.0 || trace.valid[place.before + 1]));
 }
 
-/// The runs apart at every station where either has a row and both have been.
-std::vector<Apart> ApartAtRows(const Trace& first, const Trace& second) {
+/// Differences at every station where either run has a row, within the range that both cover.
+std::vector<RowDifference> DifferencesAtRows(const Trace& first, const Trace& second) {
   if (first.station.size() < 2 || second.station.size() < 2) {
     return {};
   }
@@ -78,7 +82,7 @@ std::vector<Apart> ApartAtRows(const Trace& first, const Trace& second) {
   std::merge(first.station.begin(), first.station.end(), second.station.begin(),
              second.station.end(), std::back_inserter(stations));
   stations.erase(std::unique(stations.begin(), stations.end()), stations.end());
-  std::vector<Apart> all;
+  std::vector<RowDifference> all;
   bool after_gap = false;
   for (const double s : stations) {
     if (s < from || s > to) {
@@ -104,9 +108,10 @@ std::vector<Apart> ApartAtRows(const Trace& first, const Trace& second) {
   return all;
 }
 
-/// What a quantity comes to over arc length; `of` gives it as a vector, linear between the rows.
+/// Maximum and rms of a quantity over arc length. `of` returns it as a vector; it is linear between
+/// rows.
 template <typename Of>
-Difference Summarise(const std::vector<Apart>& rows, const Of& of) {
+Difference ComputeDifference(const std::vector<RowDifference>& rows, const Of& of) {
   Difference difference;
   double integral = 0.0;
   double length = 0.0;
@@ -119,7 +124,7 @@ Difference Summarise(const std::vector<Apart>& rows, const Of& of) {
     }
     if (i > 0 && !rows[i].after_gap) {
       length += rows[i].s - rows[i - 1].s;
-      // Of a quantity that goes from a to b along a line, the mean square is (a.a + a.b + b.b)/3.
+      // The mean square of a quantity that varies linearly from a to b is (a.a + a.b + b.b)/3.
       const Vec2 before = of(rows[i - 1]);
       integral += (rows[i].s - rows[i - 1].s) *
                   (before.squaredNorm() + before.dot(here) + here.squaredNorm()) / 3.0;
@@ -156,7 +161,7 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
     if (log.contact_time && state.time > *log.contact_time) {
-      break;  // where an obstacle pushes a car says nothing of how it was driven
+      break;  // pushed by an obstacle, not driven
     }
     const bool projected = row.tracking && source == StationSource::kProjection;
     AddRow(trace, projected ? row.tracking->s : state.distance, state.time, state.pose,
@@ -213,16 +218,20 @@ const std::vector<ComparedQuantity>& ComparedQuantities() {
 
 PlantComparison CompareTraces(const Trace& first, const Trace& second) {
   PlantComparison comparison{.first = first.name, .second = second.name};
-  const std::vector<Apart> rows = ApartAtRows(first, second);
+  const std::vector<RowDifference> rows = DifferencesAtRows(first, second);
   if (rows.empty()) {
     return comparison;
   }
   comparison.from_s = rows.front().s;
   comparison.to_s = rows.back().s;
-  comparison.position = Summarise(rows, [](const Apart& row) { return row.position; });
-  comparison.heading = Summarise(rows, [](const Apart& row) { return Vec2(row.yaw, 0.0); });
-  comparison.yaw_rate = Summarise(rows, [](const Apart& row) { return Vec2(row.yaw_rate, 0.0); });
-  comparison.steering = Summarise(rows, [](const Apart& row) { return Vec2(row.steering, 0.0); });
+  comparison.position =
+      ComputeDifference(rows, [](const RowDifference& row) { return row.position; });
+  comparison.heading =
+      ComputeDifference(rows, [](const RowDifference& row) { return Vec2(row.yaw, 0.0); });
+  comparison.yaw_rate =
+      ComputeDifference(rows, [](const RowDifference& row) { return Vec2(row.yaw_rate, 0.0); });
+  comparison.steering =
+      ComputeDifference(rows, [](const RowDifference& row) { return Vec2(row.steering, 0.0); });
   return comparison;
 }
 
@@ -233,7 +242,7 @@ PlantComparison ComparePlants(const RunLog& first, const RunLog& second) {
 Table DifferencesOverArcLength(const Trace& first, const Trace& second) {
   Table table({"s_m", "first_t_s", "second_t_s", "x_m", "y_m", "position_m", "yaw_rad",
                "yaw_rate_radps", "steering_rad"});
-  for (const Apart& row : ApartAtRows(first, second)) {
+  for (const RowDifference& row : DifferencesAtRows(first, second)) {
     table.AddRow({row.s, row.first_t, row.second_t, row.position.x(), row.position.y(),
                   row.position.norm(), row.yaw, row.yaw_rate, row.steering});
   }
@@ -248,29 +257,27 @@ std::vector<FinishedDrive> ReadRunFolder(const fs::path& folder) {
   }
   const std::vector<std::string> known = DrivenPlantNames();
   std::vector<FinishedDrive> drives;
-  const auto visit = [&](const nlohmann::ordered_json& json) {
-    if (!json.value("complete", true)) {
-      throw InputError(Problem{.file = folder.string(),
-                               .message = "the run was interrupted; its logs are incomplete"});
+  const JsonValue json = ReadJson(file);
+  if (const std::optional<JsonValue> complete = json.Find("complete");
+      complete && !complete->Flag()) {
+    throw InputError(Problem{.file = folder.string(),
+                             .message = "the run was interrupted; its logs are incomplete"});
+  }
+  for (const auto& [plant, metrics] : json.At("plants").Members()) {
+    if (std::find(known.begin(), known.end(), plant) == known.end()) {
+      throw InputError(Problem{.file = file.string(),
+                               .key = "plants",
+                               .message = "unknown " + UnknownName(plant, known)});
     }
-    using Object = nlohmann::ordered_json::object_t;
-    for (const auto& [plant, metrics] : json.at("plants").get_ref<const Object&>()) {
-      if (std::find(known.begin(), known.end(), plant) == known.end()) {
-        throw InputError(Problem{.file = file.string(),
-                                 .key = "plants",
-                                 .message = "unknown " + UnknownName(plant, known)});
-      }
-      const auto status = metrics.at("status").get<std::string>();
-      std::optional<double> contact_time;
-      if (status == ToString(DriveStatus::kCollided) && metrics.contains("status_t")) {
-        contact_time = metrics.at("status_t").get<double>();
-      }
-      drives.push_back(
-          {status, ReadTrace(run_folder::RequireFile(folder / run_folder::LogCsv(plant)), plant,
-                             contact_time)});
+    const std::string status = metrics.At("status").Text();
+    std::optional<double> contact_time;
+    if (const std::optional<JsonValue> time = metrics.Find("status_t");
+        time && status == ToString(DriveStatus::kCollided)) {
+      contact_time = time->Number();
     }
-  };
-  VisitJson(file, visit, {.message = "not the metrics of a run"});
+    drives.push_back({status, ReadTrace(run_folder::RequireFile(folder / run_folder::LogCsv(plant)),
+                                        plant, contact_time)});
+  }
   return drives;
 }
 

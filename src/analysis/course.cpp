@@ -11,9 +11,9 @@ namespace trackbed {
 namespace {
 
 /// Reference course: the circle or straight line of the rear axle at one row, continued from there.
-class HeldCourse {
+class ConstantCurvatureCourse {
  public:
-  HeldCourse(const VehicleParams& vehicle, const VehicleState& state, double length)
+  ConstantCurvatureCourse(const VehicleParams& vehicle, const VehicleState& state, double length)
       : start_yaw_(state.pose.yaw), curvature_(MeasuredCurvature(state)) {
     // The rear axle may slip, so use its direction of motion and not its heading.
     const double lateral = state.lateral_speed - state.yaw_rate * vehicle.cg_to_rear;
@@ -24,8 +24,9 @@ class HeldCourse {
   /// Distance of the car from the course, and its heading relative to the initial heading turned
   /// along the course.
   [[nodiscard]] Projection At(const VehicleState& state) {
-    constexpr double kReach = 5.0;  // maximum distance between rows [m]
-    Projection at = path_.Project(state.pose, {station_ - kReach, station_ + kReach});
+    constexpr double kMaxRowDistance = 5.0;  // maximum distance between rows [m]
+    Projection at =
+        path_.Project(state.pose, {station_ - kMaxRowDistance, station_ + kMaxRowDistance});
     station_ = at.s;
     at.heading_error = state.pose.yaw - start_yaw_ - curvature_ * at.s;
     return at;
@@ -36,8 +37,8 @@ class HeldCourse {
 
  private:
   static double MeasuredCurvature(const VehicleState& state) {
-    constexpr double kSlow = 0.1;  // [m/s]
-    return std::abs(state.speed) < kSlow ? 0.0 : state.yaw_rate / state.speed;
+    constexpr double kMinSpeed = 0.1;  // [m/s]
+    return std::abs(state.speed) < kMinSpeed ? 0.0 : state.yaw_rate / state.speed;
   }
 
   Path path_;
@@ -104,7 +105,8 @@ void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
     metrics.values.emplace_back("mean_fully_developed_deceleration",
                                 (v_b * v_b - v_e * v_e) / (2.0 * (*s_e - *distance_at(v_b))));
   }
-  HeldCourse course(input.vehicle, start, rows.back().state.distance - start.distance + 1.0);
+  ConstantCurvatureCourse course(input.vehicle, start,
+                                 rows.back().state.distance - start.distance + 1.0);
   Departure departure;
   double yaw_rate = 0.0;
   for (std::size_t i = onset; i < rows.size() && rows[i].state.time <= metrics.end; ++i) {
@@ -135,8 +137,8 @@ void Evaluate(const DisturbanceOptions& options, const ManeuverInput& input,
     return;
   }
   metrics.begin = rows[from].state.time;
-  HeldCourse course(input.vehicle, rows[from].state,
-                    rows.back().state.distance - rows[from].state.distance + 1.0);
+  ConstantCurvatureCourse course(input.vehicle, rows[from].state,
+                                 rows.back().state.distance - rows[from].state.distance + 1.0);
   const bool straight = !rows.front().tracking;
   Departure departure;
   double yaw_rate = 0.0;

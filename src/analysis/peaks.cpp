@@ -49,7 +49,7 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin,
                          double end) {
   // One microradian: below any relevant change of the command, above rounding in the actuator.
-  constexpr double kReached = 1e-6;
+  constexpr double kReachedTolerance = 1e-6;
   double saturated = 0.0;
   double periods = 0.0;
   for (std::size_t i = 0; i + 1 < log.rows.size(); ++i) {
@@ -60,9 +60,11 @@ double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double
     }
     const double period = after.time - row.state.time;
     const double turned = std::abs(after.steering_actuator - row.state.steering_actuator);
-    const bool missed = std::abs(row.command.steering - after.steering_actuator) > kReached;
-    const bool limited = turned >= vehicle.steering_rate * period - kReached ||
-                         std::abs(after.steering_actuator) >= vehicle.steering_limit - kReached;
+    const bool missed =
+        std::abs(row.command.steering - after.steering_actuator) > kReachedTolerance;
+    const bool limited =
+        turned >= vehicle.steering_rate * period - kReachedTolerance ||
+        std::abs(after.steering_actuator) >= vehicle.steering_limit - kReachedTolerance;
     saturated += missed && limited ? 1.0 : 0.0;
     periods += 1.0;
   }

@@ -5,28 +5,24 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "src/analysis/overspeed.h"
 #include "src/analysis/simulate_plants.h"
-#include "src/analysis/stopwatch.h"
+#include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/mcap.h"
 #include "trackbed/analysis/path_properties.h"
 #include "trackbed/analysis/record_metrics.h"
 #include "trackbed/analysis/requirement_metrics.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/control/controllers.h"
-#include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/stopwatch.h"
 #include "trackbed/core/version.h"
 #include "trackbed/optimize/search.h"
-#include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/common/plan.h"
-#include "trackbed/planning/fillet/fillet.h"
-#include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/recording/record_csv.h"
-#include "trackbed/road_network/open_drive.h"
-#include "trackbed/scenario/map_file.h"
-#include "trackbed/scenario/recording_file.h"
-#include "trackbed/track/track_file.h"
+#include "trackbed/scenario/input_files.h"
+#include "trackbed/sim/scene.h"
 
 // Plans and runs a scenario, then writes its run folder. PlanRun plans; DriveRun simulates all
 // plants (simulate_plants.cpp), measures each (metrics.cpp), compares each pair (compare.cpp) and
@@ -79,30 +75,6 @@ Table TreeTable(const std::vector<TreeNode>& tree) {
   return table;
 }
 
-/// Convergence histories of a fillet plan: best radii after each generation.
-Table ConvergenceTable(const PlanDiagnostics& diagnostics) {
-  Table table({"waypoint", "evaluations", "objective", "radius_m"});
-  const auto* all_turns = diagnostics.planner.As<FilletDiagnostics>();
-  for (std::size_t k = 0; k < diagnostics.turns.size(); ++k) {
-    const auto* found = diagnostics.turns[k].As<FilletTurnFindings>();
-    if (found == nullptr) {
-      continue;  // of another planner
-    }
-    const double waypoint = found->turn.waypoint;
-    if (found->turn.search) {
-      for (const SearchProgress& best : found->turn.search->result.history) {
-        table.AddRow({waypoint, static_cast<double>(best.evaluations), best.value, best.x[0]});
-      }
-    } else if (all_turns != nullptr && all_turns->search) {
-      for (const SearchProgress& best : all_turns->search->history) {
-        table.AddRow(
-            {waypoint, static_cast<double>(best.evaluations), best.value, DrivenRadii(best.x)[k]});
-      }
-    }
-  }
-  return table;
-}
-
 /// Plans adopted during the run: rows of plan.csv for each, after the time of its adoption.
 Table ChangesTable(const RunLog& log) {
   std::vector<std::string> columns{"from_t_s"};
@@ -145,10 +117,6 @@ void AddUnlessEmpty(const Table& table, const std::string& name, ResultWriter& w
   }
 }
 
-std::string Pretty(const ordered_json& content) {
-  return content.dump(2) + "\n";
-}
-
 /// Fraction of the rows in which a loaded tyre slides.
 double SlidingShare(const RunLog& log) {
   constexpr double kSlip = 0.1;     // relative to the speed, longitudinal or lateral
@@ -168,13 +136,13 @@ double SlidingShare(const RunLog& log) {
 /// MuJoCo's friction cone lifts sliding contacts, so the wheel loads of such a run are not
 /// realistic.
 void NoteSlidingContacts(RunResult& result, const CarModel& car) {
-  constexpr double kNoticed = 0.01;
+  constexpr double kNotedFraction = 0.01;
   for (const RunLog& log : result.logs) {
     const bool contact = log.plant == "mujoco:contact" ||
                          (log.plant == "mujoco" &&
                           SelectTyreLaw(car, result.scenario.vehicle.tyre) == TyreLaw::kContact);
     const double share = contact ? SlidingShare(log) : 0.0;
-    if (share > kNoticed) {
+    if (share > kNotedFraction) {
       result.verdict.notes.push_back(fmt::format(
           "{}: the tyres slid on MuJoCo contacts for {:.0f} % of the time and bounced; forces and "
           "accelerations are not realistic there (use vehicle.tyre: magic_formula)",
@@ -227,6 +195,9 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
   PlantMetrics metrics = Measure(log, result.plan, car.params(), scenario.drive.control_period,
                                  ControllerFor(scenario.control.steering).station);
   metrics.steering_is_prescribed = scenario.drive.steering == SteeringInput::kPrescribed;
+  if (metrics.tracking) {
+    metrics.tracking->overspeed_limit = OverspeedLimit(log, scenario, car.unladen());
+  }
   if (log.plant == kRecordedPlant) {
     // The limits belong to the model, but the measured wheels belong to the real vehicle.
     metrics.steering_rate_limit = 0.0;
@@ -315,14 +286,16 @@ void AddPlan(const RunResult& result, ResultWriter& writer) {
     }
     writer.Add(run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
     writer.Add(run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
-    AddUnlessEmpty(ConvergenceTable(plan.diagnostics), run_folder::kConvergenceCsv, writer);
+    for (const PlannerTable& table : PlannerFor(result.scenario.plan->global).tables) {
+      AddUnlessEmpty(table.make(plan.diagnostics), table.file, writer);
+    }
     AddUnlessEmpty(TreeTable(plan.tree), run_folder::kTreeCsv, writer);
   }
   const nlohmann::json diagnostics = DiagnosticsJson(plan);
   for (const auto& [key, value] : diagnostics.items()) {
     content[key] = value;
   }
-  writer.Add(run_folder::kPlanJson, Pretty(content));
+  writer.Add(run_folder::kPlanJson, JsonText(content));
 }
 
 void AddLog(const RunLog& log, ResultWriter& writer) {
@@ -330,7 +303,7 @@ void AddLog(const RunLog& log, ResultWriter& writer) {
   writer.Add(run_folder::StateCsv(log.plant), log.configurations.ToCsv());
   if (!log.changes.empty()) {
     writer.Add(run_folder::NewPlansCsv(log.plant), ChangesTable(log).ToCsv());
-    writer.Add(run_folder::NewPlansJson(log.plant), Pretty(ChangesJson(log)));
+    writer.Add(run_folder::NewPlansJson(log.plant), JsonText(ChangesJson(log)));
     AddUnlessEmpty(TreeTable(log.changes.back().plan.tree), run_folder::NewPlansTreeCsv(log.plant),
                    writer);
   }
@@ -353,34 +326,42 @@ ordered_json TimingJson(const RunResult& result) {
 void WritePlan(const RunResult& planned, const OutputFolder& folder) {
   ResultWriter writer(folder);
   AddPlan(planned, writer);
-  writer.Commit(run_folder::kPlan, {run_folder::kPathFiles.begin(), run_folder::kPathFiles.end()});
+  writer.Commit(run_folder::kPlan, run_folder::PathFiles());
 }
+
+namespace {
+
+/// The car of a scenario that gives its path, without load and world; none for a shipped car.
+std::optional<Scene> OwnVehicle(const RunResult& result) {
+  const Scenario& scenario = result.scenario;
+  if (!IsModelPath(scenario.vehicle.model)) {
+    return std::nullopt;
+  }
+  const bool is_bare =
+      !scenario.disturb.payload && !HasObstacles(scenario.world) && IsFlat(scenario.world.ground);
+  return is_bare ? result.scene
+                 : ComposeScene(FindModel(scenario.vehicle.model, scenario.folder),
+                                {.timestep = scenario.drive.timestep,
+                                 .steering_rate = scenario.vehicle.steering_rate,
+                                 .asset_folders = scenario.asset_folders});
+}
+
+}  // namespace
 
 void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
                     const RunFolderOptions& options) {
   ResultWriter writer(folder);
+  AddRunFolder(result, writer, options);
+  writer.Commit();
+}
+
+void AddRunFolder(const RunResult& result, ResultWriter& writer, const RunFolderOptions& options) {
   writer.Add(run_folder::kScenarioYaml, ResolvedYaml(result.scenario));
-  if (const auto& record = result.scenario.record) {
-    writer.Add(kRecordCsv, RecordCsv(*record->data));
+  for (const InputFile& file : InputFiles(result.scenario)) {
+    writer.Add(file.name, file.content);
   }
-  if (const auto& track = result.scenario.mission.track) {
-    writer.Add(kTrackCsv, TrackCsv(track->data->points()));
-  }
-  if (const auto& map = result.scenario.world.map) {
-    writer.Add(kMapYaml, MapYaml(map->data->map()));
-    writer.Add(kMapPgm, MapPgm(map->data->map()));
-  }
-  if (const auto& roads = result.scenario.world.road_network) {
-    writer.Add(kRoadNetworkXodr, roads->data->text);
-  }
-  const auto* playback = result.scenario.control.steering.As<PlaybackOptions>();
-  if (playback != nullptr && !(playback->file.empty() && result.scenario.record)) {
-    writer.Add(kRecordingCsv, RecordingCsv(playback->recording, playback->by));
-  }
-  const auto* path =
-      result.scenario.plan ? result.scenario.plan->global.As<PathFileOptions>() : nullptr;
-  if (path != nullptr && path->path != nullptr) {
-    writer.Add(kPathCsv, PathCsv(path->path->given));
+  if (const std::optional<Scene> vehicle = OwnVehicle(result)) {
+    writer.Add(kVehicleXml, vehicle->xml);
   }
   writer.Add(run_folder::kModelXml, result.scene.xml);
   for (const SceneAsset& asset : result.scene.assets) {
@@ -392,12 +373,12 @@ void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
   for (const RunLog& log : result.logs) {
     AddLog(log, writer);
   }
-  writer.Add(run_folder::kTimingJson, Pretty(TimingJson(result)));
+  writer.Add(run_folder::kTimingJson, JsonText(TimingJson(result)));
   if (options.mcap && !result.logs.empty()) {
     writer.Add(run_folder::kMcap, ToMcap(result));
   }
-  writer.Add(run_folder::kMetricsJson, Pretty(MetricsJson(result)));
-  writer.Commit(run_folder::kRun, run_folder::AllNames());
+  writer.Add(run_folder::kMetricsJson, JsonText(MetricsJson(result)));
+  writer.EndResult(run_folder::kRun, run_folder::AllNames());
 }
 
 }  // namespace trackbed

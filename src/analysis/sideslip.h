@@ -11,7 +11,7 @@ namespace trackbed {
 /// with an obstacle. Only considers speeds above 1 m/s: below, the sway of the body on its
 /// suspension dominates. 0 for a car that never exceeds that speed.
 inline std::optional<MetricReading> LargestSideslip(const MetricInput& input) {
-  constexpr double kSlow = 1.0;  // [m/s]
+  constexpr double kMinSpeed = 1.0;  // [m/s]
   double largest = 0.0;
   MetricPlace at{.span = MetricSpan::kMoment};
   for (const LogRow& row : input.log.rows) {
@@ -19,7 +19,7 @@ inline std::optional<MetricReading> LargestSideslip(const MetricInput& input) {
       break;
     }
     const double sideslip = std::abs(row.state.sideslip);
-    if (std::hypot(row.state.speed, row.state.lateral_speed) >= kSlow && sideslip > largest) {
+    if (std::hypot(row.state.speed, row.state.lateral_speed) >= kMinSpeed && sideslip > largest) {
       largest = sideslip;
       at.s = RowStation(row);
       at.t = row.state.time;

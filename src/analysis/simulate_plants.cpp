@@ -6,14 +6,14 @@
 #include <string>
 #include <utility>
 
-#include "src/analysis/stopwatch.h"
 #include "trackbed/analysis/record_metrics.h"
+#include "trackbed/core/stopwatch.h"
 #include "trackbed/scenario/record.h"
 
 namespace trackbed {
 namespace {
 
-/// Simulates one plant. Excludes the time spent in the hook `logged` from its timing.
+/// Simulates one plant. Its timing excludes the time spent in the hook `logged`.
 SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
                              const std::string& plant, DriveHooks hooks) {
   DriveTiming timing{.plant = plant};
@@ -49,12 +49,13 @@ SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
 }
 
 /// Calls the run's hook for the end of a plant, even if its simulation throws.
-class EndOfPlant {
+class PlantEndNotifier {
  public:
-  EndOfPlant(const RunHooks& hooks, const std::string& plant) : hooks_(hooks), plant_(plant) {}
-  EndOfPlant(const EndOfPlant&) = delete;
-  EndOfPlant& operator=(const EndOfPlant&) = delete;
-  ~EndOfPlant() {
+  PlantEndNotifier(const RunHooks& hooks, const std::string& plant)
+      : hooks_(hooks), plant_(plant) {}
+  PlantEndNotifier(const PlantEndNotifier&) = delete;
+  PlantEndNotifier& operator=(const PlantEndNotifier&) = delete;
+  ~PlantEndNotifier() {
     if (hooks_.ended) {
       hooks_.ended(plant_);
     }
@@ -69,7 +70,7 @@ std::vector<SimulatedPlant> SimulateTogether(const RunResult& planned, const Car
                                              const RunHooks& hooks) {
   std::atomic<bool> failed{false};
   const auto simulate = [&](const std::string& plant) {
-    const EndOfPlant end(hooks, plant);
+    const PlantEndNotifier end(hooks, plant);
     try {
       DriveHooks drive_hooks = hooks.drive ? hooks.drive(plant) : DriveHooks{};
       drive_hooks.interrupted = [&failed, callers = drive_hooks.interrupted] {
@@ -96,7 +97,7 @@ std::vector<SimulatedPlant> SimulateInTurn(const RunResult& planned, const CarMo
                                            const RunHooks& hooks) {
   std::vector<SimulatedPlant> simulated;
   for (const std::string& plant : planned.scenario.drive.plants) {
-    const EndOfPlant end(hooks, plant);
+    const PlantEndNotifier end(hooks, plant);
     simulated.push_back(
         SimulatePlant(planned, car, plant, hooks.drive ? hooks.drive(plant) : DriveHooks{}));
     if (simulated.back().interrupted) {

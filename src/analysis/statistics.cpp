@@ -23,13 +23,13 @@ namespace {
 
 /// Boost's tables of long doubles overflow at startup where long doubles have only 64 bits, as
 /// under valgrind.
-using InDoubles = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 /// Half width of an interval of this confidence, in standard deviations of a normal distribution.
 double NormalReach(double confidence) {
   TRACKBED_REQUIRE(confidence > 0.0 && confidence < 1.0, "confidence {} is not in (0, 1)",
                    confidence);
-  return boost::math::quantile(boost::math::normal_distribution<double, InDoubles>(),
+  return boost::math::quantile(boost::math::normal_distribution<double, DoublePrecision>(),
                                0.5 * (1.0 + confidence));
 }
 
@@ -124,15 +124,16 @@ MeanEstimate EstimateMean(const std::vector<double>& values, double confidence) 
     }
     const auto n = static_cast<double>(values.size());
     const double t = boost::math::quantile(
-        boost::math::students_t_distribution<double, InDoubles>(n - 1.0), 0.5 * (1.0 + confidence));
+        boost::math::students_t_distribution<double, DoublePrecision>(n - 1.0),
+        0.5 * (1.0 + confidence));
     const double half = t * std::sqrt(squares / (n - 1.0) / n);
     estimate.interval = Interval{estimate.mean - half, estimate.mean + half};
   }
   return estimate;
 }
 
-Classes Classify(const std::vector<std::string>& values, std::size_t most) {
-  TRACKBED_REQUIRE(most >= 2, "{} classes", most);
+Classes Classify(const std::vector<std::string>& values, std::size_t max_classes) {
+  TRACKBED_REQUIRE(max_classes >= 2, "{} classes", max_classes);
   Classes classes;
   classes.of_row.resize(values.size());
   std::map<std::string, std::size_t> distinct;
@@ -147,14 +148,15 @@ Classes Classify(const std::vector<std::string>& values, std::size_t most) {
       numbers.emplace_back(*number, row);
     }
   }
-  if (distinct.size() <= most || numbers.size() < values.size()) {
+  if (distinct.size() <= max_classes || numbers.size() < values.size()) {
     return classes;
   }
   std::sort(numbers.begin(), numbers.end());
   classes.names.clear();
   for (std::size_t begin = 0; begin < numbers.size();) {
     // Divides the remaining rows among the remaining classes.
-    const std::size_t left = std::max<std::size_t>(1, most - std::min(most, classes.names.size()));
+    const std::size_t left =
+        std::max<std::size_t>(1, max_classes - std::min(max_classes, classes.names.size()));
     std::size_t end = begin + std::max<std::size_t>(1, (numbers.size() - begin) / left);
     while (end < numbers.size() && numbers[end].first == numbers[end - 1].first) {
       ++end;
@@ -276,10 +278,10 @@ std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
         "a value is not finite");
   }
   const double z = NormalReach(confidence);
-  constexpr std::size_t kFewest = 4;
+  constexpr std::size_t kMinSamples = 4;
   const auto ranks_a = RanksOf(a);
   const auto ranks_b = RanksOf(b);
-  if (a.size() < kFewest || !ranks_a || !ranks_b) {
+  if (a.size() < kMinSamples || !ranks_a || !ranks_b) {
     return std::nullopt;
   }
   const double middle = 0.5 * static_cast<double>(a.size() - 1);
@@ -311,8 +313,8 @@ PairedDifference ComparePairs(const std::vector<double>& a, const std::vector<do
   pairs.mean = EstimateMean(differences, confidence);
   pairs.median = Quantiles(std::move(differences), {0.5}).front();
   if (const std::size_t uneven = pairs.higher + pairs.lower; uneven > 0) {
-    const boost::math::binomial_distribution<double, InDoubles> fair(static_cast<double>(uneven),
-                                                                     0.5);
+    const boost::math::binomial_distribution<double, DoublePrecision> fair(
+        static_cast<double>(uneven), 0.5);
     const auto fewer = static_cast<double>(std::min(pairs.higher, pairs.lower));
     pairs.sign_test = std::min(1.0, 2.0 * boost::math::cdf(fair, fewer));
   }

@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kSlow = 1.0;              // [m/s]; below, L psi'/v is meaningless
+constexpr double kMinSteadySpeed = 1.0;    // [m/s]; below, L psi'/v is meaningless
 constexpr double kYawAcceleration = 0.05;  // [rad/s^2]; upper limit of quasi-steady
 constexpr double kWindow = 0.5;            // [s]; for its mean
 
@@ -35,7 +35,7 @@ std::vector<Sample> QuasiSteady(const RunLog& log, double settle) {
     const VehicleState& earlier = rows[before].state;
     const double elapsed = state.time - earlier.time;
     if (elapsed < 0.9 * kWindow || earlier.time < rows.front().state.time + settle ||
-        std::abs(state.speed) < kSlow ||
+        std::abs(state.speed) < kMinSteadySpeed ||
         std::abs(state.yaw_rate - earlier.yaw_rate) > kYawAcceleration * elapsed) {
       continue;
     }
@@ -96,17 +96,17 @@ double Spread(const std::vector<Sample>& samples) {
 
 void EvaluateGradients(const std::vector<Sample>& samples, double from, double to, double wheelbase,
                        ManeuverMetrics& metrics) {
-  constexpr double kLeastSpread = 0.5;  // [m/s^2]; a gradient needs a range
+  constexpr double kMinSpread = 0.5;  // [m/s^2]; a gradient needs a range
   double highest = 0.0;
   for (const Sample& sample : samples) {
     highest = std::max(highest, sample.lateral_acceleration);
   }
   metrics.values.emplace_back("lateral_acceleration_max", highest);
   const std::vector<Sample> used = Between(samples, from, to);
-  if (Spread(used) < kLeastSpread) {
+  if (Spread(used) < kMinSpread) {
     metrics.missing =
         fmt::format("quasi-steady samples between {} and {} m/s^2 span less than {} m/s^2", from,
-                    to, kLeastSpread);
+                    to, kMinSpread);
     return;
   }
   const double understeer =

@@ -11,26 +11,29 @@
 
 #include "src/analysis/manifest.h"
 #include "src/analysis/study_description.h"
+#include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/parallel.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/statistics.h"
 #include "trackbed/analysis/sweep_rows.h"
 #include "trackbed/core/error.h"
 
+// Runs the rows of a study in parallel and records each as it finishes (sweep_records.cpp). A row
+// is a point of the study and a repetition; row numbers are fixed by the study, so a shard or a
+// resumed study runs only the missing ones. `--until` stops a sample in steps of kUntilBatch
+// points once the Wilson intervals of the pass rates are narrow enough at all grid points.
+// WriteSweep writes the table row by row from the records; MergeRecords joins shards and rejects
+// contradicting rows.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-std::vector<std::string> Columns(const SweepRecords& records) {
-  return records.header().at("columns").get<std::vector<std::string>>();
-}
-
-/// The row numbers of the shard that the records have not; or else those that they have with one of
-/// the statuses `again`.
+/// Rows of the shard to run: those missing in the records or, if `again` is given, those recorded
+/// with one of its statuses.
 std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptions& options) {
-  const std::vector<std::string> columns = Columns(records);
+  const std::vector<std::string> columns = records.Columns();
   const auto status = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "status") -
                                                columns.begin());
   std::vector<std::size_t> rows;
@@ -40,7 +43,7 @@ std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptio
     }
     bool wanted = options.again.empty() && !records.Has(row);
     if (!options.again.empty() && records.Has(row)) {
-      const std::string was = RowFromJson(records.Read(row)).cells.at(status);
+      const std::string was = ReadRow(records, row).cells.at(status);
       wanted = std::find(options.again.begin(), options.again.end(), was) != options.again.end();
     }
     if (wanted) {
@@ -50,7 +53,7 @@ std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptio
   return rows;
 }
 
-/// How many rows passed at each point of the grid, of the first points of the sample.
+/// Number of rows that passed at each grid point, for the first points of the sample.
 class SampledPassRates {
  public:
   SampledPassRates(const SweepRecords& records, std::size_t repeat, std::size_t samples)
@@ -59,35 +62,35 @@ class SampledPassRates {
         samples_(samples),
         passed_(records.rows() / (samples * repeat)) {}
 
-  /// The rows of the next kUntilSamples points of the sample, at all points of the grid. None when
-  /// the sample is at its end.
+  /// Rows of the next kUntilBatch points of the sample, at all grid points. Empty at the end of
+  /// the sample.
   [[nodiscard]] std::vector<std::size_t> NextRows() const {
     std::vector<std::size_t> rows;
-    const std::size_t end = std::min(taken_ + kUntilSamples, samples_);
+    const std::size_t end = std::min(sampled_ + kUntilBatch, samples_);
     for (std::size_t grid = 0; grid < passed_.size(); ++grid) {
-      for (std::size_t i = taken_ * repeat_; i < end * repeat_; ++i) {
+      for (std::size_t i = sampled_ * repeat_; i < end * repeat_; ++i) {
         rows.push_back(grid * samples_ * repeat_ + i);
       }
     }
     return rows;
   }
 
-  /// Counts what came of NextRows; false when one of them is missing.
+  /// Counts the results of NextRows. Returns false if one is missing.
   bool Take(const std::vector<std::size_t>& rows) {
     for (const std::size_t row : rows) {
       if (!records_.Has(row)) {
         return false;
       }
-      passed_[row / (samples_ * repeat_)] += RowFromJson(records_.Read(row)).passed ? 1U : 0U;
+      passed_[row / (samples_ * repeat_)] += ReadRow(records_, row).passed ? 1U : 0U;
     }
-    taken_ = std::min(taken_ + kUntilSamples, samples_);
+    sampled_ = std::min(sampled_ + kUntilBatch, samples_);
     return true;
   }
 
-  /// Whether half of each 95 % interval is at most this.
+  /// Whether the half width of every 95 % interval is at most `half_width`.
   [[nodiscard]] bool AreAllKnownTo(double half_width) const {
     return std::all_of(passed_.begin(), passed_.end(), [&](std::size_t passed) {
-      const Interval interval = WilsonInterval(passed, taken_ * repeat_, 0.95);
+      const Interval interval = WilsonInterval(passed, sampled_ * repeat_, 0.95);
       return 0.5 * (interval.high - interval.low) <= half_width;
     });
   }
@@ -96,21 +99,21 @@ class SampledPassRates {
   const SweepRecords& records_;
   std::size_t repeat_;
   std::size_t samples_;
-  std::vector<std::size_t> passed_;  // at each point of the grid
-  std::size_t taken_ = 0;            // points of the sample
+  std::vector<std::size_t> passed_;  // at each grid point
+  std::size_t sampled_ = 0;          // points of the sample
 };
 
-/// Calls with every row of the shard that there is, in their order.
+/// Calls `take` with every recorded row of the shard, in order.
 void ForEachRow(const SweepRecords& records, const Shard& shard,
                 const std::function<void(SweepRow row)>& take) {
   for (std::size_t i = 0; i < records.rows(); ++i) {
     if (shard.Has(i) && records.Has(i)) {
-      take(RowFromJson(records.Read(i)));
+      take(ReadRow(records, i));
     }
   }
 }
 
-/// sweep.json: the study as it was run.
+/// Content of sweep.json: the study and what was run.
 ordered_json Description(const SweepRecords& records, const Shard& shard,
                          const SweepSummary& sweep) {
   ordered_json json = records.header();
@@ -167,7 +170,7 @@ void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords
   std::mutex mutex;
   std::size_t finished = 0;
   const auto run_row = [&](std::size_t row) {
-    const RunScenarioOnce run_it = [&](const Scenario& scenario) {
+    const RunScenarioOnce run_scenario = [&](const Scenario& scenario) {
       std::optional<RunOutcome> outcome =
           options.interrupted && options.interrupted() ? std::nullopt : run(scenario);
       if (outcome && options.finished && !study.bisect) {
@@ -176,7 +179,7 @@ void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords
       return outcome;
     };
     const std::optional<SweepRow> made =
-        MakeRow(study, run_it, points.Read(row / repeat), row % repeat);
+        MakeRow(study, run_scenario, points.Read(row / repeat), row % repeat);
     if (!made) {
       return false;
     }
@@ -203,23 +206,30 @@ void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords
                  [&](std::size_t row) { return !records.Has(row); });
     run_rows(missing);
     if (next.empty() || !rates.Take(next)) {
-      return;  // all have been run, or it was interrupted
+      return;  // all rows have been run, or the study was interrupted
     }
   }
 }
 
 SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const OutputFolder& folder,
                         const std::string& stopped) {
-  const SweepSummary summary = Summarize(records, shard);
   ResultWriter writer(folder);
+  const SweepSummary summary = AddSweep(records, shard, writer, stopped);
+  writer.Commit();
+  return summary;
+}
+
+SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWriter& writer,
+                      const std::string& stopped) {
+  const SweepSummary summary = Summarize(records, shard);
   bool header = true;
   std::size_t next = 0;
   writer.Add(run_folder::kSweepCsv, [&] {
-    constexpr std::size_t kPart = 65536;
-    std::string part = std::exchange(header, false) ? CsvLine(Columns(records)) : "";
-    for (; next < records.rows() && part.size() < kPart; ++next) {
+    constexpr std::size_t kChunkSize = 65536;
+    std::string part = std::exchange(header, false) ? CsvLine(records.Columns()) : "";
+    for (; next < records.rows() && part.size() < kChunkSize; ++next) {
       if (shard.Has(next) && records.Has(next)) {
-        part += CsvLine(RowFromJson(records.Read(next)).cells);
+        part += CsvLine(ReadRow(records, next).cells);
       }
     }
     return part;
@@ -228,8 +238,10 @@ SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const O
   if (!stopped.empty()) {
     description["stopped"] = stopped;
   }
-  writer.Add(run_folder::kSweepJson, description.dump(2) + "\n");
-  writer.Commit(run_folder::kStudy, {run_folder::kReport});
+  writer.Add(run_folder::kSweepJson, JsonText(description));
+  // An outcome of other rows.
+  writer.EndResult(run_folder::kStudy,
+                   {run_folder::kReport, run_folder::kFalsifyJson, run_folder::kVerifyJson});
   return summary;
 }
 
@@ -237,7 +249,7 @@ SweepResult RunSweep(const StudyPoints& points, const RunScenarioOnce& run,
                      const SweepOptions& options) {
   SweepRecords records = SweepRecords::InMemory(SweepHeader(points));
   RunRows(points, run, records, options);
-  SweepResult sweep{.table = TextTable(Columns(records)),
+  SweepResult sweep{.table = TextTable(records.Columns()),
                     .description = {},
                     .summary = Summarize(records, options.shard)};
   sweep.description = Description(records, options.shard, sweep.summary);
@@ -285,22 +297,25 @@ void MergeRecords(const std::vector<fs::path>& files, SweepRecords& records) {
 }
 
 std::vector<std::size_t> WorstRows(const SweepRecords& records) {
-  const ordered_json& keep = records.header().at("keep");
-  const auto by = keep.at("by").get<std::string>();
-  const bool highest = keep.at("highest").get<bool>();
-  const std::vector<std::string> columns = Columns(records);
+  const JsonValue keep = records.Header().At("keep");
+  const std::string by = keep.At("by").Text();
+  const bool highest = keep.At("highest").Flag();
+  const std::vector<std::string> columns = records.Columns();
+  if (std::find(columns.begin(), columns.end(), by) == columns.end()) {
+    keep.At("by").Refuse("a column");
+  }
   const auto column =
       static_cast<std::size_t>(std::find(columns.begin(), columns.end(), by) - columns.begin());
   std::vector<std::pair<double, std::size_t>> rows;
   for (std::size_t row = 0; row < records.rows(); ++row) {
     const std::string cell =
-        records.Has(row) ? RowFromJson(records.Read(row)).cells.at(column) : std::string();
+        records.Has(row) ? ReadRow(records, row).cells.at(column) : std::string();
     if (const std::optional<double> value = CellNumber(cell)) {
       rows.emplace_back(highest ? -*value : *value, row);
     }
   }
   std::sort(rows.begin(), rows.end());
-  const auto count = keep.at("count").get<std::size_t>();
+  const std::size_t count = keep.At("count").Count();
   std::vector<std::size_t> worst;
   for (auto row = rows.begin(); row != rows.end() && worst.size() < count; ++row) {
     worst.push_back(row->second);
@@ -316,18 +331,18 @@ std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t ro
                        ? fmt::format("{} has not been run", row)
                        : fmt::format("{}; the study has 0 to {}", row, records.rows() - 1)});
   }
-  const ordered_json& header = records.header();
+  const JsonValue header = records.Header();
   std::vector<Override> overrides;
-  for (const auto& [key, value] : header.at("set").items()) {
-    // Texts stand as they were written, and all else is YAML as it is.
+  for (const auto& [key, value] : header.At("set").Members()) {
+    // Texts stand as they were written; other values are YAML as they are.
+    const nlohmann::ordered_json& json = value.json();
     overrides.push_back(
-        fmt::format("{}={}", key, value.is_string() ? value.get<std::string>() : value.dump()));
+        fmt::format("{}={}", key, json.is_string() ? json.get<std::string>() : json.dump()));
   }
-  for (const ordered_json& text : header.at("overrides")) {
-    overrides.push_back(text.get<std::string>());
-  }
-  const std::vector<std::string> columns = Columns(records);
-  const std::vector<std::string> cells = RowFromJson(records.Read(row)).cells;
+  const std::vector<std::string> given = header.At("overrides").Texts();
+  overrides.insert(overrides.end(), given.begin(), given.end());
+  const std::vector<std::string> columns = records.Columns();
+  const std::vector<std::string> cells = ReadRow(records, row).cells;
   for (std::size_t i = 0; i < columns.size() && columns[i] != "status"; ++i) {
     if (!cells.at(i).empty()) {
       overrides.push_back(columns[i] + "=" + cells[i]);
@@ -337,7 +352,7 @@ std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t ro
 }
 
 std::string MissingRows(const SweepRecords& records) {
-  constexpr std::size_t kMost = 10;
+  constexpr std::size_t kMaxRanges = 10;
   std::string text;
   std::size_t ranges = 0;
   for (std::size_t row = 0; row < records.rows(); ++row) {
@@ -348,7 +363,7 @@ std::string MissingRows(const SweepRecords& records) {
     while (row + 1 < records.rows() && !records.Has(row + 1)) {
       ++row;
     }
-    if (++ranges > kMost) {
+    if (++ranges > kMaxRanges) {
       return text + ", ...";
     }
     text += text.empty() ? "" : ", ";

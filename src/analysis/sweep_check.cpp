@@ -7,18 +7,11 @@
 #include <tuple>
 
 #include "trackbed/analysis/sweep.h"
-#include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/hash.h"
 #include "trackbed/core/spelling.h"
-#include "trackbed/path_files/path_file.h"
-#include "trackbed/planning/path_file/path_file_planner.h"
-#include "trackbed/recording/record_csv.h"
-#include "trackbed/road_network/open_drive.h"
-#include "trackbed/scenario/map_file.h"
-#include "trackbed/scenario/recording_file.h"
+#include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/scene.h"
-#include "trackbed/track/track_file.h"
 
 namespace trackbed {
 namespace {
@@ -118,6 +111,17 @@ std::string HashOfModel(const Scenario& scenario) {
   return hash.Finish();
 }
 
+/// Adds the SHA-256 of each input of the scenario, by its source. A map is two files.
+void AddInputHashes(const Scenario& scenario, std::map<std::string, std::string>& hashes) {
+  std::map<std::string, std::string> contents;
+  for (const InputFile& file : InputFiles(scenario)) {
+    contents[file.source] += file.content;
+  }
+  for (const auto& [source, content] : contents) {
+    hashes[source] = Sha256(content);
+  }
+}
+
 }  // namespace
 
 CheckedStudy CheckStudy(Study study, bool all) {
@@ -132,7 +136,7 @@ CheckedStudy CheckStudy(Study study, bool all) {
   });
   OncePerKey<PlantsKey> drives([&](const Scenario& scenario) { CheckPlants(checked, scenario); });
   std::set<std::string> possible;
-  bool any_good = false;
+  bool any_valid = false;
   for (const std::size_t i : PointsToCheck(checked.points)) {
     const StudyPoint point = checked.points.Read(i);
     const Scenario& scenario = point.scenario;
@@ -142,36 +146,15 @@ CheckedStudy CheckStudy(Study study, bool all) {
     const CarKey car = MakeCarKey(scenario);
     if (compiles(car, scenario) &&
         drives({car, scenario.drive.plants, scenario.vehicle.tyre}, scenario)) {
-      any_good = true;
+      any_valid = true;
       const std::vector<std::string> own = PossibleOutputs(scenario);
       possible.insert(own.begin(), own.end());
     }
-    if (scenario.record) {
-      checked.inputs["record " + scenario.record->file] = Sha256(RecordCsv(*scenario.record->data));
-    }
-    if (const auto& track = scenario.mission.track) {
-      checked.inputs["track " + track->file] = Sha256(TrackCsv(track->data->points()));
-    }
-    if (const auto& map = scenario.world.map) {
-      checked.inputs["map " + map->file] =
-          Sha256(MapYaml(map->data->map()) + MapPgm(map->data->map()));
-    }
-    if (const auto& roads = scenario.world.road_network) {
-      checked.inputs["road network " + roads->file] = Sha256(roads->data->text);
-    }
-    const auto* playback = scenario.control.steering.As<PlaybackOptions>();
-    if (playback != nullptr && !playback->file.empty()) {
-      checked.inputs["recording " + playback->file] =
-          Sha256(RecordingCsv(playback->recording, playback->by));
-    }
-    const auto* path = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;
-    if (path != nullptr && path->path != nullptr) {
-      checked.inputs["path " + path->file] = Sha256(PathCsv(path->path->given));
-    }
+    AddInputHashes(scenario, checked.inputs);
   }
   std::vector<Problem> problems = compiles.problems();
   problems.insert(problems.end(), drives.problems().begin(), drives.problems().end());
-  if (!problems.empty() && (all || !any_good)) {
+  if (!problems.empty() && (all || !any_valid)) {
     throw InputError(problems);
   }
   CheckOutputs(checked.points.study(), possible);

@@ -31,7 +31,7 @@ Outputs CollectOutputs(const RunResult& result) {
       ToText(verdict.judged ? MetricValue(RobustnessOf(result).value) : MetricValue());
   outputs["verdict.failures"] = fmt::format("{}", fmt::join(verdict.failures, "; "));
   if (result.scenario.plan) {
-    outputs["plan.status"] = ToString(result.plan.status);
+    outputs["plan.status"] = ToString(result.plan->status);
     outputs["timing.planning_s"] = ToText(result.planning_time);
     for (const PathProperty& property : PathProperties()) {
       const std::optional<double> value =

@@ -1,5 +1,7 @@
 #include "trackbed/analysis/sweep_rows.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <string_view>
@@ -15,12 +17,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Makes the rows of a study.
+/// Runs the rows of a study.
 class RowMaker {
  public:
   RowMaker(const Study& study, const RunScenarioOnce& run) : study_(study), run_(run) {}
 
-  /// The row of a point's `repetition`; nothing when it was interrupted.
+  /// Runs the given `repetition` of a point; none if interrupted.
   [[nodiscard]] std::optional<SweepRow> Make(const StudyPoint& point,
                                              std::uint64_t repetition) const {
     if (!point.refused.empty()) {
@@ -82,7 +84,7 @@ class RowMaker {
   [[nodiscard]] std::optional<SweepRow> BisectAt(const StudyPoint& point,
                                                  std::uint64_t repetition) const {
     const BisectSpec& spec = *study_.bisect;
-    Outputs best;  // of the highest value that passed
+    Outputs best;  // at the largest value that passed
     const Bisection bisection =
         Bisect(spec.from, spec.to, spec.tolerance, [&](double value) -> std::optional<bool> {
           Scenario scenario = ReadPoint(study_, point.settings, value);
@@ -171,13 +173,23 @@ ordered_json ToJson(const SweepRow& row) {
   return json;
 }
 
-SweepRow RowFromJson(const ordered_json& json) {
-  return {.cells = json.at("cells").get<std::vector<std::string>>(),
-          .passed = json.contains("passed"),
-          .refused = json.contains("refused"),
-          .error = json.contains("error"),
-          .runs = json.at("runs").get<std::size_t>(),
-          .bisection = json.value("bisection", ordered_json())};
+SweepRow ReadRow(const SweepRecords& records, std::size_t row) {
+  const JsonValue json = records.Entry(row);
+  const auto flag = [&](const char* name) {
+    const std::optional<JsonValue> value = json.Find(name);
+    return value && value->Flag();
+  };
+  const std::optional<JsonValue> bisection = json.Find("bisection");
+  SweepRow read{.cells = json.At("cells").Texts(),
+                .passed = flag("passed"),
+                .refused = flag("refused"),
+                .error = flag("error"),
+                .runs = json.At("runs").Count(),
+                .bisection = bisection ? bisection->json() : ordered_json()};
+  if (read.cells.size() != records.Columns().size()) {
+    json.At("cells").Refuse(fmt::format("a list of {}", records.Columns().size()));
+  }
+  return read;
 }
 
 std::optional<SweepRow> MakeRow(const Study& study, const RunScenarioOnce& run,

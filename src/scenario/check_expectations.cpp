@@ -72,7 +72,7 @@ void CheckMetrics(Diagnostics& c) {
 
 /// Rejects expectations on quantities that the run does not measure: path errors need a plan,
 /// clearances need obstacles.
-void CheckWhatIsMeasured(Diagnostics& c) {
+void CheckMeasuredQuantities(Diagnostics& c) {
   const bool has_path = c.scenario.plan || !c.CouldReadPlan({"method"});
   const bool has_obstacles =
       HasObstacles(c.scenario.world) || !c.CouldRead({"world.obstacles", "world.map"});
@@ -97,7 +97,7 @@ void CheckExpectations(Diagnostics& c) {
     CheckPlants(c);
   }
   CheckBetween(c);
-  CheckWhatIsMeasured(c);
+  CheckMeasuredQuantities(c);
   CheckMetrics(c);
 }
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <limits>
 
 #include "src/scenario/diagnostics.h"
@@ -5,68 +6,48 @@
 #include "src/scenario/start_state.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/path/fit_path.h"
 #include "trackbed/planning/common/planner.h"
-#include "trackbed/planning/course/course.h"
-#include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/planning/sampling/rrt_planner.h"
 #include "trackbed/road_network/open_drive.h"
+#include "trackbed/track/track.h"
 
 // Cross-checks of the mission and the plan: rules between keys that the schema of a single key
 // cannot express. Each check returns early if one of its keys could not be read, so that an error
-// is reported once. Wherever possible, rules depend on the planner's registry entry (PlannerEntry:
+// is reported once. Rules depend on the planner's registry entry (PlannerEntry:
 // follows_track, follows_lanes, needs_limits, min_waypoints, ...) and not on its name.
 namespace trackbed {
 namespace {
 
-void CheckCourse(Diagnostics& c) {
-  const auto* course = c.scenario.plan ? c.scenario.plan->global.As<CourseOptions>() : nullptr;
-  if (course == nullptr) {
-    return;
-  }
-  const std::string key = c.KeyOfPlan("segments");
-  if (course->segments.empty() && c.CouldReadPlan({"segments"})) {
-    c.AddError(key, "a course needs at least one segment");
-  }
-  for (std::size_t i = 0; i < course->segments.size(); ++i) {
-    const CoursePiece& piece = course->segments[i];
-    const std::string own = fmt::format("{}[{}]", key, i);
-    if (!c.could_read(own) || !c.could_read(own + ".curvature") ||
-        !c.could_read(own + ".curvature_from") || !c.could_read(own + ".curvature_to")) {
-      continue;
-    }
-    if (piece.curvature && (piece.curvature_from || piece.curvature_to)) {
-      c.AddError(own, "give curvature or curvature_to, not both");
-    } else if (!piece.curvature && !piece.curvature_to) {
-      c.AddError(own, "give curvature (0 for a straight), or curvature_to for a ramp");
-    }
+constexpr const char* kDetourSection = "plan.replan.detour.";
+
+void AddProblems(Diagnostics& c, const std::string& section, std::vector<OptionProblem> problems) {
+  for (OptionProblem& problem : problems) {
+    c.AddError(section + problem.key, std::move(problem.message));
   }
 }
 
-void CheckSmoothing(Diagnostics& c, const PlannerOptions& planner, const std::string& key) {
-  const auto* rrt = planner.As<RrtPlannerOptions>();
-  if (rrt == nullptr) {
+/// Rules between the options of the planner, and of the planner of detours.
+void CheckPlanners(Diagnostics& c) {
+  const auto& plan = c.scenario.plan;
+  if (!plan) {
     return;
   }
-  const double step = rrt->data_weight + 2.0 * rrt->smoothness_weight;
-  if (step <= 0.0 || step >= 1.0) {
-    c.AddError(key, fmt::format("data_weight + 2 smoothness_weight is {:.4g}; must be above 0 and "
-                                "below 1 for the smoothing to converge",
-                                step));
+  if (const auto check = PlannerFor(plan->global).check) {
+    const CouldReadKey could_read = [&](const std::string& key) {
+      return c.CouldReadPlan({key.c_str()});
+    };
+    AddProblems(c, PlannerSection(c.scenario), check(plan->global, could_read));
   }
-}
-
-void CheckSmoothing(Diagnostics& c) {
-  if (!c.scenario.plan) {
+  if (!plan->replan || !plan->replan->detour) {
     return;
   }
-  if (c.CouldReadPlan({"data_weight", "smoothness_weight"})) {
-    CheckSmoothing(c, c.scenario.plan->global, c.KeyOfPlan("smoothness_weight"));
-  }
-  const std::string detour = "plan.replan.detour.";
-  if (c.scenario.plan->replan && c.scenario.plan->replan->detour &&
-      c.CouldRead({"plan.replan.detour.data_weight", "plan.replan.detour.smoothness_weight"})) {
-    CheckSmoothing(c, *c.scenario.plan->replan->detour, detour + "smoothness_weight");
+  const PlannerOptions& detour = *plan->replan->detour;
+  if (const auto check = PlannerFor(detour).check) {
+    const CouldReadKey could_read = [&](const std::string& key) {
+      return c.could_read(kDetourSection + key);
+    };
+    AddProblems(c, kDetourSection, check(detour, could_read));
   }
 }
 
@@ -83,8 +64,7 @@ void CheckAvoider(Diagnostics& c) {
 /// rejected.
 void CheckNeutralSteering(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
-  const auto* fillets = plan ? plan->global.As<FilletOptions>() : nullptr;
-  if (fillets == nullptr || fillets->neutral_steering == 0.0 || !(plan->avoid || plan->replan) ||
+  if (NeutralSteering(c.scenario) == 0.0 || !(plan->avoid || plan->replan) ||
       !c.CouldReadPlan({"neutral_steering"})) {
     return;
   }
@@ -99,24 +79,6 @@ void CheckNotEmpty(Diagnostics& c, const std::string& key, const std::vector<dou
   const std::string dotted = "plan.replan.along." + key;
   if (values.empty() && c.could_read(dotted)) {
     c.AddError(dotted, "must not be empty");
-  }
-}
-
-/// Detours must be repeatable, so a wall-clock limit is rejected, and must return to the route, so
-/// a partial plan is rejected.
-void CheckDetourTrees(Diagnostics& c) {
-  const auto& detour = c.scenario.plan->replan->detour;
-  const auto* rrt = detour ? detour->As<RrtPlannerOptions>() : nullptr;
-  if (rrt == nullptr) {
-    return;
-  }
-  if (rrt->time_limit) {
-    c.AddError("plan.replan.detour.time_limit",
-               "not allowed in a detour, whose planning must be repeatable; use iterations");
-  }
-  if (rrt->partial.value_or(false)) {
-    c.AddError("plan.replan.detour.partial",
-               "not allowed in a detour, which must return to the route");
   }
 }
 
@@ -139,7 +101,11 @@ void CheckReplan(Diagnostics& c) {
   if (replan.detour && MayGoBackwards(*replan.detour)) {
     c.AddError("plan.replan.detour.reverse", "not allowed in a detour, which is forward only");
   }
-  CheckDetourTrees(c);
+  if (replan.detour) {
+    if (const auto check = PlannerFor(*replan.detour).check_detour) {
+      AddProblems(c, kDetourSection, check(*replan.detour));
+    }
+  }
   if (!replan.along && !replan.detour) {
     c.AddError("plan.replan", "give along, detour or both");
   }
@@ -185,8 +151,43 @@ void CheckHeadings(Diagnostics& c) {
   }
 }
 
+/// Bounds the work of the planner, and the rows of the plan, by the length of the route.
+void CheckRouteLength(Diagnostics& c) {
+  const std::vector<Vec2>& waypoints = c.scenario.mission.waypoints;
+  double length = 0.0;
+  double longest = 0.0;
+  std::size_t end = 0;
+  for (std::size_t i = 1; i < waypoints.size(); ++i) {
+    const double leg = (waypoints[i] - waypoints[i - 1]).norm();
+    length += leg;
+    end = leg > longest ? i : end;
+    longest = std::max(leg, longest);
+  }
+  if (length > kMaxPathLength) {
+    c.AddError(fmt::format("mission.waypoints[{}]", end),
+               fmt::format("the route is {:.7g} m long; must be at most {:.7g} m: the leg to this "
+                           "waypoint is {:.7g} m; correct it, or divide the route",
+                           length, kMaxPathLength, longest));
+  }
+}
+
+void CheckLaps(Diagnostics& c) {
+  const auto& track = c.scenario.mission.track;
+  if (!track || track->data == nullptr || !c.CouldRead({"mission.track", "mission.track.laps"})) {
+    return;
+  }
+  const double lap = track->data->length();
+  if (track->laps * lap > std::max(kMaxPathLength, lap)) {
+    c.AddError("mission.track.laps",
+               fmt::format("{} laps of {:.6g} m are {:.7g} m; must be at most {:.7g} m, {} laps",
+                           track->laps, lap, track->laps * lap, kMaxPathLength,
+                           static_cast<int>(kMaxPathLength / lap)));
+  }
+}
+
 void CheckWaypoints(Diagnostics& c) {
   const std::vector<Vec2>& waypoints = c.scenario.mission.waypoints;
+  CheckRouteLength(c);
   for (std::size_t i = 1; i < waypoints.size(); ++i) {
     if (waypoints[i] == waypoints[i - 1]) {
       c.AddError(fmt::format("mission.waypoints[{}]", i), "same point as the previous waypoint");
@@ -228,11 +229,11 @@ void CheckSpeedProfile(Diagnostics& c) {
   if (!std::holds_alternative<LimitProfileOptions>(*profile)) {
     return;
   }
-  constexpr double kLeastFriction = 0.01;  // the ggv diagram resolves 0.0006 m/s^2
+  constexpr double kMinFriction = 0.01;  // the ggv diagram resolves 0.0006 m/s^2
   const auto check = [&](const std::string& key, double friction) {
-    if (friction < kLeastFriction && c.could_read(key)) {
+    if (friction < kMinFriction && c.could_read(key)) {
       c.AddError(key, fmt::format("{} is below {}, the least for speeds at the limit", friction,
-                                  kLeastFriction));
+                                  kMinFriction));
     }
   };
   const World& world = c.scenario.world;
@@ -253,7 +254,9 @@ void CheckTrack(Diagnostics& c) {
   const char* key = "mission.track";
   if (!plan) {
     if (has_track) {
-      c.AddError(key, "needs plan: {method: center_line} or another planner that follows a track");
+      c.AddError(key, fmt::format("needs plan: {{method: {}}} or another planner that follows a "
+                                  "track",
+                                  NameOfPlannerThat(&PlannerEntry::follows_track)));
     }
     return;
   }
@@ -294,7 +297,7 @@ void CheckLimits(Diagnostics& c) {
   }
 }
 
-/// A route over roads needs the planner that follows lanes, and vice versa.
+/// A route over roads needs a planner that follows lanes, and vice versa.
 void CheckLanes(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const std::vector<LanePlace>& route = c.scenario.mission.route;
@@ -305,20 +308,23 @@ void CheckLanes(Diagnostics& c) {
   const bool follows = plan && PlannerFor(plan->global).follows_lanes;
   if (!follows) {
     if (!route.empty()) {
-      c.AddError("mission.route", "needs plan: {method: lane_route}");
+      c.AddError("mission.route", fmt::format("needs plan: {{method: {}}}",
+                                              NameOfPlannerThat(&PlannerEntry::follows_lanes)));
     }
     return;
   }
+  const char* planner = PlannerFor(plan->global).name;
   if (!roads) {
-    c.AddError("world.road_network", "missing; the planner lane_route follows its lanes");
+    c.AddError("world.road_network",
+               fmt::format("missing; the planner {} follows its lanes", planner));
   }
   if (route.size() < 2) {
-    c.AddError("mission.route", fmt::format("{} given; the planner lane_route needs at least 2",
-                                            route.empty() ? "none" : "1"));
+    c.AddError("mission.route", fmt::format("{} given; the planner {} needs at least 2",
+                                            route.empty() ? "none" : "1", planner));
   }
-  if (route.size() > kMostLanePlaces) {
+  if (route.size() > kMaxLanePlaces) {
     c.AddError("mission.route",
-               fmt::format("{} places; must be at most {}", route.size(), kMostLanePlaces));
+               fmt::format("{} places; must be at most {}", route.size(), kMaxLanePlaces));
     return;
   }
   for (std::size_t i = 0; roads && roads->data && i < route.size(); ++i) {
@@ -327,7 +333,7 @@ void CheckLanes(Diagnostics& c) {
         !c.could_read(key + ".s")) {
       continue;
     }
-    if (std::string why = WhyNoPlace(roads->data->network, route[i]); !why.empty()) {
+    if (std::string why = LanePlaceError(roads->data->network, route[i]); !why.empty()) {
       c.AddError(key, std::move(why));
     }
   }
@@ -339,6 +345,7 @@ void CheckMission(Diagnostics& c) {
   if (c.CouldRead({"mission.waypoints"})) {
     CheckWaypoints(c);
   }
+  CheckLaps(c);
   if (!c.CouldReadPlan({"method"})) {
     return;
   }
@@ -362,11 +369,6 @@ void CheckMission(Diagnostics& c) {
           {"mission.duration", "control.file", "control.columns", "record", "record.file"})) {
     c.AddError("mission.duration", "missing; required without a plan");
   }
-  const auto* fillet = plan ? plan->global.As<FilletOptions>() : nullptr;
-  if (fillet != nullptr && c.CouldReadPlan({"radius", "constraint"}) && !fillet->radius &&
-      fillet->constraint == RadiusConstraint::kNone) {
-    c.AddError(c.KeyOfPlan("constraint"), "'none' requires plan.radius");
-  }
 }
 
 }  // namespace
@@ -377,8 +379,7 @@ void CheckMissionAndPlan(Diagnostics& c) {
   CheckTrack(c);
   CheckLimits(c);
   CheckLanes(c);
-  CheckCourse(c);
-  CheckSmoothing(c);
+  CheckPlanners(c);
   CheckAvoider(c);
   CheckNeutralSteering(c);
   CheckReplan(c);

@@ -44,7 +44,7 @@ class RequirementCheck {
         found_.emplace_back(own + ".name",
                             fmt::format("'{}' is the name of two requirements", requirement.name));
       }
-      if (std::string why = WhyNot(requirement.formula, plant); !why.empty()) {
+      if (std::string why = FormulaError(requirement.formula, plant); !why.empty()) {
         found_.emplace_back(own + ".formula", std::move(why));
       }
     }
@@ -53,7 +53,7 @@ class RequirementCheck {
   std::vector<std::pair<std::string, std::string>> Take() { return std::move(found_); }
 
  private:
-  [[nodiscard]] std::string WhyNot(const std::string& text, const std::string& plant) const {
+  [[nodiscard]] std::string FormulaError(const std::string& text, const std::string& plant) const {
     std::vector<std::string> all;
     for (const auto& [name, columns] : columns_) {
       if (plant.empty() || name == plant) {

@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "src/scenario/diagnostics.h"
-#include "trackbed/control/optimal_steering.h"
+#include "trackbed/control/controllers.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/core/angle.h"
-#include "trackbed/planning/course/lane_change.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/sim/plant.h"
 
 namespace trackbed {
@@ -42,12 +43,18 @@ void CheckSpeedOverTime(Diagnostics& c) {
   }
 }
 
-void CheckOptimalSteering(Diagnostics& c) {
-  const auto* options = c.scenario.control.steering.As<OptimalSteeringOptions>();
-  if (options != nullptr &&
-      c.CouldRead({"control.method", "control.weights.position", "control.weights.heading"}) &&
-      options->weights.position == 0.0 && options->weights.heading == 0.0) {
-    c.AddError("control.weights", "position and heading must not both be 0");
+/// Rules between the options of the controller.
+void CheckController(Diagnostics& c) {
+  const ControllerOptions& options = c.scenario.control.steering;
+  const auto check = ControllerFor(options).check;
+  if (check == nullptr || !c.CouldRead({"control.method"})) {
+    return;
+  }
+  const CouldReadKey could_read = [&](const std::string& key) {
+    return c.could_read("control." + key);
+  };
+  for (OptionProblem& problem : check(options, could_read)) {
+    c.AddError("control." + problem.key, std::move(problem.message));
   }
 }
 
@@ -62,6 +69,22 @@ void CheckSteps(Diagnostics& c) {
   }
 }
 
+/// Bounds the memory of a run: a row of a log takes about 1 kB.
+void CheckRows(Diagnostics& c) {
+  constexpr double kMaxRows = 2e6;
+  const DriveSpec& drive = c.scenario.drive;
+  for (const auto& [key, period] : {std::pair("drive.control_period", drive.control_period),
+                                    std::pair("drive.state_period", drive.state_period)}) {
+    const double rows = drive.time_limit / period;
+    if (c.CouldRead({"drive.time_limit", key}) && rows > kMaxRows) {
+      c.AddError("drive.time_limit",
+                 fmt::format("{} s with a row every {} s are {:.7g} rows of a log; must be at most "
+                             "{:.7g}: shorten it, or lengthen {}",
+                             drive.time_limit, period, rows, kMaxRows, key));
+    }
+  }
+}
+
 void CheckPicture(Diagnostics& c) {
   const RenderSpec& render = c.scenario.render;
   if (c.CouldRead({"render.size"}) &&
@@ -73,7 +96,7 @@ void CheckPicture(Diagnostics& c) {
 
 /// Rejects ground steeper than 45 degrees: it acts as a wall, not as a driving surface.
 void CheckGround(Diagnostics& c) {
-  constexpr double kSteepest = 1.0;
+  constexpr double kMaxSlope = 1.0;
   for (std::size_t i = 0; i < c.scenario.world.ground.bumps.size(); ++i) {
     const Bump& bump = c.scenario.world.ground.bumps[i];
     const std::string key = fmt::format("world.ground.bumps[{}]", i);
@@ -84,9 +107,9 @@ void CheckGround(Diagnostics& c) {
     // The largest slope of h cos^2(pi/2 q), with q = d/reach, is pi/2 h / reach.
     const auto check = [&](double reach, const char* where) {
       const double steepest = 0.5 * kPi * bump.height / reach;
-      if (steepest > kSteepest) {
+      if (steepest > kMaxSlope) {
         c.AddError(key,
-                   fmt::format("slope {:.3g} {}; must be at most {}", steepest, where, kSteepest));
+                   fmt::format("slope {:.3g} {}; must be at most {}", steepest, where, kMaxSlope));
       }
     };
     check(0.5 * bump.area.length, "along its length");
@@ -193,10 +216,11 @@ void CheckFit(Diagnostics& c, const Options& options) {
 
 void CheckManeuver(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
-  const bool has_gates = plan && plan->global.Is<LaneChangePlannerOptions>();
+  const bool has_gates = plan && PlannerFor(plan->global).has_gates;
   if (c.scenario.maneuver && std::holds_alternative<LaneChangeOptions>(*c.scenario.maneuver) &&
       !has_gates && c.CouldReadPlan({"method"})) {
-    c.AddError("maneuver", "lane_change needs gates, given by plan: {method: lane_change}");
+    c.AddError("maneuver", fmt::format("lane_change needs gates, given by plan: {{method: {}}}",
+                                       NameOfPlannerThat(&PlannerEntry::has_gates)));
   }
   if (c.scenario.maneuver && c.CouldRead({"maneuver.fit_from", "maneuver.fit_to"})) {
     std::visit([&](const auto& options) { CheckFit(c, options); }, *c.scenario.maneuver);
@@ -210,8 +234,9 @@ std::vector<std::pair<std::string, std::string>> CrossProblems(
   Diagnostics c{.scenario = scenario, .could_read = could_read};
   CheckMissionAndPlan(c);
   CheckSpeedOverTime(c);
-  CheckOptimalSteering(c);
+  CheckController(c);
   CheckSteps(c);
+  CheckRows(c);
   CheckPicture(c);
   CheckGround(c);
   CheckGusts(c);

@@ -20,6 +20,22 @@ Problem PlacedAt(const Study& study, const DerivedKey& derived, std::string mess
   return {study.file, derived.line, derived.column, "derive." + derived.key, std::move(message)};
 }
 
+/// Throws mu::ParserError unless the formula has one value: muParser also evaluates lists such as
+/// "2, 3", and finds assignments only once the names are known.
+void RequireOneValue(const std::string& formula, const std::vector<std::string>& names) {
+  mu::Parser parser;
+  parser.DefineNameChars(kNameCharacters);
+  for (const std::string& name : names) {
+    parser.DefineConst(name, 1.0);
+  }
+  parser.SetExpr(formula);
+  int values = 0;
+  parser.Eval(values);
+  if (values != 1) {
+    throw mu::ParserError(fmt::format("{} values with commas between them; must be one", values));
+  }
+}
+
 /// The keys that a formula uses. Throws mu::ParserError if the formula is invalid.
 std::vector<std::string> NamesIn(const std::string& formula) {
   mu::Parser parser;
@@ -29,6 +45,7 @@ std::vector<std::string> NamesIn(const std::string& formula) {
   for (const auto& [name, value] : parser.GetUsedVar()) {
     names.push_back(name);
   }
+  RequireOneValue(formula, names);
   return names;
 }
 

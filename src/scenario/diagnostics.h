@@ -10,9 +10,24 @@
 #include <utility>
 #include <vector>
 
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/scenario.h"
 
 namespace trackbed {
+
+/// Prefix of the keys of the global planner.
+inline std::string PlannerSection(const Scenario& scenario) {
+  const bool layers = scenario.plan->avoid || scenario.plan->replan;
+  return layers ? "plan.global." : "plan.";
+}
+
+/// Name of the first planner with this property, which a message recommends.
+inline const char* NameOfPlannerThat(bool PlannerEntry::*property) {
+  const std::vector<PlannerEntry>& planners = Planners();
+  return std::find_if(planners.begin(), planners.end(),
+                      [&](const PlannerEntry& planner) { return planner.*property; })
+      ->name;
+}
 
 /// Collects problems between keys of a scenario, each with the key to report.
 struct Diagnostics {
@@ -36,8 +51,7 @@ struct Diagnostics {
 
   /// Dotted key of an option of the global planner.
   [[nodiscard]] std::string KeyOfPlan(const char* key) const {
-    const bool layers = scenario.plan->avoid || scenario.plan->replan;
-    return std::string(layers ? "plan.global." : "plan.") + key;
+    return PlannerSection(scenario) + key;
   }
 
   [[nodiscard]] std::string Driven() const {

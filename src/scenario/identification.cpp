@@ -25,9 +25,10 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   if (study.parameters.empty()) {
     add_error("parameters", "needs at least one parameter");
   }
-  constexpr std::size_t kMost = 40;  // limit of QuadraticProgram
-  if (study.parameters.size() > kMost) {
-    add_error("parameters", fmt::format("at most {}; found {}", kMost, study.parameters.size()));
+  constexpr std::size_t kMaxParameters = 40;  // limit of QuadraticProgram
+  if (study.parameters.size() > kMaxParameters) {
+    add_error("parameters",
+              fmt::format("at most {}; found {}", kMaxParameters, study.parameters.size()));
   }
   std::set<std::string> names;
   for (std::size_t i = 0; i < study.parameters.size(); ++i) {
@@ -91,6 +92,24 @@ std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const s
   return scenarios;
 }
 
+/// The files of the records are named after the scenarios.
+void CheckRecordNames(const Identification& study, const YAML::Node& root, ReaderContext& context) {
+  std::set<std::string> names;
+  for (const auto& [list, scenarios] :
+       {std::pair("fit", &study.fit_scenarios), std::pair("held_out", &study.held_out_scenarios)}) {
+    for (std::size_t i = 0; i < scenarios->size(); ++i) {
+      const std::string& name = (*scenarios)[i].name;
+      if (!names.insert(name).second) {
+        const std::string key = fmt::format("{}[{}]", list, i);
+        context.AddError(NodeAt(root, key).Mark(), key,
+                         fmt::format("its scenario has the name '{}', as one before; give each "
+                                     "another name",
+                                     name));
+      }
+    }
+  }
+}
+
 void Throw(ReaderContext& context) {
   if (context.problems.empty()) {
     return;
@@ -122,6 +141,8 @@ Identification ReadIdentification(const fs::path& file,
   const Scenario* first = study.fit_scenarios.empty() ? nullptr : &study.fit_scenarios.front();
   study.held_out_scenarios =
       ReadRecords(study.held_out, "held_out", folder, asset_folders, first, root, context);
+  Throw(context);
+  CheckRecordNames(study, root, context);
   Throw(context);
   return study;
 }

@@ -4,9 +4,9 @@
 
 #include "src/scenario/start_state.h"
 #include "trackbed/control/playback.h"
+#include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/common/route_start.h"
-#include "trackbed/planning/fillet/fillet.h"
-#include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
 
@@ -20,17 +20,21 @@ const RecordedSample* FirstSample(const Scenario& scenario) {
                                                   : nullptr;
 }
 
-/// The path from a file that the plan follows; null for other plans.
-const FittedPath* PathOfFile(const Scenario& scenario) {
-  const auto* own = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;
-  return own == nullptr ? nullptr : own->path.get();
+/// The state in which the plan begins, whatever the mission says; none for most planners.
+std::optional<PlannedStart> StartOfPlan(const Scenario& scenario) {
+  if (!scenario.plan) {
+    return std::nullopt;
+  }
+  const PlannerOptions& options = scenario.plan->global;
+  const PlannerEntry& planner = PlannerFor(options);
+  return planner.start != nullptr ? planner.start(options) : std::nullopt;
 }
 
 Pose2 StartPose(const Scenario& scenario) {
   const MissionSpec& mission = scenario.mission;
   const RecordedSample* recorded = FirstSample(scenario);
-  const FittedPath* path = PathOfFile(scenario);
-  Pose2 pose = path != nullptr       ? path->path.At(0.0).pose
+  const std::optional<PlannedStart> planned = StartOfPlan(scenario);
+  Pose2 pose = planned               ? planned->pose
                : recorded != nullptr ? recorded->pose
                                      : StartOfRoute(mission.waypoints);
   if (!mission.headings.empty()) {
@@ -41,7 +45,7 @@ Pose2 StartPose(const Scenario& scenario) {
   }
   const auto& roads = scenario.world.road_network;
   if (roads && roads->data && !mission.route.empty() &&
-      WhyNoPlace(roads->data->network, mission.route.front()).empty()) {
+      LanePlaceError(roads->data->network, mission.route.front()).empty()) {
     pose = PoseAt(roads->data->network, mission.route.front());
   }
   const StartSpec& given = mission.start;
@@ -61,11 +65,19 @@ double StartSteering(const Scenario& scenario) {
     return scenario.record->steering == ReplaySteering::kMeasured ? recorded->steering
                                                                   : recorded->steering_command;
   }
-  const auto* fillets = scenario.plan ? scenario.plan->global.As<FilletOptions>() : nullptr;
-  return fillets == nullptr ? 0.0 : fillets->neutral_steering;
+  return NeutralSteering(scenario);
 }
 
 }  // namespace
+
+double NeutralSteering(const Scenario& scenario) {
+  if (!scenario.plan) {
+    return 0.0;
+  }
+  const PlannerOptions& options = scenario.plan->global;
+  const PlannerEntry& planner = PlannerFor(options);
+  return planner.neutral_steering != nullptr ? planner.neutral_steering(options) : 0.0;
+}
 
 std::optional<double> StartSpeedBesideMission(const Scenario& scenario) {
   if (scenario.mission.start.speed) {
@@ -78,11 +90,9 @@ std::optional<double> StartSpeedBesideMission(const Scenario& scenario) {
   if (const RecordedSample* recorded = FirstSample(scenario)) {
     return std::max(0.0, recorded->velocity_V.x());
   }
-  if (const FittedPath* path = PathOfFile(scenario)) {
-    const auto& options = scenario.plan->global.Get<PathFileOptions>();
-    if (options.speeds == PathSpeeds::kFile && !path->given.speed.empty()) {
-      return path->given.speed.front();
-    }
+  if (const std::optional<PlannedStart> planned = StartOfPlan(scenario);
+      planned && planned->speed) {
+    return planned->speed;
   }
   const Signal& over_time = scenario.control.speed.over_time;
   return over_time.empty() ? std::nullopt : std::optional(over_time.At(0.0));
@@ -106,9 +116,9 @@ StartState InitialState(const Scenario& scenario) {
 
 StartState InitialState(const Scenario& scenario, const VehicleParams& vehicle) {
   StartState start = InitialState(scenario);
-  const FittedPath* path = PathOfFile(scenario);
-  if (path != nullptr && !scenario.mission.start.steering) {
-    start.steering = std::clamp(SteeringForCurvature(vehicle, path->path.At(0.0).curvature),
+  const std::optional<PlannedStart> planned = StartOfPlan(scenario);
+  if (planned && !scenario.mission.start.steering) {
+    start.steering = std::clamp(SteeringForCurvature(vehicle, planned->curvature),
                                 -vehicle.steering_limit, vehicle.steering_limit);
   }
   return start;

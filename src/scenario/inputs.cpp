@@ -9,30 +9,31 @@
 #include <sstream>
 #include <utility>
 
+#include "src/scenario/diagnostics.h"
 #include "src/scenario/route_world.h"
+#include "trackbed/control/controllers.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
-#include "trackbed/path_files/path_file.h"
-#include "trackbed/planning/path_file/path_file_planner.h"
+#include "trackbed/planning/registry/planners.h"
 #include "trackbed/recording/import_log.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
-#include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
-// Reads the files that a scenario names, in this order: record, track, map, road network,
-// recording, path. Each reader first checks that its keys were read and that the file may be read:
-// it must lie in the scenario's folder, in an asset folder or, except for recordings, in Trackbed's
-// data folder. Attempt separates problems inside a file, which are returned with their position
-// there, from problems of a key, which are reported at the key.
+// Reads the files that a scenario names, in this order: record, track, map, road network, those of
+// the controller, those of the planner. Each reader first checks that its keys were read and that
+// the file may be read: it must lie in the scenario's folder, in an asset folder or, except for
+// recordings, in Trackbed's data folder. Attempt separates problems inside a file, which are
+// returned with their position there, from problems of a key, which are reported at the key.
 namespace trackbed {
 namespace {
 
-/// Calls `read`. Returns the problems inside a file; reports the problems of a key by `add_error`.
+/// Calls `read`. Returns the problems found inside a file; reports problems of a key to
+/// `add_error`.
 std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
                              ReaderContext& context, const AddKeyError& add_error) {
   try {
@@ -86,7 +87,7 @@ std::vector<Problem> ReadRecord(Scenario& scenario, ReaderContext& context,
   RecordSpec& record = *scenario.record;
   const auto may_read = [&](const std::string& name, const char* key) {
     const std::string why =
-        WhyUnreadable(name, scenario.folder, WithOwnData(scenario.asset_folders));
+        ReadAccessError(name, scenario.folder, WithOwnData(scenario.asset_folders));
     if (!why.empty()) {
       add_error(key, fmt::format("{} {}", name, why));
     }
@@ -115,13 +116,14 @@ std::vector<Problem> ReadRecord(Scenario& scenario, ReaderContext& context,
       "record.file", context, add_error);
 }
 
-/// Takes the recorded inputs for the controller `playback` and for prediction windows.
+/// Takes the recorded inputs for a controller that replays them, and for prediction windows.
 std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
                                 const AddKeyError& add_error) {
   const RecordSpec& record = *scenario.record;
   const std::vector<std::string>& plants = scenario.drive.plants;
-  auto* playback = scenario.control.steering.As<PlaybackOptions>();
-  const bool replays = playback != nullptr && playback->file.empty();
+  ControllerOptions& steering = scenario.control.steering;
+  const ControllerEntry& controller = ControllerFor(steering);
+  const bool replays = controller.replays_record != nullptr && controller.replays_record(steering);
   if (!record.data || !(replays || !record.windows.empty()) ||
       std::all_of(plants.begin(), plants.end(),
                   [](const std::string& plant) { return plant == kRecordedPlant; })) {
@@ -131,82 +133,96 @@ std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
       [&] {
         const Recording inputs = ReplayInputs(*record.data, record.steering, record.drive);
         if (replays) {
-          playback->recording = inputs;
+          controller.set_recording(steering, inputs);
         }
       },
       "record", context, add_error);
 }
 
-std::vector<Problem> ReadPlayback(Scenario& scenario, PlaybackOptions& playback,
-                                  ReaderContext& context, const AddKeyError& add_error) {
-  if (!context.Read("control.file") || !context.Read("control.columns")) {
-    return {};
+/// Reads the files that a controller or a planner names in its section of the scenario.
+class SectionReader final : public InputReader {
+ public:
+  /// `section` is the prefix of its keys, `others` are further folders that may be read.
+  SectionReader(const Scenario& scenario, std::string section,
+                std::vector<std::filesystem::path> others, ReaderContext& context,
+                const AddKeyError& add_error)
+      : scenario_(scenario),
+        section_(std::move(section)),
+        others_(std::move(others)),
+        context_(context),
+        add_error_(add_error) {}
+
+  [[nodiscard]] bool CouldRead(const std::string& key) const override {
+    return context_.Read(section_ + key);
   }
-  if (playback.file.empty()) {
-    if (!scenario.record) {
-      add_error("control.file", "missing");
-    } else if (playback.by == PlaybackAxis::kDistance) {
-      add_error("control.by", "a record is replayed over time; remove this");
+
+  [[nodiscard]] bool has_record() const override { return scenario_.record.has_value(); }
+
+  void AddError(const std::string& key, std::string message) override {
+    add_error_(section_ + key, std::move(message));
+  }
+
+  void ReadFile(const std::string& key, const std::string& name, const Read& read) override {
+    if (const std::string why = ReadAccessError(name, scenario_.folder, others_); !why.empty()) {
+      AddError(key, fmt::format("{} {}", name, why));
+      return;
     }
-    return {};
+    const std::string full_key = section_ + key;
+    const std::vector<Problem> more = Attempt(
+        [&] {
+          try {
+            read(scenario_.folder / name);
+          } catch (const InputError& error) {
+            throw InputError(WithFullKeys(error.problems()));
+          }
+        },
+        full_key.c_str(), context_, add_error_);
+    problems_.insert(problems_.end(), more.begin(), more.end());
   }
-  if (const std::string why = WhyUnreadable(playback.file, scenario.folder, scenario.asset_folders);
-      !why.empty()) {
-    add_error("control.file", fmt::format("{} {}", playback.file, why));
-    return {};
+
+  /// Problems inside the files.
+  [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
+
+ private:
+  /// Prefixes the keys of problems that do not name a file.
+  [[nodiscard]] std::vector<Problem> WithFullKeys(std::vector<Problem> problems) const {
+    for (Problem& problem : problems) {
+      if (problem.file.empty() && !problem.key.empty()) {
+        problem.key.insert(0, section_);
+      }
+    }
+    return problems;
   }
-  return Attempt(
-      [&] {
-        playback.recording =
-            ReadRecording(scenario.folder / playback.file, playback.by, playback.columns);
-      },
-      "control.file", context, add_error);
+
+  const Scenario& scenario_;
+  std::string section_;
+  std::vector<std::filesystem::path> others_;
+  ReaderContext& context_;
+  const AddKeyError& add_error_;
+  std::vector<Problem> problems_;
+};
+
+std::vector<Problem> ReadControllerFiles(Scenario& scenario, ReaderContext& context,
+                                         const AddKeyError& add_error) {
+  ControllerOptions& options = scenario.control.steering;
+  const auto read = ControllerFor(options).read_inputs;
+  SectionReader reader(scenario, "control.", scenario.asset_folders, context, add_error);
+  if (read != nullptr) {
+    read(options, reader);
+  }
+  return reader.problems();
 }
 
-/// Keys are prefixed by the planner's section, as in "plan.file".
-std::vector<Problem> ReadPath(Scenario& scenario, PathFileOptions& options, ReaderContext& context,
-                              const AddKeyError& add_error) {
-  const bool layers = scenario.plan->avoid || scenario.plan->replan;
-  const std::string section = layers ? "plan.global." : "plan.";
-  const std::string file_key = section + "file";
-  const std::vector<std::pair<std::string, std::string>> wrong = PathMapProblems(options.map);
-  for (const auto& [key, message] : wrong) {
-    add_error(section + key, message);
+std::vector<Problem> ReadPlannerFiles(Scenario& scenario, ReaderContext& context,
+                                      const AddKeyError& add_error) {
+  PlannerOptions& options = scenario.plan->global;
+  const auto read = PlannerFor(options).read_inputs;
+  SectionReader reader(scenario, PlannerSection(scenario), WithOwnData(scenario.asset_folders),
+                       context, add_error);
+  if (read != nullptr) {
+    read(options, reader);
   }
-  if (!wrong.empty() || options.file.empty() || !context.Read(section + "max_deviation") ||
-      !context.Read(section + "resample") || !context.Read(section + "columns") ||
-      !context.Read(file_key)) {
-    return {};
-  }
-  if (const std::string why =
-          WhyUnreadable(options.file, scenario.folder, WithOwnData(scenario.asset_folders));
-      !why.empty()) {
-    add_error(file_key, fmt::format("{} {}", options.file, why));
-    return {};
-  }
-  const std::filesystem::path file = scenario.folder / options.file;
-  return Attempt(
-      [&] {
-        PathFile found = ReadPathFile(file, options.map);
-        if (!options.notes) {
-          options.notes = fmt::format("{}", fmt::join(found.notes, "\n"));
-        }
-        try {
-          options.path = std::make_shared<const FittedPath>(
-              FitPath(AtRearAxle(std::move(found.points), options.ahead), options.fit));
-        } catch (const InputError& error) {
-          std::vector<Problem> problems = error.problems();
-          for (Problem& problem : problems) {
-            if (problem.key.empty()) {
-              problem.file = file.string();
-            } else {
-              problem.key = section + problem.key;
-            }
-          }
-          throw InputError(std::move(problems));
-        }
-      },
-      file_key.c_str(), context, add_error);
+  return reader.problems();
 }
 
 std::vector<Problem> ReadTrackFile(Scenario& scenario, ReaderContext& context,
@@ -218,7 +234,7 @@ std::vector<Problem> ReadTrackFile(Scenario& scenario, ReaderContext& context,
     return {};
   }
   if (const std::string why =
-          WhyUnreadable(track.file, scenario.folder, WithOwnData(scenario.asset_folders));
+          ReadAccessError(track.file, scenario.folder, WithOwnData(scenario.asset_folders));
       !why.empty()) {
     add_error(key, fmt::format("{} {}", track.file, why));
     return {};
@@ -238,17 +254,18 @@ std::vector<Problem> ReadMap(Scenario& scenario, MapSpec& map, ReaderContext& co
     return {};
   }
   const std::vector<std::filesystem::path> others = WithOwnData(scenario.asset_folders);
-  if (const std::string why = WhyUnreadable(map.file, scenario.folder, others); !why.empty()) {
+  if (const std::string why = ReadAccessError(map.file, scenario.folder, others); !why.empty()) {
     add_error("world.map.file", fmt::format("{} {}", map.file, why));
     return {};
   }
   const std::filesystem::path own = (scenario.folder / map.file).parent_path();
-  const WhyNot why_not = [&](const std::filesystem::path& image) {
-    return WhyUnreadableImage(image, own, others);
+  const AccessCheck access_error = [&](const std::filesystem::path& image) {
+    return ImageAccessError(image, own, others);
   };
   return Attempt(
       [&] {
-        map.data = std::make_shared<const MapObstacles>(ReadMap(map, scenario.folder, why_not));
+        map.data =
+            std::make_shared<const MapObstacles>(ReadMap(map, scenario.folder, access_error));
       },
       "world.map.file", context, add_error);
 }
@@ -273,7 +290,7 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
     return {};
   }
   if (const std::string why =
-          WhyUnreadable(roads.file, scenario.folder, WithOwnData(scenario.asset_folders));
+          ReadAccessError(roads.file, scenario.folder, WithOwnData(scenario.asset_folders));
       !why.empty()) {
     add_error(key, fmt::format("{} {}", roads.file, why));
     return {};
@@ -292,13 +309,13 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
 
 }  // namespace
 
-std::string WhyUnreadableImage(const std::filesystem::path& image,
-                               const std::filesystem::path& folder,
-                               const std::vector<std::filesystem::path>& others) {
+std::string ImageAccessError(const std::filesystem::path& image,
+                             const std::filesystem::path& folder,
+                             const std::vector<std::filesystem::path>& others) {
   // Uses absolute paths: lexically_relative returns nothing for a relative and an absolute path.
   const std::filesystem::path from = std::filesystem::absolute(folder / ".").lexically_normal();
   const std::filesystem::path to = std::filesystem::absolute(image).lexically_normal();
-  return WhyUnreadable(to.lexically_relative(from).string(), folder, others);
+  return ReadAccessError(to.lexically_relative(from).string(), folder, others);
 }
 
 std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
@@ -329,11 +346,9 @@ std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
       context.unread.emplace_back("world.road_network");
     }
   }
-  if (auto* playback = scenario.control.steering.As<PlaybackOptions>()) {
-    add(ReadPlayback(scenario, *playback, context, add_error));
-  }
-  if (auto* path = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr) {
-    add(ReadPath(scenario, *path, context, add_error));
+  add(ReadControllerFiles(scenario, context, add_error));
+  if (scenario.plan) {
+    add(ReadPlannerFiles(scenario, context, add_error));
   }
   return problems;
 }

@@ -15,9 +15,9 @@ using AddKeyError = std::function<void(const std::string& key, std::string messa
 
 /// Why an image that a map in `folder` names may not be read: it lies neither in `folder` nor in
 /// one of the `others`. Empty if it may be read.
-std::string WhyUnreadableImage(const std::filesystem::path& image,
-                               const std::filesystem::path& folder,
-                               const std::vector<std::filesystem::path>& others);
+std::string ImageAccessError(const std::filesystem::path& image,
+                             const std::filesystem::path& folder,
+                             const std::vector<std::filesystem::path>& others);
 
 /// Reads the files of a scenario: recorded drive, track, map, road network, path to follow and
 /// recording to replay. Returns the problems inside these files, to be listed after those of the

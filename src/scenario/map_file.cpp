@@ -46,10 +46,10 @@ void Visit(KeyVisitor& keys, RosMapKeys& map) {
   keys.Field({"mode", "", "what the thresholds mean"}, map.mode, Need::kOptional, modes);
 }
 
-/// Reads a file of at most kLargestMapFile bytes. An unreadable file is an InputError.
+/// Reads a file of at most kMaxMapFileBytes bytes. An unreadable file is an InputError.
 std::string ReadMapFile(const fs::path& file) {
   try {
-    return ReadFile(file, kLargestMapFile);
+    return ReadFile(file, kMaxMapFileBytes);
   } catch (const RunError& error) {
     throw InputError(Problem{.message = error.what()});
   }
@@ -96,10 +96,10 @@ MapCell CellOf(const RosMapKeys& map, const MapImage& image, std::size_t pixel) 
 
 }  // namespace
 
-GridMap ReadRosMap(const fs::path& file, const WhyNot& why_not) {
+GridMap ReadRosMap(const fs::path& file, const AccessCheck& access_error) {
   const RosMapKeys keys = ReadRosMapKeys(file);
   const fs::path image_file = file.parent_path() / keys.image;
-  if (const std::string why = why_not ? why_not(image_file) : ""; !why.empty()) {
+  if (const std::string why = access_error ? access_error(image_file) : ""; !why.empty()) {
     throw InputError(Problem{
         .file = file.string(), .key = "image", .message = fmt::format("{} {}", keys.image, why)});
   }
@@ -128,7 +128,7 @@ bool IsRosMap(const fs::path& file) {
   }
 }
 
-MapObstacles ReadMap(const MapSpec& spec, const fs::path& folder, const WhyNot& why_not) {
+MapObstacles ReadMap(const MapSpec& spec, const fs::path& folder, const AccessCheck& access_error) {
   const fs::path file = folder / spec.file;
   const bool is_moving_ai = IsMovingAiMap(file);
   if (is_moving_ai != spec.cell.has_value()) {
@@ -137,16 +137,16 @@ MapObstacles ReadMap(const MapSpec& spec, const fs::path& folder, const WhyNot& 
         .message = is_moving_ai ? "missing; a .map file does not say how large its cells are"
                                 : "not allowed with a ROS map, which has its own resolution"});
   }
-  GridMap map = is_moving_ai ? ReadMovingAiMap(file, *spec.cell) : ReadRosMap(file, why_not);
+  GridMap map = is_moving_ai ? ReadMovingAiMap(file, *spec.cell) : ReadRosMap(file, access_error);
   map.X_WM = {spec.x.value_or(map.X_WM.x), spec.y.value_or(map.X_WM.y),
               spec.yaw.value_or(map.X_WM.yaw)};
   MapObstacles obstacles(std::move(map), spec.unknown);
-  if (obstacles.boxes().size() > kMostWalls) {
+  if (obstacles.boxes().size() > kMaxWalls) {
     throw InputError(Problem{
         .file = file.string(),
         .message = fmt::format("its blocked cells merge into {} rectangular walls; must be at most "
                                "{}: use a coarser or less noisy map",
-                               obstacles.boxes().size(), kMostWalls)});
+                               obstacles.boxes().size(), kMaxWalls)});
   }
   return obstacles;
 }

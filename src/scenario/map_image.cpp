@@ -21,10 +21,10 @@ namespace {
 
 /// Checks the size before an image of that size is allocated.
 void CheckSize(const std::string& file, std::uint64_t columns, std::uint64_t rows) {
-  if (columns == 0 || rows == 0 || columns > kMostMapCells || rows > kMostMapCells ||
-      columns * rows > kMostMapCells) {
+  if (columns == 0 || rows == 0 || columns > kMaxMapCells || rows > kMaxMapCells ||
+      columns * rows > kMaxMapCells) {
     RefuseImage(file, fmt::format("an image of {} x {} pixels; must be 1 to {} pixels", columns,
-                                  rows, kMostMapCells));
+                                  rows, kMaxMapCells));
   }
 }
 
@@ -74,9 +74,9 @@ MapImage ReadPgm(const std::string& content, const std::string& file) {
   const std::uint64_t rows = numbers.Next("height");
   const std::uint64_t white = numbers.Next("largest value");
   CheckSize(file, columns, rows);
-  constexpr std::uint64_t kWhitest = 65535;
-  if (white == 0 || white > kWhitest) {
-    RefuseImage(file, fmt::format("a largest value of {}; must be 1 to {}", white, kWhitest));
+  constexpr std::uint64_t kMaxGray = 65535;
+  if (white == 0 || white > kMaxGray) {
+    RefuseImage(file, fmt::format("a largest value of {}; must be 1 to {}", white, kMaxGray));
   }
   MapImage image{.columns = static_cast<int>(columns),
                  .rows = static_cast<int>(rows),

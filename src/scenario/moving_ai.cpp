@@ -54,9 +54,9 @@ int ReadSize(Lines& lines, std::string_view name) {
   const char* end = value.data() + value.size();
   const auto [after, error] = std::from_chars(value.data(), end, size);
   if (value.empty() || error != std::errc() || after != end || size < 1 ||
-      static_cast<std::size_t>(size) > kMostMapCells) {
+      static_cast<std::size_t>(size) > kMaxMapCells) {
     lines.Fail(fmt::format("expected '{} N' with N from 1 to {}, found '{:.40}'", name,
-                           kMostMapCells, line));
+                           kMaxMapCells, line));
   }
   return size;
 }
@@ -77,7 +77,7 @@ bool IsMovingAiMap(const std::filesystem::path& file) {
 GridMap ReadMovingAiMap(const std::filesystem::path& file, double cell, const Pose2& X_WM) {
   std::string text;
   try {
-    text = ReadFile(file, kLargestMapFile);
+    text = ReadFile(file, kMaxMapFileBytes);
   } catch (const RunError& error) {
     throw InputError(Problem{.message = error.what()});
   }
@@ -89,8 +89,8 @@ GridMap ReadMovingAiMap(const std::filesystem::path& file, double cell, const Po
   ReadWord(lines, "map");
   const auto columns = static_cast<std::size_t>(map.columns);
   const auto rows = static_cast<std::size_t>(map.rows);
-  if (columns * rows > kMostMapCells) {
-    lines.Fail(fmt::format("{} x {} cells; must be at most {}", columns, rows, kMostMapCells));
+  if (columns * rows > kMaxMapCells) {
+    lines.Fail(fmt::format("{} x {} cells; must be at most {}", columns, rows, kMaxMapCells));
   }
   if (columns * rows > text.size()) {
     lines.Fail(fmt::format("{} x {} cells, but the file has {} bytes", columns, rows, text.size()));

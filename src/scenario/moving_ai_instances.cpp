@@ -82,7 +82,7 @@ std::string ParseInstance(std::string_view line, MovingAiInstance& instance) {
 std::vector<MovingAiInstance> ReadMovingAiInstances(const std::filesystem::path& file) {
   std::string text;
   try {
-    text = ReadFile(file, kLargestMapFile);
+    text = ReadFile(file, kMaxMapFileBytes);
   } catch (const RunError& error) {
     throw InputError(Problem{.message = error.what()});
   }

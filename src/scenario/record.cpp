@@ -1,7 +1,6 @@
 #include "trackbed/scenario/record.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/control/playback.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/file_name.h"
 #include "trackbed/recording/record_csv.h"
 #include "trackbed/recording/windows.h"
 #include "trackbed/scenario/scenario.h"
@@ -65,25 +65,9 @@ bool IsLogMap(const std::filesystem::path& file) {
   }
 }
 
-namespace {
-
-/// The name of a file as that of a scenario.
-std::string AsIdentifier(std::string name) {
-  const auto fits = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-  };
-  std::replace_if(
-      name.begin(), name.end(), [&](unsigned char c) { return !fits(c); }, '_');
-  constexpr std::size_t kLongest = 100;
-  name.resize(std::min(name.size(), kLongest));
-  return name.empty() || name.front() == '.' ? "record" : name;
-}
-
-}  // namespace
-
 Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::string& model) {
   Scenario scenario;
-  scenario.name = AsIdentifier(drive->name);
+  scenario.name = FileNameOf(drive->name);
   scenario.vehicle.model = model;
   scenario.record = RecordSpec{.file = kRecordCsv, .map = {}};
   RecordSpec& record = *scenario.record;
@@ -99,7 +83,7 @@ Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::s
   try {
     playback.recording = ReplayInputs(*drive, record.steering, record.drive);
   } catch (const InputError&) {
-    // Nothing to steer with, or it goes backwards: to look at and compare, not to replay.
+    // Without steering or when reversing, the record can be viewed and compared but not replayed.
     record.windows.clear();
   }
   scenario.control.steering = std::move(playback);

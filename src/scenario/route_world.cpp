@@ -17,12 +17,13 @@ namespace trackbed {
 
 std::string AddRouteGround(const std::vector<LanePlace>& route, World& world) {
   if (!world.road_network || !world.road_network->data || route.size() < 2 ||
-      route.size() > kMostLanePlaces) {
+      route.size() > kMaxLanePlaces) {
     return "";
   }
   const RoadNetwork& network = world.road_network->data->network;
-  if (!std::all_of(route.begin(), route.end(),
-                   [&](const LanePlace& place) { return WhyNoPlace(network, place).empty(); })) {
+  if (!std::all_of(route.begin(), route.end(), [&](const LanePlace& place) {
+        return LanePlaceError(network, place).empty();
+      })) {
     return "";
   }
   RouteGround ground = MakeRouteGround(network, route);
@@ -43,7 +44,7 @@ void ReadRouteGround(const std::filesystem::path& scenario, World& world) {
     throw InputError(Problem{.file = scenario.string(), .key = key, .message = std::move(message)});
   };
   const std::string& file = world.road_network->file;
-  if (const std::string why = WhyUnreadable(file, folder, {}); !why.empty()) {
+  if (const std::string why = ReadAccessError(file, folder, {}); !why.empty()) {
     fail("world.road_network", fmt::format("{} {}", file, why));
   }
   world.road_network->data =

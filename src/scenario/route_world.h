@@ -11,7 +11,7 @@
 namespace trackbed {
 
 /// Largest number of places in mission.route.
-inline constexpr std::size_t kMostLanePlaces = 1000;
+inline constexpr std::size_t kMaxLanePlaces = 1000;
 
 /// Uses the elevation of a route's roads as the world's ground (planning/lanes/route_ground.h), if
 /// the road network is read and the roads are not level. Returns why this is impossible, else an

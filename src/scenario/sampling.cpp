@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-constexpr int kMostDimensions = 1000;
+constexpr int kMaxDimensions = 1000;
 
 /// Independent random stream per coordinate. The C++ standard defines the engine and its seeding to
 /// the bit, but not its distributions, so these are implemented here.
@@ -27,9 +27,9 @@ std::mt19937_64 StreamOf(std::uint64_t seed, int dimension) {
 
 /// Midpoint of one of 2^52 intervals, in (0, 1).
 double Unit(std::uint64_t bits) {
-  constexpr unsigned kDropped = 12;
-  constexpr int kKept = 52;
-  return std::ldexp(static_cast<double>(bits >> kDropped) + 0.5, -kKept);
+  constexpr unsigned kDroppedBits = 12;
+  constexpr int kKeptBits = 52;
+  return std::ldexp(static_cast<double>(bits >> kDroppedBits) + 0.5, -kKeptBits);
 }
 
 /// Random permutation of 0 to count - 1 (Fisher and Yates, in Durstenfeld's form).
@@ -87,11 +87,11 @@ Eigen::MatrixXd Sobol(const SampleSpec& spec, int dimensions) {
 
 /// Boost's tables of long doubles overflow at startup where long doubles have only 64 bits, as
 /// under valgrind.
-using InDoublesOnly = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 double NormalQuantile(const Distribution& distribution, double u) {
-  const boost::math::normal_distribution<double, InDoublesOnly> normal(distribution.mean,
-                                                                       distribution.deviation);
+  const boost::math::normal_distribution<double, DoublePrecision> normal(distribution.mean,
+                                                                         distribution.deviation);
   const double below = std::isinf(distribution.min) ? 0.0 : cdf(normal, distribution.min);
   const double up_to = std::isinf(distribution.max) ? 1.0 : cdf(normal, distribution.max);
   const double share = below + u * (up_to - below);
@@ -106,7 +106,7 @@ double NormalQuantile(const Distribution& distribution, double u) {
   return std::clamp(quantile(normal, share), distribution.min, distribution.max);
 }
 
-const std::string& Chosen(const Distribution& distribution, double u) {
+const std::string& SampleChoice(const Distribution& distribution, double u) {
   const std::size_t count = distribution.values.size();
   if (distribution.weights.empty()) {
     return distribution
@@ -155,8 +155,8 @@ const char* ToString(DistributionKind kind) {
 
 Eigen::MatrixXd UnitSample(const SampleSpec& spec, int dimensions) {
   TRACKBED_REQUIRE(spec.count > 0, "UnitSample: count is {}; must be positive", spec.count);
-  TRACKBED_REQUIRE(dimensions >= 0 && dimensions <= kMostDimensions,
-                   "UnitSample: dimensions is {}; must be 0 to {}", dimensions, kMostDimensions);
+  TRACKBED_REQUIRE(dimensions >= 0 && dimensions <= kMaxDimensions,
+                   "UnitSample: dimensions is {}; must be 0 to {}", dimensions, kMaxDimensions);
   if (dimensions == 0) {
     return {spec.count, 0};
   }
@@ -194,7 +194,7 @@ std::string Quantile(const Distribution& distribution, double u) {
     case DistributionKind::kNormal:
       return ShortestText(NormalQuantile(distribution, u));
     case DistributionKind::kChoice:
-      return Chosen(distribution, u);
+      return SampleChoice(distribution, u);
   }
   TRACKBED_CHECK(false, "distribution {}", static_cast<int>(distribution.kind));
 }

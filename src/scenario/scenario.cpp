@@ -8,6 +8,7 @@
 
 #include "src/scenario/check_requirements.h"
 #include "src/scenario/cross_check.h"
+#include "src/scenario/input_files.h"
 #include "src/scenario/inputs.h"
 #include "src/scenario/overrides.h"
 #include "src/scenario/read_section.h"
@@ -16,33 +17,28 @@
 #include "src/scenario/yaml_file.h"
 #include "src/scenario/yaml_reader.h"
 #include "src/scenario/yaml_writer.h"
-#include "trackbed/control/playback.h"
+#include "trackbed/control/controllers.h"
 #include "trackbed/control/preview.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/spelling.h"
-#include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/common/planner.h"
-#include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
-#include "trackbed/recording/record_csv.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/map_file.h"
-#include "trackbed/scenario/recording_file.h"
 #include "trackbed/sim/scene.h"
-#include "trackbed/track/track_file.h"
 
 // Reads a scenario: parses the YAML, applies the overrides, visits all keys (visit.h), reads the
 // files that they name (inputs.cpp), then checks rules between keys (cross_check.cpp), requirements
 // and names of metrics. Collects all problems and reports them in the order of the file.
-// ResolvedYaml writes the reverse: all defaults made explicit, all files under the names that they
-// have in a run folder.
+// ResolvedYaml writes the scenario back as YAML, with all defaults made explicit and all files
+// under their names in a run folder.
 namespace trackbed {
 namespace {
 
 /// Removes expectations on plants that are not run. Only used if drive.plants is overridden: a file
 /// must be consistent, but overriding its plants must not require editing its expectations.
-void DropWhatIsNotDriven(Scenario& scenario) {
+void DropUnusedExpectations(Scenario& scenario) {
   std::erase_if(scenario.expect.plants,
                 [&](const auto& entry) { return !Drives(scenario, entry.first); });
   std::erase_if(scenario.expect.between, [&](const BetweenExpectation& between) {
@@ -109,7 +105,7 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   }
   if (std::find(context.overridden.begin(), context.overridden.end(), "drive.plants") !=
       context.overridden.end()) {
-    DropWhatIsNotDriven(scenario);
+    DropUnusedExpectations(scenario);
   }
   const auto could_read = [&context](const std::string& key) { return context.Read(key); };
   for (auto& [key, message] : CrossProblems(scenario, could_read)) {
@@ -155,15 +151,16 @@ World ReadWorld(const std::filesystem::path& file) {
   World world = ReadSection<World>(file, kWorldSection);
   if (world.map) {
     const std::filesystem::path folder = file.parent_path();
-    const WhyNot why_not = [&](const std::filesystem::path& image) {
-      return WhyUnreadableImage(image, folder, {});
+    const AccessCheck access_error = [&](const std::filesystem::path& image) {
+      return ImageAccessError(image, folder, {});
     };
-    if (const std::string why = WhyUnreadable(world.map->file, folder, {}); !why.empty()) {
+    if (const std::string why = ReadAccessError(world.map->file, folder, {}); !why.empty()) {
       throw InputError(Problem{.file = file.string(),
                                .key = "world.map.file",
                                .message = fmt::format("{} {}", world.map->file, why)});
     }
-    world.map->data = std::make_shared<const MapObstacles>(ReadMap(*world.map, folder, why_not));
+    world.map->data =
+        std::make_shared<const MapObstacles>(ReadMap(*world.map, folder, access_error));
   }
   ReadRouteGround(file, world);
   return world;
@@ -189,24 +186,21 @@ void CheckScenario(const Scenario& scenario) {
 }
 
 const Recording* FindRecording(const Scenario& scenario) {
-  const auto* playback = scenario.control.steering.As<PlaybackOptions>();
-  return playback != nullptr ? &playback->recording : nullptr;
+  const ControllerOptions& steering = scenario.control.steering;
+  const ControllerEntry& controller = ControllerFor(steering);
+  return controller.recording != nullptr ? &controller.recording(steering) : nullptr;
 }
 
 std::optional<double> RunDuration(const Scenario& scenario) {
-  const auto* playback = scenario.control.steering.As<PlaybackOptions>();
   if (scenario.mission.duration || scenario.plan) {
     return scenario.mission.duration;
   }
   if (scenario.record && scenario.record->data) {
     return scenario.record->data->duration();
   }
-  if (playback == nullptr || playback->by != PlaybackAxis::kTime) {
-    return std::nullopt;
-  }
-  const Signal& steering = playback->recording.steering;
-  const double end = steering.empty() ? 0.0 : steering.knots.back().x();
-  return end > 0.0 ? std::optional(end) : std::nullopt;
+  const ControllerOptions& steering = scenario.control.steering;
+  const ControllerEntry& controller = ControllerFor(steering);
+  return controller.duration != nullptr ? controller.duration(steering) : std::nullopt;
 }
 
 PlannerOptions DefaultPlanner() {
@@ -254,49 +248,16 @@ std::string OptionDefaults(const ManeuverOptions& options) {
 }
 
 std::string ResolvedYaml(const Scenario& scenario) {
-  Scenario resolved = scenario;
+  Scenario resolved = WithResolvedFiles(scenario);
   const StartState start = InitialState(scenario);
-  resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed,
-                            start.steering};
-  if (auto& record = resolved.record) {
-    // With a recorded command the car computes its own initial angle; see DrivePlant.
-    resolved.mission.start.steering = scenario.mission.start.steering;
-    record->file = kRecordCsv;
-    record->map.reset();
-    record->from.reset();
-    record->to.reset();
-    if (record->data) {
-      record->notes = fmt::format("{}", fmt::join(record->data->notes, "\n"));
-    }
-  }
-  if (auto& track = resolved.mission.track) {
-    track->file = kTrackCsv;
-  }
-  if (resolved.vehicle.model.find('/') != std::string::npos) {
-    resolved.vehicle.model =
-        std::filesystem::absolute(FindModel(scenario.vehicle.model, scenario.folder))
-            .lexically_normal()
-            .string();
-  }
-  if (resolved.world.road_network) {
-    resolved.world.road_network->file = kRoadNetworkXodr;
-  }
+  const bool planner_sets_start =
+      scenario.plan && PlannerFor(scenario.plan->global).start != nullptr;
+  // With a recorded command, or a start of the planner, the car computes its own initial angle: see
+  // DrivePlant and InitialState.
+  const std::optional<double> steering =
+      scenario.record || planner_sets_start ? scenario.mission.start.steering : start.steering;
+  resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed, steering};
   resolved.mission.duration = RunDuration(scenario);
-  auto* path = resolved.plan ? resolved.plan->global.As<PathFileOptions>() : nullptr;
-  if (path != nullptr) {
-    // On a path from a file the car computes its own initial angle; see InitialState.
-    resolved.mission.start.steering = scenario.mission.start.steering;
-    path->file = kPathCsv;
-    path->map = {};  // PathCsv uses the default names
-    path->ahead = 0.0;
-  }
-  if (auto* playback = resolved.control.steering.As<PlaybackOptions>()) {
-    playback->file = playback->file.empty() && resolved.record ? "" : kRecordingCsv;
-    playback->columns = {};  // RecordingCsv uses the default names
-  }
-  if (auto& map = resolved.world.map) {
-    *map = {.file = kMapYaml, .unknown = map->unknown, .height = map->height};
-  }
   YAML::Emitter out;
   out << YAML::BeginMap;
   YamlWriter writer(out);

@@ -136,7 +136,8 @@ bool Holds(const Condition& condition, const Study& study, const std::vector<Set
       [&](const std::string& value) { return CellText(value) == CellText(found->value); });
 }
 
-bool AllHold(const Variation& variation, const Study& study, const std::vector<Setting>& point) {
+bool ConditionsHold(const Variation& variation, const Study& study,
+                    const std::vector<Setting>& point) {
   return std::all_of(variation.when.begin(), variation.when.end(),
                      [&](const Condition& condition) { return Holds(condition, study, point); });
 }
@@ -290,7 +291,7 @@ std::vector<Setting> StudyPoints::OfGrid(std::size_t combination) const {
     }
     std::vector<Setting> so_far = settings;
     so_far.insert(so_far.end(), listed.begin(), listed.end());
-    if (AllHold(variation, study_, so_far)) {
+    if (ConditionsHold(variation, study_, so_far)) {
       settings.push_back(variation.alternatives[chosen[k]]);
     }
   }
@@ -305,7 +306,7 @@ std::vector<Setting> StudyPoints::Settings(std::size_t i) const {
   std::vector<Setting> settings = OfGrid(distinct_.empty() ? combination : distinct_[combination]);
   for (std::size_t k = 0; k < study_.vary.size(); ++k) {
     const Variation& variation = study_.vary[k];
-    if (variation.distribution && AllHold(variation, study_, settings)) {
+    if (variation.distribution && ConditionsHold(variation, study_, settings)) {
       settings.push_back(
           At(variation, Quantile(*variation.distribution, unit_sample_(sample, dimensions_[k]))));
     }
@@ -361,8 +362,8 @@ const std::vector<std::string>& StudySearches() {
 }
 
 std::vector<std::size_t> PointsToCheck(const StudyPoints& points) {
-  constexpr std::size_t kMost = 1000;
-  const std::size_t count = std::min(points.size(), kMost);
+  constexpr std::size_t kMaxCheckedPoints = 1000;
+  const std::size_t count = std::min(points.size(), kMaxCheckedPoints);
   std::vector<std::size_t> chosen;
   for (std::size_t k = 0; k < count; ++k) {
     chosen.push_back(count == 1 ? 0 : k * (points.size() - 1) / (count - 1));
@@ -373,9 +374,9 @@ std::vector<std::size_t> PointsToCheck(const StudyPoints& points) {
 void CheckPoints(const StudyPoints& points, bool all) {
   const Study& study = points.study();
   Problems problems(study);
-  bool any_good = false;
+  bool any_valid = false;
   // Whether the scenario at this point is valid.
-  const auto is_good = [&](const std::vector<Setting>& settings, std::optional<double> bisected) {
+  const auto is_valid = [&](const std::vector<Setting>& settings, std::optional<double> bisected) {
     problems.CountPoint();
     try {
       ReadPoint(study, settings, bisected);
@@ -400,17 +401,17 @@ void CheckPoints(const StudyPoints& points, bool all) {
     }
     bool good = false;
     if (!study.bisect) {
-      good = is_good(settings, std::nullopt);
+      good = is_valid(settings, std::nullopt);
     } else {
       const BisectSpec& bisect = *study.bisect;
-      const bool at_from = is_good(settings, bisect.from);
+      const bool at_from = is_valid(settings, bisect.from);
       // Checks a third value that is not round: bisection tries arbitrary values.
-      good = is_good(settings, bisect.to) && at_from &&
-             is_good(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
+      good = is_valid(settings, bisect.to) && at_from &&
+             is_valid(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
     }
-    any_good = any_good || good;
+    any_valid = any_valid || good;
   }
-  if (all || !any_good) {
+  if (all || !any_valid) {
     problems.ThrowIfAny();
   }
 }

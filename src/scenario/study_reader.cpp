@@ -54,7 +54,7 @@ class StudyReader {
     study.file = context_.file;
     study.keep = ReadKeep(file.keep, study);
     ReadBaseScenario(file.scenario, study);
-    TakeBisect(file.bisect, study);
+    SetBisection(file.bisect, study);
     if (context_.problems.empty()) {
       CheckStudy(study);
     }
@@ -128,10 +128,12 @@ class StudyReader {
     for (std::size_t i = 0; i < node.size(); ++i) {
       const YAML::Node item = node[i];
       const std::string key = fmt::format("{}[{}]", section, i);
-      const auto is_it = [&](const OutputSpec& other) { return other.path == item.Scalar(); };
+      const auto is_same_path = [&](const OutputSpec& other) {
+        return other.path == item.Scalar();
+      };
       if (!item.IsScalar() || item.Scalar().empty()) {
         AddError(item, key, fmt::format("expected a name, found {}", YamlReader::Describe(item)));
-      } else if (std::any_of(study.outputs.begin(), study.outputs.end(), is_it)) {
+      } else if (std::any_of(study.outputs.begin(), study.outputs.end(), is_same_path)) {
         AddError(item, key, fmt::format("'{}' is listed twice", item.Scalar()));
       } else {
         study.outputs.push_back({item.Scalar(), item.Mark().line + 1, item.Mark().column + 1});
@@ -196,7 +198,7 @@ class StudyReader {
     }
   }
 
-  void TakeBisect(const BisectSpec& bisect, Study& study) {
+  void SetBisection(const BisectSpec& bisect, Study& study) {
     const YAML::Node node = root_["bisect"];
     if (bisect.key.empty() || !context_.problems.empty()) {
       return;
@@ -242,7 +244,7 @@ class StudyReader {
       AddError(root_, "vary", fmt::format("{} runs; at most {}", runs, kMaxRuns));
     }
     CheckConditions(study);
-    CheckWhatReplaces(study);
+    CheckUniqueSettings(study);
     CheckSeed(study);
     if (context_.problems.empty()) {
       CheckFormulas(study);
@@ -322,18 +324,18 @@ class StudyReader {
   }
 
   /// Each key must be set once, and no setting may overwrite an earlier one.
-  void CheckWhatReplaces(const Study& study) {
-    std::vector<Setting> one_of_each;
+  void CheckUniqueSettings(const Study& study) {
+    std::vector<Setting> single_settings;
     for (const Variation& variation : study.vary) {
-      one_of_each.push_back({variation.key, "", variation.line, variation.column});
+      single_settings.push_back({variation.key, "", variation.line, variation.column});
     }
     for (const DerivedKey& derived : study.derive) {
-      one_of_each.push_back({derived.key, "", derived.line, derived.column});
+      single_settings.push_back({derived.key, "", derived.line, derived.column});
     }
     const std::vector<std::vector<Setting>> points =
         study.list.empty() ? std::vector<std::vector<Setting>>(1) : study.list;
     for (const std::vector<Setting>& point : points) {
-      std::vector<Setting> settings = one_of_each;
+      std::vector<Setting> settings = single_settings;
       settings.insert(settings.end(), point.begin(), point.end());
       settings = AllSettings(study, settings,
                              study.bisect ? std::optional(study.bisect->from) : std::nullopt);

@@ -215,7 +215,7 @@ class VariationReader {
   /// Reads the cells of a column as the values to choose from.
   void ReadColumn(const YAML::Node& node, const std::string& dotted, const TableColumn& column,
                   Distribution& distribution) {
-    if (const std::string why = WhyUnreadable(column.file, folders_.own, folders_.others);
+    if (const std::string why = ReadAccessError(column.file, folders_.own, folders_.others);
         !why.empty()) {
       AddError(node["file"], dotted + ".file", column.file + " " + why);
       return;

@@ -7,7 +7,7 @@
 namespace trackbed {
 
 inline constexpr Range kRoadFactor{.max = 10.0, .above = 0.0};
-inline constexpr Range kRiseOverRun{.min = -0.5, .max = 0.5};    // 27 degrees
+inline constexpr Range kSlopeRange{.min = -0.5, .max = 0.5};     // 27 degrees
 inline constexpr Range kWindSpeed{.min = -100.0, .max = 100.0};  // [m/s]
 
 inline constexpr Key kWorldSection{"world", "", "environment of the car"};
@@ -32,8 +32,8 @@ struct GradeKeys {
 };
 
 inline void Visit(KeyVisitor& a, GradeKeys& keys) {
-  a.Field({"x", "", "rise over run eastward"}, keys.grade.x(), Need::kOptional, kRiseOverRun);
-  a.Field({"y", "", "rise over run northward"}, keys.grade.y(), Need::kOptional, kRiseOverRun);
+  a.Field({"x", "", "rise over run eastward"}, keys.grade.x(), Need::kOptional, kSlopeRange);
+  a.Field({"y", "", "rise over run northward"}, keys.grade.y(), Need::kOptional, kSlopeRange);
 }
 
 inline void Visit(KeyVisitor& a, Bump& bump) {
@@ -47,7 +47,7 @@ inline void Visit(KeyVisitor& a, Bump& bump) {
 inline void Visit(KeyVisitor& a, Superelevation& stretch) {
   Visit(a, stretch.area);
   a.Field({"slope", "", "slope toward the left; negative: toward the right"}, stretch.slope,
-          Need::kRequired, kRiseOverRun);
+          Need::kRequired, kSlopeRange);
   a.Field({"transition_length", "m", "transition length at both ends; at most half the length"},
           stretch.transition_length, Need::kOptional, kPositive);
 }

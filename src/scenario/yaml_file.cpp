@@ -14,18 +14,18 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
-// Loads YAML and explains syntax errors. A first pass of yaml-cpp's event parser (Watch) tracks
-// open collections and quotes, and limits nesting and the number of values. If it fails, Explain
-// maps yaml-cpp's message and position to the line and the wording that a user can act on: missing
-// colon, wrong indentation, tab, unclosed bracket, unquoted special character. Unclosed quotes are
-// detected by a second pass, because yaml-cpp often reads on to the end of the text. Valid text is
-// then loaded as nodes.
+// Loads YAML and explains syntax errors. A first pass of yaml-cpp's event parser (EventTracker)
+// tracks open collections and quotes, and limits nesting and the number of values. If it fails,
+// Explain maps yaml-cpp's message and position to the line and the wording that a user can act on:
+// missing colon, wrong indentation, tab, unclosed bracket, unquoted special character. Unclosed
+// quotes are detected by a second pass, because yaml-cpp often reads on to the end of the text.
+// Valid text is then loaded as nodes.
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kDeepest = 64;
+constexpr std::size_t kMaxDepth = 64;
 constexpr std::size_t kMaxValues = 100000;
-constexpr std::size_t kLargestText = std::size_t{16} << 20U;
+constexpr std::size_t kMaxTextBytes = std::size_t{16} << 20U;
 
 [[noreturn]] void Fail(const std::string& file, const YAML::Mark& mark, std::string message) {
   throw InputError(Problem{file, mark.line + 1, mark.column + 1, "", std::move(message)});
@@ -36,7 +36,7 @@ bool IsPrintable(boost::locale::utf::code_point c) {
   return c == '\t' || c == '\n' || c == '\r' || c == 0x85 || (c >= 0x20 && c < 0x7f) || c >= 0xa0;
 }
 
-void RefuseWhatIsNoText(const std::string& text, const std::string& file) {
+void RejectInvalidText(const std::string& text, const std::string& file) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
   YAML::Mark mark;  // columns count bytes, as in yaml-cpp
   for (auto at = text.begin(); at != text.end();) {
@@ -56,9 +56,9 @@ void RefuseWhatIsNoText(const std::string& text, const std::string& file) {
 
 /// Follows the parser, so that an error can be related to the open collections. Limits nesting and
 /// repetition: anchors can expand a small file to an endless tree.
-class Watch : public YAML::EventHandler {
+class EventTracker : public YAML::EventHandler {
  public:
-  explicit Watch(std::string file) : file_(std::move(file)) {}
+  explicit EventTracker(std::string file) : file_(std::move(file)) {}
 
   void OnDocumentStart(const YAML::Mark& mark) override {
     if (++documents_ > 1) {
@@ -117,8 +117,8 @@ class Watch : public YAML::EventHandler {
   void Open(const YAML::Mark& mark, YAML::anchor_t anchor) {
     Count(mark, 1);
     open_.push_back({mark, anchor, values_});
-    if (open_.size() > kDeepest) {
-      Fail(file_, mark, fmt::format("nested deeper than {} levels", kDeepest));
+    if (open_.size() > kMaxDepth) {
+      Fail(file_, mark, fmt::format("nested deeper than {} levels", kMaxDepth));
     }
   }
   void Close() {
@@ -134,10 +134,10 @@ class Watch : public YAML::EventHandler {
   YAML::Mark quoted_ = YAML::Mark::null_mark();
 };
 
-void Follow(const std::string& text, Watch& watch) {
+void Follow(const std::string& text, EventTracker& tracker) {
   std::istringstream stream(text);
   YAML::Parser parser(stream);
-  while (parser.HandleNextDocument(watch)) {
+  while (parser.HandleNextDocument(tracker)) {
   }
 }
 
@@ -170,13 +170,13 @@ YAML::Mark MarkAt(int line, std::size_t column) {
 }
 
 /// Position and wording of a syntax error for the user.
-struct Stumble {
+struct SyntaxError {
   YAML::Mark mark;
   std::string message;
 };
 
 /// Explains a misplaced key; most often the line before it is wrong.
-Stumble ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
+SyntaxError ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
   const auto here = static_cast<std::size_t>(mark.line);
   const std::string_view line = lines[here];
   if (HasColon(line.substr(0, static_cast<std::size_t>(mark.column)))) {
@@ -200,7 +200,7 @@ Stumble ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark&
 }
 
 /// Explains a value that ends where the indentation requires it to continue.
-Stumble ExplainEnd(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
+SyntaxError ExplainEnd(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
   const std::string_view line = lines[static_cast<std::size_t>(mark.line)];
   const std::string_view rest = Trimmed(line.substr(static_cast<std::size_t>(mark.column)));
   if (rest != Trimmed(line)) {
@@ -215,7 +215,8 @@ Stumble ExplainEnd(const std::vector<std::string_view>& lines, const YAML::Mark&
   return {mark, "the indentation matches no section above"};
 }
 
-Stumble Explain(const std::string& text, const YAML::Exception& error, const Watch& watch) {
+SyntaxError Explain(const std::string& text, const YAML::Exception& error,
+                    const EventTracker& tracker) {
   namespace Says = YAML::ErrorMsg;
   const std::vector<std::string_view> lines = Lines(text);
   YAML::Mark mark = error.mark;
@@ -236,7 +237,7 @@ Stumble Explain(const std::string& text, const YAML::Exception& error, const Wat
   if (in_brackets) {
     const char bracket = said == Says::END_OF_SEQ_FLOW ? '[' : '{';
     const bool at_end = static_cast<std::size_t>(error.mark.pos) >= text.size();
-    return {watch.open().is_null() ? mark : watch.open(),
+    return {tracker.open().is_null() ? mark : tracker.open(),
             at_end
                 ? fmt::format("'{}' is not closed", bracket)
                 : fmt::format("'{}' is not closed, or a ',' is missing before line {}, column {}",
@@ -281,9 +282,9 @@ Stumble Explain(const std::string& text, const YAML::Exception& error, const Wat
 /// Whether a quote is still open at the end. yaml-cpp only reports this if no line feed follows;
 /// otherwise it takes the rest of the text as the quoted value.
 bool EndsInQuotes(const std::string& text) {
-  Watch watch("");
+  EventTracker tracker("");
   try {
-    Follow(text.substr(0, text.find_last_not_of(" \t\r\n") + 1), watch);
+    Follow(text.substr(0, text.find_last_not_of(" \t\r\n") + 1), tracker);
   } catch (const YAML::Exception& error) {
     return error.msg == YAML::ErrorMsg::EOF_IN_SCALAR;
   }
@@ -294,31 +295,32 @@ bool EndsInQuotes(const std::string& text) {
 
 std::string ReadInput(const std::filesystem::path& file) {
   try {
-    return ReadFile(file, kLargestText);
+    return ReadFile(file, kMaxTextBytes);
   } catch (const RunError& error) {
     throw InputError(Problem{.message = error.what()});
   }
 }
 
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
-  RefuseWhatIsNoText(text, file);
+  RejectInvalidText(text, file);
   const std::string lines = text + "\n";  // completes a value at the end
-  Watch watch(file);
-  std::optional<Stumble> stumble;
+  EventTracker tracker(file);
+  std::optional<SyntaxError> syntax_error;
   try {
-    Follow(lines, watch);
+    Follow(lines, tracker);
   } catch (const YAML::Exception& error) {
-    stumble = Explain(text, error, watch);
+    syntax_error = Explain(text, error, tracker);
   }
   if (EndsInQuotes(text)) {
-    if (!watch.quoted().is_null()) {
-      stumble = {watch.quoted(), "the quotes opened here are not closed"};
+    if (!tracker.quoted().is_null()) {
+      syntax_error = {tracker.quoted(), "the quotes opened here are not closed"};
     } else {
-      stumble = {stumble ? stumble->mark : YAML::Mark(), "quotes after this are not closed"};
+      syntax_error = {syntax_error ? syntax_error->mark : YAML::Mark(),
+                      "quotes after this are not closed"};
     }
   }
-  if (stumble) {
-    Fail(file, stumble->mark, stumble->message);
+  if (syntax_error) {
+    Fail(file, syntax_error->mark, syntax_error->message);
   }
   return YAML::Load(lines);
 }

@@ -3,15 +3,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdlib>
 
 #include "trackbed/core/angle.h"
 #include "trackbed/core/classic_locale.h"
+#include "trackbed/core/file_name.h"
 #include "trackbed/core/spelling.h"
 
+// KeyVisitor that reads a YAML mapping. Each Field takes its key from the mapping, checks type,
+// range and allowed names, and reports problems with their position and a hint. Values in quotes
+// are text, never numbers. Finish reports duplicate and unknown keys, with the nearest spelling.
+// A misspelled key marks the intended key as unread, so that it causes no follow-up errors.
 namespace trackbed {
 namespace {
 
@@ -19,10 +22,10 @@ bool IsQuoted(const YAML::Node& node) {
   return node.IsScalar() && node.Tag() == "!";
 }
 
-/// Reads a value of type T; what stands in quotes is text, whatever it looks like.
+/// Reads a value of type T; a quoted value is text, even if it looks like a number.
 template <typename T>
 bool Decode(const YAML::Node& node, T& value) {
-  const ClassicLocale locale;  // yaml-cpp reads numbers through the global one
+  const ClassicLocale locale;  // yaml-cpp parses numbers with the global locale
   return node.IsScalar() && !IsQuoted(node) && YAML::convert<T>::decode(node, value);
 }
 
@@ -31,7 +34,7 @@ std::string Numbers(std::size_t count) {
                     : fmt::format("{} {}", count, count == 1 ? "number" : "numbers");
 }
 
-/// A number with more digits than there are for one.
+/// Whether the value is a number that overflows a double.
 bool IsTooLarge(const YAML::Node& node) {
   if (!node.IsScalar() || IsQuoted(node)) {
     return false;
@@ -41,25 +44,6 @@ bool IsTooLarge(const YAML::Node& node) {
   const std::string& text = node.Scalar();
   const double number = std::strtod(text.c_str(), &end);
   return !text.empty() && *end == '\0' && std::isinf(number);
-}
-
-/// Keys of earlier versions, and what they are called now.
-constexpr std::array kRenamedKeys{
-    std::pair{"dead_band", "backlash"},
-    std::pair{"manoeuvre", "maneuver"},
-    std::pair{"ring", "passing_side"},
-    std::pair{"run_in", "transition_length"},
-    std::pair{"steering_rate_share", "max_steering_rate_fraction"},
-    std::pair{"comfortable_rate_share", "comfortable_steering_rate_fraction"},
-};
-
-std::string UnknownKey(const std::string& name, const Names& known) {
-  for (const auto& [before, now] : kRenamedKeys) {
-    if (name == before && std::find(known.begin(), known.end(), now) != known.end()) {
-      return fmt::format("unknown key '{}'; it is now called '{}'", before, now);
-    }
-  }
-  return "unknown key " + UnknownName(name, known);
 }
 
 }  // namespace
@@ -72,8 +56,8 @@ std::string YamlReader::Dotted(const char* key) const {
 }
 
 void YamlReader::AddError(const YAML::Node& node, const std::string& dotted, std::string message) {
-  // yaml-cpp places a value that is not there at whatever comes next.
-  context_.AddError(node.IsNull() ? taken_ : node.Mark(), dotted, std::move(message));
+  // yaml-cpp places a missing value at the token after it, so use the position of the key.
+  context_.AddError(node.IsNull() ? last_key_mark_ : node.Mark(), dotted, std::move(message));
 }
 
 std::string YamlReader::Describe(const YAML::Node& node) {
@@ -101,7 +85,7 @@ std::optional<YAML::Node> YamlReader::Take(const char* key, Need need) {
   known_.emplace_back(key);
   for (const auto& entry : node_) {
     if (entry.first.IsScalar() && entry.first.Scalar() == key) {
-      taken_ = entry.first.Mark();
+      last_key_mark_ = entry.first.Mark();
       return entry.second;
     }
   }
@@ -159,7 +143,7 @@ void YamlReader::VisitMethod(const Key& key, Need need, const Methods& methods) 
   inner.Field(kMethod, method, Need::kRequired, names);
   const auto found = std::find(names.begin(), names.end(), method);
   if (found == names.end()) {
-    return;  // without a method there is no telling which keys are known
+    return;  // the known keys depend on the method
   }
   methods.select(static_cast<std::size_t>(found - names.begin()));
   methods.visit_selected(inner);
@@ -270,7 +254,7 @@ void YamlReader::Field(const Key& key, int& value, Need need, Range range) {
 
 void YamlReader::Field(const Key& key, std::uint64_t& value, Need need) {
   if (const auto node = Take(key.name, need)) {
-    // A stream reads -1 as the largest number that there is.
+    // A stream parses -1 as the largest representable number.
     if (node->Scalar().starts_with('-') || !Decode(*node, value)) {
       AddError(
           *node, Dotted(key.name),
@@ -307,11 +291,7 @@ void YamlReader::Field(const Key& key, std::optional<std::string>& value) {
 
 void YamlReader::Identifier(const Key& key, std::string& value) {
   Field(key, value, Need::kRequired);
-  const auto fits = [](unsigned char c) {
-    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.';
-  };
-  if (!value.empty() && (value.front() == '.' || value.size() > 100 ||
-                         !std::all_of(value.begin(), value.end(), fits))) {
+  if (!value.empty() && (value.size() > kMaxFileNameLength || !IsFileName(value))) {
     for (const auto& entry : node_) {
       if (entry.first.IsScalar() && entry.first.Scalar() == key.name) {
         AddError(entry.second, Dotted(key.name),
@@ -439,7 +419,7 @@ void YamlReader::Finish() {
     if (std::find(seen.begin(), seen.end(), name) != seen.end()) {
       AddError(entry.first, Dotted(name.c_str()), "duplicate key");
     } else if (std::find(known_.begin(), known_.end(), name) == known_.end()) {
-      AddError(entry.first, Dotted(name.c_str()), UnknownKey(name, known_));
+      AddError(entry.first, Dotted(name.c_str()), "unknown key " + UnknownName(name, known_));
       if (const std::string meant = NearestSpelling(name, known_); !meant.empty()) {
         context_.unread.push_back(Dotted(meant.c_str()));
       }

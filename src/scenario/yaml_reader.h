@@ -83,7 +83,7 @@ class YamlReader final : public KeyVisitor {
   YAML::Node node_;
   std::string key_;
   Names known_;
-  YAML::Mark taken_;  // position of the key taken last
+  YAML::Mark last_key_mark_;  // position of the key taken last
 };
 
 }  // namespace trackbed

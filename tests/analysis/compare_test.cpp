@@ -46,7 +46,7 @@ Trace Circle(const std::string& name, double radius, double wheelbase, double le
 }
 
 TEST(CompareTraces, LeavesOutGapsOfARecord) {
-  // 1 m apart until 10 m, 5 m apart after 20 m; what is between is a gap of the second.
+  // The traces are 1 m apart until 10 m and 5 m apart after 20 m; the second one has a gap between.
   Trace second = Line("recorded", {0, 5, 10, 12, 18, 20, 25}, 1.0);
   for (std::size_t i = 3; i < 7; ++i) {
     second.pose[i].y = 5.0;
@@ -55,7 +55,7 @@ TEST(CompareTraces, LeavesOutGapsOfARecord) {
   const PlantComparison c = CompareTraces(Line("a", {0, 1, 15, 25}, 0.0), second);
   EXPECT_DOUBLE_EQ(c.position.max, 5.0);
   EXPECT_EQ(c.position.max_s, 20.0);
-  // Over 10 m of 1 m and 5 m of 5 m: sqrt((10 + 125)/15).
+  // RMS over 10 m with a difference of 1 m and 5 m with a difference of 5 m: sqrt((10 + 125)/15).
   EXPECT_DOUBLE_EQ(c.position.rms, 3.0);
   EXPECT_EQ(DifferencesOverArcLength(Line("a", {0, 1, 15, 25}, 0.0), second).rows(), 6U);
 }
@@ -76,8 +76,8 @@ TEST(CompareTraces, KnowsHowFarShiftedLinesAreApart) {
 }
 
 TEST(CompareTraces, IntegratesOverArcLengthAndNotOverRows) {
-  // Apart by 0 up to s = 6, then by up to 0.9 at s = 9: the mean square over 9 m is that of a third
-  // of the way on a line from 0 to 0.9, 0.81/3/3. Rows lie close where the runs agree.
+  // The difference is 0 up to s = 6 and grows to 0.9 at s = 9. The mean square over 9 m is a third
+  // of that of a line from 0 to 0.9: 0.81/3/3. Rows are dense where the runs agree.
   Trace bent = Line("b", {0, 1, 2, 3, 4, 5, 6, 9}, 0.0);
   bent.pose.back().y = 0.9;
   const PlantComparison c = CompareTraces(Line("a", {0, 9}, 0.0), bent);
@@ -88,9 +88,9 @@ TEST(CompareTraces, IntegratesOverArcLengthAndNotOverRows) {
 }
 
 TEST(CompareTraces, KnowsHowTwoCirclesPart) {
-  // From one tangent: |p_2 - p_1| by the circles' own equations, psi = s/R, psi' = v/R, delta =
-  // atan(L/R). At the rows nothing is interpolated; between them, chords of length h are off by
-  // h^2/(8 R), 1.25 um. The largest difference is at the end.
+  // Both circles start on one tangent: |p_2 - p_1| follows from their equations, psi = s/R, psi' =
+  // v/R, delta = atan(L/R). At the rows nothing is interpolated; between rows, chords of length h
+  // deviate by h^2/(8 R), 1.25 um. The largest difference is at the end.
   constexpr double kLength = 15.0;
   constexpr double kSpacing = 0.01;
   const Trace a = Circle("a", 10.0, 2.7, kLength, kSpacing);
@@ -105,12 +105,12 @@ TEST(CompareTraces, KnowsHowTwoCirclesPart) {
   EXPECT_NEAR(c.position.max_s, kLength, Tolerance(1e-9));
   EXPECT_NEAR(c.position.max_t, kLength / 3.0, Tolerance(1e-9));
   EXPECT_NEAR(c.heading.max, kLength * (1.0 / 10.0 - 1.0 / 12.5), Tolerance(1e-12));
-  // Of a difference that grows with s from 0: 1/sqrt(3) of the largest.
+  // A difference that grows linearly with s from 0 has an RMS of 1/sqrt(3) of its maximum.
   EXPECT_NEAR(c.heading.rms, c.heading.max / std::sqrt(3.0), Tolerance(1e-12));
   EXPECT_NEAR(c.yaw_rate.max, 3.0 / 10.0 - 3.0 / 12.5, Tolerance(1e-12));
   EXPECT_NEAR(c.yaw_rate.rms, 3.0 / 10.0 - 3.0 / 12.5, Tolerance(1e-12));
   EXPECT_NEAR(c.steering.max, std::atan(0.27) - std::atan(2.7 / 12.5), Tolerance(1e-12));
-  // Simpson's rule over 300 intervals of the exact curve: good to 1e-9.
+  // Simpson's rule over 300 intervals of the exact curve is accurate to 1e-9.
   double integral = 0.0;
   for (int i = 0; i <= 300; ++i) {
     const double weight = i == 0 || i == 300 ? 1.0 : i % 2 == 1 ? 4.0 : 2.0;
@@ -265,7 +265,7 @@ TEST(ReadRunFolder, GivesTheDrivesThatWereLogged) {
   EXPECT_THAT(drives[0].trace.steering, testing::ElementsAre(0.0, 0.3));
   EXPECT_EQ(drives[1].status, "collided");
   EXPECT_EQ(drives[1].trace.name, "mujoco:contact");
-  EXPECT_THAT(drives[1].trace.station, testing::ElementsAre(0.0));  // it did not get on
+  EXPECT_THAT(drives[1].trace.station, testing::ElementsAre(0.0));  // the car did not move
 }
 
 std::string ErrorMessage(const std::filesystem::path& folder) {
@@ -285,7 +285,9 @@ TEST(ReadRunFolder, RefusesWhatIsNoRun) {
   EXPECT_THAT(ErrorMessage(folder.path()),
               testing::StartsWith(file.string() + ":1:26: not JSON: "));
   file = folder.Write("metrics.json", R"({"plants": {"kinematic": 3}})");
-  EXPECT_EQ(ErrorMessage(folder.path()), file.string() + ": not the metrics of a run");
+  EXPECT_EQ(
+      ErrorMessage(folder.path()),
+      file.string() + ": plants.kinematic: expected a section, found 3; not as Trackbed writes it");
   folder.Write("metrics.json", R"({"plants": {"kinematic": {"status": "arrived"}}})");
   const auto log = folder.Write("kinematic.csv", "t_s,x_m\n0,0\n");
   EXPECT_THAT(ErrorMessage(folder.path()), testing::StartsWith(log.string() + ":1"));
@@ -296,7 +298,9 @@ TEST(ReadRunFolder, RefusesWhatIsNoRun) {
               fmt::format("{}: a log needs at least two rows; found {}", log.string(), count));
   }
   folder.Write("metrics.json", R"({"plants": []})");
-  EXPECT_EQ(ErrorMessage(folder.path()), file.string() + ": not the metrics of a run");
+  EXPECT_EQ(
+      ErrorMessage(folder.path()),
+      file.string() + ": plants: expected a section, found a list of 0; not as Trackbed writes it");
   folder.Write("metrics.json", R"({"plants": {"../kinematic": {"status": "arrived"}}})");
   EXPECT_EQ(ErrorMessage(folder.path()),
             file.string() + ": plants: unknown '../kinematic'; did you mean 'kinematic'?");

@@ -10,13 +10,13 @@
 #include "trackbed/core/file.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
 
-// A plan that leads only part of the way is driven to its end, and said to be no arrival.
+// A plan that covers only part of the route is driven to its end and not reported as an arrival.
 namespace trackbed {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// A wall across everything that is sampled, 29.5 m ahead; the goal is behind it.
+/// A wall across the whole sampled width, 29.5 m ahead; the goal is behind it.
 Scenario BeforeAWall(const std::string& rest = "") {
   return ParseScenario(
       "schema: 1\nname: wall\n"
@@ -29,23 +29,24 @@ Scenario BeforeAWall(const std::string& rest = "") {
 
 TEST(PartialPlan, IsDrivenToItsEndAndNotPassed) {
   const RunResult run = RunMission(BeforeAWall());
-  ASSERT_TRUE(run.plan.ok()) << run.plan.reason;
+  ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
   ASSERT_EQ(run.metrics.size(), 2U);
   EXPECT_FALSE(run.verdict.passed);
-  const Path& path = run.plan.reference.path;
+  const Path& path = run.plan->reference.path;
   const Vec2 end = path.At(path.length()).pose.position();
   for (std::size_t i = 0; i < run.metrics.size(); ++i) {
     const PlantMetrics& metrics = run.metrics[i];
     SCOPED_TRACE(metrics.plant);
     EXPECT_EQ(metrics.status, DriveStatus::kPartial);
-    EXPECT_EQ(metrics.partial, run.plan.partial);
+    EXPECT_EQ(metrics.partial, run.plan->partial);
     EXPECT_EQ(metrics.blocked, "");
     EXPECT_EQ(metrics.plan_changes, 0);
     EXPECT_FALSE(metrics.clearance->collision);
-    // At rest at the end of its path: a plan's last meter takes the car there to centimeters.
+    // The car rests at the end of its path: the last meter of a plan brings it there to
+    // centimeters.
     const Vec2 stands = run.logs[i].rows.back().state.pose.position();
     EXPECT_LE((stands - end).norm(), 0.2);
-    // And that far from the mission's own goal.
+    // goal_distance is measured from the mission's goal.
     EXPECT_NEAR(metrics.tracking->goal_distance, (stands - Vec2(50.0, 0.0)).norm(),
                 Tolerance(1e-9));
     EXPECT_THAT(run.verdict.failures.at(i), HasSubstr("did not reach the goal: partial at"));
@@ -69,16 +70,16 @@ TEST(PartialPlan, StandsInTheFilesOfTheRun) {
   const auto plan = nlohmann::json::parse(ReadFile(folder.path() / "plan.json"));
   EXPECT_EQ(plan["status"], "ok");
   EXPECT_EQ(plan["partial"], true);
-  EXPECT_EQ(plan["partial_reason"], run.plan.partial);
+  EXPECT_EQ(plan["partial_reason"], run.plan->partial);
   EXPECT_EQ(plan["next_waypoint"], 1);
   EXPECT_GT(plan["left_m"], 20.0);
   const auto metrics = nlohmann::json::parse(ReadFile(folder.path() / "metrics.json"));
   EXPECT_EQ(metrics["plants"]["kinematic"]["status"], "partial");
-  EXPECT_EQ(metrics["plants"]["kinematic"]["partial"], run.plan.partial);
+  EXPECT_EQ(metrics["plants"]["kinematic"]["partial"], run.plan->partial);
 }
 
 TEST(PartialPlan, StaysOneWhenItIsPlannedAgainOnTheWay) {
-  // A box that is found 15 m ahead stands beside the route's middle line; the goal is behind a
+  // A box that becomes known at 15 m stands beside the route's center line; the goal is behind a
   // wall.
   Scenario scenario = ParseScenario(
       "schema: 1\nname: wall\n"
@@ -93,8 +94,8 @@ TEST(PartialPlan, StaysOneWhenItIsPlannedAgainOnTheWay) {
       "drive: {plants: [kinematic]}\n",
       "wall.yaml", ".");
   const RunResult run = RunMission(scenario);
-  ASSERT_TRUE(run.plan.ok()) << run.plan.reason;
-  ASSERT_FALSE(run.plan.partial.empty());
+  ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
+  ASSERT_FALSE(run.plan->partial.empty());
   EXPECT_GT(run.metrics[0].plan_changes, 0);
   EXPECT_EQ(run.metrics[0].status, DriveStatus::kPartial);
   EXPECT_FALSE(run.metrics[0].clearance->collision);

@@ -12,7 +12,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
-/// What a study is looked at for before it is driven, and how one of its runs is driven.
+/// Checks of a study before it runs, and the execution of a single run.
 namespace trackbed {
 namespace {
 
@@ -27,7 +27,7 @@ TEST(CheckStudy, NamesOutputsThatNoRunCanHave) {
             "mean 'metrics.mujoco.cross_track.max'?\n"
             "study.yaml:8:5: outputs[2]: unknown metric 'plan.length'; did you mean "
             "'plan.length_m'?");
-  // There are five waypoints, so three turns; no obstacles; and nothing but winding's plants.
+  // Five waypoints make three turns; there are no obstacles, and only the plants of winding.yaml.
   EXPECT_THAT(error("  - metrics.mujoco.turns[3].lateral_offset\n"),
               testing::HasSubstr("did you mean 'metrics.mujoco.turns[0].lateral_offset'?"));
   EXPECT_THAT(error("  - metrics.mujoco.clearance_min\n"), testing::HasSubstr("unknown metric "));
@@ -90,7 +90,7 @@ TEST(CheckStudy, AStudyOfPlantsNeedsOneColumnForEachResult) {
     EXPECT_EQ(outputs.at("metrics.*.cross_track.max"),
               outputs.at("metrics." + plant + ".cross_track.max"));
   }
-  // Of two plants neither is meant.
+  // With two plants, the wildcard is ambiguous.
   const Outputs of_two = DriveOnce(checked, checked.points.Read(2).scenario)->outputs;
   EXPECT_EQ(of_two.count("metrics.*.cross_track.max"), 0U);
   EXPECT_EQ(of_two.count("metrics.single_track.cross_track.max"), 1U);
@@ -159,13 +159,13 @@ TEST(CheckStudy, NamesCarsThatLackWhatAPlantAsksOfThem) {
   EXPECT_EQ(error("kinematic"), "no error");
 }
 
-/// A study that takes a tenth of a second a run.
+/// A study whose runs take a tenth of a second each.
 const std::string kShort = R"(set: {drive.plants: [kinematic], expect: {max_cross_track: 0.05}}
 vary: {control.distance: [1, 2.5, 5]}
 outputs: [metrics.kinematic.status, metrics.kinematic.cross_track.max, verdict.failures]
 )";
 
-/// What is the same in every run.
+/// The outputs without those that vary between runs (times).
 Outputs Reproducible(Outputs outputs) {
   EXPECT_EQ(outputs.erase("timing.planning_s"), 1U);
   return outputs;
@@ -188,8 +188,8 @@ TEST(DriveOnce, ComesToWhatARunOfTheScenarioComesTo) {
     EXPECT_EQ(outputs.at("verdict.passed"), run.verdict.passed ? "true" : "false");
     EXPECT_EQ(outputs.at("verdict.robustness"),
               run.verdict.judged ? ShortestText(RobustnessOf(run).value) : "");
-    EXPECT_EQ(outputs.at("plan.length_m"), ShortestText(run.plan.reference.path.length()));
-    // What a run has is among what it was said to be able to have.
+    EXPECT_EQ(outputs.at("plan.length_m"), ShortestText(run.plan->reference.path.length()));
+    // Every output of a run was announced by PossibleOutputs.
     const std::vector<std::string> possible = PossibleOutputs(point.scenario);
     for (const auto& output : outputs) {
       EXPECT_THAT(possible, testing::Contains(output.first));
@@ -197,8 +197,8 @@ TEST(DriveOnce, ComesToWhatARunOfTheScenarioComesTo) {
   }
 }
 
-/// Keys of every section that the physics can feel; sections of the world come first, so that
-/// what is compiled for one of them would be seen in those after it.
+/// Keys of every section that affects the physics. Sections of the world come first, so that a
+/// model compiled for one of them would show in the later points if it were reused by mistake.
 const std::string kEveryKind = R"(set: {drive.time_limit: 1, expect: {}}
 list:
   - {world.ground.grade.x: 0.05}
@@ -286,7 +286,7 @@ outputs:
   const SweepResult four = RunSweep(checked.points, run, {.jobs = 4});
   EXPECT_EQ(one.table.ToCsv(), four.table.ToCsv());
   EXPECT_EQ(one.description.dump(), four.description.dump());
-  // The rows are not all alike, so that a mix-up would show.
+  // The rows differ, so that a mix-up would show.
   const auto& rows = one.table.rows();
   EXPECT_EQ((std::set<std::vector<std::string>>(rows.begin(), rows.end())).size(), rows.size());
   for (const auto& row : rows) {
@@ -299,7 +299,7 @@ TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
   Study study =
       ReadStudy(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/studies/preview_distance.yaml",
                 {"drive.timestep=0.004", "vehicle.tyre=contact"});
-  // Every third of its nine distances: 1, 2.5 and 5 m.
+  // Three of its nine distances: 1, 2.5 and 5 m.
   std::vector<Setting>& distances = study.vary.at(0).alternatives;
   distances = {distances.at(0), distances.at(3), distances.at(6)};
   const CheckedStudy checked = CheckStudy(study);
@@ -311,16 +311,16 @@ TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
   EXPECT_EQ(rows[0][1], "passed");
   EXPECT_EQ(rows[1][1], "passed");
   EXPECT_EQ(rows[2][1], "failed");
-  // To first order the car's offset e from the path obeys e'' + 2/L e' + 2/L^2 e = f, where an arc
-  // of radius R that begins L ahead makes f grow as x^2/(L^2 R) over the L to its beginning and
-  // then vanish: e rises to 0.104 L^2/R, 0.57 L into the arc. With 2.5 m ahead the car is back on
-  // the path before the arc of 16.83 m ends. Higher orders are (L/R)^2 = 2 % of that; commands are
-  // held for 20 ms and the servo lags by 15 ms, which is 4 % of L on the way: 10 % in all.
+  // To first order the cross-track error e obeys e'' + 2/L e' + 2/L^2 e = f. For an arc of radius R
+  // that begins L ahead, f grows as x^2/(L^2 R) over the distance L to its beginning and then
+  // vanishes: e rises to 0.104 L^2/R, 0.57 L into the arc. With a preview of 2.5 m the car is back
+  // on the path before the arc of 16.83 m ends. Higher orders are (L/R)^2 = 2 % of that; commands
+  // are held for 20 ms and the servo lags by 15 ms, together 4 % of L: 10 % in all.
   const double expected = 0.104 * 2.5 * 2.5 / 16.83;
   for (const std::size_t cross_track : {2U, 3U}) {  // on both plants
     EXPECT_NEAR(std::stod(rows[1][cross_track]), expected, Tolerance(0.1 * expected));
     EXPECT_GT(std::stod(rows[2][cross_track]), 0.15);
-    // Too near, the steering rate is not enough.
+    // With a short preview, the steering rate is insufficient.
     EXPECT_GT(std::stod(rows[0][cross_track]), 2.0 * expected);
   }
 }

@@ -14,7 +14,7 @@
 #include "trackbed/track/track_file.h"
 #include "trackbed/world/world.h"
 
-/// Laps on a track on which something stands.
+/// Laps on a track with obstacles.
 namespace trackbed {
 namespace {
 
@@ -54,17 +54,17 @@ TrackDrive DriveOnKidney(const std::string& mission, const std::string& plan,
       ParseScenario(text, "blocked_lap.yaml",
                     std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "tracks");
   CarModel car = LoadCar(scenario);
-  Plan planned = PlanMission(scenario, car);
+  const FeasiblePlan planned = PlanMission(scenario, car);
   RunLog log = DrivePlant(scenario, car, planned, "kinematic");
-  return {scenario, std::move(car), std::move(planned), std::move(log)};
+  return {scenario, std::move(car), planned, std::move(log)};
 }
 
 Track Kidney() {
   return ReadTrack(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios/tracks/kidney.csv");
 }
 
-/// Whether footprints keep their distance from edges and obstacles, as a car that follows its plans
-/// to `error` [m] can, and a motion to its tolerance between samples, 1 cm.
+/// Expects that footprints keep their distance from edges and obstacles. `error` [m]: tracking
+/// error of the car; the samples of a motion allow another 1 cm.
 void ExpectKeepsClear(const TrackDrive& drive, double error) {
   const double least = kDistance - Tolerance(error + 0.01);
   for (const LogRow& row : drive.log.rows) {
@@ -93,12 +93,12 @@ TEST(TrackReplanning, PassesWhatStandsBetweenTheEdges) {
     EXPECT_EQ(drive.log.status, DriveStatus::kArrived);
     ASSERT_GE(drive.log.changes.size(), 2U);
     EXPECT_EQ(KindOf(drive.log.changes.back()), "back_on_route");
-    // The kinematic car follows paths of continuous curvature to 0.12 m by this controller.
+    // With this controller the kinematic car tracks paths of continuous curvature to 0.12 m.
     ExpectKeepsClear(drive, 0.12);
     const std::vector<LapMetrics> laps = MeasureLaps(drive.log, drive.plan);
     ASSERT_EQ(laps.size(), 1U);
-    // Twice out and back by 2 m, over some 60 m: 2 * 2 * 2^2/60 m longer, and slower by a quarter
-    // for 100 m at most.
+    // Two detours of 2 m to the side, out and back, within some 60 m: 2 * 2 * 2^2/60 m longer, and
+    // a quarter slower for at most 100 m.
     EXPECT_GT(laps[0].time, laps[0].time_planned - 0.2);
     EXPECT_LT(laps[0].time, laps[0].time_planned + 3.0);
   }
@@ -114,7 +114,7 @@ TEST(TrackReplanning, ComesBackToSpeedsAtTheLimit) {
   ExpectKeepsClear(drive, 0.12);
   const PlanChange& back = drive.log.changes.back();
   EXPECT_EQ(KindOf(back), "back_on_route");
-  // The speeds are those of the plan once they have been reached.
+  // Once the replan has reached the speeds of the original plan, it keeps them.
   const SpeedProfile& own = back.plan.reference.speed;
   const SpeedProfile& planned = drive.plan.reference.speed;
   const double from = drive.plan.reference.path.length() - back.plan.reference.path.length();
@@ -127,7 +127,7 @@ TEST(TrackReplanning, GoesOnToTheNextLap) {
                                          {BoxOn(Kidney(), 300.0, 1.0)});
   Scenario twice = drive.scenario;
   twice.mission.track->laps = 2;
-  const Plan plan = PlanMission(twice, drive.car);
+  const FeasiblePlan plan = PlanMission(twice, drive.car);
   const RunLog log = DrivePlant(twice, drive.car, plan, "kinematic");
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   const std::vector<LapMetrics> laps = MeasureLaps(log, plan);

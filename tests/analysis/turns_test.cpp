@@ -13,7 +13,7 @@
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/vehicle/steering_schedule.h"
 
-// What the limited steering rate costs, predicted and measured.
+// Effects of the limited steering rate on turns, predicted and measured.
 namespace trackbed {
 namespace {
 
@@ -27,8 +27,9 @@ TEST(Turns, OfTheKinematicCarAreAsPredicted) {
         RunMission(Load(name, {"control.method=schedule", "drive.plants=[kinematic]"}));
     ASSERT_EQ(run.metrics[0].turns.size(), 3U);
     for (const TurnMetrics& turn : run.metrics[0].turns) {
-      // Between rows 0.06 m apart the yaw bends by kappa' ds^2/8 = 0.0056 * 0.0036/8 = 2.5e-6 rad
-      // at either end, and the schedule's corners fall inside a period: as much again.
+      // Between rows 0.06 m apart the yaw deviates from a line by kappa' ds^2/8 = 0.0056 * 0.0036/8
+      // = 2.5e-6 rad at either end; the schedule's corners lie within a period, which adds the same
+      // amount.
       EXPECT_NEAR(turn.measured.heading_deficit, turn.predicted.heading_deficit, Tolerance(1e-5));
       EXPECT_NEAR(turn.measured.lateral_offset, turn.predicted.lateral_offset, Tolerance(1e-4));
     }
@@ -37,13 +38,13 @@ TEST(Turns, OfTheKinematicCarAreAsPredicted) {
 
 TEST(Turns, SayWhereAndWhenTheyWereMeasured) {
   const RunResult run = RunMission(Load("three_turns", {"drive.plants=[kinematic]"}));
-  const std::vector<IsolatedTurn>& planned = run.plan.turns;
+  const std::vector<IsolatedTurn>& planned = run.plan->turns;
   const std::vector<TurnMetrics>& turns = run.metrics[0].turns;
   ASSERT_EQ(turns.size(), planned.size());
   for (std::size_t i = 0; i < turns.size(); ++i) {
     EXPECT_EQ(turns[i].s, planned[i].middle);
-    // At 3 m/s, from the first row on. The car runs up to a centimeter off its path, on the inside
-    // of a bend of 16.8 m: shorter by 0.1 %.
+    // At 3 m/s from the first row on. The car runs up to a centimeter inside its path in a bend of
+    // 16.8 m, which shortens the distance by 0.1 %.
     EXPECT_NEAR(turns[i].t, planned[i].middle / 3.0, Tolerance(1e-3 * turns[i].t));
   }
 }
@@ -53,7 +54,7 @@ TEST(Turns, OnContactsLagByTheServo) {
       Load("three_turns", {"control.method=schedule", "drive.plants=['mujoco:contact']"}));
   ASSERT_EQ(run.metrics[0].turns.size(), 3U);
   for (const TurnMetrics& turn : run.metrics[0].turns) {
-    // Contacts slip by a velocity that is proportional to the force: 0.1 % of a heading of pi/4.
+    // Contacts slip by a velocity proportional to the force: 0.1 % of a heading of pi/4.
     EXPECT_NEAR(turn.measured.heading_deficit, turn.predicted.heading_deficit,
                 Tolerance(1e-3 * 0.785));
   }
@@ -62,7 +63,7 @@ TEST(Turns, OnContactsLagByTheServo) {
 struct Ramp {
   double speed;   // [m/s]
   double radius;  // [m]
-  double rate;    // of the steering, in units of the Prius's own
+  double rate;    // steering rate as a multiple of the Prius's
 };
 
 void PrintTo(const Ramp& ramp, std::ostream* out) {
@@ -94,7 +95,7 @@ TEST_P(HeadingDeficit, OfAStepOnContactsIsTheClosedForm) {
   ASSERT_NEAR(car.params().steering_rate, rate, 1e-12);
   const RunLog log =
       DrivePlant(scenario, car, PlanMission(scenario, car.params()), "mujoco:contact");
-  // A step of the curvature against the ramp: what is missing once the wheels are there, five lags
+  // Compares a curvature step with the ramp: the deficit after the wheels have settled, five lags
   // after the ramp.
   const double ramp_time = delta / rate;
   const double lag = car.params().steering_lag;

@@ -23,7 +23,7 @@ std::filesystem::path Data(const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/maps" / name;
 }
 
-/// A map as it is drawn, the first line on top.
+/// Draws a map as text, with the top row first.
 std::string Drawn(const GridMap& map) {
   std::string text;
   for (int row = map.rows; row-- > 0;) {
@@ -62,7 +62,7 @@ std::string MessageOf(const std::function<void()>& read, const TempFolder& folde
 
 class MapFiles : public testing::Test {
  protected:
-  /// A map with an image of `content`, by a YAML file of kYaml with changes.
+  /// Reads a map with an image of `content` and the YAML file `yaml`.
   GridMap Read(const std::string& content, const std::string& yaml = kYaml) {
     folder_.Write("image.pgm", content);
     return ReadRosMap(folder_.Write("m.yaml", Replaced(yaml, "IMAGE", "image.pgm")));
@@ -82,7 +82,7 @@ class MapFiles : public testing::Test {
 const std::string kRamp = "P2 4 3 255  0 64 89 90  205 206 254 255  128 10 20 30";
 
 TEST_F(MapFiles, DecideByTheThresholds) {
-  // d = 1 - v/255 > 0.65 up to 89 (0.651), < 0.196 from 206 on (0.192); 205 is 0.19608.
+  // d = 1 - v/255 is > 0.65 up to 89 (0.651) and < 0.196 from 206 on (0.192); 205 gives 0.19608.
   EXPECT_EQ(Drawn(Read(kRamp)), "###_/_.../_###");
   const GridMap map = Read(kRamp);
   EXPECT_EQ(map.columns, 4);
@@ -91,15 +91,15 @@ TEST_F(MapFiles, DecideByTheThresholds) {
   EXPECT_EQ(map.X_WM.x, 1.0);
   EXPECT_EQ(map.X_WM.y, -2.0);
   EXPECT_EQ(map.X_WM.yaw, 0.25);
-  // The last row of the image is the first of the map.
+  // The last row of the image is row 0 of the map.
   EXPECT_EQ(map.At(0, 0), MapCell::kUnknown);
   EXPECT_EQ(map.At(0, 2), MapCell::kOccupied);
-  // With the threshold that newer files have, 205 is free.
+  // With the threshold of newer files, 205 is free.
   EXPECT_EQ(Drawn(Read(kRamp, Replaced(kYaml, "0.196", "0.25"))), "###_/..../_###");
 }
 
 TEST_F(MapFiles, MayBeNegative) {
-  // d = v/255 > 0.65 from 166 on, < 0.196 up to 49 (0.192).
+  // d = v/255 is > 0.65 from 166 on and < 0.196 up to 49 (0.192).
   for (const char* negate : {"negate: 1", "negate: true"}) {
     EXPECT_EQ(Drawn(Read(kRamp, Replaced(kYaml, "negate: 0", negate))), ".___/####/_...");
   }
@@ -107,7 +107,7 @@ TEST_F(MapFiles, MayBeNegative) {
 }
 
 TEST_F(MapFiles, LeaveEqualToAThresholdUnknown) {
-  // Of 100: d = 0.65 and 0.25 exactly, to rounding of the file's own numbers.
+  // With a maximum of 4: d = 0.75 and 0.25 exactly, except for the rounding of the file's numbers.
   const std::string yaml = Replaced(Replaced(kYaml, "0.196", "0.25"), "0.65", "0.75");
   EXPECT_EQ(Drawn(Read("P2 4 1 4 0 1 3 4", yaml)), "#__.");
 }
@@ -199,10 +199,10 @@ TEST_F(MapFiles, RefuseBrokenImages) {
 
 TEST_F(MapFiles, AskBeforeTheyReadTheImage) {
   const auto file = folder_.Write("maps/m.yaml", Replaced(kYaml, "IMAGE", "../../secret.pgm"));
-  const auto why_not = [](const std::filesystem::path& image) {
+  const auto access_error = [](const std::filesystem::path& image) {
     return image.filename() == "secret.pgm" ? std::string("is a secret") : std::string();
   };
-  EXPECT_EQ(MessageOf([&] { ReadRosMap(file, why_not); }, folder_),
+  EXPECT_EQ(MessageOf([&] { ReadRosMap(file, access_error); }, folder_),
             "maps/m.yaml: image: ../../secret.pgm is a secret");
 }
 
@@ -277,8 +277,8 @@ TEST_F(MapFiles, StandInScenariosAndTheirResolvedOnes) {
   ASSERT_TRUE(scenario.world.map && scenario.world.map->data);
   const GridMap& map = scenario.world.map->data->map();
   EXPECT_EQ(map.X_WM.x, 1.0);
-  EXPECT_EQ(map.X_WM.y, 7.0);  // instead of the file's
-  // Unknown cells are walls: all but three.
+  EXPECT_EQ(map.X_WM.y, 7.0);  // overrides the file's origin
+  // Unknown cells are walls: all cells except three.
   double area = 0.0;
   for (const OrientedBox& wall : MapWalls(scenario.world)) {
     area += wall.length * wall.width;
@@ -294,7 +294,7 @@ TEST_F(MapFiles, StandInScenariosAndTheirResolvedOnes) {
   EXPECT_EQ(ResolvedYaml(again), once);
   EXPECT_EQ(again.world.map->data->map().cells, map.cells);
   EXPECT_EQ(MapWalls(again.world).size(), MapWalls(scenario.world).size());
-  // What films and reports read.
+  // Films and reports read the world in this way.
   EXPECT_EQ(MapWalls(ReadWorld(elsewhere.path() / "run/scenario.yaml")).size(),
             MapWalls(scenario.world).size());
 }
@@ -324,7 +324,7 @@ TEST_F(MapFiles, OfScenariosLieBelowThem) {
   EXPECT_EQ(problem({"expect.min_clearance=0.1"}), "");
 }
 
-// An absolute name from a folder with a relative one has no way between them.
+// There is no relative path from a relative folder to an absolute file name.
 TEST_F(MapFiles, OfRelativeFoldersLieBelowThemToo) {
   folder_.Write("secret.pgm", kRamp);
   const std::filesystem::path secret = folder_.path() / "secret.pgm";

@@ -7,7 +7,7 @@
 #include "trackbed/scenario/log_columns.h"
 #include "trackbed/scenario/scenario.h"
 
-// `expect.requirements` of a scenario file.
+// Tests `expect.requirements` of a scenario file.
 namespace trackbed {
 namespace {
 
@@ -24,7 +24,8 @@ Scenario ReadWith(const std::string& expect, const std::vector<Override>& overri
       "test.yaml", ".", overrides);
 }
 
-std::string WhyRefused(const std::string& expect, const std::vector<Override>& overrides = {}) {
+std::string RejectionMessage(const std::string& expect,
+                             const std::vector<Override>& overrides = {}) {
   try {
     ReadWith(expect, overrides);
   } catch (const InputError& error) {
@@ -48,28 +49,29 @@ TEST(ExpectedRequirements, AreReadForAllPlantsAndForOneAndWrittenAgain) {
 
 TEST(ExpectedRequirements, AreRefusedWithTheLineAndTheColumnOfTheFormula) {
   EXPECT_EQ(
-      WhyRefused("  requirements:\n    - {name: lane, formula: 'always abs(cross_trak_m) < 1'}\n"),
+      RejectionMessage(
+          "  requirements:\n    - {name: lane, formula: 'always abs(cross_trak_m) < 1'}\n"),
       "test.yaml:7:29: expect.requirements[0].formula: column 12 of the formula: unknown signal "
       "'cross_trak_m'; did you mean 'cross_track_m'?");
-  EXPECT_THAT(WhyRefused("  requirements: [{name: lane, formula: 'x_m <'}]\n"),
+  EXPECT_THAT(RejectionMessage("  requirements: [{name: lane, formula: 'x_m <'}]\n"),
               HasSubstr("column 6 of the formula: expected a number or signal, found the end"));
   EXPECT_THAT(
-      WhyRefused("  requirements: [{name: Lane, formula: 'x_m < 1'}]\n"),
+      RejectionMessage("  requirements: [{name: Lane, formula: 'x_m < 1'}]\n"),
       HasSubstr("expect.requirements[0].name: 'Lane' must be up to 100 of a-z, 0-9 and '_'"));
-  EXPECT_THAT(WhyRefused("  requirements: [{name: lane}]\n"),
+  EXPECT_THAT(RejectionMessage("  requirements: [{name: lane}]\n"),
               HasSubstr("expect.requirements[0].formula: missing"));
   EXPECT_THAT(
-      WhyRefused("  requirements: [{name: a, formula: 'x_m < 1'}]\n"
-                 "  kinematic: {requirements: [{name: a, formula: 'y_m < 1'}]}\n"),
-      HasSubstr("expect.kinematic.requirements[0].name: 'a' is the name of two requirements"));
-  EXPECT_EQ(WhyRefused("  mujoco: {requirements: [{name: a, formula: 'y_m < 1'}]}\n"
+      RejectionMessage("  requirements: [{name: a, formula: 'x_m < 1'}]\n"
                        "  kinematic: {requirements: [{name: a, formula: 'y_m < 1'}]}\n"),
+      HasSubstr("expect.kinematic.requirements[0].name: 'a' is the name of two requirements"));
+  EXPECT_EQ(RejectionMessage("  mujoco: {requirements: [{name: a, formula: 'y_m < 1'}]}\n"
+                             "  kinematic: {requirements: [{name: a, formula: 'y_m < 1'}]}\n"),
             "");
 }
 
 TEST(ExpectedRequirements, MayUseTheColumnsThatTheLogOfTheirPlantHas) {
   const auto why = [](const std::string& formula, const std::vector<Override>& overrides = {}) {
-    return WhyRefused("  requirements: [{name: a, formula: '" + formula + "'}]\n", overrides);
+    return RejectionMessage("  requirements: [{name: a, formula: '" + formula + "'}]\n", overrides);
   };
   EXPECT_THAT(
       why("normal_force_fl_N > 0"),

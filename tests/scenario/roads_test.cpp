@@ -12,7 +12,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/scenario.h"
 
-// Scenarios on road networks.
+// Tests scenarios on road networks.
 namespace trackbed {
 namespace {
 
@@ -29,7 +29,7 @@ mission:
 plan: {method: lane_route}
 )";
 
-/// A folder with the network of one straight road, roads.xodr.
+/// A folder with roads.xodr, a network of one straight road.
 struct RoadFolder {
   TempFolder folder;
 
@@ -39,7 +39,7 @@ struct RoadFolder {
     return ParseScenario(kOnRoads, "test.yaml", folder.path(), overrides);
   }
 
-  [[nodiscard]] std::string WhyNot(const std::vector<Override>& overrides) const {
+  [[nodiscard]] std::string LoadError(const std::vector<Override>& overrides) const {
     try {
       static_cast<void>(Read(overrides));
     } catch (const InputError& error) {
@@ -59,7 +59,7 @@ TEST(Roads, AreReadWithTheirRoute) {
 }
 
 TEST(Roads, AreWhereTheCarStarts) {
-  // On the left lane, against the road.
+  // On the left lane, against the road's direction.
   const Pose2 start = InitialState(RoadFolder().Read()).pose;
   EXPECT_NEAR(start.x, 80.0, Tolerance(1e-12));
   EXPECT_NEAR(start.y, 1.75, Tolerance(1e-12));
@@ -79,32 +79,33 @@ TEST(Roads, StayBesideTheResolvedScenario) {
 
 TEST(Roads, MustLieWithTheScenario) {
   const RoadFolder here;
-  EXPECT_THAT(here.WhyNot({"world.road_network=../roads.xodr"}),
+  EXPECT_THAT(here.LoadError({"world.road_network=../roads.xodr"}),
               HasSubstr("world.road_network: ../roads.xodr"));
-  EXPECT_THAT(here.WhyNot({"world.road_network=gone.xodr"}), HasSubstr("gone.xodr"));
+  EXPECT_THAT(here.LoadError({"world.road_network=gone.xodr"}), HasSubstr("gone.xodr"));
   here.folder.Write("broken.xodr", "<OpenDRIVE>");
-  EXPECT_THAT(here.WhyNot({"world.road_network=broken.xodr"}), HasSubstr("broken.xodr:1: not XML"));
+  EXPECT_THAT(here.LoadError({"world.road_network=broken.xodr"}),
+              HasSubstr("broken.xodr:1: not XML"));
 }
 
 TEST(Roads, AndTheirRouteGoTogether) {
   const RoadFolder here;
-  EXPECT_THAT(here.WhyNot({"world={}"}),
+  EXPECT_THAT(here.LoadError({"world={}"}),
               HasSubstr("world.road_network: missing; the planner lane_route follows its lanes"));
-  EXPECT_THAT(here.WhyNot({"mission={speed: 5}"}),
+  EXPECT_THAT(here.LoadError({"mission={speed: 5}"}),
               HasSubstr("mission.route: none given; the planner lane_route needs at least 2"));
-  EXPECT_THAT(here.WhyNot({"plan={method: course, segments: [{length: 9, curvature: 0}]}"}),
+  EXPECT_THAT(here.LoadError({"plan={method: course, segments: [{length: 9, curvature: 0}]}"}),
               HasSubstr("mission.route: needs plan: {method: lane_route}"));
-  EXPECT_THAT(here.WhyNot({"mission.waypoints=[[0, 0], [1, 1]]"}),
+  EXPECT_THAT(here.LoadError({"mission.waypoints=[[0, 0], [1, 1]]"}),
               HasSubstr("the planner lane_route defines its own course"));
 }
 
 TEST(Roads, HaveThePlacesOfTheirRoute) {
   const RoadFolder here;
-  EXPECT_THAT(here.WhyNot({"mission.route[1].lane=2"}),
+  EXPECT_THAT(here.LoadError({"mission.route[1].lane=2"}),
               HasSubstr("mission.route[1]: road 1 has no lane 2"));
-  EXPECT_THAT(here.WhyNot({"mission.route[0].road=7"}), HasSubstr("unknown road '7'"));
-  EXPECT_THAT(here.WhyNot({"mission.route[0].s=101"}), HasSubstr("must be between 0 and 100 m"));
-  EXPECT_THAT(here.WhyNot({"mission.route[0]={road: 1, lane: 1}"}),
+  EXPECT_THAT(here.LoadError({"mission.route[0].road=7"}), HasSubstr("unknown road '7'"));
+  EXPECT_THAT(here.LoadError({"mission.route[0].s=101"}), HasSubstr("must be between 0 and 100 m"));
+  EXPECT_THAT(here.LoadError({"mission.route[0]={road: 1, lane: 1}"}),
               HasSubstr("mission.route[0].s: missing"));
 }
 
@@ -124,7 +125,7 @@ TEST(Roads, ThatAreNotLevelAreTheGround) {
   const Scenario scenario = here.Read({"world.road_network=sloping.xodr"});
   // As in route_ground_test.cpp.
   EXPECT_NEAR(GroundHeight(scenario.world, {50.0, 1.75}), 1.0 + 0.05 * 50.0, Tolerance(2e-5));
-  // Also for those who read no more than the world of a run.
+  // Readers of only the run's world get the same ground.
   here.folder.Write("road_network.xodr", scenario.world.road_network->data->text);
   const World world = ReadWorld(here.folder.Write("scenario.yaml", ResolvedYaml(scenario)));
   for (double x = -50.0; x < 150.0; x += 3.0) {
@@ -136,15 +137,15 @@ TEST(Roads, ThatAreNotLevelAllowNoOtherGround) {
   const RoadFolder here;
   WriteSloping(here);
   const Override sloping = "world.road_network=sloping.xodr";
-  EXPECT_EQ(here.WhyNot({"world.ground={grade: {x: 0.1}}"}), "");
-  EXPECT_THAT(here.WhyNot({sloping, "world.ground={grade: {x: 0.1}}"}),
+  EXPECT_EQ(here.LoadError({"world.ground={grade: {x: 0.1}}"}), "");
+  EXPECT_THAT(here.LoadError({sloping, "world.ground={grade: {x: 0.1}}"}),
               HasSubstr("world.ground: not available on a route over roads that are not level"));
   RoadText road;
   road.heights =
       "<elevationProfile><elevation s='0' a='1' b='0' c='0' d='0'/>"
       "<elevation s='50' a='2' b='0' c='0' d='0'/></elevationProfile>";
   here.folder.Write("step.xodr", Document(road.Xml()));
-  EXPECT_THAT(here.WhyNot({"world.road_network=step.xodr"}),
+  EXPECT_THAT(here.LoadError({"world.road_network=step.xodr"}),
               HasSubstr("mission.route: the surface of road 1 has a step or a kink at s = "));
 }
 

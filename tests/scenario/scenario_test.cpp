@@ -9,11 +9,11 @@
 #include "tests/tolerance.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/playback.h"
+#include "trackbed/control/recording_file.h"
 #include "trackbed/control/steering_profile.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
-#include "trackbed/scenario/recording_file.h"
 
 namespace trackbed {
 namespace {
@@ -104,7 +104,7 @@ TEST(ReadScenario, TakesWhatTheMissionDoesNotSayFromTheRecording) {
   EXPECT_EQ(InitialState(given).speed, 4.0);
   EXPECT_EQ(MissionSpeed(given), 3.0);
   EXPECT_EQ(InitialState(given).steering, -0.1);
-  // Over the distance it has no end in time.
+  // A schedule over distance has no end time.
   EXPECT_EQ(RunDuration(parse({"control.by=distance", "mission.duration=3"})), 3.0);
   EXPECT_THROW(parse({"control.by=distance"}), InputError);
 }
@@ -151,7 +151,7 @@ TEST(ReadScenario, TakesAnyTurnOfADirection) {
   };
   EXPECT_EQ(heading("3.1"), 3.1);
   EXPECT_EQ(heading("-3.141592653589793"), 3.141592653589793);  // the same direction
-  // 7 rad is a turn and 7 - 2 pi; the reduction is exact to an ulp of 7.
+  // 7 rad is 7 - 2 pi after one turn; the reduction is exact to an ulp of 7.
   EXPECT_NEAR(heading("7"), 0.71681469282041377, Tolerance(1e-15));
   EXPECT_EQ(ErrorMessages(kSmall, {"mission.start={yaw: 1e300}"}),
             "--set: mission.start.yaw: 1e+300 is out of range; must be at least -1000 and "
@@ -380,12 +380,15 @@ TEST(ResolvedYaml, KeepsManeuvers) {
   }
 }
 
-TEST(ResolvedYaml, FindsAModelGivenByPathFromAnywhere) {
+TEST(ResolvedYaml, HasTheCopyOfAModelGivenByPathBesideIt) {
   const TempFolder folder;
-  const auto car = folder.Write("cars/car.xml", "<mujoco/>");
-  const Scenario scenario =
-      ParseScenario(kSmall, "test.yaml", folder.path(), {"vehicle.model=cars/car.xml"});
-  EXPECT_THAT(ResolvedYaml(scenario), testing::HasSubstr("model: " + car.string()));
+  folder.Write("car.xml", "<mujoco/>");
+  folder.Write("cars/car.xml", "<mujoco/>");
+  for (const char* model : {"cars/car.xml", "car.xml", "./car.xml"}) {
+    const Scenario scenario =
+        ParseScenario(kSmall, "test.yaml", folder.path(), {"vehicle.model=" + std::string(model)});
+    EXPECT_THAT(ResolvedYaml(scenario), testing::HasSubstr("model: vehicle.xml\n")) << model;
+  }
 }
 
 TEST(ResolvedYaml, HasItsRecordingBesideIt) {
@@ -443,7 +446,7 @@ TEST(ParseScenario, AsksForMetricsThatARunCanHave) {
             "time, turns[0].at");
 }
 
-/// As in German: a comma before decimals, a dot between thousands.
+/// As in German: a decimal comma and a dot between thousands.
 class GermanNumbers : public std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   char do_thousands_sep() const override { return '.'; }

@@ -287,6 +287,18 @@ TEST_F(Derived, SayWhatIsWrong) {
                                  "'mission.sped'; did you mean 'mission.speed'?"));
   EXPECT_THAT(ErrorMessages("vary: {mission.speed: [2]}\nderive: {seed: mission.speed + }\n"),
               testing::HasSubstr("derive.seed: 'mission.speed +' is no formula: "));
+  for (const auto& [formula, values] : {std::pair("mission.speed, 3", 2),
+                                        {"3, mission.speed", 2},
+                                        {"1, 2, 3", 3},
+                                        {"max(1, 2), mission.speed", 2}}) {
+    EXPECT_THAT(ErrorMessages("vary: {mission.speed: [2]}\nderive: {seed: \"" +
+                              std::string(formula) + "\"}\n"),
+                testing::HasSubstr(fmt::format("derive.seed: '{}' is no formula: {} values with "
+                                               "commas between them; must be one",
+                                               formula, values)));
+  }
+  EXPECT_THAT(ErrorMessages("vary: {mission.speed: [2]}\nderive: {seed: mission.speed = 3}\n"),
+              testing::HasSubstr("derive.seed: 'mission.speed = 3' is no formula: "));
   EXPECT_THAT(
       ErrorMessages("vary: {mission.speed: [2]}\nderive: {seed: 1 / (mission.speed - 2)}\n"),
       testing::HasSubstr("derive.seed: '1 / (mission.speed - 2)' is inf here"));

@@ -41,7 +41,8 @@ struct Trace {
 /// `source` selects the station of a run with a path.
 Trace MakeTrace(const RunLog& log, StationSource source = StationSource::kProjection);
 
-/// Reads the log `<plant>.csv` of a run. InputError as ReadCsvExcerpt, and for fewer than two rows.
+/// Reads the log `<plant>.csv` of a run. Throws InputError where ReadCsvExcerpt does, and if the
+/// file has fewer than two rows.
 /// Rows after `contact_time` [s] are left out.
 Trace ReadTrace(const std::filesystem::path& file, const std::string& name,
                 std::optional<double> contact_time = std::nullopt);

@@ -27,7 +27,7 @@ struct RunResult {
   Scenario scenario;
   Scene scene;            ///< the composed MJCF that was driven
   VehicleParams vehicle;  ///< the car that was driven, with its payload
-  Plan plan;
+  FeasiblePlan plan;
   std::vector<RunLog> logs;
   std::vector<PlantMetrics> metrics;
   std::vector<PlantComparison> comparisons;  ///< every pair of plants
@@ -40,46 +40,50 @@ struct RunResult {
 struct RunHooks {
   /// Called before each plant is simulated; returns the hooks of that simulation.
   std::function<DriveHooks(const std::string& plant)> drive{};
-  /// Called when a plant's simulation has ended, also by an exception.
+  /// Called when a plant's simulation has ended, including by an exception.
   std::function<void(const std::string& plant)> ended{};
-  /// All plants at a time, each in a thread of its own, which calls its hooks; else one after the
-  /// other in the caller's. The results are the same.
+  /// Simulate all plants at the same time, each in a separate thread that calls its hooks;
+  /// otherwise one after the other in the caller's thread. The results are the same.
   bool together = false;
 };
 
-/// Plans, drives, measures, judges. A mission that cannot be planned is a failed verdict with the
-/// reason and no logs. Errors: InputError from the scenario's model.
+/// Plans, simulates, measures and judges. A mission that cannot be planned gives a failed verdict
+/// with the reason and no logs. Errors: InputError from the scenario's model.
 RunResult RunMission(const Scenario& scenario, const RunHooks& hooks = {});
 
-/// The same with a car of the cache.
+/// As above, with a car of the cache.
 RunResult RunMission(const Scenario& scenario, CarCache& cars, const RunHooks& hooks = {});
 
-/// The same for a scenario that has been checked, with its car as LoadCar would give it.
+/// As above, for a validated scenario and a car loaded by LoadCar.
 RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks = {});
 
-/// The two parts of RunMission: what is known before anything is simulated, and the rest. Errors:
-/// those of RunMission, and exceptions of the hooks.
+/// The two parts of RunMission: planning before the simulation, and the simulation with its
+/// evaluation. Errors: those of RunMission, and exceptions of the hooks.
 RunResult PlanRun(const Scenario& scenario, const CarModel& car);
 RunResult DriveRun(RunResult planned, const CarModel& car, const RunHooks& hooks = {});
 
-/// What metrics.json holds.
+/// The content of metrics.json.
 nlohmann::ordered_json MetricsJson(const RunResult& result);
 
-/// Which files a run folder has beside the usual ones.
+/// Optional files of a run folder.
 struct RunFolderOptions {
   bool mcap = false;  ///< run.mcap, if anything was simulated
 };
 
 /// Writes the run folder (plan.csv, plan.json, <plant>.csv, <plant>.state.csv, model.xml,
-/// timing.json, scenario.resolved.yaml, metrics.json, manifest.json), all at once (ResultWriter).
-/// Files of an earlier run of the same folder that this run does not have are removed then, so that
-/// the folder never mixes two runs. RunError when the folder cannot be written: the earlier run is
-/// still there then.
+/// timing.json, scenario.resolved.yaml, metrics.json, manifest.json) in one step (ResultWriter).
+/// Removes files of an earlier run in the same folder that this run does not have, so that the
+/// folder never mixes two runs. RunError when the folder cannot be written; the earlier run then
+/// remains.
 void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
                     const RunFolderOptions& options = {});
 
-/// Writes plan.csv and other tables (when there is a path) and plan.json alone, likewise, of what
-/// PlanRun gave.
+/// Adds the same files as a result of `writer`, which may get others before it commits.
+void AddRunFolder(const RunResult& result, ResultWriter& writer,
+                  const RunFolderOptions& options = {});
+
+/// Writes plan.json and, if there is a path, plan.csv and other tables of what PlanRun returned, in
+/// one step (ResultWriter).
 void WritePlan(const RunResult& planned, const OutputFolder& folder);
 
 /// Versions of Trackbed and its libraries, as in metrics.json.

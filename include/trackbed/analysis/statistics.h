@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// What the rows of a study say about the distribution that they are a sample of.
+/// Statistics of the rows of a study, as a sample of a distribution.
 namespace trackbed {
 
 struct Interval {
@@ -19,14 +19,14 @@ struct Interval {
 /// PreconditionError unless passed <= count and confidence is in (0, 1).
 Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence);
 
-/// The values below which the given shares of a sample lie, interpolated linearly between its
-/// members (type 7 of Hyndman and Fan 1996, as R and NumPy do by default).
+/// The quantiles of a sample for the given shares, interpolated linearly between its members (type
+/// 7 of Hyndman and Fan 1996, the default of R and NumPy).
 ///
 /// PreconditionError unless there are values, all finite, and the shares are in [0, 1].
 std::vector<double> Quantiles(std::vector<double> values, const std::vector<double>& shares);
 
-/// The mean of a sample with the interval of the distribution's mean by Student's t; without an
-/// interval of one value.
+/// The mean of a sample, with Student's t interval of the distribution's mean; a single value has
+/// no interval.
 struct MeanEstimate {
   std::size_t count = 0;
   double mean = 0.0;
@@ -36,23 +36,23 @@ struct MeanEstimate {
 /// PreconditionError unless there are values and confidence is in (0, 1).
 MeanEstimate EstimateMean(const std::vector<double>& values, double confidence);
 
-/// A parameter of a study as the analysis of variance takes it: to which of `count` classes each
-/// row belongs.
+/// A parameter of a study prepared for the analysis of variance: each row belongs to one of `count`
+/// classes.
 struct Classes {
   std::vector<std::size_t> of_row;
-  std::vector<std::string> names;  ///< one each: its value, or the median of its values
+  std::vector<std::string> names;  ///< one per class: its value, or the median of its values
 };
 
-/// Each distinct text is a class if there are at most `most` or one is no number; otherwise the
-/// rows, sorted by their number, are divided into `most` classes of equal size, up to ties, which
-/// stay together.
+/// Makes each distinct text a class if there are at most `max_classes` texts or one is not a
+/// number. Otherwise sorts the rows by number and divides them into `max_classes` classes of equal
+/// size; ties stay together.
 ///
-/// PreconditionError unless most is at least 2.
-Classes Classify(const std::vector<std::string>& values, std::size_t most);
+/// PreconditionError unless max_classes is at least 2.
+Classes Classify(const std::vector<std::string>& values, std::size_t max_classes);
 
-/// The share of the variance of an output that a parameter explains by itself.
+/// The share of the variance of an output that a parameter explains alone.
 struct FirstOrderIndex {
-  double index = 0.0;  ///< about 0 of one that has no influence, and then also below 0; at most 1
+  double index = 0.0;  ///< at most 1; about 0, possibly negative, for a parameter without influence
   Interval interval{};
 };
 
@@ -61,48 +61,51 @@ struct IndexOptions {
   int resamples = 200;  ///< of the bootstrap, at least 2
 };
 
-/// First-order Sobol' indices Var(E[Y | X]) / Var(Y) from a given sample, whatever its design, one
-/// for each parameter: the correlation ratio of the classes (Pearson 1905; Plischke, Borgonovo and
-/// Smith 2013), less what classes of this size have by chance (Kelley 1935, epsilon squared), so
-/// that a parameter without influence has the expectation 0. The parameters of the sample must be
-/// independent. With B classes of a number an index is too small by about 1 / B^2 of itself.
+/// First-order Sobol' indices Var(E[Y | X]) / Var(Y), one per parameter, from a given sample of any
+/// design: the correlation ratio of the classes (Pearson 1905; Plischke, Borgonovo and Smith 2013),
+/// minus its expectation by chance for classes of this size (Kelley 1935, epsilon squared), so that
+/// a parameter without influence has the expectation 0. The parameters of the sample must be
+/// independent. A numeric parameter divided into B classes gives an index too small by a fraction
+/// of about 1 / B^2.
 ///
 /// The intervals are those of a normal distribution with the standard deviation of bootstrap
 /// resamples (Efron and Tibshirani 1993), the same on every machine.
 ///
 /// An index is nullopt if the output does not vary or the parameter has as many classes as rows.
-/// PreconditionError unless all have as many rows. Cost: 2 ns per row, parameter and resample.
+/// PreconditionError unless all have the same number of rows. Cost: 2 ns per row, parameter and
+/// resample.
 std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
     const std::vector<Classes>& parameters, const std::vector<double>& output,
     const IndexOptions& options = {});
 
-/// How far two lists of values rise together: Pearson's correlation of their ranks, equal values
-/// sharing the mean of theirs (Spearman 1904).
+/// Spearman's rank correlation of two lists (Spearman 1904): Pearson's correlation of their ranks;
+/// equal values share their mean rank.
 struct RankCorrelation {
   double rho = 0.0;     ///< in [-1, 1]
   Interval interval{};  ///< by Fisher's transformation with the variance (1 + rho^2/2)/(n - 3) of
-                        ///< Bonett and Wright (2000); of rho = 1 or -1 no wider than that
+                        ///< Bonett and Wright (2000); zero width for rho = 1 or -1
 };
 
-/// None of fewer than 4 pairs, or if one list does not vary. PreconditionError unless both have as
-/// many values, all finite, and confidence is in (0, 1). Cost: that of sorting both.
+/// Nullopt for fewer than 4 pairs, or if one list does not vary. PreconditionError unless both have
+/// the same number of values, all finite, and confidence is in (0, 1). Cost: that of sorting both.
 std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
                                               const std::vector<double>& b, double confidence);
 
-/// How one list of values differs from another of the same conditions, b - a.
+/// The differences b - a of paired values measured under the same conditions.
 struct PairedDifference {
   MeanEstimate mean;
   double median = 0.0;
   std::size_t higher = 0;  ///< pairs in which b is above a
   std::size_t lower = 0;
   std::size_t equal = 0;
-  /// The probability that as uneven a split of `higher` and `lower` comes by chance where neither
-  /// is more likely: the exact two-sided sign test (Arbuthnott 1710), without equal pairs. 1 of
-  /// none.
+  /// The probability of a split of `higher` and `lower` at least this uneven if neither is more
+  /// likely: the exact two-sided sign test (Arbuthnott 1710), without equal pairs. 1 if all pairs
+  /// are equal.
   double sign_test = 1.0;
 };
 
-/// PreconditionError unless both have as many values, at least one, and confidence is in (0, 1).
+/// PreconditionError unless both have the same number of values, at least one, and confidence is in
+/// (0, 1).
 PairedDifference ComparePairs(const std::vector<double>& a, const std::vector<double>& b,
                               double confidence);
 

@@ -22,12 +22,15 @@ struct SweepRow {
   nlohmann::ordered_json bisection;
 };
 
-/// As records have it.
+/// The form in which records store a row.
 nlohmann::ordered_json ToJson(const SweepRow& row);
-SweepRow RowFromJson(const nlohmann::ordered_json& json);
 
-/// The row of a point's `repetition`; nothing when it was interrupted. Exceptions of a run are its
-/// reason, but for RunError, which passes through.
+/// Reads a row of records, which must be present. InputError as JsonValue, and unless it has a cell
+/// for each column.
+SweepRow ReadRow(const SweepRecords& records, std::size_t row);
+
+/// Makes the row of a point's `repetition`; nothing when interrupted. An exception of a run becomes
+/// the row's reason, except for RunError, which passes through.
 std::optional<SweepRow> MakeRow(const Study& study, const RunScenarioOnce& run,
                                 const StudyPoint& point, std::uint64_t repetition);
 

@@ -226,8 +226,9 @@ std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
 std::string OptionDefaults(const ManeuverOptions& options);
 
-/// A scenario whose run is the record itself, and which replays it on the plants in drive.plants if
-/// that is overridden. It has the drive's name, those windows of 1, 2 and 5 s that fit in, the
+/// Makes a scenario of a record. Its only plant is the record itself; overriding drive.plants
+/// replays the record on those plants instead. It has the drive's name, those windows of 1, 2 and 5
+/// s that fit in, the
 /// record's period as control period if that is a whole number of timesteps, and a speed control
 /// gain of 20/s. `model` as in VehicleSpec.
 Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::string& model);

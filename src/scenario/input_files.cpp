@@ -1,0 +1,111 @@
+#include "trackbed/scenario/input_files.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "src/scenario/input_files.h"
+#include "trackbed/control/controllers.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/registry/planners.h"
+#include "trackbed/recording/record_csv.h"
+#include "trackbed/road_network/open_drive.h"
+#include "trackbed/scenario/map_file.h"
+#include "trackbed/sim/scene.h"
+#include "trackbed/track/track_file.h"
+
+// The files beside the resolved scenario of a run: their names and contents, and the keys that name
+// them there. Controllers and planners add their own files through their registry entries.
+namespace trackbed {
+namespace {
+
+void Append(std::vector<InputFile> more, std::vector<InputFile>& files) {
+  files.insert(files.end(), more.begin(), more.end());
+}
+
+/// Whether the controller replays the recorded drive of the scenario, and not a file.
+bool ReplaysRecord(const Scenario& scenario) {
+  const ControllerEntry& controller = ControllerFor(scenario.control.steering);
+  return scenario.record && controller.replays_record != nullptr &&
+         controller.replays_record(scenario.control.steering);
+}
+
+}  // namespace
+
+std::vector<InputFile> InputFiles(const Scenario& scenario) {
+  std::vector<InputFile> files;
+  if (const auto& record = scenario.record) {
+    files.push_back({kRecordCsv, RecordCsv(*record->data), "record " + record->file});
+  }
+  if (const auto& track = scenario.mission.track) {
+    files.push_back({kTrackCsv, TrackCsv(track->data->points()), "track " + track->file});
+  }
+  if (const auto& map = scenario.world.map) {
+    files.push_back({kMapYaml, MapYaml(map->data->map()), "map " + map->file});
+    files.push_back({kMapPgm, MapPgm(map->data->map()), "map " + map->file});
+  }
+  if (const auto& roads = scenario.world.road_network) {
+    files.push_back({kRoadNetworkXodr, roads->data->text, "road network " + roads->file});
+  }
+  const ControllerOptions& steering = scenario.control.steering;
+  const ControllerEntry& controller = ControllerFor(steering);
+  if (controller.input_files != nullptr && !ReplaysRecord(scenario)) {
+    Append(controller.input_files(steering), files);
+  }
+  if (const auto& plan = scenario.plan) {
+    const PlannerEntry& planner = PlannerFor(plan->global);
+    if (planner.input_files != nullptr) {
+      Append(planner.input_files(plan->global), files);
+    }
+  }
+  return files;
+}
+
+std::vector<std::string> InputFileNames() {
+  std::vector<std::string> names{kRoadNetworkXodr};
+  for (const ControllerEntry& controller : Controllers()) {
+    names.insert(names.end(), controller.input_names.begin(), controller.input_names.end());
+  }
+  for (const PlannerEntry& planner : Planners()) {
+    names.insert(names.end(), planner.input_names.begin(), planner.input_names.end());
+  }
+  names.insert(names.end(), {kRecordCsv, kTrackCsv, kMapYaml, kMapPgm});
+  return names;
+}
+
+Scenario WithResolvedFiles(const Scenario& scenario) {
+  Scenario resolved = scenario;
+  if (auto& record = resolved.record) {
+    record->file = kRecordCsv;
+    record->map.reset();
+    record->from.reset();
+    record->to.reset();
+    if (record->data) {
+      record->notes = fmt::format("{}", fmt::join(record->data->notes, "\n"));
+    }
+  }
+  if (auto& track = resolved.mission.track) {
+    track->file = kTrackCsv;
+  }
+  if (IsModelPath(resolved.vehicle.model)) {
+    resolved.vehicle.model = kVehicleXml;
+  }
+  if (auto& map = resolved.world.map) {
+    *map = {.file = kMapYaml, .unknown = map->unknown, .height = map->height};
+  }
+  if (resolved.world.road_network) {
+    resolved.world.road_network->file = kRoadNetworkXodr;
+  }
+  const ControllerEntry& controller = ControllerFor(resolved.control.steering);
+  if (controller.resolve != nullptr) {
+    controller.resolve(resolved.control.steering, ReplaysRecord(scenario));
+  }
+  if (auto& plan = resolved.plan) {
+    const PlannerEntry& planner = PlannerFor(plan->global);
+    if (planner.resolve != nullptr) {
+      planner.resolve(plan->global);
+    }
+  }
+  return resolved;
+}
+
+}  // namespace trackbed

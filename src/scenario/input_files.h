@@ -1,0 +1,11 @@
+#pragma once
+
+#include "trackbed/scenario/scenario.h"
+
+namespace trackbed {
+
+/// The scenario with the names that its files have in a run folder: those of InputFiles, and
+/// kVehicleXml.
+Scenario WithResolvedFiles(const Scenario& scenario);
+
+}  // namespace trackbed
