@@ -11,7 +11,7 @@ namespace {
 
 /// Expectations that describe the outcome of a run: those that it met, and the opposite of those
 /// that it violated.
-class Turned {
+class OutcomeExpectations {
  public:
   /// Returns false if no expectation can express the outcome of the check.
   bool Add(const Check& check) {
@@ -31,6 +31,7 @@ class Turned {
       case CheckReason::kArrival:
         return check.met || AddEqual(check);
       case CheckReason::kCorridor:
+      case CheckReason::kOverspeed:
         return check.met || AddLimit(check);
       case CheckReason::kRequirement:
         return AddRequirement(check);
@@ -125,19 +126,19 @@ Regression MakeRegression(const RunResult& failed, const std::string& name) {
                    "MakeRegression: the run of {} did not fail", failed.scenario.name);
   Regression regression{.scenario = failed.scenario};
   regression.scenario.name = name;
-  Turned turned;
+  OutcomeExpectations expectations;
   bool all = failed.plan.ok();
   for (const Check& check : failed.verdict.checks) {
-    all = turned.Add(check) && all;
+    all = expectations.Add(check) && all;
   }
   if (!all) {
     return regression;
   }
-  Scenario expects_it = regression.scenario;
-  expects_it.expect.all = {};
-  expects_it.expect.plants = turned.Take();
-  if (Passes(expects_it)) {
-    regression.scenario = std::move(expects_it);
+  Scenario with_expectations = regression.scenario;
+  with_expectations.expect.all = {};
+  with_expectations.expect.plants = expectations.Take();
+  if (Passes(with_expectations)) {
+    regression.scenario = std::move(with_expectations);
     regression.expects_failure = true;
   }
   return regression;

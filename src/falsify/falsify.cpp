@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "src/falsify/point_search.h"
@@ -10,6 +9,7 @@
 #include "src/falsify/search_runs.h"
 #include "trackbed/analysis/robustness.h"
 #include "trackbed/core/error.h"
+#include "trackbed/core/stopwatch.h"
 #include "trackbed/core/text_table.h"
 
 // Falsification: runs the nominal point, then lets a search (point_search.cpp) propose points in
@@ -21,17 +21,6 @@ namespace trackbed {
 namespace {
 
 using nlohmann::ordered_json;
-
-/// Wall-clock seconds since construction.
-class Clock {
- public:
-  [[nodiscard]] double Seconds() const {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
-};
 
 class Falsifier {
  public:
@@ -46,7 +35,7 @@ class Falsifier {
     const bool finished = nominal && (nominal_fails_ || RunSearch(nominal->robustness));
     result_.runs = runs_.count();
     if (finished && result_.counterexample && !nominal_fails_ && spec_.shrink_runs > 0) {
-      ShrinkIt();
+      ShrinkCounterexample();
     }
     result_.shrink_runs = runs_.count() - result_.runs;
     if (interrupted_) {
@@ -80,7 +69,7 @@ class Falsifier {
   /// Runs the search; returns false if interrupted.
   bool RunSearch(std::optional<double> at_nominal) {
     const std::unique_ptr<PointSearch> search = MakePointSearch(spec_, search_.space, at_nominal);
-    const Clock clock;
+    const Stopwatch clock;
     FollowSearch(*search, search_.space, [&](const std::vector<UnitPoint>& points) {
       auto values = RunBatchOf(points);
       if (!values || (result_.counterexample && spec_.stop)) {
@@ -151,7 +140,7 @@ class Falsifier {
             .reason = run.reason};
   }
 
-  void ShrinkIt() {
+  void ShrinkCounterexample() {
     const std::size_t most = runs_.count() + static_cast<std::size_t>(spec_.shrink_runs);
     const auto evaluate = [&](const UnitPoint& point) -> std::optional<Evaluation> {
       if (runs_.count() >= most && !runs_.Has(point)) {
@@ -194,7 +183,7 @@ ordered_json PointJson(const SearchedPoint& point, const SearchSpace& space) {
   return json;
 }
 
-ordered_json MarginsJson(const Shrunk& shrunk, const SearchSpace& space) {
+ordered_json MarginsJson(const ShrinkResult& shrunk, const SearchSpace& space) {
   ordered_json json = ordered_json::object();
   for (std::size_t i = 0; i < shrunk.keys.size(); ++i) {
     const KeyMargin& margin = shrunk.keys[i];
@@ -207,7 +196,7 @@ ordered_json MarginsJson(const Shrunk& shrunk, const SearchSpace& space) {
     if (margin.sensitivity) {
       key["sensitivity"] = *margin.sensitivity;
     }
-    const auto reach = [&](const char* name, const std::optional<ReachAlone>& alone) {
+    const auto reach = [&](const char* name, const std::optional<SingleKeyReach>& alone) {
       if (alone) {
         key["alone"][name] = {{"holds_up_to", space.Value(i, alone->passes)},
                               {"whole_range", alone->whole_range}};

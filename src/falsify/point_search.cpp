@@ -183,10 +183,10 @@ class NloptSearches : public PointSearch {
   void RunLane(Lane& lane, std::uint64_t number, int first_runs, int last_runs) {
     try {
       const SearchMethod method = NloptMethod(spec_.method);
-      constexpr std::uint64_t kApart = 1000003;  // between seeds of restarts
+      constexpr std::uint64_t kSeedStride = 1000003;  // between seeds of restarts
       SearchResult best;
       for (std::uint64_t again = 0; first_runs > 0; ++again) {
-        const std::uint64_t seed = spec_.seed + number + kApart * again;
+        const std::uint64_t seed = spec_.seed + number + kSeedStride * again;
         const SearchResult found =
             SearchFrom(lane, method, again == 0 ? lane.start : AnyPoint(seed), first_runs, seed);
         first_runs -= std::max(1, found.evaluations);

@@ -59,7 +59,7 @@ std::optional<std::vector<SearchRun>> SearchRuns::Run(const std::vector<UnitPoin
   };
   std::vector<Task> tasks;
   std::vector<std::vector<std::string>> texts;
-  std::map<std::vector<std::string>, std::size_t> rows;  // of points that are new
+  std::map<std::vector<std::string>, std::size_t> rows;  // of new points
   for (const UnitPoint& point : points) {
     texts.push_back(Texts(point));
     if (known_.find(texts.back()) != known_.end()) {
@@ -148,11 +148,11 @@ bool SearchRuns::RunRow(std::size_t row, const UnitPoint& point, const char* pha
 }
 
 SearchRun SearchRuns::FromRecords(std::size_t row, const std::vector<std::string>& texts) const {
-  const std::vector<std::string> cells = RowFromJson(records_.Read(row)).cells;
+  const std::vector<std::string> cells = ReadRow(records_, row).cells;
   const std::size_t count = ParameterCount(search_.study);
-  const bool is_it = cells.size() == SearchColumns(search_.study).size() &&
-                     std::equal(texts.begin(), texts.end(), cells.begin());
-  if (!is_it) {
+  const bool matches = cells.size() == SearchColumns(search_.study).size() &&
+                       std::equal(texts.begin(), texts.end(), cells.begin());
+  if (!matches) {
     throw RunError(
         fmt::format("row {} of the records is of another point than the search proposes; --restart "
                     "removes them",

@@ -72,11 +72,11 @@ class SpaceReader {
     key.from = distribution->from;
     key.to = distribution->to;
     key.step = distribution->step;
-    TakeNominal(at, key);
+    SetNominal(at, key);
     return key;
   }
 
-  void TakeNominal(const Setting& at, SearchKey& key) {
+  void SetNominal(const Setting& at, SearchKey& key) {
     const auto own = std::find_if(study_.nominal.begin(), study_.nominal.end(),
                                   [&](const Setting& setting) { return setting.key == key.key; });
     std::optional<double> value;

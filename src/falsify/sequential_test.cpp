@@ -11,12 +11,12 @@ namespace trackbed {
 namespace {
 
 /// As in statistics.cpp: tables of long doubles overflow under valgrind.
-using InDoubles = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
+using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 /// Logarithm of the integral of q^s (1 - q)^f from 0 to p, or from p to 1, relative to p^s (1 -
 /// p)^f.
 double LogRatio(double successes, double failures, double p, bool above) {
-  const InDoubles policy;
+  const DoublePrecision policy;
   const double a = successes + 1.0;
   const double b = failures + 1.0;
   const double share =

@@ -13,7 +13,7 @@ class Shrinker {
   Shrinker(const SearchSpace& space, double tolerance, const EvaluatePoint& evaluate)
       : space_(space), nominal_(space.nominal()), tolerance_(tolerance), evaluate_(evaluate) {}
 
-  Shrunk Run(const UnitPoint& violation) {
+  ShrinkResult Run(const UnitPoint& violation) {
     result_.keys.resize(nominal_.size());
     try {
       const Evaluation start = Evaluate(violation);
@@ -25,9 +25,9 @@ class Shrinker {
         MakeSmaller();
       } while (!MeasureHolds());
       MeasureSensitivity();
-      MeasureAlone();
+      MeasureSingleKeys();
       result_.complete = true;
-    } catch (const OutOfRuns&) {
+    } catch (const BudgetExhausted&) {
       // Returns the partial result.
     }
     if (result_.point.empty()) {
@@ -38,12 +38,12 @@ class Shrinker {
   }
 
  private:
-  struct OutOfRuns {};
+  struct BudgetExhausted {};
 
   Evaluation Evaluate(const UnitPoint& point) {
     const std::optional<Evaluation> evaluation = evaluate_(point);
     if (!evaluation) {
-      throw OutOfRuns();
+      throw BudgetExhausted();
     }
     return *evaluation;
   }
@@ -133,7 +133,7 @@ class Shrinker {
     }
   }
 
-  void MeasureAlone() {
+  void MeasureSingleKeys() {
     for (std::size_t i = 0; i < nominal_.size(); ++i) {
       if (nominal_[i] > 0.0) {
         result_.keys[i].down = ReachOf(i, 0.0);
@@ -144,7 +144,7 @@ class Shrinker {
     }
   }
 
-  ReachAlone ReachOf(std::size_t i, double end) {
+  SingleKeyReach ReachOf(std::size_t i, double end) {
     const auto passes_at = [&](double place) {
       UnitPoint point = nominal_;
       point[i] = place;
@@ -167,13 +167,13 @@ class Shrinker {
   const UnitPoint nominal_;
   const double tolerance_;
   const EvaluatePoint& evaluate_;
-  Shrunk result_;
+  ShrinkResult result_;
 };
 
 }  // namespace
 
-Shrunk Shrink(const SearchSpace& space, const UnitPoint& violation, double tolerance,
-              const EvaluatePoint& evaluate) {
+ShrinkResult Shrink(const SearchSpace& space, const UnitPoint& violation, double tolerance,
+                    const EvaluatePoint& evaluate) {
   TRACKBED_REQUIRE(tolerance > 0.0, "Shrink: tolerance {}", tolerance);
   return Shrinker(space, tolerance, evaluate).Run(violation);
 }

@@ -32,28 +32,28 @@ class SurrogateSearch : public PointSearch {
     if (at_nominal) {
       Keep(space.nominal(), *at_nominal);
     }
-    Begin();
+    Restart();
   }
 
   std::vector<UnitPoint> Ask() override {
     std::vector<UnitPoint> batch;
-    while (static_cast<int>(batch.size()) < kBatch && asked_ < spec_.runs) {
+    while (static_cast<int>(batch.size()) < kBatch && proposals_ < spec_.runs) {
       std::optional<UnitPoint> point = Propose(batch);
       if (!point) {
-        point = FarFromAll(batch);
+        point = FarthestPoint(batch);
       }
       if (!point) {
         break;
       }
       batch.push_back(*std::move(point));
-      ++asked_;
+      ++proposals_;
     }
     batch_ = batch;
     return batch;
   }
 
   void Tell(const std::vector<std::optional<double>>& values) override {
-    bool begin_again = false;
+    bool restart = false;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
       // dlib proposes a point again until it gets a value, so a point without a value gets the
       // highest known one.
@@ -61,16 +61,16 @@ class SurrogateSearch : public PointSearch {
       Keep(batch_[i], value);
       // dlib only accepts foreign or changed values when it is constructed, so it is then
       // constructed again.
-      begin_again = begin_again || requests_.find(batch_[i]) == requests_.end() ||
-                    (value < 0.0 && !spec_.stop);
+      restart =
+          restart || requests_.find(batch_[i]) == requests_.end() || (value < 0.0 && !spec_.stop);
     }
-    if (begin_again) {
+    if (restart) {
       requests_.clear();
-      Begin();
+      Restart();
       return;
     }
     for (auto& [point, request] : requests_) {
-      request.set(-Told(point));
+      request.set(-ObjectiveAt(point));
     }
     requests_.clear();
   }
@@ -91,15 +91,15 @@ class SurrogateSearch : public PointSearch {
 
   /// Objective at a known point. If the search continues after a violation, it should find other
   /// regions, so the values near violations are raised, like in deflation for roots of equations.
-  [[nodiscard]] double Told(const UnitPoint& point) const {
+  [[nodiscard]] double ObjectiveAt(const UnitPoint& point) const {
     const double value = known_.at(point);
     if (spec_.stop || violations_.empty()) {
       return value;
     }
-    constexpr double kReach = 0.15;  // relative to the range of a key
+    constexpr double kRepulsionRadius = 0.15;  // relative to the range of a key
     double nearest = std::numeric_limits<double>::infinity();
     for (const UnitPoint& violation : violations_) {
-      nearest = std::min(nearest, Distance(point, violation) / kReach);
+      nearest = std::min(nearest, Distance(point, violation) / kRepulsionRadius);
     }
     return std::max(value, 0.0) + height_ * std::exp(-0.5 * nearest * nearest);
   }
@@ -121,11 +121,11 @@ class SurrogateSearch : public PointSearch {
     return 3.0 * *middle;
   }
 
-  void Begin() {
+  void Restart() {
     height_ = Height();
     std::vector<dlib::function_evaluation> evaluations;
     for (const auto& [point, value] : known_) {
-      evaluations.emplace_back(VectorOf(point), -Told(point));
+      evaluations.emplace_back(VectorOf(point), -ObjectiveAt(point));
     }
     search_ = dlib::global_function_search(
         {UnitCube(space_.keys().size())},
@@ -136,14 +136,14 @@ class SurrogateSearch : public PointSearch {
   /// A new point proposed by dlib. dlib ignores steps and may propose known points again; these get
   /// their known value.
   std::optional<UnitPoint> Propose(const std::vector<UnitPoint>& batch) {
-    constexpr int kTries = 20;
-    for (int i = 0; i < kTries; ++i) {
+    constexpr int kMaxAttempts = 20;
+    for (int i = 0; i < kMaxAttempts; ++i) {
       dlib::function_evaluation_request request = search_.get_next_x();
       const Vector& x = request.x();
       UnitPoint point = space_.Snap({x.begin(), x.end()});
       const auto known = known_.find(point);
       if (known != known_.end()) {
-        request.set(-Told(point));
+        request.set(-ObjectiveAt(point));
       } else if (std::find(batch.begin(), batch.end(), point) == batch.end()) {
         requests_.insert_or_assign(point, std::move(request));
         return point;
@@ -153,7 +153,7 @@ class SurrogateSearch : public PointSearch {
   }
 
   /// The point of a sample that is farthest from all known points; none if all points are known.
-  std::optional<UnitPoint> FarFromAll(const std::vector<UnitPoint>& batch) {
+  std::optional<UnitPoint> FarthestPoint(const std::vector<UnitPoint>& batch) {
     const Eigen::MatrixXd sample = UnitSample(
         {.count = 1024, .method = SampleMethod::kSobol, .seed = spec_.seed + known_.size()},
         static_cast<int>(space_.keys().size()));
@@ -189,7 +189,7 @@ class SurrogateSearch : public PointSearch {
   dlib::global_function_search search_{UnitCube(1)};
   std::map<UnitPoint, dlib::function_evaluation_request> requests_;  // of the current batch
   std::vector<UnitPoint> batch_;
-  int asked_ = 0;
+  int proposals_ = 0;
 };
 
 }  // namespace

@@ -17,14 +17,14 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kVerifyBatch = 32;
 
-/// The text in the column `status` of a row.
+/// The text in a row's column `status`.
 std::string StatusOf(const SweepRecords& records, const SweepRow& row) {
-  const auto columns = records.header().at("columns").get<std::vector<std::string>>();
+  const std::vector<std::string> columns = records.Columns();
   const auto at = std::find(columns.begin(), columns.end(), "status") - columns.begin();
   return row.cells.at(static_cast<std::size_t>(at));
 }
 
-/// False if it was interrupted.
+/// Returns false if interrupted.
 bool RunBatch(const CheckedStudy& checked, std::size_t from, std::size_t to, SweepRecords& records,
               const VerifyOptions& options) {
   std::vector<std::size_t> missing;
@@ -100,7 +100,7 @@ VerifyResult Verify(const CheckedStudy& checked, const VerifyClaim& claim, Sweep
     }
     for (std::size_t row = from; row < to && test.verdict() == ProbabilityVerdict::kUndecided;
          ++row) {
-      const SweepRow made = RowFromJson(records.Read(row));
+      const SweepRow made = ReadRow(records, row);
       TRACKBED_CHECK(!made.error, "row {}: {}", row, made.cells.back());
       if (StatusOf(records, made) == "driven") {
         throw InputError(Problem{.file = checked.points.study().scenario.string(),

@@ -10,20 +10,21 @@
 
 namespace trackbed {
 
-Work::Work(const IdentificationHooks& hooks, int most) : hooks_(hooks), most_(std::max(most, 1)) {}
+ProgressCounter::ProgressCounter(const IdentificationHooks& hooks, int max_evaluations)
+    : hooks_(hooks), max_evaluations_(std::max(max_evaluations, 1)) {}
 
-void Work::Count() {
+void ProgressCounter::Count() {
   ++evaluations_;
   if (hooks_.progress) {
-    hooks_.progress(std::min(1.0, static_cast<double>(evaluations_) / most_));
+    hooks_.progress(std::min(1.0, static_cast<double>(evaluations_) / max_evaluations_));
   }
   if (hooks_.interrupted && hooks_.interrupted()) {
     throw Interrupted{};
   }
 }
 
-void Work::SkipTo(int evaluations) {
-  most_ -= std::max(0, evaluations - evaluations_);
+void ProgressCounter::SkipTo(int evaluations) {
+  max_evaluations_ -= std::max(0, evaluations - evaluations_);
 }
 
 std::vector<double> StartValues(const Identification& study, const CarModel& car) {
@@ -35,8 +36,8 @@ std::vector<double> StartValues(const Identification& study, const CarModel& car
   return values;
 }
 
-Estimator::Estimator(const Identification& study, const ResidualModel& model, Work& work)
-    : study_(study), model_(model), work_(work), start_(StartValues(study, model.car())) {
+Estimator::Estimator(const Identification& study, const ResidualModel& model, ProgressCounter& work)
+    : study_(study), model_(model), counter_(work), start_(StartValues(study, model.car())) {
   free_.resize(start_.size());
   std::iota(free_.begin(), free_.end(), std::size_t{0});
   best_ = start_;
@@ -47,15 +48,15 @@ double Estimator::Cost(const std::vector<double>& values) const {
   return CostOf(study_, model_, values);
 }
 
-std::vector<std::size_t> Estimator::HoldInert() {
+std::vector<std::size_t> Estimator::FixInertParameters() {
   std::vector<std::size_t> inert;
   for (const std::size_t i : free_) {
     const IdentifiedParameter& parameter = study_.parameters[i];
-    constexpr double kMove = 0.1;  // fraction of the range
-    const double move = kMove * (parameter.to - parameter.from);
+    constexpr double kProbeFraction = 0.1;  // fraction of the range
+    const double move = kProbeFraction * (parameter.to - parameter.from);
     std::vector<double> moved = start_;
     moved[i] = start_[i] + move <= parameter.to ? start_[i] + move : start_[i] - move;
-    work_.Count();
+    counter_.Count();
     if (!study_.parameters[i].prior && Cost(moved) == best_cost_) {
       inert.push_back(i);
     }
@@ -67,24 +68,24 @@ std::vector<std::size_t> Estimator::HoldInert() {
 }
 
 double Estimator::Improve(std::vector<double> at) {
-  constexpr double kSmallest = 1e-4;   // smallest step, fraction of the range
-  constexpr double kLeastGain = 1e-5;  // fraction of the cost
-  const int last = work_.evaluations() + study_.evaluations;
+  constexpr double kMinStep = 1e-4;  // smallest step, fraction of the range
+  constexpr double kMinGain = 1e-5;  // fraction of the cost
+  const int last = counter_.evaluations() + study_.evaluations;
   double radius = 0.25;  // fraction of the range
   double cost = Cost(at);
   Keep(at, cost);
-  while (std::isfinite(cost) && work_.evaluations() < last) {
-    const LinearModel linear = Linearize(study_, model_, at, free_, [this] { work_.Count(); });
+  while (std::isfinite(cost) && counter_.evaluations() < last) {
+    const LinearModel linear = Linearize(study_, model_, at, free_, [this] { counter_.Count(); });
     bool moved = false;
     double gained = 0.0;
-    while (!moved && radius > kSmallest) {
+    while (!moved && radius > kMinStep) {
       const Eigen::VectorXd step = Step(linear, at, radius);
       const double expected = -linear.gradient.dot(step) - 0.5 * step.dot(linear.hessian * step);
       if (!(expected > 0.0)) {
         return cost;
       }
       const std::vector<double> next = Moved(at, step);
-      work_.Count();
+      counter_.Count();
       const double reached = Cost(next);
       const double share = (cost - reached) / expected;
       const double length = step.cwiseAbs().maxCoeff();
@@ -95,14 +96,14 @@ double Estimator::Improve(std::vector<double> at) {
         cost = reached;
         Keep(at, cost);
         radius = share > 0.75 ? std::max(radius, 2.0 * length) : radius;
-        if (length < kSmallest) {
+        if (length < kMinStep) {
           return cost;
         }
       } else {
         radius = 0.3 * length;
       }
     }
-    if (!moved || gained < kLeastGain * cost) {
+    if (!moved || gained < kMinGain * cost) {
       return cost;
     }
   }
@@ -119,7 +120,7 @@ std::vector<double> Estimator::Random(std::mt19937_64& generator) const {
   return values;
 }
 
-void Estimator::Hold(std::size_t index) {
+void Estimator::FixParameter(std::size_t index) {
   std::erase(free_, index);
   best_[index] = start_[index];
   best_cost_ = Cost(best_);
@@ -146,8 +147,8 @@ Eigen::VectorXd Estimator::Step(const LinearModel& linear, const std::vector<dou
                                 double radius) const {
   const Eigen::Index n = linear.gradient.size();
   // A small ridge keeps parameters without effect at their values.
-  constexpr double kLeast = 1e-9;
-  const double ridge = std::max(kLeast * linear.hessian.trace(), kLeast);
+  constexpr double kMinRidge = 1e-9;
+  const double ridge = std::max(kMinRidge * linear.hessian.trace(), kMinRidge);
   QuadraticProgram program;
   program.hessian = linear.hessian + ridge * Eigen::MatrixXd::Identity(n, n);
   program.linear = linear.gradient;

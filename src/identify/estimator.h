@@ -10,68 +10,66 @@
 
 namespace trackbed {
 
-/// Thrown when the caller wants no more of an identification; it does not leave Identify.
-struct Interrupted {};
-
-/// Counts evaluations and tells the caller how far the work is.
-class Work {
+/// Counts evaluations and reports the progress to the caller.
+class ProgressCounter {
  public:
-  Work(const IdentificationHooks& hooks, int most);
+  ProgressCounter(const IdentificationHooks& hooks, int max_evaluations);
 
-  /// Throws Interrupted when the caller wants no more.
+  /// Throws Interrupted if the caller asks for it.
   void Count();
-  /// What was not needed of a budget is done, too.
+  /// Counts unused evaluations of a budget as done.
   void SkipTo(int evaluations);
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
  private:
   const IdentificationHooks& hooks_;
-  int most_;
+  int max_evaluations_;
   int evaluations_ = 0;
 };
 
-/// Where the search begins: the study's start values or the car's own, within the bounds.
+/// Initial values of the search: the study's start values or those of the model, clamped to the
+/// bounds.
 std::vector<double> StartValues(const Identification& study, const CarModel& car);
 
-/// The estimate on its way: all parameters, of which some are free. Keeps references.
+/// Current estimate of all parameters, some of which are free. Keeps references to its arguments.
 class Estimator {
  public:
-  Estimator(const Identification& study, const ResidualModel& model, Work& work);
+  Estimator(const Identification& study, const ResidualModel& model, ProgressCounter& work);
 
   [[nodiscard]] const std::vector<double>& start() const { return start_; }
   [[nodiscard]] const std::vector<double>& best() const { return best_; }
   [[nodiscard]] double best_cost() const { return best_cost_; }
   [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }
 
-  /// Holds the parameters that leave the cost as it is, to the last bit: a plant without that part.
-  /// Gives them back.
-  std::vector<std::size_t> HoldInert();
+  /// Fixes the parameters that do not change the cost to the last bit, because the plant lacks the
+  /// part. Returns their indices.
+  std::vector<std::size_t> FixInertParameters();
 
-  /// Gauss-Newton steps within a trust region from there on; the best of all stays. Gives back the
-  /// cost that it reached. Each step is a quadratic program with the bounds, which NLopt's SLSQP
-  /// solves. (SLSQP on the cost itself takes six times as many evaluations: it has to learn the
-  /// Hessian that the residuals give away.)
+  /// Gauss-Newton steps in a trust region, starting at `at`; keeps the best values found. Returns
+  /// the cost reached. Each step is a quadratic program with the bounds, solved by NLopt's SLSQP.
+  /// (SLSQP on the cost itself takes six times as many evaluations, because it must build up the
+  /// Hessian that the residuals provide.)
   double Improve(std::vector<double> at);
 
-  /// A random point within the bounds, of the free parameters.
+  /// Random values of the free parameters within their bounds.
   std::vector<double> Random(std::mt19937_64& generator) const;
 
-  /// No longer estimates a parameter.
-  void Hold(std::size_t index);
+  /// Fixes a parameter at its start value.
+  void FixParameter(std::size_t index);
 
  private:
   [[nodiscard]] double Cost(const std::vector<double>& values) const;
   void Keep(const std::vector<double>& values, double cost);
   [[nodiscard]] std::vector<double> Moved(std::vector<double> values,
                                           const Eigen::VectorXd& step) const;
-  /// The step to the minimum of the linear model within the bounds and the trust region, over the
-  /// widths.
+  /// Step to the minimum of the linear model within bounds and trust region, relative to the
+  /// ranges.
   [[nodiscard]] Eigen::VectorXd Step(const LinearModel& linear, const std::vector<double>& at,
                                      double radius) const;
 
   const Identification& study_;
   const ResidualModel& model_;
-  Work& work_;
+  ProgressCounter& counter_;
   std::vector<double> start_;
   std::vector<std::size_t> free_;
   std::vector<double> best_;

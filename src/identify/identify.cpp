@@ -14,13 +14,19 @@
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_parameters.h"
 
+// Identifies model parameters from records. Minimizes the loss of prediction residuals over all
+// windows (residuals.cpp) plus priors by Gauss-Newton in a trust region from several starts
+// (estimator.cpp). Parameters without effect are fixed first. Then, while the covariance
+// (linear_model.cpp) shows a parameter that the records do not determine better than its bounds do,
+// the worst one is fixed and the estimate is improved. Finally replays all records with the start
+// values and the fitted ones.
 namespace trackbed {
 namespace {
 
-/// Two parameters whose estimates are correlated more than this cannot be told apart by much.
-constexpr double kAlike = 0.95;
+/// Above this correlation, the estimates of two parameters are hard to distinguish.
+constexpr double kStrongCorrelation = 0.95;
 
-/// Places a problem of a parameter's name in the study's file.
+/// Moves a problem of a parameter to its place in the study file.
 [[noreturn]] void ThrowPlaced(const InputError& error, const Identification& study) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems) {
@@ -38,15 +44,15 @@ constexpr double kAlike = 0.95;
 }
 
 bool IsAt(double value, double bound, const IdentifiedParameter& parameter) {
-  constexpr double kTouches = 1e-4;  // of the width
-  return std::abs(value - bound) <= kTouches * (parameter.to - parameter.from);
+  constexpr double kBoundTolerance = 1e-4;  // fraction of the range
+  return std::abs(value - bound) <= kBoundTolerance * (parameter.to - parameter.from);
 }
 
-/// Which of the free parameters the records do not tell, the one that is told least first; none if
-/// they tell all.
-std::optional<std::size_t> LeastKnown(const Eigen::MatrixXd& covariance) {
+/// The free parameter with the largest deviation, if that exceeds the deviation of a uniform
+/// distribution between its bounds; none if all are determined by the records.
+std::optional<std::size_t> LeastDetermined(const Eigen::MatrixXd& covariance) {
   std::optional<std::size_t> least;
-  double worst = 1.0 / std::sqrt(12.0);  // deviation of a uniform distribution over the width
+  double worst = 1.0 / std::sqrt(12.0);  // of a uniform distribution over the range
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
     const double deviation = std::sqrt(covariance(i, i));
     if (!(deviation <= worst)) {
@@ -63,6 +69,8 @@ double Correlation(const Eigen::MatrixXd& covariance, std::size_t a, std::size_t
   return covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
 }
 
+/// Replays the records with the start values and the estimates, unless the search was interrupted;
+/// sets the model with the estimates.
 void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
                    IdentificationResult& result) {
   std::vector<CarParameter> start;
@@ -81,6 +89,9 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
         {.name = estimate.parameter.name, .value = estimate.value, .origin = std::move(origin)});
   }
   result.model = WithCarParameters(model.car(), fitted);
+  if (result.interrupted) {
+    return;
+  }
   const auto replay = [&](Scenario scenario, bool held_out) {
     std::vector<double>& windows = scenario.record->windows;
     if (std::find(windows.begin(), windows.end(), result.study.horizon) == windows.end()) {
@@ -94,8 +105,12 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
       }};
       return DriveRun(PlanRun(scenario, car), car, run_hooks);
     };
-    result.records.push_back(
-        {.name = scenario.name, .held_out = held_out, .start = run(start), .fitted = run(fitted)});
+    IdentifiedRecord record{
+        .name = scenario.name, .held_out = held_out, .start = run(start), .fitted = run(fitted)};
+    result.interrupted = result.interrupted || (hooks.interrupted && hooks.interrupted());
+    if (!result.interrupted) {
+      result.records.push_back(std::move(record));
+    }
   };
   for (const Scenario& scenario : result.study.fit_scenarios) {
     replay(scenario, false);
@@ -105,11 +120,12 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
   }
 }
 
-/// Estimates, and holds what cannot be estimated, until all that is free is told by the records.
-void Estimate(Estimator& estimator, const ResidualModel& model, Work& work,
+/// Estimates the parameters, and fixes those that cannot be estimated, until the records determine
+/// all free ones.
+void Estimate(Estimator& estimator, const ResidualModel& model, ProgressCounter& work,
               IdentificationResult& result) {
   const Identification& study = result.study;
-  for (const std::size_t i : estimator.HoldInert()) {
+  for (const std::size_t i : estimator.FixInertParameters()) {
     result.parameters[i].status = ParameterStatus::kNotIdentified;
     result.parameters[i].remark = fmt::format("it has no effect on the plant {}", study.plant);
   }
@@ -140,7 +156,7 @@ void Estimate(Estimator& estimator, const ResidualModel& model, Work& work,
     }
     const Eigen::MatrixXd covariance = Covariance(
         study, Linearize(study, model, estimator.best(), inside, [&] { work.Count(); }), inside);
-    const std::optional<std::size_t> least = LeastKnown(covariance);
+    const std::optional<std::size_t> least = LeastDetermined(covariance);
     const auto error_of = [&](std::size_t a) {
       const auto i = static_cast<Eigen::Index>(a);
       const IdentifiedParameter& parameter = study.parameters[inside[a]];
@@ -157,7 +173,7 @@ void Estimate(Estimator& estimator, const ResidualModel& model, Work& work,
           }
           const double correlation = Correlation(covariance, a, b);
           result.correlation[a][b] = correlation;
-          if (std::abs(correlation) > kAlike) {
+          if (std::abs(correlation) > kStrongCorrelation) {
             estimate.remark += fmt::format(
                 "{}hard to tell from {} (correlation {:.2f})", estimate.remark.empty() ? "" : "; ",
                 result.parameters[inside[b]].parameter.name, correlation);
@@ -175,7 +191,7 @@ void Estimate(Estimator& estimator, const ResidualModel& model, Work& work,
                           held.parameter.from, held.parameter.to)
             : "the records do not tell: it changes nothing by itself, or others make up "
               "for it";
-    estimator.Hold(inside[*least]);
+    estimator.FixParameter(inside[*least]);
     if (estimator.free().empty()) {
       return;
     }
@@ -223,12 +239,12 @@ IdentificationResult Identify(const Identification& study, const IdentificationH
                    study.parameters.size(), study.fit_scenarios.size());
   const auto begun = std::chrono::steady_clock::now();
   IdentificationResult result{.study = study};
-  const ResidualModel model(result.study, std::max(1, hooks.threads));
-  Work work(hooks, study.starts * study.evaluations);
+  const ResidualModel model(result.study, std::max(1, hooks.threads), hooks.interrupted);
+  ProgressCounter work(hooks, study.starts * study.evaluations);
   try {
     Estimator estimator(result.study, model, work);
     if (!std::isfinite(estimator.best_cost())) {
-      static_cast<void>(model.CarsAt(estimator.start()));  // says why
+      static_cast<void>(model.CarsAt(estimator.start()));  // reports why
     }
     result.start_cost = estimator.best_cost();
     result.windows = static_cast<int>(model.windows());
@@ -252,10 +268,11 @@ IdentificationResult Identify(const Identification& study, const IdentificationH
     result.cost = estimator.best_cost();
   } catch (const InputError& error) {
     ThrowPlaced(error, study);
+  } catch (const Interrupted&) {
+    throw RunError("interrupted before the first evaluation of the records");
   }
   result.evaluations = work.evaluations();
-  // A second Ctrl-C is needed to end this: what was found is to be looked at.
-  ReplayRecords(model, result.interrupted ? IdentificationHooks{} : hooks, result);
+  ReplayRecords(model, hooks, result);
   result.wall_time =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   return result;

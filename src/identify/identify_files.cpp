@@ -3,18 +3,16 @@
 
 #include "trackbed/analysis/json_file.h"
 #include "trackbed/analysis/run_folder.h"
+#include "trackbed/analysis/written_names.h"
+#include "trackbed/core/file_name.h"
 #include "trackbed/core/table.h"
 #include "trackbed/identify/identify.h"
 
 namespace trackbed {
 namespace {
 
+namespace fs = std::filesystem;
 using nlohmann::ordered_json;
-
-/// File content, with the same bytes for the same JSON.
-std::string Pretty(const ordered_json& content) {
-  return content.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
 
 ordered_json OrNull(const std::optional<double>& value) {
   return value && std::isfinite(*value) ? ordered_json(*value) : ordered_json();
@@ -136,13 +134,44 @@ ordered_json ToJson(const IdentificationResult& result) {
   return json;
 }
 
+std::vector<std::string> IdentificationFiles(const Identification& study) {
+  NameParts parts;
+  for (const std::vector<Scenario>* list : {&study.fit_scenarios, &study.held_out_scenarios}) {
+    for (const Scenario& scenario : *list) {
+      parts["record"].push_back(scenario.name);
+    }
+  }
+  std::vector<SceneAsset> assets;
+  if (!study.fit_scenarios.empty()) {
+    const CarModel car = LoadCar(study.fit_scenarios.front());
+    parts["vehicle"].push_back(car.params().name);
+    assets = car.scene().assets;
+  }
+  std::vector<std::string> names = FileNamesOfVerb("identify", parts);
+  for (const SceneAsset& asset : assets) {
+    names.push_back(asset.name);
+  }
+  return names;
+}
+
+fs::path RecordFolder(const fs::path& folder, const std::string& record) {
+  return FolderBelow(folder, fs::path(run_folder::kRecords) / FileNameOf(record));
+}
+
 void WriteIdentification(const IdentificationResult& result, const OutputFolder& folder) {
-  for (const IdentifiedRecord& record : result.records) {
-    WriteRunFolder(record.fitted, OutputFolder(folder.path() / "records" / record.name));
+  ordered_json json = ToJson(result);
+  // The runs first: until identify.json is new, it tells that they are of another result.
+  for (std::size_t i = 0; i < result.records.size(); ++i) {
+    const IdentifiedRecord& record = result.records[i];
+    const fs::path run = RecordFolder(folder.path(), record.name);
+    WriteRunFolder(record.fitted, run);
+    json["records"][i]["result"] = run_folder::ResultHash(run);
   }
   ResultWriter writer(folder);
-  const RunResult* any = result.records.empty() ? nullptr : &result.records.front().fitted;
-  writer.Add((any == nullptr ? "model" : any->vehicle.name) + ".xml", result.model.xml);
+  const std::string vehicle = result.records.empty()
+                                  ? CarModel(result.model, result.study.file.string()).params().name
+                                  : result.records.front().fitted.vehicle.name;
+  writer.Add(FileNameOf(vehicle) + ".xml", result.model.xml);
   for (const SceneAsset& asset : result.model.assets) {
     writer.Add(asset.name, asset.content);
   }
@@ -150,8 +179,8 @@ void WriteIdentification(const IdentificationResult& result, const OutputFolder&
     writer.Add(run_folder::ResidualsCsv(record.name),
                Residuals(record, result.study.plant).ToCsv());
   }
-  writer.Add(run_folder::kTimingJson, Pretty(ordered_json{{"wall_s", result.wall_time}}));
-  writer.Add(run_folder::kIdentifyJson, Pretty(ToJson(result)));
+  writer.Add(run_folder::kTimingJson, JsonText(ordered_json{{"wall_s", result.wall_time}}));
+  writer.Add(run_folder::kIdentifyJson, JsonText(json));
   writer.Commit(run_folder::kIdentification, {run_folder::kReport});
 }
 

@@ -156,9 +156,9 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
   const Eigen::MatrixXd inverted =
       eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
   Eigen::MatrixXd covariance = inverted * scatter * inverted;
-  constexpr double kTakesPart = 1e-3;  // component in a flat direction
+  constexpr double kFlatComponent = 1e-3;  // component in a flat direction
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (flat[i] > kTakesPart) {
+    if (flat[i] > kFlatComponent) {
       covariance(i, i) = std::numeric_limits<double>::infinity();
     }
   }

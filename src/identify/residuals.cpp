@@ -17,9 +17,9 @@
 namespace trackbed {
 namespace {
 
-constexpr double kFarOff = 100.0;  // residual of a plant that has diverged, in deviations
+constexpr double kDivergedResidual = 100.0;  // residual after divergence, in deviations
 
-/// A signal that is fitted: its deviation, and how far a state is from the recorded one.
+/// Fitted signal: its deviation, and the difference of a predicted state from the recorded one.
 struct FittedSignal {
   double deviation;
   double (*difference)(const VehicleState& predicted, const VehicleState& recorded);
@@ -48,14 +48,14 @@ std::vector<FittedSignal> FittedSignals(const ResidualDeviations& residuals) {
   return signals;
 }
 
-/// Of one window, every signal.
+/// Residuals of all signals in one window.
 std::vector<std::vector<double>> ResidualsOf(const WindowPrediction& prediction,
                                              const Scenario& scenario, std::size_t states,
                                              const VehicleParams& vehicle,
                                              const std::vector<FittedSignal>& signals) {
   const RecordSpec& record = *scenario.record;
   std::vector<std::vector<double>> residuals(signals.size());
-  for (std::size_t k = 1; k < states; ++k) {  // the first state is the record itself
+  for (std::size_t k = 1; k < states; ++k) {  // the first state is recorded
     const double time = prediction.start + static_cast<double>(k) * scenario.drive.control_period;
     const RecordedSample sample = record.data->At(time);
     if (std::abs(sample.velocity_V.x()) < record.min_speed) {
@@ -66,8 +66,8 @@ std::vector<std::vector<double>> ResidualsOf(const WindowPrediction& prediction,
       const double residual =
           k < prediction.states.size()
               ? signals[i].difference(prediction.states[k], recorded) / signals[i].deviation
-              : kFarOff;
-      residuals[i].push_back(std::clamp(residual, -kFarOff, kFarOff));
+              : kDivergedResidual;
+      residuals[i].push_back(std::clamp(residual, -kDivergedResidual, kDivergedResidual));
     }
   }
   return residuals;
@@ -75,8 +75,9 @@ std::vector<std::vector<double>> ResidualsOf(const WindowPrediction& prediction,
 
 }  // namespace
 
-ResidualModel::ResidualModel(const Identification& study, int threads)
-    : study_(study), threads_(threads) {
+ResidualModel::ResidualModel(const Identification& study, int threads,
+                             std::function<bool()> interrupted)
+    : study_(study), threads_(threads), interrupted_(std::move(interrupted)) {
   for (std::size_t i = 0; i < study.fit_scenarios.size(); ++i) {
     const Scenario& scenario = study.fit_scenarios[i];
     cars_.push_back(LoadCar(scenario));
@@ -116,12 +117,12 @@ std::vector<SignalResiduals> ResidualModel::At(std::span<const double> values) c
   }
   const std::vector<FittedSignal> signals = FittedSignals(study_.residuals);
   std::vector<std::vector<std::vector<double>>> of_windows(windows_.size());
-  // A few windows at a time: each call follows the commands from the start of the drive.
-  constexpr std::size_t kTogether = 8;
-  const std::size_t parts = (windows_.size() + kTogether - 1) / kTogether;
+  // Groups windows, because each call follows the commands from the start of the record.
+  constexpr std::size_t kWindowsPerBatch = 8;
+  const std::size_t parts = (windows_.size() + kWindowsPerBatch - 1) / kWindowsPerBatch;
   ForEachIndex(parts, threads_, [&](std::size_t part) {
-    const std::size_t end = std::min(windows_.size(), (part + 1) * kTogether);
-    for (std::size_t first = part * kTogether; first < end;) {
+    const std::size_t end = std::min(windows_.size(), (part + 1) * kWindowsPerBatch);
+    for (std::size_t first = part * kWindowsPerBatch; first < end;) {
       const std::size_t index = windows_[first].scenario;
       std::size_t last = first;
       std::vector<double> starts;
@@ -130,9 +131,13 @@ std::vector<SignalResiduals> ResidualModel::At(std::span<const double> values) c
       }
       const Scenario& scenario = study_.fit_scenarios[index];
       const CarModel& car = cars[index];
-      const std::vector<WindowPrediction> predictions =
-          PredictWindows(car, study_.plant, *scenario.record->data, starts, study_.horizon,
-                         ReplayOptionsOf(scenario));
+      ReplayOptions options = ReplayOptionsOf(scenario);
+      options.interrupted = interrupted_;
+      const std::vector<WindowPrediction> predictions = PredictWindows(
+          car, study_.plant, *scenario.record->data, starts, study_.horizon, options);
+      if (predictions.size() < starts.size()) {
+        throw Interrupted{};
+      }
       const auto states =
           static_cast<std::size_t>(std::lround(study_.horizon / scenario.drive.control_period) + 1);
       for (std::size_t i = 0; i < predictions.size(); ++i) {

@@ -10,25 +10,29 @@
 
 namespace trackbed {
 
-/// The residuals of one signal in one window, over their deviation.
+/// Thrown if the caller interrupts an identification; caught by Identify.
+struct Interrupted {};
+
+/// Residuals of one signal in one window, divided by the signal's deviation.
 struct SignalResiduals {
   std::size_t window = 0;
   std::vector<double> values{};
 };
 
-/// The residuals of a model with other numbers in it, over all windows of all records that are
-/// fitted. A plant that diverges has residuals of 100 deviations from there on.
+/// Residuals of the model for given parameter values, over all windows of all fitted records. After
+/// a plant diverges, its residuals are 100 deviations.
 class ResidualModel {
  public:
-  /// The study must outlive it.
-  ResidualModel(const Identification& study, int threads);
+  /// The study must outlive the model. `interrupted` is asked before each window, by all threads.
+  ResidualModel(const Identification& study, int threads, std::function<bool()> interrupted = {});
 
   [[nodiscard]] const CarModel& car() const { return cars_.front(); }
   [[nodiscard]] std::size_t windows() const { return windows_.size(); }
-  /// Those with values of the study's parameters, in their order; always as many of each signal,
-  /// in the same order. Empty for values with which the model cannot be compiled.
+  /// Residuals for values of the study's parameters, in their order. Each signal always has the
+  /// same number of residuals in the same order. Empty if the model cannot be compiled with the
+  /// values. Throws Interrupted if the caller asks for it.
   [[nodiscard]] std::vector<SignalResiduals> At(std::span<const double> values) const;
-  /// The cars of the fit's scenarios with these values. InputError when they cannot be compiled.
+  /// Cars of the fitted scenarios with these values. Throws InputError if they cannot be compiled.
   [[nodiscard]] std::vector<CarModel> CarsAt(std::span<const double> values) const;
 
  private:
@@ -39,11 +43,12 @@ class ResidualModel {
 
   const Identification& study_;
   int threads_;
-  std::vector<CarModel> cars_;  // one for each scenario of the fit
+  std::function<bool()> interrupted_;
+  std::vector<CarModel> cars_;  // one per fitted scenario
   std::vector<Window> windows_;
 };
 
-/// rho of the study's loss, and what a residual weighs in the gradient: rho'(r)/r.
+/// Loss rho(r) of the study, and the weight rho'(r)/r of a residual in the gradient.
 double Loss(const Identification& study, double residual);
 double LossWeight(const Identification& study, double residual);
 

@@ -150,7 +150,7 @@ TEST(Falsify, CountsPointsWithoutAScenarioAndWithoutAPlan) {
   Falsify(search, records);
   int without_plan = 0;
   for (std::size_t row = 0; row < records.count(); ++row) {
-    const SweepRow cells = RowFromJson(records.Read(row));
+    const SweepRow cells = ReadRow(records, row);
     if (cells.cells[2] == "no_plan") {
       ++without_plan;
       EXPECT_EQ(cells.cells[3], "-1");

@@ -31,11 +31,11 @@ constexpr double kTolerance = 0.01;
 
 TEST(Shrink, ReachesTheBoundaryAlongTheRay) {
   const SearchSpace space = UnitSpace({0.0, 0.0});
-  const Shrunk shrunk = Shrink(space, {1.0, 1.0}, kTolerance,
-                               By([](const UnitPoint& p) { return 0.7 - p[0] - p[1]; }));
+  const ShrinkResult shrunk = Shrink(space, {1.0, 1.0}, kTolerance,
+                                     By([](const UnitPoint& p) { return 0.7 - p[0] - p[1]; }));
   ASSERT_TRUE(shrunk.complete);
-  // On the line x + y = 0.7, whose nearest point is (0.35, 0.35): at most a tolerance beyond it in
-  // each key, and no nearer than it.
+  // The failing region's border is x + y = 0.7; its nearest point is (0.35, 0.35). The result is at
+  // most one tolerance beyond it in each key, and not nearer.
   EXPECT_GE(shrunk.distance, 0.35 * std::sqrt(2.0));
   EXPECT_LE(shrunk.distance, 0.35 * std::sqrt(2.0) + kTolerance);
   EXPECT_LT(shrunk.robustness, 0.0);
@@ -45,7 +45,7 @@ TEST(Shrink, ReachesTheBoundaryAlongTheRay) {
     EXPECT_NEAR(holds, shrunk.point[i], kTolerance + kStep);
     EXPECT_GE(0.7 - holds - shrunk.point[1 - i], 0.0);
     EXPECT_NEAR(shrunk.keys[i].sensitivity.value(), -1.0, 1e-9);
-    // Alone a key fails beyond 0.7.
+    // A single key fails only above 0.7.
     EXPECT_FALSE(shrunk.keys[i].down.has_value());
     EXPECT_FALSE(shrunk.keys[i].up.value().whole_range);
     EXPECT_LE(shrunk.keys[i].up.value().passes, 0.7 + kStep);
@@ -55,7 +55,7 @@ TEST(Shrink, ReachesTheBoundaryAlongTheRay) {
 
 TEST(Shrink, LeavesWhatDoesNotMatterAtItsNominalValue) {
   const SearchSpace space = UnitSpace({0.5, 0.25, 0.5});
-  const Shrunk shrunk =
+  const ShrinkResult shrunk =
       Shrink(space, {0.1, 0.9, 0.8}, kTolerance, By([](const UnitPoint& p) { return 0.6 - p[1]; }));
   ASSERT_TRUE(shrunk.complete);
   EXPECT_EQ(shrunk.point[0], 0.5);
@@ -69,7 +69,7 @@ TEST(Shrink, LeavesWhatDoesNotMatterAtItsNominalValue) {
   EXPECT_FALSE(shrunk.keys[1].up.value().whole_range);
 }
 
-/// A random set of balls that violate, and slabs without a value.
+/// Uses random violating balls and slabs without a value.
 TEST(Shrink, NeverEndsAtAPointThatPasses) {
   std::mt19937 random(27);
   std::uniform_real_distribution<double> unit;
@@ -102,7 +102,7 @@ TEST(Shrink, NeverEndsAtAPointThatPasses) {
     }
     ++shrunk_count;
     runs = 0;
-    const Shrunk shrunk = Shrink(space, from, kTolerance, evaluate);
+    const ShrinkResult shrunk = Shrink(space, from, kTolerance, evaluate);
     EXPECT_TRUE(shrunk.complete);
     EXPECT_TRUE(evaluate(shrunk.point)->violated);
     EXPECT_EQ(shrunk.robustness, robustness(shrunk.point));
@@ -129,7 +129,7 @@ TEST(Shrink, KeepsWhatItHasWhenTheRunsAreUsedUp) {
       }
       return Evaluation{.robustness = 0.7 - p[0] - p[1], .violated = p[0] + p[1] > 0.7};
     };
-    const Shrunk shrunk = Shrink(space, {1.0, 0.5}, kTolerance, evaluate);
+    const ShrinkResult shrunk = Shrink(space, {1.0, 0.5}, kTolerance, evaluate);
     EXPECT_GT(shrunk.point[0] + shrunk.point[1], 0.7) << most;
     EXPECT_EQ(shrunk.distance, Distance(shrunk.point, {0.0, 0.0}));
   }

@@ -112,6 +112,8 @@ def one_result(folder, now, old, new):
         return wrong
     if "manifest.json" not in names:
         return wrong + ["no manifest"] if set(names) - ADDITIONS else wrong
+    if names["manifest.json"] not in (old.get("manifest.json"), new.get("manifest.json")):
+        wrong.append("some results are earlier ones, some new, or missing")
     with open(os.path.join(folder, "manifest.json")) as file:
         results = json.load(file)["results"]
     listed = {}
@@ -125,6 +127,33 @@ def one_result(folder, now, old, new):
     if all(sides):
         wrong.append(f"files of two results: {sorted(sides[0])} not of the earlier, "
                      f"{sorted(sides[1])} not of the new one")
+    return wrong
+
+
+def whole_or_refused(program):
+    """The earlier result or the new one, or files of both that `report` refuses."""
+    def check(folder, now, old, new):
+        now = {name: what for name, what in now.items() if not is_temporary(name)
+               or ".trackbed.complete" in name}
+        wrong = same_bytes(folder, {name: what for name, what in now.items()
+                                    if os.path.basename(name) != "manifest.json"}, old, new)
+        if now in (visible(old), visible(new)):
+            return wrong
+        with tempfile.TemporaryDirectory() as elsewhere:
+            code = subprocess.run([program, "report", "-q", folder, "-o", f"{elsewhere}/page.html"],
+                                  capture_output=True, env=dict(os.environ, TRACKBED_DATA=SOURCE)
+                                  ).returncode
+        return wrong + (["report takes files of two results"] if code != 2 else [])
+    return check
+
+
+def one_study(folder, now, old, new):
+    """The table as one_result; the runs of rows are whole, or their manifest tells what is missing."""
+    top = {name: what for name, what in now.items() if not name.startswith("rows/")}
+    wrong = one_result(folder, top, old, new)
+    rows = {name: what for name, what in now.items() if name.startswith("rows/")}
+    if not any(".trackbed.complete" in name for name in rows):
+        wrong += same_bytes(folder, rows, old, new)
     return wrong
 
 
@@ -143,6 +172,20 @@ def cases(program):
         Case("sweep", ["sweep", "-q", "--restart", "-j", "2", "-o", "s", "study.yaml"], "s",
              ["sweep", "-q", "-o", "s", "study.yaml", "--set", "drive.time_limit=0.05"],
              check=one_result),
+        Case("sweep with kept rows", ["sweep", "-q", "--restart", "-o", "s", "kept.yaml"], "s",
+             ["sweep", "-q", "-o", "s", "kept.yaml", "--set", "drive.time_limit=0.05"],
+             check=one_study),
+        Case("falsify", ["falsify", "-q", "--restart", "-o", "s", "search.yaml"], "s",
+             ["falsify", "-q", "-o", "s", "search.yaml", "--set", "drive.time_limit=0.05"],
+             check=whole_or_refused(program)),
+        Case("verify", ["verify", "-q", "--restart", "-o", "s", "sample.yaml"], "s",
+             ["verify", "-q", "-o", "s", "sample.yaml", "--set", "drive.time_limit=0.05"],
+             check=one_result),
+        Case("identify", ["identify", "-q", "-o", "i", "fit.yaml"], "i",
+             ["identify", "-q", "-o", "i", "other_fit.yaml"], check=whole_or_refused(program),
+             before=[["import", "-q", f"{SOURCE}/tests/data/recordings/autoware.csv", "--map",
+                      f"{SOURCE}/scenarios/real/maps/autoware.yaml", "--vehicle",
+                      f"{SOURCE}/tests/data/models/small_car.xml", "-o", "record"]]),
         Case("compare (scenario)", ["compare", "-q", "-o", "c", "b.yaml", *SHORT], "c",
              ["compare", "-q", "-o", "c", "a.yaml", *SHORT], check=one_result),
         Case("compare (runs)", ["compare", "-q", "-o", "c", "r", "r2"], "c",
@@ -166,7 +209,7 @@ def cases(program):
         Case("docs", ["docs", "d/cli.md"], "d"),
     ]
     if has_video:
-        all_cases.insert(9, Case("render film", ["render", "r", "--fps", "100", *film], "r",
+        all_cases.insert(13, Case("render film", ["render", "r", "--fps", "100", *film], "r",
                                  ["render", "r", "--fps", "50", *film], check=one_result,
                                  before=[make_run]))
     return all_cases
@@ -209,6 +252,20 @@ class Campaign:
             file.write("schema: 1\nname: study\nscenario: a.yaml\n"
                        "set: {drive.time_limit: 0.1, drive.plants: [kinematic], expect: {}}\n"
                        "vary: {mission.speed: [1, 2, 3]}\noutputs: [metrics.kinematic.distance]\n")
+        study = ("schema: 1\nname: study\nscenario: a.yaml\n"
+                 "set: {drive.time_limit: 0.1, drive.plants: [kinematic],"
+                 " expect: {metrics: [{metric: status, equals: goal_reached}]}}\n")
+        random_speed = "vary: {mission.speed: {distribution: uniform, from: 1, to: 4}}\n"
+        fit = ("schema: 1\nname: fit\nfit: [record/scenario.resolved.yaml]\nstarts: 1\n"
+               "evaluations: 1\n")
+        for name, text in (
+                ("kept", study + "vary: {mission.speed: [1, 2]}\nkeep: all\n"),
+                ("search", study + random_speed + "search: {runs: 2, shrink_runs: 0}\n"),
+                ("sample", study + random_speed + "sample: {count: 3, method: random}\n"),
+                ("fit", fit + "parameters: [{name: yaw_inertia, from: 0.02, to: 0.2}]\n"),
+                ("other_fit", fit + "parameters: [{name: mass, from: 2, to: 5}]\n")):
+            with open(f"{self.work}/{name}.yaml", "w") as file:
+                file.write(text)
 
     def prepare(self, case):
         """Makes the states of a case once: as it stands before, and after."""
@@ -345,7 +402,7 @@ class Campaign:
             wrong = [] if now == self.new else ["ends well, but has not the new result"]
         elif code == 130:
             # What a run has logged so far is kept; all else is as before, or new.
-            if case.check is one_result:
+            if case.check not in (same_bytes, one_film):
                 new = dict(now)
                 wrong = case.check(folder, now, self.old, new)
             else:

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Interrupts one study again and again, and lets it go on where it was.
+"""Interrupts one study repeatedly and resumes it each time.
 
   resume.py PROGRAM [--rows N] [--faults N] [--seed S]
 
-The faults are SIGKILL and SIGTERM at random moments and a disk that is full after some rows. After
-each the rows that were there must still be there; in the end sweep.csv, sweep.json and manifest.json
-must have the same bytes as those of a study that nobody disturbed. Prints how many faults there were,
-of which kind, and how many were losses; ends with 1 if any was.
+The faults are SIGKILL and SIGTERM at random times and a disk that is full after some rows. After
+each fault the finished rows must still exist. In the end sweep.csv, sweep.json and manifest.json must
+have the same bytes as those of an undisturbed study. Prints the number of faults by kind and the
+number of losses; ends with 1 if there was a loss.
 """
 import argparse
 import collections
@@ -25,7 +25,7 @@ RESULT = ("sweep.csv", "sweep.json", "manifest.json")
 
 
 def rows_in(folder):
-    """The numbers of the whole rows in the records, read without the program."""
+    """The numbers of the complete rows in the records, read without the program."""
     try:
         with open(os.path.join(folder, "sweep.records"), "rb") as file:
             lines = file.read().split(b"\n")
@@ -70,7 +70,7 @@ class Study:
         return process.wait(timeout=120)
 
     def full_disk(self, out):
-        """A tmpfs that has room for what is there and some rows. None: not to be had here."""
+        """Runs on a tmpfs with room for the existing files and some rows. None: not possible here."""
         folder = f"{self.root}/{out}"
         os.makedirs(folder, exist_ok=True)
         keep = f"{self.root}/keep"
@@ -126,7 +126,7 @@ def main():
                 kinds.remove(kind)
                 continue
         else:
-            # So that all faults together are as long as some of the study.
+            # Chosen so that all faults together take about as long as the study.
             code = study.signaled(out, kind, 20.0 * duration / options.faults + 0.1)
         faults[kind] += 1
         after = rows_in(f"{study.root}/{out}")

@@ -11,23 +11,23 @@
 #include "trackbed/falsify/search_space.h"
 #include "trackbed/falsify/shrink.h"
 
-/// Searches the keys of a study for a run that fails, and makes what it finds as small as it gets.
+/// Searches the keys of a study for a run that fails, and shrinks the counterexample.
 namespace trackbed {
 
 /// A study whose keys can be searched.
 struct CheckedSearch {
   Study study;
-  CheckedStudy runs;  ///< of a sample in its box: cars and inputs
+  CheckedStudy runs;  ///< cars and inputs of a sample in the box
   SearchSpace space;
 };
 
-/// InputError as CheckStudy, where no point of a sample of 64 is good, and as SearchSpace; or when
-/// the study has no `search`.
+/// Validates a study for searching. InputError as SearchSpace; as CheckStudy, if no point of a
+/// sample of 64 is valid; and when the study has no `search`.
 CheckedSearch CheckSearch(Study study);
 
-/// What tells the records of the search from those of others. A row is a run, in the order in which
-/// they were proposed: the keys, `status`, `robustness`, what decides it, the `phase` of the search
-/// (nominal, search, shrink), the outputs and the reason.
+/// Identifies the records of the search. Rows are runs, in the order in which they were proposed:
+/// the keys, `status`, `robustness`, the decisive check, the `phase` of the search (nominal,
+/// search, shrink), the outputs and the reason.
 nlohmann::ordered_json FalsifyHeader(const CheckedSearch& search);
 
 struct FalsifyOptions {
@@ -35,8 +35,8 @@ struct FalsifyOptions {
   std::function<bool()> interrupted{};  ///< asked before each run, by any thread
   /// Called after each run with its row, by one thread at a time.
   std::function<void(std::size_t row)> progress{};
-  /// Of the search, wall clock [s]: it ends with the first batch that is finished after that. The
-  /// result then depends on the machine.
+  /// Limit on the search's wall-clock time [s]: the search ends with the first batch that finishes
+  /// after it. The result then depends on the machine.
   std::optional<double> time_limit{};
 };
 
@@ -46,13 +46,13 @@ struct SearchedPoint {
   UnitPoint point;
   std::vector<Setting> settings;
   double robustness = 0.0;
-  std::string limit;   ///< what decides it
-  std::string reason;  ///< of one that failed
+  std::string limit;   ///< the decisive check
+  std::string reason;  ///< why the run failed; empty if it passed
 };
 
 enum class FalsifyStatus {
   kBroken,        ///< a run failed
-  kNotFalsified,  ///< none of those that were run
+  kNotFalsified,  ///< no run failed
   kInterrupted,
 };
 
@@ -61,39 +61,39 @@ const char* ToString(FalsifyStatus status);
 
 struct FalsifyResult {
   FalsifyStatus status = FalsifyStatus::kNotFalsified;
-  std::size_t runs = 0;         ///< of the search, that of the nominal point among them
-  std::size_t shrink_runs = 0;  ///< after it
+  std::size_t runs = 0;         ///< of the search, including the nominal point
+  std::size_t shrink_runs = 0;  ///< after the search
   std::size_t violations = 0;   ///< of the runs of the search
   std::size_t refused = 0;      ///< points without a scenario
-  std::size_t errors = 0;       ///< runs that met a bug of the program
+  std::size_t errors = 0;       ///< runs that hit a bug of the program
   bool out_of_time = false;
   std::optional<SearchedPoint> first;           ///< the first violation
   std::optional<SearchedPoint> least;           ///< the lowest robustness of the search
   std::optional<SearchedPoint> counterexample;  ///< the nearest violation to the nominal point
-  Shrunk shrunk;                                ///< its margins, with a counterexample
+  ShrinkResult shrunk;                          ///< margins of the counterexample, if one was found
 };
 
-/// Runs the nominal point, then the points that the search proposes, and shrinks the violation that
-/// is nearest to the nominal point; unless that one fails itself, which ends it.
+/// Runs the nominal point, then the points that the search proposes, and shrinks the violation
+/// nearest to the nominal point. If the nominal point fails, the search ends at once.
 ///
-/// Appends each run to `records` (FalsifyHeader), and takes what is there instead of running it
-/// again: the same call goes on where one was interrupted.
+/// Appends each run to `records` (FalsifyHeader) and reuses rows that are already there: calling it
+/// again resumes an interrupted search.
 ///
 /// Guarantees: the same result for any number of jobs, interrupted or not, unless there is a time
-/// limit; the counterexample was run and failed. Without one nothing is proved. Points without a
-/// scenario, and runs that end with an exception, have a row and no robustness.
+/// limit; the counterexample was run and failed. Without a counterexample nothing is proved. Points
+/// without a scenario, and runs that end with an exception, have a row but no robustness.
 ///
 /// Errors: InputError when the scenario expects nothing; RunError of `records` and of runs.
 FalsifyResult Falsify(const CheckedSearch& search, SweepRecords& records,
                       const FalsifyOptions& options = {});
 
-/// The same in memory.
+/// As above, with records in memory.
 FalsifyResult Falsify(const CheckedSearch& search, const FalsifyOptions& options = {});
 
-/// falsify.json.
+/// The content of falsify.json.
 nlohmann::ordered_json ToJson(const FalsifyResult& result, const CheckedSearch& search);
 
-/// The counterexample once more, as a whole run. InternalError unless it fails as it did.
+/// Repeats the counterexample as a complete run. InternalError unless it fails as it did before.
 RunResult RunCounterexample(const FalsifyResult& result, const CheckedSearch& search);
 
 }  // namespace trackbed

@@ -53,7 +53,7 @@ class SearchSpace {
   /// The position below which a fraction `share`, in [0, 1), of the key's values lies. Integers and
   /// steps, including the ends of the range, are equally likely.
   [[nodiscard]] double PlaceOfShare(std::size_t i, double share) const;
-  /// The settings of the scenario at a point.
+  /// The scenario's settings (keys with values) at a point.
   [[nodiscard]] std::vector<Setting> Settings(const UnitPoint& point) const;
 
  private:

@@ -6,59 +6,58 @@
 
 #include "trackbed/falsify/search_space.h"
 
-/// The smallest violation near one that was found.
+/// Shrinks a violation toward the nominal point.
 namespace trackbed {
 
-/// What came of a run at a point.
+/// The result of a run at a point.
 struct Evaluation {
-  std::optional<double> robustness{};  ///< none where there is no such scenario
+  std::optional<double> robustness{};  ///< none if there is no such scenario
   bool violated = false;
 };
 
-/// None when it may not be run: the runs are used up, or it was interrupted. The same point has
-/// the same evaluation each time.
+/// Evaluates a point. None if it may not be run: the budget is used up, or the search was
+/// interrupted. The same point must give the same evaluation each time.
 using EvaluatePoint = std::function<std::optional<Evaluation>(const UnitPoint& point)>;
 
-/// How far a key can go alone, all others at their nominal values.
-struct ReachAlone {
-  double passes = 0.0;       ///< the last place that was seen to pass, toward the end of its range
-  bool whole_range = false;  ///< which is the end itself
+/// How far a key can be moved alone, with all others at their nominal values.
+struct SingleKeyReach {
+  double passes = 0.0;       ///< the outermost position that passed, toward the end of the range
+  bool whole_range = false;  ///< that position is the end itself
 };
 
 /// A key at the counterexample.
 struct KeyMargin {
-  /// The place nearest to the counterexample's, toward the nominal one and at most a tolerance (or
-  /// the key's step) away, that passes with all others at the counterexample's. None for a key at
-  /// its nominal value.
+  /// The position nearest to the counterexample's, toward the nominal one and at most a tolerance
+  /// (or the key's step) away, that passes with all other keys at the counterexample's values. None
+  /// for a key at its nominal value.
   std::optional<double> holds_to{};
-  /// Change of the robustness for the whole range of the key, from the difference of points a
-  /// tolerance to either side; none where they have no value.
+  /// Change of the robustness over the whole range of the key, extrapolated from points a tolerance
+  /// to either side; none if one of them has no robustness.
   std::optional<double> sensitivity{};
-  std::optional<ReachAlone> down{};  ///< none for a key whose nominal value is that end
-  std::optional<ReachAlone> up{};
+  std::optional<SingleKeyReach> down{};  ///< none for a key whose nominal value is the range's end
+  std::optional<SingleKeyReach> up{};
 };
 
-struct Shrunk {
+struct ShrinkResult {
   UnitPoint point;              ///< violates; was evaluated
-  double robustness = 0.0;      ///< there
+  double robustness = 0.0;      ///< at `point`
   double distance = 0.0;        ///< from the nominal point
-  bool complete = false;        ///< false: the runs were used up before it was as small as it gets
-  std::vector<KeyMargin> keys;  ///< what is not known yet has no values
+  bool complete = false;        ///< false: the budget was used up before the shrinking converged
+  std::vector<KeyMargin> keys;  ///< margins that are not known yet have no values
 };
 
-/// Makes a violation smaller, in the Euclidean norm of the places: along the ray to the nominal
-/// point, then key by key toward the nominal value (all the way where that still violates), both by
-/// bisection, again and again until a round gains less than the tolerance. Then the margins.
+/// Shrinks a violation in the Euclidean norm of the positions: along the ray to the nominal point,
+/// then key by key toward the nominal value (all the way if that still violates), both by
+/// bisection. Repeats until a round gains less than the tolerance, then computes the margins.
 ///
 /// Guarantees: the result was evaluated and violates, and is no further from the nominal point than
-/// `violation`. If it is complete, no key can go a tolerance nearer to its nominal value by itself
-/// and still violate. Does not find the nearest violation of all where violations are no
-/// half-space.
-/// Cost: about 10 evaluations for each key and round with a tolerance of 0.01.
+/// `violation`. If it is complete, moving any single key by the tolerance toward its nominal value
+/// removes the violation. Does not find the globally nearest violation unless the violations are a
+/// half-space. Cost: about 10 evaluations for each key and round with a tolerance of 0.01.
 ///
 /// PreconditionError unless the tolerance is positive. InternalError if `violation` passes or the
 /// nominal point does not.
-Shrunk Shrink(const SearchSpace& space, const UnitPoint& violation, double tolerance,
-              const EvaluatePoint& evaluate);
+ShrinkResult Shrink(const SearchSpace& space, const UnitPoint& violation, double tolerance,
+                    const EvaluatePoint& evaluate);
 
 }  // namespace trackbed
