@@ -98,7 +98,7 @@ struct Drive {
 
   Scenario scenario;
   CarModel car;
-  Plan plan;
+  FeasiblePlan plan;
 };
 
 /// Notes the commands that another plant is stepped with.

@@ -28,9 +28,9 @@ double Room(double radius) {
 
 /// What a method that knows no constraints may make of both.
 double Ranked(double radius) {
-  constexpr double kBeyond = 1e300;
+  constexpr double kInfeasibleCost = 1e300;
   const double room = Room(radius);
-  return room > 0.0 ? kBeyond * (1.0 + room / (1.0 + room)) : Miss(radius);
+  return room > 0.0 ? kInfeasibleCost * (1.0 + room / (1.0 + room)) : Miss(radius);
 }
 
 /// What a method that guesses the values of points without one sees.
@@ -142,7 +142,7 @@ void TimeRoute(benchmark::State& state, SearchMethod method, double limit) {
   scenario.plan->global.Get<FilletOptions>().search.method = method;
   const CarModel car = LoadCar(scenario);
   for ([[maybe_unused]] auto round : state) {
-    benchmark::DoNotOptimize(PlanMission(scenario, car.params()).status);
+    benchmark::DoNotOptimize(PlanMission(scenario, car.params())->status);
   }
   state.counters["limit_s"] = limit;
 }

@@ -27,9 +27,9 @@ void TimePlanner(benchmark::State& state, const PlannerEntry& planner) {
   scenario.plan = {planner.defaults, std::nullopt};
   const CarModel car = LoadCar(scenario);
   for ([[maybe_unused]] auto round : state) {
-    const Plan plan = PlanMission(scenario, car.params());
+    const FeasiblePlan plan = PlanMission(scenario, car.params());
     if (!plan.ok()) {
-      state.SkipWithError(plan.reason.c_str());
+      state.SkipWithError(plan->reason.c_str());
       break;
     }
   }
@@ -38,7 +38,7 @@ void TimePlanner(benchmark::State& state, const PlannerEntry& planner) {
 /// How much faster than the clock the mission is driven.
 void TimeDrive(benchmark::State& state, const Scenario& scenario, const std::string& plant) {
   const CarModel car = LoadCar(scenario);
-  const Plan plan = PlanMission(scenario, car.params());
+  const FeasiblePlan plan = PlanMission(scenario, car.params());
   double simulated = 0.0;
   const Stopwatch stopwatch;
   for ([[maybe_unused]] auto round : state) {

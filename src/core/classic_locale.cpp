@@ -9,40 +9,40 @@ namespace trackbed {
 namespace {
 
 /// State that is restored when the last user ends. One per process, like the locale.
-struct Before {
+struct SavedLocale {
   std::mutex mutex;
   int users = 0;
   bool is_changed = false;
-  std::locale of_cpp;
-  std::string of_c;
+  std::locale cpp_locale;
+  std::string c_locale;
 };
 
-Before& TheBefore() {
-  static Before before;
-  return before;
+SavedLocale& GetSavedLocale() {
+  static SavedLocale saved;
+  return saved;
 }
 
 }  // namespace
 
 ClassicLocale::ClassicLocale() {
-  Before& before = TheBefore();
-  const std::lock_guard lock(before.mutex);
+  SavedLocale& saved = GetSavedLocale();
+  const std::lock_guard lock(saved.mutex);
   const bool is_classic =
       std::locale() == std::locale::classic() && *std::localeconv()->decimal_point == '.';
-  if (before.users++ == 0 && !is_classic) {
-    before.of_c = std::setlocale(LC_ALL, nullptr);
-    before.of_cpp = std::locale::global(std::locale::classic());
-    before.is_changed = true;
+  if (saved.users++ == 0 && !is_classic) {
+    saved.c_locale = std::setlocale(LC_ALL, nullptr);
+    saved.cpp_locale = std::locale::global(std::locale::classic());
+    saved.is_changed = true;
   }
 }
 
 ClassicLocale::~ClassicLocale() {
-  Before& before = TheBefore();
-  const std::lock_guard lock(before.mutex);
-  if (--before.users == 0 && before.is_changed) {
-    std::locale::global(before.of_cpp);
-    std::setlocale(LC_ALL, before.of_c.c_str());
-    before.is_changed = false;
+  SavedLocale& saved = GetSavedLocale();
+  const std::lock_guard lock(saved.mutex);
+  if (--saved.users == 0 && saved.is_changed) {
+    std::locale::global(saved.cpp_locale);
+    std::setlocale(LC_ALL, saved.c_locale.c_str());
+    saved.is_changed = false;
   }
 }
 

@@ -13,13 +13,13 @@
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kMostColumns = 4096;
-constexpr std::size_t kLongestCell = std::size_t{1} << 16U;
+constexpr std::size_t kMaxColumns = 4096;
+constexpr std::size_t kMaxCellLength = std::size_t{1} << 16U;
 
 /// Receives libcsv's callbacks.
 struct RowReader {
   const std::filesystem::path& file;
-  std::size_t most_cells;
+  std::size_t max_cells;
   ProblemList& problems;
   const TakeCsvRow& take;
   std::vector<std::string> cells{};
@@ -37,12 +37,12 @@ struct RowReader {
   }
 
   void Cell(std::string_view cell) {
-    if (cell.size() > kLongestCell) {
-      Stop(fmt::format("a cell of more than {} characters", kLongestCell));
-    } else if (cells.size() == kMostColumns) {
-      Stop(fmt::format("more than {} cells in a row", kMostColumns));
-    } else if (++all_cells > most_cells) {
-      Stop(fmt::format("more than {} cells in the file", most_cells));
+    if (cell.size() > kMaxCellLength) {
+      Stop(fmt::format("a cell of more than {} characters", kMaxCellLength));
+    } else if (cells.size() == kMaxColumns) {
+      Stop(fmt::format("more than {} cells in a row", kMaxColumns));
+    } else if (++all_cells > max_cells) {
+      Stop(fmt::format("more than {} cells in the file", max_cells));
     }
     if (stopped) {
       return;
@@ -70,8 +70,7 @@ struct RowReader {
 
 void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
                  const TakeCsvRow& take) {
-  RowReader reader{
-      .file = file, .most_cells = limits.most_cells, .problems = problems, .take = take};
+  RowReader reader{.file = file, .max_cells = limits.max_cells, .problems = problems, .take = take};
   csv_parser parser{};
   TRACKBED_CHECK(csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_REPALL_NL) == 0,
                  "libcsv did not start");
@@ -90,12 +89,12 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
     }
     if (csv_parse(&parser, part.data(), part.size(), cell, row, &reader) != part.size()) {
       reader.Stop(csv_strerror(csv_error(&parser)));
-    } else if (parser.entry_pos > kLongestCell) {
-      reader.Stop(fmt::format("a cell of more than {} characters", kLongestCell));
+    } else if (parser.entry_pos > kMaxCellLength) {
+      reader.Stop(fmt::format("a cell of more than {} characters", kMaxCellLength));
     }
     return !reader.stopped;
   };
-  ReadBlocks(file, parse, limits.most_bytes);
+  ReadBlocks(file, parse, limits.max_bytes);
   if (!reader.stopped && csv_fini(&parser, cell, row, &reader) != 0) {
     reader.Stop(csv_strerror(csv_error(&parser)));
   }

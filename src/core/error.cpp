@@ -19,11 +19,11 @@ std::string Join(const std::vector<Problem>& problems) {
 
 /// Shortens a text: a file may contain a word of a million letters.
 std::string Cut(const std::string& text) {
-  constexpr std::size_t kLongest = 4000;
-  if (text.size() <= kLongest) {
+  constexpr std::size_t kMaxMessageLength = 4000;
+  if (text.size() <= kMaxMessageLength) {
     return text;
   }
-  std::size_t end = kLongest;
+  std::size_t end = kMaxMessageLength;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
     --end;  // do not split a UTF-8 character
   }

@@ -147,14 +147,14 @@ Reader ReadThrough(const std::filesystem::path& file, Selection selection) {
 }  // namespace
 
 void ProblemList::Add(Problem problem) {
-  constexpr std::size_t kMost = 20;
+  constexpr std::size_t kMaxProblems = 20;
   const auto after =
       std::upper_bound(problems_.begin(), problems_.end(), problem.line,
                        [](int line, const Problem& other) { return line < other.line; });
   problems_.insert(after, std::move(problem));
-  if (problems_.size() > kMost) {
+  if (problems_.size() > kMaxProblems) {
     problems_.pop_back();
-    ++further_;
+    ++omitted_;
   }
 }
 
@@ -163,9 +163,9 @@ void ProblemList::ThrowIfAny() const {
     return;
   }
   std::vector<Problem> problems = problems_;
-  if (further_ > 0) {
+  if (omitted_ > 0) {
     problems.push_back(
-        {.file = problems.back().file, .message = fmt::format("and {} more problems", further_)});
+        {.file = problems.back().file, .message = fmt::format("and {} more problems", omitted_)});
   }
   throw InputError(std::move(problems));
 }
@@ -244,7 +244,7 @@ void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::st
     take(ordered, line);
   };
   constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
-  ReadThrough(file, {.most_cells = kAny, .most_bytes = kAny, .delimiter = delimiter}, reader);
+  ReadThrough(file, {.max_cells = kAny, .max_bytes = kAny, .delimiter = delimiter}, reader);
 }
 
 }  // namespace trackbed

@@ -48,8 +48,8 @@ std::string ShortestText(double number) {
 
 std::pair<std::string, std::string> FormatDistinct(double first, double second) {
   std::pair<std::string, std::string> texts;
-  constexpr int kAllDigits = 17;  // enough to distinguish any two doubles
-  for (int digits = 4; digits <= kAllDigits; ++digits) {
+  constexpr int kRoundTripDigits = 17;  // enough to distinguish any two doubles
+  for (int digits = 4; digits <= kRoundTripDigits; ++digits) {
     texts = {fmt::format("{:.{}g}", first, digits), fmt::format("{:.{}g}", second, digits)};
     if (first == second || texts.first != texts.second) {
       break;
@@ -77,11 +77,11 @@ std::string TextTable::ToCsv() const {
 }
 
 TextTable ReadTextCsv(const std::filesystem::path& file) {
-  constexpr std::size_t kMostCells = 10'000'000;  // at least 32 bytes each
+  constexpr std::size_t kMaxCells = 10'000'000;  // at least 32 bytes each
   ProblemList problems;
   std::optional<TextTable> table;
   ReadCsvRows(
-      file, {.most_cells = kMostCells}, problems, [&](std::vector<std::string>& cells, int line) {
+      file, {.max_cells = kMaxCells}, problems, [&](std::vector<std::string>& cells, int line) {
         const auto add_error = [&](std::string message) {
           problems.Add({.file = file.string(), .line = line, .message = std::move(message)});
         };

@@ -20,7 +20,7 @@ using Bounds = boost::geometry::model::box<Point>;
 using Entry = std::pair<Bounds, std::size_t>;
 
 /// Up to this number of boxes, a linear search is used.
-constexpr std::size_t kFew = 16;
+constexpr std::size_t kMaxLinearSearch = 16;
 /// Enlargement of bounds for rounding, relative to their coordinates and at least [m].
 constexpr double kRounding = 1e-12;
 
@@ -57,7 +57,7 @@ BoxIndex::BoxIndex(std::vector<OrientedBox> boxes) : boxes_(std::move(boxes)) {
     TRACKBED_REQUIRE(IsFinite(box),
                      "BoxIndex: a box of {} x {} m at {}, {}, yaw {}; must be finite", box.length,
                      box.width, box.center.x, box.center.y, box.center.yaw);
-    if (boxes_.size() > kFew) {
+    if (boxes_.size() > kMaxLinearSearch) {
       entries.emplace_back(BoundsOf(box), entries.size());
     }
   }

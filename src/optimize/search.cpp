@@ -20,7 +20,7 @@ namespace trackbed {
 namespace {
 
 /// Objective values from here on mean infeasible, for unconstrained methods.
-constexpr double kBeyond = 1e100;
+constexpr double kInfeasibleCost = 1e100;
 
 /// How constraints are passed to a method.
 enum class Handling {
@@ -81,7 +81,7 @@ class Evaluator {
   /// The objective for the method, and its gradient if requested.
   double Objective(const double* x, double* gradient) {
     Evaluate(x);
-    const double seen = Seen();
+    const double seen = MethodValue();
     if (gradient != nullptr) {
       Differentiate(x);
       std::copy(gradient_.begin(), gradient_.end(), gradient);
@@ -177,15 +177,15 @@ class Evaluator {
   }
 
   /// The objective in the method's terms; never NaN, which NLopt would compare.
-  [[nodiscard]] double Seen() const {
+  [[nodiscard]] double MethodValue() const {
     if (handling_ == Handling::kHidden && violation_ > 0.0) {
       return std::numeric_limits<double>::infinity();
     }
     if (!std::isfinite(violation_)) {
-      return 3.0 * kBeyond;
+      return 3.0 * kInfeasibleCost;
     }
     if (handling_ == Handling::kRanked && violation_ > 0.0) {
-      return kBeyond * (1.0 + violation_ / (1.0 + violation_));
+      return kInfeasibleCost * (1.0 + violation_ / (1.0 + violation_));
     }
     return value_;
   }
@@ -213,12 +213,12 @@ class Evaluator {
       }
       at[i] = high;
       Evaluate(at.data());
-      const double seen_ahead = Seen();
+      const double seen_ahead = MethodValue();
       std::copy(constraints_.begin(), constraints_.end(), ahead.begin());
       at[i] = low;
       Evaluate(at.data());
       at[i] = x[i];
-      gradient_[i] = (seen_ahead - Seen()) / (high - low);
+      gradient_[i] = (seen_ahead - MethodValue()) / (high - low);
       for (std::size_t row = 0; row < constraints_.size(); ++row) {
         jacobian_[row * n + i] = (ahead[row] - constraints_[row]) / (high - low);
       }

@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kLargestBound = 1e6;  // [s]
+constexpr double kMaxTimeBound = 1e6;  // [s]
 
 bool IsWindowed(FormulaOperation operation) {
   return operation == FormulaOperation::kAlways || operation == FormulaOperation::kEventually ||
@@ -48,10 +48,10 @@ bool GivesNumber(FormulaOperation operation) {
 std::string_view FirstWord(std::string_view text) {
   const auto in_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.'; };
   const auto is_continuation = [](unsigned char c) { return (c & 0xC0U) == 0x80U; };
-  constexpr std::size_t kLongest = 40;
+  constexpr std::size_t kMaxQuotedLength = 40;
   std::size_t length = 1;
   const bool word = in_word(static_cast<unsigned char>(text.front()));
-  while (length < std::min(text.size(), kLongest) &&
+  while (length < std::min(text.size(), kMaxQuotedLength) &&
          (word ? in_word(static_cast<unsigned char>(text[length]))
                : is_continuation(static_cast<unsigned char>(text[length])))) {
     ++length;
@@ -61,9 +61,9 @@ std::string_view FirstWord(std::string_view text) {
 
 /// A part of a formula in quotes, shortened.
 std::string Quoted(std::string_view part) {
-  constexpr std::size_t kLongest = 60;
-  return part.size() <= kLongest ? fmt::format("'{}'", part)
-                                 : fmt::format("'{} …'", part.substr(0, kLongest));
+  constexpr std::size_t kMaxQuotedLength = 60;
+  return part.size() <= kMaxQuotedLength ? fmt::format("'{}'", part)
+                                         : fmt::format("'{} …'", part.substr(0, kMaxQuotedLength));
 }
 
 }  // namespace
@@ -136,9 +136,9 @@ void FormulaBuilder::OpenParenthesis(std::string_view sign) {
 }
 
 void FormulaBuilder::SetBound(WindowBound bound, std::string_view text) {
-  if (!(bound.seconds <= kLargestBound)) {
+  if (!(bound.seconds <= kMaxTimeBound)) {
     Fail(text.data(),
-         fmt::format("{} s is out of range; must be at most {} s", bound.seconds, kLargestBound));
+         fmt::format("{} s is out of range; must be at most {} s", bound.seconds, kMaxTimeBound));
   }
   Pending& window = pending_.back();
   (window.bounds == 0 ? window.step.from : window.step.to) = bound;

@@ -18,11 +18,11 @@
 namespace trackbed {
 namespace {
 
-constexpr double kSpacing = 0.25;         // spacing of the points that segments join [m]
-constexpr double kKink = 1e-6;            // smaller kinks need no rounding [rad]
-constexpr double kWorstKink = 0.2;        // [rad]
-constexpr double kRounding = 0.5;         // length that is replaced on either side of a kink [m]
-constexpr double kWorstDeviation = 0.05;  // [m]
+constexpr double kSpacing = 0.25;       // spacing of the points that segments join [m]
+constexpr double kKink = 1e-6;          // smaller kinks need no rounding [rad]
+constexpr double kMaxKink = 0.2;        // [rad]
+constexpr double kRounding = 0.5;       // length that is replaced on either side of a kink [m]
+constexpr double kMaxDeviation = 0.05;  // [m]
 
 /// A point of a lane's center, in driving direction.
 struct CenterPoint {
@@ -66,7 +66,7 @@ std::vector<double> Joints(const RoadStretch& own) {
   const double low = std::min(own.stretch.from, own.stretch.to);
   const double high = std::max(own.stretch.from, own.stretch.to);
   // Closer joints are rounding errors, or the pieces between them are negligibly short.
-  constexpr double kApart = 0.01;  // [m]
+  constexpr double kMinSpacing = 0.01;  // [m]
   std::vector<double> joints;
   const auto add = [&](double s) { joints.push_back(s); };
   for (const auto& piece : own.road.reference.pieces()) {
@@ -84,7 +84,7 @@ std::vector<double> Joints(const RoadStretch& own) {
   std::sort(joints.begin(), joints.end());
   std::vector<double> apart{low};
   for (const double joint : joints) {
-    if (joint > apart.back() + kApart && joint < high - kApart) {
+    if (joint > apart.back() + kMinSpacing && joint < high - kMinSpacing) {
       apart.push_back(joint);
     }
   }
@@ -176,13 +176,13 @@ class Joiner {
       point.curve.s += end.s;
       point.curve.yaw += turn;
     }
-    if (std::abs(kink) > kWorstKink) {
+    if (std::abs(kink) > kMaxKink) {
       return fmt::format("the lanes' centers have a kink of {:.3g} rad (at most {})", kink,
-                         kWorstKink);
+                         kMaxKink);
     }
-    if (gap > kWorstDeviation) {
+    if (gap > kMaxDeviation) {
       return fmt::format("the lanes' centers are {:.3g} m apart (at most {} m)", gap,
-                         kWorstDeviation);
+                         kMaxDeviation);
     }
     if (std::abs(kink) <= kKink) {
       runs_.push_back(std::move(piece));
@@ -210,17 +210,17 @@ class Joiner {
         points.push_back(point.curve);
       }
       for (Segment& segment : SegmentsThrough(points)) {
-        constexpr double kSame = 1e-9;  // [1/m]; 1e-4 rad over 100 km
+        constexpr double kEqualityTolerance = 1e-9;  // [1/m]; 1e-4 rad over 100 km
         const double change = std::abs(segment.sharpness) * segment.length +
                               std::abs(segment.sharpness_rate) * segment.length * segment.length;
-        if (change < kSame) {
+        if (change < kEqualityTolerance) {
           segment.sharpness = 0.0;
           segment.sharpness_rate = 0.0;
         }
         Segment* before = segments.empty() ? nullptr : &segments.back();
-        if (before != nullptr && change < kSame && before->sharpness == 0.0 &&
+        if (before != nullptr && change < kEqualityTolerance && before->sharpness == 0.0 &&
             before->sharpness_rate == 0.0 &&
-            std::abs(before->curvature - segment.curvature) < kSame) {
+            std::abs(before->curvature - segment.curvature) < kEqualityTolerance) {
           before->length += segment.length;
         } else {
           segments.push_back(segment);
@@ -275,19 +275,19 @@ JoinedPath JoinLaneCenters(const RoadNetwork& network, const std::vector<LaneStr
       all.push_back(piece);
       points += piece.size();
     }
-    constexpr std::size_t kMostPoints = 2000000;
-    if (points > kMostPoints) {
-      joined.failure = fmt::format("the lanes' centers have more than {} pieces", kMostPoints);
+    constexpr std::size_t kMaxPoints = 2000000;
+    if (points > kMaxPoints) {
+      joined.failure = fmt::format("the lanes' centers have more than {} pieces", kMaxPoints);
       return joined;
     }
   }
   joined.path = joiner.Join();
   joined.deviation = Deviation(joined.path, all);
-  if (joined.deviation > kWorstDeviation) {
+  if (joined.deviation > kMaxDeviation) {
     joined.failure = fmt::format(
         "gaps and kinks of the lanes' centers take the path {:.3g} m off them (at most "
         "{} m)",
-        joined.deviation, kWorstDeviation);
+        joined.deviation, kMaxDeviation);
   }
   return joined;
 }

@@ -106,12 +106,12 @@ std::vector<std::size_t> LaneGraph::ShortestWay(std::size_t from, std::size_t to
   const auto [begin, end] = boost::adjacent_vertices(from, links_);
   std::vector<std::size_t> before(nodes_.size());
   std::vector<double> distance(nodes_.size());
-  constexpr double kFar = std::numeric_limits<double>::max();
+  constexpr double kUnreachable = std::numeric_limits<double>::max();
   boost::dijkstra_shortest_paths(links_, begin, end, before.data(), distance.data(),
                                  boost::get(boost::edge_weight, links_),
                                  boost::get(boost::vertex_index, links_), std::less<>(),
-                                 std::plus<>(), kFar, 0.0, boost::dijkstra_visitor<>());
-  if (distance[to] == kFar) {
+                                 std::plus<>(), kUnreachable, 0.0, boost::dijkstra_visitor<>());
+  if (distance[to] == kUnreachable) {
     return {};
   }
   std::vector<std::size_t> way{to};

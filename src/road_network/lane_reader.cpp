@@ -109,10 +109,10 @@ void ReadSide(const XmlFields& section, const char* side, bool has_lane_offset, 
     const int id = unnamed.Integer("id");
     const XmlFields fields(element, fmt::format("{}.{}.lane[{}]", section.where(), side, id),
                            section.problems());
-    constexpr int kMostLanes = 100;  // per side, as in mission.route
-    if (id < -kMostLanes || id > kMostLanes) {
+    constexpr int kMaxLanes = 100;  // per side, as in mission.route
+    if (id < -kMaxLanes || id > kMaxLanes) {
       fields.AddError("id", fmt::format("{} is out of range; must be at least {} and at most {}",
-                                        id, -kMostLanes, kMostLanes));
+                                        id, -kMaxLanes, kMaxLanes));
       return;
     }
     if ((name == "left") != (id > 0) || (name == "right") != (id < 0)) {

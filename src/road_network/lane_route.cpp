@@ -16,8 +16,8 @@
 namespace trackbed {
 namespace {
 
-constexpr double kShortestStretch = 1e-6;  // [m]; shorter stretches are dropped
-constexpr double kLongestRoute = 1e5;      // [m]
+constexpr double kMinStretchLength = 1e-6;  // [m]; shorter stretches are dropped
+constexpr double kMaxRouteLength = 1e5;     // [m]
 
 std::string Named(const LanePlace& place) {
   return fmt::format("lane {} of road {} at s = {:.4g} m", place.lane, place.road, place.s);
@@ -34,7 +34,7 @@ struct Found {
 class Stretches {
  public:
   void Add(const Road& road, int lane, int to_lane, double from, double to) {
-    if (std::abs(to - from) > kShortestStretch) {
+    if (std::abs(to - from) > kMinStretchLength) {
       length_ += std::abs(to - from);
       all_.push_back({road.id, lane, to_lane, from, to});
     }
@@ -55,7 +55,7 @@ class Stretches {
 };
 
 Found FindPlace(const RoadNetwork& network, const LaneGraph& graph, const LanePlace& place) {
-  const std::string why = WhyNoPlace(network, place);
+  const std::string why = LanePlaceError(network, place);
   TRACKBED_REQUIRE(why.empty(), "FindLaneRoute: {}", why);
   const Road& road = network.roads.find(place.road)->second;
   const std::size_t section = road.SectionAt(place.s);
@@ -94,7 +94,7 @@ std::string Connect(const LaneGraph& graph, const LanePlace& a, const Found& fro
 }  // namespace
 
 Pose2 PoseAt(const RoadNetwork& network, const LanePlace& place) {
-  const std::string why = WhyNoPlace(network, place);
+  const std::string why = LanePlaceError(network, place);
   TRACKBED_REQUIRE(why.empty(), "PoseAt: {}", why);
   const Road& road = network.roads.find(place.road)->second;
   const LaneBorders borders = LaneBordersAt(road, place.lane, place.s);
@@ -107,7 +107,7 @@ Pose2 PoseAt(const RoadNetwork& network, const LanePlace& place) {
           WrapAngle(FollowsRoad(road, place.lane) ? heading : heading + kPi)};
 }
 
-std::string WhyNoPlace(const RoadNetwork& network, const LanePlace& place) {
+std::string LanePlaceError(const RoadNetwork& network, const LanePlace& place) {
   const auto found = network.roads.find(place.road);
   if (found == network.roads.end()) {
     std::vector<std::string> ids;
@@ -150,8 +150,8 @@ LaneRoute FindLaneRoute(const RoadNetwork& network, const std::vector<LanePlace>
   Stretches stretches;
   for (std::size_t i = 1; i < places.size(); ++i) {
     route.failure = Connect(graph, places[i - 1], found[i - 1], places[i], found[i], stretches);
-    if (route.ok() && stretches.length() > kLongestRoute) {
-      route.failure = fmt::format("the route is longer than {} km", kLongestRoute / 1000.0);
+    if (route.ok() && stretches.length() > kMaxRouteLength) {
+      route.failure = fmt::format("the route is longer than {} km", kMaxRouteLength / 1000.0);
     }
     if (!route.ok()) {
       return route;

@@ -18,7 +18,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 /// Larger documents would take gigabytes of memory.
-constexpr std::ptrdiff_t kMostElements = 4000000;
+constexpr std::ptrdiff_t kMaxElements = 4000000;
 
 void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& problems) {
   const XmlFields fields(root, "OpenDRIVE", problems);
@@ -79,9 +79,9 @@ void NoteUnreadHeights(RoadNetwork& network) {
       roads[what].push_back(id);
     }
   }
-  constexpr std::size_t kShown = 5;
+  constexpr std::size_t kMaxListed = 5;
   for (auto& [what, ids] : roads) {
-    const std::size_t more = ids.size() > kShown ? ids.size() - kShown : 0;
+    const std::size_t more = ids.size() > kMaxListed ? ids.size() - kMaxListed : 0;
     ids.resize(ids.size() - more);
     network.notes.push_back(fmt::format("{} is not read: road {}{}", what, fmt::join(ids, ", "),
                                         more > 0 ? fmt::format(" and {} more", more) : ""));
@@ -106,8 +106,8 @@ void CheckDeclarations(const tinyxml2::XMLDocument& document, const std::string&
 }  // namespace
 
 RoadNetwork ParseOpenDrive(std::string_view xml, const std::string& name) {
-  if (std::count(xml.begin(), xml.end(), '<') > kMostElements) {
-    Refuse(name, 0, fmt::format("more than {} XML tags", kMostElements));
+  if (std::count(xml.begin(), xml.end(), '<') > kMaxElements) {
+    Refuse(name, 0, fmt::format("more than {} XML tags", kMaxElements));
   }
   tinyxml2::XMLDocument document;
   if (document.Parse(xml.data(), xml.size()) != tinyxml2::XML_SUCCESS) {
@@ -151,7 +151,7 @@ RoadNetwork ReadOpenDrive(const std::filesystem::path& file) {
 }
 
 OpenDriveFile ReadOpenDriveFile(const std::filesystem::path& file) {
-  OpenDriveFile read{.text = ReadFile(file, kLargestOpenDrive), .network = {}};
+  OpenDriveFile read{.text = ReadFile(file, kMaxOpenDriveBytes), .network = {}};
   read.network = ParseOpenDrive(read.text, file.string());
   return read;
 }

@@ -21,7 +21,7 @@ constexpr Bounds kBend{-1e3, 1e3};           // [1/m]
 /// Tolerance between the station of a geometry and the end of the previous one [m].
 constexpr double kMaxStationGap = 0.1;
 /// Shorter geometries are dropped as rounding errors of the exporting program [m].
-constexpr double kShortest = 1e-9;
+constexpr double kMinGeometryLength = 1e-9;
 
 /// Pose and length of a geometry, common to all shapes.
 struct GeometryPlace {
@@ -126,7 +126,7 @@ ReferenceLine ReadPlanView(const XmlFields& road, double length) {
     place.start = {fields.Number("x", kCoordinate), fields.Number("y", kCoordinate),
                    fields.Number("hdg")};
     place.length = fields.Number("length", kGeometryLength);
-    if (place.length < kShortest) {
+    if (place.length < kMinGeometryLength) {
       return;
     }
     if (std::abs(s - end) > kMaxStationGap || (!pieces.empty() && s <= pieces.back().s)) {

@@ -13,10 +13,10 @@
 namespace trackbed {
 namespace {
 
-constexpr double kDashLength = 3.0;   // [m]
-constexpr double kDashPeriod = 9.0;   // [m]
-constexpr double kUsualWidth = 0.12;  // of marks without a width [m]
-constexpr double kDoubleGap = 0.1;    // between the lines of a double mark [m]
+constexpr double kDashLength = 3.0;         // [m]
+constexpr double kDashPeriod = 9.0;         // [m]
+constexpr double kDefaultMarkWidth = 0.12;  // of marks without a width [m]
+constexpr double kDoubleGap = 0.1;          // between the lines of a double mark [m]
 
 Vec2 Beside(const Road& road, double s, double piece_of, double t) {
   return ToWorld(road.reference.At(s, piece_of).pose, {0.0, t});
@@ -67,8 +67,8 @@ class Painter {
                   static_cast<double>(road.sections[i].lanes.size() + 2);
       }
     }
-    constexpr double kMostPoints = 1e5;
-    spacing_ = std::max(spacing_, length / kMostPoints);
+    constexpr double kMaxPoints = 1e5;
+    spacing_ = std::max(spacing_, length / kMaxPoints);
     for (const auto& [id, road] : network.roads) {
       for (std::size_t i = 0; i < road.sections.size(); ++i) {
         Section(road, i);
@@ -124,7 +124,7 @@ class Painter {
   void Mark(const Road& road, std::size_t section, const Lane& lane, const RoadMark& mark,
             double from, double to) {
     const std::vector<bool> dashed = DashedLines(mark.type);
-    const double width = mark.width > 0.0 ? mark.width : kUsualWidth;
+    const double width = mark.width > 0.0 ? mark.width : kDefaultMarkWidth;
     for (std::size_t i = 0; i < dashed.size(); ++i) {
       const double offset = dashed.size() == 1 ? 0.0 : (i == 0 ? 0.5 : -0.5) * (kDoubleGap + width);
       const auto add = [&](double begin, double end) {

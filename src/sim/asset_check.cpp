@@ -13,12 +13,12 @@
 namespace trackbed {
 namespace {
 
-constexpr std::uint32_t kMostPixels = 8192;   // along a side
-constexpr std::uint32_t kMostSamples = 4096;  // of a height field, along a side
-constexpr std::uint32_t kMostFaces = 200000;  // MuJoCo's own limit for an STL file
-constexpr std::uint32_t kMostFacets = 256;    // of a drawn sphere or plane, along a side
+constexpr std::uint32_t kMaxPixels = 8192;         // along a side
+constexpr std::uint32_t kMaxHeightSamples = 4096;  // of a height field, along a side
+constexpr std::uint32_t kMaxFaces = 200000;        // MuJoCo's own limit for an STL file
+constexpr std::uint32_t kMaxFacets = 256;          // of a drawn sphere or plane, along a side
 /// MuJoCo's error texts hold about 500 characters.
-constexpr std::size_t kLongestWord = 200;
+constexpr std::size_t kMaxWordLength = 200;
 
 std::string LowerExtension(const std::filesystem::path& file) {
   std::string extension = file.extension().string();
@@ -50,7 +50,7 @@ std::optional<std::uint32_t> ReadBigEndian(std::string_view content, std::size_t
 }
 
 /// W3C, Portable Network Graphics (Second Edition), sections 5.2 and 11.2.2.
-std::string WhyNoPng(std::string_view content) {
+std::string PngError(std::string_view content) {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
   if (!content.starts_with(kSignature) || content.size() < 16 || content.substr(12, 4) != "IHDR") {
     return "is no PNG picture";
@@ -60,33 +60,33 @@ std::string WhyNoPng(std::string_view content) {
   if (!width || !height || *width == 0 || *height == 0) {
     return "is a PNG picture without a size";
   }
-  if (*width > kMostPixels || *height > kMostPixels) {
+  if (*width > kMaxPixels || *height > kMaxPixels) {
     return fmt::format("has {} x {} pixels; must have at most {} on a side", *width, *height,
-                       kMostPixels);
+                       kMaxPixels);
   }
   return "";
 }
 
 /// STL: a header of 80 bytes, the count of triangles, then 50 bytes per triangle.
-std::string WhyNoStl(std::string_view content) {
+std::string StlError(std::string_view content) {
   constexpr std::size_t kHeader = 84;
   constexpr std::size_t kFace = 50;
   const auto faces = ReadNumber<std::uint32_t>(content, 80);
-  if (!faces || *faces == 0 || *faces > kMostFaces || content.size() != kHeader + kFace * *faces) {
-    return fmt::format("is no binary STL file of 1 to {} triangles", kMostFaces);
+  if (!faces || *faces == 0 || *faces > kMaxFaces || content.size() != kHeader + kFace * *faces) {
+    return fmt::format("is no binary STL file of 1 to {} triangles", kMaxFaces);
   }
   return "";
 }
 
 /// MuJoCo's height field format: the counts of rows and columns, then the heights.
-std::string WhyNoHeights(std::string_view content) {
+std::string HeightFieldError(std::string_view content) {
   const auto rows = ReadNumber<std::int32_t>(content, 0);
   const auto columns = ReadNumber<std::int32_t>(content, 4);
   const auto bad = [](const std::optional<std::int32_t>& count) {
-    return !count || *count < 2 || *count > static_cast<std::int32_t>(kMostSamples);
+    return !count || *count < 2 || *count > static_cast<std::int32_t>(kMaxHeightSamples);
   };
   if (bad(rows) || bad(columns)) {
-    return fmt::format("is no height field of 2 to {} rows and columns", kMostSamples);
+    return fmt::format("is no height field of 2 to {} rows and columns", kMaxHeightSamples);
   }
   const std::size_t samples = static_cast<std::size_t>(*rows) * static_cast<std::size_t>(*columns);
   if (content.size() != 8 + 4 * samples) {
@@ -115,35 +115,35 @@ std::size_t LongestWord(std::string_view text) {
 
 }  // namespace
 
-std::string WhyNoAsset(std::string_view kind, const std::filesystem::path& file,
+std::string AssetError(std::string_view kind, const std::filesystem::path& file,
                        std::string_view content) {
   const std::string extension = LowerExtension(file);
   if (content.empty()) {
     return "is empty";
   }
   if (kind == "texture") {
-    return extension == ".png" ? WhyNoPng(content) : "must be a .png file";
+    return extension == ".png" ? PngError(content) : "must be a .png file";
   }
   if (kind == "hfield") {
-    return extension == ".png" ? WhyNoPng(content) : WhyNoHeights(content);
+    return extension == ".png" ? PngError(content) : HeightFieldError(content);
   }
   if (kind == "mesh") {
-    return extension == ".stl"   ? WhyNoStl(content)
+    return extension == ".stl"   ? StlError(content)
            : extension == ".obj" ? ""
                                  : "must be a .obj or binary .stl file";
   }
   return fmt::format("is not read: files of <{}> are not supported", kind);
 }
 
-std::string WhyNoElement(const tinyxml2::XMLElement& element) {
+std::string ElementError(const tinyxml2::XMLElement& element) {
   for (const tinyxml2::XMLAttribute* attribute = element.FirstAttribute(); attribute != nullptr;
        attribute = attribute->Next()) {
     const std::string_view value = attribute->Value();
     const bool is_file = std::string_view(attribute->Name()).starts_with("file");
     const std::size_t length = is_file ? value.size() : LongestWord(value);
-    if (length > kLongestWord) {
+    if (length > kMaxWordLength) {
       return fmt::format("a word of {} has {} characters; must have at most {}", attribute->Name(),
-                         length, kLongestWord);
+                         length, kMaxWordLength);
     }
   }
   struct Count {
@@ -152,10 +152,10 @@ std::string WhyNoElement(const tinyxml2::XMLElement& element) {
     std::uint32_t most;
   };
   static constexpr std::array kCounts{
-      Count{"texture", "width", kMostPixels},     Count{"texture", "height", kMostPixels},
-      Count{"hfield", "nrow", kMostSamples},      Count{"hfield", "ncol", kMostSamples},
-      Count{"quality", "numslices", kMostFacets}, Count{"quality", "numstacks", kMostFacets},
-      Count{"quality", "numquads", kMostFacets}};
+      Count{"texture", "width", kMaxPixels},      Count{"texture", "height", kMaxPixels},
+      Count{"hfield", "nrow", kMaxHeightSamples}, Count{"hfield", "ncol", kMaxHeightSamples},
+      Count{"quality", "numslices", kMaxFacets},  Count{"quality", "numstacks", kMaxFacets},
+      Count{"quality", "numquads", kMaxFacets}};
   for (const Count& own : kCounts) {
     std::int64_t count = 0;
     if (own.element == element.Name() &&

@@ -11,18 +11,18 @@
 namespace trackbed {
 
 /// Largest size of one asset file.
-inline constexpr std::size_t kMostAssetBytes = std::size_t{64} << 20;
+inline constexpr std::size_t kMaxAssetBytes = std::size_t{64} << 20;
 /// Largest count of asset files, below the 2000 of the virtual file system of MuJoCo 2.2.2.
-inline constexpr std::size_t kMostAssets = 1900;
+inline constexpr std::size_t kMaxAssets = 1900;
 /// Largest size of all asset files together.
-inline constexpr std::size_t kMostAssetBytesInAll = std::size_t{512} << 20;
+inline constexpr std::size_t kMaxTotalAssetBytes = std::size_t{512} << 20;
 
 /// Error in the content of an asset file of this kind ("mesh", "texture", …), as the end of a
 /// sentence: "is no PNG picture". Empty if the content is valid.
-std::string WhyNoAsset(std::string_view kind, const std::filesystem::path& file,
+std::string AssetError(std::string_view kind, const std::filesystem::path& file,
                        std::string_view content);
 
 /// Error in an element of the composed model, as a sentence. Empty if the element is valid.
-std::string WhyNoElement(const tinyxml2::XMLElement& element);
+std::string ElementError(const tinyxml2::XMLElement& element);
 
 }  // namespace trackbed

@@ -32,7 +32,7 @@ struct Stand {
   Eigen::Quaterniond turn;
 };
 
-Stand StandOn(const VehicleParams& params, const Pose2& pose, const Ground& ground) {
+Stand RestPoseOn(const VehicleParams& params, const Pose2& pose, const Ground& ground) {
   // The height is that of the ground under the wheels, placed as on level ground: a slope shortens
   // their horizontal distance by a second-order term only.
   const bool steered = params.kind == VehicleKind::kSteered;
@@ -133,7 +133,7 @@ std::vector<double> CarModel::ExtractConfiguration(std::span<const double> qpos)
 std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steering,
                                                const std::vector<double>& spin,
                                                const Ground& ground) const {
-  const Stand stand = StandOn(params_, pose, ground);
+  const Stand stand = RestPoseOn(params_, pose, ground);
   const bool laden = laden_keyframe_ >= 0;
   const mjtNum* level = laden ? model_->key_qpos + laden_keyframe_ * model_->nq : model_->qpos0;
   std::vector<double> qpos(level, level + model_->nq);
@@ -173,7 +173,7 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
 }
 
 Eigen::Vector3d CarModel::AheadOnGround(const Pose2& pose, const Ground& ground) const {
-  return StandOn(params_, pose, ground).turn.normalized().toRotationMatrix().col(0);
+  return RestPoseOn(params_, pose, ground).turn.normalized().toRotationMatrix().col(0);
 }
 
 std::vector<double> CarModel::FlatConfiguration(const Pose2& pose, double steering,

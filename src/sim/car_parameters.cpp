@@ -290,13 +290,13 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   const double rest_z = old_mass * old_z - own * position[2];
   const double mass = value(Mass::kMass);
   const double x = value(Mass::kCgToRear);
-  const double new_own = mass - rest;
-  if (!(new_own > 0.0)) {
+  const double new_chassis_mass = mass - rest;
+  if (!(new_chassis_mass > 0.0)) {
     Fail(car, "mass",
          fmt::format("{} kg is less than what wheels and knuckles have, {} kg", mass, rest));
   }
-  const double new_x = (mass * x - rest_x) / new_own;
-  const double new_z = (mass * value(Mass::kCgHeight) - rest_z) / new_own;
+  const double new_x = (mass * x - rest_x) / new_chassis_mass;
+  const double new_z = (mass * value(Mass::kCgHeight) - rest_z) / new_chassis_mass;
   // Yaw inertia of the other bodies about the vehicle's center of gravity: about the old center,
   // then about the new one.
   const double y2 = position[1] * position[1];
@@ -304,18 +304,18 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
                           own * ((position[0] - old_x) * (position[0] - old_x) + y2);
   const double moved_yaw = rest_yaw + (old_x - x) * (2.0 * rest_x - rest * (old_x + x));
   const double new_yaw =
-      value(Mass::kYawInertia) - moved_yaw - new_own * ((new_x - x) * (new_x - x) + y2);
+      value(Mass::kYawInertia) - moved_yaw - new_chassis_mass * ((new_x - x) * (new_x - x) + y2);
   if (!(new_yaw > 0.0)) {
     Fail(car, "yaw_inertia",
          fmt::format("{} kg m^2 is less than what wheels, knuckles and the place of the chassis "
                      "have, {:.4g} kg m^2",
                      value(Mass::kYawInertia), value(Mass::kYawInertia) - new_yaw));
   }
-  inertial->SetAttribute("mass", new_own);
+  inertial->SetAttribute("mass", new_chassis_mass);
   inertial->SetAttribute("pos", Numbers({new_x, position[1], new_z}).c_str());
   // Roll and pitch inertia scale with the mass of the chassis. No principal moment of a body may
   // exceed the sum of the two others, so both are raised if needed.
-  const double heavier = new_own / own;
+  const double heavier = new_chassis_mass / own;
   double roll = inertia[0] * heavier;
   double pitch = inertia[1] * heavier;
   const double lacking = std::max(0.0, new_yaw - (roll + pitch));

@@ -174,11 +174,11 @@ class CarReader final : private PartsReader {
                            angle[0], angle[1], angle[1], angle[1] * std::numbers::pi / 180.0));
       return;
     }
-    CheckRoom(rack_, "rack", angle[0], angle[1]);
+    CheckJointRange(rack_, "rack", angle[0], angle[1]);
     const FrontAngles left = AckermannAngles(params_, angle[1]);
     const FrontAngles right = AckermannAngles(params_, angle[0]);
-    CheckRoom(steer_[0], "steer_fl", right.left, left.left);
-    CheckRoom(steer_[1], "steer_fr", right.right, left.right);
+    CheckJointRange(steer_[0], "steer_fl", right.left, left.left);
+    CheckJointRange(steer_[1], "steer_fr", right.right, left.right);
     for (std::size_t w = 0; w < steer_.size(); ++w) {
       const mjtNum* axis_W = data_->xaxis + 3 * steer_[w];
       if (!(axis_W[2] > kUpright)) {
@@ -197,7 +197,7 @@ class CarReader final : private PartsReader {
   }
 
   /// Rejects a joint range that is narrower than the steering: it is usually given in other units.
-  void CheckRoom(int joint, const char* name, double lowest, double highest) {
+  void CheckJointRange(int joint, const char* name, double lowest, double highest) {
     const mjtNum* range = m_.jnt_range + 2 * joint;
     if (!m_.jnt_limited[joint]) {
       return;

@@ -10,7 +10,8 @@
 // The MuJoCo plant of a car with steered front wheels. A step:
 //   1. Act: the steering servo turns at a limited rate, or the angle is prescribed; motor or brakes
 //      give the wanted acceleration plus the driving resistance.
-//   2. PushWheels: Magic Formula tyres (magic_formula_tyres.h) and dry friction act on the wheels.
+//   2. ApplyWheelForces: Magic Formula tyres (magic_formula_tyres.h) and dry friction act on the
+//   wheels.
 //   3. Finish: the front wheels follow the rack, or the prescribed angle, at Ackermann angles. This
 //      replaces the model's polynomial coupling.
 namespace trackbed {
@@ -66,7 +67,7 @@ class CarPlant final : public MujocoPlant {
     Propel(command);
   }
 
-  void PushWheels(const Road& road) override {
+  void ApplyWheelForces(const Road& road) override {
     if (tyres_) {
       tyres_->Apply(model(), data(), road);
       HoldWheels();
@@ -125,7 +126,8 @@ void CarPlant::Steer(double wanted) {
 
 /// Disables the model's coupling of the front wheels to the rack. Its polynomial is an
 /// approximation, whose error would make the front tyres push against each other. FollowRack sets
-/// Ackermann angles instead. Returns false if the model couples the wheels in another way.
+/// Ackermann angles instead. Returns false if the model does not couple both front wheels to the
+/// rack by joint equalities.
 bool CarPlant::ReleaseLinkage() {
   const CarParts& parts = car().parts();
   const auto follows_rack = [&](int joint_dof) {
@@ -186,9 +188,9 @@ void CarPlant::Propel(const Command& command) {
   const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
   const double resistance = Resistance(command.gear);
   // The brakes hold a car at rest until it is commanded to move and its motor can climb the slope.
-  const bool drives_on = along_gear > 0.0 && DriveLimit() > resistance;
+  const bool overcomes_resistance = along_gear > 0.0 && DriveLimit() > resistance;
   const bool stands = Speed() * command.gear < kAtRestSpeed;
-  hold_ = !drives_on && (hold_ || stands);
+  hold_ = !overcomes_resistance && (hold_ || stands);
   if (command.coast && !hold_) {
     data().ctrl[parts.drive_actuator] = 0.0;
     Brake(0.0, false);

@@ -28,7 +28,7 @@ constexpr std::size_t kGigabyte = std::size_t{1} << 30;
 constexpr std::size_t kMemory = 2 * kGigabyte;  // [bytes]
 constexpr int kSeconds = 60;                    // [s] of processor time
 /// Largest size of a compiled model.
-constexpr std::int64_t kMostBytes = kGigabyte;
+constexpr std::int64_t kMaxBytes = kGigabyte;
 
 struct VfsDeleter {
   void operator()(mjVFS* vfs) const {
@@ -54,7 +54,7 @@ struct Compiled {
   std::string error;
 };
 
-Compiled CompileHere(const std::string& xml, const std::vector<SceneAsset>& assets) {
+Compiled CompileInProcess(const std::string& xml, const std::vector<SceneAsset>& assets) {
   const ClassicLocale locale;  // MuJoCo reads numbers through the global one
   const Vfs vfs = MakeVfs();
   Add(*vfs, "model.xml", xml);
@@ -75,7 +75,7 @@ Compiled CompileHere(const std::string& xml, const std::vector<SceneAsset>& asse
   return compiled;
 }
 
-std::string TooLarge() {
+std::string SizeLimitMessage() {
   return fmt::format("takes more than {} MB of memory", kMemory >> 20);
 }
 
@@ -85,14 +85,14 @@ constexpr char kErrorFollows = 'E';
 
 /// Runs in the other process. Also tries the calls in which MuJoCo would crash on an invalid model.
 std::string CompileAndTry(const std::string& xml, const std::vector<SceneAsset>& assets) try {
-  const Compiled compiled = CompileHere(xml, assets);
+  const Compiled compiled = CompileInProcess(xml, assets);
   const auto fail = [](const std::string& text) { return kErrorFollows + text; };
   if (compiled.model == nullptr) {
     return fail(compiled.error);
   }
   const std::int64_t size = mj::SizeOf(*compiled.model);
-  if (size < 0 || size > kMostBytes) {
-    return fail(fmt::format("the compiled model takes more than {} MB", kMostBytes >> 20));
+  if (size < 0 || size > kMaxBytes) {
+    return fail(fmt::format("the compiled model takes more than {} MB", kMaxBytes >> 20));
   }
   const MujocoData data = MakeMujocoData(*compiled.model);
   mj_forward(compiled.model.get(), data.get());
@@ -100,12 +100,12 @@ std::string CompileAndTry(const std::string& xml, const std::vector<SceneAsset>&
   mj_saveModel(compiled.model.get(), nullptr, result.data() + 1, static_cast<int>(size));
   return result;
 } catch (const std::bad_alloc&) {
-  return kErrorFollows + TooLarge();
+  return kErrorFollows + SizeLimitMessage();
 } catch (const std::exception& error) {
   return kErrorFollows + std::string(error.what());
 }
 
-Compiled CompileApart(const std::string& xml, const std::vector<SceneAsset>& assets) {
+Compiled CompileInSubProcess(const std::string& xml, const std::vector<SceneAsset>& assets) {
   const SubProcessOutcome outcome =
       InSubProcess([&] { return CompileAndTry(xml, assets); }, kMemory, kSeconds);
   if (!outcome.finished) {
@@ -115,7 +115,7 @@ Compiled CompileApart(const std::string& xml, const std::vector<SceneAsset>& ass
   if (outcome.result.front() == kErrorFollows) {
     // MuJoCo's text for missing memory depends on the version.
     static const std::regex no_memory("[Cc]ould not (allocate memory|create mjData)");
-    return {nullptr, std::regex_search(content, no_memory) ? TooLarge() : content};
+    return {nullptr, std::regex_search(content, no_memory) ? SizeLimitMessage() : content};
   }
   const Vfs vfs = MakeVfs();
   Add(*vfs, "model.mjb", content);
@@ -131,7 +131,7 @@ struct CompileError {
 
 /// After its message, MuJoCo names the element: "Element 'joint', line 46", or "Object name = rack,
 /// id = 1, line = 63, column = -1", since 3.1 "Element name 'rack', id 1, line 63".
-CompileError Understand(const std::string& message) {
+CompileError ParseMujocoError(const std::string& message) {
   static const std::regex kind("^(XML )?Error: (Error: )?(Schema violation: )?");
   static const std::regex place(
       R"re(\s+(Element '([^']*)'|(Element name '|Object name = )(.*?)'?, id )[^\n]*line (= )?(-?\d+))re");
@@ -157,9 +157,9 @@ MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks look
   const std::lock_guard lock(compiling);
   const MujocoErrorScope errors;
   Compiled compiled =
-      scene.trusted ? CompileHere(xml, scene.assets) : CompileApart(xml, scene.assets);
+      scene.trusted ? CompileInProcess(xml, scene.assets) : CompileInSubProcess(xml, scene.assets);
   if (compiled.model == nullptr) {
-    const CompileError error = Understand(compiled.error);
+    const CompileError error = ParseMujocoError(compiled.error);
     throw InputError(Problem{.file = name,
                              .line = LineInCarFile(scene, error.line),
                              .message = "does not compile: " + error.text});

@@ -59,10 +59,10 @@ class ExactPlant final : public Plant {
 
   /// An unstable car spins ever faster. The limit is the one that MuJoCo uses.
   [[nodiscard]] bool diverged() const override {
-    constexpr double kLargest = 1e10;
+    constexpr double kMaxCoordinate = 1e10;
     const Pose2& pose = car_.state().pose;
-    return !(std::abs(pose.x) < kLargest && std::abs(pose.y) < kLargest &&
-             std::abs(pose.yaw) < kLargest);
+    return !(std::abs(pose.x) < kMaxCoordinate && std::abs(pose.y) < kMaxCoordinate &&
+             std::abs(pose.yaw) < kMaxCoordinate);
   }
 
   [[nodiscard]] std::string divergence() const override {

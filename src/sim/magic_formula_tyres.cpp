@@ -18,7 +18,7 @@ namespace {
 constexpr double kWalkingPace = 1.5;
 /// Speed from which rolling resistance acts fully [m/s]. At a smaller one it would be dry friction,
 /// which needs the constraint solver.
-constexpr double kRolls = 0.2;
+constexpr double kRollingSpeed = 0.2;
 
 std::size_t AxleIndex(std::size_t wheel) {
   return wheel < 2 ? 0 : 1;
@@ -28,22 +28,22 @@ std::size_t AxleIndex(std::size_t wheel) {
 class Relaxation {
  public:
   Relaxation(double speed, double sigma, double timestep)
-      : speed_(speed), sigma_(sigma), lost_(-std::expm1(-speed * timestep / sigma)) {
+      : speed_(speed), sigma_(sigma), decay_(-std::expm1(-speed * timestep / sigma)) {
     const double x = speed * timestep / sigma;
-    gain_ = timestep / sigma * (x > 1e-9 ? lost_ / x : 1.0);
+    gain_ = timestep / sigma * (x > 1e-9 ? decay_ / x : 1.0);
   }
 
   /// Advances `s` by a timestep. Returns s + tau s'.
   [[nodiscard]] double Step(double& s, double slip_speed, double tau) const {
-    s += gain_ * slip_speed - lost_ * s;
+    s += gain_ * slip_speed - decay_ * s;
     return s + tau / sigma_ * (slip_speed - speed_ * s);
   }
 
  private:
   double speed_;
   double sigma_;
-  double lost_;  // decay of the slip in a step
-  double gain_;  // of slip per slip speed [s/m]
+  double decay_;  // decay of the slip in a step
+  double gain_;   // of slip per slip speed [s/m]
 };
 
 /// tau that damps an oscillation of angular frequency `omega` critically. In steps of W = omega dt,
@@ -210,7 +210,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     state.lateral_force = side * force.lateral;
 
     const double rolling = tyre.rolling_resistance * load * radius *
-                           std::clamp(contact.spin * radius / kRolls, -1.0, 1.0);
+                           std::clamp(contact.spin * radius / kRollingSpeed, -1.0, 1.0);
     const Eigen::Vector3d push = load * contact.up + state.longitudinal_force * contact.forward +
                                  state.lateral_force * contact.left;
     // The moment corresponds to an arm R about the spin axis at any hub height: with another arm,

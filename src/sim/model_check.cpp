@@ -22,7 +22,7 @@ namespace trackbed {
 namespace {
 
 /// The largest magnitude that MuJoCo accepts in a simulation.
-constexpr double kLargest = 1e10;
+constexpr double kMaxMagnitude = 1e10;
 
 /// Largest magnitude of the numbers of that name, well beyond any vehicle.
 struct Bound {
@@ -49,109 +49,109 @@ constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
                                    Bound{"rolling_resistance", 1.0},
                                    Bound{"camber_gain_front", 1e1},
                                    Bound{"camber_gain_rear", 1e1}};
-constexpr double kLargestCoefficient = 1e3;  // of a tyre's Magic Formula: "p_cx1"
+constexpr double kMaxCoefficient = 1e3;  // of a tyre's Magic Formula: "p_cx1"
 
 /// Bounds of the compiled model's arrays that hold numbers of the file, SI units. MuJoCo derives
 /// the other arrays from these, or only draws them. Arrays that a version of MuJoCo lacks are
 /// skipped.
 constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
-                                  Bound{"qpos_spring", kLargest},
+                                  Bound{"qpos_spring", kMaxMagnitude},
                                   Bound{"body_pos", 1e5},
-                                  Bound{"body_quat", kLargest},
+                                  Bound{"body_quat", kMaxMagnitude},
                                   Bound{"body_ipos", 1e5},
-                                  Bound{"body_iquat", kLargest},
+                                  Bound{"body_iquat", kMaxMagnitude},
                                   Bound{"body_mass", 1e6},
                                   Bound{"body_inertia", 1e9},
-                                  Bound{"body_gravcomp", kLargest},
-                                  Bound{"body_user", kLargest},
-                                  Bound{"jnt_solref", kLargest},
-                                  Bound{"jnt_solimp", kLargest},
+                                  Bound{"body_gravcomp", kMaxMagnitude},
+                                  Bound{"body_user", kMaxMagnitude},
+                                  Bound{"jnt_solref", kMaxMagnitude},
+                                  Bound{"jnt_solimp", kMaxMagnitude},
                                   Bound{"jnt_pos", 1e5},
-                                  Bound{"jnt_axis", kLargest},
+                                  Bound{"jnt_axis", kMaxMagnitude},
                                   Bound{"jnt_stiffness", 1e9},
                                   Bound{"jnt_stiffnesspoly", 1e12},
-                                  Bound{"jnt_springyield", kLargest},
-                                  Bound{"jnt_range", kLargest},
-                                  Bound{"jnt_actfrcrange", kLargest},
-                                  Bound{"jnt_margin", kLargest},
-                                  Bound{"jnt_user", kLargest},
-                                  Bound{"dof_solref", kLargest},
-                                  Bound{"dof_solimp", kLargest},
+                                  Bound{"jnt_springyield", kMaxMagnitude},
+                                  Bound{"jnt_range", kMaxMagnitude},
+                                  Bound{"jnt_actfrcrange", kMaxMagnitude},
+                                  Bound{"jnt_margin", kMaxMagnitude},
+                                  Bound{"jnt_user", kMaxMagnitude},
+                                  Bound{"dof_solref", kMaxMagnitude},
+                                  Bound{"dof_solimp", kMaxMagnitude},
                                   Bound{"dof_frictionloss", 1e6},
                                   Bound{"dof_armature", 1e6},
                                   Bound{"dof_damping", 1e7},
-                                  Bound{"dof_dampingpoly", kLargest},
-                                  Bound{"geom_solmix", kLargest},
-                                  Bound{"geom_solref", kLargest},
-                                  Bound{"geom_solimp", kLargest},
+                                  Bound{"dof_dampingpoly", kMaxMagnitude},
+                                  Bound{"geom_solmix", kMaxMagnitude},
+                                  Bound{"geom_solref", kMaxMagnitude},
+                                  Bound{"geom_solimp", kMaxMagnitude},
                                   Bound{"geom_size", 1e5},
                                   Bound{"geom_pos", 1e5},
-                                  Bound{"geom_quat", kLargest},
+                                  Bound{"geom_quat", kMaxMagnitude},
                                   Bound{"geom_friction", 1e2},
-                                  Bound{"geom_margin", kLargest},
-                                  Bound{"geom_gap", kLargest},
-                                  Bound{"geom_surfacevel", kLargest},
-                                  Bound{"geom_adhesion", kLargest},
-                                  Bound{"geom_user", kLargest},
+                                  Bound{"geom_margin", kMaxMagnitude},
+                                  Bound{"geom_gap", kMaxMagnitude},
+                                  Bound{"geom_surfacevel", kMaxMagnitude},
+                                  Bound{"geom_adhesion", kMaxMagnitude},
+                                  Bound{"geom_user", kMaxMagnitude},
                                   Bound{"site_size", 1e5},
                                   Bound{"site_pos", 1e5},
-                                  Bound{"site_quat", kLargest},
-                                  Bound{"site_user", kLargest},
-                                  Bound{"cam_pos", kLargest},
-                                  Bound{"cam_quat", kLargest},
-                                  Bound{"light_pos", kLargest},
-                                  Bound{"light_dir", kLargest},
-                                  Bound{"hfield_size", kLargest},
-                                  Bound{"pair_solref", kLargest},
-                                  Bound{"pair_solreffriction", kLargest},
-                                  Bound{"pair_solimp", kLargest},
-                                  Bound{"pair_margin", kLargest},
-                                  Bound{"pair_gap", kLargest},
-                                  Bound{"pair_friction", kLargest},
-                                  Bound{"eq_solref", kLargest},
-                                  Bound{"eq_solimp", kLargest},
-                                  Bound{"eq_data", kLargest},
-                                  Bound{"tendon_width", kLargest},
-                                  Bound{"tendon_solref_lim", kLargest},
-                                  Bound{"tendon_solimp_lim", kLargest},
-                                  Bound{"tendon_solref_fri", kLargest},
-                                  Bound{"tendon_solimp_fri", kLargest},
-                                  Bound{"tendon_range", kLargest},
-                                  Bound{"tendon_actfrcrange", kLargest},
-                                  Bound{"tendon_margin", kLargest},
+                                  Bound{"site_quat", kMaxMagnitude},
+                                  Bound{"site_user", kMaxMagnitude},
+                                  Bound{"cam_pos", kMaxMagnitude},
+                                  Bound{"cam_quat", kMaxMagnitude},
+                                  Bound{"light_pos", kMaxMagnitude},
+                                  Bound{"light_dir", kMaxMagnitude},
+                                  Bound{"hfield_size", kMaxMagnitude},
+                                  Bound{"pair_solref", kMaxMagnitude},
+                                  Bound{"pair_solreffriction", kMaxMagnitude},
+                                  Bound{"pair_solimp", kMaxMagnitude},
+                                  Bound{"pair_margin", kMaxMagnitude},
+                                  Bound{"pair_gap", kMaxMagnitude},
+                                  Bound{"pair_friction", kMaxMagnitude},
+                                  Bound{"eq_solref", kMaxMagnitude},
+                                  Bound{"eq_solimp", kMaxMagnitude},
+                                  Bound{"eq_data", kMaxMagnitude},
+                                  Bound{"tendon_width", kMaxMagnitude},
+                                  Bound{"tendon_solref_lim", kMaxMagnitude},
+                                  Bound{"tendon_solimp_lim", kMaxMagnitude},
+                                  Bound{"tendon_solref_fri", kMaxMagnitude},
+                                  Bound{"tendon_solimp_fri", kMaxMagnitude},
+                                  Bound{"tendon_range", kMaxMagnitude},
+                                  Bound{"tendon_actfrcrange", kMaxMagnitude},
+                                  Bound{"tendon_margin", kMaxMagnitude},
                                   Bound{"tendon_stiffness", 1e9},
                                   Bound{"tendon_stiffnesspoly", 1e12},
                                   Bound{"tendon_damping", 1e7},
-                                  Bound{"tendon_dampingpoly", kLargest},
+                                  Bound{"tendon_dampingpoly", kMaxMagnitude},
                                   Bound{"tendon_armature", 1e6},
-                                  Bound{"tendon_frictionloss", kLargest},
-                                  Bound{"tendon_lengthspring", kLargest},
-                                  Bound{"tendon_springyield", kLargest},
-                                  Bound{"tendon_user", kLargest},
-                                  Bound{"wrap_prm", kLargest},
-                                  Bound{"actuator_cranklength", kLargest},
-                                  Bound{"actuator_dynprm", kLargest},
-                                  Bound{"actuator_gainprm", kLargest},
-                                  Bound{"actuator_biasprm", kLargest},
-                                  Bound{"actuator_actrange", kLargest},
-                                  Bound{"actuator_delay", kLargest},
+                                  Bound{"tendon_frictionloss", kMaxMagnitude},
+                                  Bound{"tendon_lengthspring", kMaxMagnitude},
+                                  Bound{"tendon_springyield", kMaxMagnitude},
+                                  Bound{"tendon_user", kMaxMagnitude},
+                                  Bound{"wrap_prm", kMaxMagnitude},
+                                  Bound{"actuator_cranklength", kMaxMagnitude},
+                                  Bound{"actuator_dynprm", kMaxMagnitude},
+                                  Bound{"actuator_gainprm", kMaxMagnitude},
+                                  Bound{"actuator_biasprm", kMaxMagnitude},
+                                  Bound{"actuator_actrange", kMaxMagnitude},
+                                  Bound{"actuator_delay", kMaxMagnitude},
                                   Bound{"actuator_damping", 1e7},
-                                  Bound{"actuator_dampingpoly", kLargest},
+                                  Bound{"actuator_dampingpoly", kMaxMagnitude},
                                   Bound{"actuator_armature", 1e6},
-                                  Bound{"actuator_user", kLargest},
-                                  Bound{"actuator_forcerange", kLargest},
+                                  Bound{"actuator_user", kMaxMagnitude},
+                                  Bound{"actuator_forcerange", kMaxMagnitude},
                                   Bound{"actuator_ctrlrange", 1e7},
-                                  Bound{"actuator_gear", kLargest},
-                                  Bound{"actuator_lengthrange", kLargest},
-                                  Bound{"key_time", kLargest},
+                                  Bound{"actuator_gear", kMaxMagnitude},
+                                  Bound{"actuator_lengthrange", kMaxMagnitude},
+                                  Bound{"key_time", kMaxMagnitude},
                                   Bound{"key_qpos", 1e6},
-                                  Bound{"key_qvel", kLargest},
-                                  Bound{"key_act", kLargest},
-                                  Bound{"key_mpos", kLargest},
-                                  Bound{"key_mquat", kLargest},
-                                  Bound{"key_ctrl", kLargest}};
+                                  Bound{"key_qvel", kMaxMagnitude},
+                                  Bound{"key_act", kMaxMagnitude},
+                                  Bound{"key_mpos", kMaxMagnitude},
+                                  Bound{"key_mquat", kMaxMagnitude},
+                                  Bound{"key_ctrl", kMaxMagnitude}};
 /// Arrays that must not be negative: negative numbers would add energy.
-constexpr std::array<std::string_view, 9> kNotNegative{
+constexpr std::array<std::string_view, 9> kNonNegative{
     "jnt_stiffness",  "dof_damping",     "dof_armature",     "dof_frictionloss", "tendon_stiffness",
     "tendon_damping", "tendon_armature", "actuator_damping", "actuator_armature"};
 
@@ -180,8 +180,8 @@ class ModelChecker {
  private:
   /// Keeps the first problems only: an invalid number is often repeated in many rows.
   static std::vector<Problem> FirstOf(std::vector<Problem> problems) {
-    constexpr std::size_t kMost = 20;
-    problems.resize(std::min(problems.size(), kMost));
+    constexpr std::size_t kMaxProblems = 20;
+    problems.resize(std::min(problems.size(), kMaxProblems));
     return problems;
   }
 
@@ -227,14 +227,14 @@ class ModelChecker {
       return;
     }
     const double largest = bound->largest;
-    const bool not_negative =
-        std::find(kNotNegative.begin(), kNotNegative.end(), array) != kNotNegative.end();
+    const bool non_negative =
+        std::find(kNonNegative.begin(), kNonNegative.end(), array) != kNonNegative.end();
     for (int i = 0; i < row_count * columns; ++i) {
       const double number = numbers[i];
-      if (!(std::abs(number) <= largest) || (not_negative && number < 0.0)) {
+      if (!(std::abs(number) <= largest) || (non_negative && number < 0.0)) {
         AddError(Owner(rows, i / columns),
                  fmt::format("{} is {:g}; must be {}", array, number,
-                             not_negative ? fmt::format("from 0 to {:g}", largest)
+                             non_negative ? fmt::format("from 0 to {:g}", largest)
                                           : fmt::format("within {:g} of 0", largest)));
       }
     }
@@ -264,8 +264,8 @@ class ModelChecker {
                                   std::string_view("pqrstl").find(name[0]) != std::string::npos;
       const Bound* bound = FindBound(name, kCustomBounds);
       const double largest = bound != nullptr ? bound->largest
-                             : is_coefficient ? kLargestCoefficient
-                                              : kLargest;
+                             : is_coefficient ? kMaxCoefficient
+                                              : kMaxMagnitude;
       for (int i = 0; i < m_.numeric_size[id]; ++i) {
         const double number = m_.numeric_data[m_.numeric_adr[id] + i];
         if (!(std::abs(number) <= largest)) {

@@ -16,8 +16,8 @@
 // Simulates a vehicle with MuJoCo. A step: the derived class sets actuators and brakes (Act), the
 // planes under the tyres follow the ground, moving obstacles get their planned state, the tyre
 // contacts their road friction; mj_step1; then air, lateral push and wheels apply their forces
-// (PushWheels); mj_step2; the derived class ends the step (Finish). mj_step1 computes the positions
-// and velocities on which these forces depend.
+// (ApplyWheelForces); mj_step2; the derived class ends the step (Finish). mj_step1 computes the
+// positions and velocities on which these forces depend.
 namespace trackbed {
 namespace {
 
@@ -29,7 +29,7 @@ Vector3d Vec(const mjtNum* numbers) {
 }
 
 /// Whether any two geoms of bodies that move relative to each other may touch.
-bool AnythingCollides(const mjModel& model) {
+bool HasCollidableGeoms(const mjModel& model) {
   const auto may_touch = [&](int a, int b) {
     return model.body_weldid[model.geom_bodyid[a]] != model.body_weldid[model.geom_bodyid[b]] &&
            ((model.geom_contype[a] & model.geom_conaffinity[b]) != 0 ||
@@ -102,7 +102,7 @@ void MujocoPlant::RollWheels(std::span<const int> spin_dof, const StartState& st
 
 void MujocoPlant::Begin() {
   const MujocoErrorScope errors;
-  if (!AnythingCollides(*model_)) {
+  if (!HasCollidableGeoms(*model_)) {
     model_->opt.disableflags |= mjDSBL_CONTACT;  // the search for contacts takes 11 % of a step
   }
   ground_.Place(*model_, *data_);
@@ -118,12 +118,12 @@ void MujocoPlant::Step(const Command& command) {
   Act(command);
   ground_.Place(*model_, *data_);
   MoveObstacles();
-  const Road road = LayRoad();
+  const Road road = UpdateRoadFriction();
   mj_step1(model_.get(), data_.get());
   std::fill_n(data_->qfrc_applied, model_->nv, 0.0);
-  PushByAir();
-  PushAside();
-  PushWheels(road);
+  ApplyAirForce();
+  ApplyPendingLateralForce();
+  ApplyWheelForces(road);
   mj_step2(model_.get(), data_.get());
   Finish(command);
   const double yaw = Yaw();
@@ -204,7 +204,7 @@ double MujocoPlant::Drag() const {
 }
 
 /// The road's friction factor under each wheel. Also sets the friction of the tyres' contacts.
-MujocoPlant::Road MujocoPlant::LayRoad() {
+MujocoPlant::Road MujocoPlant::UpdateRoadFriction() {
   const std::span<const int> wheels = car_.wheels();
   Road road{};
   for (std::size_t w = 0; w < wheels.size(); ++w) {
@@ -224,7 +224,7 @@ Vector3d MujocoPlant::AirSpeed() const {
   return Vector3d(wind.x(), wind.y(), 0.0) - Vec(ChassisVelocity());
 }
 
-void MujocoPlant::PushByAir() {
+void MujocoPlant::ApplyAirForce() {
   const CarAerodynamics& car = car_.chassis().aerodynamics;
   const Matrix3d R_WV = ChassisRotation();
   const Vector3d air_V = R_WV.transpose() * AirSpeed();
@@ -238,7 +238,7 @@ void MujocoPlant::PushByAir() {
 
 void MujocoPlant::ApplyLateralForce(double force) {
   TRACKBED_REQUIRE(std::isfinite(force), "ApplyLateralForce: {} N; must be finite", force);
-  push_ = force;
+  pending_lateral_force_ = force;
 }
 
 void MujocoPlant::ApplyLateralOffset(double left) {
@@ -251,15 +251,15 @@ void MujocoPlant::ApplyLateralOffset(double left) {
   at[2] += GroundHeight(world_, to) - GroundHeight(world_, from);
 }
 
-void MujocoPlant::PushAside() {
-  if (push_ == 0.0) {
+void MujocoPlant::ApplyPendingLateralForce() {
+  if (pending_lateral_force_ == 0.0) {
     return;
   }
-  const Vec2 force = push_ * LeftNormal(Ahead());
+  const Vec2 force = pending_lateral_force_ * LeftNormal(Ahead());
   const Vector3d force_W(force.x(), force.y(), 0.0);
   const int chassis = car_.chassis().chassis;
   AddForce(*model_, *data_, chassis, Vec(data_->subtree_com + 3 * chassis), force_W);
-  push_ = 0.0;
+  pending_lateral_force_ = 0.0;
 }
 
 VehicleState MujocoPlant::Observe() const {

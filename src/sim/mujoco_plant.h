@@ -53,7 +53,7 @@ class MujocoPlant : public Plant {
   /// Called before a step: sets actuators and brakes.
   virtual void Act(const Command& command) = 0;
   /// Called between mj_step1 and mj_step2: adds wheel forces to qfrc_applied.
-  virtual void PushWheels(const Road& /*road*/) {}
+  virtual void ApplyWheelForces(const Road& /*road*/) {}
   /// Called after a step.
   virtual void Finish(const Command& /*command*/) {}
   [[nodiscard]] virtual Wheels ObserveWheels() const = 0;
@@ -82,10 +82,10 @@ class MujocoPlant : public Plant {
   [[nodiscard]] Eigen::Matrix3d ChassisRotation() const;
   [[nodiscard]] double Yaw() const;
   [[nodiscard]] Vec2 Ahead() const;
-  [[nodiscard]] Road LayRoad();
+  [[nodiscard]] Road UpdateRoadFriction();
   [[nodiscard]] Eigen::Vector3d AirSpeed() const;
-  void PushByAir();
-  void PushAside();
+  void ApplyAirForce();
+  void ApplyPendingLateralForce();
 
   const CarModel& car_;
   const World& world_;
@@ -98,7 +98,7 @@ class MujocoPlant : public Plant {
   std::array<double, 4> tyre_friction_{};  // of the contacts, for a road factor of 1
   double yaw_ = 0.0;                       // unwrapped [rad]
   double distance_ = 0.0;                  // [m]
-  double push_ = 0.0;                      // to the left, for the coming step [N]
+  double pending_lateral_force_ = 0.0;     // to the left, for the coming step [N]
 };
 
 /// The MuJoCo plant of a car with steered front wheels, and of a vehicle with differential drive.

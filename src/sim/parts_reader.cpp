@@ -31,10 +31,7 @@ void PartsReader::ThrowIfAnything() const {
 
 int PartsReader::Find(int type, const char* kind, const std::string& name) {
   const int id = mj_name2id(&m_, type, name.c_str());
-  const char* before = "outline";  // former name of the site
-  if (id < 0 && name == "footprint" && mj_name2id(&m_, type, before) >= 0) {
-    AddError(before, fmt::format("this {} is now called '{}'", kind, name));
-  } else if (id < 0) {
+  if (id < 0) {
     AddError(name, fmt::format("the model has no {} of this name", kind));
   }
   return id;
@@ -98,9 +95,6 @@ void PartsReader::ReadAerodynamics() {
   numerics_.Read("drag_area", air.drag_area);
   numerics_.Read("side_area", air.side_area);
   air.center_of_pressure = {params_.cg_to_rear, chassis_.cg_height};
-  if (const char* before = "centre_of_pressure"; numerics_.Has(before)) {  // former name
-    AddError(before, "it is now called 'center_of_pressure'");
-  }
   if (const mjtNum* at = numerics_.Find("center_of_pressure", 2)) {
     air.center_of_pressure = {at[0], at[1]};
   }

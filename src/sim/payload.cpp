@@ -37,14 +37,14 @@ class Settling {
   /// Simulates until the car is at rest. False if that takes more than 30 s.
   bool Run() {
     const MujocoErrorScope errors;
-    constexpr double kLongest = 30.0;  // [s]
+    constexpr double kMaxSettlingTime = 30.0;  // [s]
     // With springs of 1 Hz and more, a car this slow is less than a micrometer from its
     // equilibrium.
-    constexpr double kStands = 1e-6;  // [m/s], [rad/s]
-    constexpr double kLookEvery = 0.5;
+    constexpr double kRestSpeed = 1e-6;  // [m/s], [rad/s]
+    constexpr double kCheckInterval = 0.5;
     // Checks the largest speed of an interval, since the car is also slow at its turning points.
     double fastest = 0.0;
-    for (double next = kLookEvery; data_->time < kLongest;) {
+    for (double next = kCheckInterval; data_->time < kMaxSettlingTime;) {
       mj_step(model_.get(), data_.get());
       if (std::any_of(std::begin(data_->warning), std::end(data_->warning),
                       [](const mjWarningStat& warning) { return warning.number > 0; })) {
@@ -54,11 +54,11 @@ class Settling {
         fastest = std::max(fastest, std::abs(data_->qvel[dof]));
       }
       if (data_->time > next) {
-        if (fastest < kStands) {
+        if (fastest < kRestSpeed) {
           return true;
         }
         fastest = 0.0;
-        next += kLookEvery;
+        next += kCheckInterval;
       }
     }
     return false;

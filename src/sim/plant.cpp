@@ -1,6 +1,5 @@
 #include "trackbed/sim/plant.h"
 
-#include <algorithm>
 #include <cmath>
 #include <string_view>
 #include <utility>
@@ -78,12 +77,6 @@ std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setu
 
 std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference) {
   return WithSteeringResponse(MakeIdealKinematicPlant(setup, reference), setup);
-}
-
-std::string PlantFileName(const std::string& name) {
-  std::string file = name;
-  std::replace(file.begin(), file.end(), ':', '-');
-  return file;
 }
 
 }  // namespace trackbed

@@ -18,9 +18,9 @@ using Eigen::Vector3d;
 
 /// A smaller gap counts as contact [m]. Over a crest, contacts open by a micrometer. MuJoCo would
 /// then drop the contact, and the spring would hammer the tyre back onto the ground.
-constexpr double kTouching = 5e-4;
+constexpr double kContactGap = 5e-4;
 /// Distance set for such a gap [m]: a contact with no depth except for rounding.
-constexpr double kTouch = -1e-9;
+constexpr double kContactDistance = -1e-9;
 
 bool IsRoad(const mjModel& model, int geom) {
   const char* name = mj_id2name(&model, mjOBJ_GEOM, geom);
@@ -30,7 +30,7 @@ bool IsRoad(const mjModel& model, int geom) {
 
 /// Bit of contype and conaffinity for everything that tyres touch besides their planes. Models of
 /// cars do not use it.
-constexpr int kOthersBit = 1 << 28;
+constexpr int kOtherGeomsBit = 1 << 28;
 
 }  // namespace
 
@@ -58,10 +58,10 @@ RoadContact::RoadContact(const CarModel& car, TyreSupport support, mjModel& mode
       if (!is_tyre && !IsRoad(model, geom) &&
           ((contype & model.geom_conaffinity[geom]) != 0 ||
            (model.geom_contype[geom] & conaffinity) != 0)) {
-        model.geom_conaffinity[geom] |= kOthersBit;
+        model.geom_conaffinity[geom] |= kOtherGeomsBit;
       }
     }
-    contype = has_planes_ ? kOthersBit | WheelPlaneBit(w) : kOthersBit;
+    contype = has_planes_ ? kOtherGeomsBit | WheelPlaneBit(w) : kOtherGeomsBit;
     conaffinity = 0;
   }
 }
@@ -87,11 +87,11 @@ void RoadContact::Place(mjModel& model, mjData& data) const {
     const double gap = shape_[w].On(ground, center_W, R_WT).gap;
     // The plane has the slope of the ground half way through the step, so that a tyre moving along
     // it ends on the ground to second order. Its distance is that of the present ground.
-    const Vector3d half_way =
+    const Vector3d half_step_motion =
         0.5 * model.opt.timestep * (Vector3d(velocity) + w_W.cross(center_W - origin_W));
-    const TyreTouch ahead = shape_[w].On(ground, center_W + half_way, R_WT);
-    const double distance = gap > 0.0 && gap < kTouching ? kTouch : gap;
-    const Vector3d position = ahead.lowest_W - half_way - distance * ahead.normal_W;
+    const TyreTouch ahead = shape_[w].On(ground, center_W + half_step_motion, R_WT);
+    const double distance = gap > 0.0 && gap < kContactGap ? kContactDistance : gap;
+    const Vector3d position = ahead.lowest_W - half_step_motion - distance * ahead.normal_W;
     const Vec2 slope = -ahead.normal_W.head<2>() / ahead.normal_W.z();
     const Eigen::Quaterniond turn = Upright(slope, 0.0);
     mjtNum* place = model.geom_pos + 3 * plane_[w];

@@ -14,12 +14,19 @@
 #include "src/sim/scene_xml.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/file_name.h"
 #include "trackbed/core/hash.h"
 #include "trackbed/core/spelling.h"
 
+// Composes the MJCF text of a car from its file:
+//   1. Resolve <include>, only of files below the car's folder and SceneOptions::asset_folders.
+//   2. Check elements and assets, which may be untrusted; collect the assets under plain names.
+//   3. Set the steering rate, the compiler's defaults and the timestep.
+//   4. Keep the line of each element, so that MuJoCo's errors can name the line in the car's file.
+// A scene is trusted if it consists of files shipped with Trackbed, compared by their SHA-256.
 namespace trackbed {
 
-/// The folder of models/ and scenarios/, when it is not beside the program (cmake/Data.cmake).
+/// The folder of models/ and scenarios/ if it is not next to the program (cmake/Data.cmake).
 const char* PlaceOfData();
 
 namespace {
@@ -32,7 +39,7 @@ using tinyxml2::XMLElement;
   throw InputError(Problem{file.string(), line, 0, "", std::move(message)});
 }
 
-std::string PlainWords(const XMLDocument& document) {
+std::string XmlErrorText(const XMLDocument& document) {
   switch (document.ErrorID()) {
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
       return "element not closed, or closed by another name";
@@ -56,8 +63,8 @@ std::string PlainWords(const XMLDocument& document) {
   }
 }
 
-/// MJCF is all elements and attributes. What stands between them has no meaning, and tinyxml2 does
-/// not read back what it prints of text behind the root element.
+/// Removes text: MJCF consists of elements and attributes only, and tinyxml2 cannot read back text
+/// that it prints behind the root element.
 void RemoveText(tinyxml2::XMLNode& parent) {
   for (tinyxml2::XMLNode *node = parent.FirstChild(), *next = nullptr; node != nullptr;
        node = next) {
@@ -70,29 +77,29 @@ void RemoveText(tinyxml2::XMLNode& parent) {
   }
 }
 
-/// Whether a file of this content comes with Trackbed, wherever it lies.
+/// Whether the content equals that of a file shipped with Trackbed.
 bool IsShipped(std::string_view content) {
   const std::string hash = Sha256(content);
   return std::find(kShippedHashes.begin(), kShippedHashes.end(), hash) != kShippedHashes.end();
 }
 
-/// `shipped` becomes false where the file does not come with Trackbed.
+/// Reads an XML file. Sets `shipped` to false if the file is not shipped with Trackbed.
 void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
     Fail(file, 0, "no such file");
   }
-  constexpr std::size_t kLargest = std::size_t{16} << 20U;  // takes 400 MB as a document
-  const std::string text = ReadFile(file, kLargest);
+  constexpr std::size_t kMaxModelBytes = std::size_t{16} << 20U;  // takes 400 MB as a document
+  const std::string text = ReadFile(file, kMaxModelBytes);
   shipped = shipped && IsShipped(text);
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) {
       Fail(file, 0, "the file is empty; expected a <mujoco> element");
     }
-    // Where the text is cut off, the line after its last one is named.
+    // For truncated text tinyxml2 reports the line after the last one.
     const auto lines = std::count(text.begin(), text.end(), '\n') + (text.ends_with('\n') ? 0 : 1);
     const int line = std::min(document.ErrorLineNum(), static_cast<int>(lines));
-    Fail(file, line, "not XML: " + PlainWords(document));
+    Fail(file, line, "not XML: " + XmlErrorText(document));
   }
   if (document.RootElement() == nullptr) {
     Fail(file, 1, "no root element");
@@ -100,31 +107,20 @@ void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
   RemoveText(document);
 }
 
-/// The car's file, and the folders whose files it may name.
+/// The car's file, and the folders from which it may include files.
 struct Origin {
   fs::path file;
-  fs::path folder;  ///< the file's own
+  fs::path folder;  ///< folder of the file
   const std::vector<fs::path>& others;
-  bool& shipped;  ///< whether all that was read comes with Trackbed
+  bool& shipped;  ///< whether all files read so far are shipped with Trackbed
 };
-
-/// The name with every character but letters, digits and "._-" replaced by "_": safe as the name of
-/// a file in a run folder and in MuJoCo's list of files.
-std::string PlainName(std::string name) {
-  for (char& c : name) {
-    const bool is_plain = (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') ||
-                          (c >= 'a' && c <= 'z') || c == '.' || c == '_' || c == '-';
-    c = is_plain ? c : '_';
-  }
-  return name;
-}
 
 bool IsSameButForCase(std::string_view a, std::string_view b) {
   return a.size() == b.size() && ::strncasecmp(a.data(), b.data(), a.size()) == 0;
 }
 
-/// The file that `name`, from the folder of the car's file, stands for. InputError with the place
-/// of `element`, in `file`, when it may not be read.
+/// The path for `name` relative to the folder of the car's file. InputError with the place of
+/// `element`, in `file`, if reading it is not allowed.
 fs::path Find(const fs::path& name, const Origin& origin, const fs::path& file,
               const XMLElement& element) {
   fs::path found = origin.folder / name;
@@ -132,30 +128,30 @@ fs::path Find(const fs::path& name, const Origin& origin, const fs::path& file,
     Fail(file, element.GetLineNum(),
          fmt::format("<{}> refers to {}, which {}", element.Name(), found.string(), why));
   };
-  if (const std::string why = WhyUnreadable(name, origin.folder, origin.others); !why.empty()) {
+  if (const std::string why = ReadAccessError(name, origin.folder, origin.others); !why.empty()) {
     fail(why);
   }
   std::error_code error;
   if (!fs::is_regular_file(found, error)) {
     fail("does not exist");
   }
-  if (fs::file_size(found, error) > kMostAssetBytes) {
-    fail(fmt::format("has more than {} MB", kMostAssetBytes >> 20));
+  if (fs::file_size(found, error) > kMaxAssetBytes) {
+    fail(fmt::format("has more than {} MB", kMaxAssetBytes >> 20));
   }
   return found;
 }
 
 constexpr std::string_view kInclude = "include";
 
-/// Replaces every <include file="…"/> below `parent`, which is in `file`, by what the included
-/// file's root holds. As in MuJoCo, names are relative to the main file and a file may be included
-/// once.
+/// Replaces every <include file="…"/> below `parent`, an element of `file`, by the children of the
+/// included file's root. As in MuJoCo, names are relative to the main file, and a file may be
+/// included only once.
 void ResolveIncludes(XMLElement& parent, const fs::path& file, const Origin& origin,
                      std::set<fs::path>& included) {
   for (XMLElement* child = parent.FirstChildElement(); child != nullptr;) {
     XMLElement* next = child->NextSiblingElement();
     if (child->Name() != kInclude && IsSameButForCase(child->Name(), kInclude)) {
-      // MuJoCo would open its file.
+      // MuJoCo ignores case here and would open the file.
       Fail(file, child->GetLineNum(), fmt::format("<{}> must be written <include>", child->Name()));
     }
     if (child->Name() == kInclude) {
@@ -183,7 +179,7 @@ void ResolveIncludes(XMLElement& parent, const fs::path& file, const Origin& ori
   }
 }
 
-/// Calls with every element from `element` on, in the order of the text.
+/// Calls with every element from `element` on, in document order.
 template <typename Call>
 void ForEachElement(const XMLElement& element, const Call& call) {
   call(element);
@@ -193,7 +189,8 @@ void ForEachElement(const XMLElement& element, const Call& call) {
   }
 }
 
-/// The attribute of the last <compiler> that sets it: MuJoCo lets later ones win.
+/// The attribute's value in the last <compiler> that sets it: in MuJoCo later ones override earlier
+/// ones.
 std::string CompilerAttribute(const XMLElement& root, const char* name) {
   std::string value;
   for (const XMLElement* compiler = root.FirstChildElement("compiler"); compiler != nullptr;
@@ -205,8 +202,8 @@ std::string CompilerAttribute(const XMLElement& root, const char* name) {
   return value;
 }
 
-/// Gathers the files that assets refer to and renames the references to plain names, so that the
-/// composed model and its assets can lie together in any folder.
+/// Collects the files that assets refer to and replaces the references by plain names, so that the
+/// composed model and its assets can be written to any one folder.
 void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
   std::size_t bytes = 0;
   const fs::path mesh_folder = CompilerAttribute(root, "meshdir");
@@ -227,28 +224,29 @@ void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
         const fs::path source = Find(from / value, origin, origin.file, *asset);
         std::string content = ReadFile(source);
         origin.shipped = origin.shipped && IsShipped(content);
-        if (const std::string why = WhyNoAsset(kind, source, content); !why.empty()) {
+        if (const std::string why = AssetError(kind, source, content); !why.empty()) {
           Fail(origin.file, asset->GetLineNum(),
                fmt::format("<{}> refers to {}, which {}", kind, source.string(), why));
         }
-        // A number in front keeps equal file names from different folders apart.
-        const std::string name =
-            fmt::format("asset{}_{}", scene.assets.size(), PlainName(source.filename().string()));
-        // MuJoCo names an asset after its file when it has no name of its own.
+        // The number distinguishes equal file names from different folders.
+        const std::string number = fmt::format("asset{}_", scene.assets.size());
+        const std::string own = FileNameOf(source.filename().string());
+        const std::string name = own.starts_with(number) ? own : number + own;  // composed before
+        // Without a name, MuJoCo names an asset after its file.
         if (std::string_view(attribute) == "file" && asset->Attribute("name") == nullptr) {
           asset->SetAttribute("name", source.stem().c_str());
         }
         bytes += content.size();
         scene.assets.push_back({name, std::move(content)});
         asset->SetAttribute(attribute, name.c_str());
-        if (scene.assets.size() > kMostAssets) {
+        if (scene.assets.size() > kMaxAssets) {
           Fail(origin.file, asset->GetLineNum(),
-               fmt::format("more than {} files of assets", kMostAssets));
+               fmt::format("more than {} files of assets", kMaxAssets));
         }
-        if (bytes > kMostAssetBytesInAll) {
+        if (bytes > kMaxTotalAssetBytes) {
           Fail(origin.file, asset->GetLineNum(),
                fmt::format("the files of assets are larger than {} MB together",
-                           kMostAssetBytesInAll >> 20U));
+                           kMaxTotalAssetBytes >> 20U));
         }
       }
     }
@@ -260,17 +258,16 @@ void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
   }
 }
 
-/// Refuses what MuJoCo would take time or memory for without end, or copy into a buffer that is
-/// too small for it.
+/// Rejects elements for which MuJoCo would need unbounded time or memory, or overflow a buffer.
 void CheckElements(const XMLElement& root, const fs::path& file) {
   ForEachElement(root, [&](const XMLElement& element) {
-    if (const std::string why = WhyNoElement(element); !why.empty()) {
+    if (const std::string why = ElementError(element); !why.empty()) {
       Fail(file, element.GetLineNum(), fmt::format("<{}>: {}", element.Name(), why));
     }
   });
 }
 
-/// The first element below the root's children `section` that has this name.
+/// The first element with this name below a child `section` of the root.
 XMLElement* FindNamed(XMLElement& root, const char* section, std::string_view name) {
   for (XMLElement* part = root.FirstChildElement(section); part != nullptr;
        part = part->NextSiblingElement(section)) {
@@ -285,8 +282,16 @@ XMLElement* FindNamed(XMLElement& root, const char* section, std::string_view na
   return nullptr;
 }
 
-/// The rate of a steering gear is the range of its actuator's control; that of a differential
-/// drive, which has none, is a number of its own.
+/// Whether the element has this name and this attribute alone: a composed model has it already.
+bool HasOnly(const XMLElement* element, std::string_view name, const char* attribute,
+             std::string_view value) {
+  return element != nullptr && element->Name() == name && element->NoChildren() &&
+         element->FirstAttribute() != nullptr && element->FirstAttribute()->Next() == nullptr &&
+         element->Attribute(attribute) != nullptr && element->Attribute(attribute) == value;
+}
+
+/// The steering rate of a car is the control range of its actuator. A differential drive has no
+/// such actuator; its rate is a <custom> number.
 void SetSteeringRate(XMLElement& root, double rate) {
   if (XMLElement* steer = FindNamed(root, "actuator", "steer")) {
     steer->SetAttribute("ctrlrange", Numbers({-rate, rate}).c_str());
@@ -301,7 +306,7 @@ fs::path DataFolder() {
   if (const char* folder = std::getenv("TRACKBED_DATA"); folder != nullptr && *folder != '\0') {
     return folder;
   }
-  // The installed program lies beside its data, wherever both were moved to.
+  // An installed program finds its data by a relative path, so both may be moved together.
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const fs::path beside = (program.parent_path() / TRACKBED_DATA_FROM_PROGRAM).lexically_normal();
@@ -325,8 +330,12 @@ std::vector<std::string> ModelNames() {
   return names;
 }
 
+bool IsModelPath(const std::string& model) {
+  return model.find('/') != std::string::npos || !fs::path(model).extension().empty();
+}
+
 fs::path FindModel(const std::string& model, const fs::path& base) {
-  const bool is_name = model.find('/') == std::string::npos && fs::path(model).extension().empty();
+  const bool is_name = !IsModelPath(model);
   const fs::path file = is_name ? DataFolder() / "models" / model / (model + ".xml") : base / model;
   std::error_code error;
   if (fs::is_regular_file(file, error)) {
@@ -356,19 +365,24 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
   if (options.steering_rate) {
     SetSteeringRate(root, *options.steering_rate);
   }
-  // The default since MuJoCo 3.0. Of several <compiler> elements the last one that sets an
-  // attribute wins, so a file may still say otherwise.
-  XMLElement* compiler = document.NewElement("compiler");
-  compiler->SetAttribute("autolimits", true);
-  root.InsertFirstChild(compiler);
-  // Of several <option> elements the last one wins.
-  XMLElement* option = document.NewElement("option");
-  option->SetAttribute("timestep", fmt::format("{}", options.timestep).c_str());
-  root.InsertEndChild(option);
+  // autolimits is the default since MuJoCo 3.0. The last <compiler> that sets an attribute wins, so
+  // a file may still override it.
+  if (!HasOnly(root.FirstChildElement(), "compiler", "autolimits", "true")) {
+    XMLElement* compiler = document.NewElement("compiler");
+    compiler->SetAttribute("autolimits", true);
+    root.InsertFirstChild(compiler);
+  }
+  // The last <option> wins.
+  const std::string timestep = fmt::format("{}", options.timestep);
+  if (!HasOnly(root.LastChildElement(), "option", "timestep", timestep)) {
+    XMLElement* option = document.NewElement("option");
+    option->SetAttribute("timestep", timestep.c_str());
+    root.InsertEndChild(option);
+  }
 
   scene.xml = Print(document);
   ForEachElement(root, [&](const XMLElement& element) {
-    scene.lines.push_back(element.GetLineNum());  // 0 for what was included or added
+    scene.lines.push_back(element.GetLineNum());  // 0 for included and added elements
   });
   return scene;
 }
@@ -392,9 +406,20 @@ int LineInCarFile(const Scene& scene, int line) {
 
 void WriteScene(const Scene& scene, const fs::path& file) {
   for (const SceneAsset& asset : scene.assets) {
-    WriteFileAtomically(file.parent_path() / asset.name, asset.content);
+    const fs::path own = file.parent_path() / asset.name;
+    std::error_code ignored;
+    const fs::file_status status = fs::symlink_status(own, ignored);
+    if (fs::exists(status) && !(fs::is_regular_file(status) && ReadFile(own) == asset.content)) {
+      throw RunError(
+          fmt::format("cannot write {}: there is another file of that name, which the "
+                      "model names; move it away, or save the model elsewhere",
+                      own.string()));
+    }
+    if (!fs::exists(status)) {
+      WriteFileAtomically(own, asset.content);
+    }
   }
-  WriteFileAtomically(file, scene.xml);  // last: what it names is there
+  WriteFileAtomically(file, scene.xml);  // last, since it refers to the assets
 }
 
 }  // namespace trackbed

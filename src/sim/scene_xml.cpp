@@ -26,12 +26,12 @@ std::string Numbers(std::initializer_list<double> values) {
 XMLElement* FindInWorld(XMLElement& parent, std::string_view kind, std::string_view name) {
   for (XMLElement* child = parent.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
-    const std::string_view own_kind = child->Name();
-    if (own_kind == kind && child->Attribute("name") != nullptr &&
+    const std::string_view child_kind = child->Name();
+    if (child_kind == kind && child->Attribute("name") != nullptr &&
         child->Attribute("name") == name) {
       return child;
     }
-    if (own_kind == "body" || own_kind == "worldbody") {
+    if (child_kind == "body" || child_kind == "worldbody") {
       if (XMLElement* found = FindInWorld(*child, kind, name)) {
         return found;
       }

@@ -11,14 +11,14 @@ namespace trackbed {
 namespace {
 
 /// Largest dead time and time constant [s]; with a longer one the car could not be steered.
-constexpr double kLongest = 10.0;
+constexpr double kMaxResponseTime = 10.0;
 
-void ReadWithin(const Numerics& numerics, const std::string& name, double most, const char* unit,
+void ReadWithin(const Numerics& numerics, const std::string& name, double max, const char* unit,
                 double& value) {
   numerics.Read(name, value);
-  if (!(value >= 0.0 && value <= most)) {
+  if (!(value >= 0.0 && value <= max)) {
     numerics.AddError(
-        name, fmt::format("must be between 0 and {:.4g} {}, found {:.4g}", most, unit, value));
+        name, fmt::format("must be between 0 and {:.4g} {}, found {:.4g}", max, unit, value));
     value = 0.0;
   }
 }
@@ -55,8 +55,8 @@ std::vector<Vec2> ReadCurve(const Numerics& numerics) {
 SteeringResponse ReadSteeringResponse(const Numerics& numerics, double limit) {
   SteeringResponse response;
   response.curve = ReadCurve(numerics);
-  ReadWithin(numerics, "steering_dead_time", kLongest, "s", response.dead_time);
-  ReadWithin(numerics, "steering_time_constant", kLongest, "s", response.time_constant);
+  ReadWithin(numerics, "steering_dead_time", kMaxResponseTime, "s", response.dead_time);
+  ReadWithin(numerics, "steering_time_constant", kMaxResponseTime, "s", response.time_constant);
   ReadWithin(numerics, "steering_backlash", 2.0 * std::abs(limit), "rad", response.backlash);
   return response;
 }

@@ -57,8 +57,8 @@ std::size_t AddressSpace() {
   return pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-[[noreturn]] void BeSubProcess(const std::function<std::string()>& compute, std::size_t space,
-                               int seconds, int pipe) {
+[[noreturn]] void RunChildProcess(const std::function<std::string()>& compute, std::size_t space,
+                                  int seconds, int pipe) {
   // The process dies with its parent, whose file locks it has inherited.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   // Libraries that call exit() would flush buffers copied from this process; some also print an
@@ -132,7 +132,7 @@ SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std:
   }
   if (child == 0) {
     ::close(pipe[0]);
-    BeSubProcess(compute, space, seconds, pipe[1]);
+    RunChildProcess(compute, space, seconds, pipe[1]);
   }
   ::close(pipe[1]);
   // Twice the processor time, in case the machine is busy.

@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-constexpr int kMostTriangles = 20000;
+constexpr int kMaxTriangles = 20000;
 constexpr int kDrawnGroups = 3;  // groups that MuJoCo's viewer shows by default
 
 template <std::size_t count, typename Number>
@@ -139,7 +139,7 @@ VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name) {
       drawn.mesh = at->second;
       if (is_new) {
         const ShapeMesh own = MeshOf(model, mesh);
-        shape.meshes.push_back(model.mesh_facenum[mesh] > kMostTriangles ? Bounds(own) : own);
+        shape.meshes.push_back(model.mesh_facenum[mesh] > kMaxTriangles ? Bounds(own) : own);
       }
     }
     shape.geoms.push_back(std::move(drawn));

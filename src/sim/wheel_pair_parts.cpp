@@ -188,7 +188,7 @@ class WheelPairReader final : private PartsReader {
   /// ellipsoids and capsules. Each is treated as the only other support, since with several ones
   /// the loads depend on springs.
   [[nodiscard]] std::vector<double> OtherSupports() const {
-    constexpr double kTouching = 1e-3;  // [m]
+    constexpr double kMaxGroundGap = 1e-3;  // [m]
     std::vector<double> ahead;
     for (int geom = 0; geom < m_.ngeom; ++geom) {
       const bool collides = (m_.geom_contype[geom] | m_.geom_conaffinity[geom]) != 0;
@@ -197,7 +197,7 @@ class WheelPairReader final : private PartsReader {
       const bool own = m_.body_rootid[m_.geom_bodyid[geom]] == chassis_.chassis;
       const mjtNum* at = data_->geom_xpos + 3 * geom;
       if (collides && own && !is_tyre && std::abs(Offset(at, 0)) > kExact &&
-          Offset(at, 2) - HalfHeight(geom) < kTouching) {
+          Offset(at, 2) - HalfHeight(geom) < kMaxGroundGap) {
         ahead.push_back(Offset(at, 0));
       }
     }

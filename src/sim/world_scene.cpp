@@ -84,15 +84,15 @@ OrientedBox BlocksAt(const Terrain::Size& size, int column, int row, int columns
 /// Whether a point is inside refined blocks or between two of them, not on their outer border.
 bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
   const Terrain::Size& size = terrain.size();
-  constexpr double kAside = 1e-3 * Terrain::kBlock;
+  constexpr double kProbeOffset = 1e-3 * Terrain::kBlock;
   const auto refined = [&](double x, double y) {
     const Vec2 place = (point_W + Vec2(x, y) - size.low) / Terrain::kBlock;
     return place.x() >= 0.0 && place.y() >= 0.0 && place.x() < size.columns &&
            place.y() < size.rows &&
            terrain.IsRefined(static_cast<int>(place.x()), static_cast<int>(place.y()));
   };
-  return refined(-kAside, -kAside) && refined(-kAside, kAside) && refined(kAside, -kAside) &&
-         refined(kAside, kAside);
+  return refined(-kProbeOffset, -kProbeOffset) && refined(-kProbeOffset, kProbeOffset) &&
+         refined(kProbeOffset, -kProbeOffset) && refined(kProbeOffset, kProbeOffset);
 }
 
 /// Calls `add(box, field)` for the height fields that make up a terrain: one per refined block,
@@ -112,16 +112,16 @@ void SampleTerrain(
       }
     }
   }
-  constexpr int kMostBlocks = 64;  // 257 samples along a side
-  constexpr double kUnder = 4.0;   // [m]: drops more steeply than the refined ground
-  for (int row = 0; row < size.rows; row += kMostBlocks) {
-    for (int column = 0; column < size.columns; column += kMostBlocks) {
-      const int columns = std::min(kMostBlocks, size.columns - column);
-      const int rows = std::min(kMostBlocks, size.rows - row);
+  constexpr int kMaxBlocks = 64;       // 257 samples along a side
+  constexpr double kCoarseDrop = 4.0;  // [m]: drops more steeply than the refined ground
+  for (int row = 0; row < size.rows; row += kMaxBlocks) {
+    for (int column = 0; column < size.columns; column += kMaxBlocks) {
+      const int columns = std::min(kMaxBlocks, size.columns - column);
+      const int rows = std::min(kMaxBlocks, size.rows - row);
       const OrientedBox box = BlocksAt(size, column, row, columns, rows);
       add(box, Sample(box, columns * Terrain::kCoarseCells + 1, rows * Terrain::kCoarseCells + 1,
                       [&](const Vec2& p) {
-                        return terrain.At(p).height - (IsInRefined(terrain, p) ? kUnder : 0.0);
+                        return terrain.At(p).height - (IsInRefined(terrain, p) ? kCoarseDrop : 0.0);
                       }));
     }
   }

@@ -10,10 +10,13 @@
 #include "trackbed/analysis/verdict.h"
 #include "trackbed/core/error.h"
 
+// GoogleTest matchers for scenario runs. Each matcher is a function that returns failure texts,
+// wrapped in a RunMatcher; most apply a check to every plant. A run without a plan or without
+// plants never matches.
 namespace trackbed {
 namespace {
 
-/// What keeps a run from matching, one line each; none when it matches.
+/// Returns the reasons why a run does not match, one line each; empty if it matches.
 using Failures = std::function<std::vector<std::string>(const RunResult&)>;
 
 class RunMatcher {
@@ -26,7 +29,7 @@ class RunMatcher {
   bool MatchAndExplain(const RunResult& run, std::ostream* out) const {
     std::vector<std::string> failures;
     if (!run.plan.ok()) {
-      failures.push_back(fmt::format("no plan: {}", run.plan.reason));
+      failures.push_back(fmt::format("no plan: {}", run.plan->reason));
     } else {
       failures = failures_(run);
     }
@@ -46,7 +49,7 @@ class RunMatcher {
   Failures failures_;
 };
 
-/// The failures of a check that every plant must pass; `check` returns an empty text when it does.
+/// Applies a check to every plant; `check` returns an empty text if it passes.
 Failures ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
   return [check = std::move(check)](const RunResult& run) {
     std::vector<std::string> failures;
@@ -62,8 +65,8 @@ Failures ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
   };
 }
 
-/// Why a number of a plant does not keep its bound, or an empty text; `format` is given the number,
-/// the station and the time.
+/// Describes how a metric of a plant violates its bound; empty if it does not. `format` receives
+/// the number, the station and the time.
 std::string DescribeFailure(const PlantMetrics& plant, const char* metric, Relation relation,
                             double bound, const char* format) {
   const Check check = CheckMetric(plant, metric, relation, bound);
@@ -153,7 +156,7 @@ RunResult RunScenario(const Scenario& scenario) {
 void PrintTo(const RunResult& run, std::ostream* out) {
   *out << run.scenario.name << ": ";
   if (!run.plan.ok()) {
-    *out << fmt::format("no plan ({}): {}", ToString(run.plan.status), run.plan.reason);
+    *out << fmt::format("no plan ({}): {}", ToString(run.plan->status), run.plan->reason);
     return;
   }
   for (const PlantMetrics& metrics : run.metrics) {

@@ -57,7 +57,8 @@ Place PlaceAmong(const std::vector<double>& values, double value, const Measure&
           (measure(value) - low) / (measure(*above) - low)};
 }
 
-/// Position of a fraction of the largest f_y among the points of a section, 0 to `last`.
+/// Position on a section's boundary whose f_y is `ratio` times the largest. The boundary's points
+/// have the numbers 0 to `last`.
 Place PlaceOnBoundary(double ratio, std::size_t last) {
   const double sine = std::sqrt(1.0 - ratio * ratio);
   if (last == 1) {

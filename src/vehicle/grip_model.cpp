@@ -17,7 +17,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kNone = -1.0;  // an axle that cannot hold its longitudinal force
+constexpr double kInfeasibleGrip = -1.0;  // an axle that cannot hold its longitudinal force
 
 /// The lateral force [N] of a tyre at a slip angle, at the slip ratio for which its longitudinal
 /// force is `along`; none if there is no such ratio.
@@ -63,8 +63,9 @@ struct AxleDemand {
 
 /// Lateral grip of an axle that holds its longitudinal force.
 struct AxleGripState {
-  double most = kNone;  // largest lateral force [N]; kNone if it cannot hold the longitudinal force
-  double angle = 0.0;   // slip angle of the wanted force, or of the largest [rad]
+  double most = kInfeasibleGrip;  // largest lateral force [N]; kInfeasibleGrip if it cannot hold
+                                  // the longitudinal force
+  double angle = 0.0;             // slip angle of the wanted force, or of the largest [rad]
 };
 
 AxleGripState OnFrictionCircles(double friction, const AxleDemand& demand) {
@@ -90,16 +91,16 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
       const std::optional<double> own = TyreLateral(*axle.tyre, load, demand.road, demand.along,
                                                     {.angle = -angle, .camber = demand.camber});
       if (!own) {
-        return kNone;
+        return kInfeasibleGrip;
       }
       sum += *own;
     }
     return sum;
   };
-  constexpr double kLargestSlip = 0.5;  // [rad]
-  constexpr int kBits = 8;              // of the angle; the force is flat around its peak
+  constexpr double kMaxSlip = 0.5;  // [rad]
+  constexpr int kBits = 8;          // of the angle; the force is flat around its peak
   const auto [peak, negative] = boost::math::tools::brent_find_minima(
-      [&](double at) { return -lateral_at(at); }, 0.0, kLargestSlip, kBits);
+      [&](double at) { return -lateral_at(at); }, 0.0, kMaxSlip, kBits);
   AxleGripState state{.most = std::max(-negative, lateral_at(0.0)), .angle = peak};
   constexpr int kHalvings = 8;
   double low = 0.0;
@@ -125,10 +126,10 @@ class SteadyState {
   /// Whether both axles hold their forces. The tyres also push against the drag of their slip
   /// angles, which depends on the tyre forces: a fixed-point iteration.
   [[nodiscard]] bool AxlesHold(double longitudinal, double lateral) const {
-    constexpr int kRounds = 4;  // each reduces the error of the drag about tenfold
-    double slip_drag = 0.0;     // [m/s^2]
+    constexpr int kDragIterations = 4;  // each reduces the error of the drag about tenfold
+    double slip_drag = 0.0;             // [m/s^2]
     bool hold = true;
-    for (int round = 0; round < kRounds; ++round) {
+    for (int round = 0; round < kDragIterations; ++round) {
       double next = 0.0;
       hold = true;
       for (std::size_t i = 0; i < car_.axles.size(); ++i) {
@@ -152,19 +153,20 @@ class SteadyState {
 
   /// The largest f_y at f_x; 0 if the car holds none.
   [[nodiscard]] double MaxLateral(double longitudinal) const {
-    return Largest(0.0, kLargest, [&](double lateral) { return Holds(longitudinal, lateral); });
+    return Largest(0.0, kMaxAcceleration,
+                   [&](double lateral) { return Holds(longitudinal, lateral); });
   }
 
   /// The furthest f_x from `from` in the direction of `side` at which the car holds f_y.
   [[nodiscard]] double Reach(double from, double side, double lateral) const {
-    return from + side * Largest(0.0, kLargest, [&](double further) {
+    return from + side * Largest(0.0, kMaxAcceleration, [&](double further) {
                     return Holds(from + side * further, lateral);
                   });
   }
 
  private:
-  static constexpr double kLargest = 40.0;    // [m/s^2]; exceeds any car without downforce
-  static constexpr double kSameDrag = 0.005;  // [m/s^2]
+  static constexpr double kMaxAcceleration = 40.0;  // [m/s^2]; exceeds any car without downforce
+  static constexpr double kSameDrag = 0.005;        // [m/s^2]
 
   /// `wheels` is the longitudinal force of all tyres in wheel direction, over the mass [m/s^2].
   [[nodiscard]] AxleDemand DemandOn(std::size_t i, double longitudinal, double wheels,
@@ -263,10 +265,11 @@ GgvDiagram ComputeGgv(const GripModel& car, const std::vector<double>& roads) {
   CheckModel(car, roads);
   // The drag, and with it the load transfer, is linear in the square of the speed: two speeds
   // suffice.
-  constexpr double kFast = 60.0;  // [m/s]
+  constexpr double kMaxTableSpeed = 60.0;  // [m/s]
   std::vector<double> speeds{0.0};
   if (car.forces.drag > 0.0 && car.drag_height != car.cg_height) {
-    speeds.push_back(car.forces.top_speed > 0.0 ? std::min(car.forces.top_speed, kFast) : kFast);
+    speeds.push_back(car.forces.top_speed > 0.0 ? std::min(car.forces.top_speed, kMaxTableSpeed)
+                                                : kMaxTableSpeed);
   }
   std::vector<GgvSection> sections;
   for (const double road : roads) {

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kLongestStep = 0.002;  // [s]
+constexpr double kMaxStep = 0.002;  // [s]
 
 /// Radau IIA with three stages (Hairer and Wanner 1996, IV.5). The last stage is the end of the
 /// step.
@@ -92,7 +92,7 @@ void SingleTrackCar::Advance(const MotionPiece& piece) {
     state_.steering = piece.end_steering;
     return;
   }
-  const double steps = std::max(1.0, std::ceil(piece.duration / kLongestStep));
+  const double steps = std::max(1.0, std::ceil(piece.duration / kMaxStep));
   MotionPiece part = piece;
   part.duration = piece.duration / steps;
   const double start_speed = state_.speed;

@@ -20,12 +20,12 @@ double DeadTimeSteps(const SteeringResponse& response, double timestep, double s
                    "SteeringFilter: time constant {} s, backlash {} rad, start {} rad; must be "
                    "finite, the first two at least 0",
                    response.time_constant, response.backlash, start);
-  constexpr double kMostSteps = 1e7;
+  constexpr double kMaxSteps = 1e7;
   const double steps = response.dead_time / timestep;
-  TRACKBED_REQUIRE(timestep > 0.0 && response.dead_time >= 0.0 && steps <= kMostSteps,
+  TRACKBED_REQUIRE(timestep > 0.0 && response.dead_time >= 0.0 && steps <= kMaxSteps,
                    "SteeringFilter: a dead time of {} s in timesteps of {} s; must be at most {} "
                    "steps",
-                   response.dead_time, timestep, kMostSteps);
+                   response.dead_time, timestep, kMaxSteps);
   constexpr double kRounding = 1e-6;  // tolerance for a whole number of timesteps
   const double whole = std::round(steps);
   return std::abs(steps - whole) < kRounding ? whole : steps;
@@ -62,10 +62,10 @@ bool SteeringResponse::ideal() const {
 }
 
 SteeringFilter::SteeringFilter(const SteeringResponse& response, double timestep, double start)
-    : play_(0.5 * response.backlash), arrived_(start), lagged_(start), given_(start) {
+    : half_backlash_(0.5 * response.backlash), arrived_(start), lagged_(start), output_(start) {
   const double steps = DeadTimeSteps(response, timestep, start);
-  on_the_way_.assign(static_cast<std::size_t>(steps), start);
-  late_share_ = steps - std::floor(steps);
+  delay_line_.assign(static_cast<std::size_t>(steps), start);
+  dead_time_fraction_ = steps - std::floor(steps);
   if (!response.curve.empty()) {
     curve_.emplace(response.curve);
   }
@@ -75,17 +75,17 @@ SteeringFilter::SteeringFilter(const SteeringResponse& response, double timestep
 double SteeringFilter::Pass(double command) {
   TRACKBED_REQUIRE(std::isfinite(command), "SteeringFilter::Pass: {} rad; must be finite", command);
   double arrived = curve_ ? curve_->At(command) : command;
-  if (!on_the_way_.empty()) {
-    std::swap(arrived, on_the_way_[oldest_]);
-    oldest_ = (oldest_ + 1) % on_the_way_.size();
+  if (!delay_line_.empty()) {
+    std::swap(arrived, delay_line_[oldest_]);
+    oldest_ = (oldest_ + 1) % delay_line_.size();
   }
-  if (late_share_ > 0.0) {
+  if (dead_time_fraction_ > 0.0) {
     const double before = std::exchange(arrived_, arrived);
-    arrived = std::lerp(arrived, before, late_share_);
+    arrived = std::lerp(arrived, before, dead_time_fraction_);
   }
   lagged_ = decay_ == 0.0 ? arrived : arrived + decay_ * (lagged_ - arrived);
-  given_ = std::clamp(given_, lagged_ - play_, lagged_ + play_);
-  return given_;
+  output_ = std::clamp(output_, lagged_ - half_backlash_, lagged_ + half_backlash_);
+  return output_;
 }
 
 }  // namespace trackbed

@@ -28,7 +28,7 @@ std::vector<Target> SteeringTargets(const std::vector<TurnSteering>& turns,
                      "SteeringSchedule: steering {} and {} rad; must be finite", turn.steering,
                      neutral);
     targets.push_back({turn.start, turn.steering, slopes[k]});
-    // The turn that started last takes precedence; it also ends an earlier one.
+    // The turn that started last takes precedence and ends any earlier turn.
     if (k + 1 == turns.size() || turn.end < turns[k + 1].start) {
       targets.push_back({turn.end, neutral, slopes[k]});
     }
@@ -127,7 +127,7 @@ SteeringSchedule SteeringSchedule::From(double distance) const {
 }
 
 namespace {
-constexpr double kLongestRamp = 1e6;  // [m]
+constexpr double kMaxRampLength = 1e6;  // [m]
 }  // namespace
 
 double SteeringDistance(const VehicleParams& params, double steering, double speed) {
@@ -141,10 +141,10 @@ double RampHeading(const VehicleParams& params, double steering, double speed) {
 
 Pose2 RampPose(const VehicleParams& params, double steering, double speed) {
   const double distance = SteeringDistance(params, steering, speed);
-  TRACKBED_REQUIRE(distance <= kLongestRamp,
+  TRACKBED_REQUIRE(distance <= kMaxRampLength,
                    "RampPose: a ramp of {} m to {} rad at {} m/s; must be "
                    "at most {} m",
-                   distance, steering, speed, kLongestRamp);
+                   distance, steering, speed, kMaxRampLength);
   if (distance == 0.0) {
     return {};
   }

@@ -20,7 +20,7 @@ struct Lift {
 };
 
 /// C(distance / reach): 1 up to distance 0, where it begins to fall; 0 from `reach` on.
-Profile ComesDown(double distance, double reach) {
+Profile Falloff(double distance, double reach) {
   if (distance <= 0.0) {
     return {1.0, 0.0};
   }
@@ -32,8 +32,8 @@ Profile ComesDown(double distance, double reach) {
 }
 
 /// Symmetric about 0: flat in the middle, 0 at +-half.
-Profile ComesDownOnBothSides(double place, double half, double reach) {
-  const Profile one = ComesDown(std::abs(place) - half + reach, reach);
+Profile SymmetricFalloff(double place, double half, double reach) {
+  const Profile one = Falloff(std::abs(place) - half + reach, reach);
   return {one.height, std::copysign(1.0, place) * one.slope};
 }
 
@@ -48,9 +48,8 @@ Lift ComputeLift(const Bump& bump, const Vec2& point_W) {
   const Vec2 p = ToLocal(bump.area.center, point_W);
   const double half_length = 0.5 * bump.area.length;
   const double half_width = 0.5 * bump.area.width;
-  return Product(bump.area.center, bump.height,
-                 ComesDownOnBothSides(p.x(), half_length, half_length),
-                 ComesDownOnBothSides(p.y(), half_width, std::min(bump.edge, half_width)));
+  return Product(bump.area.center, bump.height, SymmetricFalloff(p.x(), half_length, half_length),
+                 SymmetricFalloff(p.y(), half_width, std::min(bump.edge, half_width)));
 }
 
 Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
@@ -61,14 +60,14 @@ Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
   const double w = 0.5 * width + up * p.y();
   Profile across;
   if (w > width) {
-    const Profile embankment = ComesDown(w - width, width);
+    const Profile embankment = Falloff(w - width, width);
     across = {width * embankment.height, up * width * embankment.slope};
   } else if (w > 0.0) {
     across = {w, up};
   }
   return Product(
       stretch.area.center, std::abs(stretch.slope),
-      ComesDownOnBothSides(p.x(), half_length, std::min(stretch.transition_length, half_length)),
+      SymmetricFalloff(p.x(), half_length, std::min(stretch.transition_length, half_length)),
       across);
 }
 

@@ -89,8 +89,8 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
 namespace {
 
 /// Upper bound on the motion of a footprint point relative to an obstacle between two samples [m].
-double MostMoved(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
-                 const ClearanceSample& to) {
+double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
+                         const ClearanceSample& from, const ClearanceSample& to) {
   const double reach = std::hypot(
       std::max(vehicle.length - vehicle.rear_overhang, vehicle.rear_overhang), 0.5 * vehicle.width);
   double fastest = 0.0;
@@ -103,7 +103,7 @@ double MostMoved(const World& world, const VehicleParams& vehicle, const Clearan
 
 /// Limit of the bisections: enough for any motion of a car, and it bounds the time for a diverged
 /// one.
-constexpr long kMostLooks = 100000;
+constexpr long kMaxBisections = 100000;
 
 /// Bisects the motion between two samples, over which the clearance changes by at most `moved` [m],
 /// until it cannot be smaller than the best one by more than a tolerance.
@@ -135,12 +135,12 @@ void Approach(const World& world, const VehicleParams& vehicle, const ClearanceS
 ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
                                 const ClearanceSample& from, const ClearanceSample& to) {
   TRACKBED_CHECK(HasObstacles(world), "no obstacles");
-  const double moved = MostMoved(world, vehicle, from, to);
+  const double moved = MaxRelativeMotion(world, vehicle, from, to);
   TRACKBED_REQUIRE(std::isfinite(moved) && from.clearance >= 0.0 && to.clearance >= 0.0,
                    "ApproachBetween: {} m moved between clearances of {} and {} m; must be finite, "
                    "the clearances at least 0",
                    moved, from.clearance, to.clearance);
-  long looks = kMostLooks;
+  long looks = kMaxBisections;
   ClosestApproach best = from.clearance <= to.clearance ? ClosestApproach{from.clearance, from.time}
                                                         : ClosestApproach{to.clearance, to.time};
   Approach(world, vehicle, from, to, moved, looks, best);

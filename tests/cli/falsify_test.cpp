@@ -41,7 +41,8 @@ TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
     EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
   }
   EXPECT_THAT(ReadFile(out / "report.html"), HasSubstr(R"("search":{"status":"broken",)"));
-  // As it is it passes in a test suite; what it came of fails.
+  // The counterexample's file states the observed result and passes; its scenario with the original
+  // expectations fails.
   EXPECT_EQ(Trackbed(folder, "test out/reach/counterexample/counterexample.yaml").code, 0);
   const auto json = nlohmann::json::parse(ReadFile(out / "falsify.json"));
   const std::string distance =
@@ -51,12 +52,12 @@ TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
                                  " mission.speed=2 expect='{max_cross_track: 0.3}'")
                 .code,
             3);
-  // And again, without a run.
+  // A repetition reads the records without a run.
   const Outcome again = Trackbed(folder, "falsify study.yaml --jobs 1");
   EXPECT_EQ(again.code, 3);
   EXPECT_THAT(again.output, HasSubstr("runs are there already"));
   EXPECT_EQ(nlohmann::json::parse(ReadFile(out / "falsify.json")), json);
-  // Mended, nothing of the counterexample is left.
+  // A corrected scenario leaves no counterexample.
   folder.Write("study.yaml", SearchText("30", "search: {runs: 5}\n"));
   EXPECT_THAT(Trackbed(folder, "falsify study.yaml").output,
               HasSubstr("has rows of another study"));
@@ -65,6 +66,55 @@ TEST(FalsifyVerb, LeavesACounterexampleForATestSuite) {
   EXPECT_THAT(held.output, testing::ContainsRegex(
                                "reach: not falsified in [56] runs; the lowest robustness is "));
   EXPECT_FALSE(std::filesystem::exists(out / "counterexample"));
+}
+
+TEST(FalsifyVerb, LeavesTheUsersFilesBesideTheCounterexample) {
+  const TempFolder folder;
+  folder.Write("study.yaml", SearchText("0.3", "search: {runs: 30, shrink_runs: 0}\n"));
+  ASSERT_EQ(Trackbed(folder, "falsify -q study.yaml --jobs 2 --report").code, 3);
+  const std::filesystem::path found = folder.path() / "out/reach/counterexample";
+  folder.Write("out/reach/counterexample/notes.txt", "mine");
+  folder.Write("out/reach/counterexample/video.mp4", "mine");
+  folder.Write("study.yaml", SearchText("30", "search: {runs: 2}\n"));
+  const Outcome refused = Trackbed(folder, "falsify -q study.yaml --restart");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("counterexample has files that Trackbed has not written"));
+  EXPECT_THAT(refused.output, HasSubstr("manifest.json: video.mp4; "));
+  std::filesystem::rename(found / "video.mp4", found / "mine.mp4");
+  EXPECT_EQ(Trackbed(folder, "falsify -q study.yaml --restart").code, 0);
+  std::vector<std::string> left;
+  for (const auto& entry : std::filesystem::directory_iterator(found)) {
+    left.push_back(entry.path().filename());
+  }
+  EXPECT_THAT(left, testing::UnorderedElementsAre("notes.txt", "mine.mp4"));
+  // A link to a folder of the user's.
+  std::filesystem::rename(found, folder.path() / "mine");
+  std::filesystem::create_directory_symlink(folder.path() / "mine", found);
+  const Outcome linked = Trackbed(folder, "falsify -q study.yaml --restart");
+  EXPECT_EQ(linked.code, 2);
+  EXPECT_THAT(linked.output, HasSubstr("counterexample: it is a link, not a folder"));
+  EXPECT_EQ(ReadFile(folder.path() / "mine/notes.txt"), "mine");
+}
+
+// A process killed between the two leaves a counterexample of one search and the outcome of
+// another.
+TEST(FalsifyVerb, TakesNoCounterexampleOfAnotherSearch) {
+  const TempFolder folder;
+  folder.Write("study.yaml", SearchText("0.3", "search: {runs: 30, shrink_runs: 0}\n"));
+  ASSERT_EQ(Trackbed(folder, "falsify -q study.yaml --jobs 2").code, 3);
+  EXPECT_EQ(Trackbed(folder, "report -q out/reach").code, 0);
+  EXPECT_EQ(Trackbed(folder, "run -q " + ScenarioFile("winding") +
+                                 " --plant kinematic -o out/reach/counterexample"
+                                 " --set drive.time_limit=0.1 expect={}")
+                .code,
+            3);  // it does not arrive
+  const Outcome mixed = Trackbed(folder, "report -q out/reach");
+  EXPECT_EQ(mixed.code, 2);
+  EXPECT_THAT(mixed.output,
+              HasSubstr("out/reach/counterexample: has another result than falsify.json tells of"));
+  // The same command puts it right.
+  EXPECT_EQ(Trackbed(folder, "falsify -q study.yaml").code, 3);
+  EXPECT_EQ(Trackbed(folder, "report -q out/reach").code, 0);
 }
 
 TEST(FalsifyVerb, HasNoMarginsWhereTheNominalPointFails) {
@@ -93,7 +143,7 @@ TEST(FalsifyVerb, TellsOfBadInputBeforeAnythingIsRun) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   folder.Write("study.yaml", SearchText("0.3", "search: {}\n"));
   EXPECT_EQ(Trackbed(folder, "check study.yaml").code, 0);
-  // A search is not a sample.
+  // The points of a search are not a sample.
   const Outcome sweep = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(sweep.code, 2);
   EXPECT_THAT(sweep.output, HasSubstr("sample: missing; keys of vary have distributions"));
@@ -111,7 +161,7 @@ std::string VerifyText(const std::string& limit, const std::string& sample) {
 TEST(VerifyVerb, StopsAsSoonAsItIsKnown) {
   const TempFolder folder;
   folder.Write("study.yaml", VerifyText("1", "{count: 500, method: random}"));
-  // 88 passes in turn, by the closed form of tests/falsify/sequential_test_test.cpp.
+  // 88 successive passes suffice, by the closed form of tests/falsify/sequential_test_test.cpp.
   const Outcome outcome = Trackbed(folder, "verify study.yaml --probability 0.95 --jobs 2");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   EXPECT_THAT(outcome.output,

@@ -10,8 +10,8 @@
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/file.h"
 
-// A run folder may come from an untrusted source. Whatever a folder contains, the verbs that read
-// it must end with a message, within 1 GiB of address space in addition to the libraries.
+// A run folder may come from an untrusted source. With any contents, the verbs that read it
+// must end with a message, within 1 GiB of address space in addition to the libraries.
 namespace trackbed {
 namespace {
 

@@ -7,6 +7,7 @@
 
 #include "tests/cli/program.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/file_name.h"
 
 namespace trackbed {
 namespace {
@@ -16,7 +17,7 @@ using testing::HasSubstr;
 
 const fs::path kScenarios = fs::path(TRACKBED_SOURCE_DIR) / "scenarios";
 
-/// A study of the recorded 1:10 car on the single-track model.
+/// A study that identifies parameters of the single-track model for the recorded 1:10 car.
 std::string StudyOfDart(const std::string& parameters, const std::string& rest = "") {
   return "schema: 1\nname: small\nfit: [" + (kScenarios / "real/dart_ramp_02.yaml").string() +
          "]\nparameters:\n" + parameters + "starts: 1\n" + rest;
@@ -68,6 +69,84 @@ TEST(Identify, NamesWhatIsWrongWithItsPlace) {
   EXPECT_THAT(message("schema: 1\nname: x\nfit: [" + (kScenarios / "three_turns.yaml").string() +
                       "]\nparameters: [{name: mass, from: 1, to: 2}]\n"),
               HasSubstr("three_turns.yaml has no record to compare with"));
+}
+
+/// The model and scenario of the dart under another name of the model, in `folder`.
+void WriteDart(const TempFolder& folder, const std::string& model, const std::string& name) {
+  const fs::path source = TRACKBED_SOURCE_DIR;
+  fs::create_directories((folder.path() / model).parent_path());
+  fs::copy(source / "models/dart", (folder.path() / model).parent_path(),
+           fs::copy_options::recursive | fs::copy_options::skip_existing);
+  std::string xml = ReadFile(source / "models/dart/dart.xml");
+  const std::string begin = "<mujoco model=\"dart\"";
+  xml.replace(xml.find(begin), begin.size(), "<mujoco model=\"" + name + "\"");
+  folder.Write(model, xml);
+  folder.Write("dart.yaml",
+               "schema: 1\nname: record\nvehicle: {model: " + (folder.path() / model).string() +
+                   "}\nmission: {}\nrecord: {file: ramp.csv, map: map.yaml}\n"
+                   "control: {method: playback, speed: {gain: 20}}\n"
+                   "drive: {plants: [recorded, kinematic], control_period: 0.01, timestep: "
+                   "0.002}\n");
+  fs::copy_file(source / "tests/data/dart/ramp_steer_02.csv", folder.path() / "ramp.csv",
+                fs::copy_options::skip_existing);
+  fs::copy_file(source / "scenarios/real/maps/dart.yaml", folder.path() / "map.yaml",
+                fs::copy_options::skip_existing);
+  folder.Write("study.yaml",
+               "schema: 1\nname: small\nfit: [dart.yaml]\nstarts: 1\nevaluations: 1\nparameters: "
+               "[{name: yaw_inertia, from: 0.001, to: 0.1}]\n");
+}
+
+TEST(Identify, NamesItsModelSafely) {
+  for (const std::string& name :
+       {std::string("../../../victim/rel"), std::string("a/b"), std::string("..")}) {
+    const TempFolder folder;
+    WriteDart(folder, "model/dart.xml", name);
+    folder.Write("victim/rel.xml", "mine");
+    const Outcome found = Trackbed(folder, "identify study.yaml -o deep/er/out");
+    EXPECT_EQ(found.code, 0) << found.output;
+    EXPECT_EQ(ReadFile(folder.path() / "victim/rel.xml"), "mine");
+    EXPECT_TRUE(fs::exists(folder.path() / "deep/er/out" / (FileNameOf(name) + ".xml")));
+    EXPECT_EQ(Trackbed(folder, "report -q deep/er/out").code, 0);
+  }
+}
+
+TEST(Identify, LeavesTheModelThatItStartsFrom) {
+  const TempFolder folder;
+  WriteDart(folder, "dart.xml", "dart");
+  const std::string model = ReadFile(folder.path() / "dart.xml");
+  const Outcome refused = Trackbed(folder, "identify study.yaml -o .");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_EQ(refused.output,
+            ". has files that Trackbed has not written, according to its manifest.json: dart.xml; "
+            "move them away, or choose another folder (-o)\n");
+  EXPECT_EQ(ReadFile(folder.path() / "dart.xml"), model);
+}
+
+// A process killed between the two leaves runs of one identification and the estimates of another.
+TEST(Identify, TakesNoRecordOfAnotherIdentification) {
+  const TempFolder folder;
+  WriteDart(folder, "model/dart.xml", "dart");
+  ASSERT_EQ(Trackbed(folder, "identify -q study.yaml -o out").code, 0);
+  EXPECT_EQ(Trackbed(folder, "report -q out").code, 0);
+  ASSERT_EQ(Trackbed(folder, "run -q dart.yaml -o out/records/record --plant kinematic").code, 0);
+  const Outcome mixed = Trackbed(folder, "report -q out");
+  EXPECT_EQ(mixed.code, 2);
+  EXPECT_THAT(mixed.output, HasSubstr("out/records/record: has another result than identify.json"));
+  // A changed file of the identification itself.
+  ASSERT_EQ(Trackbed(folder, "identify -q study.yaml -o out").code, 0);
+  folder.Write("out/record.residuals.csv",
+               ReadFile(folder.path() / "out/record.residuals.csv") + " ");
+  EXPECT_THAT(Trackbed(folder, "report -q out").output, HasSubstr("does not belong to this run"));
+}
+
+TEST(Identify, RefusesRecordsOfOneName) {
+  const TempFolder folder;
+  WriteDart(folder, "model/dart.xml", "dart");
+  std::string study = ReadFile(folder.path() / "study.yaml");
+  folder.Write("study.yaml", study + "held_out: [dart.yaml]\n");
+  const Outcome refused = Trackbed(folder, "identify study.yaml -o out");
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.output, HasSubstr("held_out[0]: its scenario has the name 'record', as one"));
 }
 
 TEST(Identify, IsCheckedWithoutBeingRun) {

@@ -1,4 +1,4 @@
-// Runs the installed program through the shell: exit codes, messages, written files, locks and
+// Runs the program through the shell: exit codes, messages, written files, locks and
 // signals.
 
 #include "tests/cli/program.h"

@@ -1,9 +1,9 @@
 #include "tests/fuzz/target.h"
+#include "trackbed/control/recording_file.h"
 #include "trackbed/core/table.h"
 #include "trackbed/core/text_table.h"
-#include "trackbed/scenario/recording_file.h"
 
-/// A CSV file: a log, and a recording over either axis.
+/// Fuzzes a CSV file: a log, and a recording over time and over distance.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace trackbed;
   const std::filesystem::path file = fuzz::Write("table.csv", fuzz::Text(data, size));

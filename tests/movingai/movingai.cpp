@@ -22,17 +22,17 @@
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/scenario/moving_ai.h"
 
-/// A* on the maps of the Moving AI benchmarks: whether it finds the listed lengths, and how many of
-/// the paths a car can drive (scripts/movingai).
+/// A* on the maps of the Moving AI benchmarks: compares path lengths with the listed ones and
+/// counts the paths that a car can drive (scripts/movingai).
 namespace trackbed {
 namespace {
 
-/// The square root of 2 of the benchmark's listed lengths: the difference shows in their eighth
-/// decimal from seven diagonal steps on.
+/// The square root of 2 as rounded in the benchmark's listed lengths. The difference affects their
+/// eighth decimal from seven diagonal steps on.
 constexpr double kRootTwo = 1.414213562;
 
-/// Whether the files' eight decimals are those of a path's length, with the square root of 2 or the
-/// benchmark's rounded one. A sum of a thousand steps is off by 1e-12.
+/// Whether a path's length equals the listed one to its eight decimals, with the exact square root
+/// of 2 or the benchmark's rounded one. A sum of a thousand steps deviates by 1e-12.
 bool HasLength(const GridPath& path, int columns, double listed) {
   constexpr double kPrinted = 0.5e-8 + 1e-11;
   double length = 0.0;
@@ -46,7 +46,7 @@ bool HasLength(const GridPath& path, int columns, double listed) {
          (std::abs(path.cost - listed) <= kPrinted || std::abs(length - listed) <= kPrinted);
 }
 
-/// Solves every instance; prints those whose length is not the listed one.
+/// Solves every instance; prints those whose length differs from the listed one.
 std::vector<GridPath> Solve(const GridMap& map, const std::vector<MovingAiInstance>& instances,
                             int& wrong) {
   const OccupancyGrid grid = ToOccupancyGrid(map, UnknownCells::kFree);
@@ -74,18 +74,18 @@ std::vector<GridPath> Solve(const GridMap& map, const std::vector<MovingAiInstan
   return all;
 }
 
-/// What a car can drive of the paths.
+/// How many of the paths a car can drive.
 struct Counts {
   int asked = 0;
   int as_found = 0;  ///< the grid's path itself, its corners rounded
   int astar = 0;     ///< another path, of the planner astar
-  int hybrid = 0;    ///< likewise of hybrid_astar, with the same heading at the end
+  int hybrid = 0;    ///< a path of hybrid_astar with the same goal heading
 };
 
 Counts DriveSome(const std::vector<GridPath>& all, const GridMap& map,
                  const std::vector<OrientedBox>& walls, const VehicleParams& vehicle, int every) {
   const OccupancyGrid grid = ToOccupancyGrid(map, UnknownCells::kFree);
-  // The planners take no smaller cells.
+  // Smallest cell size that the planners accept.
   const double cell_size = std::max(0.05, 0.1 * vehicle.length);
   Counts counts;
   for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(every)) {
@@ -93,14 +93,14 @@ Counts DriveSome(const std::vector<GridPath>& all, const GridMap& map,
     for (const std::size_t cell : all[i].cells) {
       points.push_back(grid.CellCenter(cell));
     }
-    points = WithoutStraightOn(points);
+    points = WithoutCollinearPoints(points);
     if (points.size() < 2) {
       continue;
     }
     ++counts.asked;
     const Pose2 start = StartOfRoute(points);
     const Vec2 end = points.back() - points[points.size() - 2];
-    // A speed of two lengths a second, from standstill.
+    // Two car lengths per second, from standstill.
     const double speed = 2.0 * vehicle.length;
     const PlanRequest request{.vehicle = vehicle,
                               .waypoints = {points.front(), points.back()},

@@ -107,7 +107,7 @@ bool Shows(const std::string& shown, const std::string& told) {
 }
 
 /// The first line that is shown but was not printed, or was printed but is not shown; empty if
-/// there is none. A shown line "..." matches any lines.
+/// all lines match. A shown line "..." matches any lines.
 std::string FirstDifference(const Lines& shown, const Lines& told) {
   std::size_t next = 0;
   bool skip = false;

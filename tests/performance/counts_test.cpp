@@ -76,7 +76,7 @@ long AllocationsOfRun(const std::string& plant, double duration) {
   Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
   scenario.drive.time_limit = duration;
   const CarModel car = LoadCar(scenario);
-  const Plan plan = PlanMission(scenario, car.params());
+  const FeasiblePlan plan = PlanMission(scenario, car.params());
   const long before = allocations;
   static_cast<void>(DrivePlant(scenario, car, plan, plant));
   return allocations - before;

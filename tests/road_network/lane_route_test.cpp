@@ -13,13 +13,15 @@
 #include "trackbed/core/error.h"
 #include "trackbed/road_network/open_drive.h"
 
+// Tests lane routes through a network with a junction and a loop: the stretches, the path along the
+// lane centers, lane changes, and errors.
 namespace trackbed {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// Quadrature of lengths and headings between points 0.25 m apart, over some 300 m of road.
+// Quadrature errors of lengths and headings between points 0.25 m apart, over some 300 m of road.
 constexpr double kOnCenter = 1e-6;
 
 RoadNetwork Crossing() {
@@ -34,15 +36,15 @@ std::vector<std::string> RoadsOf(const LaneRoute& route) {
   return roads;
 }
 
-/// That the path passes through the center of every stretch, in its direction, and is no longer
-/// than they are.
+/// Expects that the path passes through the center of every stretch in its direction, and is not
+/// longer than the stretches.
 void ExpectAlongCenters(const RoadNetwork& network, const LaneRoute& route) {
   ASSERT_TRUE(route.ok()) << route.failure;
   double passed = 0.0;
   for (const LaneStretch& stretch : route.stretches) {
     const Road& road = network.roads.at(stretch.road);
     const double direction = stretch.to > stretch.from ? 0.0 : kPi;
-    // The sections of a road meet at its stations: look just inside.
+    // The sections of a road meet at its stations, so the test samples just inside.
     for (const double share : {1e-6, 0.2, 0.5, 0.8, 1.0 - 1e-6}) {
       const double s = std::lerp(stretch.from, stretch.to, share);
       const RoadPosition center = LanePositionAt(road, stretch.lane, s);
@@ -84,7 +86,7 @@ TEST(LaneRoute, StartsAndEndsAtItsPlaces) {
   const LaneRoute route = FindLaneRoute(network, {from, to});
   ASSERT_TRUE(route.ok()) << route.failure;
   const Pose2 start = PoseAt(network, from);
-  // The file's heading of -pi/2 is rounded to 5e-13 rad, over 40 m.
+  // The file rounds the heading of -pi/2 to 5e-13 rad, over 40 m.
   EXPECT_NEAR(start.x, 1.75, Tolerance(2e-11));
   EXPECT_NEAR(start.y, -60.0, Tolerance(2e-11));
   EXPECT_NEAR(start.yaw, kPi / 2.0, Tolerance(1e-12));
@@ -96,7 +98,7 @@ TEST(LaneRoute, StartsAndEndsAtItsPlaces) {
 }
 
 TEST(LaneRoute, TellsTheEndsOfARoadApartThatIsTwiceAtAJunction) {
-  // Out of the loop's end to its own start: to the left, not straight on or to the right.
+  // From the loop's end to its start: a left turn, not straight on and not to the right.
   const RoadNetwork network = Crossing();
   const LaneRoute route = FindLaneRoute(network, {{"2", -1, 170.0}, {"2", -1, 5.0}});
   ExpectAlongCenters(network, route);
@@ -106,8 +108,8 @@ TEST(LaneRoute, TellsTheEndsOfARoadApartThatIsTwiceAtAJunction) {
 
 TEST(LaneRoute, TakesTheShortestOfTwoWays) {
   const RoadNetwork network = Crossing();
-  // From the west to the loop's left lane, which is driven from the north to the east: by a left
-  // turn at once.
+  // From the west to the loop's left lane, whose direction is from north to east: an immediate left
+  // turn.
   const LaneRoute route = FindLaneRoute(network, {{"1", -1, 60.0}, {"2", 1, 100.0}});
   ASSERT_TRUE(route.ok()) << route.failure;
   EXPECT_EQ(network.roads.at(RoadsOf(route)[1]).name, "W to N");
@@ -149,7 +151,7 @@ TEST(LaneRoute, ChangesLanesByAQuintic) {
     const RoadPosition at = PositionAt(network.roads.at("1"), s, t);
     EXPECT_NEAR(route.path.Project({at.x, at.y, 0.0}).cross_track, 0.0, Tolerance(kOnCenter)) << s;
   }
-  // No step of heading, and of curvature none where the change begins.
+  // Heading is continuous everywhere, and curvature is continuous where the lane change begins.
   const auto& segments = route.path.segments();
   double station = 0.0;
   for (std::size_t i = 0; i + 1 < segments.size() && station < 40.0; ++i) {
@@ -170,7 +172,7 @@ TEST(LaneRoute, ChangesToNeighboringLanesAheadAlone) {
               HasSubstr("no linked lanes lead"));
 }
 
-/// Two roads, the second turned by `heading` and moved by `y` at their joint.
+/// Two roads; at their joint the second is turned by `heading` and shifted by `y`.
 std::string TwoRoads(double heading, double y) {
   const std::string lane_links = kTwoLanes;
   RoadText first;
@@ -183,7 +185,7 @@ std::string TwoRoads(double heading, double y) {
   second.id = "2";
   second.geometry =
       fmt::format("<geometry s='0' x='{}' y='{}' hdg='{}' length='100'><line/></geometry>",
-                  // The centers meet where they are turned about.
+                  // The lane centers coincide at the joint.
                   100.0 - 1.75 * std::sin(heading), y - 1.75 + 1.75 * std::cos(heading), heading);
   return first.Xml() + second.Xml();
 }
@@ -192,9 +194,9 @@ TEST(LaneRoute, RoundsSmallKinksAndSaysHowFarThatLeadsOff) {
   const RoadNetwork network = ParseNetwork(TwoRoads(0.02, 0.0));
   const LaneRoute route = FindLaneRoute(network, {{"1", -1, 10.0}, {"2", -1, 90.0}});
   ASSERT_TRUE(route.ok()) << route.failure;
-  // A turn of a within L = 1 m whose curvature is quadratic and 0 at both ends: the heading is a (3
-  // q^2
-  // - 2 q^3), q = d/L, and at the corner, q = 1/2, the path is 3/32 a L off it, up to a^2 of that.
+  // A turn of a within L = 1 m whose curvature is quadratic and 0 at both ends. With q = d/L the
+  // heading is a (3 q^2 - 2 q^3). At the corner, q = 1/2, the path deviates by 3/32 a L, with an
+  // error of a^2 of that.
   EXPECT_NEAR(route.deviation, 3.0 / 32.0 * 0.02, Tolerance(1e-6));
   const Pose2 end = route.path.At(route.path.length()).pose;
   EXPECT_NEAR(end.yaw, 0.02, Tolerance(1e-9));
@@ -224,7 +226,7 @@ TEST(LaneRoute, RefusesALaneBeyondTheCenterOfCurvature) {
 }
 
 TEST(LaneRoute, EndsWhereLinksGoInCircles) {
-  // Each is its own successor; neither leads to the other.
+  // Each road is its own successor, and neither leads to the other.
   RoadText ring;
   ring.length = "62.83185307179586";
   ring.geometry =
@@ -242,7 +244,7 @@ TEST(LaneRoute, EndsWhereLinksGoInCircles) {
   const RoadNetwork network = ParseNetwork(ring.Xml() + other.Xml());
   EXPECT_THAT(FindLaneRoute(network, {{"1", -1, 10.0}, {"2", -1, 10.0}}).failure,
               HasSubstr("no linked lanes lead"));
-  // Once around, back to 1 m behind the start: 2 pi (10 + 1.75) m less 1 m of the road.
+  // One lap, up to 1 m behind the start: 2 pi (10 + 1.75) m less 1 m along the road.
   const LaneRoute around = FindLaneRoute(network, {{"1", -1, 10.0}, {"1", -1, 9.0}});
   ASSERT_TRUE(around.ok()) << around.failure;
   EXPECT_NEAR(around.path.length(), 2.0 * kPi * 11.75 - 1.175, Tolerance(kOnCenter));
@@ -258,17 +260,17 @@ TEST(LaneRoute, IsNoLongerThanAHundredKilometers) {
 
 TEST(LaneRoute, SaysWhatIsWrongWithAPlace) {
   const RoadNetwork network = Crossing();
-  EXPECT_EQ(WhyNoPlace(network, {"1", -1, 10.0}), "");
-  EXPECT_THAT(WhyNoPlace(network, {"westt", -1, 10.0}), HasSubstr("unknown road 'westt'"));
-  EXPECT_THAT(WhyNoPlace(network, {"1", -1, 69.0}),
+  EXPECT_EQ(LanePlaceError(network, {"1", -1, 10.0}), "");
+  EXPECT_THAT(LanePlaceError(network, {"westt", -1, 10.0}), HasSubstr("unknown road 'westt'"));
+  EXPECT_THAT(LanePlaceError(network, {"1", -1, 69.0}),
               HasSubstr("s = 69 m is not on road 1; must be between 0 and 68 m"));
   EXPECT_THAT(
-      WhyNoPlace(network, {"1", -2, 10.0}),
+      LanePlaceError(network, {"1", -2, 10.0}),
       HasSubstr("road 1 has no lane -2 to drive on at s = 10 m, but a shoulder lane; it has "
                 "1, -1"));
-  EXPECT_THAT(WhyNoPlace(network, {"1", 7, 10.0}), HasSubstr("no lane 7"));
-  EXPECT_THAT(WhyNoPlace(network, {"1", 0, 10.0}), HasSubstr("no lane 0"));
-  EXPECT_NE(WhyNoPlace(network, {"1", -1, std::nan("")}), "");
+  EXPECT_THAT(LanePlaceError(network, {"1", 7, 10.0}), HasSubstr("no lane 7"));
+  EXPECT_THAT(LanePlaceError(network, {"1", 0, 10.0}), HasSubstr("no lane 0"));
+  EXPECT_NE(LanePlaceError(network, {"1", -1, std::nan("")}), "");
   EXPECT_THROW(FindLaneRoute(network, {{"1", -1, 10.0}}), PreconditionError);
   EXPECT_THROW(FindLaneRoute(network, {{"1", -1, 10.0}, {"9", -1, 1.0}}), PreconditionError);
   EXPECT_THROW(PoseAt(network, {"9", -1, 1.0}), PreconditionError);

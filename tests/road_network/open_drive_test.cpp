@@ -25,7 +25,7 @@ std::string WhyNot(const std::string& xml) {
   return "";
 }
 
-std::string WhyNotRoad(const RoadText& road) {
+std::string RoadError(const RoadText& road) {
   return WhyNot(Document(road.Xml()));
 }
 
@@ -87,7 +87,7 @@ TEST(OpenDrive, ReadsEveryShape) {
         "<userData/><line/>"}) {
     RoadText road;
     road.geometry = Geometry(shape);
-    EXPECT_EQ(WhyNotRoad(road), "") << shape;
+    EXPECT_EQ(RoadError(road), "") << shape;
   }
 }
 
@@ -118,7 +118,7 @@ TEST(OpenDrive, NamesLineAndPlaceOfEveryProblem) {
   RoadText road;
   road.length = "-5";
   road.geometry = "<geometry s='0' x='nan' y='0' hdg='0x1' length='100'><line/></geometry>";
-  const std::string why = WhyNotRoad(road);
+  const std::string why = RoadError(road);
   EXPECT_THAT(why, HasSubstr("test.xodr:4: road[1].length: -5 is out of range"));
   EXPECT_THAT(why, HasSubstr("test.xodr:7: road[1].planView.geometry[0].x: 'nan' is not a finite"));
   EXPECT_THAT(why, HasSubstr("road[1].planView.geometry[0].hdg: '0x1' is not a finite number"));
@@ -128,7 +128,7 @@ TEST(OpenDrive, RefusesGeometryThatIsNone) {
   const auto why = [](const std::string& geometry) {
     RoadText road;
     road.geometry = geometry;
-    return WhyNotRoad(road);
+    return RoadError(road);
   };
   EXPECT_THAT(why(""), HasSubstr("road[1].planView: missing, or without <geometry>"));
   EXPECT_THAT(why(Geometry("")), HasSubstr("without a shape"));
@@ -156,7 +156,7 @@ TEST(OpenDrive, RefusesLanesThatDoNotFitTogether) {
   const auto why = [](const std::string& lanes) {
     RoadText road;
     road.lanes = lanes;
-    return WhyNotRoad(road);
+    return RoadError(road);
   };
   const std::string width = "<width sOffset='0' a='3' b='0' c='0' d='0'/>";
   const std::string center = "<center><lane id='0'/></center>";
@@ -189,13 +189,13 @@ TEST(OpenDrive, RefusesLanesThatDoNotFitTogether) {
 TEST(OpenDrive, RefusesLinksToWhatIsNotThere) {
   RoadText road;
   road.link = "<successor elementType='road' elementId='9' contactPoint='start'/>";
-  EXPECT_THAT(WhyNotRoad(road), HasSubstr("road[1].link.successor: road '9' is not there"));
+  EXPECT_THAT(RoadError(road), HasSubstr("road[1].link.successor: road '9' is not there"));
   road.link = "<predecessor elementType='junction' elementId='9'/>";
-  EXPECT_THAT(WhyNotRoad(road), HasSubstr("road[1].link.predecessor: junction '9' is not there"));
+  EXPECT_THAT(RoadError(road), HasSubstr("road[1].link.predecessor: junction '9' is not there"));
   road.link = "<successor elementType='rode' elementId='9'/>";
-  EXPECT_THAT(WhyNotRoad(road), HasSubstr("'rode'; did you mean 'road'?"));
+  EXPECT_THAT(RoadError(road), HasSubstr("'rode'; did you mean 'road'?"));
   road.link = "<successor elementType='road' elementId='1'/>";
-  EXPECT_THAT(WhyNotRoad(road), HasSubstr("link.successor.contactPoint: missing"));
+  EXPECT_THAT(RoadError(road), HasSubstr("link.successor.contactPoint: missing"));
   const std::string connection =
       "<connection incomingRoad='1' connectingRoad='4' contactPoint='start'/>";
   EXPECT_THAT(WhyNot(Document(RoadText{}.Xml() + "<junction id='2'>" + connection + "</junction>")),
@@ -212,8 +212,8 @@ TEST(OpenDrive, RefusesLaneLinksToWhatIsNotThere) {
       "</right></laneSection>" +
       kTwoLanes;
   road.lanes.replace(road.lanes.rfind("s=\"0\""), 5, "s=\"50\"");
-  EXPECT_THAT(WhyNotRoad(road), HasSubstr("laneSection[0].lane[-1].link.successor: links to lane "
-                                          "-3, which is not there"));
+  EXPECT_THAT(RoadError(road), HasSubstr("laneSection[0].lane[-1].link.successor: links to lane "
+                                         "-3, which is not there"));
 }
 
 TEST(OpenDrive, RefusesWhatIsNoOpenDrive) {

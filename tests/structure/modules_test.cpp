@@ -23,7 +23,7 @@ std::string ReadText(const fs::path& file) {
 
 struct Module {
   std::string path;               // "planning/fillet"
-  std::vector<std::string> uses;  // modules, likewise
+  std::vector<std::string> uses;  // modules, as such paths
   std::vector<std::string> libraries;
   std::vector<std::string> private_libraries;
 
@@ -40,7 +40,7 @@ struct Module {
   }
 };
 
-/// The modules as CMakeLists.txt declares them, from the bottom up.
+/// The modules declared in CMakeLists.txt, from the bottom up.
 std::vector<Module> Modules() {
   std::vector<Module> modules;
   const std::string build = ReadText(kRoot / "CMakeLists.txt");
@@ -94,8 +94,8 @@ std::vector<Include> FindIncludes(const Module& module) {
   return includes;
 }
 
-// That a module includes only what it links is a rule that the compiler checks: it sees no other
-// headers (cmake/Module.cmake). MuJoCo's are installed where every target sees them.
+// The compiler enforces that a module includes only headers of modules that it links, as it finds
+// no others (cmake/Module.cmake). MuJoCo's headers, however, are visible to every target.
 TEST(Modules, OnlySimAndRenderIncludeMujoco) {
   std::size_t seen = 0;
   for (const Module& module : Modules()) {
@@ -108,7 +108,39 @@ TEST(Modules, OnlySimAndRenderIncludeMujoco) {
       }
     }
   }
-  EXPECT_GT(seen, 5U);  // the scan saw the sources at all
+  EXPECT_GT(seen, 5U);  // the scan found the sources
+}
+
+// A planner declares in its registry entry what other modules must know of it. So the modules of
+// scenarios and runs do not include its header. Exceptions: a maneuver that measures the gates of
+// lane changes, the ground below a route over roads, and the verb that checks a path file.
+TEST(Modules, KnowPlannersByTheirEntriesAlone) {
+  const std::vector<std::string> shared{"common/", "registry/", "replan/", "avoidance/"};
+  const std::vector<std::pair<std::string, std::string>> exceptions{
+      {"lane_change.cpp", "course/lane_change.h"},
+      {"route_world.cpp", "lanes/route_ground.h"},
+      {"check_path.cpp", "path_file/path_check.h"},
+      {"check_path.cpp", "path_file/path_file_planner.h"}};
+  std::size_t seen = 0;
+  for (const char* path : {"scenario", "drive", "analysis", "cli"}) {
+    const Module module{.path = path};
+    for (const Include& include : FindIncludes(module)) {
+      const std::string prefix = "trackbed/planning/";
+      if (!include.name.starts_with(prefix)) {
+        continue;
+      }
+      const std::string header = include.name.substr(prefix.size());
+      const bool is_shared =
+          std::any_of(shared.begin(), shared.end(),
+                      [&](const std::string& folder) { return header.starts_with(folder); });
+      const bool is_exception =
+          std::find(exceptions.begin(), exceptions.end(),
+                    std::pair(include.file.filename().string(), header)) != exceptions.end();
+      EXPECT_TRUE(is_shared || is_exception) << include.file << " includes " << include.name;
+      ++seen;
+    }
+  }
+  EXPECT_GT(seen, 20U);  // the scan found the sources
 }
 
 TEST(Modules, EveryPublicHeaderHasASourceOfTheSameName) {
@@ -118,10 +150,11 @@ TEST(Modules, EveryPublicHeaderHasASourceOfTheSameName) {
       continue;
     }
     for (const auto& entry : fs::directory_iterator(folders[0])) {
-      // Folders are modules of their own; what has templates or plain values needs no code, and the
-      // version is written by the build.
-      static const std::vector<std::string> kNoCode{
-          "state", "version", "registry", "planner", "plan", "metric_value", "diagnostics"};
+      // Folders are separate modules. Headers with only templates or plain values need no source
+      // file, and the build writes the version.
+      static const std::vector<std::string> kNoCode{"state",       "version",     "registry",
+                                                    "planner",     "plan",        "metric_value",
+                                                    "diagnostics", "method_rules"};
       const std::string name = entry.path().stem().string();
       if (entry.is_directory() || name.ends_with("_options") ||
           std::find(kNoCode.begin(), kNoCode.end(), name) != kNoCode.end()) {
@@ -154,8 +187,8 @@ TEST(Modules, AreDrawnAsTheBuildLinksThem) {
   EXPECT_THAT(drawn, testing::UnorderedElementsAreArray(links));
 }
 
-// The names of the files of a run folder have one owner, and the modules that can see it write no
-// other.
+// Only one header defines the file names of a run folder; modules that can include it must not
+// repeat the names.
 TEST(RunFolder, ItsFilesAreNamedInOnePlaceAlone) {
   const std::vector<fs::path> owners{kRoot / "include/trackbed/analysis/run_folder.h",
                                      kRoot / "src/analysis/run_folder.cpp"};
@@ -192,7 +225,49 @@ TEST(RunFolder, ItsFilesAreNamedInOnePlaceAlone) {
   }
 }
 
-/// A cell of a table: "`core`, `world`", or "-" when there is nothing.
+/// The sources below a folder that contain one of the texts, but for `owners`.
+std::vector<std::string> SourcesWith(const fs::path& folder, const std::vector<std::string>& texts,
+                                     const std::vector<std::string>& owners) {
+  std::vector<std::string> found;
+  for (const auto& entry : fs::recursive_directory_iterator(kRoot / folder)) {
+    const std::string name = entry.path().filename().string();
+    const bool is_source = entry.path().extension() == ".h" || entry.path().extension() == ".cpp";
+    if (!is_source || std::find(owners.begin(), owners.end(), name) != owners.end()) {
+      continue;
+    }
+    const std::string source = ReadText(entry.path());
+    if (std::any_of(texts.begin(), texts.end(), [&](const std::string& text) {
+          return source.find(text) != std::string::npos;
+        })) {
+      found.push_back(name);
+    }
+  }
+  return found;
+}
+
+// Print of terminal.h takes control characters out of names and texts.
+TEST(Output, OfVerbsGoesThroughOneFunction) {
+  EXPECT_THAT(
+      SourcesWith("src/cli", {"fmt::print(", "std::cout", "std::cerr", "printf(", "fwrite("},
+                  {"terminal.h"}),
+      testing::IsEmpty());
+  // Of errors that nothing may hinder, and of a bar without texts of inputs.
+  EXPECT_THAT(SourcesWith("src/cli", {"fputs("}, {"main.cpp", "progress_bar.cpp"}),
+              testing::IsEmpty());
+}
+
+// JsonValue of json_file.h checks types and ranges.
+TEST(Results, AreReadThroughOneReader) {
+  for (const char* folder :
+       {"src/analysis", "src/report", "src/cli", "src/falsify", "src/identify", "render"}) {
+    EXPECT_THAT(SourcesWith(folder, {"json::parse(ReadFile", "json::parse(*json", "VisitJson("},
+                            {"json_file.cpp"}),
+                testing::IsEmpty())
+        << folder;
+  }
+}
+
+/// A table cell: "`core`, `world`", or "-" if empty.
 std::string Cell(const std::vector<std::string>& words) {
   std::string cell;
   for (const std::string& word : words) {
@@ -218,7 +293,7 @@ TEST(Modules, AreComponentsThatLinkWhatTheirPageSays) {
   EXPECT_GT(rows, 20U);
 }
 
-// The examples that pages show are those that the tests build (tests/package).
+// The examples on the pages equal those that the tests build (tests/package).
 TEST(Pages, ShowTheirExamplesAsTheyAreBuilt) {
   struct Shown {
     const char* page;

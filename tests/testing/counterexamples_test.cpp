@@ -98,7 +98,7 @@ TEST_P(KnownLimit, IsWhereThePageSays) {
     EXPECT_FALSE(row.holds_up_to.empty());
   }
   for (const Override& nearer : row.holds_up_to) {
-    // The file's expectations describe its failure.
+    // The file's expectations describe its failure, so beside it a run does not pass.
     EXPECT_FALSE(RunScenario(file, WithStart(nearer)).verdict.passed)
         << testing::PrintToString(nearer);
   }

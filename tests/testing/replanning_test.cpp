@@ -211,7 +211,7 @@ TEST(EveryPlanner, IsDrivenByEveryController) {
       SCOPED_TRACE(std::string(planner.name) + ", " + controller.name);
       base.control.steering = controller.defaults;
       const RunResult run = RunScenario(base);
-      ASSERT_TRUE(run.plan.ok()) << run.plan.reason;
+      ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
       // Steps of curvature lead the open loop off its path, and Stanley's law meets them late: the
       // table in docs/algorithms/control.md. They come to rest, and are not said to have arrived.
       const bool is_off_after_steps = (std::string(controller.name) == "schedule" ||

@@ -18,8 +18,8 @@ std::filesystem::path File(const std::string& name) {
 TEST(Routes, ParkInAFreeBayBackwards) {
   const RunResult run = RunScenario(File("parking_lot"));
   EXPECT_THAT(run, MeetsItsExpectations());
-  EXPECT_EQ(run.plan.reference.path.segments().back().direction, -1);
-  EXPECT_NEAR(AngleDifference(run.plan.goal.yaw, 1.5708), 0.0, 1e-9);
+  EXPECT_EQ(run.plan->reference.path.segments().back().direction, -1);
+  EXPECT_NEAR(AngleDifference(run.plan->goal.yaw, 1.5708), 0.0, 1e-9);
 }
 
 TEST(Routes, LeadAroundARowOfCarsOnAGrid) {
@@ -28,7 +28,7 @@ TEST(Routes, LeadAroundARowOfCarsOnAGrid) {
 
 TEST(Routes, AreRefusedWithTheirCorners) {
   const RunResult run = RunScenario(File("parking_lot_astar"), {"plan.corners=refuse"});
-  EXPECT_EQ(run.plan.status, PlanStatus::kTurnTooTight);
+  EXPECT_EQ(run.plan->status, PlanStatus::kTurnTooTight);
 }
 
 TEST(Routes, GoWithTheStreamInAWindyField) {
@@ -41,7 +41,7 @@ TEST(Routes, GoWithTheStreamInAWindyField) {
   EXPECT_GT(score(run)["wind_m"], 0.0);
   const RunResult again =
       RunScenario(File("windy_field"), {"drive.plants=[kinematic]", "expect={}"});
-  EXPECT_EQ(again.plan.reference.path.segments(), run.plan.reference.path.segments());
+  EXPECT_EQ(again.plan->reference.path.segments(), run.plan->reference.path.segments());
   // With the stream turned against the car the way with it is none to take.
   const RunResult against = RunScenario(
       File("windy_field"), {"drive.plants=[kinematic]", "expect={}", "world.wind.gusts[0].x=-12"});
@@ -53,8 +53,8 @@ TEST(Routes, MeetAGoalWithItsHeading) {
   EXPECT_THAT(forwards, MeetsItsExpectations());
   const RunResult either = RunScenario(File("heading_goal"), {"plan.method=reeds_shepp"});
   EXPECT_THAT(either, MeetsItsExpectations());
-  EXPECT_LT(either.plan.reference.path.length(), forwards.plan.reference.path.length());
-  EXPECT_GT(SplitIntoLegs(either.plan.reference.path).size(), 1U);
+  EXPECT_LT(either.plan->reference.path.length(), forwards.plan->reference.path.length());
+  EXPECT_GT(SplitIntoLegs(either.plan->reference.path).size(), 1U);
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-std::string WhyNotSatisfied(const RunResult& run, const std::string& formula) {
+std::string FailureText(const RunResult& run, const std::string& formula) {
   testing::StringMatchResultListener listener;
   EXPECT_FALSE(testing::ExplainMatchResult(Satisfies(formula), run, &listener));
   return listener.str();
@@ -28,20 +28,19 @@ TEST(Satisfies, SaysOfEachPlantByHowMuchWhereAndWhen) {
   EXPECT_EQ(testing::DescribeMatcher<const RunResult&>(Satisfies("always speed_mps < 2")),
             "satisfies always speed_mps < 2");
   EXPECT_THAT(
-      WhyNotSatisfied(run, "always speed_mps < 2"),
+      FailureText(run, "always speed_mps < 2"),
       HasSubstr("kinematic: requirement 'always speed_mps < 2': robustness -1 at s = 0 m, t "
                 "= 0 s; single_track: requirement"));
-  EXPECT_THAT(WhyNotSatisfied(run, "always speed < 2"),
+  EXPECT_THAT(FailureText(run, "always speed < 2"),
               HasSubstr("column 8 of the formula: unknown signal 'speed'"));
-  EXPECT_THAT(WhyNotSatisfied(run, "always[900, 901] speed_mps < 2"),
+  EXPECT_THAT(FailureText(run, "always[900, 901] speed_mps < 2"),
               HasSubstr("no sample decides it"));
 }
 
 TEST(Satisfies, IsNotARunWithoutAPlan) {
   RunResult run;
-  run.plan.status = PlanStatus::kSearchFailed;
-  run.plan.reason = "none";
-  EXPECT_EQ(WhyNotSatisfied(run, "always t_s < 1"), "no plan: none");
+  run.plan = MakeFeasible({.status = PlanStatus::kSearchFailed, .reason = "none"}, {});
+  EXPECT_EQ(FailureText(run, "always t_s < 1"), "no plan: none");
 }
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST(Slalom, HasSixTurnsOfMoreThanSixtyDegreesBothWaysWithinTheSteeringLimit) {
     const double heading_change = turn["heading_change_rad"];
     left += heading_change >= 1.0472 ? 1 : 0;
     right += heading_change <= -1.0472 ? 1 : 0;
-    // The radius is the largest that C.40 allows, so the error grows to at most 1.2 times.
+    // The radius is the largest that C.40 allows, so it cannot exceed 1.2 times that value.
     EXPECT_EQ(turn["active_constraint"], "steering_room");
   }
   EXPECT_GE(left + right, 6);

@@ -10,8 +10,8 @@
 
 namespace trackbed {
 
-/// A table of numbers with named columns, as the CSV files of a run are: one header line of names
-/// that carry their units ("speed_mps"), then one line of numbers per row.
+/// A table of numbers with named columns, the format of a run's CSV files: one header line of names
+/// that include their units ("speed_mps"), then one line of numbers per row.
 ///
 /// Guarantees: numbers are written in the shortest form that reads back to the same double (a
 /// negative zero as 0), so ToCsv and ReadCsv are inverse to each other. Does not hold text cells.
@@ -31,7 +31,7 @@ class Table {
 
   /// Index of a column, or -1.
   [[nodiscard]] int Find(std::string_view column) const;
-  /// A whole column by name; InputError naming the column when there is none.
+  /// A whole column by name; InputError naming a missing column.
   [[nodiscard]] std::vector<double> Column(std::string_view column) const;
 
   [[nodiscard]] std::string ToCsv() const;
@@ -42,41 +42,43 @@ class Table {
 };
 
 /// Reads a CSV file with a header line (RFC 4180 through libcsv). InputError with file and line for
-/// a cell that is not a number or a repeated or empty column name (each with the number of its
-/// cell), a row of the wrong length, an empty file, more than 4096 columns, 5e7 cells or 64 KiB in
-/// a cell; of more than twenty problems the first. RunError as ReadFile. Empty lines, spaces around
-/// cells and a byte order mark are skipped.
+/// a cell that is not a number; for a repeated or empty column name (both with the number of the
+/// cell); for a row of the wrong length; for an empty file; and for more than 4096 columns, 5e7
+/// cells or 64 KiB in a cell. Lists the first twenty problems. RunError as ReadFile. Skips empty
+/// lines, spaces around cells and a byte order mark.
 Table ReadCsv(const std::filesystem::path& file);
 
-/// The problems of a file: the twenty that come first in it, and how many more there are.
+/// The problems of a file: the first twenty by line, and the number of further ones.
 class ProblemList {
  public:
   void Add(Problem problem);
   [[nodiscard]] bool empty() const { return problems_.empty(); }
-  /// InputError of them, in the order of their lines; nothing when there are none.
+  /// Throws an InputError with the problems, in the order of their lines; does nothing if there are
+  /// none.
   void ThrowIfAny() const;
 
  private:
   std::vector<Problem> problems_;  // in the order of their lines
-  std::size_t further_ = 0;
+  std::size_t omitted_ = 0;
 };
 
 /// Selected columns of a CSV file from another program.
 struct CsvExcerpt {
-  Table table;             ///< the columns asked for that the file has, in its own order
+  Table table;             ///< the requested columns that the file has, in file order
   std::vector<int> lines;  ///< line numbers of the rows in the file, from 1
 };
 
-/// Reads the columns `needed`, at least one, and those of `optional` that are present; other
-/// columns are ignored. InputError as ReadCsv, and for a needed column that is missing (with the
-/// nearest spelling) and a cell that is not finite.
+/// Reads the columns `needed`, at least one, and those of `optional` that are present; ignores
+/// other columns. InputError as ReadCsv, and for a missing needed column (with the nearest
+/// spelling) and a cell that is not finite.
 CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::string> needed,
                           std::vector<std::string> optional = {});
 
-/// Reads columns of a CSV file of any length as a stream: `take` is called for each row with the
-/// numbers of `columns`, each named once, in that order, and with the line where the row begins.
-/// Empty cells are NaN. InputError as ReadCsvExcerpt, after the last row and without the limit of
-/// cells, but for cells that are not finite, which are handed on. RunError as ReadFile.
+/// Reads columns of a CSV file of any length as a stream. Calls `take` for each row with the
+/// numbers of `columns`, in that order, and the line on which the row begins. `columns` must not
+/// repeat a name. Empty cells are NaN. InputError as ReadCsvExcerpt, after the last row, but
+/// without the limit on cells and without rejecting values that are not finite, which are passed
+/// on. RunError as ReadFile.
 void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::string>& columns,
                     char delimiter,
                     const std::function<void(const std::vector<double>& numbers, int line)>& take);

@@ -124,9 +124,6 @@ void RegisterPlant(PlantEntry entry);
 /// that is not finite.
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup);
 
-/// `name` as used in file names: "mujoco:contact" is "mujoco-contact".
-std::string PlantFileName(const std::string& name);
-
 /// The kinematic plant with the reference point of your choice: with kCenterOfGravity,
 /// `start.speed` and the commanded acceleration are those of the center of gravity.
 std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference);

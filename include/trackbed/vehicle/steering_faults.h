@@ -6,10 +6,10 @@
 /// Faults between a steering controller and its actuator.
 namespace trackbed {
 
-/// For a commanded angle u(t) the actuator receives
-///   u_1(t) = factor u(t)             a steering ratio other than the controller's
-///   u_2(t) = u_1(t - delay)          transport, as on a bus
-///   u_3(t), with |u_3 - u_2| <= b/2  backlash b: it moves only at the edges of the play
+/// The actuator's input for a commanded angle u(t):
+///   u_1(t) = factor u(t)             a steering ratio that differs from the controller's
+///   u_2(t) = u_1(t - delay)          transport delay, as on a bus
+///   u_3(t), with |u_3 - u_2| <= b/2  backlash b: changes only at the edges of the play
 /// Slow changes pass unchanged except for the backlash.
 struct SteeringFaults {
   double factor = 1.0;    ///< commanded angle to that of the road wheels, > 0
@@ -17,23 +17,23 @@ struct SteeringFaults {
   double backlash = 0.0;  ///< b, total play at the road wheels [rad], >= 0
 };
 
-/// Guarantees: without faults, output equals input, bit for bit. The delay is the whole number of
-/// timesteps nearest to it, whatever the control period is. Cost O(1). PreconditionError for
-/// numbers that are not finite, or a delay of more than 10^7 timesteps.
+/// Guarantees: without faults, output equals input, bit for bit. The delay is rounded to a whole
+/// number of timesteps, for any control period. Cost O(1). PreconditionError for numbers that are
+/// not finite, or a delay of more than 10^7 timesteps.
 class FaultySteering {
  public:
-  /// Wheels and actuator start at `start` [rad], in the middle of the play, as if it had always
-  /// been commanded. `timestep` [s] > 0 is the time from one Pass to the next.
+  /// Wheels and actuator start at `start` [rad], in the middle of the play, as if it had been
+  /// commanded permanently. `timestep` [s] > 0 is the time between calls of Pass.
   FaultySteering(const SteeringFaults& faults, double timestep, double start);
 
-  /// The angle [rad] passed to the actuator now, when `wanted` is commanded now.
+  /// The angle [rad] that the actuator receives now, if `wanted` is commanded now.
   double Pass(double wanted);
 
  private:
   SteeringFaults faults_;
-  std::vector<double> on_the_way_;  // a ring
+  std::vector<double> delay_line_;  // ring buffer
   std::size_t oldest_ = 0;
-  double given_;
+  double output_;
 };
 
 }  // namespace trackbed

@@ -7,11 +7,11 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// How a steering actuator follows a commanded angle, apart from its limits of rate and angle.
+/// The response of a steering actuator to a commanded angle, apart from its rate and angle limits.
 namespace trackbed {
 
 /// A monotone curve through points: the piecewise cubic of Fritsch and Butland (1984), which does
-/// not overshoot between two points; held before the first point and after the last.
+/// not overshoot between two points; constant before the first point and after the last.
 class MonotoneCurve {
  public:
   /// At least four points (x, y), both strictly increasing and finite, else PreconditionError.
@@ -26,11 +26,11 @@ class MonotoneCurve {
   std::function<double(double)> interpolant_;
 };
 
-/// For a commanded angle c(t), the actuator moves toward u_4(t), within its limits:
+/// The actuator moves toward u_4(t), within its limits, for a commanded angle c(t):
 ///   u_1(t) = curve(c(t))                    the linkage and its calibration
 ///   u_2(t) = u_1(t - dead_time)             bus, computer and servo
 ///   time_constant u_3'(t) + u_3(t) = u_2(t) first order
-///   u_4(t), with |u_4 - u_3| <= backlash/2  the play moves only at its edges
+///   u_4(t), with |u_4 - u_3| <= backlash/2  backlash: changes only at the edges of the play
 /// All angles are bicycle angles at the road wheels [rad], positive to the left.
 struct SteeringResponse {
   std::vector<Vec2>
@@ -39,36 +39,37 @@ struct SteeringResponse {
   double time_constant = 0.0;  ///< [s], >= 0
   double backlash = 0.0;       ///< total play [rad], >= 0
 
-  /// Whether the actuator gets each command as it is, at once.
+  /// Whether commands pass unchanged and without delay.
   [[nodiscard]] bool ideal() const;
-  /// How far the actuator is behind a ramp of commands [s].
+  /// Lag of the actuator behind a ramp of commands [s].
   [[nodiscard]] double delay() const { return dead_time + time_constant; }
 };
 
-/// Guarantees: an ideal response gives the command, bit for bit. A command that
-/// arrives during a timestep counts for the share of it that is left. The lag is exact for a
-/// command that is constant over each timestep. Cost O(log points of the curve). PreconditionError
-/// for numbers that are not finite or out of range, or a dead time of more than 10^7 timesteps.
+/// Guarantees: an ideal response returns the command, bit for bit. A command that arrives during a
+/// timestep is weighted with the remaining fraction of the timestep. The lag is exact for a command
+/// that is constant over each timestep. Cost O(log points of the curve). PreconditionError for
+/// numbers that are not finite or out of range, or a dead time of more than 10^7 timesteps.
 class SteeringFilter {
  public:
-  /// The actuator stands at `start` [rad], in the middle of the play, as if what keeps it there had
-  /// always been commanded. `timestep` [s] > 0 is the time from one Pass to the next.
+  /// The actuator starts at `start` [rad], in the middle of the play, as if the command that holds
+  /// it there had been constant. `timestep` [s] > 0 is the time between calls of Pass.
   SteeringFilter(const SteeringResponse& response, double timestep, double start);
 
-  /// The angle [rad] toward which the actuator moves during the coming timestep, when `command`
-  /// [rad] is commanded at its start.
+  /// The angle [rad] toward which the actuator moves during the coming timestep, if `command` [rad]
+  /// is commanded at its start.
   double Pass(double command);
 
  private:
   std::optional<MonotoneCurve> curve_;
-  double decay_;                    // of the lag, in a timestep
-  double play_;                     // half the backlash [rad]
-  std::vector<double> on_the_way_;  // a ring
+  double decay_;                    // of the lag, per timestep
+  double half_backlash_;            // half the backlash [rad]
+  std::vector<double> delay_line_;  // ring buffer
   std::size_t oldest_ = 0;
-  double late_share_ = 0.0;  // of a timestep in which what arrives is still the command before
-  double arrived_;           // of the timestep before
+  // Fraction of a timestep in which the previous command still applies.
+  double dead_time_fraction_ = 0.0;
+  double arrived_;  // command of the previous timestep
   double lagged_;
-  double given_;
+  double output_;
 };
 
 }  // namespace trackbed

@@ -22,7 +22,7 @@ class Terrain {
   static constexpr double kCoarseCell = 8.0;  ///< between control heights [m]
   static constexpr double kCell = 0.5;        ///< between differences [m]
 
-  /// Numbers of cells of either kind along a side of a block.
+  /// Number of coarse cells, and of fine cells, along a side of a block.
   static constexpr int kCoarseCells = static_cast<int>(kBlock / kCoarseCell);
   static constexpr int kCells = static_cast<int>(kBlock / kCell);
 
