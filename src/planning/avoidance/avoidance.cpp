@@ -19,11 +19,12 @@
 #include "trackbed/planning/common/road_hold.h"
 #include "trackbed/world/world.h"
 
-// Local planners: replace the stretches of a plan that come too close to obstacles. Each round
-// finds the first conflict and asks the method for a curve past the obstacle: the curve of
-// Skackauskas (dissertation, listing F.2) as printed, or one repaired until it is feasible. Path,
-// steering schedule, speed caps and diagnostics of the curve are spliced into the plan, and the
-// search continues after the curve. Without a curve, the plan stops before the obstacle.
+// Local planners replace the stretches of a plan that come too close to obstacles. Each round finds
+// the first conflict and asks the method for a curve past the obstacle. The method `listing` uses
+// the curve of Skackauskas (dissertation, listing F.2) as printed. The method `bezier` repairs a
+// curve until the curve is feasible. The planner splices path, steering schedule, speed caps and
+// diagnostics of the curve into the plan. The search for conflicts continues after the curve. If
+// the method finds no curve, the plan stops before the obstacle.
 
 namespace trackbed {
 namespace {
@@ -37,23 +38,25 @@ using avoidance::ReplacementSearch;
 using avoidance::Stretch;
 using avoidance::StretchSearch;
 
-/// Spacing of the path pieces that replace the curve [m].
+/// Spacing of the path pieces that approximate the curve [m].
 constexpr double kCurveSpacing = 0.1;
-/// Length of the steering ramp before and after a curve whose curvature differs from the plan's
-/// [m].
+/// Length [m] of the steering ramp before and after a curve whose curvature differs from the
+/// plan's.
 constexpr double kStep = 1e-6;
 
-/// Whether the plan's curvature differs from the joining curve's.
-bool Jumps(const PathPoint& plan, const CurvePoint& curve) {
+/// Whether the plan's curvature differs from that of the joining curve at its end `curve` by more
+/// than the curve's own curvature changes up to `next`, the next point: the curve is sampled.
+bool Jumps(const PathPoint& plan, const CurvePoint& curve, const CurvePoint& next) {
   constexpr double kRounding = 1e-9;  // [1/m]
-  return std::abs(plan.curvature - curve.curvature) > kRounding;
+  return std::abs(plan.curvature - curve.curvature) >
+         std::max(kRounding, std::abs(next.curvature - curve.curvature));
 }
 
 /// Finds a curve past an obstacle; the curve leaves the plan at `from` or later.
 using FindCurve =
     std::function<ReplacementSearch(const Plan& plan, const Conflict& conflict, double from)>;
 
-/// Replaces each stretch of the plan that comes closer than SD to an obstacle.
+/// Replaces each stretch of the plan that comes closer than the safe distance SD to an obstacle.
 class AroundObstacles {
  public:
   AroundObstacles(const AvoidanceRequest& request, double safe_distance, FindCurve find)
@@ -75,8 +78,8 @@ class AroundObstacles {
       if (!conflict) {
         break;
       }
-      // Each round clears one obstacle, unless the curves around two obstacles each conflict with
-      // the other obstacle.
+      // Each round clears one obstacle, unless the curve around each of two obstacles conflicts
+      // with the other obstacle.
       ReplacementSearch found{std::nullopt, "the curves around other obstacles lead back to it"};
       if (round < 2 * request_.obstacles.size()) {
         found = find_(plan_, *conflict, from);
@@ -96,15 +99,16 @@ class AroundObstacles {
  private:
   [[nodiscard]] const Path& path() const { return plan_.reference.path; }
 
-  /// Cuts the plan at the car; stations then count from there.
+  /// Cuts the plan at the car, so that stations are counted from the car.
   void StartAtCar() {
     plan_ = RemainingPlan(plan_, request_.station, request_.station_speed, request_.speed);
-    plan_.diagnostics.avoided.clear();  // stations of the part that was cut off
+    plan_.diagnostics.avoided.clear();  // Stations of the part that was cut off.
     plan_.tree.clear();
     MoveDiagnostics({-1.0, -1.0}, -request_.station);
   }
 
-  /// Keeps the speeds of a plan at the car's limit as caps: its path is about to change.
+  /// Keeps the speeds of a plan at the car's limit as speed caps, because the plan's path will
+  /// change.
   void SpeedsToCaps() {
     plan_.caps = CapsOf(plan_);
     plan_.diagnostics.speed_profile.reset();
@@ -123,19 +127,21 @@ class AroundObstacles {
     const double leave = replacement.stations.from;
     const auto points = replacement.curve.Points(kCurveSpacing, replacement.start.yaw);
     const double back = leave + points.back().s;
-    const double shift = back - replacement.stations.to;  // of the path after the curve
+    const double shift = back - replacement.stations.to;  // Shift of the stations after the curve.
     const Stations before{0.0, leave};
     const Stations after{replacement.stations.to, std::numeric_limits<double>::infinity()};
 
     std::vector<Segment> segments = old.Cut(before);
     Append(segments, SegmentsThrough(points));
     Append(segments, old.Cut(after));
-    // A curve from the car starts at the car's actual pose, not at its planned pose.
+    // A curve that begins at the car starts at the car's actual pose, not at its planned pose.
     const Pose2 start = leave > 0.0 ? old.At(0.0).pose : replacement.start;
     plan_.reference.path = Path(start, std::move(segments));
 
-    const double step_in = leave > kStep && Jumps(old.At(leave), points.front()) ? kStep : 0.0;
-    const double step_out = Jumps(old.At(after.from), points.back()) ? kStep : 0.0;
+    const std::size_t last = points.size() - 1;
+    const double step_in =
+        leave > kStep && Jumps(old.At(leave), points[0], points[1]) ? kStep : 0.0;
+    const double step_out = Jumps(old.At(after.from), points[last], points[last - 1]) ? kStep : 0.0;
     std::vector<SteeringSchedule::Knot> knots = Moved(plan_.schedule, {-1.0, leave - step_in}, 0.0);
     if (step_in > 0.0) {
       knots.push_back({leave - step_in, plan_.schedule.At(leave)});
@@ -166,7 +172,7 @@ class AroundObstacles {
     return back;
   }
 
-  /// Shifts the stations in the diagnostics to those of the new path.
+  /// Shifts the stations in the diagnostics to the stations of the new path.
   void MoveDiagnostics(const Stations& replaced, double shift) {
     for (MethodDiagnostics& turn : plan_.diagnostics.turns) {
       ReplaceStretch(turn, replaced, shift);
@@ -188,7 +194,8 @@ class AroundObstacles {
       plan_.tree.push_back(node);
     }
     plan_.notes.insert(plan_.notes.end(), replacement.notes.begin(), replacement.notes.end());
-    // Open-loop simulation with the curve's steering only, from the curve's start (sig1).
+    // Simulate the car open loop from the start of the curve (sig1), with only the curve's
+    // steering.
     const PathPoint start = path().At(curve.from);
     const PathPoint end = path().At(curve.to);
     const std::vector<SteeringSchedule::Knot> own =
@@ -216,8 +223,8 @@ class AroundObstacles {
          .end_heading_error = AngleDifference(driven.pose.yaw, end.pose.yaw)});
   }
 
-  /// Ends the plan where the obstacle comes closer than SD or, if that is too near, at the stopping
-  /// distance.
+  /// Ends the plan where the obstacle comes closer than the safe distance SD. If the stopping
+  /// distance is longer, ends the plan at the stopping distance.
   void StopBefore(const Conflict& conflict, double from, const std::string& why) {
     SpeedsToCaps();
     const double start_speed = plan_.reference.speed.SpeedAt(0.0);
@@ -241,7 +248,7 @@ class AroundObstacles {
   }
 
   const AvoidanceRequest& request_;
-  double safe_distance_;  ///< SD [m]
+  double safe_distance_;  ///< Required safe distance SD [m].
   FindCurve find_;
   Plan plan_;
 };
@@ -271,7 +278,7 @@ BezierAvoidanceDiagnostics DiagnosticsOn(const Stretch& stretch, const Avoidance
                           .passed = corner >= options.safe_distance + 0.5 * request.vehicle.width}};
 }
 
-/// Holds a rerouted plan to the limits of the road, with the given policy.
+/// Checks a rerouted plan against the limits of the road, with the given policy.
 FeasiblePlan MakeFeasibleOnRoad(Plan plan, const AvoidanceRequest& request,
                                 InfeasiblePolicy infeasible) {
   PlanRequest constrained = RequestOn(request.road, request.vehicle, request.speed);
@@ -279,7 +286,8 @@ FeasiblePlan MakeFeasibleOnRoad(Plan plan, const AvoidanceRequest& request,
   return MakeFeasibleFromHere(std::move(plan), constrained);
 }
 
-/// Plans past the obstacles; if the road does not hold that plan, stops before the first obstacle.
+/// Plans past the obstacles. If the road does not hold that plan, plans to stop before the first
+/// obstacle.
 FeasiblePlan AvoidOrStop(const AvoidanceRequest& request, double safe_distance,
                          const FindCurve& find) {
   const InfeasiblePolicy infeasible = request.road.infeasible;
@@ -293,7 +301,7 @@ FeasiblePlan AvoidOrStop(const AvoidanceRequest& request, double safe_distance,
   };
   const Plan stop = AroundObstacles(request, safe_distance, none).Run();
   FeasiblePlan held = MakeFeasibleOnRoad(stop, request, infeasible);
-  // A moving car cannot refuse: it stops as well as it can.
+  // Never refuse a plan for a moving car: the car stops as well as it can.
   return held.ok() || !request.car ? held
                                    : MakeFeasibleOnRoad(stop, request, InfeasiblePolicy::kAllow);
 }

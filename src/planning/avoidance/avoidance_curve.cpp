@@ -10,33 +10,36 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
-// Repairs a degree-7 Bezier curve past obstacles until it is feasible. The end conditions
-// (position, heading, curvature) fix P_0 and P_7, the directions of P_1 and P_6 and the offsets of
-// P_2 and P_5. Fit places P_3 and P_4 by least squares along a polyline. RepairCurve then minimizes
-// the integral of (dkappa/ds)^2 over the eight remaining variables; clearance, steering angle and
-// rate, lateral acceleration and passing side are inequality constraints, evaluated at 193 samples.
-// The curve past an obstacle follows Skackauskas (dissertation, listing F.2); the repair does not.
+// Repairs a degree-7 Bezier curve past obstacles until the curve is feasible. The end conditions
+// are position, heading and curvature. These conditions fix the control points P_0 and P_7, the
+// directions of P_1 and P_6, and the offsets of P_2 and P_5. Fit places the control points P_3 and
+// P_4 by least squares along a polyline. RepairCurve then minimizes the integral of (dkappa/ds)^2
+// over the eight remaining variables. Clearance, steering angle and rate, lateral acceleration and
+// passing side are inequality constraints, evaluated at 193 samples. The curve past an obstacle
+// follows Skackauskas (dissertation, listing F.2). The dissertation does not contain the repair.
 
 namespace trackbed::avoidance {
 namespace {
 
 constexpr std::size_t kDegree = 7;
 constexpr double kCheckSpacing = 0.05;  // [m]
-/// Margins that the search adds to the limits, because it checks the curve at samples only.
+/// Margins that the search adds to the limits, because it checks the curve only at samples.
 constexpr double kClearanceMargin = 0.02;  // [m]
 constexpr double kLimitMargin = 0.99;
-/// If a constraint is still violated by more than kMaxRepairableViolation after so many
-/// evaluations, the search is abandoned.
+/// After kProbeEvaluations, abandons the search if the violation of a constraint exceeds
+/// kMaxRepairableViolation.
 constexpr int kProbeEvaluations = 200;
 constexpr double kMaxRepairableViolation = 0.5;
-/// A stalled search continues with COBYLA, which builds linear models of objective and constraints.
+/// A stalled search continues with COBYLA, which builds linear models of the objective and the
+/// constraints.
 constexpr SearchOptions kRescueOptions{
     .method = SearchMethod::kCobyla, .evaluations = 300, .tolerance = 1e-5};
-/// Distances are not computed beyond this much more than the required clearance [m].
+/// Largest excess of a distance over the required clearance that is computed exactly [m].
 constexpr double kMaxExcessDistance = 3.0;
 
-/// The search's variables: the degrees of freedom that the end conditions leave, in the mirror
-/// frame of the start, in units of the distance between the ends.
+/// Variables of the search: the degrees of freedom that the end conditions leave. The variables
+/// refer to the mirror frame of the start. The unit of the variables is the distance between the
+/// curve's ends.
 enum Variable : std::size_t {
   kStartFirst,
   kStartSecond,
@@ -52,9 +55,10 @@ using Variables = std::span<const double>;
 
 using Points = std::array<Vec2, kDegree + 1>;
 
-/// Maps variables to P_0 to P_7, in the mirror frame of the start. P_1 lies on the tangent; the
-/// offset h of P_2 from the tangent follows from the curvature, kappa = (6/7) h/|P_0 P_1|^2. The
-/// same holds at the end.
+/// Maps variables to the control points P_0 to P_7, in the mirror frame of the start. The control
+/// point P_1 lies on the tangent at the start of the curve. The offset h of P_2 from the tangent
+/// follows from the curvature at the start: kappa = (6/7) h/|P_0 P_1|^2. At the end of the curve,
+/// P_5 follows from the curvature in the same way.
 class EndConditions {
  public:
   explicit EndConditions(const CurveProblem& problem)
@@ -102,7 +106,7 @@ class EndConditions {
   Vec2 forward_;
 };
 
-/// y at which the line between two points on either side of the y axis crosses that axis.
+/// Intersection of the y axis with the line between two points on either side of the axis.
 double CrossingY(const Vec2& a, const Vec2& b) {
   return a.y() + (b.y() - a.y()) * a.x() / (a.x() - b.x());
 }
@@ -133,11 +137,12 @@ const BasisSamples& BernsteinBasis() {
   return basis;
 }
 
-/// Objective and constraints of the repair, evaluated at the samples of the basis.
+/// Objective and constraints of the curve repair, evaluated at the samples of the basis.
 class Evaluation {
  public:
-  /// Each constraint is the worst value over sixteen samples. Such worst values vary more smoothly
-  /// with the variables than a single one over the whole curve, so the search converges better.
+  /// Each constraint is the worst value over sixteen samples. The worst value of sixteen samples
+  /// varies more smoothly with the variables than the worst value of the whole curve. The smoother
+  /// constraints let the search converge better.
   static constexpr Eigen::Index kStretch = 16;
   static constexpr std::size_t kStretches = (BasisSamples::kSamples - 1) / kStretch;
   static constexpr std::size_t kConstraints = 2 * kStretches + 4;
@@ -192,7 +197,8 @@ class Evaluation {
     double steering = 0.0;
     double acceleration = 0.0;
     double slowest = std::numeric_limits<double>::infinity();
-    double on_side = std::numeric_limits<double>::infinity();  // to the passage's side
+    // Smallest offset toward the passing side where the curve passes the obstacle.
+    double on_side = std::numeric_limits<double>::infinity();
     Vec2 last_at_passage{0.0, 0.0};
     constraints_.fill(-1.0);
     for (Eigen::Index k = 0; k < BasisSamples::kSamples; ++k) {
@@ -202,8 +208,8 @@ class Evaluation {
       const double parameter_speed = first.norm();
       const double curvature = CurvatureFromDerivatives(first, second);
       const double sharpness = SharpnessFromDerivatives(first, second, third);
-      // Trapezoidal rule with the same samples for every curve, so that rounding errors do not
-      // jump.
+      // Apply the trapezoidal rule with the same samples to every curve, so that rounding errors do
+      // not jump.
       length += k == 0 ? 0.0 : 0.5 * (parameter_speed + last_speed) / (BasisSamples::kSamples - 1);
       last_speed = parameter_speed;
       slowest = std::min(slowest, parameter_speed);
@@ -232,16 +238,17 @@ class Evaluation {
     constraints_[2 * kStretches] = steering / (kLimitMargin * vehicle.steering_limit) - 1.0;
     constraints_[2 * kStretches + 1] =
         acceleration / (kLimitMargin * problem_.lateral_acceleration) - 1.0;
-    // Prevents cusps: the parameter speed must be at least a tenth of a straight curve's mean.
+    // Prevents cusps: the parameter speed must be at least a tenth of the mean parameter speed of a
+    // straight curve.
     const double scale = ends_.scale();
     constraints_[2 * kStretches + 2] = 1.0 - slowest / (0.1 * scale);
     constraints_[2 * kStretches + 3] = std::isfinite(on_side) ? -on_side / scale : 1.0;
     objective_ = variation * scale * scale * scale;
   }
 
-  /// Separation of the footprint at a point of the curve from the nearest obstacle; at most the
-  /// required clearance plus kMaxExcessDistance, which the boxes' circumscribed circles suffice to
-  /// show.
+  /// Separation of the footprint at a point of the curve from the nearest obstacle. Caps the result
+  /// at the required clearance plus kMaxExcessDistance. The circumscribed circles of the boxes
+  /// suffice to show that the separation exceeds the cap.
   [[nodiscard]] double NearestObstacle(const Vec2& rear_axle, const Vec2& forward) const {
     const VehicleParams& vehicle = problem_.vehicle;
     const Vec2 middle = rear_axle + (0.5 * vehicle.length - vehicle.rear_overhang) * forward;
@@ -262,11 +269,11 @@ class Evaluation {
 
   const CurveProblem& problem_;
   EndConditions ends_;
-  Vec2 passage_{0.0, 0.0};  // in the frame of the start
+  Vec2 passage_{0.0, 0.0};  // Position of the passed obstacle in the frame of the start.
   Vec2 along_passage_{1.0, 0.0};
-  double wanted_;  // required clearance [m]
-  /// An obstacle in the frame of the start, and the largest distance between the centers of car and
-  /// obstacle at which the two can touch.
+  double wanted_;  // Required clearance [m].
+  /// An obstacle in the frame of the start. The struct also holds the largest distance between the
+  /// centers of car and obstacle at which car and obstacle can touch.
   struct Near {
     OrientedBox box;
     double radius;
@@ -286,7 +293,7 @@ BezierCurve InWorld(const CurveProblem& problem, const Points& points) {
   return BezierCurve(control);
 }
 
-/// Evenly spaced points along a polyline, both ends included.
+/// Returns evenly spaced points along a polyline, both ends included.
 std::vector<Vec2> Evenly(const std::vector<Vec2>& polyline, std::size_t count) {
   std::vector<double> along{0.0};
   for (std::size_t i = 1; i < polyline.size(); ++i) {
@@ -368,7 +375,8 @@ BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline) 
   const double seventh = PolylineLength(polyline) / kDegree / ends.scale();
   std::array<double, kVariables> x{seventh, seventh, 0.0, 0.0, 0.0, 0.0, seventh, seventh};
   Points points = ends.ToPoints(x);
-  // P_3 and P_4 fit what remains of the polyline after subtracting the known control points.
+  // The control points P_3 and P_4 fit the part of the polyline that remains after subtracting the
+  // known control points.
   constexpr Eigen::Index kSamples = BasisSamples::kSamples;
   const auto& bernstein = BernsteinBasis().of_order[0];
   Eigen::Matrix<double, kSamples, 2> rest;
@@ -395,8 +403,8 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
     points[i] = problem.Frame().In(guess.control_points()[i]);
   }
   const std::array<double, kVariables> start = evaluation.ends().ToVariables(points);
-  // The end lengths may be 0.02 to 1 of the distance between the ends; P_3 and P_4 may lie anywhere
-  // near.
+  // Each end length is 0.02 to 1 times the distance between the ends. The positions of P_3 and P_4
+  // have wide bounds.
   SearchProblem moved{
       .lower = {0.02, 0.02, -1.0, -1.5, -1.0, -1.5, 0.02, 0.02},
       .upper = {1.0, 1.0, 2.0, 1.5, 2.0, 1.5, 1.0, 1.0},

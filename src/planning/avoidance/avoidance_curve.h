@@ -10,14 +10,15 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/vehicle/params.h"
 
-/// Curves past obstacles: the first guess, its check and its repair.
+/// Curves past obstacles: the initial guess of a curve, its check and its repair.
 namespace trackbed::avoidance {
 
-/// Frame of the tree search and of the curve: at the curve's start, mirrored for a right turn.
-/// Moved or mirrored problems then have the same coordinates.
+/// Frame of the tree search and of the curve. The origin of the frame is the curve's start, and
+/// right turns are mirrored. Problems that differ only by a motion or a mirroring have the same
+/// coordinates in the MirrorFrame.
 struct MirrorFrame {
   Pose2 pose;
-  double side = 1.0;  ///< -1: y points to the right
+  double side = 1.0;  ///< Side factor; with -1, the y axis points to the right.
 
   [[nodiscard]] Vec2 In(const Vec2& p) const {
     const Vec2 local = ToLocal(pose, p);
@@ -39,8 +40,8 @@ struct CurveEnd {
 
 /// The side on which an obstacle is to be passed.
 struct PassageConstraint {
-  Pose2 frame;        ///< at the obstacle, along the path past it
-  double side = 1.0;  ///< +1: pass to the left of the frame's origin, -1: to the right
+  Pose2 frame;        ///< Frame at the obstacle, along the path past the obstacle.
+  double side = 1.0;  ///< Passing side: +1 is left of the frame's origin, -1 is right.
 };
 
 struct CurveProblem {
@@ -48,37 +49,37 @@ struct CurveProblem {
   CurveEnd start;
   CurveEnd end;
   PassageConstraint passage;
-  double mirror = 1.0;  ///< -1: mirrored (see MirrorFrame)
+  double mirror = 1.0;  ///< Mirror factor; -1 means mirrored (see MirrorFrame).
   std::vector<OrientedBox> obstacles;
-  double safe_distance = 0.0;         ///< SD [m]
-  double steering_rate = 0.0;         ///< available to the curve [rad/s]
-  double lateral_acceleration = 0.0;  ///< limit [m/s^2]
-  double start_speed = 0.0;           ///< [m/s]
-  double speed = 0.0;                 ///< to brake to, or to accelerate to immediately [m/s]
-  double deceleration = 0.0;          ///< with which the car brakes to `speed` [m/s^2]
+  double safe_distance = 0.0;         ///< Safe distance SD [m].
+  double steering_rate = 0.0;         ///< Steering rate available to the curve [rad/s].
+  double lateral_acceleration = 0.0;  ///< Limit of the lateral acceleration [m/s^2].
+  double start_speed = 0.0;           ///< Speed at the start [m/s].
+  double speed = 0.0;                 ///< Speed to brake to, or to accelerate to immediately [m/s].
+  double deceleration = 0.0;  ///< Deceleration with which the car brakes to `speed` [m/s^2].
 
   [[nodiscard]] MirrorFrame Frame() const { return {start.pose, mirror}; }
-  /// Largest speed after `distance` [m/s].
+  /// Largest speed of the car after `distance` [m/s].
   [[nodiscard]] double SpeedAt(double distance) const;
 };
 
-/// Largest demands of a curve on the car, and its clearance.
+/// Largest demands of a curve on the car, and the curve's clearance.
 struct CurveCheck {
-  double length = 0.0;                ///< [m]
-  double clearance = 0.0;             ///< of the footprint; infinite without obstacles [m]
-  double steering = 0.0;              ///< largest magnitude [rad]
-  double steering_rate = 0.0;         ///< largest magnitude [rad/s]
-  double lateral_acceleration = 0.0;  ///< largest magnitude [m/s^2]
+  double length = 0.0;         ///< Length of the curve [m].
+  double clearance = 0.0;      ///< Clearance of the footprint; infinite without obstacles [m].
+  double steering = 0.0;       ///< Largest magnitude of the steering angle [rad].
+  double steering_rate = 0.0;  ///< Largest magnitude of the steering rate [rad/s].
+  double lateral_acceleration = 0.0;  ///< Largest magnitude of the lateral acceleration [m/s^2].
 
   [[nodiscard]] bool Keeps(const CurveProblem& problem) const;
 };
 
-/// Checks every 0.05 m.
+/// Checks the curve at points every 0.05 m.
 CurveCheck Check(const CurveProblem& problem, const BezierCurve& curve);
 
-/// Least-squares fit of a degree-7 curve with the problem's end conditions to a polyline from start
-/// to end. P_3 and P_4 are fitted; the end lengths |P_0 P_1|, |P_1 P_2|, |P_5 P_6| and |P_6 P_7|
-/// are a seventh of the polyline's length.
+/// Least-squares fit of a degree-7 curve to a polyline from start to end. The curve has the
+/// problem's end conditions. The fit determines the control points P_3 and P_4. The end lengths
+/// |P_0 P_1|, |P_1 P_2|, |P_5 P_6| and |P_6 P_7| are a seventh of the polyline's length.
 BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline);
 
 struct Repair {
@@ -87,12 +88,14 @@ struct Repair {
   SearchResult search;
 };
 
-/// Whether a polyline passes on the required side: it crosses that side an odd number of times.
+/// Whether a polyline crosses the required side of the obstacle an odd number of times, and thus
+/// passes on the required side.
 bool GoesThrough(const PassageConstraint& passage, const std::vector<Vec2>& polyline);
 
-/// Moves P_3, P_4 and the end lengths, starting at `guess`, to minimize the curvature variation,
-/// the integral of (dkappa/ds)^2 ds, of a curve that passes on the required side and keeps the safe
-/// distance and the limits. None if the search finds no such curve.
+/// Minimizes the curvature variation of a curve, the integral of (dkappa/ds)^2 ds. Moves the
+/// control points P_3 and P_4 and changes the end lengths, starting at `guess`. The repaired curve
+/// passes on the required side and keeps the safe distance and the limits. Returns none if the
+/// search finds no feasible curve.
 std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve& guess,
                                   const SearchOptions& search, std::uint64_t seed);
 

@@ -18,7 +18,7 @@ void Visit(DiagnosticsVisitor& out, const TreeRecord& tree) {
   }
 }
 
-/// Record of the search that moved the control points.
+/// Record of the search that moved the control points of the curve.
 struct RepairRecord {
   const BezierAvoidanceDiagnostics& own;
 };

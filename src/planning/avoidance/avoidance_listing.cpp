@@ -1,7 +1,6 @@
 #include "src/planning/avoidance/avoidance_listing.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
@@ -16,20 +15,22 @@
 namespace trackbed::avoidance {
 namespace {
 
-/// Tolerance of stations that are sums of lengths [m] and of angles that are length over radius
+/// Tolerance of stations that are sums of lengths [m], and of angles that are length over radius
 /// [rad].
 constexpr double kRounding = 1e-9;
 
 /// An arc of the plan with the adjacent straights.
 struct Turn {
-  Stations arc;            ///< [m]
-  double curvature = 0.0;  ///< signed [1/m]
-  Stations straights;      ///< from the start of the first straight to the end of the second [m]
+  Stations arc;            ///< Stations of the turn's arc [m].
+  double curvature = 0.0;  ///< Signed curvature of the arc [1/m].
+  /// Stations from the start of the first straight to the end of the second [m].
+  Stations straights;
 
   [[nodiscard]] double sweep() const { return std::abs(curvature) * (arc.to - arc.from); }
 };
 
-/// The turn whose arc contains a station; none on a straight or on a clothoid.
+/// The turn whose arc contains a station. Returns none for a station on a straight or on a
+/// clothoid.
 std::optional<Turn> TurnAt(const Path& path, double s) {
   const std::vector<Segment>& segments = path.segments();
   const auto is_straight = [](const Segment& segment) {
@@ -56,8 +57,8 @@ std::optional<Turn> TurnAt(const Path& path, double s) {
   return turn;
 }
 
-/// The listing's problem. Its arc is measured from a right angle, whatever the turn's heading
-/// change.
+/// Sets up the problem of listing F.2 (Skackauskas). Listing F.2 measures its arc from a right
+/// angle, whatever the turn's heading change.
 TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceOptions& options,
                         const Turn& turn, const OrientedBox& obstacle, double beside) {
   TurnManeuver problem;
@@ -67,7 +68,8 @@ TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceO
   problem.turn_angle = 0.5 * kPi;
   problem.reduction = problem.turn_angle - turn.sweep();
   if (std::abs(problem.reduction) < kRounding) {
-    problem.reduction = 0.0;  // the listing has special rules for a right angle
+    // The reduction is zero, because listing F.2 has special rules for a right angle.
+    problem.reduction = 0.0;
   }
   problem.side = turn.curvature > 0.0 ? TurnSide::kLeft : TurnSide::kRight;
   const double share = (beside - turn.arc.from) / (turn.arc.to - turn.arc.from);
@@ -81,30 +83,16 @@ TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceO
   return problem;
 }
 
-/// The violated limits of the curve; empty if it is feasible.
-std::vector<std::string> NotesOn(const CurveCheck& check, const VehicleParams& vehicle,
-                                 double safe_distance, const OrientedBox& obstacle) {
-  std::vector<std::string> broken;
-  const auto add = [&](const char* what, double value, const char* relation, double limit,
-                       const char* unit) {
-    broken.push_back(
-        fmt::format("{} {:.3g} {} {} {:.3g} {}", what, value, unit, relation, limit, unit));
-  };
-  if (check.clearance < safe_distance) {
-    add("clearance", check.clearance, "is below the safe distance of", safe_distance, "m");
-  }
-  if (check.steering > vehicle.steering_limit) {
-    add("steering angle", check.steering, "exceeds", vehicle.steering_limit, "rad");
-  }
-  if (check.steering_rate > vehicle.steering_rate) {
-    add("steering rate", check.steering_rate, "exceeds", vehicle.steering_rate, "rad/s");
-  }
-  if (broken.empty()) {
+/// Reports a clearance below the safe distance. MakeFeasible reports all other limits.
+std::vector<std::string> ClearanceNotes(const CurveCheck& check, double safe_distance,
+                                        const OrientedBox& obstacle) {
+  if (check.clearance >= safe_distance) {
     return {};
   }
-  return {
-      fmt::format("infeasible, kept anyway: the curve past the obstacle at ({:.4g}, {:.4g}): {}",
-                  obstacle.center.x, obstacle.center.y, fmt::join(broken, "; "))};
+  return {fmt::format(
+      "infeasible, kept anyway: the curve past the obstacle at ({:.4g}, {:.4g}): clearance {:.3g} "
+      "m is below the safe distance of {:.3g} m",
+      obstacle.center.x, obstacle.center.y, check.clearance, safe_distance)};
 }
 
 ListingAvoidanceDiagnostics DiagnosticsOn(const TurnManeuver& problem, const TurnLayout& layout,
@@ -138,7 +126,7 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
   }
   const LiteralTree tree = LiteralRrtStar(problem, layout, request.seed);
   const std::array<Vec2, 8> points = ControlPoints(problem, layout, vehicle, tree.final_y);
-  // P_6 and P_7 lie on the tangent at the arc's end.
+  // The control points P_6 and P_7 lie on the tangent at the end of the arc.
   const Vec2 exit = (points[7] - points[6]).normalized();
   const double before = problem.straight();
   const double after = exit.dot(points[7] - layout.arc.back().position);
@@ -166,7 +154,7 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
                                   .start_speed = problem.speed,
                                   .speed = problem.speed},
                                  curve);
-  // The listing has one speed and no limit on what it asks of the tyres: the road sets it.
+  // Listing F.2 has one speed and no limit on the tyre forces, so the road's grip limits the speed.
   const RoadHoldLimits hold = MinRoadHold(path, {turn->arc.from - before, turn->arc.to + after},
                                           RequestOn(request.road, vehicle, request.speed));
   const double held = hold.lateral > 0.0 && check.lateral_acceleration > hold.lateral
@@ -181,7 +169,7 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
               .speed = held * problem.speed,
               .passing_side = problem.passing_side(),
               .tree = nodes,
-              .notes = NotesOn(check, vehicle, options.safe_distance, conflict.obstacle),
+              .notes = ClearanceNotes(check, options.safe_distance, conflict.obstacle),
               .diagnostics = [own = DiagnosticsOn(problem, layout, tree, vehicle, points)](
                                  const Plan&, const Stations&) { return MethodDiagnostics(own); }},
           ""};

@@ -3,14 +3,13 @@
 #include "src/planning/avoidance/avoidance_stretch.h"
 #include "trackbed/planning/common/plan.h"
 
-/// The listing's curve past an obstacle in a turn, as printed (Skackauskas, dissertation, listing
-/// F.2).
+/// The curve past an obstacle in a turn, as printed in Skackauskas (dissertation, listing F.2).
 namespace trackbed::avoidance {
 
-/// Replaces the plan's turn by the listing's curve, which begins S before the arc. Returns no
-/// curve, with a reason, if the obstacle does not stand in a turn between two straights, if the
-/// point S before the arc lies before `from`, where the car can leave the plan, or if the listing
-/// itself fails (TurnStatus).
+/// Replaces the plan's turn by the curve of listing F.2, which begins at a distance S before the
+/// arc. The car can leave the plan at `from` or later. Returns a reason instead of a curve if the
+/// obstacle does not stand in a turn between two straights. Also returns a reason if the curve
+/// would start before `from`, or if listing F.2 itself fails (TurnStatus).
 ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
                                    const ListingAvoidanceOptions& options, const Plan& plan,
                                    const Conflict& conflict, double from);

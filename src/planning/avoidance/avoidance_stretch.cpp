@@ -11,20 +11,22 @@
 #include "trackbed/world/world.h"
 
 // Finds the stretch of a plan that a curve past an obstacle replaces. RRT* (Karaman and Frazzoli
-// 2011) finds a path on each side of the obstacle. For each demand (comfortable, then slower), side
-// and station of departure, the stations of return are tried in order: Fit guesses a curve along
-// the path of RRT*, RepairCurve makes it feasible. From the first feasible curve, earlier stations
-// of return are tried until one fails.
+// 2011) finds a path on each side of the obstacle. The search loops over demands (comfortable, then
+// slower), sides and stations of departure. For each demand, side and station of departure, the
+// search tries the stations of return in order. Fit guesses a curve along the path of RRT*, and
+// RepairCurve makes the curve feasible. After the first feasible curve, the search tries earlier
+// stations of return until one fails.
 
 namespace trackbed::avoidance {
 namespace {
 
-/// Spacing of the stations at which a curve may return to the path; doubled after a bend [m].
+/// Spacing of the stations at which a curve may return to the path [m]. After a bend, the spacing
+/// of these stations is twice as large.
 constexpr double kReturnStep = 2.0;
-/// Ratio of successive speeds that are tried.
+/// Ratio of successive speeds that the search tries.
 constexpr double kSpeedRatio = 0.6;
-/// Tolerance for the rounding of a curve to path pieces: a curve that keeps SD is not in conflict
-/// [m].
+/// Tolerance for the rounding of a curve to path pieces [m]. With this tolerance, a curve that
+/// keeps the safe distance SD is not in conflict.
 constexpr double kRoundingTolerance = 5e-4;
 
 double HalfDiagonal(const OrientedBox& box) {
@@ -40,14 +42,15 @@ std::vector<PathPoint> SamplePoints(const Path& path, double from, double to) {
   return points;
 }
 
-/// The bend around a station: the curvature has one sign and at least a tenth of its peak value.
+/// The bend around a station, in which the curvature has one sign and at least a tenth of its peak
+/// value.
 struct Bend {
   double from = 0.0;       ///< [m]
   double to = 0.0;         ///< [m]
-  double curvature = 0.0;  ///< of the largest magnitude, signed [1/m]
+  double curvature = 0.0;  ///< Signed curvature of the largest magnitude [1/m].
 };
 
-/// One side of an obstacle, and the path that RRT* found there.
+/// One side of an obstacle, and the path that RRT* found on this side.
 struct SidePath {
   PassingSide passing_side = PassingSide::kInner;
   RrtStarResult tree;
@@ -56,7 +59,7 @@ struct SidePath {
 /// Speed and steering rate that a curve may use.
 struct Demand {
   double speed = 0.0;  ///< [m/s]
-  double share = 1.0;  ///< of the steering rate
+  double share = 1.0;  ///< Fraction of the steering rate that the curve may use.
 };
 
 class StretchFinder {
@@ -83,7 +86,7 @@ class StretchFinder {
     for (const Demand& demand : Demands()) {
       for (const SidePath& side_path : side_paths) {
         if (demand.speed < full && side_path.tree.status == RrtStarStatus::kNotReached) {
-          continue;  // RRT* found no path on this side; a lower speed does not help
+          continue;  // RRT* found no path on this side; a lower speed does not help.
         }
         for (const double leave : leaves) {
           // The problem of a curve from `leave` to `back` at this speed.
@@ -138,7 +141,8 @@ class StretchFinder {
  private:
   [[nodiscard]] const Path& path() const { return plan_.reference.path; }
 
-  /// The bend that contains a conflict; on a straight, the conflict itself.
+  /// The bend that contains a conflict. For a conflict on a straight, the bend is the conflict's
+  /// own stretch.
   [[nodiscard]] Bend BendAt(const Conflict& conflict) const {
     Bend bend{conflict.from, conflict.to, 0.0};
     for (const PathPoint& point : SamplePoints(path(), conflict.from, conflict.to)) {
@@ -162,8 +166,8 @@ class StretchFinder {
     return bend;
   }
 
-  /// Distance that a lateral shift past the obstacle takes. A fifth-order shift by D over l has its
-  /// largest dkappa/ds, 60 D/l^3, at its ends; the steering rate limits it.
+  /// Distance that a lateral shift past the obstacle needs. The largest dkappa/ds of a fifth-order
+  /// shift by D over length l is 60 D/l^3, at its ends. The steering rate limits dkappa/ds.
   [[nodiscard]] double ShiftLength(const OrientedBox& obstacle) const {
     const double aside =
         HalfDiagonal(obstacle) + options_.safe_distance + 0.5 * request_.vehicle.width;
@@ -172,21 +176,24 @@ class StretchFinder {
     return std::cbrt(60.0 * aside / sharpness);
   }
 
-  /// S, the distance before and after a bend; on a straight, the length of the lateral shift.
+  /// The distance S before and after a bend, which the curve also replaces. On a straight, S is the
+  /// length of the lateral shift.
   [[nodiscard]] double LeadDistance(const Bend& bend, const OrientedBox& obstacle) const {
     const double delay = request_.speed.speed * options_.delay;
     return bend.curvature != 0.0 ? 1.0 / std::abs(bend.curvature) + delay
                                  : ShiftLength(obstacle) + delay;
   }
 
-  /// Whether the scheduled steering angle matches the path's curvature; false on a ramp.
+  /// Whether the scheduled steering angle matches the path's curvature, as it does outside steering
+  /// ramps.
   [[nodiscard]] bool IsSteeringSettled(double s) const {
     const double planned = SteeringForCurvature(request_.vehicle, path().At(s).curvature);
     constexpr double kSteeringTolerance = 1e-3;  // [rad]
     return std::abs(plan_.schedule.At(s) - planned) < kSteeringTolerance;
   }
 
-  /// The settled station nearest to s in [from, to]; without one, s clamped to that range.
+  /// The station nearest to s in [from, to] at which the steering is settled. If the steering is
+  /// not settled in [from, to], returns s clamped to [from, to].
   [[nodiscard]] double SettledNear(double s, double from, double to) const {
     for (double away = 0.0; s - away >= from || s + away <= to; away += kPathCheckSpacing) {
       for (const double candidate : {s - away, s + away}) {
@@ -198,7 +205,7 @@ class StretchFinder {
     return std::clamp(s, from, to);
   }
 
-  /// Stations at which the car may leave the plan, preferred one first.
+  /// Stations at which the car may leave the plan, the preferred station first.
   [[nodiscard]] std::vector<double> DepartureStations(const Conflict& conflict, const Bend& bend,
                                                       double from) const {
     std::vector<double> leaves;
@@ -216,7 +223,7 @@ class StretchFinder {
     return leaves;
   }
 
-  /// Stations at which the car may be back on the plan, in ascending order.
+  /// Stations at which the car may return to the plan, in ascending order.
   [[nodiscard]] std::vector<double> ReturnStations(const Conflict& conflict,
                                                    const Bend& bend) const {
     const double lead = LeadDistance(bend, conflict.obstacle);
@@ -248,7 +255,7 @@ class StretchFinder {
                          .start_speed = plan_.reference.speed.SpeedAt(leave),
                          .speed = demand.speed,
                          .deceleration = request_.speed.deceleration};
-    // The car can brake on the way to the start of the curve.
+    // The car can already brake before the start of the curve.
     const double before = plan_.reference.speed.SpeedAt(from);
     LowerToRoad(problem, {std::min(from, leave), back});
     const double square = before * before - 2.0 * problem.deceleration * (leave - from);
@@ -261,8 +268,8 @@ class StretchFinder {
     return problem;
   }
 
-  /// Lowers the limits to what the road holds under the path that the curve replaces. Of what lies
-  /// beside it, such as a patch, MakeFeasible takes care.
+  /// Lowers the limits of the curve to the limits of the road under the replaced path. MakeFeasible
+  /// later checks the road beside the replaced path, for example a patch.
   void LowerToRoad(CurveProblem& problem, const Stations& within) const {
     const RoadHoldLimits hold = MinRoadHold(path(), within, road_);
     if (hold.lateral > 0.0) {
@@ -273,20 +280,23 @@ class StretchFinder {
     }
   }
 
-  /// +1 if `passing_side` is to the left of the path at the obstacle, -1 if to the right.
+  /// Returns +1 if `passing_side` is to the left of the path at the obstacle, and -1 if it is to
+  /// the right.
   [[nodiscard]] static double LateralSign(const Bend& bend, PassingSide passing_side) {
     const double inner = bend.curvature < 0.0 ? -1.0 : 1.0;
     return passing_side == PassingSide::kInner ? inner : -inner;
   }
 
-  /// Frame that defines the sides: at the obstacle, along the path beside it.
+  /// Frame that defines the two sides of the obstacle. The frame lies at the obstacle, along the
+  /// adjacent path.
   [[nodiscard]] Pose2 SideFrame(const Conflict& conflict) const {
     return {conflict.obstacle.center.x, conflict.obstacle.center.y,
             path().At(StationBeside(path(), request_.vehicle, conflict)).pose.yaw};
   }
 
-  /// Demands in the order in which they are tried: comfortable at the mission's speed, then the
-  /// full steering rate at falling speeds down to the slowest allowed.
+  /// Demands in the order in which the search tries them. The first demand is comfortable, at the
+  /// mission's speed. The next demands use the full steering rate at falling speeds, down to the
+  /// slowest allowed speed.
   [[nodiscard]] std::vector<Demand> Demands() const {
     const double most = options_.max_steering_rate_fraction;
     std::vector<Demand> demands;
@@ -324,7 +334,8 @@ class StretchFinder {
     return {{middle.x(), middle.y(), passage.frame.yaw}, kWallThickness, length};
   }
 
-  /// The sides to try, each with the path that RRT* found there; the shorter path first.
+  /// The sides to try, each with the path that RRT* found on it; the side with the shorter path
+  /// comes first.
   [[nodiscard]] std::vector<SidePath> FindSidePaths(const Conflict& conflict, const Bend& bend,
                                                     const CurveProblem& problem) const {
     const Pose2 beside = SideFrame(conflict);
@@ -365,8 +376,8 @@ class StretchFinder {
     return {first, {other, grow(other)}};
   }
 
-  /// Polyline for the guess of a curve: the path of RRT* up to its point closest to the end;
-  /// without such a path, over a point beside the obstacle.
+  /// Polyline for the initial guess of a curve: the path of RRT* up to its point closest to the
+  /// end. If RRT* found no path, the polyline passes over a point beside the obstacle.
   [[nodiscard]] std::vector<Vec2> Guide(const SidePath& side_path, const Conflict& conflict,
                                         const Bend& bend, const CurveProblem& problem) const {
     const Vec2 end = problem.end.pose.position();

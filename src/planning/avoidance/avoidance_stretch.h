@@ -8,43 +8,43 @@
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/plan.h"
 
-/// From a conflict with an obstacle to the stretch of the plan that a curve replaces.
+/// Finds the stretch of the plan that a curve replaces, given a conflict with an obstacle.
 namespace trackbed::avoidance {
 
 /// Spacing of collision checks along a path [m].
 inline constexpr double kPathCheckSpacing = 0.1;
 
-/// A stretch of the plan on which an obstacle is too close.
+/// A stretch of the plan on which an obstacle is too close to the car.
 struct Conflict {
-  double from = 0.0;  ///< station [m]
-  double to = 0.0;    ///< station [m]
+  double from = 0.0;  ///< First station of the conflict [m].
+  double to = 0.0;    ///< Last station of the conflict [m].
   OrientedBox obstacle;
 };
 
-/// The first conflict beyond `from`: an obstacle is closer than `safe_distance` [m].
+/// The first conflict beyond `from`, where an obstacle is closer than `safe_distance` [m].
 std::optional<Conflict> FirstConflict(const AvoidanceRequest& request, double safe_distance,
                                       const Path& path, double from);
 
 /// The station at which the path runs beside the obstacle.
 double StationBeside(const Path& path, const VehicleParams& vehicle, const Conflict& conflict);
 
-/// A curve that replaces the plan between two stations, by any method.
+/// A curve, found by any method, that replaces the plan between two stations.
 struct Replacement {
-  Stations stations;  ///< of the plan
-  Pose2 start;        ///< of the curve
+  Stations stations;  ///< Replaced stations of the plan.
+  Pose2 start;        ///< Pose at the start of the curve.
   BezierCurve curve;
   CurveCheck check;
-  double speed = 0.0;  ///< limit on the curve [m/s]
+  double speed = 0.0;  ///< Speed limit on the curve [m/s].
   PassingSide passing_side = PassingSide::kInner;
-  std::vector<TreeNode> tree;  ///< of the search for this curve
+  std::vector<TreeNode> tree;  ///< Tree of the search for the curve.
   std::vector<std::string> notes;
-  /// Makes the method's diagnostics from the new plan and the curve's stations on it.
+  /// Makes the method's diagnostics from the new plan and the curve's stations on this plan.
   std::function<MethodDiagnostics(const Plan& plan, const Stations& curve)> diagnostics;
 };
 
 struct ReplacementSearch {
   std::optional<Replacement> replacement;
-  std::string why;  ///< why none was found, for people
+  std::string why;  ///< reason why no curve was found, for people
 };
 
 /// A feasible curve that replaces the plan between two stations.
@@ -52,22 +52,22 @@ struct Stretch {
   CurveProblem problem;
   Repair repair;
   PassingSide passing_side = PassingSide::kInner;
-  double leave = 0.0;  ///< station [m]
-  double back = 0.0;   ///< station [m]
+  double leave = 0.0;  ///< Station at which the curve leaves the plan [m].
+  double back = 0.0;   ///< Station at which the curve returns to the plan [m].
   RrtStarResult tree;
   OrientedBox obstacle;
-  double beside = 0.0;  ///< station at which the plan runs beside the obstacle [m]
-  int tried = 0;        ///< number of curves tried
+  double beside = 0.0;  ///< Station at which the plan runs beside the obstacle [m].
+  int tried = 0;        ///< Number of curves tried.
 };
 
 struct StretchSearch {
   std::optional<Stretch> stretch;
-  std::string why;  ///< why none was found, for people
+  std::string why;  ///< reason why no stretch was found, for people
 };
 
-/// Finds the stretch. Prefers, in this order: a high speed, the side with the shorter RRT* path,
-/// and an early return to the plan. The car can leave the plan, which may already contain curves
-/// around other obstacles, at `from` or later.
+/// Finds the stretch of the plan that a curve replaces. The search prefers, in this order, a high
+/// speed, the side with the shorter RRT* path, and an early return. The car can leave the plan at
+/// `from` or later. The plan may already contain curves around other obstacles.
 StretchSearch FindStretch(const AvoidanceRequest& request, const BezierAvoidanceOptions& options,
                           const Plan& plan, const Conflict& conflict, double from);
 

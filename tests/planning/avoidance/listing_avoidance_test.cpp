@@ -137,8 +137,9 @@ TEST(Listing, TellsWhatTheSteeringCannotDo) {
   request.vehicle.steering_limit = 0.1;
   const Plan plan = PlanAround(request, ListingAvoidanceOptions{});
   ASSERT_EQ(plan.notes.size(), 1U);
-  EXPECT_THAT(plan.notes[0], testing::AllOf(HasSubstr(": steering angle 0.1"),
-                                            HasSubstr(" rad exceeds 0.1 rad; steering rate "),
+  EXPECT_THAT(plan.notes[0], testing::AllOf(HasSubstr("kept anyway: steering angle 0.1"),
+                                            HasSubstr(" rad exceeds 0.1 rad at s = "),
+                                            HasSubstr("; steering rate "),
                                             HasSubstr(" rad/s exceeds 0.01 rad/s")));
 }
 
