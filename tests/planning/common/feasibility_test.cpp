@@ -203,7 +203,7 @@ TEST(Feasibility, SlowsDownMoreWhereTheRoadFallsToTheOutside) {
   PlanRequest request = Request(18.0, {{0.0, 0.0}});
   const std::vector<CoursePiece> bend{{.length = 200.0, .curvature = 0.0},
                                       {.length = 60.0, .curvature_to = 0.05},
-                                      {.length = 30.0, .curvature = 0.05}};
+                                      {.length = 90.0, .curvature = 0.05}};  // not braking yet
   const auto slowest = [&](double grade) {
     request.ground.grade = {grade, 0.0};
     const Plan plan = Course(request, bend);
