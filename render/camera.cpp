@@ -11,8 +11,8 @@
 namespace trackbed::render {
 namespace {
 
-/// Mean of `value(time + offset)`, weighted by a triangle of +-0.8 s. Its derivative is continuous,
-/// so the camera starts and stops turning smoothly.
+/// Mean of `value(time + offset)`, weighted by a triangle of +-0.8 s. The weighted mean has a
+/// continuous derivative, so the camera starts and stops turning smoothly.
 template <typename Function>
 auto Smooth(double time, Function value) {
   constexpr int kHalf = 16;
@@ -35,17 +35,17 @@ void LiftOnto(CameraPose& pose, const CameraSubject& subject, double time) {
   pose.ground_z = subject.SmoothGround(time) +
                   subject.grade().dot(Vec2(pose.target_x - car.x, pose.target_y - car.y));
   pose.target_z += pose.ground_z;
-  // Follows the slope, so that the hill does not hide the car.
+  // The camera's elevation follows the slope, so that the hill does not hide the car.
   pose.elevation += std::atan(subject.grade().dot(Direction(pose.azimuth)));
 }
 
 CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   const Point car = subject.Position(time);
-  // In reverse the camera looks backward, in the car's direction of motion. It turns there past the
-  // car's right side.
+  // In reverse the camera looks backward, in the car's direction of motion. When the car changes to
+  // reverse, the camera turns past the car's right side.
   const double heading = subject.SmoothHeading(time) + kPi * subject.SmoothReverse(time);
-  // The target is ahead of the rear axle, so that the road ahead fills the picture. It is close
-  // enough to keep the car above the strip and the caption.
+  // The camera looks at a point ahead of the rear axle, so that the road ahead fills the picture.
+  // The camera is close enough to keep the car above the strip and the caption.
   const double size = subject.box().scale();
   const double ahead = 1.0 * size;
   CameraPose pose;
@@ -54,7 +54,8 @@ CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   pose.target_z = 1.0 * size;
   pose.distance = 14.5 * size;
   pose.paint_scale = size;
-  // Slightly from the side, so that the car's flank and its trail beside the caption are visible.
+  // The camera looks slightly from the side, so that the car's flank and the trail beside the
+  // caption are visible.
   pose.azimuth = heading + 14.0 * kPi / 180.0;
   pose.elevation = -18.0 * kPi / 180.0;
   pose.view_angle = 40.0 * kPi / 180.0;
@@ -66,8 +67,9 @@ CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   const Point car = subject.Position(time);
   const double heading = subject.SmoothHeading(time);
   const double size = subject.box().scale();
-  const double ahead = 1.4 * size;  // middle of a typical car, from its rear axle [m]
-  const double width = 9.0 * size;  // width of the picture at the car [m]: two car lengths
+  const double ahead = 1.4 * size;  // Distance from a typical car's rear axle to its middle [m].
+  const double width = 9.0 * size;  // Width of the picture at the car's distance: two car lengths
+                                    // [m].
   constexpr double kViewAngle = 28.0 * kPi / 180.0;
   CameraPose pose;
   pose.target_x = car.x + ahead * std::cos(heading);
@@ -77,7 +79,7 @@ CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   pose.view_angle = kViewAngle;
   // Limits the aspect so that portrait pictures also show the whole car.
   pose.distance = 0.5 * width / (std::tan(0.5 * kViewAngle) * std::clamp(aspect, 0.2, 16.0 / 9.0));
-  // From the right, with the sun not behind the camera: shadows give depth.
+  // The camera looks from the right, with the sun not behind it: shadows give depth.
   pose.azimuth = heading + 0.5 * kPi;
   pose.elevation = -12.0 * kPi / 180.0;
   LiftOnto(pose, subject, time);
@@ -91,7 +93,7 @@ CameraPose Driver(const CameraSubject& subject, double time, double aspect) {
   constexpr double kFieldOfView = 66.0 * kPi / 180.0;  // horizontal angle of view
   CameraPose pose;
   pose.inside = true;
-  // The driver's eye: in the middle of the car, to the left, below the roof.
+  // The camera is at the driver's eye: in the middle of the car, to the left, below the roof.
   const Vec2 eye = ToWorld({car.x, car.y, heading}, {box.middle, 0.45 * box.half_width});
   pose.distance = 8.0 * subject.box().scale();
   pose.paint_scale = subject.box().scale();
@@ -125,12 +127,15 @@ CameraPose Orbit(const CameraSubject& subject, double time, double /*aspect*/) {
 }
 
 CameraPose Top(const CameraSubject& subject, double time, double aspect) {
-  // A narrow lens from high up, so that vertical objects hardly lean away from the center.
+  // The camera has a narrow lens high up, so that vertical objects hardly lean away from the
+  // center.
   constexpr double kViewAngle = 20.0 * kPi / 180.0;
   const double size = subject.box().scale();
-  const double margin = 5.0 * size;          // [m] around the route
-  const double follow_height = 34.0 * size;  // [m] of ground from bottom to top
-  const double fit_height = 60.0 * size;     // for larger routes the car would have too few pixels
+  const double margin = 5.0 * size;          // Margin around the route [m].
+  const double follow_height = 34.0 * size;  // Height of ground from the picture's bottom to its
+                                             // top [m].
+  const double fit_height = 60.0 * size;     // On routes larger than this height, the car would
+                                             // have too few pixels.
   const Point low = subject.lowest();
   const Point high = subject.highest();
   const double needed =
@@ -146,7 +151,7 @@ CameraPose Top(const CameraSubject& subject, double time, double aspect) {
     pose.target_x = 0.5 * (low.x + high.x);
     pose.target_y = 0.5 * (low.y + high.y);
   } else {
-    // Looks ahead, since the road ahead matters more than the road behind.
+    // The camera looks ahead, since the road ahead matters more than the road behind.
     const Point car = subject.SmoothPosition(time);
     const double heading = subject.SmoothHeading(time);
     pose.target_x = car.x + 6.0 * size * std::cos(heading);
@@ -167,7 +172,8 @@ CameraSubject::CameraSubject(const Recording& recording)
       lowest_(car_.Position(car_.begin())),
       highest_(lowest_),
       box_(FindCarBox(*recording.model)) {
-  constexpr double kStandstillSpeed = 0.05;  // a slower car counts as standing [m/s]
+  constexpr double kStandstillSpeed = 0.05;  // a car slower than this speed counts as standing
+                                             // [m/s]
   double reverse = 0.0;
   for (const double at : car_.log().times()) {
     const double speed = car_.ReadingsAt(at).speed;

@@ -9,8 +9,8 @@
 #include "trackbed/core/error.h"
 
 // Draws anti-aliased shapes: a pixel's coverage is estimated from the signed distance of its center
-// to the shape's edge, with a transition one pixel wide. Arrows take 4 by 4 samples per pixel, and
-// glyphs are large bitmaps averaged down to the wanted size.
+// to the shape's edge, with a transition one pixel wide. Arrows are drawn with 4 by 4 samples per
+// pixel. Glyphs are large bitmaps, averaged down to the wanted size.
 namespace trackbed::render {
 namespace {
 
@@ -34,7 +34,7 @@ std::array<std::uint8_t, 3> Blended(const std::array<std::uint8_t, 3>& under, Co
   const std::array<float, 3> rgb{color.r, color.g, color.b};
   std::array<std::uint8_t, 3> blended{};
   for (std::size_t i = 0; i < 3; ++i) {
-    // Rounds a non-negative number; std::lround takes ten times as long.
+    // Rounds a non-negative number by adding 0.5; std::lround takes ten times as long.
     const double value = under[i] + alpha * (255.0 * static_cast<double>(rgb[i]) - under[i]);
     blended[i] = static_cast<std::uint8_t>(value + 0.5);  // NOLINT(bugprone-incorrect-roundings)
   }
@@ -96,8 +96,8 @@ void Canvas::Blend(int x, int y, Color color, double alpha) {
 void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double alpha) {
   const double center_x = rectangle.left + 0.5 * rectangle.width;
   const double center_y = rectangle.top + 0.5 * rectangle.height;
-  // Pixels away from the edges, most of a panel, depend only on their old value: uses a lookup
-  // table.
+  // Pixels away from the edges depend only on their old value, so a lookup table is used. Most
+  // pixels of a panel are away from the edges.
   const int inner_left = std::max(0, static_cast<int>(std::ceil(rectangle.left + radius)) + 1);
   const int inner_right = std::min(
       image_.width, static_cast<int>(std::floor(rectangle.left + rectangle.width - radius)) - 1);
@@ -133,7 +133,7 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
 }
 
 void Canvas::Arrow(double middle_x, double middle_y, double length, double direction, Color color) {
-  // Dimensions along the arrow from its middle, and across it, relative to its length.
+  // Dimensions of an arrow relative to its length, along it from its middle and across it.
   constexpr double kNeck = 0.10;
   constexpr double kShaft = 0.08;
   constexpr double kHead = 0.26;
@@ -141,7 +141,7 @@ void Canvas::Arrow(double middle_x, double middle_y, double length, double direc
     return std::abs(along) <= 0.5 &&
            std::abs(beside) <= (along < kNeck ? kShaft : kHead * (0.5 - along) / (0.5 - kNeck));
   };
-  constexpr int kSamples = 4;  // along each side of a pixel
+  constexpr int kSamples = 4;  // samples along each side of a pixel
   const double reach = 0.6 * length;
   const double cosine = std::cos(direction);
   const double sine = std::sin(direction);
@@ -185,7 +185,7 @@ void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color 
   if (points.size() < 2 || all.right <= all.left || all.bottom <= all.top) {
     return;
   }
-  // Segments overlap at their joints: each pixel gets the maximum coverage of all segments.
+  // Segments overlap at their joints, so each pixel gets the maximum coverage of all segments.
   const auto columns = static_cast<std::size_t>(all.right - all.left);
   std::vector<float> covered(columns * static_cast<std::size_t>(all.bottom - all.top));
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -223,14 +223,14 @@ void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color 
 }
 
 void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha) {
-  double area = 0.0;  // doubled; its sign is the orientation of the corners
+  double area = 0.0;  // twice the polygon's area; the sign is the orientation of the corners
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const CanvasPoint& a = corners[i];
     const CanvasPoint& b = corners[(i + 1) % corners.size()];
     area += a.x * b.y - b.x * a.y;
   }
   struct Edge {
-    double across_x;  // unit vector inwards
+    double across_x;  // unit vector toward the inside of the polygon
     double across_y;
     double offset;
   };
@@ -255,8 +255,9 @@ void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, do
   };
   const Box box = BoxAround(corners, 0.5);
   for (int y = box.top; y < box.bottom; ++y) {
-    // Finds the columns covered at least partly, and those covered fully, with a margin of one
-    // pixel for rounding. Only the few pixels in between are compared with all edges.
+    // Finds the columns that the polygon covers partly and those it covers fully. The range of
+    // columns has a margin of one pixel for rounding. Only the few pixels between partly and fully
+    // covered columns are compared with all edges.
     double left = box.left;
     double right = box.right;
     double whole_left = box.left;

@@ -10,8 +10,8 @@
 
 namespace trackbed::render {
 
-/// A font of large one-bit glyphs, averaged down to any smaller size. Unlike MuJoCo's text it has
-/// smooth edges.
+/// A font of large one-bit glyphs, averaged down to any smaller size. Unlike MuJoCo's text, text in
+/// this font has smooth edges.
 class Font {
  public:
   static constexpr char kFirst = ' ';
@@ -30,7 +30,7 @@ class Font {
     int height = 0;
     std::vector<std::uint8_t> coverage;
   };
-  /// Computed at the first use of a size, then cached.
+  /// Mask of a glyph, computed at the first use of a size, then cached.
   const Mask& GlyphMask(char character, double size);
   [[nodiscard]] double Advance(char character, double size) const;
 
@@ -63,7 +63,7 @@ class Canvas {
   /// A filled rectangle with smooth rounded corners.
   void Fill(const Rectangle& rectangle, double radius, Color color, double alpha);
 
-  /// An arrow of `length` about its middle, along `direction`: 0 to the right, pi/2 up.
+  /// Draws an arrow of `length` about its middle, along `direction`: 0 to the right, pi/2 up.
   void Arrow(double middle_x, double middle_y, double length, double direction, Color color);
 
   /// A polyline with round ends and joints and smooth edges.
@@ -72,8 +72,9 @@ class Canvas {
   /// A convex polygon with smooth edges, its corners in either orientation.
   void FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha);
 
-  /// One line of text; `left` and `top` are those of the first glyph cell. Capitals occupy about a
-  /// fifth to three quarters of the cell's height. Returns the position of the next character.
+  /// Draws one line of text; `left` and `top` are the corner of the first glyph cell. Capitals
+  /// occupy about a fifth to three quarters of the cell's height. Returns the position of the next
+  /// character.
   double Text(double left, double top, std::string_view text, double size, Color color);
 
  private:
@@ -84,7 +85,7 @@ class Canvas {
     int right = 0;
     int bottom = 0;
   };
-  /// The part of the picture within `reach` of the points.
+  /// The part of the picture within `reach` [px] of the points.
   [[nodiscard]] Box BoxAround(const std::vector<CanvasPoint>& points, double reach) const;
   void Blend(int x, int y, Color color, double alpha);
 

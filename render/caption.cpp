@@ -9,16 +9,16 @@
 #include "render/tyre_forces.h"
 #include "trackbed/core/angle.h"
 
-// Draws the caption: at the top left the title, the note and the wind, one panel each, at the top
-// right the legend, and above the panels at the bottom the readings. The sizes of text follow
-// Layout; legend and note shrink or are shortened to fit.
+// Draws the caption in panels: title, note and wind at the top left, the legend at the top right.
+// The readings stand above the panels at the bottom. Text sizes follow Layout; the legend shrinks
+// and the note is shortened to fit.
 namespace trackbed::render {
 namespace {
 
 struct Reading {
   std::string label;
   std::string value;
-  std::string widest;  // keeps columns in place when numbers change
+  std::string widest;  // widest text of the value; keeps columns in place when numbers change
 };
 
 /// Signed number, without a sign if it rounds to zero.
@@ -28,7 +28,8 @@ std::string Signed(double value, int digits, const char* unit) {
   return fmt::format("{}{}", zero ? text.substr(1) : text, unit);
 }
 
-/// "0.98 m left, 0.12 m ahead": lateral and longitudinal difference, by stations if known.
+/// Formats a lateral and a longitudinal difference as "0.98 m left, 0.12 m ahead". The longitudinal
+/// difference is the difference of the stations if these are known.
 std::string RelativePositionText(const RelativePosition& apart) {
   const double ahead = apart.station.value_or(apart.ahead);
   return fmt::format("{:.2f} m {}, {:.2f} m {}", std::abs(apart.left),
@@ -58,13 +59,14 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   return shown;
 }
 
-/// Draws the readings as a slim bar above `bottom` [px], in as many lines as the picture's width
-/// needs. Returns the bar's top.
+/// Draws the readings as a slim bar above `bottom` [px]. The bar has as many lines as the picture's
+/// width needs. Returns the top of the bar of readings.
 double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double width,
                     double bottom, const Readings& readings) {
-  const double space = 0.4 * layout.pad;  // between a label and its value
+  const double space = 0.4 * layout.pad;  // gap between a label and its value
   const double widest = width - 2.0 * (layout.margin + layout.pad);
-  std::vector<std::vector<std::pair<Reading, double>>> lines(1);  // each with its left edge
+  std::vector<std::vector<std::pair<Reading, double>>> lines(1);  // lines of readings, each reading
+                                                                  // with its left edge
   double pen = 0.0;
   double longest = 0.0;
   for (const Reading& reading : ReadingsToShow(readings)) {
@@ -153,17 +155,16 @@ void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double to
   }
 }
 
-/// Size of letters with which the legend fits into half of the picture's height, but stays
-/// readable.
+/// Size of letters with which the legend fits into half of the picture's height and stays readable.
 double LegendLetters(const Layout& layout, int height, int lines) {
   constexpr double kMaxHeightShare = 0.5;
-  constexpr double kMinLabelShare = 0.75;  // of the size of labels
+  constexpr double kMinLabelShare = 0.75;  // factor on the size of labels
   const double room = kMaxHeightShare * height - layout.margin - 1.2 * layout.pad;
   return std::round(
       std::clamp(room / std::max(1, lines), kMinLabelShare * layout.label, layout.label));
 }
 
-/// Returns the panel's bottom [px].
+/// Returns the bottom of the legend's panel [px].
 double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, const Image& image,
                   const std::vector<LegendEntry>& legend) {
   int lines = 0;
@@ -202,7 +203,7 @@ double TitlePanel(const Layout& layout) {
   return TitleSize(layout) + 0.8 * layout.pad;
 }
 
-/// Top of the panel of a line; line 0 is the title.
+/// Top of the panel of a caption line, where line 0 is the title.
 double TopOfLine(const Layout& layout, int line) {
   return layout.margin + line * (TitlePanel(layout) + 0.5 * layout.pad);
 }
@@ -219,7 +220,7 @@ void DrawLine(Canvas& canvas, const Font& font, const Layout& layout, int line,
 /// Draws the wind as an arrow on a map whose up direction is the camera's azimuth.
 void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, int line, const Vec2& wind,
               double azimuth) {
-  constexpr double kCalm = 0.05;  // [m/s]; reads 0.0 or 0.1
+  constexpr double kCalm = 0.05;  // wind speed below which the caption would read 0.0 or 0.1 [m/s]
   const double size = TitleSize(layout);
   const double tall = TitlePanel(layout);
   const double top = TopOfLine(layout, line);
@@ -289,7 +290,7 @@ Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Reading
   int line = 0;
   DrawLine(canvas, font, layout, line++, Shortened(caption.title));
   if (!caption.note.empty()) {
-    constexpr double kShare = 0.7;  // of the picture's width
+    constexpr double kShare = 0.7;  // fraction of the picture's width
     const double width = kShare * image.width - 2.0 * layout.pad;
     DrawLine(canvas, font, layout, line++, Fitting(font, caption.note, TitleSize(layout), width));
   }

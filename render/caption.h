@@ -22,14 +22,14 @@ struct Rows {
   double bottom = 0;
 };
 
-/// Draws over the picture: the run's name (top left) and below it the note, if any, cut at 0.7 of
-/// the picture's width, and the wind, if any; the legend (top right); the readings (left, above
-/// `bottom` [px]). The wind's arrow points up if it blows along `azimuth`, the camera's direction
-/// [rad]. Returns the rows between the legend and the readings.
+/// Draws the texts of a picture: run name, note and wind at the top left, the legend at the top
+/// right. The note is cut at 0.7 of the picture's width. The readings are at the left, above
+/// `bottom` [px]. The wind's arrow points up if the wind blows along `azimuth`, the camera's
+/// direction [rad]. Returns the rows between the legend and the readings.
 Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Readings& readings,
                  double azimuth, double bottom);
 
-/// The caption of the recording, above the panels already drawn at the bottom.
+/// The overlay that draws the caption, above the panels already drawn at the bottom.
 OverlayEntry CaptionOverlay();
 
 }  // namespace trackbed::render

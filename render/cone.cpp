@@ -7,9 +7,10 @@
 namespace trackbed::render {
 
 void AddCone(mjvScene& scene, const Point& foot) {
-  // Cylinders, from bottom to top.
-  constexpr std::array<double, kConePieces> kRadii{0.15, 0.11, 0.08, 0.05};  // [m]
-  constexpr double kHalf = 0.0625;                                           // of a cylinder [m]
+  // Radii of a cone's cylinders, from bottom to top.
+  constexpr std::array<double, kConePieces> kRadii{0.15, 0.11, 0.08, 0.05};  // Radii [m].
+  constexpr double kHalf = 0.0625;                                           // Half height of a
+                                                                             // cylinder [m].
   constexpr std::array<float, 4> kOrange{0.95F, 0.35F, 0.05F, 1.0F};
   constexpr std::array<float, 4> kWhite{0.95F, 0.95F, 0.95F, 1.0F};
   for (std::size_t i = 0; i < kConePieces; ++i) {

@@ -6,10 +6,10 @@
 
 namespace trackbed::render {
 
-/// Shapes per traffic cone; MuJoCo's scenes have no cones.
+/// Number of shapes per traffic cone; MuJoCo's scenes have no cones.
 inline constexpr std::size_t kConePieces = 4;
 
-/// Adds a cone half a meter high that stands at `foot`. Does nothing if the scene is full.
+/// Adds a cone half a meter high that stands at `foot`. AddCone does nothing if the scene is full.
 void AddCone(mjvScene& scene, const Point& foot);
 
 }  // namespace trackbed::render

@@ -11,11 +11,11 @@ namespace trackbed::render {
 using RowMajorMatrix3 = Eigen::Matrix<mjtNum, 3, 3, Eigen::RowMajor>;
 
 /// Category of shapes that cast shadows. Newer versions of MuJoCo draw no shadows of mjCAT_DECOR.
-/// Flat paint uses that one: its shadows would speckle the ground below.
+/// Flat paint is of category mjCAT_DECOR, because its shadows would speckle the ground below.
 inline constexpr int kCastsShadow = mjCAT_STATIC;
 
-/// Adds a geom that is not in the model, of mjCAT_DECOR and with `specular` 0. Returns nullptr if
-/// the scene is full. Unlike mjv_initGeom it sets every field of mjvGeom.
+/// Adds a geom that is not in the model, with category mjCAT_DECOR and `specular` 0. AddDecor
+/// returns nullptr if the scene is full. Unlike mjv_initGeom, AddDecor sets every field of mjvGeom.
 mjvGeom* AddDecor(mjvScene& scene, mjtGeom type, const std::array<mjtNum, 3>& size,
                   const Eigen::Vector3d& center, const RowMajorMatrix3& rotation,
                   const std::array<float, 4>& rgba);

@@ -8,7 +8,7 @@
 /// A trail colored by the cross-track error.
 namespace trackbed::render {
 
-/// Colors from zero error to Scales::error.
+/// Colors of the trail, from zero error to Scales::error.
 inline constexpr std::array<Color, 5> kErrorColors{{{0.27F, 0.00F, 0.33F},
                                                     {0.23F, 0.32F, 0.55F},
                                                     {0.13F, 0.57F, 0.55F},
@@ -21,12 +21,12 @@ Color ErrorColor(double fraction);
 /// Whether the car follows a path and its log has the cross-track error.
 bool HasErrorScale(const Recording& recording);
 
-/// The car's cross-track error as fractions of Scales::error, one per recorded state. Quantized in
-/// coarse steps, so that long stretches have one color, and with hysteresis: small oscillations
-/// between two steps keep one value. Requires HasErrorScale.
+/// The car's cross-track error as fractions of Scales::error, one per recorded state. The fractions
+/// are quantized in coarse steps, so that long stretches have one color. Hysteresis ignores small
+/// oscillations between two steps. The recording must satisfy HasErrorScale.
 std::vector<double> ErrorFractions(const Recording& recording);
 
-/// The car's trail in these colors; draws nothing without a path.
+/// The car's trail in the colors of its cross-track error; draws nothing without a path.
 OverlayEntry ErrorOverlay();
 
 }  // namespace trackbed::render

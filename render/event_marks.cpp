@@ -15,11 +15,11 @@ namespace {
 
 using Kind = RunEvent::Kind;
 
-constexpr double kMinTextDuration = 1.5;  // minimum duration of a line of text [s]
-constexpr double kFlash = 0.6;            // [s]
-constexpr double kSide = 0.4;             // side of a mark [m]
-constexpr double kRim = 0.07;             // dark rim around it [m]
-constexpr double kHeight = 0.030;         // above all trails [m]
+constexpr double kMinTextDuration = 1.5;  // Minimum duration of a line of text [s].
+constexpr double kFlash = 0.6;            // Duration of a flash [s].
+constexpr double kSide = 0.4;             // Side of a mark [m].
+constexpr double kRim = 0.07;             // Width of the dark rim around the mark [m].
+constexpr double kHeight = 0.030;         // Height of the marks, above all trails [m].
 constexpr Color kDetected{0.98F, 0.98F, 0.98F};
 constexpr Color kRimColor{0.05F, 0.06F, 0.08F};
 
@@ -86,7 +86,7 @@ class EventMarks : public Overlay {
     for (const RunEvent& event : events_) {
       if (event.from <= context.time &&
           context.time <= std::max(event.to, event.from + kMinTextDuration)) {
-        // Of several new plans in quick succession, shows only the last.
+        // Of several new plans in quick succession, only the last is shown.
         if (!shown.empty() && event.kind == Kind::kNewPlan) {
           std::erase_if(shown, [](const RunEvent* other) { return other->kind == Kind::kNewPlan; });
         }
@@ -124,7 +124,7 @@ class EventMarks : public Overlay {
     return recording_.OnGround({place.x + x, place.y + y});
   }
 
-  /// A diamond along the car's heading, with a dark rim.
+  /// Adds a diamond along the car's heading, with a dark rim.
   void AddDiamond(SceneContext& context, const RunEvent& event, double scale) const {
     const double heading = recording_.plants.front().Heading(event.from) + 0.25 * kPi;
     const double c = std::cos(heading);
@@ -151,7 +151,7 @@ class EventMarks : public Overlay {
     }
   }
 
-  /// Returns the panel's top, less the gap to the next panel [px].
+  /// Returns the panel's top less the gap to the next panel [px].
   static double DrawLine(Canvas& canvas, const Font& font, const Layout& layout, double first,
                          double bottom, const RunEvent& event) {
     const double tall = layout.label + 0.6 * layout.pad;
@@ -171,7 +171,7 @@ class EventMarks : public Overlay {
     return top - 0.4 * layout.pad;
   }
 
-  /// A fading frame around the picture.
+  /// Draws a fading frame around the picture.
   static void Flash(Canvas& canvas, const Layout& layout, const PictureContext& context,
                     double since) {
     if (since < 0.0 || since >= kFlash) {
@@ -188,7 +188,7 @@ class EventMarks : public Overlay {
   }
 
   const Recording& recording_;
-  std::vector<RunEvent> events_;  // in the order of time
+  std::vector<RunEvent> events_;  // events in the order of time
 };
 
 }  // namespace

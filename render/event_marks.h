@@ -4,9 +4,9 @@
 
 namespace trackbed::render {
 
-/// A mark on the ground at the car's position for each event of events.h, shown from its start on,
-/// and a line of text above the readings while it lasts. In a collision or a roll-over, a frame
-/// around the picture flashes.
+/// For each event of events.h, a mark on the ground at the car's position, from the event's start
+/// on. While the event lasts, a line of text stands above the readings. In a collision or a
+/// roll-over, a frame around the picture flashes.
 OverlayEntry EventOverlay();
 
 }  // namespace trackbed::render

@@ -66,7 +66,7 @@ void CheckOptions(const FilmOptions& options, bool even_sides) {
   CheckGl(options.gl);
 }
 
-/// One recording of all plants, or one for each plant named.
+/// Reads one recording of all plants, or one for each named plant.
 std::vector<render::Recording> ReadRecordings(const fs::path& folder,
                                               const std::vector<std::string>& plants) {
   std::vector<render::Recording> recordings;
@@ -96,7 +96,7 @@ Times RecordedTimes(const std::vector<render::Recording>& recordings) {
 }
 
 void CheckTime(const char* key, double time, const Times& allowed) {
-  // Recorded times are sums of steps, so the end may be smaller than displayed by rounding.
+  // Recorded times are sums of steps, so rounding may make the end smaller than displayed.
   constexpr double kRounding = 1e-6;
   if (!(time >= allowed.begin - kRounding && time <= allowed.end + kRounding)) {
     throw InputError(Problem{.key = key,

@@ -4,7 +4,7 @@
 
 namespace trackbed::render {
 
-/// Lines on the ground around the gates that the plan passes, between their cones.
+/// Draws lines on the ground around the gates that the plan passes, between the gates' cones.
 OverlayEntry GateOverlay();
 
 }  // namespace trackbed::render

@@ -1,4 +1,4 @@
-// Excludes the types of X11, whose header defines macros such as None.
+// EGL_NO_X11 excludes the types of X11, whose header defines macros such as None.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -65,7 +65,7 @@ std::vector<EGLDisplay> OffscreenDisplays(const EglFunctions& egl) {
   return displays;
 }
 
-/// The current context of this thread.
+/// Reads the current OpenGL context of this thread.
 struct Current {
   explicit Current(const EglFunctions& egl)
       : api(egl.query_api()),
@@ -102,7 +102,7 @@ class EglContext final : public GlContext {
                     error));
   }
 
-  // Does not terminate the display, which the process shares.
+  // The destructor does not terminate the display, which the process shares.
   ~EglContext() override {
     if (before_.context == EGL_NO_CONTEXT) {
       egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -119,7 +119,7 @@ class EglContext final : public GlContext {
   }
 
  private:
-  /// Makes a context of this display current. Returns EGL_SUCCESS or an EGL error.
+  /// Makes an OpenGL context of this display current. Start() returns EGL_SUCCESS or an EGL error.
   EGLint Start(EGLDisplay display) {
     constexpr std::array<EGLint, 5> kConfigAttributes{
         EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
@@ -138,7 +138,7 @@ class EglContext final : public GlContext {
     if (context_ == EGL_NO_CONTEXT) {
       return egl_.get_error();
     }
-    // No surface, since MuJoCo draws into its own buffers.
+    // The context needs no surface, since MuJoCo draws into its own buffers.
     if (egl_.make_current(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
       const EGLint error = egl_.get_error();
       egl_.destroy(display, context_);

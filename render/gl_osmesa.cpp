@@ -8,8 +8,8 @@
 namespace trackbed::render {
 namespace {
 
-// Mesa 25.1 removed OSMesa and <GL/osmesa.h>. These are that header's declarations, so that one
-// build works with and without the library.
+// Mesa 25.1 removed OSMesa and <GL/osmesa.h>. The declarations of the removed header <GL/osmesa.h>
+// are repeated here, so that one build works with and without OSMesa.
 struct OsmesaState;
 using OsmesaCreate = OsmesaState*(unsigned format, int depth_bits, int stencil_bits, int accum_bits,
                                   OsmesaState* share);
@@ -55,7 +55,7 @@ class OsmesaContext final : public GlContext {
   OsmesaMakeCurrent* make_current_;
   OsmesaDestroy* destroy_;
   OsmesaGetProcAddress* get_address_;
-  // OSMesa requires a window buffer; it is not used.
+  // OSMesa requires a window buffer, which stays unused.
   std::array<std::uint8_t, std::size_t{4} * kWindowSize * kWindowSize> window_{};
   OsmesaState* state_;
 };

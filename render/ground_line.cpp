@@ -7,8 +7,8 @@ namespace {
 
 // Largest deviation of a thinned line [m]: a twentieth of the narrowest ribbon.
 constexpr double kLineTolerance = 0.005;
-constexpr std::size_t kMaxPieces = 3000;  // per line
-// Farther from the camera's target, paint would be thinner than a pixel [m].
+constexpr std::size_t kMaxPieces = 3000;  // Largest number of pieces per line.
+// Beyond this distance from the camera's target, paint would be thinner than a pixel [m].
 constexpr double kPaintRange = 250.0;
 
 bool IsNear(const Point& a, const Point& b, const CameraPose& camera) {
@@ -31,7 +31,7 @@ std::vector<Point> Thinned(const std::vector<Point>& line) {
 }
 
 std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners) {
-  // Short enough to follow the ground.
+  // Pieces of a line are short enough to follow the ground.
   const double longest = IsFlat(recording.world.ground) ? 1e6 : 0.25;
   std::vector<Point> points;
   for (std::size_t i = 0; i < corners.size(); ++i) {

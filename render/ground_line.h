@@ -9,22 +9,22 @@
 /// Lines painted on the ground of a recorded world.
 namespace trackbed::render {
 
-/// Indices of the points to keep when a line on the ground is thinned: few enough to draw, with a
-/// deviation of at most a twentieth of the narrowest ribbon.
+/// Indices of the points to keep when a line on the ground is thinned. The thinned line deviates by
+/// at most a twentieth of the narrowest ribbon.
 std::vector<std::size_t> KeptPoints(const std::vector<Point>& line);
 
-/// The points of KeptPoints.
+/// The points of a line that KeptPoints keeps.
 std::vector<Point> Thinned(const std::vector<Point>& line);
 
 /// The outline of a rectangle on the ground.
 std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners);
 
-/// Adds one straight piece, unless it is so far from the camera's target that it would be thinner
-/// than a pixel.
+/// Adds one straight piece. A piece is skipped if it is so far from the camera's target that it
+/// would be thinner than a pixel.
 void AddPiece(SceneContext& context, const World& world, const Point& a, const Point& b,
               const RibbonStyle& style);
 
-/// Adds the pieces between consecutive points.
+/// Adds the straight pieces between consecutive points.
 void AddLine(SceneContext& context, const World& world, const std::vector<Point>& points,
              const RibbonStyle& style);
 

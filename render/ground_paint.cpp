@@ -9,12 +9,14 @@
 namespace trackbed::render {
 namespace {
 
-// Heights below all ribbons [m].
+// Heights of paint below all ribbons [m].
 constexpr double kMinPaintHeight = 0.0010;
 constexpr double kMaxPaintHeight = 0.0018;
 
-constexpr double kIce = 0.25;       // up to this factor, patches look like ice
-constexpr float kIceAlpha = 0.45F;  // MuJoCo draws translucent surfaces twice: 1 - 0.55^2 = 0.70
+constexpr double kIce = 0.25;       // Patches whose friction factor is at most this value look like
+                                    // ice.
+constexpr float kIceAlpha = 0.45F;  // Alpha of ice; MuJoCo draws translucent surfaces twice: 1 -
+                                    // 0.55^2 = 0.70.
 constexpr float kWetAlpha = 0.35F;
 
 float FrictionAlpha(double friction) {
@@ -51,8 +53,9 @@ class Tiler {
       : ground_(ground), tolerance_(tolerance), tiles_(tiles) {}
 
   void Cut(const OrientedBox& box, const Tile& like, double above) {
-    constexpr double kMaxTileSide = 2.0;  // [m]; limit unless the ground is a plane
-    constexpr double kMinTileSide = 0.1;  // [m]
+    constexpr double kMaxTileSide = 2.0;  // Limit of a tile's side unless the ground is a plane
+                                          // [m].
+    constexpr double kMinTileSide = 0.1;  // Smallest side of a tile [m].
     if (IsPlane(ground_, box)) {
       Add(box, like, above);
       return;
@@ -66,14 +69,14 @@ class Tiler {
       along = std::max(along, Bend(ground_, at(-1.0, side), at(1.0, side)));
       across = std::max(across, Bend(ground_, at(side, -1.0), at(side, 1.0)));
     }
-    // Twisted ground may be straight along all of these lines.
+    // Twisted ground may be straight along all lines that are compared with it.
     const auto height = [&](double x, double y) { return GroundHeight(ground_, at(x, y)); };
     const double twist = 0.25 * std::abs(height(1.0, 1.0) + height(-1.0, -1.0) - height(1.0, -1.0) -
                                          height(-1.0, 1.0));
     double& longer = box.length >= box.width ? along : across;
     longer = std::max(longer, twist);
-    // Halves the side with the larger deviation. Sides longer than kMaxTileSide are always cut,
-    // since the lines may miss features.
+    // Halves the side along which the ground deviates more. Sides longer than kMaxTileSide are
+    // always cut, since the compared lines may miss features.
     along = box.length > kMaxTileSide ? 1e3 * box.length : box.length > kMinTileSide ? along : 0.0;
     across = box.width > kMaxTileSide ? 1e3 * box.width : box.width > kMinTileSide ? across : 0.0;
     if (std::max(along, across) < tolerance_) {
@@ -91,7 +94,7 @@ class Tiler {
 
  private:
   void Add(const OrientedBox& box, const Tile& like, double above) {
-    // Through the middles of the sides, where neighboring tiles meet.
+    // The compared lines pass through the middles of the sides, where neighboring tiles meet.
     std::array<Eigen::Vector3d, 4> sides;
     const std::array<Vec2, 4> ways{{{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}};
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -127,7 +130,7 @@ Color PatchColor(double friction) {
   if (friction > 1.0) {
     return {0.52F, 0.42F, 0.30F};
   }
-  // From wet to nearly dry.
+  // The color of a patch changes from wet to nearly dry road.
   const auto dry = static_cast<float>((friction - kIce) / (1.0 - kIce));
   return {0.16F + 0.34F * dry, 0.24F + 0.29F * dry, 0.36F + 0.17F * dry};
 }

@@ -14,22 +14,22 @@ namespace trackbed::render {
 /// A translucent rectangle.
 struct Tile {
   Eigen::Vector3d center;
-  Eigen::Matrix3d rotation;  ///< R_WT; the z axis is the ground's normal
-  double half_length = 0.0;  ///< [m]
-  double half_width = 0.0;   ///< [m]
+  Eigen::Matrix3d rotation;  ///< R_WT; the tile's z axis is the ground's normal.
+  double half_length = 0.0;  ///< Half length of the tile [m].
+  double half_width = 0.0;   ///< Half width of the tile [m].
   Color color;
   float alpha = 1.0F;
 };
 
-/// Color of a friction factor: ice light blue, slippery patches like wet road (the more slippery,
-/// the darker), patches with more grip than usual brownish.
+/// Color of a friction factor. Ice is light blue. Slippery patches look like wet road, darker with
+/// less friction. Patches with more grip than usual are brownish.
 Color PatchColor(double friction);
 
-/// The resulting color on asphalt.
+/// The color of a patch seen on asphalt.
 Color PatchColorOnRoad(double friction);
 
-/// The world's friction patches, each cut into tiles under which the ground bends and twists by at
-/// most 1.5 mm, but with sides of at least 0.1 m. They lie 1 to 2 mm above the ground, later
+/// The world's friction patches, cut into tiles. Under a tile, the ground bends and twists by at
+/// most 1.5 mm; the tile's sides are at least 0.1 m. Tiles lie 1 to 2 mm above the ground, later
 /// patches above earlier ones.
 std::vector<Tile> PatchTiles(const World& world);
 

@@ -10,12 +10,12 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kSide = 10.0;  // of the texture, on the ground [m]
+constexpr double kSide = 10.0;  // side of the square texture, on the ground [m]
 constexpr double kLineSpacing = 5.0;
 constexpr double kLineWidth = 0.05;
 constexpr double kLineLight = 1.12;
 
-/// A pseudorandom number in [-1, 1] for a corner of a lattice, the same in every film.
+/// A pseudorandom number in [-1, 1] for a corner of a lattice; it is the same in every film.
 double Scattered(std::uint32_t x, std::uint32_t y, std::uint32_t octave) {
   std::uint32_t h = x * 374761393U + y * 668265263U + octave * 2246822519U;
   h = (h ^ (h >> 13U)) * 1274126177U;

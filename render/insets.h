@@ -26,8 +26,8 @@ struct Inset {
   const FlatView* view = nullptr;
 };
 
-/// Finds a camera or a flat view by name. InputError with the nearest name, under `inset`, if there
-/// is neither.
+/// Finds a camera or a flat view by name. Throws InputError under `inset`, with the nearest name,
+/// if no camera or view has this name.
 Inset FindInset(const std::string& name);
 
 }  // namespace trackbed::render

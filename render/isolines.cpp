@@ -9,7 +9,7 @@
 namespace trackbed::render {
 namespace {
 
-/// For each cell side, the sides to which line pieces lead.
+/// Maps each side of a cell to the other sides that line pieces connect with that side.
 using Neighbors = std::map<int, std::vector<int>>;
 
 void Join(Neighbors& neighbors, int a, int b) {
@@ -70,7 +70,8 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
   Neighbors neighbors;
   for (int row = 0; row + 1 < rows_; ++row) {
     for (int column = 0; column + 1 < columns_; ++column) {
-      // Counterclockwise from the lower left corner; side i is between corners i and i + 1.
+      // Corners are numbered counterclockwise from the lower left; side i is between corners i and
+      // i + 1.
       const std::array<bool, 4> above{Value(column, row) >= level, Value(column + 1, row) >= level,
                                       Value(column + 1, row + 1) >= level,
                                       Value(column, row + 1) >= level};
@@ -85,7 +86,8 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
       if (cut.size() == 2) {
         Join(neighbors, sides[cut[0]], sides[cut[1]]);
       } else if (cut.size() == 4) {
-        // A corner above the level is separated from the rest by the sides before and after it.
+        // A line separates each corner above the level from the rest. Each line around a corner
+        // crosses the sides before and after that corner.
         for (std::size_t i = 0; i < 4; ++i) {
           if (above[i]) {
             Join(neighbors, sides[(i + 3) % 4], sides[i]);
@@ -94,7 +96,7 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
       }
     }
   }
-  // Open lines first, then closed ones.
+  // Collects open lines first, then closed ones.
   std::vector<int> begins;
   for (const auto& [side, others] : neighbors) {
     if (others.size() == 1) {

@@ -7,13 +7,14 @@
 
 namespace trackbed::render {
 
-/// Contour lines of a function (marching squares). If the function is bilinear on square cells, the
-/// lines are exact on the cells' sides, and straight in between.
+/// Contour lines of a function (marching squares). On square cells with a bilinear function, the
+/// lines are exact on the cells' sides and straight in between.
 ///
-/// `value` is evaluated once per corner of the cells with sides of `step` [m] that cover the
-/// rectangle from `low` to `high`. Lines end at the rectangle's sides or close; then the last point
-/// repeats the first. A cell with two opposite corners above the level and two below is cut as if
-/// its middle were below. Cost: linear in cells, times the levels.
+/// `value` is evaluated once per cell corner; cells with sides of `step` [m] cover the rectangle
+/// from `low` to `high`. A contour line ends at the rectangle's sides or closes; if closed, its
+/// last point repeats the first. A cell with two opposite corners above the level and two below is
+/// cut as if its middle were below. Cost of the contour lines: linear in the number of cells, times
+/// the levels.
 class IsolineGrid {
  public:
   IsolineGrid(const Vec2& low, const Vec2& high, double step,
@@ -36,7 +37,7 @@ class IsolineGrid {
 
   Vec2 low_;
   double step_;
-  int columns_;  // of corners
+  int columns_;  // number of corners along x
   int rows_;
   std::vector<double> values_;
 };

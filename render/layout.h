@@ -13,20 +13,20 @@ inline constexpr double kPanelAlpha = 0.66;
 inline constexpr Color kLabel{0.70F, 0.74F, 0.78F};
 inline constexpr Color kValue{1.00F, 1.00F, 1.00F};
 
-/// Sizes [px]. Proportional to the picture's height, but readable down to 640x360; in smaller
-/// pictures they shrink to fit.
+/// Sizes of the picture's panels and text [px]. Sizes are proportional to the picture's height, but
+/// readable down to 640x360. In smaller pictures, the sizes of panels and text shrink to fit.
 struct Layout {
-  double margin;  ///< from the picture's edge to a panel
-  double pad;     ///< from a panel's edge to its text
-  double label;   ///< height of a text cell
+  double margin;  ///< Distance from the picture's edge to a panel.
+  double pad;     ///< Distance from a panel's edge to its text.
+  double label;   ///< Height of a text cell.
   double value;
-  double gap;       ///< between columns
-  double hairline;  ///< thickness of thin lines
+  double gap;       ///< Gap between columns of text.
+  double hairline;  ///< Thickness of thin lines.
 
   Layout(int width, int height) {
     const double scale = height / 720.0;
-    // At the smallest readable size, legend and title side by side need about 400 px, all panels
-    // one below the other 250 px.
+    // At the smallest readable size, legend and title side by side need about 400 px of width. All
+    // panels below each other need 250 px of height at the smallest readable size.
     const double shrink = std::min({1.0, width / 400.0, height / 270.0});
     // Limits the sizes in tall, narrow pictures, such as two side by side.
     const double widest = width / 960.0;

@@ -4,11 +4,12 @@
 
 #include <concepts>
 
-/// The differences between the supported versions of MuJoCo's drawing functions; see
-/// src/sim/mujoco_compat.h for those of its physics.
+/// Covers the differences between MuJoCo versions in the drawing functions; src/sim/mujoco_compat.h
+/// covers those in the physics.
 namespace trackbed::render::mj {
 
-/// Texture of a material's color; -1 if it has none. Since 3.2 materials have a texture per role.
+/// Index of the texture of a material's color; -1 if the material has none. Since MuJoCo 3.2, a
+/// material has one texture per role.
 inline int ColorTexture(const mjModel& model, int material) {
 #if mjVERSION_HEADER >= 320
   const int* of_roles = model.mat_texid + mjNTEXROLE * material;

@@ -10,15 +10,17 @@
 #include "render/scene_handle.h"
 #include "trackbed/sim/mujoco_handles.h"
 
-// Draws each obstacle by its size (ChooseLook): as the run's own car, stretched to the obstacle's
-// box, as a wall, cone, post or crate. The model's box is drawn in another color or replaced. Until
-// the planner detects an obstacle, and shortly after, the edges of its box are drawn as an outline.
+// Draws each obstacle by its size (ChooseLook). An obstacle looks like the run's own car stretched
+// to the obstacle's box, or like a wall, cone, post or crate. The obstacle's box in the model is
+// recolored or replaced. Before the planner detects an obstacle, and shortly after, the edges of
+// its box are drawn as an outline.
 namespace trackbed::render {
 namespace {
 
-constexpr double kOutlineDuration = 1.5;  // after the planner detects an obstacle [s]
-constexpr double kEdge = 0.05;            // thickness of outlines and of a crate's edges [m]
-constexpr std::size_t kEdges = 12;        // of a box
+constexpr double kOutlineDuration = 1.5;  // Duration of the outline after the planner detects an
+                                          // obstacle [s].
+constexpr double kEdge = 0.05;            // Thickness of outlines and of a crate's edges [m].
+constexpr std::size_t kEdges = 12;        // Number of edges of a box.
 
 constexpr Color kUnknown{0.98F, 0.98F, 0.98F};
 constexpr Color kWood{0.72F, 0.61F, 0.44F};
@@ -46,7 +48,7 @@ struct Block {
       }
     }
   }
-  /// A point in coordinates relative to the half sides, each from -1 to 1.
+  /// A point of the block, in coordinates relative to its half sides, each from -1 to 1.
   [[nodiscard]] Eigen::Vector3d At(double along, double across, double up) const {
     return center + axes * Eigen::Vector3d(along * half[0], across * half[1], up * half[2]);
   }
@@ -75,8 +77,8 @@ void AddEdges(mjvScene& scene, const Block& block, const Color& color, float emi
   }
 }
 
-/// The run's own car at the initial position, without small parts, scaled so that its box has half
-/// sides of 1.
+/// The run's own car at its initial position, without small parts. The car is scaled so that its
+/// box has half sides of 1.
 class CarParts {
  public:
   explicit CarParts(const Recording& recording) {
@@ -117,8 +119,8 @@ class CarParts {
 
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
 
-  /// Draws the car as large as the block; `forward` is 1 or -1: its direction along the block's
-  /// length.
+  /// Draws the car as large as the block. `forward` is the car's direction along the block's
+  /// length, 1 or -1.
   void Add(mjvScene& scene, const Block& block, double forward, const Color& paint) const {
     // The car's length is along the longer side of the block.
     RowMajorMatrix3 turn = RowMajorMatrix3::Identity() * forward;
@@ -128,7 +130,8 @@ class CarParts {
       std::swap(half.x(), half.y());
       turn << 0.0, -forward, 0.0, forward, 0.0, 0.0, 0.0, 0.0, 1.0;
     }
-    // Not a rotation: MuJoCo uses a geom's matrix as it is and normalizes normals.
+    // The matrix of the car also stretches, so it is no rotation. MuJoCo uses the matrix unchanged
+    // and normalizes normals.
     const RowMajorMatrix3 stretched = block.axes * turn * half.cwiseProduct(scale_).asDiagonal();
     for (const Part& part : parts_) {
       if (scene.ngeom >= scene.maxgeom) {
@@ -155,7 +158,7 @@ class CarParts {
  private:
   struct Part {
     mjvGeom geom;
-    Eigen::Vector3d center;  // from the middle of the car's box
+    Eigen::Vector3d center;  // position of the part relative to the middle of the car's box
     RowMajorMatrix3 axes;
     bool painted;
   };
@@ -163,7 +166,8 @@ class CarParts {
   std::vector<Part> parts_;
 };
 
-/// Cylinders or boxes on top of each other, from bottom to top, of these relative sizes and colors.
+/// Adds cylinders or boxes on top of each other, from bottom to top, with these relative sizes and
+/// colors.
 void AddStack(mjvScene& scene, const Block& block, mjtGeom type,
               const std::vector<std::pair<double, Color>>& layers) {
   const double tall = 1.0 / static_cast<double>(layers.size());
@@ -198,7 +202,7 @@ class Obstacles : public Overlay {
 
   void AddShapes(SceneContext& context) override {
     mjvScene& scene = context.scene;
-    const int count = scene.ngeom;  // without the shapes added here
+    const int count = scene.ngeom;  // number of shapes in the scene before any are added here
     for (std::size_t i = 0; i < geoms_.size(); ++i) {
       const auto is_own = [&](const mjvGeom& geom) {
         return geom.objtype == mjOBJ_GEOM && geom.objid == geoms_[i];
@@ -223,7 +227,7 @@ class Obstacles : public Overlay {
   }
 
  private:
-  // Marks geoms that other shapes replace; MuJoCo has no such object type.
+  // Marks a geom that other shapes replace; MuJoCo has no object type with this number.
   static constexpr int kReplaced = -1;
 
   void AddOne(SceneContext& context, std::size_t i, mjvGeom* own) const {
@@ -231,7 +235,7 @@ class Obstacles : public Overlay {
     const Block block(*own);
     const double since = context.time - known_[i];
     if (since < kOutlineDuration) {
-      // Around the obstacle's drawn shape, not inside it.
+      // The outline is around the obstacle's drawn shape, not inside it.
       Block outline = block;
       for (double& half : outline.half) {
         half += since < 0.0 ? 0.0 : kEdge;
@@ -276,7 +280,7 @@ class Obstacles : public Overlay {
     }
   }
 
-  /// Direction of a car along the block's longer side, 1 or -1: that of the obstacle's velocity.
+  /// Direction of a car along the block's longer side, 1 or -1, by the obstacle's velocity.
   [[nodiscard]] double ForwardOf(std::size_t i, const Block& block) const {
     const Vec2& velocity = recording_.world.obstacles[i].velocity;
     const int side = block.half[0] >= block.half[1] ? 0 : 1;

@@ -12,10 +12,10 @@ struct UprightBox {
   double top = 0;     ///< [m]
 };
 
-/// How much of the car a box hides from a camera, in [0, 1]: the fraction of sample points of the
-/// car's box whose lines of sight intersect the box. The car is at `pose`, with its rear axle on
-/// the ground at height `ground` [m]. The box is enlarged by half a meter on each side, so that the
-/// fraction rises before it hides the car.
+/// How much of the car a box hides from a camera, in [0, 1]. The result is the fraction of sample
+/// points of the car's box whose lines of sight intersect the other box. The car is at `pose`, with
+/// its rear axle on ground of height `ground` [m]. The box is enlarged by half a meter on each
+/// side, so that the fraction rises before the box hides the car.
 double HiddenShare(const UprightBox& box, const CameraPose& camera, const CarBox& car,
                    const Pose2& pose, double ground);
 

@@ -11,7 +11,7 @@
 namespace trackbed::render {
 namespace {
 
-// Minimum size of the buffer [px]: a glyph of the largest font fits into it.
+// Minimum size of the buffer [px]: a glyph of the largest font must fit.
 constexpr int kMinBufferSide = 128;
 
 void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
@@ -28,8 +28,9 @@ void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) 
   const auto width = static_cast<std::size_t>(to.width);
   const std::size_t row = 3 * width * step;
   const auto samples = static_cast<unsigned>(side * side);
-  const int shift = std::countr_zero(samples);  // a division would dominate the run time
-  std::vector<std::uint16_t> columns(row);      // sums of `side` rows
+  const int shift = std::countr_zero(samples);  // Shifts bits, because a division would dominate
+                                                // the run time.
+  std::vector<std::uint16_t> columns(row);      // Sums of the samples over `side` rows.
   for (int y = 0; y < to.height; ++y) {
     std::fill(columns.begin(), columns.end(), std::uint16_t{0});
     const auto first = static_cast<std::size_t>(to.height - 1 - y) * step;
@@ -42,7 +43,8 @@ void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) 
     const std::uint16_t* column = columns.data();
     std::uint8_t* pixel = to.Pixel(0, y);
     for (std::size_t x = 0; x < width; ++x, pixel += 3) {
-      std::array<unsigned, 3> sums{samples / 2, samples / 2, samples / 2};  // for rounding
+      std::array<unsigned, 3> sums{samples / 2, samples / 2, samples / 2};  // start values of the
+                                                                            // sums, for rounding
       for (std::size_t i = 0; i < step; ++i, column += 3) {
         sums[0] += column[0];
         sums[1] += column[1];

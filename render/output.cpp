@@ -10,10 +10,10 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
-// Outputs of a film: FrameOutput writes numbered PNG files (libpng), render/video/ the formats
-// encoded by FFmpeg. BackgroundOutput writes to another output in its own thread, with a queue of
-// at most two pictures guarded by a mutex; an exception in the thread is rethrown by the next call.
-// EncodePng adds a chunk that identifies Trackbed as the author.
+// Outputs of a film. FrameOutput writes numbered PNG files with libpng; render/video/ has the
+// formats encoded by FFmpeg. BackgroundOutput writes to another output in a thread with a queue of
+// at most two pictures, guarded by a mutex. An exception in the writing thread is rethrown by the
+// next call. EncodePng adds a chunk that identifies Trackbed as the author.
 namespace trackbed::render {
 namespace {
 
@@ -21,10 +21,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kHeaderSize = 33;  // length of a PNG's signature and IHDR
 
-/// Writes one PNG per picture into a hidden folder until all are complete. Then removes the frames
-/// of an earlier film of that name, that is, the pictures numbered without a gap, which must have
-/// been written by Trackbed, so that frames of two films are never mixed. Without Finish or Keep an
-/// earlier film is kept; without an earlier film, the frames written so far are kept.
+/// Writes one PNG per picture, into a hidden folder until all are complete. When all are complete,
+/// the frames of an earlier film of the same name are removed, so that frames of two films are
+/// never mixed. The frames of an earlier film are the pictures numbered without a gap. All must
+/// have been written by Trackbed. Without Finish or Keep, the frames of an earlier film are kept.
+/// If there is no earlier film, the frames written so far are kept.
 class FrameOutput : public FilmOutput {
  public:
   explicit FrameOutput(fs::path output) : output_(std::move(output)), frames_(output_) {
@@ -40,14 +41,14 @@ class FrameOutput : public FilmOutput {
       try {
         FrameOutput::Finish();
       } catch (const RunError&) {
-        // Another exception is already being handled.
+        // Ignores the error, because another exception is already being handled.
       }
     }
   }
 
   void Add(const Image& image) override {
     const fs::path frame = FrameName(output_, next_);
-    RequireOwn(frame);  // also behind a gap
+    RequireOwn(frame);  // frames behind a gap in the numbers are checked, too
     WriteNewFile(frames_.path() / frame.filename(), EncodePng(image), frame);
     ++next_;
   }
@@ -58,8 +59,8 @@ class FrameOutput : public FilmOutput {
     while (frames > 0 && IsThere(old)) {
       ++old;
     }
-    // From the last frame on: after an error, the next film can identify and remove the remaining
-    // ones.
+    // Frames are removed from the last one on. If removing fails, the next film can then identify
+    // and remove the remaining frames.
     while (old > 0) {
       const fs::path name = FrameName(output_, --old);
       if (!fs::remove(name, error)) {
@@ -160,7 +161,7 @@ void BackgroundOutput::Rethrow() {
 
 void BackgroundOutput::Write(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  // After a stop request, continues until no pictures are waiting.
+  // After a stop request, the thread continues until no pictures are waiting.
   while (changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
     Image image = std::move(waiting_.front());
     waiting_.pop_front();
@@ -219,7 +220,7 @@ std::string EncodePng(const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
-  png.flags = PNG_IMAGE_FLAG_FAST;  // a third of the time, for a few percent more bytes
+  png.flags = PNG_IMAGE_FLAG_FAST;  // encodes in a third of the time, for a few percent more bytes
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0) {

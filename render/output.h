@@ -24,16 +24,17 @@ class FilmOutput {
   FilmOutput& operator=(const FilmOutput&) = delete;
 
   virtual void Add(const Image& image) = 0;
-  /// Must be called after the last picture; only then is the file complete.
+  /// Finish() must be called after the last picture; only then is the file complete.
   virtual void Finish() = 0;
-  /// Called instead of Finish after an error: keeps the pictures if they are usable alone.
+  /// Keep() is called instead of Finish after an error. Keep() leaves the pictures in place if they
+  /// are usable alone.
   virtual void Keep() {}
 };
 
-/// Writes to another output in a separate thread, while the next picture is drawn. At most two
-/// pictures wait; then Add blocks. An exception in the thread is rethrown by the next call, and
-/// nothing more is written. If another exception destroys this output, waiting pictures are still
-/// written.
+/// Writes to another output in a separate thread while the next picture is drawn. At most two
+/// pictures wait in the queue; a further call of Add() blocks. An exception in the writing thread
+/// is rethrown by the next call; no more pictures are written. Pictures in the queue are still
+/// written if another exception destroys this output.
 class BackgroundOutput : public FilmOutput {
  public:
   explicit BackgroundOutput(std::unique_ptr<FilmOutput> output);
@@ -51,10 +52,11 @@ class BackgroundOutput : public FilmOutput {
   std::mutex mutex_;  // guards the members below, except for the thread
   std::condition_variable_any changed_;
   std::deque<Image> waiting_;
-  std::vector<Image> free_images_;  // written pictures, whose memory is reused
+  std::vector<Image> free_images_;  // pictures already written, whose memory is reused
   bool writing_ = false;
   std::exception_ptr failure_;
-  std::jthread thread_;  // last, so that it is joined before the other members are destroyed
+  std::jthread thread_;  // declared last, so that it is joined before the other members are
+                         // destroyed
 };
 
 /// Properties of the pictures of a film.
@@ -62,7 +64,7 @@ struct FilmPictures {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
   double fps = 0.0;
-  bool quick = false;  ///< encode a video in a third of the time, into a larger file
+  bool quick = false;  ///< whether to encode a video in a third of the time, into a larger file
 };
 
 using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& output,
@@ -70,20 +72,21 @@ using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& 
 
 /// A file format of films.
 struct FilmFormat {
-  std::string extension;  ///< including the dot
-  std::string summary;    ///< one word
-  bool even_sides;        ///< whether width and height must be even
-  OpenOutput open;        ///< null if this build does not support the format
+  std::string extension;  ///< File name extension, including the dot.
+  std::string summary;    ///< Summary in one word.
+  bool even_sides;        ///< Whether width and height must be even.
+  OpenOutput open;        ///< Function that opens an output; null if this build does not support
+                          ///< the format.
 };
 
-/// The format for the extension of `output`. InputError naming all formats if the extension is
-/// unknown or this build does not support it.
+/// The film format for the file name extension of `output`. Throws InputError naming all formats if
+/// this build does not support the extension.
 const FilmFormat& FilmFormatFor(const std::filesystem::path& output);
 
-/// "frames/f.png" and 7 give "frames/f_00007.png".
+/// Name of a frame's file: "frames/f.png" and 7 give "frames/f_00007.png".
 std::filesystem::path FrameName(const std::filesystem::path& output, int frame);
 
-/// Encodes a picture as a PNG file. RunError if that fails.
+/// Encodes a picture as a PNG file. Throws RunError if the picture cannot be encoded.
 std::string EncodePng(const Image& image);
 
 }  // namespace trackbed::render

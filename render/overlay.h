@@ -13,35 +13,34 @@
 #include "render/canvas.h"
 #include "render/recording.h"
 
-/// The interface of overlays, which draw over the recorded world. See
-/// docs/how-to/add-an-overlay.md.
+/// Interface of overlays, which draw over the recorded world. See docs/how-to/add-an-overlay.md.
 namespace trackbed::render {
 
 /// Symbol of a color in the legend.
 enum class LegendSymbol {
-  kLine,     ///< a line on the ground
-  kOutline,  ///< outline of an area or a box
-  kDiamond,  ///< a mark on the ground
-  kCross,    ///< another mark on the ground
-  kDial,     ///< a dial of the used friction
+  kLine,     ///< A line on the ground.
+  kOutline,  ///< Outline of an area or a box.
+  kDiamond,  ///< A mark on the ground.
+  kCross,    ///< A cross on the ground.
+  kDial,     ///< A dial of the used friction.
 };
 
-/// Meaning of a color in the picture.
+/// An entry of the legend: the meaning of a color in the picture.
 struct LegendEntry {
   Color color;
   std::string text;
-  std::string note{};         ///< second line; may be empty
-  std::vector<Color> ramp{};  ///< instead of the color, from left to right
+  std::string note{};         ///< Second line; may be empty.
+  std::vector<Color> ramp{};  ///< Colors from left to right, instead of a single color.
   LegendSymbol symbol = LegendSymbol::kLine;
 };
 
 /// The world posed for one picture; overlays add shapes to it.
 struct SceneContext {
   mjvScene& scene;
-  double time;               ///< [s]
-  const CameraPose& camera;  ///< camera of the picture
-  mjvCamera& view;           ///< the same camera for MuJoCo
-  const mjvOption& visible;  ///< which parts of a model are visible
+  double time;               ///< Time of the picture [s].
+  const CameraPose& camera;  ///< Camera of the picture.
+  mjvCamera& view;           ///< The same camera for MuJoCo.
+  const mjvOption& visible;  ///< Which parts of a model are visible.
 };
 
 /// A rendered picture on which overlays draw.
@@ -52,12 +51,12 @@ struct PictureContext {
   const CameraPose& camera;
   const mjData& car;  ///< the car at `time`
   const std::vector<LegendEntry>& legend;
-  double top;     ///< bottom of the panels at the upper edge [px]; a new panel there increases it
-  double bottom;  ///< top of the panels at the lower edge [px]; a new panel there decreases it
-  double left;    ///< start of free space above `bottom` [px]; a new panel there increases it
+  double top;     ///< Bottom of the panels at the upper edge [px]; each new panel increases it.
+  double bottom;  ///< Top of the panels at the lower edge [px]; each new panel decreases it.
+  double left;    ///< Start of free space above `bottom` [px]; each new panel increases it.
 };
 
-/// Something drawn over the world of one recording. By default draws nothing.
+/// Something drawn over the world of one recording. An overlay draws nothing by default.
 class Overlay {
  public:
   Overlay() = default;
@@ -67,10 +66,10 @@ class Overlay {
 
   /// Maximum number of shapes that AddShapes adds.
   [[nodiscard]] virtual std::size_t max_shapes() const { return 0; }
-  /// Adds shapes to the world, where the car and other objects hide and shade them. Also shown in
-  /// an inset.
+  /// Adds shapes to the world, where the car and other objects hide and shade the shapes. The added
+  /// shapes are also shown in an inset.
   virtual void AddShapes(SceneContext& /*context*/) {}
-  /// Draws flat over the picture, but not over its inset.
+  /// Draws flat over the picture, except over the picture's inset.
   virtual void Draw(PictureContext& /*context*/) {}
   /// Adds entries to the legend, whose first entry is the car.
   virtual void AddLegend(std::vector<LegendEntry>& /*legend*/) const {}
@@ -79,11 +78,11 @@ using OverlayList = std::vector<std::unique_ptr<Overlay>>;
 
 /// Arguments for making overlays: one recording, in pictures of one size.
 struct OverlaySetup {
-  const Recording& recording;             ///< must outlive the overlay
-  const std::vector<std::string>& shown;  ///< names of all overlays of the film
-  std::string title;                      ///< of the picture
-  int width = 0;                          ///< [px]
-  int height = 0;                         ///< [px]
+  const Recording& recording;             ///< The recording must outlive the overlay.
+  const std::vector<std::string>& shown;  ///< Names of all overlays of the film.
+  std::string title;                      ///< Title of the picture.
+  int width = 0;                          ///< Width of the picture [px].
+  int height = 0;                         ///< Height of the picture [px].
   Font& font;
 
   [[nodiscard]] bool Shows(std::string_view name) const {
@@ -94,12 +93,12 @@ struct OverlaySetup {
 /// An overlay in the table.
 struct OverlayEntry {
   std::string name;
-  std::string summary;  ///< one line, shown to users
+  std::string summary;  ///< summary in one line, shown to users
   std::unique_ptr<Overlay> (*make)(const OverlaySetup& setup);
-  bool by_default = true;  ///< whether films show it by default
+  bool by_default = true;  ///< whether films show the overlay by default
 };
 
-/// The entry of an overlay whose constructor takes the setup.
+/// The table entry of an overlay whose constructor takes an OverlaySetup.
 template <typename Own>
 OverlayEntry MakeOverlayEntry(std::string name, std::string summary) {
   return {std::move(name), std::move(summary),

@@ -25,7 +25,7 @@
 namespace trackbed::render {
 namespace {
 
-/// InputError with the nearest name if there is an unknown name.
+/// Throws InputError with the nearest name if the name of an overlay is unknown.
 void CheckNames(const std::vector<std::string>& names) {
   std::vector<std::string> known;
   for (const OverlayEntry& entry : OverlayTable()) {
@@ -41,7 +41,7 @@ void CheckNames(const std::vector<std::string>& names) {
 
 }  // namespace
 
-/// The registry of overlays, one line each. Later ones are drawn over earlier ones.
+/// The registry of overlays, with one line per overlay. Later overlays are drawn over earlier ones.
 const std::vector<OverlayEntry>& OverlayTable() {
   static const std::vector<OverlayEntry> table{
       RoadOverlay(),  ReliefOverlay(),  GateOverlay(),  ObstacleOverlay(), SkidMarkOverlay(),
@@ -74,7 +74,7 @@ std::vector<LegendEntry> MakeLegend(const Recording& recording, const OverlayLis
   }
   std::sort(factors.begin(), factors.end());
   factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
-  constexpr std::size_t kMaxFactors = 3;  // more colors would be hard to distinguish
+  constexpr std::size_t kMaxFactors = 3;  // a fourth color would be hard to distinguish
   for (std::size_t i = 0; i < std::min(factors.size(), kMaxFactors); ++i) {
     legend.push_back({PatchColorOnRoad(factors[i]), fmt::format("friction x{:.3g}", factors[i])});
   }

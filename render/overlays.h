@@ -7,11 +7,11 @@
 
 namespace trackbed::render {
 
-/// All overlays, in the order of drawing and of the legend.
+/// The table of overlays, in the order of drawing and of the legend.
 const std::vector<OverlayEntry>& OverlayTable();
 
-/// The overlays named by `setup.shown`; InputError with the nearest name if there is an unknown
-/// name.
+/// The overlays named by `setup.shown`. MakeOverlays throws InputError with the nearest name if a
+/// name is unknown.
 OverlayList MakeOverlays(const OverlaySetup& setup);
 
 /// The legend of a picture of `recording` with these overlays.

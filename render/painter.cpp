@@ -15,8 +15,8 @@
 namespace trackbed::render {
 
 /// MuJoCo samples its shadow map once per pixel, so multisampling leaves shadow edges jagged.
-/// Supersampling smooths them at the same cost (0.29 s against 0.31 s for a picture of 1280x720
-/// with shadows).
+/// Supersampling smooths shadow edges at the same cost: 0.29 s against 0.31 s for a picture of
+/// 1280x720 with shadows.
 namespace {
 
 constexpr std::array<Quality, 2> kQualities{{{"draft", 1, false, true}, {"film", 2, true, false}}};
@@ -67,7 +67,7 @@ Font ReadFont(Offscreen& offscreen) {
 
 }  // namespace
 
-/// One recording in a part of the picture.
+/// A part of the picture that shows one recording.
 struct Painter::Part {
   Part(const OverlaySetup& setup, Recording& a_recording, int a_left, const Quality& quality,
        bool with_inset)
@@ -80,7 +80,7 @@ struct Painter::Part {
         legend(MakeLegend(a_recording, overlays)),
         scene(a_recording, overlays, quality.shadows) {
     if (with_inset) {
-      // A second shadow map would take as long as half the pixels, for a small picture.
+      // The inset has no shadow map: a second one would take as long as half the pixels.
       inset = std::make_unique<FilmScene>(a_recording, overlays, false);
     }
   }
@@ -175,7 +175,8 @@ void Painter::Paint(Part& part, double time, Image& image) {
 }
 
 void Painter::PaintInset(Part& part, const PictureContext& context) {
-  // Relative to the picture: as much as the panels leave, but large enough to be useful.
+  // Size of the inset relative to the picture: as large as the panels permit, but large enough to
+  // be useful.
   constexpr double kMinShare = 0.15;
   constexpr double kMaxShare = 0.3;
   const Layout layout(part.width, part.height);

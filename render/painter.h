@@ -16,21 +16,21 @@
 
 namespace trackbed::render {
 
-/// Trade-off between quality and rendering time.
+/// Settings that trade quality against rendering time.
 struct Quality {
   const char* name;
   int supersampling;  ///< samples per pixel in each direction
   bool shadows;
-  bool quick;  ///< see FilmPictures::quick
+  bool quick;  ///< whether to encode quickly; see FilmPictures::quick
 };
 
 /// Draws the pictures of a film: the recorded worlds, overlays and captions.
 class Painter {
  public:
-  /// Keeps references to the recordings and changes their models' visual settings. There must be at
-  /// least one recording, and all must have the same model; each gets a part of the picture, from
-  /// left to right. Size, cameras, quality and overlays are those of `options`. InputError for
-  /// unknown names; RunError if there is no off-screen OpenGL.
+  /// The painter keeps references to the recordings and changes their models' visual settings. At
+  /// least one recording is required, and all must have the same model. Each recording gets a part
+  /// of the picture, from left to right. Size, cameras, quality and overlays are those of
+  /// `options`. Throws InputError for unknown names, and RunError if there is no off-screen OpenGL.
   Painter(std::span<Recording> recordings, const FilmOptions& options);
   ~Painter();
   Painter(const Painter&) = delete;
@@ -39,8 +39,8 @@ class Painter {
   /// The picture at `time` [s].
   void Paint(double time, Image& image);
 
-  /// The scene that Paint draws of the first recording at `time` [s] with the main camera, without
-  /// flat overlays; valid until the next call.
+  /// The scene that Paint draws of the first recording at `time` [s], by the main camera and
+  /// without flat overlays. The scene is valid until the next call.
   mjvScene& SceneAt(double time);
   [[nodiscard]] Offscreen& offscreen() { return offscreen_; }
   [[nodiscard]] const Quality& quality() const { return quality_; }

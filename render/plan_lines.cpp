@@ -11,16 +11,16 @@ namespace {
 constexpr double kPlanWidth = 0.48;
 constexpr double kPlanHeight = 0.008;
 // A replaced plan fades to the color of asphalt; translucent paint would be darker where two pieces
-// overlap. It is narrower than trails of ghosts, so only the part that was not driven remains
+// overlap. The line is narrower than trails of ghosts, so only the part that was not driven remains
 // visible.
 constexpr double kAbandonedWidth = 0.24;
 constexpr Color kAsphalt{0.60F, 0.62F, 0.60F};
-constexpr float kAbandonedShare = 0.35F;  // weight of its color
-// Plans driven for a shorter time [s] are not shown: with replanning twice a second, they would
-// cover the road with lines.
+constexpr float kAbandonedShare = 0.35F;  // Weight of the plan's color against asphalt.
+// Plans driven for less than this time are not shown [s]. With two replans per second, plans driven
+// for a short time would cover the road with lines.
 constexpr double kBrief = 1.0;
 
-/// `newer` is the count of plans adopted since.
+/// `newer` is the number of plans adopted after this one.
 RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
   if (newer == 0) {
     return {color, kPlanWidth * scale, kPlanHeight};
@@ -28,7 +28,7 @@ RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
   const auto fade = [](float own, float asphalt) {
     return asphalt + kAbandonedShare * (own - asphalt);
   };
-  // Replaced plans often overlap where they rejoin the route: newer ones are drawn above older
+  // Replaced plans often overlap where they rejoin the route, so newer ones are drawn above older
   // ones.
   return {{fade(color.r, kAsphalt.r), fade(color.g, kAsphalt.g), fade(color.b, kAsphalt.b)},
           kAbandonedWidth * scale,
@@ -92,7 +92,7 @@ class PlanLines : public Overlay {
   }
 
   const Recording& recording_;
-  std::vector<Line> lines_;  // in order of time
+  std::vector<Line> lines_;  // lines in the order of time
 };
 
 }  // namespace

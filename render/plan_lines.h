@@ -4,7 +4,8 @@
 
 namespace trackbed::render {
 
-/// The planned path and, after a replan, the new one; earlier plans remain as faint, narrow lines.
+/// Draws the planned path and, after a replan, the new one. Earlier plans remain as faint, narrow
+/// lines.
 OverlayEntry PlanOverlay();
 
 }  // namespace trackbed::render

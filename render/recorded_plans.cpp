@@ -97,7 +97,7 @@ std::vector<CurvatureProfile> ReadCurvatures(const fs::path& file, double begin)
       profiles.push_back({.from = from[i], .s = {}, .curvature = {}});
     }
     CurvatureProfile& profile = profiles.back();
-    // Of rows with equal station, as at a jump, keeps the first.
+    // Of several rows with equal station, as at a jump, the first is kept.
     if (profile.s.empty() || s[i] > profile.s.back()) {
       profile.s.push_back(s[i]);
       profile.curvature.push_back(curvature[i]);

@@ -6,8 +6,8 @@
 
 #include "trackbed/core/table.h"
 
-/// The plans of a run, from the files in its folder. These functions return nothing if the file is
-/// absent, and throw InputError naming it if it is invalid.
+/// Reads the plans of a run from the files in its folder. The reading functions return nothing if
+/// the file is absent, and throw InputError naming the file if it is invalid.
 namespace trackbed::render {
 
 /// A point on the ground [m]; z may be omitted if its height is not needed.
@@ -17,18 +17,18 @@ struct Point {
   double z = 0;
 };
 
-/// A path adopted during the run, which replaced the previous one.
+/// A path adopted during the run in place of the previous one.
 struct NewPlan {
-  double from = 0;  ///< time of its adoption [s]
+  double from = 0;  ///< time at which the plan is adopted [s]
   std::vector<Point> path;
 };
 
 /// Curvature along a plan; at least one value.
 struct CurvatureProfile {
-  double from = 0;                ///< time of the plan's adoption [s]
-  double station = 0;             ///< station of the car's log at the plan's start [m]
-  std::vector<double> s;          ///< stations of the plan, increasing [m]
-  std::vector<double> curvature;  ///< [rad/m]
+  double from = 0;                ///< Time of the plan's adoption [s].
+  double station = 0;             ///< Station of the car's log where the plan starts [m].
+  std::vector<double> s;          ///< Stations of the plan, increasing [m].
+  std::vector<double> curvature;  ///< Curvature at the stations of the plan [rad/m].
 };
 
 /// Reads a table of the run folder; InputError if it is missing.
@@ -40,11 +40,11 @@ std::vector<Point> ReadPlan(const std::filesystem::path& file);
 /// The paths of `<plant>.plan.csv`.
 std::vector<NewPlan> ReadNewPlans(const std::filesystem::path& file);
 
-/// The curvature of each plan in either of these files, if it has one, over the plan's stations.
-/// `begin` is the adoption time of the plan in `plan.csv` [s].
+/// The curvature over the stations of each plan, read from `plan.csv` or `<plant>.plan.csv`. Plans
+/// without curvature are omitted. `begin` is the adoption time of the plan in `plan.csv` [s].
 std::vector<CurvatureProfile> ReadCurvatures(const std::filesystem::path& file, double begin);
 
-/// The cones of each gate in `plan.json`, in pairs across its lane, from entry to exit.
+/// The cones of each gate in `plan.json`, in pairs across the gate's lane, from entry to exit.
 std::vector<std::vector<Point>> ReadGates(const std::filesystem::path& file);
 
 }  // namespace trackbed::render

@@ -24,7 +24,7 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
-// Reads a run folder for a film: the model, each plant's states and log, the scenario's world,
+// Reads a run folder for a film: the model, the states and log of each plant, the scenario's world,
 // plans, gates and road. Between recorded rows, positions and joint angles are interpolated
 // linearly, and quaternions linearly with normalization (nlerp). The first plant, preferably one of
 // MuJoCo, is shown as the car; the others are ghosts.
@@ -57,7 +57,7 @@ std::vector<std::string> PlantsWithStates(const fs::path& folder) {
   return plants;
 }
 
-/// InputError if `metrics.json` exists and contains a plant that is not among `plants`.
+/// Throws InputError if `metrics.json` contains a plant that is not among `plants`.
 void CheckAllAreThere(const fs::path& folder, const std::vector<std::string>& plants) {
   const fs::path metrics = folder / run_folder::kMetricsJson;
   std::error_code ignored;
@@ -84,7 +84,7 @@ std::vector<std::string> FindPlants(const fs::path& folder) {
   return plants;
 }
 
-/// The plants to film: `asked`, or all if it is empty.
+/// The plants to film: those in `selected`, or all if it is empty.
 std::vector<std::string> SelectPlants(const fs::path& folder, std::vector<std::string> available,
                                       const std::vector<std::string>& selected) {
   for (const std::string& plant : selected) {
@@ -127,7 +127,7 @@ std::string PlannerOf(const fs::path& file) {
   return method ? method->Text() : "";
 }
 
-/// Difference of stations, second log less first [m]; none if one of them has no stations.
+/// Difference of stations, second log less first [m]; none if a log has no stations.
 std::optional<double> StationBetween(const TimedTable& first, const TimedTable& second,
                                      double time) {
   const std::optional<std::size_t> own = first.Find("s_m");
@@ -138,7 +138,7 @@ std::optional<double> StationBetween(const TimedTable& first, const TimedTable& 
   return second.Value(second.At(time), *other) - first.Value(first.At(time), *own);
 }
 
-/// Largest steering rate of the car at its road wheels [rad/s]; 0 if the model has none.
+/// Largest steering rate of the car at its road wheels [rad/s]; 0 if the model has no such rate.
 double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   const auto number = [&](const char* name) {
     const int id = mj_name2id(&model, mjOBJ_NUMERIC, name);
@@ -148,8 +148,8 @@ double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   return vehicle.steering_rate.value_or(ratio > 0.0 ? number("steering_wheel_rate") / ratio : 0.0);
 }
 
-/// Reads the times of first contact and roll-over from metrics.json. Without that file, the log
-/// gives the time of contact only.
+/// Reads the times of first contact and roll-over from metrics.json. Without metrics.json, only the
+/// time of contact is known, from the log.
 void ReadMishaps(const fs::path& folder, Recording& recording) {
   const PlantRecording& car = recording.plants.front();
   const fs::path metrics = folder / run_folder::kMetricsJson;
@@ -174,7 +174,7 @@ void ReadMishaps(const fs::path& folder, Recording& recording) {
   }
 }
 
-/// Text on parameters of the car that the run changed.
+/// Text on the car's parameters that the run changed.
 std::string VehicleNote(const VehicleSpec& vehicle) {
   return vehicle.steering_rate
              ? fmt::format("steering rate set to {:.2f} rad/s", *vehicle.steering_rate)
@@ -239,7 +239,7 @@ void PlantRecording::Pose(double time, const mjModel& model, mjData& data) const
   for (std::size_t i = 0; i < 3; ++i) {
     pose[i] = state_.Value(place, pose_columns_[i]);
   }
-  // q and -q are the same rotation: interpolates along the shorter arc.
+  // Quaternions q and -q are the same rotation, so the interpolation takes the shorter arc.
   double dot = 0.0;
   for (std::size_t i = 3; i < 7; ++i) {
     dot += state_.table().at(place.row, pose_columns_[i]) *
@@ -402,13 +402,14 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
                                    run_folder::RequireFile(folder / run_folder::kScenarioYaml));
   }
   if (recording.world.road_network) {
-    constexpr double kSpacing = 1.0;  // [m]; 1 cm off an arc of 12 m
+    constexpr double kSpacing = 1.0;  // spacing of points [m]; 1 cm off an arc with a radius of 12
+                                      // m
     recording.roads =
         PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
   }
   recording.new_plans = ReadNewPlans(new_plans);
   recording.curvatures = ReadCurvatures(plan, recording.begin());
-  // Stations of the log continue over all plans, those of a plan begin at 0.
+  // Stations of the log continue over all plans; those of each plan begin at 0.
   const TimedTable& log = recording.plants.front().log();
   const std::optional<std::size_t> station = log.Find("s_m");
   for (CurvatureProfile& profile : ReadCurvatures(new_plans, recording.begin())) {

@@ -13,11 +13,12 @@ namespace trackbed::render {
 namespace {
 
 constexpr Color kContour{0.52F, 0.40F, 0.26F};
-constexpr double kWidth = 0.09;     // [m]
-constexpr double kHeight = 0.0015;  // above the ground, below all other paint [m]
-constexpr double kMargin = 30.0;    // around the plan and all drives [m]
+constexpr double kWidth = 0.09;     // Width of the contour lines [m].
+constexpr double kHeight = 0.0015;  // Height above the ground, below all other paint [m].
+constexpr double kMargin = 30.0;    // Margin around the plan and all drives [m].
 constexpr double kMaxReliefCells = 4e4;
-constexpr double kMinSpan = 0.02;  // ground with a smaller height difference counts as level [m]
+constexpr double kMinSpan = 0.02;  // ground whose heights differ by less than this counts as level
+                                   // [m]
 
 class Relief : public Overlay {
  public:
@@ -77,7 +78,8 @@ class Relief : public Overlay {
     }
   }
 
-  /// Contours at a quarter, a half and three quarters of the feature's height above the plane.
+  /// Draws contours at a quarter, a half and three quarters of the feature's height above the
+  /// plane.
   template <typename Feature>
   void AddFeature(const Feature& feature) {
     const std::array<Vec2, 4> corners = Extent(feature).Corners();
@@ -87,7 +89,7 @@ class Relief : public Overlay {
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
     }
-    constexpr double kCells = 60.0;  // along the longer side
+    constexpr double kCells = 60.0;  // number of cells along the longer side
     const IsolineGrid grid(low, high, (high - low).maxCoeff() / kCells,
                            [&](const Vec2& point) { return Rise(feature, point); });
     for (const double share : {0.25, 0.5, 0.75}) {
@@ -107,7 +109,7 @@ class Relief : public Overlay {
 
   const Recording& recording_;
   std::vector<std::vector<Point>> lines_;
-  double interval_ = 0.0;  // [m]; 0: no contours of the whole ground
+  double interval_ = 0.0;  // height between contours [m]; 0: no contours of the whole ground
 };
 
 }  // namespace

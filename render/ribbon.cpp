@@ -10,7 +10,7 @@
 namespace trackbed::render {
 namespace {
 
-/// Distance in which height differences are weighted five times.
+/// Distance from a point to a segment; height differences are weighted five times.
 double DistanceToSegment(const Point& p, const Point& a, const Point& b) {
   constexpr double kHeightWeight = 5.0;
   const double dx = b.x - a.x;
@@ -63,7 +63,7 @@ std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance
     return {};
   }
   std::vector<std::size_t> kept = ThinOnce(points, tolerance);
-  // 30 doublings exceed the size of any road.
+  // Doubling the tolerance 30 times makes it larger than any road.
   for (int doublings = 0; kept.size() > max_pieces + 1 && doublings < 30; ++doublings) {
     tolerance *= 2.0;
     kept = ThinOnce(points, tolerance);
@@ -78,8 +78,8 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   if (length < 1e-6) {
     return;
   }
-  // Neighbors overlap at two different heights; at equal height, lamps with shadows would light
-  // both faces.
+  // Neighboring pieces overlap at two different heights. If pieces had equal height, lamps with
+  // shadows would light both faces.
   constexpr double kStagger = 0.0005;
   // Pieces meet at up to about 15 degrees: an overlap of tan(15/2 degrees) times half the width
   // closes the outer corner.
@@ -92,10 +92,11 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   const Eigen::Vector3d center = Eigen::Vector3d(a.x, a.y, a.z) + 0.5 * along +
                                  (style.height + (scene.ngeom % 2) * kStagger) * rotation.col(2);
   const std::array<float, 4> rgba{style.color.r, style.color.g, style.color.b, 1.0F};
-  // A plane: MuJoCo's shadow map consists of back faces, and a plane has none. A thin box would
-  // cast speckled shadows on its upper face, where the map's depth is too coarse.
+  // The piece is a plane: MuJoCo's shadow map consists of back faces, and a plane has none. A thin
+  // box would cast speckled shadows on its upper face, where the shadow map's depth is too coarse.
   if (mjvGeom* piece = AddDecor(scene, mjGEOM_PLANE, size, center, rotation, rgba)) {
-    piece->emission = 0.08F;  // paint is slightly brighter than the road, even in the shade
+    piece->emission = 0.08F;  // paint glows slightly, so that it is brighter than the road even in
+                              // the shade
   }
 }
 

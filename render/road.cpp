@@ -9,34 +9,39 @@
 #include "render/ground_paint.h"
 #include "render/ribbon.h"
 
-// Paints roads on the ground, in layers of different height: asphalt as tiles that follow the
-// ground, gravel verges, edge lines, dashes and road marks as ribbons, and posts. The center line
-// is that of the road network, of the track or of the plan, with points every 0.5 m along a plan.
-// Lines are thinned, and pieces far from the camera's target are skipped, to limit the number of
-// shapes.
+// Paints roads on the ground in layers of different height. Asphalt consists of tiles that follow
+// the ground. Gravel verges, edge lines, dashes and road marks are ribbons; posts stand beside the
+// road. The center line of a road is that of the road network, the track or the plan. Along a plan,
+// the center line has a point every 0.5 m. To limit the number of shapes, lines are thinned and
+// pieces far from the camera's target are skipped.
 namespace trackbed::render {
 namespace {
 
 constexpr Color kRoadColor{0.40F, 0.41F, 0.42F};
 constexpr Color kPaint{0.93F, 0.93F, 0.90F};
 constexpr Color kYellowPaint{0.90F, 0.72F, 0.20F};
-constexpr float kGroundUnderRoad = 0.006F;  // lowering of level ground under asphalt [m]
-constexpr double kShoulder = 0.4;           // width of asphalt beyond the edge lines [m]
-constexpr double kLineWidth = 0.14;         // [m]
-constexpr double kVergeWidth = 1.05;        // of gravel, over the rough edge of the asphalt [m]
-constexpr double kVergeBegin = 0.22;        // distance from the edge line's center [m]
+constexpr float kGroundUnderRoad = 0.006F;  // Lowering of level ground under asphalt [m].
+constexpr double kShoulder = 0.4;           // Width of asphalt beyond the edge lines [m].
+constexpr double kLineWidth = 0.14;         // Width of a painted line [m].
+constexpr double kVergeWidth = 1.05;        // Width of the gravel verge, over the rough edge of the
+                                            // asphalt [m].
+constexpr double kVergeBegin = 0.22;        // Distance from the edge line's center to the gravel
+                                            // [m].
 constexpr Color kGravel{0.58F, 0.54F, 0.45F};
-constexpr double kVergeHeight = -0.0015;   // above the asphalt, whose corners it covers
-constexpr double kAsphaltHeight = -0.003;  // below all other paint [m]
-constexpr double kAsphaltRange = 250.0;    // [m]; farther asphalt is thinner than a pixel
+constexpr double kVergeHeight = -0.0015;   // Height of the verge, above the asphalt, whose corners
+                                           // it covers [m].
+constexpr double kAsphaltHeight = -0.003;  // Height of the asphalt, below all other paint [m].
+constexpr double kAsphaltRange = 250.0;    // Asphalt farther than this distance is thinner than a
+                                           // pixel [m].
 constexpr double kPaintHeight = -0.001;
-constexpr double kDash = 3.0;         // [m]
-constexpr double kDashPeriod = 9.0;   // [m]
-constexpr double kPostPeriod = 10.0;  // [m]
-constexpr double kPostRange = 120.0;  // farther posts are thinner than a pixel [m]
-constexpr double kPostHeight = 1.0;   // [m]
+constexpr double kDash = 3.0;         // Length of a dash [m].
+constexpr double kDashPeriod = 9.0;   // Distance between the starts of dashes [m].
+constexpr double kPostPeriod = 10.0;  // Distance between posts [m].
+constexpr double kPostRange = 120.0;  // Posts farther than this distance are thinner than a pixel
+                                      // [m].
+constexpr double kPostHeight = 1.0;   // Height of a post [m].
 
-/// A point of a line and the direction to its left.
+/// A point of a line, with the direction to its left.
 struct Spot {
   Point point;
   Vec2 left;
@@ -59,7 +64,7 @@ std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
   return spots;
 }
 
-/// A road: points of its center line, and half its width there [m].
+/// A road: points of its center line, and half its width at each point [m].
 struct Roadway {
   std::vector<Spot> spots;
   std::vector<double> half;
@@ -71,7 +76,7 @@ Roadway AlongPlan(const std::vector<Point>& plan, double width, double step) {
   return way;
 }
 
-/// The whole lap of a track, back to its start.
+/// The whole lap of a track, back to the track's start.
 Roadway AlongTrack(const Track& track) {
   Roadway way;
   const std::size_t count = track.left_edge().size();
@@ -86,15 +91,15 @@ Roadway AlongTrack(const Track& track) {
 }
 
 bool NearTheCamera(const CameraPose& camera, const Point& place) {
-  constexpr double kNearFraction = 0.6;  // of the camera's distance from its target
+  constexpr double kNearFraction = 0.6;  // fraction of the camera's distance from its target
   const double level = camera.distance * std::cos(camera.elevation);
   const double x = place.x - camera.target_x + level * std::cos(camera.azimuth);
   const double y = place.y - camera.target_y + level * std::sin(camera.azimuth);
   return !camera.inside && std::hypot(x, y) < kNearFraction * level;
 }
 
-/// Colors the ground beside the road like grass, and lowers it so that the depth buffer separates
-/// the two.
+/// Colors the ground beside the road like grass. The ground beside the road is lowered, so that the
+/// depth buffer separates it from the road.
 void PaintGround(const mjModel& model, mjvScene& scene) {
   const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
   for (int i = 0; i < scene.ngeom; ++i) {
@@ -126,7 +131,7 @@ class RoadRibbons : public Overlay {
     if (recording_.track) {
       dashes_.emplace_back(OffsetFrom(way.spots.front(), way.half.front()),
                            OffsetFrom(way.spots.front(), -way.half.front()));
-      return;  // tracks have a start line, but neither lanes nor posts
+      return;  // a track has a start line, but neither lanes nor posts
     }
     const int lanes = recording_.road->lanes;
     for (int lane = 1; lane < lanes; ++lane) {
@@ -191,15 +196,15 @@ class RoadRibbons : public Overlay {
   void AddNetwork() {
     for (const PavedBand& band : recording_.roads.bands) {
       for (std::size_t i = 1; i < band.left.size(); ++i) {
-        // From border to border across the road. Neighbors have different heights, like pieces of
-        // ribbons.
+        // Each tile extends from border to border across the road. Neighboring tiles have different
+        // heights, like pieces of ribbons.
         const Vec2 from = 0.5 * (band.left[i - 1] + band.right[i - 1]);
         const Vec2 to = 0.5 * (band.left[i] + band.right[i]);
         const Vec2 along = to - from;
         const Vec2 center = 0.5 * (from + to);
         const double width = 0.5 * ((band.left[i - 1] - band.right[i - 1]).norm() +
                                     (band.left[i] - band.right[i]).norm());
-        // In bends the outer border is longer than the center line.
+        // In a bend, the outer border of a road is longer than the center line.
         const double length = std::max((band.left[i] - band.left[i - 1]).norm(),
                                        (band.right[i] - band.right[i - 1]).norm());
         constexpr double kTolerance = 0.0007;  // keeps tiles below the paint on them [m]
@@ -207,7 +212,7 @@ class RoadRibbons : public Overlay {
         like.color = kRoadColor;
         const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
         constexpr double kOverlap =
-            0.1;  // with each neighbor, or the ground shows between them [m]
+            0.1;  // overlap with each neighboring tile, or the ground shows between them [m]
         const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                               length + 2.0 * kOverlap,
                               width};
@@ -234,7 +239,7 @@ class RoadRibbons : public Overlay {
         {spot.point.x + left * spot.left.x(), spot.point.y + left * spot.left.y()});
   }
 
-  /// A line on the left (1) or right (-1) of the road, `beyond` [m] outside its edge.
+  /// A line on the left (1) or right (-1) side of the road, `beyond` [m] outside the road's edge.
   [[nodiscard]] std::vector<Point> Beside(const Roadway& way, double side, double beyond) const {
     std::vector<Point> line;
     for (std::size_t i = 0; i < way.spots.size(); ++i) {
@@ -243,8 +248,8 @@ class RoadRibbons : public Overlay {
     return Thinned(line);
   }
 
-  /// Thins the edge of gravel to 3 cm. Only on flat ground, where no point can sink below the
-  /// surface.
+  /// Thins the edge of the gravel to a tolerance of 3 cm. The edge is thinned only on flat ground,
+  /// where no point can sink below the surface.
   [[nodiscard]] std::vector<Point> Coarse(const std::vector<Point>& line) const {
     if (!IsFlat(recording_.world.ground)) {
       return line;
@@ -257,7 +262,7 @@ class RoadRibbons : public Overlay {
     return points;
   }
 
-  /// Straight pieces of asphalt, coarser than the edge lines on top of them.
+  /// Adds straight pieces of asphalt, coarser than the edge lines on top of them.
   void AddAsphalt(const Roadway& way) {
     constexpr double kCoarse = 0.1;       // [m]
     constexpr double kTolerance = 0.002;  // [m]
@@ -277,11 +282,12 @@ class RoadRibbons : public Overlay {
       const auto first = way.half.begin() + static_cast<std::ptrdiff_t>(kept[i - 1]);
       const auto last = way.half.begin() + static_cast<std::ptrdiff_t>(kept[i]);
       const double width = 2.0 * (*std::max_element(first, last + 1) + kShoulder);
-      const double overlap = 0.15 * 0.5 * width;  // as AddRibbonPiece
+      const double overlap = 0.15 * 0.5 * width;  // overlap of neighboring pieces, as in
+                                                  // AddRibbonPiece
       const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                             along.norm() + 2.0 * overlap,
                             width};
-      // Neighbors overlap at different heights, like pieces of ribbons.
+      // Neighboring pieces overlap at different heights, like pieces of ribbons.
       const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
       const std::vector<Tile> tiles =
           CutToGround(recording_.world.ground, box, like, above, kTolerance);
@@ -310,7 +316,7 @@ class RoadRibbons : public Overlay {
                    RowMajorMatrix3::Identity(), rgba);
       if (geom != nullptr) {
         geom->category = kCastsShadow;
-        geom->emission = 0.35F;  // white on the shaded side, too
+        geom->emission = 0.35F;  // glow that keeps the post white on its shaded side
       }
     }
   }

@@ -4,9 +4,9 @@
 
 namespace trackbed::render {
 
-/// The pavement and road marks of the world's road network (Recording::roads). Without one, asphalt
-/// along the plan of the recording (Recording::road), with edge lines, dashed lines between lanes
-/// and posts every 10 m; nothing on open ground.
+/// The pavement and road marks of the world's road network (Recording::roads). Without a road
+/// network, draws asphalt along the plan (Recording::road), with edge lines, dashed lines between
+/// lanes and posts every 10 m. On open ground, RoadOverlay draws nothing.
 OverlayEntry RoadOverlay();
 
 }  // namespace trackbed::render

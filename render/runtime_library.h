@@ -4,19 +4,21 @@
 
 namespace trackbed::render {
 
-/// A shared library loaded on first use, not at program start: OSMesa with LLVM and FFmpeg are 140
-/// libraries, which many programs do not need. It is never unloaded.
+/// A shared library loaded on first use, not at program start. OSMesa with LLVM and FFmpeg are 140
+/// libraries, which many programs do not need. The library is never unloaded.
 class RuntimeLibrary {
  public:
   enum class Symbols {
     kLocal,
-    kGlobal,  ///< also visible to libraries that search the process, such as MuJoCo
+    kGlobal,  ///< symbols also visible to libraries that search the process, such as MuJoCo
   };
 
-  /// Loads the library. RunError, naming it and its Debian package `package`, if that fails.
+  /// Loads the library. Throws RunError naming the library and its Debian package `package` if the
+  /// library cannot be loaded.
   RuntimeLibrary(std::string file, std::string package, Symbols symbols = Symbols::kLocal);
 
-  /// The function with this name; RunError if it is missing. `Function` is its type.
+  /// The library's function with this name; throws RunError if the function is missing. `Function`
+  /// is the type of the function.
   template <typename Function>
   [[nodiscard]] Function* Find(const char* name) const {
     return reinterpret_cast<Function*>(Address(name));

@@ -16,18 +16,18 @@ namespace trackbed::render {
 /// Drawing properties of a geom of the model.
 struct CarPart {
   bool of_car = false;
-  bool painted = false;  ///< has the plant's color
+  bool painted = false;  ///< whether the geom has the plant's color
 };
 
-/// For each geom of the recording's model.
+/// Finds the drawing properties of each geom of the model.
 std::vector<CarPart> FindCarParts(const mjModel& model);
 
 /// The recorded world at a given time, with the shapes of overlays.
 class FilmScene {
  public:
-  /// Keeps references to the recording and the overlays, and changes the model's visual settings
-  /// (lens and clipping). With `shadows` the model's lights cast MuJoCo's shadows; otherwise there
-  /// is a soft patch under the car.
+  /// FilmScene keeps references to the recording and the overlays. The scene changes the lens and
+  /// clipping in the model's visual settings. With `shadows`, the model's lights cast MuJoCo's
+  /// shadows; otherwise a soft dark patch lies under the car.
   FilmScene(Recording& recording, const OverlayList& overlays, bool shadows);
 
   /// The scene at `time` [s] from `camera`; valid until the next call.
@@ -47,8 +47,8 @@ class FilmScene {
   const OverlayList& overlays_;
   std::vector<Tile> patches_;
   CarBox box_;
-  std::vector<CarPart> car_parts_;   // for each geom of the model
-  std::vector<int> obstacle_geoms_;  // for the world's obstacles; -1: not in the model
+  std::vector<CarPart> car_parts_;   // Properties of each geom of the model.
+  std::vector<int> obstacle_geoms_;  // Geom of each of the world's obstacles; -1: not in the model.
   MujocoData car_data_;
   SceneHandle scene_;
   mjvOption visible_;

@@ -11,13 +11,14 @@ namespace trackbed::render {
 namespace {
 
 constexpr int kShadowMapSide =
-    4096;  // [texels]; twice that would cost a quarter of a picture's time
+    4096;  // size of the shadow map [texels]; twice that would cost a quarter of a picture's time
 
 }  // namespace
 
 double ShadowReach(const CameraPose& camera) {
   const double half_height = camera.distance * std::tan(0.5 * camera.view_angle);
-  // 2 * 3.5 half heights in 4096 texels: 1.6 texels per pixel of a picture with 720 rows.
+  // A reach of 3.5 half heights makes a map of 7 half heights. The 4096 texels of the map
+  // give 1.6 texels per pixel of a picture with 720 rows.
   constexpr double kMaxHalfHeights = 3.5;
   // Half the diagonal of a picture of up to 21:9, for a camera that looks down.
   const double seen = 2.5 / std::max(0.1, std::sin(-camera.elevation));
@@ -31,16 +32,17 @@ void FitShadowMap(mjModel& model, const CameraPose& camera) {
 
 void AimLamps(mjvScene& scene, const CameraPose& camera) {
   const double reach = ShadowReach(camera);
-  // Ahead of the target, since little ground is visible between it and the camera.
+  // The map is centered ahead of the target, since little ground is visible between camera and
+  // target.
   const double ahead = 0.6 * reach * std::cos(camera.elevation);
-  // Moves in steps: while the map stays in place, its texels do too, so the edges of static shadows
-  // do not crawl.
+  // The map moves in steps, so that its texels stay in place between steps. Edges of static shadows
+  // therefore do not crawl.
   const double step = 0.1 * reach;
   const auto in_steps = [step](double place) { return step * std::round(place / step); };
   const std::array<double, 3> middle{in_steps(camera.target_x + ahead * std::cos(camera.azimuth)),
                                      in_steps(camera.target_y + ahead * std::sin(camera.azimuth)),
                                      camera.ground_z};
-  // Far enough back that all the ground under the map is in front of a lamp at 20 degrees
+  // The lamp is far enough back that all ground under the map is in front of a lamp at 20 degrees
   // elevation.
   const double back = 3.0 * reach;
   for (int i = 0; i < scene.nlight; ++i) {

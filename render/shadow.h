@@ -4,22 +4,23 @@
 
 #include "render/camera.h"
 
-/// MuJoCo's shadow map is one square picture of the scene from a lamp, with a size set by the model
-/// and centered at the lamp. Objects outside it cast no shadow. These functions center the square
-/// on the area that the camera sees.
+/// MuJoCo's shadow map is one square picture of the scene from a lamp. The model sets its size, and
+/// the lamp is its center. Objects outside the square cast no shadow. The functions in this file
+/// center the shadow map on the area that the camera sees.
 namespace trackbed::render {
 
-/// Half side of the shadow map [m]. For a camera from above it covers everything visible. For one
-/// that sees the horizon it is limited, so that a pixel at the camera's target has 1.6 texels in a
-/// picture with 720 rows: 18 m for the chase camera, 9 m for the side camera.
+/// Half side of the shadow map [m]. For a camera from above, the shadow map covers everything
+/// visible. For a camera that sees the horizon, the map is limited. In a picture with 720 rows, a
+/// pixel at the camera's target then has 1.6 texels of the shadow map. The half side is 18 m for
+/// the chase camera and 9 m for the side camera.
 double ShadowReach(const CameraPose& camera);
 
-/// Sizes the shadow map for a camera, whose distance and lens must stay the same in the film. Must
-/// be called before the Offscreen is made.
+/// Sizes the shadow map for a camera, whose distance and lens must stay the same during the film.
+/// Call FitShadowMap before making the Offscreen.
 void FitShadowMap(mjModel& model, const CameraPose& camera);
 
 /// Moves the directional lamps that cast shadows so that the map covers the area the camera sees.
-/// Their light does not change.
+/// Moving a directional lamp does not change its light.
 void AimLamps(mjvScene& scene, const CameraPose& camera);
 
 }  // namespace trackbed::render

@@ -10,9 +10,9 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kSkidWidth = 0.17;      // about the width of a tyre [m]
-constexpr double kSkidHeight = 0.003;    // below plans and trails [m]
-constexpr double kMinSkidLength = 0.15;  // minimum length of a piece [m]
+constexpr double kSkidWidth = 0.17;      // Width of a mark: about the width of a tyre [m].
+constexpr double kSkidHeight = 0.003;    // Height of a mark, below plans and trails [m].
+constexpr double kMinSkidLength = 0.15;  // Minimum length of a piece [m].
 constexpr Color kRubber{0.10F, 0.10F, 0.11F};
 
 class SkidMarks : public Overlay {
@@ -24,7 +24,7 @@ class SkidMarks : public Overlay {
     }
     const MujocoData data = MakeMujocoData(*recording_.model);
     const PlantRecording& car = recording_.plants.front();
-    std::map<int, Point> begins;  // start of the mark of each wheel
+    std::map<int, Point> begins;  // point where the skid mark of each wheel starts
     for (const double time : car.times()) {
       car.Pose(time, *recording_.model, *data);
       std::map<int, Point> still;
@@ -68,14 +68,14 @@ class SkidMarks : public Overlay {
 
  private:
   struct Piece {
-    double time;  // time at its end [s]
+    double time;  // time at the end of the piece [s]
     Point from;
     Point to;
   };
 
   const Recording& recording_;
   double scale_ = FindCarBox(*recording_.model).scale();
-  std::vector<Piece> pieces_;  // in order of time
+  std::vector<Piece> pieces_;  // pieces in the order of time
 };
 
 }  // namespace

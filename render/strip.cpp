@@ -13,8 +13,9 @@ namespace {
 
 constexpr Color kCurvature{0.86F, 0.88F, 0.84F};
 constexpr Color kCommand{1.00F, 1.00F, 1.00F};
-constexpr Color kActual = CarColor(0);   // the car's color
-constexpr double kLettersToCell = 0.86;  // labels are slightly smaller than the legend's
+constexpr Color kActual = CarColor(0);   // Color of the actual steering: the car's color.
+constexpr double kLettersToCell = 0.86;  // Size of labels relative to Layout::label; slightly
+                                         // smaller than the legend's.
 
 class StripPanel : public Overlay {
  public:
@@ -29,7 +30,7 @@ class StripPanel : public Overlay {
 
  private:
   Strip strip_;
-  double gap_;  // to the next panel [px]
+  double gap_;  // gap to the next panel [px]
 };
 
 }  // namespace
@@ -50,7 +51,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
   std::vector<double> curvature;
   for (int column = 0; column < columns_; ++column) {
     const double time = begin_ + (end_ - begin_) * column / (columns_ - 1);
-    // Nothing after the end of the car's log.
+    // Nothing is drawn after the end of the car's log.
     if (time <= recording.plants.front().log().end()) {
       const Readings readings = recording.plants.front().ReadingsAt(time);
       command.push_back(readings.steering_command);
@@ -65,7 +66,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
     std::fill(scratch.rgb.begin(), scratch.rgb.end(), std::uint8_t{0});
     return Canvas(scratch, font);
   };
-  // Rows above the middle; leaves half a line's thickness free.
+  // Rows above the middle of the plot, less half a line's thickness.
   const double reach = 0.5 * rows_ - layout_.hairline;
   const auto curve = [&](const std::vector<double>& values, double hairlines) {
     std::vector<CanvasPoint> points;
@@ -76,7 +77,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
     blank().Stroke(points, hairlines * layout_.hairline, kValue, 1.0);
     return MakeMask(scratch);
   };
-  // Where the curves coincide, both are visible: the upper one is narrower.
+  // Where the curves coincide, both are visible, because the upper curve is narrower.
   command_ = curve(command, 2.6);
   actual_ = curve(actual, 1.1);
   if (most.curvature > 0.0) {

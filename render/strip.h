@@ -11,15 +11,15 @@
 
 namespace trackbed::render {
 
-/// A panel at the bottom of the picture over the time of the whole run: the planned curvature at
-/// the car's position, and the commanded and actual steering up to now. The axes end at the
-/// recording's scales.
+/// A panel at the bottom of the picture over the time of the whole run. The panel shows the planned
+/// curvature at the car's position, and the commanded and actual steering up to now. The axes of
+/// the panel end at the recording's scales.
 class Strip {
  public:
-  /// For pictures of this size [px].
+  /// Makes the panel for pictures of this size [px].
   Strip(const Recording& recording, int width, int height, Font& font);
 
-  /// Top of the panel [px].
+  /// Top of the strip's panel [px].
   [[nodiscard]] double top() const { return panel_.top; }
   void Draw(Image& image, Font& font, double time) const;
 
@@ -41,7 +41,7 @@ class Strip {
   double end_;
   Layout layout_;
   Canvas::Rectangle panel_;
-  // The plot, in whole pixels.
+  // Left, top and size of the plot in whole pixels.
   int left_ = 0;
   int top_ = 0;
   int columns_ = 0;
@@ -52,7 +52,7 @@ class Strip {
   std::vector<Label> labels_;
 };
 
-/// The strip; panels above it keep clear of it.
+/// The overlay that draws the strip; other panels are placed above it.
 OverlayEntry StripOverlay();
 
 }  // namespace trackbed::render

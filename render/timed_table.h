@@ -13,8 +13,8 @@ namespace trackbed::render {
 /// A table whose first column is time, with interpolation between rows.
 class TimedTable {
  public:
-  /// Reads `file`. InputError naming it if it is missing, broken or has no rows, if a cell is not
-  /// finite, or if times do not increase.
+  /// Reads `file`. Throws InputError naming the file if the file is missing, broken or has no rows.
+  /// Cells must be finite and times must increase.
   explicit TimedTable(const std::filesystem::path& file);
 
   [[nodiscard]] double begin() const { return times_.front(); }
@@ -22,7 +22,7 @@ class TimedTable {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   [[nodiscard]] const Table& table() const { return table_; }
 
-  /// Index of a column; InputError naming the file and the column if it is missing.
+  /// Index of a column; throws InputError naming the file and the column if it is missing.
   [[nodiscard]] std::size_t Require(const std::string& column) const;
   /// Index of a column; none if it is missing.
   [[nodiscard]] std::optional<std::size_t> Find(const std::string& column) const;
@@ -33,7 +33,7 @@ class TimedTable {
     std::size_t next = 0;
     double part = 0;
   };
-  /// Clamps times to the first and the last row.
+  /// Clamps times before the first row and after the last row.
   [[nodiscard]] Place At(double time) const;
   [[nodiscard]] double Value(const Place& place, std::size_t column) const;
 

@@ -64,7 +64,7 @@ Trail::Trail(const Recording& recording, std::size_t car, const std::vector<Colo
   for (const double time : plant.times()) {
     driven.push_back(recording.OnGround(plant.Position(time)));
   }
-  // Keeps points where the line bends or its color changes.
+  // Keeps points where the line bends or changes color.
   std::vector<std::size_t> kept = KeptPoints(driven);
   for (std::size_t i = 1; i < colors.size(); ++i) {
     if (Differ(colors[i], colors[i - 1])) {
@@ -84,7 +84,7 @@ Trail::Trail(const Recording& recording, std::size_t car, const std::vector<Colo
 
 void Trail::AddShapes(SceneContext& context, RibbonStyle style) const {
   for (std::size_t i = 1; i < points_.size() && times_[i - 1] < context.time; ++i) {
-    // The last piece ends at the car.
+    // The last drawn piece ends at the car.
     const Point end = times_[i] <= context.time
                           ? points_[i]
                           : recording_.OnGround(recording_.plants[car_].Position(context.time));

@@ -15,12 +15,13 @@
 namespace trackbed::render {
 namespace {
 
-// Dimensions in units of the height of letters.
-constexpr double kRadius = 1.15;    // of a dial
-constexpr double kBetween = 0.35;   // between two dials
-constexpr double kOverflow = 1.12;  // tyre laws may slightly exceed friction times load
+// Dimensions of the dials, in units of the height of letters.
+constexpr double kRadius = 1.15;    // Radius of a dial.
+constexpr double kBetween = 0.35;   // Gap between two dials.
+constexpr double kOverflow = 1.12;  // Factor on the rim, since tyre laws may slightly exceed
+                                    // friction times load.
 
-/// A tyre coefficient of the model for an axle, or for both; 0 if it has none.
+/// The model's tyre coefficient for an axle, or for both axles; 0 if the model has none.
 double Coefficient(const mjModel& model, const std::string& name, const char* axle) {
   int id = mj_name2id(&model, mjOBJ_NUMERIC, (name + "_" + axle).c_str());
   if (id < 0) {
@@ -66,7 +67,7 @@ class Forces : public Overlay {
     const double top = context.bottom - side;
     Canvas canvas(context.image, context.font);
     canvas.Fill({left, top, side, side}, layout.round(), kPanel, kPanelAlpha);
-    // Arranged like the wheels, with the car's front up.
+    // The dials are arranged like the wheels, with the car's front up.
     const CanvasPoint first{left + 0.6 * layout.pad + radius, top + 0.6 * layout.pad + radius};
     const std::vector<WheelForce> forces = forces_.At(context.time, context.car);
     for (std::size_t wheel = 0; wheel < kWheels.size(); ++wheel) {
@@ -174,7 +175,8 @@ void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, cons
   if (tyre == nullptr) {
     return;
   }
-  // Relative to the friction limit along each axis, so that the friction ellipse becomes the rim.
+  // Force relative to the friction limit along each axis, so that the friction ellipse becomes the
+  // rim.
   Vec2 share = tyre->force.cwiseQuotient(tyre->most);
   const double use = share.norm();
   if (use > kOverflow) {

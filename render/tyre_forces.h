@@ -15,25 +15,27 @@ namespace trackbed::render {
 
 /// A tyre's force on the car at a given time, and its friction limit.
 struct WheelForce {
-  Eigen::Vector3d place;    ///< on the ground under the hub
-  Eigen::Vector3d forward;  ///< unit vector along the ground in rolling direction
-  Eigen::Vector3d left;     ///< unit vector along the ground to the left
-  Vec2 force;               ///< along `forward` and `left` [N]
-  Vec2 most;                ///< half axes of the friction ellipse, friction times load [N]
-  int body = -1;            ///< the wheel's body in the model
-  std::size_t wheel = 0;    ///< its index in kWheels of car_model.h
+  Eigen::Vector3d place;    ///< Point on the ground under the hub.
+  Eigen::Vector3d forward;  ///< Unit vector along the ground in rolling direction.
+  Eigen::Vector3d left;     ///< Unit vector along the ground to the left.
+  Vec2 force;               ///< Tyre force along `forward` and `left` [N].
+  Vec2 most;                ///< Half axes of the friction ellipse, friction times load [N].
+  int body = -1;            ///< The wheel's body in the model.
+  std::size_t wheel = 0;    ///< Index of the wheel in kWheels of car_model.h.
 
-  /// The used fraction of the friction: 1 on the ellipse. Tyre laws may slightly exceed 1.
+  /// The used fraction of the friction; 1 is on the friction ellipse. The used fraction may
+  /// slightly exceed 1 with some tyre laws.
   [[nodiscard]] double Use() const;
 };
 
 /// The tyre forces of a recorded car whose log has them.
 class TyreForces {
  public:
-  /// Forces of the car, `recording.plants.front()`. The recording must outlive this object.
+  /// Reads the forces of the car, `recording.plants.front()`. The recording must outlive this
+  /// object.
   explicit TyreForces(const Recording& recording);
 
-  /// Whether the log has forces and the model the corresponding wheels.
+  /// Whether the log has forces and the model has the corresponding wheels.
   [[nodiscard]] bool known() const { return !wheels_.empty(); }
   /// The force of each loaded wheel. `data` must be posed at `time` [s].
   [[nodiscard]] std::vector<WheelForce> At(double time, const mjData& data) const;
@@ -43,10 +45,13 @@ class TyreForces {
     std::size_t index = 0;
     int joint = -1;  // the spin joint
     int body = -1;
-    std::array<std::size_t, 3> columns{};  // load, along, across
-    Vec2 friction{0.0, 0.0};               // along, across, at the nominal load
-    Vec2 friction_per_load{0.0, 0.0};      // change with load, relative to the nominal load
-    double nominal_load = 0.0;             // [N]; 0: friction does not depend on the load
+    std::array<std::size_t, 3> columns{};  // Columns of the load and of the forces along and
+                                           // across.
+    Vec2 friction{0.0, 0.0};               // Friction along and across, at the nominal load.
+    Vec2 friction_per_load{0.0, 0.0};      // Change of the friction with load, relative to the
+                                           // nominal load.
+    double nominal_load = 0.0;             // Nominal load [N]; 0: friction does not depend on the
+                                           // load.
   };
 
   [[nodiscard]] std::optional<Wheel> FindWheel(const char* name, const char* axle) const;
@@ -55,17 +60,19 @@ class TyreForces {
   std::vector<Wheel> wheels_;
 };
 
-/// Used fraction of a tyre's grip from which it leaves a skid mark and its dial is red.
+/// Used fraction of a tyre's grip above which the tyre leaves a skid mark and its dial is red.
 inline constexpr double kSkidUse = 0.9;
 
-/// Draws the used grip of a tyre: a line from the center, up for a forward force and to the left
-/// for a force to the left. It ends on the rim, at `radius` [px], at the friction limit, and beyond
-/// it by at most an eighth of the radius. For null, a wheel without load, the dial is empty.
-/// `hairline` is the thickness of the rim [px].
+/// Draws the used grip of a tyre as a line from the center of a dial. The line points up for a
+/// forward force, and left for a force to the left. At the friction limit, the line ends on the
+/// rim, at `radius` [px]. Beyond the friction limit, the line exceeds the rim by at most an eighth
+/// of the radius. The dial is empty for null, which is a wheel without load. `hairline` is the
+/// thickness of the dial's rim [px].
 void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, const WheelForce* tyre,
                   double hairline);
 
-/// A panel of dials, one per tyre of the car, arranged like its wheels, if the log has forces.
+/// A panel of dials, one per tyre of the car, arranged like the wheels. The panel of dials is shown
+/// if the log has forces.
 OverlayEntry ForceOverlay();
 
 }  // namespace trackbed::render

@@ -4,12 +4,12 @@
 
 namespace trackbed::render {
 
-/// Opens an MP4 video for pictures of a given size, whose sides must be even. Null in a build
-/// without TRACKBED_VIDEO, which uses render/video/off.cpp instead of the rest of that folder.
+/// Opens an MP4 video for pictures of a given size, whose sides must be even. VideoOpener returns
+/// null in a build without TRACKBED_VIDEO, which compiles only render/video/off.cpp of that folder.
 OpenOutput VideoOpener();
 
-/// Open animated pictures, which loop forever: WebP, and PNG, which is lossless. Null in a build
-/// without TRACKBED_VIDEO.
+/// Opens an animated picture that loops forever: WebP, or lossless PNG. The opener is null in a
+/// build without TRACKBED_VIDEO.
 OpenOutput WebpOpener();
 OpenOutput ApngOpener();
 

@@ -12,14 +12,14 @@ namespace {
 constexpr double kGustWidth = 0.16;
 constexpr double kGustHeight = 0.006;
 
-constexpr double kSpacing = 5.0;  // [m]
-constexpr int kHalfCount = 4;     // positions from the middle to each side: 81 in all
+constexpr double kSpacing = 5.0;  // Spacing of the arrows [m].
+constexpr int kHalfCount = 4;     // Positions from the middle to each side, 81 in all.
 constexpr double kHeight = 0.004;
 constexpr double kWidth = 0.12;
-constexpr double kMinWindSpeed = 0.5;  // [m/s]; a weaker wind counts as calm
+constexpr double kMinWindSpeed = 0.5;  // a wind slower than this speed counts as calm [m/s]
 constexpr double kPerSpeed = 1.0 / 3.0;
-constexpr double kMinArrowLength = 0.6;  // [m]; arrow head only
-constexpr double kMaxArrowLength = 4.0;  // [m]; below the spacing of 5
+constexpr double kMinArrowLength = 0.6;  // Arrow length at which only the head is drawn [m].
+constexpr double kMaxArrowLength = 4.0;  // Largest arrow length [m]; below the spacing of 5 m.
 
 void AddArrow(mjvScene& scene, const Recording& recording, const Vec2& middle, const Vec2& wind,
               double scale) {

@@ -1,14 +1,14 @@
 #pragma once
 
-/// All headers for running a scenario, in one include:
+/// All headers for running a scenario, in one file:
 ///
 ///     const trackbed::Scenario scenario = trackbed::ReadScenario("corner.yaml");
 ///     const trackbed::CarModel car = trackbed::LoadCar(scenario);
-///     const trackbed::Plan plan = trackbed::PlanMission(scenario, car);
+///     const trackbed::FeasiblePlan plan = trackbed::PlanMission(scenario, car);
 ///     const trackbed::RunLog log = trackbed::DrivePlant(scenario, car, plan, "mujoco");
 ///
-/// SimulateClosedLoop runs user-defined plants and controllers; RunMission measures and judges a
-/// run as the program does; Main is the program. Modules have further headers.
+/// SimulateClosedLoop runs user-defined plants and controllers. RunMission also measures and judges
+/// a run, as the program does. Main is the program. The modules have further headers.
 
 #include "trackbed/analysis/run.h"                // IWYU pragma: export
 #include "trackbed/cli/main.h"                    // IWYU pragma: export

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A film in one file, under a temporary name until it is complete.
+/// A film in one file, which has a temporary name until it is complete.
 class VideoOutput : public FilmOutput {
  public:
   VideoOutput(fs::path output, FilmCodec codec, const FilmPictures& pictures)
@@ -45,8 +45,8 @@ class VideoOutput : public FilmOutput {
   }
 
   fs::path output_;
-  bool has_boxes_;           // MP4, whose last box is Trackbed's mark
-  TemporaryFile temporary_;  // before the writer, in order to outlive it
+  bool has_boxes_;           // Whether the film is an MP4 file, whose last box is Trackbed's mark.
+  TemporaryFile temporary_;  // Declared before the writer in order to outlive it.
   VideoWriter writer_;
 };
 

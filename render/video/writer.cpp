@@ -42,15 +42,16 @@ struct Recipe {
   const char* encoder;
   const char* container;
   AVPixelFormat pixels;
-  bool bt709;  // else RGB as in the pictures
+  bool bt709;  // whether to convert to BT.709; otherwise RGB as in the pictures
   std::vector<std::pair<const char*, const char*>> encoder_options;
-  std::vector<std::pair<const char*, const char*>> quick_options;  // instead of encoder_options
+  std::vector<std::pair<const char*, const char*>> quick_options;  // options for quick encoding,
+                                                                   // instead of encoder_options
   std::vector<std::pair<const char*, const char*>> container_options;
 };
 
 const Recipe& EncoderRecipe(FilmCodec codec) {
-  // x264's macroblock tree reads past the end of its rows, into memory that differs between runs,
-  // unless the width is a multiple of 128 (seen with build 164 at 96, 320, 854, 960 px).
+  // x264's macroblock tree reads past the end of its rows unless the width is a multiple of 128.
+  // The memory beyond the rows differs between runs (seen with build 164 at 96, 320, 854, 960 px).
   static const Recipe h264{"libx264",
                            "mp4",
                            AV_PIX_FMT_YUV420P,
@@ -77,8 +78,9 @@ struct VideoWriter::Encoder {
   std::string name;
   std::unique_ptr<AVFormatContext, FreeFormat> format;
   std::unique_ptr<AVCodecContext, FreeCodec> codec;
-  std::unique_ptr<AVFrame, FreeFrame> picture;  // RGB; swscale reads past the end of plain memory
-  std::unique_ptr<AVFrame, FreeFrame> frame;    // in the encoder's format
+  std::unique_ptr<AVFrame, FreeFrame> picture;  // RGB picture; swscale reads past the end of plain
+                                                // memory.
+  std::unique_ptr<AVFrame, FreeFrame> frame;    // Picture in the encoder's format.
   std::unique_ptr<AVPacket, FreePacket> packet;
   std::unique_ptr<SwsContext, FreeScaler> scaler;
   AVStream* stream = nullptr;  // owned by format
@@ -132,14 +134,14 @@ struct VideoWriter::Encoder {
 
   void SetOptions(const std::vector<std::pair<const char*, const char*>>& options) const {
     for (const auto& [key, value] : options) {
-      // Some options belong to the encoder, some to all encoders.
+      // Some options belong to one encoder, some to all encoders.
       Check(Libav().av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN));
     }
   }
 
   void OpenFile(const std::filesystem::path& file) {
     AVFormatContext* made = nullptr;
-    // The protocol prefix keeps FFmpeg from reading a name with a colon as a URL.
+    // The prefix "file:" keeps FFmpeg from reading a name with a colon as a URL.
     const std::string url = "file:" + file.string();
     Check(Libav().avformat_alloc_output_context2(&made, nullptr, recipe.container, url.c_str()));
     format.reset(made);
@@ -186,7 +188,7 @@ struct VideoWriter::Encoder {
     }
   }
 
-  /// Sends a frame to the encoder (null: the end) and writes its output.
+  /// Sends a frame to the encoder and writes the encoder's output. A null frame ends the encoding.
   void Encode(const AVFrame* next_frame) {
     Check(Libav().avcodec_send_frame(codec.get(), next_frame));
     for (;;) {
@@ -236,7 +238,7 @@ void VideoWriter::Finish() {
   Encoder& encoder = *encoder_;
   encoder.Encode(nullptr);
   encoder.Check(Libav().av_write_trailer(encoder.format.get()));
-  // Only closing the file reveals a full disk.
+  // A full disk is only reported when the file is closed.
   encoder.Check(Libav().avio_closep(&encoder.format->pb));
 }
 

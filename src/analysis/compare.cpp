@@ -16,10 +16,10 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/record.h"
 
-// Compares two runs at equal station. The traces are interpolated linearly at every station where
-// either has a row and both have been; gaps of recorded runs are skipped. Differences are the
-// second run minus the first. The rms is the exact integral over arc length of the piecewise linear
-// difference; the maximum is taken over the rows.
+// Compares two runs at equal station. Traces are interpolated linearly at every station where a run
+// has a row and both runs have been. Gaps in the logs of recorded runs are skipped. Differences are
+// the second run minus the first. The rms is the exact integral over arc length of the piecewise
+// linear difference. The maximum of the difference is taken over the rows.
 namespace trackbed {
 namespace {
 
@@ -50,7 +50,7 @@ Pose2 PoseIn(const Trace& trace, const Place& place) {
           std::lerp(a.yaw, b.yaw, place.share)};
 }
 
-/// Second run minus first run at one station.
+/// Difference of the second run minus the first at one station.
 struct RowDifference {
   double s = 0.0;
   double first_t = 0.0;
@@ -59,7 +59,7 @@ struct RowDifference {
   double yaw = 0.0;
   double yaw_rate = 0.0;
   double steering = 0.0;
-  bool after_gap = false;  // follows a gap in the compared stations
+  bool after_gap = false;  // whether a gap in the compared stations precedes this row
 };
 
 /// Whether the place lies outside the gaps of a recorded run.
@@ -108,8 +108,8 @@ std::vector<RowDifference> DifferencesAtRows(const Trace& first, const Trace& se
   return all;
 }
 
-/// Maximum and rms of a quantity over arc length. `of` returns it as a vector; it is linear between
-/// rows.
+/// Maximum and rms of a quantity over arc length. `of` returns the quantity as a vector; the
+/// quantity is linear between rows.
 template <typename Of>
 Difference ComputeDifference(const std::vector<RowDifference>& rows, const Of& of) {
   Difference difference;
@@ -161,7 +161,7 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
     if (log.contact_time && state.time > *log.contact_time) {
-      break;  // pushed by an obstacle, not driven
+      break;  // from this row on, an obstacle pushes the car, so it is not driven
     }
     const bool projected = row.tracking && source == StationSource::kProjection;
     AddRow(trace, projected ? row.tracking->s : state.distance, state.time, state.pose,

@@ -15,17 +15,17 @@
 #include "trackbed/core/spelling.h"
 
 // Compares the plants of one run, or the plants of two finished runs, pairwise at equal station
-// (compare.cpp). Plants of one run are compared with each other, plants of two runs by name unless
-// two plants are given. Bounds come from the tolerances given, else from expect.between (within one
-// run); the tightest applies. The verdict also notes different end statuses, different plans and
-// plants that only one run has.
+// (compare.cpp). Plants of one run are compared with each other. Plants of two runs are compared by
+// name, unless two plants are given. Bounds come from the given tolerances and, within one run,
+// from expect.between; the tightest bound applies. The verdict also notes different end statuses,
+// different plans, and plants that only one run has.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The expectations on the end of a run and on its cross-track error.
+/// The expectations on a plant's end of run and cross-track error.
 PlantExpectation EndExpectations(const PlantExpectation& expect) {
   PlantExpectation end{.max_cross_track = expect.max_cross_track, .collision = expect.collision};
   std::copy_if(expect.metrics.begin(), expect.metrics.end(), std::back_inserter(end.metrics),
@@ -47,7 +47,7 @@ void Tighten(std::optional<double>& bound, const std::optional<double>& other) {
   }
 }
 
-/// The tightest of all bounds between the two plants.
+/// The tightest of all bounds between plants `a` and `b`.
 DifferenceBounds BoundsBetween(const Expectations& expect, const std::string& a,
                                const std::string& b) {
   DifferenceBounds bounds;
@@ -79,7 +79,7 @@ void Judge(const ComparedPair& pair, Verdict& verdict) {
 /// A finished run, read from its folder.
 struct FinishedRun {
   fs::path folder;
-  std::string name;  ///< in results
+  std::string name;  ///< the plant's name in results
   std::vector<FinishedDrive> drives;
   Expectations expect;
 
@@ -398,7 +398,7 @@ void AddComparison(const RunComparison& comparison, const fs::path& folder, Resu
   Table table(columns);
   ordered_json json{{"status", comparison.status()}};
   for (const fs::path& run : comparison.runs) {
-    // Relative to the folder, however the run was named.
+    // The path is relative to the folder, however the run was named.
     json["runs"].push_back(fs::relative(run, folder).generic_string());
   }
   json["pairs"] = ordered_json::array();

@@ -10,19 +10,20 @@
 namespace trackbed {
 namespace {
 
-/// Reference course: the circle or straight line of the rear axle at one row, continued from there.
+/// Reference course: the circle or straight line on which the rear axle moves at one row, continued
+/// from that row.
 class ConstantCurvatureCourse {
  public:
   ConstantCurvatureCourse(const VehicleParams& vehicle, const VehicleState& state, double length)
       : start_yaw_(state.pose.yaw), curvature_(MeasuredCurvature(state)) {
-    // The rear axle may slip, so use its direction of motion and not its heading.
+    // The rear axle may slip, so the course follows its direction of motion and not its heading.
     const double lateral = state.lateral_speed - state.yaw_rate * vehicle.cg_to_rear;
     const double course = state.pose.yaw + std::atan2(lateral, state.speed);
     path_ = Path({state.pose.x, state.pose.y, course}, {{length, curvature_}});
   }
 
-  /// Distance of the car from the course, and its heading relative to the initial heading turned
-  /// along the course.
+  /// Distance of the car from the course. The heading of the car is relative to the initial
+  /// heading, turned along the course.
   [[nodiscard]] Projection At(const VehicleState& state) {
     constexpr double kMaxRowDistance = 5.0;  // maximum distance between rows [m]
     Projection at =
@@ -47,7 +48,7 @@ class ConstantCurvatureCourse {
   double station_ = 0.0;
 };
 
-/// Largest departures so far.
+/// Largest departures from the course so far.
 struct Departure {
   double lateral = 0.0;
   double heading = 0.0;
@@ -71,8 +72,9 @@ std::vector<ManeuverMetric> MethodMetrics(const BrakingTestOptions& /*options*/)
 
 void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
               ManeuverMetrics& metrics) {
-  constexpr double kBraking = 0.5;      // more than holding a speed needs [m/s^2]
-  constexpr double kStandstill = 0.05;  // [m/s]; stops within a millimeter from there
+  constexpr double kBraking = 0.5;      // Deceleration that is larger than holding a speed needs
+                                        // [m/s^2].
+  constexpr double kStandstill = 0.05;  // Below this speed the car stops within a millimeter [m/s].
   const auto& rows = input.log.rows;
   std::size_t onset = 0;
   while (onset < rows.size() && rows[onset].command.acceleration > -kBraking) {
@@ -142,8 +144,8 @@ void Evaluate(const DisturbanceOptions& options, const ManeuverInput& input,
   const bool straight = !rows.front().tracking;
   Departure departure;
   double yaw_rate = 0.0;
-  std::optional<double> left;  // when it first exceeds its bound
-  double back = 0.0;           // when it last returns below it
+  std::optional<double> left;  // Time at which the departure first exceeds its bound [s].
+  double back = 0.0;           // Time at which the departure last returns below its bound [s].
   for (std::size_t i = from; i < rows.size(); ++i) {
     const VehicleState& state = rows[i].state;
     departure.Take(straight ? course.At(state) : *rows[i].tracking);

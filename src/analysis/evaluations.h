@@ -7,10 +7,11 @@
 #include "trackbed/analysis/metric_value.h"
 #include "trackbed/planning/common/plan.h"
 
-/// Evaluations used by EvaluateManeuver. Each fills in values, passed, missing, begin and end.
+/// Functions used by EvaluateManeuver to evaluate maneuvers. Each evaluation fills in values,
+/// passed, missing, begin and end.
 namespace trackbed {
 
-/// A value of a maneuver. Each maneuver lists its values next to its evaluation.
+/// A value measured in a maneuver. Each maneuver lists its metrics next to its evaluation.
 struct ManeuverMetric {
   const char* name;
   const char* label;

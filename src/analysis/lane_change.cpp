@@ -16,7 +16,9 @@ namespace trackbed {
 namespace {
 
 /// ISO 3888: no corner of the footprint may leave a gate.
-constexpr StandardLimit kInsideGates{StandardLimit::Relation::kAtLeast, 0.0};  // [m]
+constexpr StandardLimit kInsideGates{StandardLimit::Relation::kAtLeast, 0.0};  // Smallest distance
+                                                                               // from a gate's edge
+                                                                               // [m].
 
 }  // namespace
 
@@ -36,7 +38,7 @@ void Evaluate(const LaneChangeOptions&, const ManeuverInput& input, ManeuverMetr
     metrics.missing = "the plan has no gates";
     return;
   }
-  // Distance along the course from the line across one end of a gate.
+  // Distance of the foremost corner, along the course, from the line across one end of a gate.
   const auto foremost = [&](const LogRow& row, const Gate& gate) {
     double x = -std::numeric_limits<double>::infinity();
     for (const Vec2& corner : FootprintAt(input.vehicle, row.state.pose).Corners()) {

@@ -5,7 +5,7 @@
 
 #include "trackbed/drive/run_log.h"
 
-/// Interpolation of quantities of a log. `of` maps a row to the quantity.
+/// Functions that interpolate the quantities of a log. `of` maps a row of the log to the quantity.
 namespace trackbed {
 
 /// The quantity at `time` [s]: linear between rows, constant before the first and after the last.
@@ -22,8 +22,8 @@ double ValueAt(const RunLog& log, double time, const Of& of) {
   return of(log.rows.back());
 }
 
-/// The first time, at or after row `from`, at which the quantity reaches `level` from below [s];
-/// none if it never does.
+/// The first time at which the quantity rises to `level` [s], at or after row `from`; none if it
+/// never does.
 template <typename Of>
 std::optional<double> TimeOfReaching(const RunLog& log, std::size_t from, double level,
                                      const Of& of) {

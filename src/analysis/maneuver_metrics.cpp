@@ -33,7 +33,7 @@ std::vector<ManeuverMetric> ListMethodMetrics(const ManeuverOptions& options) {
 
 /// A car that tips over fails every maneuver.
 void CheckRoll(const RunLog& log, ManeuverMetrics& metrics) {
-  constexpr double kTippedOver = 0.25 * kPi;  // [rad]; a car cannot recover from there
+  constexpr double kTippedOver = 0.25 * kPi;  // roll angle from which a car cannot recover [rad]
   const auto tipped = std::find_if(log.rows.begin(), log.rows.end(), [](const LogRow& row) {
     return std::abs(row.state.roll) > kTippedOver;
   });

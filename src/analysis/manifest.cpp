@@ -40,7 +40,7 @@ ManifestEntry MakeManifestEntry(std::string_view content) {
 bool Manifest::Lists(const std::string& name) const {
   return others.contains(name) ||
          std::any_of(results.begin(), results.end(), [&](const auto& result) {
-           // A result's file list omits its timing.json, because that differs between equal runs.
+           // A result's file list omits timing.json, because that file differs between equal runs.
            return result.second.contains(name) ||
                   (name == run_folder::kTimingJson && IsNameOf(result.first, name));
          });
@@ -101,7 +101,7 @@ std::optional<Manifest> ReadManifest(const fs::path& folder) {
   }
   try {
     Manifest manifest;
-    // Manifests of other programs have this name, too: a web page's, a browser extension's.
+    // Other programs also write a manifest.json, such as for a web page or a browser extension.
     const ordered_json json = ParseJson(file);
     if (!json.at("results").is_object() || json.size() > (json.contains("others") ? 2U : 1U)) {
       throw InputError(Problem{.file = file.string(), .message = kNoManifest});
@@ -128,7 +128,8 @@ std::optional<Manifest> ReadManifest(const fs::path& folder) {
 
 namespace {
 
-/// The results that may have a file of this name. A plan makes a run's other files outdated.
+/// The results that may contain a file with this name. A new plan makes the other files of a run
+/// outdated.
 std::vector<std::string> ResultsWith(const std::string& name) {
   std::vector<std::string> results;
   for (const ResultNames& own : AllResultNames()) {

@@ -11,14 +11,14 @@
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/core/hash.h"
 
-/// manifest.json: maps files of a folder to the results that they belong to.
+/// manifest.json maps the files of a folder to the results that contain them.
 namespace trackbed {
 
 /// Accumulates size and SHA-256 of a content.
 class EntryMaker {
  public:
   void Add(std::string_view content);
-  /// Returns the entry. Must be the last call.
+  /// Returns the entry of the added content. Finish() must be the last call on an EntryMaker.
   [[nodiscard]] ManifestEntry Finish();
 
  private:
@@ -28,29 +28,30 @@ class EntryMaker {
 
 ManifestEntry MakeManifestEntry(std::string_view content);
 
-/// Entries of a result's files, by file name.
+/// Entries of a result's files, keyed by file name.
 using ResultFiles = std::map<std::string, ManifestEntry>;
 
-/// Entries of a folder, by name of the result.
+/// Entries of a folder, keyed by the name of the result.
 struct Manifest {
   std::map<std::string, ResultFiles> results;
-  std::set<std::string> others;  ///< files of results that are no longer whole
+  std::set<std::string> others;  ///< files of results of which other files are missing or replaced
 
   /// Whether Trackbed has written a file of this name.
   [[nodiscard]] bool Lists(const std::string& name) const;
 
-  /// Adds a result. Drops other results that this makes incomplete: one of their files is replaced
-  /// by a different one, or is among the `removed`.
+  /// Adds a result. Drops other results that the added result makes incomplete, because it replaces
+  /// one of their files by a different one or because one of their files is among the `removed`.
   void Take(const std::string& result, ResultFiles files, const std::vector<std::string>& removed);
   [[nodiscard]] std::string ToJson() const;
 };
 
-/// Reads the manifest of a folder; none if the folder has none. Throws InputError naming the file
-/// if it is invalid.
+/// Reads the manifest of a folder. Returns none if the folder has no manifest. ReadManifest throws
+/// InputError naming the file if the manifest is invalid.
 std::optional<Manifest> ReadManifest(const std::filesystem::path& folder);
 
-/// Throws InputError naming `file` if it differs from its entry in the folder's manifest, or is
-/// missing there although the manifest has a result of its kind. Reads the file.
+/// Throws InputError naming `file` if the file differs from its entry in the folder's manifest.
+/// RequireInManifest also throws if the entry is missing although the manifest has a result of that
+/// kind. RequireInManifest reads the whole file.
 void RequireInManifest(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -74,7 +74,7 @@ json Cube(const OrientedBox& box, double height, const std::string& id, const st
   return {{"timestamp", Time(time)},
           {"frame_id", frame},
           {"id", id},
-          {"lifetime", Time(0.0)},  // until replaced
+          {"lifetime", Time(0.0)},  // a lifetime of 0 shows an entity until it is replaced
           {"frame_locked", true},
           {"cubes", json::array({CubeAt(box, height, color)})}};
 }
@@ -89,10 +89,10 @@ json Obstacles(const World& world, double time) {
   return {{"entities", entities}};
 }
 
-/// The walls of the world's map, which do not move: a single entity with many cubes.
+/// The static walls of the world's map as a single entity with many cubes.
 json Walls(const World& world) {
   json entity{{"timestamp", Time(0.0)}, {"frame_id", "world"},   {"id", "map"},
-              {"lifetime", Time(0.0)},  // until replaced
+              {"lifetime", Time(0.0)},  // a lifetime of 0 shows an entity until it is replaced
               {"frame_locked", true},   {"cubes", json::array()}};
   for (const OrientedBox& wall : MapWalls(world)) {
     entity["cubes"].push_back(
@@ -110,7 +110,7 @@ json PosesMessage(const Path& path, double time) {
   return {{"timestamp", Time(time)}, {"frame_id", "world"}, {"poses", poses}};
 }
 
-/// A message with its time, to be sorted.
+/// A message with its time, so that messages can be sorted.
 struct Message {
   double time;
   std::uint16_t channel;

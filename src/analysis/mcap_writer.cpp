@@ -24,7 +24,8 @@ enum : char {
 
 const std::string kMagic{"\x89MCAP0\r\n"};
 
-/// Chunk size limit [bytes]: small enough to read a whole chunk for a single moment.
+/// Limit of the size of a chunk [bytes]. A reader loads a whole chunk for a single moment, so
+/// chunks are small.
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
 
 template <typename Number>
@@ -169,8 +170,8 @@ std::string McapWriter::Statistics() const {
   Put(record, std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}));
   Put(record, static_cast<std::uint16_t>(schemas_.size()));
   Put(record, static_cast<std::uint32_t>(counts_.size()));
-  Put<std::uint32_t>(record, 0);  // no attachments
-  Put<std::uint32_t>(record, 0);  // no metadata
+  Put<std::uint32_t>(record, 0);  // No attachments.
+  Put<std::uint32_t>(record, 0);  // No metadata.
   Put(record, chunks_);
   Put(record, times_.first);
   Put(record, times_.last);
@@ -178,8 +179,8 @@ std::string McapWriter::Statistics() const {
   return record;
 }
 
-/// Everything that follows the data: groups of records, their offsets, then the footer. The summary
-/// starts at offset `start`.
+/// The part of the file after the data: groups of records, their offsets, then the footer. The
+/// summary starts at offset `start`.
 std::string McapWriter::SummaryAt(std::size_t start) {
   std::string statistics;
   PutRecord(statistics, kStatistics, Statistics());
@@ -201,7 +202,7 @@ std::string McapWriter::SummaryAt(std::size_t start) {
   Put<std::uint64_t>(footer, start);
   Put<std::uint64_t>(footer, start + summary.size());
   summary += offsets;
-  // The checksum covers everything before it, including the first fields of the footer.
+  // The checksum covers all preceding bytes, including the first fields of the footer.
   std::string checked = summary;
   checked += kFooter;
   Put<std::uint64_t>(checked, footer.size() + sizeof(std::uint32_t));

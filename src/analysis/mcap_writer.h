@@ -9,22 +9,22 @@
 
 namespace trackbed {
 
-/// Writes an MCAP container (mcap.dev/spec): schemas and channels, then uncompressed chunks of
-/// messages with one index each, then the summary used for seeking. Numbers are little-endian; all
-/// checksums are filled in.
+/// Writes an MCAP container (mcap.dev/spec). Schemas and channels come first, then uncompressed
+/// chunks of messages with one index each, then the summary used for seeking. Numbers are
+/// little-endian; all checksums are filled in.
 class McapWriter {
  public:
   McapWriter();
 
-  /// Adds a channel. Channels share a schema if its name and shape are equal. Must precede all
-  /// messages.
+  /// Adds a channel before the first message. Channels share a schema if its name and shape are
+  /// equal. AddChannel must precede all messages.
   std::uint16_t AddChannel(const std::string& topic, const std::string& schema,
                            const nlohmann::json& shape);
 
-  /// Adds a message. Times [s] must be non-negative and in ascending order.
+  /// Adds a message to a channel. Message times [s] must be non-negative and in ascending order.
   void AddMessage(std::uint16_t channel, double time, const nlohmann::json& message);
 
-  /// Returns the file. No calls may follow.
+  /// Returns the content of the file. No calls may follow Finish.
   std::string Finish();
 
  private:
@@ -38,8 +38,9 @@ class McapWriter {
   [[nodiscard]] std::string Statistics() const;
 
   std::string out_;
-  std::map<std::pair<std::string, std::string>, std::uint16_t> schemas_;  ///< by name and shape
-  std::vector<std::uint32_t> counts_;  ///< number of messages by channel
+  std::map<std::pair<std::string, std::string>, std::uint16_t> schemas_;  ///< Schemas, keyed by
+                                                                          ///< name and shape.
+  std::vector<std::uint32_t> counts_;  ///< Number of messages by channel.
   std::string schema_records_;
   std::string channel_records_;
   std::string chunk_;

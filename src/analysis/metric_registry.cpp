@@ -15,10 +15,10 @@
 #include "trackbed/planning/registry/planners.h"
 
 // Registry of metrics. The fixed metrics (metric_table.cpp) and registered ones have one entry
-// each; ListMetrics lists what a run has, with paths as in metrics.json: entries, then the sections
-// maneuver, turns[N], laps[N], windows[N] and requirements. DescribeMetric finds label and unit by
-// path. AllMetrics fills every metric that a scenario can have with a dummy value, so that paths
-// can be checked before the run.
+// each. ListMetrics lists the metrics of a run with their paths in metrics.json. Metrics of entries
+// come first, then the sections maneuver, turns[N], laps[N], windows[N] and requirements.
+// DescribeMetric finds label and unit by path. AllMetrics fills every metric that a scenario can
+// have with a dummy value, so that paths can be checked before the run.
 namespace trackbed {
 namespace {
 
@@ -31,7 +31,8 @@ constexpr const char* kWindows = "windows";
 constexpr const char* kRequirements = "requirements";
 constexpr const char* kRobustness = ".robustness";
 
-/// The only list that changes after startup: RegisterMetric appends to it.
+/// The list of metrics is the only list that changes after startup, because RegisterMetric appends
+/// to it.
 std::vector<MetricEntry>& Registry() {
   static std::vector<MetricEntry> entries = BuiltInMetrics();
   return entries;
@@ -53,7 +54,7 @@ std::vector<std::string> EntryPaths(const MetricEntry& entry) {
 }
 
 bool IsPath(std::string_view path) {
-  bool begins = true;  // of a word
+  bool begins = true;  // whether a word begins at this character
   for (const char c : path) {
     const bool letter = c >= 'a' && c <= 'z';
     const bool inside = (c >= '0' && c <= '9') || c == '_' || c == '.';
@@ -65,8 +66,8 @@ bool IsPath(std::string_view path) {
   return !begins;
 }
 
-/// Whether two paths cannot coexist in one file: they are equal, or one is a section containing the
-/// other.
+/// Whether two paths cannot coexist in one file: they are equal, or one is a section that contains
+/// the other.
 bool Conflict(const std::string& a, const std::string& b) {
   return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
 }
@@ -98,8 +99,8 @@ void CheckEntry(const MetricEntry& entry) {
   }
 }
 
-/// The part of a path after a list index, "lateral_offset" of "turns[1].lateral_offset". Sets
-/// `index`.
+/// The part of a path after a list index, such as "lateral_offset" of "turns[1].lateral_offset".
+/// InList stores the list index in `index`.
 std::optional<std::string_view> InList(const char* list, std::string_view path, int& index) {
   const std::string begin = fmt::format("{}[", list);
   const std::size_t close = path.find("].");
@@ -335,7 +336,7 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
     metrics.laps.resize(static_cast<std::size_t>(scenario.mission.track->laps));
   }
   for (const MetricEntry& entry : Metrics()) {
-    // Metrics of track limits only exist on a track.
+    // Metrics of track limits exist only for runs on a track.
     const bool of_track = entry.path.starts_with("track_limits.");
     if (entry.measure && (!of_track || scenario.mission.track)) {
       metrics.measured.emplace_back(entry.path, MetricReading{0.0, {}});

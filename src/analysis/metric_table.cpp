@@ -6,14 +6,15 @@
 #include "src/analysis/sideslip.h"
 #include "src/analysis/track_metrics.h"
 
-// Table of all metrics that Trackbed defines: one entry each.
+// Table of all metrics that Trackbed defines, with one entry per metric.
 namespace trackbed {
 namespace {
 
 using Reading = std::optional<MetricReading>;
 using Read = std::function<Reading(const PlantMetrics&)>;
 
-// Selects the part of the metrics that contains a member; null if the run has no such part.
+// Selects the part of the metrics that contains a member. SelectMetrics returns null if the run has
+// no such part.
 const PlantMetrics* SelectMetrics(const PlantMetrics& metrics, const PlantMetrics* /*which*/) {
   return &metrics;
 }
@@ -30,7 +31,7 @@ const RecordMetrics* SelectMetrics(const PlantMetrics& metrics, const RecordMetr
   return metrics.recorded ? &*metrics.recorded : nullptr;
 }
 
-/// Reads the member `value`, which refers to the whole run or to its end.
+/// Reads the member `value`, which refers to the whole run or to the run's end.
 template <typename Part, typename T>
 Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
   return [=](const PlantMetrics& metrics) -> Reading {
@@ -52,7 +53,7 @@ Read At(T Part::*value, double Part::*s, double Part::*t) {
 }
 
 Reading Status(const PlantMetrics& metrics) {
-  // A run continues for one second after a collision, so use the time of contact.
+  // A run continues for one second after a collision, so its duration ends at the time of contact.
   const bool collided = metrics.status == DriveStatus::kCollided;
   return MetricReading{std::string(ToString(metrics.status)),
                        {.span = collided ? MetricSpan::kMoment : MetricSpan::kEnd,
@@ -97,7 +98,7 @@ MetricEntry Headline(MetricEntry entry) {
   return entry;
 }
 
-/// Adds station and time of the value to metrics.json.
+/// Adds station and time of an entry's value to metrics.json.
 MetricEntry Located(MetricEntry entry) {
   entry.located = true;
   return entry;

@@ -10,7 +10,7 @@ namespace trackbed {
 /// The metrics that Trackbed defines, in the order of metrics.json.
 std::vector<MetricEntry> BuiltInMetrics();
 
-/// A metric of each isolated turn; in metrics.json under `turns[N]`.
+/// A metric of each isolated turn, written to metrics.json under `turns[N]`.
 struct TurnMetricEntry {
   const char* key;
   const char* label;
@@ -20,7 +20,7 @@ struct TurnMetricEntry {
 
 const std::vector<TurnMetricEntry>& TurnMetricTable();
 
-/// A metric of each completed lap; in metrics.json under `laps[N]`.
+/// A metric of each completed lap, written to metrics.json under `laps[N]`.
 struct LapMetricEntry {
   const char* key;
   const char* label;
@@ -30,8 +30,8 @@ struct LapMetricEntry {
 
 const std::vector<LapMetricEntry>& LapMetricTable();
 
-/// A metric of the predictions over one horizon; in metrics.json under `windows[N]`. Null if there
-/// were no windows, or if a quantile is infinite.
+/// A metric of the predictions over one horizon, written to metrics.json under `windows[N]`. The
+/// metric is null if there were no prediction windows, or if a quantile is infinite.
 struct WindowMetricEntry {
   const char* key;
   const char* label;
@@ -41,11 +41,11 @@ struct WindowMetricEntry {
 
 const std::vector<WindowMetricEntry>& WindowMetricTable();
 
-/// Puts a value into an entry of metrics.json at its path: "turns[0].waypoint" is
+/// Puts a value into an entry of metrics.json at its path: "turns[0].waypoint" becomes
 /// /turns/0/waypoint.
 void PutMetric(const Metric& metric, nlohmann::ordered_json& json);
 
-/// All metrics that a run of the plant in the scenario can have, with dummy values.
+/// All metrics that a run of the plant can have in the scenario, with dummy values.
 PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant);
 
 }  // namespace trackbed

@@ -38,7 +38,7 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double cor
   double rows = 0.0;
   for (const LogRow& row : log.rows) {
     if (log.contact_time && row.state.time > *log.contact_time && rows > 0.0) {
-      break;  // pushed by an obstacle, not steered
+      break;  // from this row on, an obstacle pushes the car, so it is not steered
     }
     rows += 1.0;
     const Projection& at = *row.tracking;
@@ -82,7 +82,7 @@ ClearanceMetrics MeasureClearance(const RunLog& log) {
   }
   metrics.collision = log.contact_time.has_value();
   if (log.contact_time) {
-    metrics.min_t = *log.contact_time;  // lies between two rows
+    metrics.min_t = *log.contact_time;  // the time of contact lies between two rows
   }
   return metrics;
 }
@@ -98,7 +98,7 @@ void PlaceContact(const RunLog& log, PlantMetrics& metrics) {
   metrics.contact_s = row == log.rows.end() ? metrics.end_s : RowStation(*row);
 }
 
-/// Root mean square over the control periods of the mean measured steering rate.
+/// Root mean square of the measured steering rate, averaged over each control period.
 double SteeringRateRms(const RunLog& log, double control_period) {
   double squares = 0.0;
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
@@ -125,7 +125,7 @@ std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
                                       const VehicleParams& vehicle, StationSource source) {
   std::vector<TurnMetrics> turns;
   const Trace trace = MakeTrace(log, source);
-  // Wheels moved by forces lag behind their actuator; prescribed wheels do not.
+  // Wheels that forces move lag behind their actuator; prescribed wheels do not.
   const double lag = log.rows.front().state.wheels ? vehicle.steering_lag : 0.0;
   // After a change of plan, stations refer to another path.
   const double until =

@@ -26,17 +26,19 @@
 #include "trackbed/core/file_name.h"
 
 // Output folders with crash-safe results. A folder is locked (flock) while it is written.
-// ResultWriter writes all files of a result into a hidden folder; renaming that folder commits the
-// result, and its files are then moved into place, the manifest last. Both steps can be repeated,
-// so the next process that locks the folder completes an interrupted commit and removes incomplete
-// results. Folders may come from anybody: links are never followed, and only files that Trackbed
-// has written are overwritten or removed (own_files.h).
+// ResultWriter writes all files of a result into a hidden folder, and renaming that folder commits
+// the result. The files of the result are then moved into place, the manifest last. Committing a
+// result and moving its files can both be repeated. The next process that locks the folder
+// therefore completes an interrupted commit and removes incomplete results. Folders may come from
+// untrusted sources: links are never followed. Only files that Trackbed has written are overwritten
+// or removed (own_files.h).
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Lists in the hidden folders: files to remove, as JSON; files that were begun, a line each.
+// Lists in the hidden folders: the files to remove, as JSON, and the files that were begun, one per
+// line.
 constexpr const char* kObsolete = ".obsolete";
 constexpr const char* kWritten = ".written";
 
@@ -44,7 +46,7 @@ constexpr const char* kWritten = ".written";
   throw RunError(fmt::format("cannot write {}: {}", file.string(), error.message()));
 }
 
-/// Process that holds the lock, " (process 123)", from the kernel's list of locks; empty if
+/// Process that holds the lock, such as " (process 123)", from the kernel's list of locks; empty if
 /// unknown.
 std::string Holder(int descriptor) {
   struct stat status {};
@@ -55,7 +57,7 @@ std::string Holder(int descriptor) {
       fmt::format("{:02x}:{:02x}:{}", major(status.st_dev), minor(status.st_dev), status.st_ino);
   std::ifstream locks("/proc/locks");
   for (std::string line; std::getline(locks, line);) {
-    // Format: "1: FLOCK  ADVISORY  WRITE 123 fe:00:4711 0 EOF"
+    // Format of a line in the kernel's list: "1: FLOCK  ADVISORY  WRITE 123 fe:00:4711 0 EOF"
     std::istringstream words(line);
     std::string number;
     std::string kind;
@@ -71,20 +73,21 @@ std::string Holder(int descriptor) {
   return "";
 }
 
-/// Returns EWOULDBLOCK if another process holds the lock, else 0, also on file systems without
-/// locks.
+/// TryLock returns EWOULDBLOCK if another process holds the lock, else 0. TryLock also returns 0 on
+/// file systems without locks.
 int TryLock(int descriptor, int how) {
   return ::flock(descriptor, how | LOCK_NB) != 0 && errno == EWOULDBLOCK ? EWOULDBLOCK : 0;
 }
 
-/// Whether the path is a folder and not a link to one. A run folder may come from anybody, and the
-/// target of a link must not be changed.
+/// Whether the path is a folder and not a link to one. A run folder may come from an untrusted
+/// source, and the target of a link must not be changed.
 bool IsFolder(const fs::path& path) {
   std::error_code ignored;
   return fs::is_directory(fs::symlink_status(path, ignored));
 }
 
-/// The names of files to remove; empty if there is no such list.
+/// Reads the list of names of files to remove. ObsoleteNames returns nothing if there is no list of
+/// files to remove.
 std::vector<std::string> ObsoleteNames(const fs::path& complete) {
   std::error_code ignored;
   const fs::path file = complete / kObsolete;
@@ -94,12 +97,13 @@ std::vector<std::string> ObsoleteNames(const fs::path& complete) {
   try {
     return JsonValue(ParseJson(file), file.string()).Texts();
   } catch (const InputError&) {
-    return {};  // a damaged list removes nothing
+    return {};  // a damaged list removes no files
   }
 }
 
-/// Removes the obsolete files listed in `complete`, moves its files into the folder, and the
-/// manifest last. Continues an interrupted move. Files of others, here or there, stay.
+/// Removes the obsolete files listed in `complete`. The files of `complete` are then moved into the
+/// folder, the manifest last. MoveIntoPlace also continues an interrupted move. Files that Trackbed
+/// has not written stay in both folders.
 void MoveIntoPlace(const fs::path& folder) {
   const fs::path complete = folder / run_folder::kComplete;
   const auto fail = [&](const fs::path& file, const std::string& why) {
@@ -148,7 +152,7 @@ void MoveIntoPlace(const fs::path& folder) {
   RemoveHiddenFolder(complete, {kObsolete, kWritten});
 }
 
-/// Removes the result that a killed process had not completed.
+/// Removes the incomplete result of a killed process.
 void RemovePartial(const fs::path& folder) {
   const fs::path partial = folder / run_folder::kPartial;
   std::vector<std::string> names{kObsolete, kWritten, run_folder::kManifest};
@@ -169,7 +173,7 @@ bool NeedsRecovery(const fs::path& folder) {
   return IsFolder(folder / run_folder::kPartial) || IsFolder(folder / run_folder::kComplete);
 }
 
-/// Completes or removes the results of a killed process. Requires the lock.
+/// Completes or removes the results of a killed process. Recover requires the lock of the folder.
 void Recover(const fs::path& folder) {
   if (IsFolder(folder / run_folder::kPartial)) {
     RemovePartial(folder);
@@ -179,7 +183,7 @@ void Recover(const fs::path& folder) {
   }
 }
 
-/// Throws RunError if the name of a hidden folder is taken, such as by a link.
+/// Throws RunError if the name of a hidden folder is taken, for example by a link.
 void RequireHiddenFolders(const fs::path& folder) {
   for (const char* name : {run_folder::kPartial, run_folder::kComplete}) {
     static_cast<void>(FolderBelow(folder, name));
@@ -205,7 +209,7 @@ void OutputFolder::Open(For use) {
   }
   lock_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock_.get() < 0) {
-    return;  // absent or unreadable: reported on reading or writing
+    return;  // an absent or unreadable folder is reported on reading or writing
   }
   Lock(use);
   RemoveAbandonedTemporaries(path_);
@@ -252,7 +256,8 @@ std::optional<OutputFolder> LockFolderOf(const fs::path& file, const fs::path& r
   const fs::path beside = (fs::path(".") / file).parent_path();
   std::error_code ignored;
   if (fs::equivalent(beside, fs::path(".") / result, ignored)) {
-    // A run folder may come from anybody; a link in it must not choose the file to overwrite.
+    // A run folder may come from an untrusted source; a link in it must not choose the file to
+    // overwrite.
     const fs::file_status status = fs::symlink_status(file, ignored);
     if (fs::exists(status) && !fs::is_regular_file(status)) {
       throw RunError(fmt::format("cannot write {}: it is {}; remove it, or give another place",
@@ -291,7 +296,7 @@ ResultWriter::~ResultWriter() {
   try {
     RemovePartial(folder_);
   } catch (const std::exception&) {
-    // The next writer reports it.
+    // The next writer reports the error.
   }
 }
 
@@ -308,11 +313,11 @@ void ResultWriter::Add(const std::string& name, const std::function<std::string(
                     WithoutControls(name), folder_.string()));
   }
   const fs::path file = folder_ / name;
-  // Commit would find it too late.
+  // Foreign files are refused here, because Commit would find them too late.
   if (name != run_folder::kManifest && !IsOwnOrAbsent(folder_, name, before_.get())) {
     FailAsForeign(file);
   }
-  // Before the file: after a kill all files are listed.
+  // The name is listed before the file is written, so that after a kill all files are listed.
   written_->Write(name + "\n");
   NewFile out(folder_ / run_folder::kPartial / name, file);
   EntryMaker entry;
@@ -380,8 +385,8 @@ void ResultWriter::Commit() {
   const fs::path partial = folder_ / run_folder::kPartial;
   WriteNewFile(partial / kObsolete, nlohmann::json(obsolete).dump(), folder_ / kObsolete);
   written_->Close();
-  // Commit point: from here on the result is moved into place, if not by this process then by the
-  // next.
+  // Commit point. From the commit point on, the result is moved into place, by this process or by
+  // the next one.
   std::error_code error;
   fs::rename(partial, folder_ / run_folder::kComplete, error);
   if (error) {

@@ -18,8 +18,10 @@ std::optional<double> OverspeedLimit(const RunLog& log, const Scenario& scenario
     road = std::max(road, RoadFactor(scenario.world, row.state.pose.position()));
   }
   const SpeedControlOptions& speed = scenario.control.speed;
-  const double hardest = MaxDeceleration(vehicle, road);  // 0: unknown
-  const double most = 2.0 * speed.deceleration;           // see SpeedControl
+  const double hardest = MaxDeceleration(vehicle, road);  // Deceleration of the hardest braking; 0:
+                                                          // unknown.
+  const double most = 2.0 * speed.deceleration;           // Largest commanded deceleration; see
+                                                          // SpeedControl.
   const double braking = hardest > 0.0 ? std::min(most, hardest) : most;
   return braking / speed.gain + braking * scenario.drive.control_period;
 }

@@ -8,14 +8,16 @@
 
 namespace trackbed {
 
-/// The largest overspeed that the speed control of a run can still correct [m/s]; none if the plan
-/// never sets the speed.
+/// The largest overspeed that a run's speed control can still correct [m/s]; none if the plan never
+/// sets the speed.
 ///
-/// The control asks for the planned acceleration less k e, e the overspeed, k control.speed.gain,
-/// down to -D, D twice control.speed.deceleration or the hardest braking on the best road under the
-/// car, whichever is less. At e = D/k the command saturates: whatever still makes the car faster,
-/// such as a grade, is stronger than the control. A command is held for a control period T, over
-/// which the overspeed may change by D T. The limit is D/k + D T.
+/// For an overspeed e, the control asks for the planned acceleration less k e, where k is
+/// control.speed.gain. The acceleration command is at least -D. The bound D is twice
+/// control.speed.deceleration, or the hardest braking on the best road under the car if that is
+/// less. At the overspeed e = D/k, the command saturates. A disturbance that accelerates the car
+/// further, such as a grade, is stronger than the saturated speed control. A command is held for a
+/// control period T, in which the overspeed may change by D T. The limit of the overspeed is
+/// therefore D/k + D T.
 std::optional<double> OverspeedLimit(const RunLog& log, const Scenario& scenario,
                                      const VehicleParams& vehicle);
 

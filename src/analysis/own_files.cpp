@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Of the path itself: a link is a link.
+/// Status of the path itself, even if the path is a link.
 fs::file_status StatusOf(const fs::path& path) {
   std::error_code ignored;
   return fs::symlink_status(path, ignored);
@@ -52,7 +52,7 @@ void Remove(const fs::path& file) {
   }
 }
 
-/// The names of all files that Trackbed may have written to the folder, but for its manifest.
+/// The names of all files that Trackbed may have written to the folder, except its manifest.
 std::set<std::string> NamesOf(const Manifest& manifest) {
   std::set<std::string> names = manifest.others;
   names.insert(
@@ -112,21 +112,21 @@ void RemoveHiddenFolder(const fs::path& folder, const std::vector<std::string>& 
 std::vector<std::string> ForeignNames(const fs::path& folder,
                                       const std::vector<std::string>& names) {
   const auto look = [&] {
-    // A process that is at work, or was killed, may have moved a part of a result into place. This
-    // manifest first: it becomes the folder's.
+    // A process that is running, or was killed, may have moved a part of a result into place. The
+    // manifest of the hidden folder is read first, since it becomes that of the folder.
     const std::optional<Manifest> next = ReadManifest(folder / run_folder::kComplete);
     const std::optional<Manifest> manifest = ReadManifest(folder);
     std::vector<std::string> foreign;
     std::copy_if(names.begin(), names.end(), std::back_inserter(foreign),
                  [&](const std::string& name) {
-                   // ReadManifest has checked its own file.
+                   // ReadManifest has checked the manifest's own file.
                    return name != run_folder::kManifest &&
                           !IsOwnOrAbsent(folder, name, manifest ? &*manifest : nullptr) &&
                           !IsOwnOrAbsent(folder, name, next ? &*next : nullptr);
                  });
     return foreign;
   };
-  // A second look is needed where a move began after the first had read the manifests.
+  // Looks a second time, because files may have been moved after the first look read the manifests.
   return look().empty() ? std::vector<std::string>() : look();
 }
 
@@ -180,7 +180,8 @@ void RemoveResults(const fs::path& folder) {
       Remove(folder / name);
     }
   }
-  Remove(folder / run_folder::kManifest);  // last: it says which other files are Trackbed's
+  Remove(folder / run_folder::kManifest);  // removed last, because the manifest lists Trackbed's
+                                           // other files
   if (NamesIn(folder).empty()) {
     Remove(folder);
   }

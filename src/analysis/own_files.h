@@ -4,21 +4,23 @@
 #include <string>
 #include <vector>
 
-/// Which files of an output folder Trackbed has written, and may replace or remove.
+/// Decides which files of an output folder Trackbed has written, and may replace or remove.
 namespace trackbed {
 
 struct Manifest;
 
-/// Whether nothing has this name in the folder, or a regular file that Trackbed has written: the
-/// manifest (null: none) lists it, it carries a mark (HasMark), or it is a file of records.
+/// Whether the name is free in the folder or belongs to a regular file that Trackbed has written.
+/// Trackbed has written a file that the manifest (null: none) lists, that carries a mark (HasMark),
+/// or that is a file of records.
 bool IsOwnOrAbsent(const std::filesystem::path& folder, const std::string& name,
                    const Manifest* manifest);
 
-/// RunError saying what has the name that IsOwnOrAbsent refuses.
+/// Throws RunError that describes the file for which IsOwnOrAbsent returns false.
 [[noreturn]] void FailAsForeign(const std::filesystem::path& file);
 
-/// Removes the regular files of these names, and the folder. RunError for a link, and listing the
-/// files of others, which stay. Absent folders are fine.
+/// Removes the regular files with these names, then the folder. RemoveHiddenFolder throws RunError
+/// for a link. RemoveHiddenFolder throws RunError listing the files that Trackbed has not written,
+/// which stay. RemoveHiddenFolder ignores absent folders.
 void RemoveHiddenFolder(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 }  // namespace trackbed

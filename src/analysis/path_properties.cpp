@@ -14,11 +14,11 @@ const Segments& SegmentsOf(const PlannedPath& path) {
   return path.plan.reference.path.segments();
 }
 
-/// Both ends of the segment, and the point inside where the curvature has an extremum.
+/// Both ends of the segment, and the inner point where the curvature has an extremum.
 std::vector<double> Extrema(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const double vertex = -segment.sharpness / segment.sharpness_rate;
-  if (vertex > 0.0 && vertex < segment.length) {  // false for NaN
+  if (vertex > 0.0 && vertex < segment.length) {  // NaN makes the condition false
     places.push_back(vertex);
   }
   return places;
@@ -35,7 +35,7 @@ double MaxCurvature(const Segments& segments) {
 }
 
 double MaxCurvatureRate(const Segments& segments) {
-  double largest = 0.0;  // linear within a segment, so largest at an end
+  double largest = 0.0;  // the quantity is linear within a segment, so it is largest at an end
   for (const Segment& segment : segments) {
     largest = std::max({largest, std::abs(segment.sharpness),
                         std::abs(segment.sharpness + segment.sharpness_rate * segment.length)});
@@ -43,8 +43,8 @@ double MaxCurvatureRate(const Segments& segments) {
   return largest;
 }
 
-/// Integral of the squared curvature by three-point Gauss-Legendre quadrature, exact for the square
-/// of a quadratic.
+/// Integral of the squared curvature by three-point Gauss-Legendre quadrature, which is exact for
+/// the square of a quadratic.
 double SquaredCurvature(const Segment& segment) {
   static const double kOuter = std::sqrt(0.6);
   const double half = 0.5 * segment.length;
@@ -55,11 +55,11 @@ double SquaredCurvature(const Segment& segment) {
   return half * (5.0 * square(-kOuter) + 8.0 * square(0.0) + 5.0 * square(kOuter)) / 9.0;
 }
 
-/// Both ends of the segment and the zeros of the curvature inside, in order.
+/// Both ends of the segment and the zeros of its curvature, in order.
 std::vector<double> Crossings(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const auto add = [&](double d) {
-    if (d > 0.0 && d < segment.length) {  // false for NaN
+    if (d > 0.0 && d < segment.length) {  // NaN makes the condition false
       places.push_back(d);
     }
   };
@@ -90,9 +90,10 @@ double Turning(const Segments& segments) {
   return turned;
 }
 
-/// Largest curvature jump within the legs between stops. SplitIntoLegs cuts at cusps and stops.
+/// Largest curvature jump within the legs of a path between its stops. SplitIntoLegs cuts a path at
+/// cusps and stops.
 double MaxCurvatureJump(const PlannedPath& path) {
-  constexpr double kRounding = 1e-12;  // [rad/m], in a segment's final curvature
+  constexpr double kRounding = 1e-12;  // rounding of a segment's final curvature [rad/m]
   double largest = 0.0;
   const Path& line = path.plan.reference.path;
   for (const Stations& leg : SplitIntoLegs(line, path.plan.stops)) {
@@ -106,8 +107,8 @@ double MaxCurvatureJump(const PlannedPath& path) {
   return largest > kRounding ? largest : 0.0;
 }
 
-/// Minimum clearance, found in steps that the current clearance permits: it changes by at most
-/// `moved` per meter of path.
+/// Minimum clearance of the path. The current clearance limits each step, since the clearance
+/// changes by at most `moved` per meter of path.
 std::optional<double> MinClearance(const PlannedPath& path) {
   World known = path.world;
   std::erase_if(known.obstacles, [](const Obstacle& obstacle) {

@@ -11,7 +11,7 @@ inline std::optional<MetricReading> PredictedTime(const MetricInput& input) {
   return profile ? std::optional(MetricReading{profile->predicted_time, {}}) : std::nullopt;
 }
 
-/// Duration of the run relative to the prediction; none unless the run arrived.
+/// Duration of the run relative to the predicted duration; none unless the car arrived.
 inline std::optional<MetricReading> TimeOverPredicted(const MetricInput& input) {
   const auto& profile = input.plan.diagnostics.speed_profile;
   if (!profile || input.log.status != DriveStatus::kArrived) {

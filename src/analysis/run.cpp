@@ -25,9 +25,10 @@
 #include "trackbed/sim/scene.h"
 
 // Plans and runs a scenario, then writes its run folder. PlanRun plans; DriveRun simulates all
-// plants (simulate_plants.cpp), measures each (metrics.cpp), compares each pair (compare.cpp) and
-// judges the results (verdict.cpp). WriteRunFolder writes all inputs next to the results (resolved
-// scenario, model, map, track, recordings), so that the run can be repeated from its folder.
+// plants (simulate_plants.cpp) and measures each (metrics.cpp). DriveRun compares each pair of
+// plants (compare.cpp) and judges the results (verdict.cpp). WriteRunFolder writes all inputs next
+// to the results: resolved scenario, model, map, track and recordings. A run can therefore be
+// repeated from its folder.
 namespace trackbed {
 namespace {
 
@@ -39,7 +40,7 @@ constexpr double kPlanSpacing = 0.1;
 
 Table PlanTable(const Reference& reference) {
   Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
-  // Sample each leg separately, so that the cusps are among the rows. Where two legs meet, the
+  // Each leg is sampled separately, so that the cusps are among the rows. Where two legs meet, the
   // point of the earlier leg is kept.
   for (const Stations& leg : SplitIntoLegs(reference.path)) {
     const Reference part = Excerpt(reference, leg);
@@ -56,7 +57,7 @@ Table PlanTable(const Reference& reference) {
   return table;
 }
 
-/// Knots of the open-loop schedule delta(D).
+/// Table of the knots of the open-loop schedule delta(D).
 Table ScheduleTable(const SteeringSchedule& schedule) {
   Table table({"distance_m", "steering_rad"});
   for (const SteeringSchedule::Knot& knot : schedule.knots()) {
@@ -65,7 +66,7 @@ Table ScheduleTable(const SteeringSchedule& schedule) {
   return table;
 }
 
-/// The edges of the search trees.
+/// Table of the edges of the search trees.
 Table TreeTable(const std::vector<TreeNode>& tree) {
   Table table({"x_m", "y_m", "parent_x_m", "parent_y_m", "cost_m"});
   for (const TreeNode& node : tree) {
@@ -75,7 +76,7 @@ Table TreeTable(const std::vector<TreeNode>& tree) {
   return table;
 }
 
-/// Plans adopted during the run: rows of plan.csv for each, after the time of its adoption.
+/// Plans adopted during the run: the rows of plan.csv for each plan, with the time of its adoption.
 Table ChangesTable(const RunLog& log) {
   std::vector<std::string> columns{"from_t_s"};
   const Table first = PlanTable(log.changes.front().plan.reference);
@@ -119,8 +120,8 @@ void AddUnlessEmpty(const Table& table, const std::string& name, ResultWriter& w
 
 /// Fraction of the rows in which a loaded tyre slides.
 double SlidingShare(const RunLog& log) {
-  constexpr double kSlip = 0.1;     // relative to the speed, longitudinal or lateral
-  constexpr double kAtLeast = 1.0;  // [m/s]; below, slip is dominated by rounding
+  constexpr double kSlip = 0.1;     // Slip relative to the speed, longitudinal or lateral.
+  constexpr double kAtLeast = 1.0;  // Speed below which rounding dominates the slip [m/s].
   const auto slides = [&](const LogRow& row) {
     return std::abs(row.state.speed) > kAtLeast && row.state.wheels &&
            std::any_of(
@@ -133,8 +134,8 @@ double SlidingShare(const RunLog& log) {
          static_cast<double>(log.rows.size());
 }
 
-/// MuJoCo's friction cone lifts sliding contacts, so the wheel loads of such a run are not
-/// realistic.
+/// MuJoCo's friction cone lifts sliding contacts, so wheel loads of a run with sliding tyres are
+/// not realistic.
 void NoteSlidingContacts(RunResult& result, const CarModel& car) {
   constexpr double kNotedFraction = 0.01;
   for (const RunLog& log : result.logs) {
@@ -199,7 +200,7 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
     metrics.tracking->overspeed_limit = OverspeedLimit(log, scenario, car.unladen());
   }
   if (log.plant == kRecordedPlant) {
-    // The limits belong to the model, but the measured wheels belong to the real vehicle.
+    // The limits are those of the model, but the measured wheels are those of the real vehicle.
     metrics.steering_rate_limit = 0.0;
     metrics.steering_limit = 0.0;
   }
@@ -331,7 +332,8 @@ void WritePlan(const RunResult& planned, const OutputFolder& folder) {
 
 namespace {
 
-/// The car of a scenario that gives its path, without load and world; none for a shipped car.
+/// The car of a scenario that names its own model file, without load and world; none for a shipped
+/// car.
 std::optional<Scene> OwnVehicle(const RunResult& result) {
   const Scenario& scenario = result.scenario;
   if (!IsModelPath(scenario.vehicle.model)) {

@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::string_view kStateEnding = ".state.csv";
 
-/// File name of a plant. Names of plants may come from files and must not point outside the folder.
+/// Makes the file name of a plant. Names of plants may come from files and must not point outside
+/// the folder.
 std::string Name(const std::string& plant, std::string_view ending) {
   if (plant.empty() || plant.front() == '.' || plant.find('/') != std::string::npos) {
     throw InputError(Problem{.message = fmt::format("'{}' is no name of a plant", plant)});
@@ -52,7 +53,7 @@ std::string NewPlansTreeCsv(const std::string& plant) {
 }
 
 std::optional<std::string> PlantOfStateCsv(const std::string& file_name) {
-  // A leading dot marks files that a writer has not finished.
+  // A leading dot marks files that are not completely written.
   if (file_name.size() <= kStateEnding.size() || !file_name.ends_with(kStateEnding) ||
       file_name.front() == '.') {
     return std::nullopt;

@@ -8,8 +8,8 @@
 namespace trackbed {
 
 /// Largest magnitude of the sideslip angle at the center of gravity [rad], up to the first contact
-/// with an obstacle. Only considers speeds above 1 m/s: below, the sway of the body on its
-/// suspension dominates. 0 for a car that never exceeds that speed.
+/// with an obstacle. Only speeds above 1 m/s count: below, the sway of the body on its suspension
+/// dominates. The largest sideslip is 0 for a car that never exceeds 1 m/s.
 inline std::optional<MetricReading> LargestSideslip(const MetricInput& input) {
   constexpr double kMinSpeed = 1.0;  // [m/s]
   double largest = 0.0;

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// Simulates one plant. Its timing excludes the time spent in the hook `logged`.
+/// Simulates one plant and measures the time taken. The measured time excludes the hook `logged`.
 SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
                              const std::string& plant, DriveHooks hooks) {
   DriveTiming timing{.plant = plant};

@@ -12,20 +12,21 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
-// Statistics of study tables. Pass rates: Wilson score interval (Wilson 1927). Quantiles: linear
-// interpolation between order statistics. Means: Student's t. Classify: equal values, else classes
-// of about equal size. FirstOrderIndices: share of the variance between classes (epsilon squared),
-// with a normal interval from bootstrap resamples. CorrelateRanks: rank correlation (Spearman 1904)
-// with the interval of Bonett and Wright (2000). ComparePairs: paired differences and the sign
-// test.
+// Statistics of study tables. Pass rates have the Wilson score interval (Wilson 1927). Quantiles
+// are interpolated linearly between order statistics. Means have intervals by Student's t. Classify
+// forms one class per value, or classes of about equal size if there are many values.
+// FirstOrderIndices computes the share of the variance between classes (epsilon squared). The
+// interval of an index is a normal interval from bootstrap resamples. CorrelateRanks computes the
+// rank correlation (Spearman 1904) with the interval of Bonett and Wright (2000). ComparePairs
+// computes paired differences and the sign test.
 namespace trackbed {
 namespace {
 
-/// Boost's tables of long doubles overflow at startup where long doubles have only 64 bits, as
-/// under valgrind.
+/// Boost's tables of long doubles overflow at startup if long doubles have only 64 bits, as under
+/// valgrind.
 using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-/// Half width of an interval of this confidence, in standard deviations of a normal distribution.
+/// Half width of an interval with this confidence, in standard deviations of a normal distribution.
 double NormalReach(double confidence) {
   TRACKBED_REQUIRE(confidence > 0.0 && confidence < 1.0, "confidence {} is not in (0, 1)",
                    confidence);
@@ -37,8 +38,8 @@ double MeanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Epsilon squared, for an output with a mean near 0: 1 - (within / (n - B)) / (total / (n - 1))
-/// for n rows in B classes.
+/// Epsilon squared of an output with a mean near 0: 1 - (within / (n - B)) / (total / (n - 1)) for
+/// n rows in B classes.
 class VarianceShare {
  public:
   explicit VarianceShare(std::size_t classes) : counts_(classes), sums_(classes) {}
@@ -90,7 +91,7 @@ Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence
   const double scale = 1.0 + z * z / n;
   const double center = (p + z * z / (2.0 * n)) / scale;
   const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / scale;
-  // Avoids rounding at the ends, which are exact if none or all passed.
+  // Avoids rounding at the ends of the interval, which are exact if no run or all runs passed.
   return {passed == 0 ? 0.0 : std::max(0.0, center - half),
           passed == count ? 1.0 : std::min(1.0, center + half)};
 }
@@ -214,7 +215,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
     }
     double own_squares = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      // Row number below values.size(), from the upper half of the bits.
+      // Row number below values.size(), computed from the upper half of the bits.
       const std::size_t row = ((random() >> 32U) * values.size()) >> 32U;
       own_squares += values[row] * values[row];
       for (std::size_t p = 0; p < parameters.size(); ++p) {
@@ -244,7 +245,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
 
 namespace {
 
-/// Ranks from 0; equal values share their mean rank. None if all values are equal.
+/// Ranks from 0; equal values share their mean rank. RanksOf returns none if all values are equal.
 std::optional<std::vector<double>> RanksOf(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -297,7 +298,7 @@ std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
   }
   const double rho = std::clamp(products / std::sqrt(squares_a * squares_b), -1.0, 1.0);
   const double half = z * std::sqrt((1.0 + 0.5 * rho * rho) / static_cast<double>(a.size() - 3));
-  const double center = std::atanh(rho);  // infinite at the ends
+  const double center = std::atanh(rho);  // the center is infinite for rho = -1 and rho = 1
   return RankCorrelation{rho, {std::tanh(center - half), std::tanh(center + half)}};
 }
 

@@ -9,9 +9,10 @@
 namespace trackbed {
 namespace {
 
-constexpr double kMinSteadySpeed = 1.0;    // [m/s]; below, L psi'/v is meaningless
-constexpr double kYawAcceleration = 0.05;  // [rad/s^2]; upper limit of quasi-steady
-constexpr double kWindow = 0.5;            // [s]; for its mean
+constexpr double kMinSteadySpeed = 1.0;    // Speed below which L psi'/v is meaningless [m/s].
+constexpr double kYawAcceleration = 0.05;  // Largest yaw acceleration of a quasi-steady state
+                                           // [rad/s^2].
+constexpr double kWindow = 0.5;            // Window of the mean yaw acceleration [s].
 
 /// Quasi-steady sample, mirrored to a left turn.
 struct Sample {
@@ -96,7 +97,7 @@ double Spread(const std::vector<Sample>& samples) {
 
 void EvaluateGradients(const std::vector<Sample>& samples, double from, double to, double wheelbase,
                        ManeuverMetrics& metrics) {
-  constexpr double kMinSpread = 0.5;  // [m/s^2]; a gradient needs a range
+  constexpr double kMinSpread = 0.5;  // smallest range of accelerations for a gradient [m/s^2]
   double highest = 0.0;
   for (const Sample& sample : samples) {
     highest = std::max(highest, sample.lateral_acceleration);

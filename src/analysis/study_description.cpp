@@ -103,7 +103,7 @@ ordered_json DistributionJson(const Variation& variation) {
   return json;
 }
 
-/// A list of values, or an object if there are further parameters.
+/// The variation as a list of values, or as an object if it has further parameters.
 ordered_json VariationJson(const Variation& variation) {
   ordered_json json = ordered_json::array();
   if (variation.distribution) {
@@ -129,7 +129,7 @@ ordered_json VariationJson(const Variation& variation) {
 }  // namespace
 
 ordered_json DescribeStudy(const Study& study) {
-  // Absolute, so that it does not depend on the current folder.
+  // The path is absolute, so that it does not depend on the current folder.
   const fs::path scenario = fs::absolute(study.scenario).lexically_normal();
   ordered_json json{{"study", study.name}, {"scenario", scenario.string()}};
   json["set"] = SettingsJson(study.set);

@@ -8,19 +8,19 @@
 
 namespace trackbed {
 
-/// Keys of the parameters, in the order of their columns.
+/// Keys of a study's parameters, in the order of the table's columns.
 std::vector<std::string> ParameterKeys(const Study& study);
 
 /// Column names of a study's table.
 std::vector<std::string> TableColumns(const Study& study);
 
-/// Converts a YAML value to JSON: numbers, booleans and the like keep their type, anything else
-/// becomes text.
+/// Converts a YAML value to JSON. SettingsJson keeps the type of numbers, booleans and null; other
+/// values become text.
 nlohmann::ordered_json SettingsJson(const std::string& value);
 nlohmann::ordered_json SettingsJson(const std::vector<Setting>& settings);
 
-/// Everything that the rows of a study depend on, except the contents of its files. Two studies
-/// with equal descriptions have equal rows.
+/// Describes all inputs that determine the rows of a study, except the contents of files. Two
+/// studies with equal descriptions have equal rows.
 nlohmann::ordered_json DescribeStudy(const Study& study);
 
 }  // namespace trackbed

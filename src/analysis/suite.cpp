@@ -65,7 +65,8 @@ void RunCase(const std::function<Scenario(const fs::path&)>& read,
   one.wall_time = took.count();
 }
 
-/// Reports cases in the order of the files, each as soon as all earlier ones have finished.
+/// Reports cases in the order of the files. A case is reported as soon as it and all earlier cases
+/// have finished.
 class OrderedCases {
  public:
   OrderedCases(const std::vector<SuiteCase>& cases,
@@ -122,7 +123,7 @@ std::string Seconds(double time) {
   return fmt::format("{:.3f}", time);
 }
 
-/// Adds the child element of a case that did not pass; none if it passed.
+/// Adds the child element of a case that failed; adds nothing if the case passed.
 void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
   struct Kind {
     const char* element;
@@ -158,7 +159,8 @@ void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
   outcome.SetText(XmlText(fmt::format("{}", fmt::join(one.reasons, "\n"))).c_str());
 }
 
-/// Class name by which reports group cases: "scenarios.studies" for scenarios/studies/x.yaml.
+/// Class name by which reports group cases, such as "scenarios.studies" for
+/// scenarios/studies/x.yaml.
 std::string ClassName(const fs::path& file) {
   std::string name;
   for (const fs::path& part : file.lexically_normal().parent_path().relative_path()) {

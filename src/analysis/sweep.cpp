@@ -19,19 +19,19 @@
 #include "trackbed/core/error.h"
 
 // Runs the rows of a study in parallel and records each as it finishes (sweep_records.cpp). A row
-// is a point of the study and a repetition; row numbers are fixed by the study, so a shard or a
-// resumed study runs only the missing ones. `--until` stops a sample in steps of kUntilBatch
-// points once the Wilson intervals of the pass rates are narrow enough at all grid points.
-// WriteSweep writes the table row by row from the records; MergeRecords joins shards and rejects
-// contradicting rows.
+// is a point of the study and a repetition. The study fixes the row numbers, so a shard or a
+// resumed study runs only the missing rows. `--until` stops a sample once the Wilson intervals of
+// the pass rates are narrow enough at all grid points. The pass rates are checked every kUntilBatch
+// points. WriteSweep writes the table row by row from the records; MergeRecords joins shards and
+// rejects contradicting rows.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Rows of the shard to run: those missing in the records or, if `again` is given, those recorded
-/// with one of its statuses.
+/// Rows of the shard that are to be run: those missing in the records. If `again` is given, the
+/// rows to run are those recorded with one of its statuses.
 std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptions& options) {
   const std::vector<std::string> columns = records.Columns();
   const auto status = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "status") -
@@ -53,7 +53,7 @@ std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptio
   return rows;
 }
 
-/// Number of rows that passed at each grid point, for the first points of the sample.
+/// Number of rows that passed at each grid point, over the first points of the sample.
 class SampledPassRates {
  public:
   SampledPassRates(const SweepRecords& records, std::size_t repeat, std::size_t samples)
@@ -62,8 +62,8 @@ class SampledPassRates {
         samples_(samples),
         passed_(records.rows() / (samples * repeat)) {}
 
-  /// Rows of the next kUntilBatch points of the sample, at all grid points. Empty at the end of
-  /// the sample.
+  /// Rows of the next kUntilBatch points of the sample, at all grid points. NextRows returns
+  /// nothing at the end of the sample.
   [[nodiscard]] std::vector<std::size_t> NextRows() const {
     std::vector<std::size_t> rows;
     const std::size_t end = std::min(sampled_ + kUntilBatch, samples_);
@@ -75,7 +75,8 @@ class SampledPassRates {
     return rows;
   }
 
-  /// Counts the results of NextRows. Returns false if one is missing.
+  /// Counts the results of the rows that NextRows returned. Take() returns false if a result is
+  /// missing.
   bool Take(const std::vector<std::size_t>& rows) {
     for (const std::size_t row : rows) {
       if (!records_.Has(row)) {
@@ -99,8 +100,8 @@ class SampledPassRates {
   const SweepRecords& records_;
   std::size_t repeat_;
   std::size_t samples_;
-  std::vector<std::size_t> passed_;  // at each grid point
-  std::size_t sampled_ = 0;          // points of the sample
+  std::vector<std::size_t> passed_;  // Number of passed rows at each grid point.
+  std::size_t sampled_ = 0;          // Number of points of the sample so far.
 };
 
 /// Calls `take` with every recorded row of the shard, in order.
@@ -113,7 +114,7 @@ void ForEachRow(const SweepRecords& records, const Shard& shard,
   }
 }
 
-/// Content of sweep.json: the study and what was run.
+/// Content of sweep.json: the study and the rows that were run.
 ordered_json Description(const SweepRecords& records, const Shard& shard,
                          const SweepSummary& sweep) {
   ordered_json json = records.header();
@@ -206,7 +207,7 @@ void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords
                  [&](std::size_t row) { return !records.Has(row); });
     run_rows(missing);
     if (next.empty() || !rates.Take(next)) {
-      return;  // all rows have been run, or the study was interrupted
+      return;  // returns if all rows have been run or the study was interrupted
     }
   }
 }
@@ -239,7 +240,7 @@ SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWri
     description["stopped"] = stopped;
   }
   writer.Add(run_folder::kSweepJson, JsonText(description));
-  // An outcome of other rows.
+  // Removes the outcome, which belongs to other rows.
   writer.EndResult(run_folder::kStudy,
                    {run_folder::kReport, run_folder::kFalsifyJson, run_folder::kVerifyJson});
   return summary;
@@ -334,7 +335,7 @@ std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t ro
   const JsonValue header = records.Header();
   std::vector<Override> overrides;
   for (const auto& [key, value] : header.At("set").Members()) {
-    // Texts stand as they were written; other values are YAML as they are.
+    // Cells with text are written unchanged; other values are written as YAML.
     const nlohmann::ordered_json& json = value.json();
     overrides.push_back(
         fmt::format("{}={}", key, json.is_string() ? json.get<std::string>() : json.dump()));

@@ -24,7 +24,7 @@ CarKey MakeCarKey(const Scenario& scenario) {
           scenario.vehicle.steering_rate.value_or(0.0)};
 }
 
-/// The scenario without additions to the car's scene.
+/// A copy of the scenario without additions to the car's scene.
 Scenario Bare(Scenario scenario) {
   scenario.world.obstacles.clear();
   scenario.world.map.reset();
@@ -40,7 +40,7 @@ class OncePerKey {
   explicit OncePerKey(std::function<void(const Scenario& scenario)> check)
       : check_(std::move(check)) {}
 
-  /// Whether the check succeeded for this key.
+  /// Whether the check succeeds for the scenarios with this key.
   bool operator()(const Key& key, const Scenario& scenario) {
     const auto [at, is_new] = good_.try_emplace(key, true);
     if (is_new) {
@@ -62,7 +62,7 @@ class OncePerKey {
   std::vector<Problem> problems_;
 };
 
-/// Constructs each plant with its car: some plants need elements that a model may lack.
+/// Constructs each plant with its car, since some plants need elements that a model may lack.
 void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
   std::vector<Problem> problems;
   const World bare;
@@ -99,7 +99,7 @@ void CheckOutputs(const Study& study, const std::set<std::string>& possible) {
   }
 }
 
-/// SHA-256 of a car's model and its assets.
+/// SHA-256 of a car's model and the model's assets.
 std::string HashOfModel(const Scenario& scenario) {
   const Scene scene = ComposeScene(FindModel(scenario.vehicle.model, scenario.folder), {});
   Sha256Sum hash;
@@ -111,7 +111,8 @@ std::string HashOfModel(const Scenario& scenario) {
   return hash.Finish();
 }
 
-/// Adds the SHA-256 of each input of the scenario, by its source. A map is two files.
+/// Adds the SHA-256 of each input file of the scenario, under the source of the input. A map
+/// consists of two files.
 void AddInputHashes(const Scenario& scenario, std::map<std::string, std::string>& hashes) {
   std::map<std::string, std::string> contents;
   for (const InputFile& file : InputFiles(scenario)) {

@@ -18,17 +18,17 @@
 
 #include "trackbed/core/error.h"
 
-// Append-only file of a study's rows. The first line is the header (description of the study), each
-// further line one row as JSON, preceded by its CRC-32. Load keeps the offset of every row and
-// truncates the file after the last valid line, so that a killed process loses at most the row
-// being written. A later line replaces an earlier one of the same row. The file is synchronized
-// once per second.
+// The append-only file of a study's rows. The first line is the header, which describes the study.
+// Each further line is one row as JSON, preceded by its CRC-32. Load() keeps the offset of every
+// row and truncates the file after the last valid line. A killed process therefore loses at most
+// the row that it was writing. A later line of a row replaces an earlier one. The file of rows is
+// synchronized to disk once per second.
 namespace trackbed {
 namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kChecksumWidth = 9;  // eight digits and a space
+constexpr std::size_t kChecksumWidth = 9;  // width of the checksum: eight digits and a space
 constexpr std::string_view kRowKey = "{\"row\":";
 
 std::uint32_t Checksum(std::string_view text) {
@@ -92,7 +92,7 @@ void AddDifferences(const ordered_json& now, const ordered_json& before, const s
   }
 }
 
-/// Calls `take` with every complete line and its offset, until it returns false.
+/// Calls `take` with every complete line and its offset, until `take` returns false.
 void ForEachLine(int descriptor, const std::function<bool(std::string_view, std::int64_t)>& take,
                  const std::function<void(int error)>& fail) {
   constexpr std::size_t kBlock = std::size_t{1} << 20U;
@@ -128,8 +128,8 @@ void ForEachLine(int descriptor, const std::function<bool(std::string_view, std:
   }
 }
 
-/// Opens the file. If there is none, it appears at once with its header: a killed process leaves no
-/// part of one.
+/// Opens the file, or creates it. A new file appears at once with its header, so a killed process
+/// leaves no incomplete file.
 int OpenOrCreate(const std::filesystem::path& file, const ordered_json& header) {
   constexpr int kFlags = O_RDWR | O_CLOEXEC | O_NOFOLLOW;
   const int descriptor = ::open(file.c_str(), kFlags);
@@ -160,7 +160,7 @@ SweepRecords::SweepRecords(std::filesystem::path file, int descriptor)
 SweepRecords::SweepRecords(const std::filesystem::path& file, const ordered_json& header,
                            std::string_view remedy)
     : SweepRecords(file, OpenOrCreate(file, header)) {
-  // Normalizes the header as writing and reading would.
+  // The header is normalized as by writing and reading it.
   Load(ordered_json::parse(Dumped(header)), remedy);
 }
 
@@ -234,7 +234,7 @@ void SweepRecords::Fail(const char* what, int error) const {
 
 void SweepRecords::Load(const std::optional<ordered_json>& header, std::string_view remedy) {
   bool any_line = false;
-  // Returns whether to continue.
+  // The callback returns whether to continue.
   const auto take_row = [&](std::string_view json, std::int64_t begin) {
     std::size_t row = 0;
     if (!json.starts_with(kRowKey)) {
@@ -279,7 +279,7 @@ void SweepRecords::Load(const std::optional<ordered_json>& header, std::string_v
                                fmt::join(Differences(*header, this->header()), "; "), remedy)});
   }
   if (!header) {
-    return;  // opened for reading only
+    return;  // the file is opened for reading only
   }
   if (status.st_size > end_ && ::ftruncate(descriptor_.get(), end_) != 0) {
     Fail("write", errno);
@@ -301,7 +301,7 @@ void SweepRecords::WriteLine(std::string_view json) {
     }
     if (written <= 0) {
       const int error = written < 0 ? errno : ENOSPC;
-      // If this fails, the incomplete line is removed when the file is next opened.
+      // If truncating fails, the incomplete line is removed when the file is next opened.
       [[maybe_unused]] const int ignored = ::ftruncate(descriptor_.get(), end_);
       Fail("write", error);
     }

@@ -22,7 +22,7 @@ class LapCounter {
 
   [[nodiscard]] double station() const { return station_; }
 
-  /// The station of the next position.
+  /// Advances the counter to the next position and returns its station.
   double Advance(const Vec2& position) {
     const double s = track_.Locate(position, station_).s;
     // Chooses the lap whose station is nearest to the previous one.
@@ -35,8 +35,8 @@ class LapCounter {
   double station_ = 0.0;
 };
 
-/// Distance from a point to the nearest segment of an edge, among those near a station [m].
-/// Negative outside the track: right of a right edge, left of a left edge.
+/// Distance from a point to the nearest segment of an edge, among the segments near a station [m].
+/// The distance is negative outside the track: right of a right edge, left of a left edge.
 double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point, double share) {
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
   const auto middle = static_cast<std::ptrdiff_t>(share * static_cast<double>(count));
@@ -53,8 +53,8 @@ double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point,
         std::clamp((point - a).dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
     const Vec2 beside = point - a - part * along;
     const double distance = beside.norm();
-    // At a corner two segments are equally near. The one with the larger perpendicular component
-    // decides the side.
+    // At a corner of an edge, two segments are equally near. Of two equally near segments, the one
+    // with the larger perpendicular component decides the side.
     const double across = side * Cross(along, point - a) / std::max(along.norm(), 1e-6);
     const bool equal = std::abs(distance - nearest) < 1e-9;
     if (equal ? std::abs(across) > std::abs(inside) : distance < nearest) {
@@ -84,7 +84,7 @@ std::vector<Margin> Margins(const MetricInput& input) {
   return margins;
 }
 
-/// Sum over the control periods that begin off the track.
+/// Sum of `span` over the control periods that begin off the track.
 template <typename Span>
 std::optional<MetricReading> SumOffTrack(const MetricInput& input, const Span& span) {
   if (!input.plan.laps.track) {

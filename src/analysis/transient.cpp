@@ -14,7 +14,7 @@ constexpr StandardLimit kEarlyRatio{StandardLimit::Relation::kAtMost, 0.35};    
 constexpr StandardLimit kLateRatio{StandardLimit::Relation::kAtMost, 0.20};      // [1]
 constexpr StandardLimit kDisplacement{StandardLimit::Relation::kAtLeast, 1.83};  // [m]
 
-/// Smaller road wheel angles count as straight ahead [rad].
+/// Road wheel angles smaller than this value count as straight ahead [rad].
 constexpr double kNoSteering = 1e-4;
 
 double YawRate(const LogRow& row) {
@@ -24,7 +24,7 @@ double LateralAcceleration(const LogRow& row) {
   return row.state.lateral_acceleration;
 }
 
-/// Mean of a quantity over the last `duration` [s].
+/// Mean of a quantity over the last `duration` seconds of the run.
 template <typename Of>
 double MeanAtEnd(const RunLog& log, double duration, const Of& of) {
   const double from = log.rows.back().state.time - duration - 1e-9;
@@ -41,9 +41,9 @@ double MeanAtEnd(const RunLog& log, double duration, const Of& of) {
 
 /// Time and size of a steering step.
 struct Step {
-  std::size_t row = 0;     ///< first row in which the actuator moves
-  double half_time = 0.0;  ///< [s]; when half of the step is reached
-  double steering = 0.0;   ///< [rad]; change of the road wheel angle to steady state
+  std::size_t row = 0;     ///< First row in which the actuator moves.
+  double half_time = 0.0;  ///< Time at which half of the step is reached [s].
+  double steering = 0.0;   ///< Change of the road wheel angle to its steady state [rad].
 };
 
 std::optional<Step> FindStep(const RunLog& log, double steady) {
@@ -67,7 +67,8 @@ std::optional<Step> FindStep(const RunLog& log, double steady) {
   return step;
 }
 
-/// Adds response time, peak time, overshoot and steady value of a quantity, as `name`_….
+/// Adds response time, peak time, overshoot and steady value of a quantity, under keys that begin
+/// with `name`_.
 template <typename Of>
 double EvaluateResponse(const RunLog& log, const Step& step, double steady_time,
                         const std::string& name, const Of& of, ManeuverMetrics& metrics) {
@@ -142,7 +143,8 @@ std::vector<ManeuverMetric> MethodMetrics(const SineWithDwellTestOptions& /*opti
 void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
               ManeuverMetrics& metrics) {
   const auto& rows = input.log.rows;
-  // 5 degrees at the steering wheel. For a car without a steering ratio, assumes 20.
+  // The threshold of the steering is 5 degrees at the steering wheel. For a car without a steering
+  // ratio, a ratio of 20 is assumed.
   const double ratio = input.vehicle.steering_ratio > 0.0 ? input.vehicle.steering_ratio : 20.0;
   const double begins = 5.0 * kPi / 180.0 / ratio;
   const auto steering = [&](std::size_t i) { return rows[i].state.steering_actuator; };
@@ -162,7 +164,7 @@ void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
   while (reversal < rows.size() && side * steering(reversal) > 0.0) {
     ++reversal;
   }
-  // The last return to zero.
+  // Row in which the steering returns to zero for the last time.
   std::size_t complete = rows.size();
   while (complete > reversal && std::abs(steering(complete - 1)) < kNoSteering) {
     --complete;

@@ -4,16 +4,16 @@
 
 #include <algorithm>
 
-// Judges a run: each plant must arrive without a collision (or collide, if expected), stay below
-// the actuator's steering rate and within the default corridor of one car width, and meet the
-// expectations on all plants and on that plant, its requirements and the bounds between plants.
-// Explicit expectations replace the default ones on status and cross-track error. Every check is
-// recorded, met or not. A run without expectations, plan and obstacles is not judged unless a check
-// fails.
+// Judges a run. Each plant must arrive without a collision, or collide if the scenario expects a
+// collision. Each plant must stay below the actuator's steering rate and within the default
+// corridor of one car width. Each plant must also meet its expectations, its requirements and the
+// bounds between plants. Explicit expectations replace the default expectations on status and
+// cross-track error. Every check is recorded, even if it is met. A run without expectations, plan
+// and obstacles is judged only if a check fails.
 namespace trackbed {
 namespace {
 
-/// Fraction of the actuator rate by which the measured steering rate may exceed it.
+/// Fraction of the actuator's rate by which the measured steering rate may exceed that rate.
 constexpr double kWheelCompliance = 0.03;
 
 bool HasExpectationFor(std::string_view metric, const PlantExpectation& expect) {
@@ -33,7 +33,7 @@ bool HasExpectations(const Expectations& expect) {
                      [](const auto& own) { return HasExpectations(own.second); });
 }
 
-/// Why a run ended before the goal; appended to the failure message.
+/// Reason why a run ended before the goal; appended to the failure message.
 std::string EarlyEndReason(const PlantMetrics& metrics) {
   return !metrics.blocked.empty()   ? fmt::format(" (it {})", metrics.blocked)
          : !metrics.partial.empty() ? fmt::format(" (the plan {})", metrics.partial)
@@ -41,7 +41,7 @@ std::string EarlyEndReason(const PlantMetrics& metrics) {
                                     : "";
 }
 
-/// Expectations on one plant: those on all plants, then those on this plant.
+/// Expectations on one plant: those on all plants, then those on this plant alone.
 class Expected {
  public:
   Expected(const Expectations& expect, const std::string& plant) {
@@ -61,7 +61,7 @@ class Expected {
     });
   }
 
-  /// Whether a collision is expected; none if nothing is said.
+  /// Whether a collision is expected; none if the scenario does not say.
   [[nodiscard]] std::optional<bool> Collision() const {
     std::optional<bool> collision;
     for (const PlantExpectation* part : parts_) {
@@ -80,8 +80,8 @@ class Expected {
   std::vector<const PlantExpectation*> parts_;
 };
 
-/// Checks that the run arrives, or ends in the expected collision. Returns true if it does, or if
-/// the scenario itself has an expectation on the status.
+/// Checks that the run arrives or ends in the expected collision. JudgeEnd returns true if the run
+/// ends as expected, or if the scenario has an expectation on the status.
 bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& verdict) {
   if (expected.HasMetric("status")) {
     return true;
@@ -136,7 +136,7 @@ void JudgeCorridor(const PlantMetrics& metrics, Verdict& verdict) {
   }
 }
 
-/// Notes what the limit of the overspeed is made of where it is exceeded.
+/// If the overspeed exceeds its limit, a note explains how the limit is composed.
 void JudgeOverspeed(const PlantMetrics& metrics, Verdict& verdict) {
   const TrackingMetrics& tracking = *metrics.tracking;
   if (!tracking.overspeed_limit || !tracking.overspeed_max) {

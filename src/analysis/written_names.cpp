@@ -47,7 +47,7 @@ Names RunNames() {
                       run_folder::kMetricsJson});
 }
 
-/// A name as its fixed parts: "<plant>.csv" is "", ".csv".
+/// The fixed parts of a name pattern: those of "<plant>.csv" are "" and ".csv".
 Names FixedParts(const std::string& pattern) {
   Names parts{""};
   for (std::size_t at = 0; at < pattern.size(); ++at) {
@@ -62,7 +62,7 @@ Names FixedParts(const std::string& pattern) {
   return parts;
 }
 
-/// Whether `name` has the fixed parts in their order, with at least one character between them.
+/// Whether `name` contains the fixed parts in order, with at least one character between them.
 bool Matches(const std::string& pattern, const std::string& name) {
   const Names parts = FixedParts(pattern);
   if (parts.size() == 1) {
@@ -82,7 +82,8 @@ bool Matches(const std::string& pattern, const std::string& name) {
   return at + parts.back().size() <= name.size();
 }
 
-/// The names with every text for the part; none where there is no text for it.
+/// Fills a pattern with each known text of its variable part. Filled() returns nothing if no text
+/// is known for the variable part.
 Names Filled(const std::string& pattern, const NameParts& parts) {
   const std::size_t begin = pattern.find('<');
   if (begin == std::string::npos) {
@@ -107,8 +108,8 @@ const VerbNames& OfVerb(std::string_view verb) {
   return *found;
 }
 
-/// The bytes of the file from `offset` on, from its end if that is negative; empty if there are
-/// fewer than `size`.
+/// Reads `size` bytes of the file from `offset` on; a negative offset counts from the end. BytesAt
+/// returns an empty text if the file has fewer bytes.
 std::string BytesAt(const std::filesystem::path& file, std::streamoff offset, std::size_t size) {
   std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);
@@ -232,7 +233,7 @@ const std::string& VideoMark() {
 }
 
 bool HasMark(const std::filesystem::path& file) {
-  constexpr std::streamoff kPngHeader = 33;  // signature and IHDR
+  constexpr std::streamoff kPngHeader = 33;  // size of a PNG's signature and IHDR
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, ignored))) {
     return false;

@@ -58,7 +58,8 @@ std::string NameOf(const fs::path& file) {
   return name.empty() ? "path" : name;
 }
 
-/// A scenario that follows the path, without expectations on the car. JSON is valid YAML.
+/// Text of a scenario that follows the path, without expectations on the car. The scenario is
+/// written as JSON, which is valid YAML.
 std::string ScenarioText(const CheckPathOptions& options) {
   const fs::path file = options.file;
   nlohmann::ordered_json plan{
@@ -141,7 +142,8 @@ int Drive(const CheckPathOptions& options, const Scenario& scenario) {
 
 int CheckPathFile(const CheckPathOptions& options) {
   const fs::path file = options.file;
-  static_cast<void>(OpenInput(file));  // names the file, not a key of the scenario made for it
+  static_cast<void>(OpenInput(file));  // makes the error name the file, not a key of the scenario
+                                       // made for it
   const Scenario scenario =
       options.scenario.Parse(ScenarioText(options), "check-path", file.parent_path());
   const auto* plan = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;

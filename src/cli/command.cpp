@@ -10,10 +10,10 @@
 
 #include "src/cli/terminal.h"
 
-// Command line on top of CLI11: Command and Option wrap its apps and options. CommandLine adds help
-// in the usual layout, wrapped to the terminal's width, the option --color to every verb, and
-// shorter messages for missing arguments. VisibleVerbs describes all verbs for completion, manual
-// pages and the reference.
+// Command line on top of CLI11: Command and Option wrap CLI11's apps and options. CommandLine adds
+// help in the usual layout, wrapped to the terminal's width. CommandLine also adds the option
+// --color to every verb, and shorter messages for missing arguments. VisibleVerbs describes all
+// verbs for completion, manual pages and the reference.
 namespace trackbed::cli {
 
 Option Option::Required() const {
@@ -59,7 +59,7 @@ Option Option::Range(int low, int high) const {
 }
 
 Option Option::Range(double low, double high) const {
-  // CLI::Range accepts NaN.
+  // CLI::Range cannot be used, because it accepts NaN.
   option_->check(CLI::Validator(
       [low, high](std::string& text) {
         double value = 0.0;
@@ -122,7 +122,8 @@ namespace {
 
 constexpr const char* kColorOption = "--color";
 
-/// Appends the verbs of `app` and, recursively, their verbs, with `before` prepended to the names.
+/// Appends the verbs of `app` and, recursively, the verbs below them. `before` is prepended to the
+/// names.
 void AddVisibleVerbs(const CLI::App& app, const std::string& before,
                      const std::map<const CLI::App*, std::vector<Example>>& examples,
                      std::vector<CommandInfo>& verbs) {
@@ -162,7 +163,7 @@ void Command::AddExample(const std::string& text, const std::string& command) co
 
 namespace {
 
-/// "missing FILE", for the first required option that was not given.
+/// The message "missing FILE" for the first required option that was not given.
 std::optional<std::string> Missing(const CLI::App& program) {
   for (const CLI::App* verb : program.get_subcommands()) {
     for (const CLI::Option* option : verb->get_options()) {
@@ -211,7 +212,7 @@ class HelpFormatter : public CLI::Formatter {
   }
 
  private:
-  /// Lines beyond 100 characters are hard to read.
+  /// The width is at most 100, since longer lines are hard to read.
   static std::size_t Width() { return std::min<std::size_t>(TerminalWidth(), 100); }
 
   static std::string Item(const std::string& name, const std::string& text) {
@@ -254,7 +255,7 @@ Command CommandLine::AddVerb(const std::string& name, const std::string& summary
 
 void CommandLine::Prepare(CLI::App& verb) {
   verb.group("Verbs");
-  verb.footer("");  // do not inherit the parent's footer
+  verb.footer("");  // prevents the verb from inheriting its parent's footer
   verb.add_option_function<std::string>(kColorOption, &ChooseColors,
                                         "Colors: auto (on a terminal, unless NO_COLOR is set), "
                                         "always or never")
@@ -265,8 +266,8 @@ void CommandLine::Prepare(CLI::App& verb) {
 
 namespace {
 
-/// Drops the required options of a verb if a verb below it is given. Otherwise CLI11 takes the
-/// lower verb's name as a required argument.
+/// Makes a verb's required options optional if a verb below it is given. CLI11 would otherwise take
+/// the lower verb's name as a required argument.
 void RequireOnlyOfLowestVerb(CLI::App& program, int argc, char** argv) {
   const auto find = [](CLI::App& app, const char* name) {
     return app.get_subcommands([&](const CLI::App* verb) { return verb->check_name(name); });

@@ -16,7 +16,8 @@ class Option;
 
 namespace trackbed::cli {
 
-/// Variable set by an option; must outlive the parsing. Pass the variable itself.
+/// Variable set by an option; it must outlive the parsing. OptionTarget takes the address of the
+/// variable, so a copy must not be passed.
 using OptionTarget = std::variant<
     std::reference_wrapper<std::string>, std::reference_wrapper<int>,
     std::reference_wrapper<std::uint64_t>, std::reference_wrapper<double>,
@@ -32,12 +33,12 @@ class Option {
   Option TypeName(const std::string& name) const;
   /// Accepts several values in one word, separated by `separator`.
   Option Delimiter(char separator) const;
-  /// Each occurrence of a list option takes one word instead of all following words.
+  /// Each occurrence of a list option takes one word, not all following words.
   Option OneWord() const;
   /// Shows the variable's current value as default in help.
   Option ShowDefault() const;
   Option Excludes(const Option& other) const;
-  /// Excludes the other option and makes it optional if this one is given.
+  /// Excludes the option `other`, and makes it optional if this option is given.
   Option InsteadOf(const Option& other) const;
   /// Rejects integers outside low..high.
   Option Range(int low, int high) const;
@@ -53,25 +54,25 @@ class Option {
 
 /// Description of an option or positional argument for the reference pages.
 struct OptionInfo {
-  std::string name;   ///< "-o,--out"; for a positional argument, its type name
-  std::string value;  ///< type name; empty for flags and positional arguments
+  std::string name;   ///< Names such as "-o,--out"; for a positional argument, its type name.
+  std::string value;  ///< Type name; empty for flags and positional arguments.
   std::string text;
-  std::string fallback;  ///< default; empty if none is shown
+  std::string fallback;  ///< default value; empty if help shows none
   bool required = false;
   bool positional = false;
 };
 
-/// Example command in help.
+/// An example command shown in help.
 struct Example {
-  std::string text;     ///< what it does
-  std::string command;  ///< as typed
+  std::string text;     ///< Text on what the command does.
+  std::string command;  ///< The command as typed.
 };
 
 /// Description of a verb for help and the reference pages.
 struct CommandInfo {
   std::string name;
   std::string summary;
-  std::vector<OptionInfo> options;  ///< without --help and --color, which all verbs have
+  std::vector<OptionInfo> options;  ///< options except --help and --color, which all verbs have
   std::vector<Example> examples;
 };
 
@@ -81,18 +82,18 @@ class CommandLine;
 class Command {
  public:
   Option AddPositional(const std::string& name, OptionTarget target, const std::string& text) const;
-  /// Adds an option; `names` as in "-o,--out".
+  /// Adds an option with `names` such as "-o,--out".
   Option AddOption(const std::string& names, OptionTarget target, const std::string& text) const;
   void AddFlag(const std::string& names, bool& target, const std::string& text) const;
-  /// Adds a verb below this one ("sweep merge"). If it is given, this verb is not run and requires
-  /// no options.
+  /// Adds a verb below this verb, such as "sweep merge". If the added verb is given, this verb is
+  /// not run and requires no options.
   [[nodiscard]] Command AddVerb(const std::string& name, const std::string& summary) const;
   /// Adds an example to the end of --help.
   void AddExample(const std::string& text, const std::string& command) const;
-  /// Omits the verb from --help and VisibleVerbs.
+  /// Hides the verb from --help and VisibleVerbs.
   void Hide() const;
-  /// Sets the action of the verb; `run` returns the exit code. Its exceptions propagate through
-  /// CommandLine::Parse.
+  /// Sets the action of the verb; `run` returns the exit code. Exceptions of `run` propagate
+  /// through CommandLine::Parse.
   void OnRun(std::function<int()> run) const;
   /// All verbs of the program that --help shows.
   [[nodiscard]] std::vector<CommandInfo> VisibleVerbs() const;
@@ -117,13 +118,13 @@ class CommandLine {
 
   Command AddVerb(const std::string& name, const std::string& summary);
 
-  /// Runs the verb that is given and returns its exit code. Prints help, the version or an error of
-  /// usage; returns `bad_usage` for such an error and if no verb is given.
+  /// Runs the verb on the command line and returns its exit code. Prints help, the version or an
+  /// error of usage. Parse() returns `bad_usage` for an error of usage and if no verb is given.
   int Parse(int argc, char** argv, int bad_usage);
 
  private:
   friend class Command;
-  /// Adds the options common to all verbs.
+  /// Adds the options that all verbs have.
   void Prepare(CLI::App& verb);
 
   std::unique_ptr<CLI::App> app_;

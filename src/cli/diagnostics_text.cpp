@@ -18,7 +18,7 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-/// Words and unit of a field name: "ramp_time_s" is {"ramp", "time"} in s.
+/// Words and unit of a field name: "ramp_time_s" is {"ramp", "time"} with the unit s.
 struct Heading {
   Texts words;
   std::string unit;  ///< empty for dimensionless fields
@@ -49,25 +49,26 @@ Heading HeadingFor(std::string_view name) {
   return heading;
 }
 
-/// Field as text.
+/// A field of the diagnostics as text.
 struct TextCell {
-  std::string name;  ///< prefixed by the names of enclosing sections
+  std::string name;  ///< name, prefixed by the names of enclosing sections
   std::string text;
 };
 
 /// Fields of a list element or of the plan itself.
 struct Fields {
   std::vector<TextCell> cells;
-  Texts remarks;  ///< sentences, too long for a column
+  Texts remarks;  ///< sentences too long for a column
 };
 
-/// List as rows.
+/// A named list of rows.
 struct NamedList {
   std::string name;
   std::vector<Fields> rows;
 };
 
-/// Collects fields and lists. Sections are flattened: "search_evaluations".
+/// Collects the fields and lists of diagnostics. Sections are flattened into names such as
+/// "search_evaluations".
 class Collector : public DiagnosticsVisitor {
  public:
   Collector(Fields& fields, std::vector<NamedList>& lists, std::string prefix = "")
@@ -131,7 +132,7 @@ class Collector : public DiagnosticsVisitor {
 TextColumns MakeColumns(const NamedList& list) {
   struct Column {
     std::string name;
-    Texts texts;  ///< one per row; "-" if missing in a row
+    Texts texts;  ///< one text per row; "-" in a row without the field
   };
   std::vector<Column> columns;
   for (std::size_t row = 0; row < list.rows.size(); ++row) {

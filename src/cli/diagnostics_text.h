@@ -6,8 +6,8 @@
 
 namespace trackbed::cli {
 
-/// Summary of a plan's diagnostics for the terminal, for any planner: a table per list, such as
-/// turns or corners, and one line per other field. Ends with a line feed unless empty.
+/// Summary of any planner's diagnostics for the terminal. Each list, such as turns or corners, is a
+/// table; each other field is one line. The summary ends with a line feed unless it is empty.
 std::string DiagnosticsText(const Plan& plan);
 
 }  // namespace trackbed::cli

@@ -17,7 +17,7 @@
 namespace trackbed::cli {
 namespace {
 
-/// Generated part of the page, between two marker lines.
+/// The generated part of the page, between two marker lines.
 struct Block {
   std::string name;
   std::string markdown;
@@ -38,7 +38,7 @@ std::string Cell(const std::string& text) {
   return cell;
 }
 
-/// Inside code only the bar must be escaped.
+/// Within code only the bar must be escaped.
 std::string Code(const std::string& text) {
   std::string cell;
   for (const char c : text) {
@@ -60,7 +60,7 @@ std::string VerbTable(const std::vector<CommandInfo>& verbs) {
   return table;
 }
 
-/// Omits --help, which the page describes once for all verbs.
+/// Table of a verb's options except --help, which the page describes once for all verbs.
 std::string OptionTable(const CommandInfo& verb) {
   std::string table = "| argument | means |\n|---|---|\n";
   for (const OptionInfo& option : verb.options) {
@@ -94,7 +94,7 @@ std::string KeyTables(const std::vector<KeySection>& sections) {
   return text;
 }
 
-/// Names in code, separated by commas.
+/// Formats names as code, separated by commas.
 std::string NameList(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) {
@@ -103,7 +103,7 @@ std::string NameList(const std::vector<std::string>& names) {
   return list;
 }
 
-/// The files of each result, and the results of each verb.
+/// Tables of the files of each result, and of the results of each verb.
 std::string WrittenNamesTables() {
   std::string tables = "| result | its files |\n|---|---|\n";
   for (const ResultNames& result : AllResultNames()) {
@@ -131,7 +131,7 @@ std::vector<Block> Blocks(const std::vector<CommandInfo>& verbs) {
   return blocks;
 }
 
-/// Returns the page with new text between the markers.
+/// Returns the page with new text between its markers.
 std::string Filled(const std::string& file, const std::string& page, std::vector<Block> blocks) {
   std::vector<std::string> names;
   for (const Block& block : blocks) {
@@ -178,7 +178,7 @@ std::string Filled(const std::string& file, const std::string& page, std::vector
 }  // namespace
 
 void AddDocs(const Command& command) {
-  command.Hide();  // for developers of Trackbed; not in --help
+  command.Hide();  // the verb is for developers of Trackbed and not shown in --help
   const auto page = std::make_shared<std::string>();
   command.AddPositional("page", *page, "Markdown file to update").Required().TypeName("FILE");
   command.OnRun([page, command] {

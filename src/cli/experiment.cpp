@@ -19,10 +19,10 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/sim/car_model.h"
 
-// The experiment of Skackauskas et al. 2017: a primary drives one lap at a constant steering angle,
-// and a search finds the constant angle with which a car at another speed ends at the same place.
-// Runs all speeds, matched by time and by arc length, with each search method, and compares the
-// angles with the published ones.
+// The experiment of Skackauskas et al. 2017. A primary drives one lap at a constant steering angle.
+// A search finds the constant angle with which a car at another speed ends at the same place. Runs
+// all speeds with each search method, matched by time and by arc length. The found angles are
+// compared with the published angles.
 namespace trackbed::cli {
 namespace {
 
@@ -35,19 +35,20 @@ constexpr double kDegree = kPi / 180.0;
 struct ExperimentOptions {
   std::string name;
   std::string vehicle = "prius";
-  double steering = 10.0;                          // of the primary [deg]
-  double primary_speed = 3.0;                      // [m/s]
-  double max_steering = 27.0;                      // [deg]
-  std::vector<double> speeds{2.5, 2.0, 1.5, 1.0};  // of the car [m/s]
-  std::vector<std::string> searches;               // empty: all
+  double steering = 10.0;                          // Steering angle of the primary [deg].
+  double primary_speed = 3.0;                      // Speed of the primary [m/s].
+  double max_steering = 27.0;                      // Largest steering angle [deg].
+  std::vector<double> speeds{2.5, 2.0, 1.5, 1.0};  // Speeds of the car [m/s].
+  std::vector<std::string> searches;               // Search methods; empty: all.
   int evaluations = 0;
   std::uint64_t seed = 1;
   std::string out;
   bool quiet = false;
 };
 
-/// Angles found by the genetic algorithm in the second stage of Skackauskas et al. 2017, where the
-/// primary steers 10 deg at 3 m/s. These angles differ from the primary's 10 deg by at most 2.3 %.
+/// Angles that the genetic algorithm found in the second stage of Skackauskas et al. 2017. In the
+/// study of Skackauskas et al. 2017, the primary steers 10 deg at 3 m/s. The published angles
+/// differ from the primary's 10 deg by at most 2.3 %.
 std::optional<double> Published(const ExperimentOptions& options, double speed) {
   struct Row {
     double speed;    // [m/s]
@@ -96,7 +97,7 @@ std::vector<const SearchEntry*> ChosenSearches(const std::vector<std::string>& c
   return entries;
 }
 
-/// Results ordered by speed, then by matching (time, arc length), then by search.
+/// Results, ordered by speed, then by matching (time, arc length), then by search.
 std::vector<Match> MatchAll(const VehicleParams& vehicle, const ExperimentOptions& options,
                             const std::vector<const SearchEntry*>& searches) {
   std::vector<Match> matches;
@@ -119,7 +120,7 @@ std::vector<Match> MatchAll(const VehicleParams& vehicle, const ExperimentOption
   return matches;
 }
 
-/// Deviation from the primary's angle [%].
+/// Deviation of the found angle from the primary's angle [%].
 double Scatter(const ExperimentOptions& options, const Match& match) {
   return 100.0 * (match.steering / options.steering - 1.0);
 }
@@ -143,8 +144,8 @@ std::string ToCsv(const ExperimentOptions& options, const std::vector<Match>& ma
   return table.ToCsv();
 }
 
-/// Whether all angles of a search that are matched by arc length deviate from the primary's no more
-/// than the published ones.
+/// Whether a search deviates from the primary's angle no more than the published angles do. Only
+/// angles matched by arc length count.
 bool StaysWithin(const ExperimentOptions& options, const SearchEntry& search,
                  const std::vector<Match>& matches) {
   return std::all_of(matches.begin(), matches.end(), [&](const Match& match) {
@@ -202,7 +203,8 @@ int Experiment(const ExperimentOptions& options) {
   const fs::path file = FindModel(options.vehicle, "");
   const CarModel car(ComposeScene(file, {}), file.string());
   if (!options.out.empty()) {
-    PrepareToWrite(options.out);  // fail before the searches, not after
+    PrepareToWrite(options.out);  // creates the folder before the searches, so that an error
+                                  // appears early
   }
   const std::vector<Match> matches = MatchAll(car.params(), options, searches);
   if (!options.out.empty()) {

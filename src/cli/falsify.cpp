@@ -21,10 +21,11 @@
 #include "trackbed/falsify/counterexample.h"
 #include "trackbed/report/report.h"
 
-// `trackbed falsify`: searches a study for a run that fails (falsify.cpp of the library), continues
-// from the records of an interrupted search, and writes the table of runs and falsify.json. If the
-// study is falsified, also writes the run folder of the shrunk counterexample with a scenario for a
-// test suite, optionally with video and report.
+// `trackbed falsify` searches a study for a run that fails (falsify.cpp of the library). The verb
+// continues from the records of an interrupted search. The verb `falsify` writes the table of runs
+// and falsify.json. If a run fails, the verb also writes the run folder of the shrunk
+// counterexample, with a scenario for a test suite. Video and report of the counterexample are
+// optional.
 namespace trackbed::cli {
 namespace {
 
@@ -38,12 +39,13 @@ struct FalsifyVerbOptions {
   bool video = false;
   std::string gl = FilmOptions{}.gl;
   bool report = false;
-  int jobs = 0;  // 0: number of hardware threads
+  int jobs = 0;  // number of threads; 0: one per hardware thread
   ScenarioOptions scenario;
 };
 
-/// Writes the table of the runs made, which may be fewer than planned, and the outcome. The outcome
-/// tells of the counterexample's run folder, so that it is not taken for that of another search.
+/// Writes the outcome and the table of the runs made, which may be fewer than planned. The outcome
+/// names the run folder of the counterexample, so that the folder is not mistaken for that of
+/// another search.
 SweepSummary WriteOutcome(const SweepRecords& records, nlohmann::ordered_json outcome,
                           const OutputFolder& folder) {
   nlohmann::ordered_json header = records.header();
@@ -62,7 +64,7 @@ SweepSummary WriteOutcome(const SweepRecords& records, nlohmann::ordered_json ou
   return table;
 }
 
-/// Writes the run folder of the counterexample, including a scenario for a test suite.
+/// Writes the run folder of the counterexample, with a scenario for a test suite.
 void WriteCounterexample(const RunResult& run, const CheckedSearch& search, const fs::path& out) {
   const Regression regression =
       MakeRegression(run, search.study.name + "_" + run_folder::kCounterexample);
@@ -73,7 +75,7 @@ void WriteCounterexample(const RunResult& run, const CheckedSearch& search, cons
   writer.Commit(run_folder::kCounterexample, {});
 }
 
-/// Adds film and report to the run folder of the counterexample.
+/// Adds film and report to the counterexample's run folder.
 void ShowCounterexample(const RunResult& run, const FalsifyResult& result,
                         const CheckedSearch& search, const fs::path& out,
                         const FalsifyVerbOptions& options) {
@@ -94,12 +96,12 @@ void ShowCounterexample(const RunResult& run, const FalsifyResult& result,
   }
 }
 
-/// A number such as "18.2", or a dash.
+/// Formats a number such as "18.2", or a dash.
 std::string Cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.5g}", *value) : "-";
 }
 
-/// Range of the key within which the run passes, such as "16.4 to 18.2".
+/// Range of the key in which the run passes, such as "16.4 to 18.2".
 std::string ReachText(const SearchSpace& space, std::size_t i, const KeyMargin& margin) {
   const auto end = [&](const std::optional<SingleKeyReach>& alone) {
     return alone ? space.Value(i, alone->passes) : space.keys()[i].nominal;
@@ -178,7 +180,9 @@ int Falsify(const FalsifyVerbOptions& options) {
   const CheckedSearch search = CheckSearch(options.scenario.ReadStudyFile(options.file));
   const std::string& name = search.study.name;
   const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
-  const OutputFolder folder(out, FileNamesOfVerb("falsify"));  // fail before the search, not after
+  const OutputFolder folder(out, FileNamesOfVerb("falsify"));  // locks the folder before the
+                                                               // search, so that an error appears
+                                                               // early
   const fs::path counterexample = FolderBelow(out, run_folder::kCounterexample);
   std::vector<std::string> names = run_folder::AllNames();
   names.emplace_back(run_folder::kCounterexampleYaml);

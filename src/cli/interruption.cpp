@@ -15,13 +15,13 @@ std::atomic<bool> interrupted{false};
 
 namespace {
 
-// Handlers have no other way to state than variables of the process.
+// The state of a signal handler must be in global variables.
 std::atomic<int> finishing{0};
 
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 void StartGrace() {
-  constexpr int kMicroseconds = 1000;  // in a millisecond
+  constexpr int kMicroseconds = 1000;  // number of microseconds in a millisecond
   const itimerval grace{.it_interval = {}, .it_value = {0, kGrace * kMicroseconds}};
   setitimer(ITIMER_REAL, &grace, nullptr);
 }
@@ -33,11 +33,11 @@ void OnSignal(int /*signal*/) {
 
 void OnGraceOver(int /*signal*/) {
   if (finishing > 0) {
-    return;  // ~FinishingResult starts it again
+    return;  // ~FinishingResult restarts the timer
   }
   constexpr std::string_view kText = "interrupted: ended in the middle of its work\n";
   if (::write(STDERR_FILENO, kText.data(), kText.size()) < 0) {
-    // Without stderr nobody reads it.
+    // The error is ignored: without stderr it cannot be shown.
   }
   ::_exit(kInterrupted);
 }

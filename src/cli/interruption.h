@@ -2,26 +2,26 @@
 
 #include <atomic>
 
-/// How the program ends on SIGINT (Ctrl-C), SIGTERM and SIGHUP (closed terminal), with exit code
-/// 130.
+/// Ends the program on SIGINT (Ctrl-C), SIGTERM and SIGHUP (closed terminal), with exit code 130.
 ///
-/// The first signal sets `interrupted`, which runs, searches and films poll: they end at their next
-/// step and write what they have. Work that is not done within kGrace is cut short: the process
-/// ends at once. As after SIGKILL, its result is lost, and no file is half written. A second Ctrl-C
-/// ends the program at once.
+/// The first signal sets `interrupted`, which runs, searches and films poll. Runs, searches and
+/// films end at their next step and write their results so far. If work is not done within kGrace,
+/// the process ends at once. A result that was not committed before the end of the process is lost,
+/// as after SIGKILL, but no file is half written. A second Ctrl-C ends the program at once.
 namespace trackbed::cli {
 
-/// Set by the first signal; polled by runs once per control period.
+/// Set by the first signal. Runs poll the variable once per control period.
 extern std::atomic<bool> interrupted;
 
-/// Time from the first signal to the end of work that does not poll `interrupted` [ms].
+/// Time from the first signal to the end of a process that does not poll `interrupted` [ms].
 inline constexpr int kGrace = 700;
 
-/// Installs the handlers. SIGHUP is left ignored where nohup ignores it.
+/// Installs the handlers for SIGINT, SIGTERM and SIGHUP. SIGHUP stays ignored under nohup.
 void EndOnSignals();
 
-/// While one lives, the result of an interrupted run is being written, which takes time in
-/// proportion to its log: it is not cut short.
+/// Marks that the result of an interrupted run is being written. The time for writing a result
+/// grows with the length of the log. The process is therefore not ended while a FinishingResult
+/// exists.
 class FinishingResult {
  public:
   FinishingResult();

@@ -6,8 +6,8 @@
 
 namespace trackbed::cli {
 
-/// Names printed by `trackbed list KIND`, without descriptions; for "kinds" the names of the kinds.
-/// Empty for an unknown kind.
+/// Names printed by `trackbed list KIND`, without descriptions. For "kinds", NamesOfKind returns
+/// the names of the kinds. NamesOfKind returns nothing for an unknown kind.
 std::vector<std::string> NamesOfKind(std::string_view kind);
 
 }  // namespace trackbed::cli

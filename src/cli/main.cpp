@@ -70,7 +70,7 @@ int Run(int argc, char** argv) {
   for (const Verb& verb : kVerbs) {
     verb.add(line.AddVerb(verb.name, verb.summary));
   }
-  // CLI11 would report an unknown verb as an unexpected argument.
+  // Reports an unknown verb, because CLI11 would call it an unexpected argument.
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> names;
     bool known = false;
@@ -92,9 +92,9 @@ namespace trackbed {
 
 namespace {
 
-/// Opens /dev/null for each closed standard stream. Otherwise the next file opened would take the
-/// stream's number, and output would be written into it. The streams opened here are read-only, so
-/// writing to them fails.
+/// Opens /dev/null for each closed standard stream. If a standard stream stayed closed, the next
+/// opened file would get its number, and output would be written into that file. The opened streams
+/// are read-only, so writing to them fails.
 void OccupyClosedStreams() {
   int descriptor = 0;
   do {
@@ -111,7 +111,7 @@ int Main(int argc, char** argv) {
   OccupyClosedStreams();
   cli::EndOnSignals();
   std::signal(SIGPIPE, SIG_IGN);
-  // Uses plain stdio, which does not throw if stderr is closed.
+  // The error message uses plain stdio, which does not throw if stderr is closed.
   const auto say = [](const std::string& text) {
     const cli::SafeText shown = cli::Colorize(cli::Tone::kBad, cli::Lines{text}, stderr);
     std::fputs((shown.text + "\n").c_str(), stderr);

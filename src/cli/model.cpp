@@ -24,7 +24,7 @@ namespace trackbed::cli {
 namespace {
 
 void Row(const char* name, double value, const char* unit) {
-  // Five digits exceed the accuracy of all these values.
+  // Values are printed with five digits, more than their accuracy.
   Print("  {:<26} {:>12.5g}{}\n", name, value,
         std::string_view(unit).empty() ? "" : fmt::format(" {}", unit));
 }
@@ -96,7 +96,7 @@ void PrintModel(const CarModel& car, const std::string& file) {
   }
 }
 
-/// From standstill to the top speed in steps of 10 m/s, of slow vehicles in ten.
+/// Speeds from standstill to the top speed in steps of 10 m/s. Slow vehicles have ten speeds.
 std::vector<double> GgvSpeeds(const GgvDiagram& diagram) {
   constexpr double kMaxTableSpeed = 60.0;  // [m/s]
   const double own = diagram.forces().top_speed;

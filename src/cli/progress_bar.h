@@ -6,14 +6,14 @@
 
 namespace trackbed::cli {
 
-/// Progress bar in one line on stderr, with the remaining time after two seconds. Prints nothing if
-/// stderr is not a terminal, or if `quiet`.
+/// A progress bar in one line on stderr. After two seconds, the progress bar shows the remaining
+/// time. The bar is not printed if stderr is not a terminal, or if `quiet`.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
-  ~ProgressBar();  ///< clears the line
+  ~ProgressBar();  ///< the destructor clears the line
 
   void Show(double fraction);
 
@@ -23,12 +23,13 @@ class ProgressBar {
     double fraction;
   };
 
-  /// ", 12 s left", or an empty string.
+  /// The text ", 12 s left", or an empty text.
   std::string TimeLeft(double fraction);
 
   std::string label_;
   bool visible_;
-  std::optional<Moment> begun_;  ///< first progress; earlier work does not count for the speed
+  std::optional<Moment> begun_;  ///< time of the first progress; earlier work does not count for
+                                 ///< the speed
 };
 
 }  // namespace trackbed::cli

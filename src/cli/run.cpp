@@ -35,7 +35,7 @@ struct RunOptions {
   ScenarioOptions scenario;
 };
 
-/// Runs the scenario of a study's row: its settings precede other overrides.
+/// Runs the scenario of a study's row. The row's settings precede other overrides.
 void TakeRow(RunOptions& options) {
   const fs::path folder = options.sweep;
   const SweepRecords records(folder / run_folder::kSweepRecords);

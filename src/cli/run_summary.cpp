@@ -61,7 +61,7 @@ void PrintRecord(const PlantMetrics& plant) {
   }
 }
 
-/// A status in words: "rolled over".
+/// Formats a status in words, such as "rolled over".
 std::string InWords(DriveStatus status) {
   std::string words = ToString(status);
   std::replace(words.begin(), words.end(), '_', ' ');
@@ -109,7 +109,7 @@ void PrintSummary(const RunResult& result, const std::filesystem::path& folder) 
   for (const std::string& note : result.verdict.notes) {
     Print("  {}\n", note);
   }
-  std::fflush(stdout);  // what follows takes time and may fail
+  std::fflush(stdout);  // flushes, since the following work takes time and may fail
 }
 
 ExitCode ExitCodeOf(const RunResult& result) {

@@ -7,10 +7,10 @@
 
 namespace trackbed::cli {
 
-/// Prints the result of a run that was written to `folder`.
+/// Prints the result of a run, which was written to `folder`.
 void PrintSummary(const RunResult& result, const std::filesystem::path& folder);
 
-/// Returns kInterrupted, kFailedExpectations or kOk.
+/// Returns kInterrupted, kFailedExpectations or kOk for a run.
 ExitCode ExitCodeOf(const RunResult& result);
 
 }  // namespace trackbed::cli

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Names of the cameras, which the scenario module cannot know itself.
+/// Names of the cameras, to which the scenario module has no access.
 std::vector<std::string> CameraNames() {
   std::vector<std::string> names;
   for (const FilmChoice& camera : Cameras()) {

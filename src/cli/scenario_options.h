@@ -21,51 +21,55 @@ struct ScenarioOptions {
   /// Adds --plant and the options of AddKeysTo.
   void AddTo(const Command& command);
 
-  /// Adds --set, --seed, --allow-assets and --quiet, for verbs with their own options for plants.
+  /// Adds --set, --seed, --allow-assets and --quiet. AddKeysTo suits verbs with their own options
+  /// for plants.
   void AddKeysTo(const Command& command);
 
-  /// Reads a scenario and applies these options. Throws the errors of ReadScenario.
+  /// Reads a scenario and applies the options of the command line. Read() throws the errors of
+  /// ReadScenario.
   [[nodiscard]] Scenario Read(const std::filesystem::path& file) const;
 
-  /// As Read, for the text of a scenario. `name` stands for the file in messages; relative paths
-  /// start at `folder`.
+  /// Same as Read, for the text of a scenario. Messages use `name` as the file's name; relative
+  /// paths start at `folder`.
   [[nodiscard]] Scenario Parse(const std::string& yaml, const std::string& name,
                                const std::filesystem::path& folder) const;
 
-  /// Reads a study and applies these options to its scenario. Throws the errors of ReadStudy.
+  /// Reads a study and applies the options of the command line to its scenario. ReadStudyFile
+  /// throws the errors of ReadStudy.
   [[nodiscard]] Study ReadStudyFile(const std::filesystem::path& file) const;
 
  private:
-  /// All options as overrides.
+  /// Converts all options to overrides of scenario keys.
   [[nodiscard]] std::vector<Override> Overrides() const;
 };
 
-/// Adds --allow-assets, which may be given several times.
+/// Adds the option --allow-assets, which may be given several times.
 void AddAllowAssets(const Command& command, std::vector<std::string>& folders);
 
 std::vector<std::filesystem::path> Paths(const std::vector<std::string>& names);
 
-/// Kinds of files to take from folders.
+/// Kinds of files that verbs take from folders.
 enum class FolderContent { kScenarios, kScenariosAndStudies };
 
-/// Every file in the folder `scenarios` of the data, each folder's files before its subfolders.
-/// Excludes scenarios/validation, whose recordings are not installed.
+/// All files in the folder `scenarios` of the data; the files of a folder precede its subfolders.
+/// The list of shipped files excludes scenarios/validation, whose recordings are not installed.
 std::vector<std::filesystem::path> ShippedScenarios(FolderContent content);
 
-/// Resolves a name on the command line: an existing file or a name with an extension is taken as
-/// is. Other names refer to a shipped scenario or study: "three_turns", "studies/robustness" or
-/// "robustness". Throws InputError for an unknown name, with the nearest one, and for an ambiguous
-/// name.
+/// Resolves a file name on the command line. An existing file, or a name with an extension, is
+/// returned unchanged. Names of other forms are those of a shipped scenario or study:
+/// "three_turns", "studies/robustness" or "robustness". Throws InputError for an ambiguous name.
+/// FindScenario throws InputError with the nearest name for an unknown name.
 std::filesystem::path FindScenario(const std::filesystem::path& name);
 
-/// The scenario files that `paths` name, each once: files by FindScenario, folders by all *.yaml
-/// and *.yml in them, sorted, each folder's files before its subfolders. Skips hidden entries
-/// (.git) and links to folders. A folder without scenarios is kept, for RefuseFolder to report.
-/// Throws RunError if a folder cannot be read.
+/// The scenario files that `paths` name, each once. Names of files are resolved by FindScenario. A
+/// folder stands for all *.yaml and *.yml in it, sorted, with files before subfolders.
+/// ScenarioFiles skips hidden entries (.git) and links to folders. A folder without scenarios stays
+/// in the list, so that RefuseFolder reports it. ScenarioFiles throws RunError if a folder cannot
+/// be read.
 std::vector<std::filesystem::path> ScenarioFiles(const std::vector<std::string>& paths,
                                                  FolderContent content);
 
-/// Throws InputError if `file` is a folder, which then contains no scenarios.
+/// Throws InputError if `file` is a folder without scenarios.
 void RefuseFolder(const std::filesystem::path& file);
 
 }  // namespace trackbed::cli

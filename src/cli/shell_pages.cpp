@@ -30,8 +30,9 @@ Words PartsOf(const std::string& text, char separator) {
   return words;
 }
 
-/// The values that a type name stands for: "draft|film" itself lists them, "CAMERA", "CAMERA,..."
-/// and "SCENARIO..." are kinds of `trackbed list`. Empty for all other values.
+/// The possible values of an option's type name. The type name "draft|film" itself lists its
+/// values; "CAMERA", "CAMERA,..." and "SCENARIO..." are kinds of `trackbed list`. No values are
+/// returned for other type names.
 Words ValuesOf(const std::string& type) {
   if (type.find('|') != std::string::npos) {
     return PartsOf(type, '|');
@@ -53,7 +54,7 @@ bool IsList(const std::string& type) {
   return type.ends_with(",...");
 }
 
-/// Those of every verb, too.
+/// Options of a verb, including those that every verb has.
 std::vector<OptionInfo> OptionsOf(const CommandInfo& verb) {
   std::vector<OptionInfo> options;
   for (const OptionInfo& option : verb.options) {
@@ -66,7 +67,7 @@ std::vector<OptionInfo> OptionsOf(const CommandInfo& verb) {
   return options;
 }
 
-/// The values that the words without an option may have.
+/// The possible values of positional arguments.
 Words PositionalValues(const CommandInfo& verb) {
   Words values;
   for (const OptionInfo& option : verb.options) {
@@ -78,7 +79,7 @@ Words PositionalValues(const CommandInfo& verb) {
   return values;
 }
 
-/// The verbs below `above`, or those of the program: their last words.
+/// The last words of the verbs below `above`; without `above`, of the program's verbs.
 std::vector<CommandInfo> VerbsBelow(const std::vector<CommandInfo>& verbs,
                                     const std::string& above) {
   std::vector<CommandInfo> below;
@@ -113,12 +114,12 @@ std::string Replaced(const std::string& text, std::string_view what, std::string
   return result + text.substr(at);
 }
 
-/// A text of the program's own, for bash and zsh.
+/// Quotes a text of the program itself for bash and zsh.
 std::string QuotedText(const std::string& text) {
   return QuotedForSh(text).value();
 }
 
-/// The names that stand where no option stands: values, and the verbs below.
+/// The words that may stand in place of an option: positional values and the verbs below.
 Words PositionalWords(const std::vector<CommandInfo>& verbs, const CommandInfo& verb) {
   Words words = PositionalValues(verb);
   for (const std::string& below : NamesOf(VerbsBelow(verbs, verb.name))) {
@@ -130,7 +131,8 @@ Words PositionalWords(const std::vector<CommandInfo>& verbs, const CommandInfo& 
 }  // namespace
 
 std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
-  // `compgen -W` would expand the words, and bash inserts what it is offered as it is.
+  // `compgen -W` would expand the words, so they are quoted. Bash inserts a completed word
+  // unchanged.
   std::string text =
       "# bash completion of trackbed; written by `trackbed completion bash`.\n"
       "_trackbed_offer() {  # what, before each: those of the other words that begin with it\n"
@@ -205,14 +207,14 @@ std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
 
 namespace {
 
-/// The functions of a zsh script that offer names. A specification of _arguments evaluates what
-/// stands in it, and so has the name of such a function alone.
+/// Generates the functions of a zsh script that offer names. A specification of _arguments is
+/// evaluated by zsh. A specification of _arguments therefore contains only the name of a function.
 class ZshOffers {
  public:
-  /// The function that offers these, or files.
+  /// Name of a function that offers the given names, or files if there are none.
   std::string OrFiles(const Words& names) { return Function(names, "  _files\n"); }
 
-  /// The function that offers these behind the last comma.
+  /// Name of a function that offers the names after the last comma.
   std::string List(const Words& names) { return Function(names, "", "  compset -P '*,'\n"); }
 
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -230,11 +232,11 @@ class ZshOffers {
     return found->second;
   }
 
-  std::map<std::string, std::string> names_;  // of the functions, by what is in them
+  std::map<std::string, std::string> names_;  // names of the functions, keyed by their content
   std::string text_;
 };
 
-/// A text in a specification of _arguments or _describe.
+/// Quotes a text for a specification of _arguments or _describe.
 std::string InZshSpecification(const std::string& text) {
   return Replaced(Replaced(Replaced(Replaced(text, "\\", "\\\\"), "[", "\\["), "]", "\\]"), ":",
                   "\\:");
@@ -308,13 +310,13 @@ std::string ZshCompletion(const std::vector<CommandInfo>& verbs) {
 
 namespace {
 
-/// A text of the program's own, for fish.
+/// Quotes a text of the program itself for fish.
 std::string OwnTextOfFish(const std::string& text) {
   return QuotedForFish(text).value();
 }
 
-/// The words as the value of `complete --arguments`, which fish reads a second time: each word is
-/// quoted, and all of them together.
+/// The words as the value of `complete --arguments`. Fish parses the value of `complete
+/// --arguments` twice, so each word is quoted, and then the whole list.
 std::string FishArguments(const Words& words) {
   return OwnTextOfFish(AllQuoted(words, QuotedForFish));
 }
@@ -358,7 +360,7 @@ std::string FishCompletion(const std::vector<CommandInfo>& verbs) {
 
 namespace {
 
-/// Text of a line of roff.
+/// Escapes the text of a line of roff.
 std::string Roff(const std::string& text) {
   const std::string escaped = Replaced(Replaced(text, "\\", "\\e"), "-", "\\-");
   return escaped.starts_with('.') || escaped.starts_with('\'') ? "\\&" + escaped : escaped;

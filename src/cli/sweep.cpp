@@ -37,7 +37,7 @@ struct SweepVerbOptions {
   std::vector<std::string> only;
   std::string until;
   bool restart = false;
-  int jobs = 0;  // 0: number of hardware threads
+  int jobs = 0;  // number of threads; 0: one per hardware thread
   ScenarioOptions scenario;
 };
 
@@ -45,7 +45,7 @@ struct SweepVerbOptions {
   throw InputError(Problem{.key = option, .message = std::move(message)});
 }
 
-/// Parses "2/7".
+/// Parses a shard such as "2/7".
 Shard ParseShard(const std::string& text) {
   Shard shard;
   const std::size_t slash = text.find('/');
@@ -63,13 +63,13 @@ Shard ParseShard(const std::string& text) {
   return shard;
 }
 
-/// Parses "pass_rate:0.01"; returns the half width of the interval.
+/// Parses "pass_rate:0.01" and returns the half width of the interval.
 std::optional<double> ParseUntil(const std::string& text, const Study& study) {
   if (text.empty()) {
     return std::nullopt;
   }
   constexpr std::string_view kName = "pass_rate:";
-  constexpr std::string_view kPlusMinus = "\u00b1";  // common spelling
+  constexpr std::string_view kPlusMinus = "\u00b1";  // the plus-minus sign, which users often write
   std::string_view number = text;
   double width = 0.0;
   if (number.starts_with(kName)) {
@@ -90,7 +90,7 @@ std::optional<double> ParseUntil(const std::string& text, const Study& study) {
   return width;
 }
 
-/// The shard of the Slurm array task in which the program runs, else all rows.
+/// The shard of the Slurm array task in which the program runs; all rows outside Slurm.
 Shard ShardOfTask() {
   const auto number = [](const char* name) {
     const char* text = std::getenv(name);
@@ -124,7 +124,8 @@ int Sweep(const SweepVerbOptions& options) {
   const std::string& name = study.name;
   const fs::path all = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   const fs::path out = FolderOfShard(all, shard);
-  const OutputFolder folder(out, FileNamesOfVerb("sweep"));  // fail before the runs, not after
+  const OutputFolder folder(out, FileNamesOfVerb("sweep"));  // locks the folder before the runs, so
+                                                             // that an error appears early
   CheckKeptRows(all);
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
@@ -171,7 +172,8 @@ int Sweep(const SweepVerbOptions& options) {
                                 sweep.rows, sweep.rows_expected);
     const fs::path csv = out / run_folder::kSweepCsv;
     Print("{}: {}, in {}\n", name, how, csv.string());
-    constexpr std::size_t kMaxRows = 100'000;  // reading more takes more memory than the study
+    constexpr std::size_t kMaxRows = 100'000;  // limit of the rows to read, which would take more
+                                               // memory than the study
     if (sweep.rows <= kMaxRows) {
       Print("{}", Lines{SweepTableText(ReadTextCsv(csv), TerminalWidth())});
     }

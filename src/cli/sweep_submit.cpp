@@ -33,7 +33,7 @@ struct SubmitOptions {
   ScenarioOptions scenario;
 };
 
-/// InputError when `word`, the value of `what`, cannot be quoted.
+/// Throws InputError if `word`, the value of `what`, cannot be quoted.
 std::string Quoted(std::optional<std::string> (*quoted)(std::string_view word),
                    const std::string& word, const char* what) {
   const std::optional<std::string> text = quoted(word);
@@ -52,7 +52,7 @@ std::string ForSh(const std::string& word, const char* what) {
   return Quoted(QuotedForSh, word, what);
 }
 
-/// Hands a script to Slurm; its job's number.
+/// Submits a script to Slurm and returns the number of the job.
 std::string Submit(const std::string& options, const fs::path& script) {
   const std::string command =
       fmt::format("sbatch --parsable {}{} 2>&1", options, ForSh(script.string(), kOutOption));
@@ -66,7 +66,7 @@ std::string Submit(const std::string& options, const fs::path& script) {
     said += part.data();
   }
   said.erase(said.find_last_not_of("\n") + 1);
-  // "123", or "123;cluster".
+  // Slurm prints "123", or "123;cluster".
   const std::string job = said.substr(0, said.find(';'));
   if (job.empty() || job.find_first_not_of("0123456789") != std::string::npos) {
     throw RunError(fmt::format("sbatch did not take {}: {}", script.string(), said));
@@ -74,7 +74,7 @@ std::string Submit(const std::string& options, const fs::path& script) {
   return job;
 }
 
-/// The command of a task: it runs the shard of the study that Slurm's variables name.
+/// The command of an array task, which runs the shard given by Slurm's variables.
 std::string SweepCommand(const Study& study, const std::string& program, const fs::path& out) {
   std::string command =
       fmt::format("{} sweep {} --out {} --quiet --jobs \"${{SLURM_CPUS_PER_TASK:-1}}\"",
@@ -89,7 +89,7 @@ std::string SweepCommand(const Study& study, const std::string& program, const f
   return command;
 }
 
-/// The lines that Slurm reads at the head of a script.
+/// The lines of a script's head that Slurm reads.
 std::string SbatchLines(const std::vector<std::string>& options) {
   std::string lines = "#!/bin/sh\n";
   for (const std::string& option : options) {
@@ -119,8 +119,8 @@ Scripts MakeScripts(const Study& study, int tasks, const fs::path& out) {
                                ForSh(out.string(), kOutOption))};
 }
 
-/// RunError when Slurm would write over a log that is not of an earlier submission, or through a
-/// link.
+/// Throws RunError if Slurm would write through a link, or over a file that is no log of an earlier
+/// submission.
 void RequireNoForeignLogs(const fs::path& out, bool submitted) {
   std::error_code error;
   for (fs::directory_iterator at(out, error), end; !error && at != end; at.increment(error)) {
@@ -137,7 +137,7 @@ void RequireNoForeignLogs(const fs::path& out, bool submitted) {
   }
 }
 
-/// Ends the lock of the folder before tasks write there.
+/// The lock of the folder ends before tasks write to the folder.
 void WriteScripts(const Scripts& scripts, const fs::path& out) {
   const std::vector<std::string> names{run_folder::kArraySh, run_folder::kMergeSh};
   const OutputFolder folder(out, names);
@@ -161,7 +161,8 @@ int SubmitStudy(const SubmitOptions& options) {
   WriteScripts(scripts, out);
   const fs::path merge = out / run_folder::kMergeSh;
   const std::string job = Submit(sbatch, out / run_folder::kArraySh);
-  // The merging waits until all tasks have ended well, and goes when one has not.
+  // The merge job starts after all tasks have succeeded. The merge job is cancelled if a task
+  // fails.
   const std::string last = Submit(
       fmt::format("{}--dependency=afterok:{} --kill-on-invalid-dep=yes ", sbatch, job), merge);
   if (!options.scenario.quiet) {

@@ -39,7 +39,8 @@ std::vector<std::string> CellsOf(const TextTable& table, std::size_t column) {
   return cells;
 }
 
-/// Parameters, status and outputs. Omits the reason, a sentence too long for a column.
+/// Formats parameters, status and outputs of the rows. The column of the reason is omitted: its
+/// sentences are too long.
 std::string RowsText(const TextTable& table, std::size_t status, std::size_t width) {
   TextColumns columns;
   std::size_t shown = 0;
@@ -74,7 +75,7 @@ std::string RowsText(const TextTable& table, std::size_t status, std::size_t wid
   return text;
 }
 
-/// One line per output that has a number in at least one row.
+/// One line for each output that has a number in at least one row.
 std::string ExtremesText(const TextTable& table, std::size_t status, std::size_t width) {
   constexpr std::size_t kNumber = 10;
   struct Line {

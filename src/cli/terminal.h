@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-/// Terminal output: colors, lines that fit its width, and texts of inputs without the control
-/// characters that a terminal would obey.
+/// Terminal output: colors, lines that fit the terminal's width, and texts of inputs. Control
+/// characters in texts of inputs are replaced, so that the terminal does not obey them.
 namespace trackbed::cli {
 
 /// Meaning of a text, shown as its color.
@@ -22,18 +22,19 @@ enum class Tone {
   kHeading,   ///< bold
 };
 
-/// When to use colors. kAuto: on a terminal, unless NO_COLOR is set and not empty (no-color.org) or
-/// TERM is "dumb".
+/// When to use colors. With kAuto, colors are used on a terminal unless NO_COLOR is set and not
+/// empty (no-color.org) or TERM is "dumb".
 enum class ColorChoice { kAuto, kAlways, kNever };
 
-/// "auto", "always" and "never".
+/// The names of the color choices: "auto", "always" and "never".
 const std::vector<std::string>& ColorChoices();
 
-/// Sets the choice for the rest of the program. InternalError unless it is one of ColorChoices.
+/// Sets the color choice for the rest of the program. Throws InternalError for a name that is not
+/// in ColorChoices.
 void ChooseColors(const std::string& choice);
 
-/// `text` as one line. Names every control character, line feeds and tabs included: "<U+001B>".
-/// Names every byte that is not UTF-8: "<0xFF>".
+/// Converts `text` to one safe line. Control characters, including line feeds and tabs, are
+/// replaced by names: "<U+001B>". Bytes that are not UTF-8 are replaced by names: "<0xFF>".
 std::string SafeLine(std::string_view text);
 
 /// A text that is printed unchanged: a safe line, with escape sequences for colors.
@@ -41,7 +42,8 @@ struct SafeText {
   std::string text;
 };
 
-/// A text of several lines. Printed as SafeLine, but with its line feeds and tabs.
+/// A text of several lines. A text of type Lines is printed as SafeLine, but keeps its line feeds
+/// and tabs.
 struct Lines {
   std::string_view text;
 };
@@ -52,7 +54,7 @@ SafeText Colorize(Tone tone, std::string_view text, std::FILE* stream = stdout);
 /// Colors a text of several lines.
 SafeText Colorize(Tone tone, Lines text, std::FILE* stream);
 
-/// `parts` with `separator` between them.
+/// Joins the `parts` with `separator` between them.
 SafeText Joined(const std::vector<SafeText>& parts, std::string_view separator);
 
 }  // namespace trackbed::cli
@@ -75,8 +77,8 @@ inline SafeText Safe(SafeText text) {
 
 SafeText Safe(Lines text);
 
-/// Numbers stay, texts become safe lines. Other types are refused: fmt::join would print texts
-/// unchanged.
+/// Numbers are passed unchanged; texts become safe lines. Texts of other types do not compile,
+/// because fmt::join would print them unchanged.
 template <typename T>
 auto Safe(const T& value) {
   if constexpr (std::is_convertible_v<const T&, std::string_view>) {
@@ -92,27 +94,28 @@ using Printed = decltype(Safe(std::declval<const T&>()));
 
 }  // namespace detail
 
-/// Prints to `stream` as fmt::print, with every text as its SafeLine. Verbs print by this function
-/// and Print alone. std::system_error if the stream fails.
+/// Prints to `stream` like fmt::print, with every text as its SafeLine. Verbs print only by PrintTo
+/// and Print. std::system_error is thrown if the stream fails.
 template <typename... T>
 void PrintTo(std::FILE* stream, fmt::format_string<detail::Printed<T>...> format,
              const T&... values) {
   fmt::print(stream, format, detail::Safe(values)...);
 }
 
-/// PrintTo stdout.
+/// Prints to stdout by PrintTo.
 template <typename... T>
 void Print(fmt::format_string<detail::Printed<T>...> format, const T&... values) {
   fmt::print(stdout, format, detail::Safe(values)...);
 }
 
-/// Columns of the terminal, at least 40; 80 if `stream` is not a terminal.
+/// Width of the terminal in columns, at least 40; 80 if `stream` is not a terminal.
 std::size_t TerminalWidth(std::FILE* stream = stdout);
 
-/// Wraps `text` between words into lines of at most `width` columns. Longer words are not broken.
+/// Wraps `text` between words into lines of at most `width` columns. A word longer than a line is
+/// not broken.
 std::vector<std::string> Wrapped(std::string_view text, std::size_t width);
 
-/// "3.2 s", "4 min 5 s", "2 h 3 min".
+/// Formats a duration as "3.2 s", "4 min 5 s" or "2 h 3 min".
 std::string DurationText(double seconds);
 
 }  // namespace trackbed::cli

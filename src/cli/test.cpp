@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct TestOptions {
   std::vector<std::string> paths;
   std::string junit;
-  int jobs = 0;  // 0: number of hardware threads
+  int jobs = 0;  // number of threads; 0: one per hardware thread
   ScenarioOptions scenario;
 };
 
@@ -59,11 +59,11 @@ void PrintCase(const SuiteCase& one, bool quiet) {
     case CaseStatus::kInterrupted:
       break;
   }
-  std::fflush(stdout);  // print each line at once, also into a pipe
+  std::fflush(stdout);  // prints each line at once, even into a pipe
 }
 
-/// An internal error takes precedence over bad input, and bad input over failed expectations: with
-/// bad input the result of the suite is incomplete.
+/// An internal error takes precedence over bad input, and bad input over failed expectations. With
+/// bad input, the result of the test suite is incomplete.
 int SuiteExitCode(const std::vector<SuiteCase>& cases) {
   const auto any = [&](CaseStatus status) {
     return std::any_of(cases.begin(), cases.end(),
@@ -76,7 +76,7 @@ int SuiteExitCode(const std::vector<SuiteCase>& cases) {
                                          : kOk;
 }
 
-/// "12 scenarios in 34.5 s: 10 passed, 1 failed, 1 not judged".
+/// Prints the line "12 scenarios in 34.5 s: 10 passed, 1 failed, 1 not judged".
 void PrintTotal(const std::vector<SuiteCase>& cases, double wall_time) {
   struct Count {
     CaseStatus status;
@@ -108,7 +108,7 @@ int Test(const TestOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const std::vector<fs::path> files = ScenarioFiles(options.paths, FolderContent::kScenarios);
-  if (!options.junit.empty()) {  // fail before the runs, not after
+  if (!options.junit.empty()) {  // opens the file before the runs, so that an error appears early
     PrepareToWrite(options.junit);
   }
   const std::vector<SuiteCase> cases =

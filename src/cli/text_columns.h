@@ -6,25 +6,26 @@
 
 namespace trackbed::cli {
 
-/// Column of a printed table: heading above texts, both right-aligned.
+/// A column of a printed table: a heading above texts, all right-aligned.
 struct TextColumn {
-  std::vector<std::string> words;  ///< heading, broken between words
-  std::string unit;                ///< below the heading in brackets; empty if dimensionless
-  std::vector<std::string> texts;  ///< one per row
+  std::vector<std::string> words;  ///< Words of the heading, between which it may be broken.
+  std::string unit;                ///< Unit in brackets below the heading; empty if dimensionless.
+  std::vector<std::string> texts;  ///< Texts, one per row.
 };
 
-/// Printed table. Each column is as wide as its longest text or word, but at least nine characters.
+/// A table printed in columns. Each column is as wide as its longest text or word, but at least
+/// nine characters.
 class TextColumns {
  public:
   void Add(TextColumn column);
 
   /// Number of leading columns that fit into `width` characters.
   [[nodiscard]] std::size_t CountWithin(std::size_t width) const;
-  /// Heading lines of the first `count` columns, then one line per row.
+  /// The heading lines of the first `count` columns, then one line per row.
   [[nodiscard]] std::vector<std::string> Lines(std::size_t count) const;
   [[nodiscard]] std::vector<std::string> Lines() const { return Lines(columns_.size()); }
 
-  /// Precedes each line and each column.
+  /// Indent before each line and each column.
   static constexpr const char* kIndent = " ";
 
  private:

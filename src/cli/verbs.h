@@ -14,7 +14,7 @@ enum ExitCode {
   kInterrupted = 130,
 };
 
-/// Adds options to `command` and sets its action.
+/// Adds the options of a verb to `command` and sets its action.
 using AddVerb = void (*)(const Command& command);
 
 void AddRun(const Command& command);
@@ -38,7 +38,7 @@ void AddCompletion(const Command& command);
 void AddDocs(const Command& command);
 void AddManual(const Command& command);
 
-// Verbs below `sweep`.
+// Adds a verb below `sweep`.
 void AddSweepMerge(const Command& command);
 void AddSweepSubmit(const Command& command);
 

@@ -18,7 +18,7 @@
 namespace trackbed {
 namespace {
 
-/// The registry of controllers, one line each.
+/// The registry of controllers, with one line per controller.
 Registry<ControllerEntry>& ControllerRegistry() {
   static Registry<ControllerEntry> table("controller", {
                                                            ScheduleController(),

@@ -13,7 +13,7 @@ namespace {
 
 enum State { kOffset, kHeading, kActuator, kWheels, kLateral, kYawRate };
 
-/// Slowest speed of the model [m/s]: the tyres' terms are unbounded at rest.
+/// Slowest speed of the model [m/s]. At rest, the terms of the tyres are unbounded.
 constexpr double kMinModelSpeed = 1.0;
 /// Shortest steering lag of the model [s].
 constexpr double kMinLag = 1e-3;
@@ -57,7 +57,8 @@ ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, d
   model.speed = direction * std::max(direction * input.state.speed, SlowestSpeed(vehicle));
   const double u = model.speed;
 
-  // Derivatives of (x, w, kappa, c), the last three constant. Its exponential gives the exact step.
+  // Derivatives of (x, w, kappa, c), of which the last three are constant. The exponential of the
+  // augmented matrix gives the exact step.
   using Augmented = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                   ErrorModel::kMaxStates + 3, ErrorModel::kMaxStates + 3>;
   Augmented rates = Augmented::Zero(n + 3, n + 3);
@@ -117,7 +118,7 @@ Vector StateCost(const ErrorModel& model, const ErrorWeights& weights) {
 }
 
 double CommandedAngle::Now(const ControlInput& input) const {
-  // Rounding may have moved the actuator slightly beyond its limit.
+  // Clamps the angle, because rounding may have moved the actuator slightly beyond its limit.
   const double limit = input.vehicle.steering_limit;
   return std::clamp(last_.value_or(input.state.steering_actuator), -limit, limit);
 }
@@ -183,7 +184,7 @@ Vector Ahead::Next() {
   const double stride = std::abs(from.speed) * model_.period;
   station_ += stride;
   const PathPoint next = input_.reference.path.At(station_);
-  // The mean curvature over the step, including jumps.
+  // The mean curvature over the step, including curvature jumps.
   const double mean = AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride);
   const auto steering = [&](double curvature) {
     Motion motion = from;

@@ -53,7 +53,7 @@ class Mpc final : public SteeringController {
   }
 
  private:
-  /// Constrains the rates and the angles, which are their sums, to both sides.
+  /// Constrains the rates, and the angles, which are sums of rates, on both sides.
   static void Limit(const VehicleParams& vehicle, double start, double step,
                     QuadraticProgram& program) {
     const auto n = program.linear.size();

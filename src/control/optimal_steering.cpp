@@ -23,12 +23,13 @@ double Reach(const VehicleParams& vehicle, const SteeringProblem& problem) {
   return vehicle.steering_rate * std::abs(problem.distance) / problem.speed;
 }
 
-/// Computed in the axes of the given poses; cost (1) is the same in any axes.
+/// The difference is computed in the axes of the given poses, since cost (1) is the same in any
+/// axes.
 Deviation Difference(const Pose2& actual, const Pose2& wanted) {
   return {actual.x - wanted.x, actual.y - wanted.y, actual.yaw - wanted.yaw};
 }
 
-/// Returns the minimizer of the cost in the field `steering`.
+/// Returns the angle that minimizes the cost, in the field `steering`.
 template <typename Cost>
 SteeringMatch Minimize(const Cost& cost, const SteeringInterval& range, const SearchOptions& search,
                        std::uint64_t seed) {
@@ -67,7 +68,7 @@ Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, 
   const double ramp = std::min(speed * move.ramp_time, std::abs(distance));
   Pose2 pose;
   if (ramp > 0.0) {
-    // delta = delta_0 + slope s; integrates tan(delta)/L over s.
+    // With delta = delta_0 + slope s, integrates tan(delta)/L over s.
     const double slope = move.rate / speed;
     const double cosine = std::cos(steering);
     const auto heading = [&](double s) {
@@ -110,7 +111,8 @@ double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, d
 
 SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
                              const DeviationWeights& weights, const SearchOptions& search) {
-  // Mirrors the problem so that the wanted pose is on the left; mirrored problems take equal steps.
+  // Mirrors the problem so that the wanted pose is on the left. The search therefore takes equal
+  // steps for mirrored problems.
   const Pose2& wanted = problem.wanted;
   const bool ahead = wanted.y == 0.0 && wanted.yaw == 0.0;
   const bool mirrored =
@@ -123,7 +125,7 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
   const double limit = problem.max_steering;
   const double lower = TurnShare(vehicle, own, -limit);
   const double upper = TurnShare(vehicle, own, limit);
-  // A simplex that starts on a bound stops there if the next point is worse.
+  // A simplex that starts on a bound would stop there if the next point is worse.
   const double margin = 0.05 * (upper - lower);
   const double start =
       std::clamp(TurnShare(vehicle, own, side * problem.start), lower + margin, upper - margin);
@@ -131,7 +133,7 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
     return DeviationCost(DeviationAhead(vehicle, own, SteeringOfShare(vehicle, own, share)),
                          weights);
   };
-  constexpr std::uint64_t kSeed = 1;  // the same for every update
+  constexpr std::uint64_t kSeed = 1;  // a constant seed, the same for every update
   SteeringMatch match = Minimize(cost, {lower, upper, start}, search, kSeed);
   match.steering = side * std::clamp(SteeringOfShare(vehicle, own, match.steering), -limit, limit);
   return match;

@@ -61,7 +61,7 @@ class OptimalSteeringController final : public SteeringController {
   }
 
  private:
-  /// Position of the primary, and its speed if the matching needs it.
+  /// Position of the primary car, and its speed if the matching needs it.
   struct Primary {
     double station = 0.0;
     std::optional<double> speed;
@@ -79,7 +79,8 @@ class OptimalSteeringController final : public SteeringController {
     return {station, std::max(input.reference.speed.SpeedAt(station), kCrawl)};
   }
 
-  /// The path's pose at `station` relative to the car. Its yaw includes full turns in between.
+  /// The path's pose at `station` relative to the car. The yaw of the path's pose includes full
+  /// turns between car and station.
   static Pose2 RelativePathPose(const ControlInput& input, double station) {
     const Path& path = input.reference.path;
     const double here = path.At(input.station).pose.yaw;
@@ -89,7 +90,7 @@ class OptimalSteeringController final : public SteeringController {
   }
 
   OptimalSteeringOptions options_;
-  std::optional<double> last_;  // start of the next search [rad]
+  std::optional<double> last_;  // start value of the next search [rad]
   Deviation deviation_;
   SteeringMatch match_;
 };

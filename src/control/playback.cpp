@@ -30,7 +30,7 @@ class PlaybackController final : public SteeringController {
   }
 
  private:
-  /// A replan does not restart the recording: the distance is the car's odometer, not the plan's
+  /// A replan must not restart the recording, so the axis is the car's odometer and not the plan's
   /// station.
   [[nodiscard]] double Axis(const ControlInput& input) const {
     return options_.by == PlaybackAxis::kTime ? input.state.time : input.state.distance;
@@ -39,12 +39,12 @@ class PlaybackController final : public SteeringController {
   PlaybackOptions options_;
 };
 
-/// Advance of the axis within the period.
+/// Advance of the recording's axis within the control period.
 double AxisAdvance(const PlaybackOptions& options, double speed, double period) {
   return options.by == PlaybackAxis::kTime ? period : std::abs(speed) * period;
 }
 
-/// The end of a recording over time; none by distance.
+/// End of a recording over time [s]; none for a recording over distance.
 std::optional<double> DurationOf(const PlaybackOptions& options) {
   const Signal& steering = options.recording.steering;
   if (options.by != PlaybackAxis::kTime || steering.empty() || steering.knots.back().x() <= 0.0) {
@@ -90,7 +90,7 @@ std::vector<InputFile> InputFilesOf(const PlaybackOptions& options) {
 void Resolve(ControllerOptions& options, bool from_record) {
   auto& own = options.Get<PlaybackOptions>();
   own.file = from_record ? "" : kRecordingCsv;
-  own.columns = {};  // RecordingCsv uses the default names
+  own.columns = {};  // the written recording has the default column names
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ class Preview final : public SteeringController {
   }
 
  private:
-  /// Steering angle delta [rad] for a curvature.
+  /// Steering angle delta for a curvature [rad].
   [[nodiscard]] double SteeringOn(const ControlInput& input, double curvature,
                                   int direction) const {
     if (options_.slip) {
@@ -51,14 +51,14 @@ class Preview final : public SteeringController {
   PreviewOptions options_;
 };
 
-/// Station of the first point after `station` that is `distance` away from p.
+/// Station of the first point after `station` that is `distance` away from `p`.
 double PreviewStation(const Path& path, const Vec2& p, double station, double distance) {
   const auto beyond = [&](double s) { return (path.At(s).pose.position() - p).norm() - distance; };
   if (beyond(station) >= 0.0) {
     return station + distance;
   }
-  // The path leaves the circle no sooner than a straight line would. Steps of an eighth of the
-  // distance find the first crossing of any path with larger radii of curvature.
+  // The path leaves the circle around the car no sooner than a straight line would. Steps of an
+  // eighth of the distance find the first crossing of any path with larger radii of curvature.
   const double stride = distance / 8.0;
   double inside = station;
   while (beyond(inside + stride) < 0.0) {

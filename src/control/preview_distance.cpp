@@ -9,20 +9,21 @@
 namespace trackbed {
 namespace {
 
-constexpr double kWheelbases = 0.75;  ///< minimum R over L
-constexpr double kResponses = 3.0;    ///< minimum R over v T
-constexpr double kRampShare = 0.65;   ///< R over S
-/// Ratio of successive sampled stations. A curvature step between two stations is attributed to the
-/// closer one.
+constexpr double kWheelbases = 0.75;  ///< Minimum preview distance R over the wheelbase L.
+constexpr double kResponses = 3.0;    ///< Minimum preview distance R over v T.
+constexpr double kRampShare = 0.65;   ///< Ratio of the preview distance R to the ramp S.
+/// Ratio of the distances of successive sampled stations from the car. A curvature step between two
+/// stations is attributed to the closer station.
 constexpr double kSpacingRatio = 1.3;
 
-/// Computes the ramp S [m] over a range of stations that is extended at either end.
+/// Computes the ramp S [m] over a range of stations that can be extended at both ends.
 class RampScan {
  public:
   explicit RampScan(double turned)
       : min_minus_(turned), max_minus_(turned), min_plus_(turned), max_plus_(turned) {}
 
-  /// `turned` = v delta/omega [m] at `s` [m] from the car; the gap before it may contain a step.
+  /// `turned` is v delta/omega [m] at the distance `s` [m] from the car. The `gap` before `s` may
+  /// contain a curvature step.
   void Extend(double turned, double s, double gap) {
     if (s > 0.0) {
       ramp_ = std::max({ramp_, turned - s - min_minus_ + gap, max_plus_ - turned - s + gap});
@@ -46,12 +47,12 @@ class RampScan {
   double max_plus_;
 };
 
-/// 0.65 S + v T, at least `shortest`, for ramps at the speed `speed`; `response` = v T [m].
+/// Preview distance 0.65 S + v T for ramps at `speed`, at least `shortest`; `response` is v T [m].
 double RampPreview(const ControlInput& input, double speed, double response, double shortest) {
   const Path& path = input.reference.path;
   const VehicleParams& vehicle = input.vehicle;
-  const double way = speed / vehicle.steering_rate;  // [m/rad]
-  // Most stations have the curvature of the one before.
+  const double way = speed / vehicle.steering_rate;  // Distance per steering angle [m/rad].
+  // Reuses the last steering, since most stations have the curvature of the previous one.
   std::optional<double> last_curvature;
   double last_turned = 0.0;
   const auto turned = [&](const PathBend& bend) {
@@ -98,12 +99,13 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
   return preview;
 }
 
-/// The lowest planned speed [m/s] within `distance` of the car, which drives at `speed`: the plan
-/// slows down before curvature steps, so the car meets them at the lowest speed. At least a quarter
-/// of `speed`: a planned stop must not shrink the preview distance to zero.
+/// The lowest planned speed [m/s] within `distance` of the car, which drives at `speed`. The plan
+/// slows down before curvature steps, so the car passes them at the lowest planned speed.
+/// SlowestWithin returns at least a quarter of `speed`, so that a planned stop does not shrink the
+/// preview distance to zero.
 double SlowestWithin(const ControlInput& input, double speed, double distance) {
   constexpr int kSamples = 6;
-  constexpr double kMinSpeedFraction = 0.25;  // of the speed
+  constexpr double kMinSpeedFraction = 0.25;  // smallest result as a fraction of the speed
   const SpeedProfile& profile = input.reference.speed;
   double slowest = speed;
   for (int i = -kSamples; i <= kSamples && !profile.knots().empty(); ++i) {
@@ -128,7 +130,7 @@ double ResponseTime(const VehicleParams& vehicle, double speed, double period) {
 double PreviewDistance(const ControlInput& input, double delay) {
   const double speed = std::abs(input.state.speed);
   const double response = speed * (ResponseTime(input.vehicle, speed, input.period) + delay);
-  // For a differential drive, `wheelbase` is the track.
+  // The `wheelbase` of a differential drive is its track.
   const double size = input.vehicle.kind == VehicleKind::kDifferential
                           ? std::max(input.vehicle.wheelbase, input.vehicle.length)
                           : input.vehicle.wheelbase;
@@ -139,10 +141,11 @@ double PreviewDistance(const ControlInput& input, double delay) {
 }
 
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset) {
-  // Determined by trial with offsets of 0.2 to 4 m and previews of 2 to 4 m: with 1.5 all converge
-  // to the path; with 1 some oscillate forever, with 2 they converge more slowly.
+  // The factor was determined by trial, with offsets of 0.2 to 4 m and previews of 2 to 4 m. With a
+  // factor of 1.5, all cars converge to the path. With a factor of 1, some cars oscillate forever;
+  // with 2, they converge more slowly.
   constexpr double kShare = 1.5;
-  // At lower speeds the steering angle limits the car, not the steering rate.
+  // Below this speed, the steering angle limits the car, not the steering rate.
   constexpr double kMinSpeed = 1.25;
   const double slowest = kMinSpeed * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =

@@ -2,56 +2,61 @@
 
 #include "trackbed/control/steering_controller.h"
 
-/// Default preview distance of controllers that aim at a point of the path.
+/// Default preview distance R [m] of controllers that aim at a point of the path.
 ///
-/// Symbols: L wheelbase [m]; v speed [m/s]; omega steering rate at the road wheels [rad/s]; T
-/// response time [s]; delta(s) = atan(L kappa(s)) steering of the path at station s [rad]; S the
-/// ramp [m]: the distance driven while the wheels lag behind the path's steering; R preview
-/// distance [m].
+/// The symbols are:
+///   L      wheelbase [m]
+///   v      speed [m/s]
+///   omega  steering rate at the road wheels [rad/s]
+///   T      response time [s]
+///   delta(s) = atan(L kappa(s))  steering of the path at station s [rad]
+///   S      ramp [m]: the distance driven while the wheels lag behind the path's steering
+///
 ///   R = max(3/4 L,  3 v T,  0.65 S + v T)
 ///   T = control period + steering lag + m v/(C_f + C_r)
 ///   S = max over s_1 < s_2 of  v abs(delta(s_2) - delta(s_1))/omega - (s_2 - s_1),
 ///       both stations within R of the car
 ///
-/// 3/4 L: pure pursuit responds to an offset e with 2 L e/R^2 and to a heading error psi with 2 L
-/// psi/R. A car that enters a circle of radius r cuts in by R^2/(8 r), 3.5 % of L at 26 degrees.
+/// Term 3/4 L: pure pursuit responds to an offset e with 2 L e/R^2 and to a heading error psi with
+/// 2 L psi/R. A car that enters a circle of radius r cuts in by R^2/(8 r). At a steering angle of
+/// 26 degrees, a car cuts in by 3.5 % of L.
 ///
-/// 3 v T: with a first-order lag T, the characteristic polynomial of a kinematic car along a
-/// straight path is T s^3 + s^2 + (2 v/R) s + 2 v^2/R^2. It is stable for R > v T (Routh), with a
-/// damping ratio of 0.37 at 3 v T and of 1/2 at 4 v T. Heredia and Ollero 2007 treat pure delays;
-/// distances proportional to the speed are common (Snider 2009). m v/(C_f + C_r) is the time
-/// constant of the tyres' lateral response.
+/// Term 3 v T: consider a kinematic car with a first-order lag T along a straight path. The car's
+/// characteristic polynomial is T s^3 + s^2 + (2 v/R) s + 2 v^2/R^2. The motion is stable for R > v
+/// T (Routh), with a damping ratio of 0.37 at R = 3 v T and of 1/2 at R = 4 v T. Heredia and Ollero
+/// 2007 treat pure delays. Distances proportional to the speed are common (Snider 2009). The time m
+/// v/(C_f + C_r) is the time constant of the tyres' lateral response.
 ///
-/// 0.65 S + v T: at a curvature step, wheels with a limited rate need the distance S. The best half
-/// of the turning is before and half behind the step. With a preview below S/2 they begin too late
-/// for the whole maneuver, and the car swings out. 0.65 leaves a margin for model errors. The car
-/// then passes a step of curvature kappa within about kappa S^2/24, the deviation of a ramp of
-/// length S from the step. If the wheels can follow the path's curvature, S = 0.
-/// wheels can follow the path's curvature, S = 0.
+/// Term 0.65 S + v T: at a curvature step, wheels with a limited rate need the distance S. Half of
+/// the turning is best before the step, and half behind it. With a preview below S/2, the wheels
+/// begin too late for the whole maneuver, and the car swings out. The factor 0.65 leaves a margin
+/// for model errors. The car then passes a step of curvature kappa within about kappa S^2/24, the
+/// deviation of a ramp of length S from the step. S is 0 if the wheels can follow the path's
+/// curvature.
 namespace trackbed {
 
-/// Minimum speed in divisions by the speed [m/s].
+/// Smallest speed used as a divisor [m/s].
 inline constexpr double kCrawl = 0.5;
 
-/// Offset, relative to the wheelbase, from which default distances return a car to the path.
+/// Offset relative to the wheelbase from which default distances return a car to the path.
 inline constexpr double kReturnOffset = 0.125;
 
-/// T [s] of a car at `speed` with a control period `period`. Without tyre coefficients their term
-/// is 0.
+/// Response time T [s] of a car at `speed` with the control period `period`. The tyres' term of T
+/// is 0 without tyre coefficients.
 double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 
-/// R [m] at the car's present state, with `delay` [s] added to its response time. Samples the
-/// path's steering at stations whose spacing grows with their distance from the car; the S of a
-/// single step is exact. Stops at the path's ends and cusps.
+/// Preview distance R [m] for the car's present state, with `delay` [s] added to its response time.
+/// Samples the path's steering at stations whose spacing grows with their distance from the car.
+/// For a single curvature step, S is exact. The sampling stops at the ends and cusps of the path.
 double PreviewDistance(const ControlInput& input, double delay = 0.0);
 
 /// The shortest preview [m] that suits the steering rate, for a car at `speed` that is `offset` [m]
-/// off its path. At the full steering rate the curvature changes by c = omega/(L v) per meter, and
-/// returning from an offset e takes a distance proportional to cbrt(e/c). Speeds below 5/4 L omega
-/// count as that.
+/// off its path. At the full steering rate, the curvature changes by c = omega/(L v) per meter.
+/// Returning from an offset e takes a distance proportional to cbrt(e/c). Speeds below 5/4 L omega
+/// are replaced by 5/4 L omega.
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 
-/// As above, for the present state of a car.
+/// Same as ReturnDistance, for the present state of a car.
 double ReturnDistance(const ControlInput& input);
 
 }  // namespace trackbed

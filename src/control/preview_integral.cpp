@@ -15,21 +15,23 @@
 namespace trackbed {
 namespace {
 
-/// Slower cars are modeled as kinematic [m/s]; there the models differ by less than 1e-2.
+/// Cars slower than this speed are modeled as kinematic [m/s]. At 1 m/s, the kinematic and the
+/// dynamic model differ by less than 1e-2.
 constexpr double kMinDynamicSpeed = 1.0;
 
-/// Lateral displacement, `time` from now.
+/// Lateral displacement of the car, `time` from now.
 struct Responses {
-  double free = 0.0;  ///< y_0 [m]
-  double step = 0.0;  ///< A [m]
+  double free = 0.0;  ///< Displacement y_0 without steering [m].
+  double step = 0.0;  ///< Response A to a unit step of steering [m].
 };
 
-/// Response of the rear axle without slip.
+/// Response of the rear axle of a kinematic car, which has no slip.
 Responses KinematicResponses(const ControlInput& input, double way) {
   return {.free = 0.0, .step = way * way / (2.0 * input.vehicle.wheelbase)};
 }
 
-/// Response of the linear single-track car, forward: (y, psi, v, r) in the car's present frame.
+/// Response of the linear single-track car driving forward. The states (y, psi, v, r) of the model
+/// are in the car's present frame.
 Responses SingleTrackResponses(const ControlInput& input, double time) {
   const VehicleParams& vehicle = input.vehicle;
   const VehicleState& state = input.state;
@@ -86,14 +88,15 @@ class PreviewIntegral final : public SteeringController {
   }
 
  private:
-  /// Gain for an offset, relative to the single-point law at the same distance: for the kinematic
-  /// car, R^2/2 times the integral of A W over that of A^2 W. For the same damping, the distance
-  /// must grow with the square root of this gain.
+  /// Gain for an offset, relative to the single-point law at the same distance. For the kinematic
+  /// car, the gain is R^2/2 times the integral of A W over that of A^2 W. For equal damping, the
+  /// preview distance must grow with the square root of the offset gain.
   [[nodiscard]] double OffsetGain() const {
     return options_.weight == PreviewWeight::kNear ? 5.0 / 2.0 : 5.0 / 3.0;
   }
 
-  /// The wanted angle of a delay ago; before the first one, the initial wheel angle.
+  /// The angle that was wanted one delay ago. Until one delay after the start, the wanted angle is
+  /// the initial wheel angle.
   double Delayed(double wanted, const ControlInput& input) {
     const double periods = options_.delay / input.period;
     const auto whole = static_cast<std::size_t>(periods);

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Lower bound of 1 - kappa e: keeps away from the singularity at the center of curvature.
+/// Lower bound of 1 - kappa e, which is zero at the center of curvature, where the law is singular.
 constexpr double kNearCenter = 0.1;
 
 double Sinc(double angle) {

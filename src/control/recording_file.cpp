@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// Turns the columns of an excerpt into signals and collects all problems.
+/// Converts the columns of an excerpt into signals and collects all problems.
 class RecordingExcerpt {
  public:
   RecordingExcerpt(const std::filesystem::path& file, CsvExcerpt excerpt, std::string axis)
@@ -33,7 +33,8 @@ class RecordingExcerpt {
     return excerpt_.table.Find(column) >= 0;
   }
 
-  /// Empty if there is no such column. The last row has its own range, `last`.
+  /// The signal is empty if the column does not exist. The last row must be in the range `last`,
+  /// other rows in `range`.
   Signal Column(const std::string& column, const Range& range, const Range& last) {
     Signal signal;
     if (!Has(column)) {
@@ -55,7 +56,7 @@ class RecordingExcerpt {
     return Column(column, range, range);
   }
 
-  /// Throws InputError if there are problems, in the order of the file.
+  /// Throws InputError with all problems, in the order of the file.
   void Finish() const { problems_.ThrowIfAny(); }
 
  private:

@@ -8,12 +8,13 @@
 namespace trackbed {
 namespace {
 
-/// The mean acceleration [m/s^2] over the next period along the profile. The car has the profile's
-/// speed at the end of the period, even with a knot in between.
+/// The mean acceleration [m/s^2] over the next period along the profile. With the mean
+/// acceleration, the car has the profile's speed at the end of the period, even with a knot in
+/// between.
 double MeanAcceleration(const SpeedProfile& profile, double s, double speed, double period,
                         double at_middle) {
   double acceleration = at_middle;
-  constexpr int kIterations = 3;  // each reduces the error by a factor of a period/speed
+  constexpr int kIterations = 3;  // each iteration reduces the error by a factor of a period/speed
   for (int i = 0; i < kIterations; ++i) {
     const double next = s + period * (speed + 0.5 * period * acceleration);
     acceleration = (profile.SpeedAt(next) - profile.SpeedAt(s)) / period;
@@ -21,11 +22,11 @@ double MeanAcceleration(const SpeedProfile& profile, double s, double speed, dou
   return acceleration;
 }
 
-/// A profile that brakes or accelerates this much harder than the options is meant to.
+/// A profile that brakes or accelerates harder than the options by this factor does so on purpose.
 constexpr double kOnPurpose = 1.1;
-/// Factor on such an acceleration that lets the controller catch up. For a plan at 0.9 of the limit
-/// it uses half of the remaining margin: a wheel that locks or spins regains grip only when the
-/// command eases.
+/// Factor on the profile's acceleration that lets the controller catch up. For a plan at 0.9 of the
+/// limit, the factor uses half of the remaining margin. A locked or spinning wheel regains grip
+/// only when the command eases.
 constexpr double kCatchUp = 1.05;
 
 /// The deceleration at the end of a profile that ends at rest [m/s^2], >= 0.
@@ -49,11 +50,12 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
     const double last = LastDeceleration(profile);
     return -std::min(on_purpose(last) ? last : options.deceleration, limit);
   }
-  // Before the profile's start, uses the acceleration at the start.
+  // Before the start of the profile, the acceleration at the start is used.
   const double from = profile.knots().empty() ? s : std::max(s, profile.knots().front().s);
   // A car that rolls backward follows the profile from its present station.
   const double ahead = std::max(speed, 0.0);
-  // The middle of the period, but before the end: the acceleration beyond the end is zero.
+  // The acceleration is that at the middle of the period, but before the profile's end, since the
+  // profile has no acceleration beyond its end.
   double middle = from + 0.5 * ahead * period;
   if (stops) {
     middle = std::min(middle, 0.5 * (from + end));
@@ -65,7 +67,7 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   const double error = profile.SpeedAt(s) - speed;
   const double hard = on_purpose(-feed_forward) ? -kCatchUp * feed_forward : 0.0;
   const double hardest = std::min(std::max(2.0 * options.deceleration, hard), limit);
-  // Uses the profile's acceleration: when leaving rest, the mean over a period may exceed it.
+  // Compares the profile's acceleration: on leaving rest, the mean over a period may be larger.
   const double strongest =
       at_middle > kOnPurpose * options.acceleration ? kCatchUp * at_middle : options.acceleration;
   return std::clamp(feed_forward + options.gain * error, -hardest, strongest);

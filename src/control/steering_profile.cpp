@@ -12,7 +12,7 @@ namespace {
 constexpr Range kFrequency{.max = 100.0, .above = 0.0};  // [Hz]
 constexpr Key kAmplitude{"amplitude", "rad", "amplitude of the sine; positive: first to the left"};
 
-/// Steers by a profile over time.
+/// Steers by a profile over time, which the type `Options` describes.
 template <typename Options>
 class ProfileController final : public SteeringController {
  public:
@@ -32,12 +32,13 @@ double Phase(const SweptSineOptions& options, double tau) {
   if (options.sweep == Sweep::kLinear) {
     return 2.0 * kPi * (f0 + 0.5 * (f1 - f0) * tau / options.duration) * tau;
   }
-  // (e^k - 1)/k: expm1 keeps its precision for almost equal frequencies; the limit is 1.
+  // Computes (e^k - 1)/k. expm1 keeps its precision for almost equal frequencies, where the limit
+  // is 1.
   const double k = std::log(f1 / f0) * tau / options.duration;
   return 2.0 * kPi * f0 * tau * (k == 0.0 ? 1.0 : std::expm1(k) / k);
 }
 
-/// Ramp from 0 toward `end` at `rate`, at the time tau since its start.
+/// Ramp from 0 toward `end` at `rate`; tau is the time since the start of the ramp.
 double Ramp(double end, double rate, double tau) {
   return std::copysign(std::clamp(rate * tau, 0.0, std::abs(end)), end);
 }

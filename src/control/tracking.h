@@ -7,23 +7,23 @@ namespace trackbed {
 
 /// Position of a car relative to its path.
 struct Tracking {
-  PathPoint foot;              ///< the path at the car's station
-  double cross_track = 0.0;    ///< e [m], positive left of the path
-  double heading_error = 0.0;  ///< psi [rad], in (-pi, pi]
+  PathPoint foot;              ///< Point of the path at the car's station.
+  double cross_track = 0.0;    ///< Cross-track error e [m], positive left of the path.
+  double heading_error = 0.0;  ///< Heading error psi [rad], in (-pi, pi].
 };
 
 Tracking ProjectOntoPath(const ControlInput& input);
 
-/// Scales of a car relative to the Prius, for which gains and weights were chosen. In these units
-/// cars of any wheelbase and steering rate behave alike.
+/// Scales of a car relative to the Prius, for which gains and weights were chosen. In units of
+/// these scales, cars of any wheelbase and steering rate behave alike.
 struct CarScale {
-  double length = 1.0;  ///< wheelbase: L/2.7 m
-  double time = 1.0;    ///< time in which the wheels turn: 0.1506 rad/s over omega
+  double length = 1.0;  ///< Scale of lengths: the wheelbase L over 2.7 m.
+  double time = 1.0;    ///< Scale of times, in which the wheels turn: 0.1506 rad/s over omega.
 };
 
 CarScale ComputeCarScale(const VehicleParams& vehicle);
 
-/// Whether the tyres are known, so that models beyond the kinematic one apply.
+/// Whether the tyres are known, so that dynamic models of the car apply.
 bool HasTyres(const VehicleParams& vehicle);
 
 /// Cornering stiffness of both tyres of each axle [N/rad].
@@ -36,29 +36,31 @@ struct CorneringStiffness {
 Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
                                          const CorneringStiffness& stiffness, double speed);
 
-/// Steady circular motion with the rear axle on the circle: the steady state of SingleTrackCar, or
-/// of KinematicCar for a car without tyre coefficients.
+/// Steady circular motion with the rear axle on the circle. The turn is the steady state of
+/// SingleTrackCar, or of KinematicCar for a car without tyre coefficients.
 struct SteadyTurn {
-  double steering = 0.0;       ///< delta_0 [rad]: tan(delta_0) = kappa (L + K u |u|)
-  double heading_error = 0.0;  ///< psi_0 [rad]: the rear axle's slip angle with opposite sign
-  double lateral_speed = 0.0;  ///< v at the center of gravity [m/s]
-  double yaw_rate = 0.0;       ///< r = u kappa [rad/s]
+  double steering = 0.0;       ///< Steering angle delta_0 [rad], with tan(delta_0) = kappa (L + K u
+                               ///< |u|).
+  double heading_error = 0.0;  ///< Heading error psi_0 [rad]: the negative slip angle of the rear
+                               ///< axle.
+  double lateral_speed = 0.0;  ///< Lateral speed v at the center of gravity [m/s].
+  double yaw_rate = 0.0;       ///< Yaw rate r = u kappa [rad/s].
 };
 
-/// `speed` u is signed.
+/// The `speed` u is signed.
 SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double speed);
 
 /// The intended motion of a car.
 struct Motion {
-  double curvature = 0.0;     ///< of the path [1/m]
-  double speed = 0.0;         ///< u [m/s], signed
-  double acceleration = 0.0;  ///< of abs(u) [m/s^2]
+  double curvature = 0.0;     ///< Curvature of the path [1/m].
+  double speed = 0.0;         ///< Speed u [m/s], signed.
+  double acceleration = 0.0;  ///< Rate of change of abs(u) [m/s^2].
 };
 
-/// The turn that is steady except for the speed, and the axle stiffness in that turn.
+/// A turn that is steady except for the speed, and the stiffness of the axles in the turn.
 struct TurnOperation {
   SteadyTurn turn;
-  CorneringStiffness stiffness;  ///< 0 without tyre coefficients
+  CorneringStiffness stiffness;  ///< stiffness of the axles; 0 without tyre coefficients
 };
 
 TurnOperation OperateOn(const VehicleParams& vehicle, TyreForces tyres, const Motion& motion);

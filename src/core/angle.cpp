@@ -8,7 +8,7 @@ double WrapAngle(double angle) {
   if (angle > -kPi && angle <= kPi) {
     return angle;
   }
-  const double wrapped = std::remainder(angle, 2.0 * kPi);  // in [-pi, pi]
+  const double wrapped = std::remainder(angle, 2.0 * kPi);  // in the interval [-pi, pi]
   return wrapped <= -kPi ? kPi : wrapped;
 }
 

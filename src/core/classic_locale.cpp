@@ -8,7 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// State that is restored when the last user ends. One per process, like the locale.
+/// State that the last user of the locale restores. A process has only one saved state, because it
+/// has only one locale.
 struct SavedLocale {
   std::mutex mutex;
   int users = 0;

@@ -17,7 +17,7 @@ std::string Join(const std::vector<Problem>& problems) {
   return text;
 }
 
-/// Shortens a text: a file may contain a word of a million letters.
+/// Shortens a text, because a file may contain a word of a million letters.
 std::string Cut(const std::string& text) {
   constexpr std::size_t kMaxMessageLength = 4000;
   if (text.size() <= kMaxMessageLength) {

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
       fmt::format("cannot {} {}: {}", what, file.string(), std::generic_category().message(error)));
 }
 
-/// Returns 0 or an errno.
+/// Writes all of the content. Returns 0 or an errno.
 int WriteAll(int out, std::string_view content) {
   while (!content.empty()) {
     const ssize_t written = ::write(out, content.data(), content.size());
@@ -38,7 +38,8 @@ int WriteAll(int out, std::string_view content) {
   return 0;
 }
 
-/// Devices and pipes (/dev/stdout, /dev/full) can be written but not replaced.
+/// Whether the file is a device or pipe (/dev/stdout, /dev/full), which can be written but not
+/// replaced.
 bool IsDevice(const fs::path& file) {
   struct stat existing {};
   return ::stat(file.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode) &&
@@ -54,7 +55,7 @@ namespace {
       fmt::format("cannot read {}: it has more than {} MiB", file.string(), max_bytes >> 20U));
 }
 
-/// "a pipe", "a device", ...
+/// Kind of a file as a text for people, for example "a pipe" or "a device".
 const char* KindOf(mode_t mode) {
   return S_ISFIFO(mode)                   ? "a pipe"
          : S_ISCHR(mode) || S_ISBLK(mode) ? "a device"
@@ -80,12 +81,13 @@ Descriptor OpenInput(const fs::path& file) {
   if (::stat(file.c_str(), &status) != 0) {
     Fail("read", file, errno);
   }
-  RequireRegular(file, status);  // before opening: that of a device may have an effect
+  // Check before opening, because opening a device may have an effect.
+  RequireRegular(file, status);
   Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (in.get() < 0 || ::fstat(in.get(), &status) != 0) {
     Fail("read", file, errno);
   }
-  RequireRegular(file, status);  // another file may have taken its name meanwhile
+  RequireRegular(file, status);  // another file may have taken the name since the first check
   return in;
 }
 
@@ -120,7 +122,7 @@ void ReadBlocks(const fs::path& file, const std::function<bool(std::string_view 
     }
     const auto size = static_cast<std::size_t>(got);
     bytes += size;
-    if (bytes > max_bytes) {  // a file that grows, or one of /proc
+    if (bytes > max_bytes) {  // reached if the file grows, or if it is a file of /proc
       FailAsTooLarge(file, max_bytes);
     }
     if (size == 0 || !take({block.data(), size})) {
@@ -157,7 +159,7 @@ fs::path TemporaryName(const fs::path& file, int number) {
   return name;
 }
 
-/// Whether `name` is one of TemporaryName.
+/// Whether `name` is a name that TemporaryName returns.
 bool IsTemporaryName(std::string_view name) {
   const std::size_t mark = name.rfind(kTemporary);
   if (mark == std::string_view::npos || !name.starts_with('.')) {
@@ -176,7 +178,8 @@ bool IsTemporaryName(std::string_view name) {
          take_digits() == '-' && take_digits() == '.';
 }
 
-/// Locks a new temporary, unless another process has taken it for abandoned before that.
+/// Locks a new temporary file. Returns false if another process takes the file for abandoned and
+/// has already locked or removed it.
 bool IsOurs(int descriptor) {
   const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   struct stat status {};
@@ -186,7 +189,8 @@ bool IsOurs(int descriptor) {
 }  // namespace
 
 TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)) {
-  // The number keeps apart the threads of a process, and a process from a killed one of its id.
+  // The number gives each thread of a process its own name. The number also avoids the names that a
+  // killed process with the same process id left behind.
   for (int number = 0;; ++number) {
     path_ = TemporaryName(file_, number);
     descriptor_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -219,7 +223,8 @@ void TemporaryFile::Publish() {
   if (const int error = descriptor_.Close(); error != 0) {
     Fail("write", file_, error);
   }
-  // A link stays a link: what it points to is replaced. A device or pipe must not be replaced.
+  // A link remains a link: the file that the link points to is replaced. A device or pipe must not
+  // be replaced.
   std::error_code error_code;
   const fs::path real = fs::is_symlink(file_) ? fs::weakly_canonical(file_, error_code) : file_;
   if (fs::is_directory(real, error_code)) {
@@ -346,7 +351,7 @@ void MakeFolder(const fs::path& folder) {
 
 namespace {
 
-/// Without links and dots, also when the last parts of it do not exist.
+/// The path without links and dots. The last parts of the path need not exist.
 fs::path RealPath(const fs::path& path) {
   std::error_code error;
   const fs::path absolute = fs::absolute(path.empty() ? "." : path, error);
@@ -358,7 +363,7 @@ bool IsInside(const fs::path& real_file, const fs::path& folder) {
   const fs::path real_folder = RealPath(folder / "");
   const auto [of_folder, of_file] =
       std::mismatch(real_folder.begin(), real_folder.end(), real_file.begin(), real_file.end());
-  // A folder's path may end in an empty part, after the slash.
+  // The path of a folder may end in an empty part, after the slash.
   return of_folder == real_folder.end() || of_folder->empty();
 }
 

@@ -20,10 +20,10 @@ namespace {
 /// Selects the columns to read.
 struct Selection {
   bool all = true;
-  std::vector<std::string> needed{};    // if not all: required columns,
-  std::vector<std::string> optional{};  // and optional columns
-  bool finite = false;                  // whether cells must be finite
-  bool empty = false;                   // whether cells may be empty; they are NaN
+  std::vector<std::string> needed{};    // Columns that the table must have, if `all` is false.
+  std::vector<std::string> optional{};  // Columns that the table may have, if `all` is false.
+  bool finite = false;                  // Whether cells must be finite.
+  bool empty = false;                   // Whether cells may be empty; empty cells are NaN.
 
   [[nodiscard]] bool Takes(const std::string& column) const {
     return all || std::find(needed.begin(), needed.end(), column) != needed.end() ||
@@ -35,20 +35,22 @@ struct Selection {
 struct Reader {
   std::string file;
   Selection selection;
-  std::function<void(const std::vector<double>& numbers, int line)> take{};  // none: to the table
+  // Receives the rows; if this function is empty, the table receives the rows.
+  std::function<void(const std::vector<double>& numbers, int line)> take{};
   std::optional<Table> table{};
-  std::vector<int> lines{};           // line of each row of the table
-  std::vector<std::string> header{};  // all column names of the file
-  std::vector<std::size_t> taken{};   // for each column of the table, its index in `header`
-  std::vector<std::string> cells{};   // of the current row
-  int line = 1;                       // on which the current row begins
+  std::vector<int> lines{};           // Line of each row of the table.
+  std::vector<std::string> header{};  // All column names of the file.
+  std::vector<std::size_t> taken{};   // For each column of the table, its index in `header`.
+  std::vector<std::string> cells{};   // Cells of the current row.
+  int line = 1;                       // Line on which the current row begins.
   ProblemList problems{};
 
   void AddError(std::string key, std::string message) {
     problems.Add({file, line, 0, std::move(key), std::move(message)});
   }
 
-  /// libcsv does not count characters: locates a cell by its number, from 1, and its column.
+  /// Locates a cell by its number, counted from 1, and its column, because libcsv does not count
+  /// characters.
   void AddCellError(std::size_t cell, std::string message) {
     const std::string& column = header[cell];
     const std::string name = column.empty() ? "" : fmt::format(" ({})", column);
@@ -127,7 +129,7 @@ struct Reader {
   }
 };
 
-/// Reads the whole file. InputError if any part of it cannot be read.
+/// Reads the whole file. Throws InputError if any part of the file cannot be read.
 void ReadThrough(const std::filesystem::path& file, const CsvLimits& limits, Reader& reader) {
   ReadCsvRows(file, limits, reader.problems, [&](std::vector<std::string>& cells, int line) {
     reader.cells.swap(cells);
@@ -203,7 +205,8 @@ std::string Table::ToCsv() const {
   const std::size_t width = columns_.size();
   for (std::size_t row = 0; row < rows(); ++row) {
     for (std::size_t column = 0; column < width; ++column) {
-      // `+ 0.0` turns a negative zero into zero, because its sign is only noise in a log.
+      // Adding 0.0 turns a negative zero into zero, because the sign of a zero is only noise in a
+      // log.
       fmt::format_to(fmt::appender(out), FMT_COMPILE("{}"), at(row, column) + 0.0);
       out.push_back(column + 1 < width ? ',' : '\n');
     }

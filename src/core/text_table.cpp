@@ -18,7 +18,7 @@ std::string CsvLine(const std::vector<std::string>& cells) {
   std::string csv;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     csv += i == 0 ? "" : ",";
-    // Quote a single empty cell: readers skip empty lines.
+    // Quote a single empty cell, because readers skip empty lines.
     if (cells[i].find_first_of(",\"\r\n") == std::string::npos &&
         !(cells.size() == 1 && cells[i].empty())) {
       csv += cells[i];
@@ -43,12 +43,12 @@ std::optional<double> CellNumber(const std::string& cell) {
 }
 
 std::string ShortestText(double number) {
-  return fmt::format("{}", number + 0.0);  // `+ 0.0` turns a negative zero into zero
+  return fmt::format("{}", number + 0.0);  // adding 0.0 turns a negative zero into zero
 }
 
 std::pair<std::string, std::string> FormatDistinct(double first, double second) {
   std::pair<std::string, std::string> texts;
-  constexpr int kRoundTripDigits = 17;  // enough to distinguish any two doubles
+  constexpr int kRoundTripDigits = 17;  // enough digits to distinguish any two doubles
   for (int digits = 4; digits <= kRoundTripDigits; ++digits) {
     texts = {fmt::format("{:.{}g}", first, digits), fmt::format("{:.{}g}", second, digits)};
     if (first == second || texts.first != texts.second) {
@@ -77,7 +77,7 @@ std::string TextTable::ToCsv() const {
 }
 
 TextTable ReadTextCsv(const std::filesystem::path& file) {
-  constexpr std::size_t kMaxCells = 10'000'000;  // at least 32 bytes each
+  constexpr std::size_t kMaxCells = 10'000'000;  // each cell takes at least 32 bytes
   ProblemList problems;
   std::optional<TextTable> table;
   ReadCsvRows(

@@ -39,7 +39,7 @@ std::optional<Scene> SceneInWorld(const Scenario& scenario, const CarModel& car)
   return empty ? std::nullopt : std::optional(WithWorld(car.scene(), car.params(), world));
 }
 
-/// Cache key: everything from which a model is compiled.
+/// Cache key: all data from which a model is compiled.
 std::string KeyOf(const Scene& scene, const fs::path& file) {
   std::string key = fmt::format("{}\n{}", file.string(), scene.xml);
   for (const SceneAsset& asset : scene.assets) {

@@ -18,17 +18,17 @@
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 
-// Simulates a controller and a plant in a closed loop. A control period:
-//   1. Observe the plant; switch to a replanned path or the next segment if one is due.
+// Simulates a controller and a plant in a closed loop. Each control period has these steps:
+//   1. Observe the plant. Switch to a replanned path or the next segment if one is due.
 //   2. End the run if the termination criteria are met (termination.h).
-//   3. Steering and acceleration from the controller, speed options or the plan's speed profile, in
-//      turn changed by disturbances; log the row.
+//   3. Compute steering and acceleration from the controller, the speed options or the plan's speed
+//      profile. Apply the disturbances and log the row.
 //   4. Step the plant until the next period. Prescribed angles and steering schedules change with
-//      every step, other commands are held.
+//      every step; other commands are held.
 namespace trackbed {
 namespace {
 
-/// Calls back at each additional percent.
+/// Reports the progress at each additional percent.
 class Progress {
  public:
   explicit Progress(const std::function<void(double)>& callback) : callback_(callback) {}
@@ -46,7 +46,7 @@ class Progress {
   int last_ = 0;
 };
 
-/// Simulates one run. Keeps references to its arguments, which must outlive it.
+/// Simulates one run. ClosedLoop keeps references to its arguments, which must outlive it.
 class ClosedLoop {
  public:
   ClosedLoop(Plant& plant, SteeringController& controller, const FeasiblePlan& plan,
@@ -58,33 +58,34 @@ class ClosedLoop {
   /// The state at the beginning of a control period.
   [[nodiscard]] VehicleState Observe(long tick) const;
 
-  /// Switches to a new plan or to the next segment if one is due. Returns the projection onto it;
-  /// none without a path.
+  /// Switches to a new plan or to the next segment if one is due. Returns the car's projection onto
+  /// the plan, or none without a path.
   std::optional<Projection> FollowPlan(const VehicleState& state, bool at_rest);
 
-  /// The status if the run has ended.
-  /// Whether the car is at rest to stay: it is not asked to move, or it is at the end of its
-  /// segment and does not move although it is asked to, as on a grade.
+  /// The status of the run if it has ended. Whether the car is at rest to stay. A car rests if it
+  /// has no command to move. It also rests at the end of its segment if it cannot move despite a
+  /// command, as on a grade.
   bool Rests(const VehicleState& state);
 
   std::optional<DriveStatus> Ending(const VehicleState& state, bool at_rest);
 
-  /// Computes the command for the coming period, and logs it in `row`. Returns the controller's
-  /// input.
+  /// Computes the command for the coming period and logs it in `row`. Control() returns the
+  /// controller's input.
   ControlInput Control(const VehicleState& state, LogRow& row);
   double Steer(const ControlInput& input);
   /// Commanded acceleration along x [m/s^2] over `input.period`, in the control period of `row`.
   double Accelerate(const ControlInput& input, const LogRow& row);
-  /// Acceleration in order of precedence: options over time, the controller, the plan's profile.
+  /// The wanted acceleration. Options over time precede the controller, and the controller precedes
+  /// the plan's profile.
   double WantedAcceleration(const ControlInput& input, const Vec2& position);
-  /// LogRow::planned_speed.
+  /// Planned speed of the car for LogRow::planned_speed.
   [[nodiscard]] std::optional<double> PlannedSpeed(const VehicleState& state) const;
 
   /// Steps the plant for the control period of `row`.
   void StepPlant(long tick, const ControlInput& input, const LogRow& row);
   [[nodiscard]] Command CommandAt(int step, const ControlInput& input, const LogRow& row);
-  /// Command of a steering schedule, which is a function of the distance and evaluated in every
-  /// step.
+  /// Command of a steering schedule, which is a function of the distance and is evaluated in every
+  /// physics step.
   [[nodiscard]] Command ScheduledCommand(int step, const ControlInput& input, const LogRow& row);
 
   void ReportProgress(const VehicleState& state);
@@ -93,8 +94,8 @@ class ClosedLoop {
   SteeringController& controller_;
   const LoopConfig& config_;
   VehicleState start_;
-  VehicleParams controlled_;  // the nominal vehicle, known to the controller
-  int steps_;                 // plant steps per control period
+  VehicleParams controlled_;  // The nominal vehicle, known to the controller.
+  int steps_;                 // Plant steps per control period.
   SegmentSequencer sequencer_;
   std::optional<ReplanningMonitor> monitor_;
   FaultInjector faults_;
@@ -103,10 +104,11 @@ class ClosedLoop {
   Standstill standstill_;
   Progress progress_;
   bool plan_sets_speed_ = false;
-  Command command_;         // the last command
-  double steering_before_;  // start of the ramp of a prescribed steering angle [rad]
-  // Whether a plan that does not stop at an obstacle was adopted in this control period. The last
-  // command, possibly to stop, belongs to the previous plan then and must not end the run.
+  Command command_;         // The last command.
+  double steering_before_;  // Start of the ramp of a prescribed steering angle [rad].
+  // Whether a plan that does not stop at an obstacle was adopted in this control period. When the
+  // plan changes, the last command, possibly to stop, belongs to the previous plan and must not end
+  // the run.
   bool continues_past_obstacle_ = false;
 };
 
@@ -153,7 +155,7 @@ RunLog ClosedLoop::Run() {
     row.tracking = FollowPlan(state, at_rest);
     if (const std::optional<DriveStatus> status = Ending(state, at_rest)) {
       if (*status != DriveStatus::kDiverged || tick == 0) {
-        recorder_.AddRow(row);  // with the last command
+        recorder_.AddRow(row);  // the row is logged with the last command
       }
       progress_.Report(1.0);
       return recorder_.Finish(*status, termination_.cause());
@@ -167,7 +169,7 @@ RunLog ClosedLoop::Run() {
 
 VehicleState ClosedLoop::Observe(long tick) const {
   VehicleState state = plant_.Observe();
-  // Rounds to nanoseconds: 11.7, not 11.700000000000001.
+  // Rounds the time to nanoseconds: 11.7, not 11.700000000000001.
   state.time = std::round(static_cast<double>(tick) * config_.control_period * 1e9) / 1e9;
   return state;
 }
@@ -178,7 +180,7 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
     return std::nullopt;
   }
   continues_past_obstacle_ = false;
-  // No replanning after a collision, since the car no longer follows its plan.
+  // There is no replanning after a collision, since the car no longer follows its plan.
   if (monitor_ && !recorder_.contact_time()) {
     const Projection at{sequencer_.station(), tracking->cross_track, tracking->heading_error};
     if (std::optional<FeasiblePlan> next = monitor_->Update(state, sequencer_.plan(), at)) {
@@ -199,8 +201,9 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
 }
 
 bool ClosedLoop::Rests(const VehicleState& state) {
-  // A car that leaves rest at 0.02 m/s^2 moves by more than a Standstill's centimeter within it.
-  constexpr double kMinRestDuration = 1.0;  // [s]
+  // Within this duration, a car that leaves rest at 0.02 m/s^2 moves by more than the centimeter of
+  // Standstill.
+  constexpr double kMinRestDuration = 1.0;  // Duration of rest [s].
   const bool steers = sequencer_.stationary_steer().InProgress();
   const std::optional<double> since = standstill_.Update(state, !steers);
   if (steers || IsAtRest(state, command_)) {
@@ -275,7 +278,8 @@ double ClosedLoop::Accelerate(const ControlInput& input, const LogRow& row) {
 }
 
 double ClosedLoop::WantedAcceleration(const ControlInput& input, const Vec2& position) {
-  const double speed = command_.gear * input.state.speed;  // negative if the car rolls backward
+  const double speed = command_.gear * input.state.speed;  // speed along the gear; negative if the
+                                                           // car rolls backward
   std::optional<double> own =
       TimedSpeedControl(config_.speed, input.state.time, speed, input.period);
   if (!own) {
@@ -297,7 +301,7 @@ std::optional<double> ClosedLoop::PlannedSpeed(const VehicleState& state) const 
   if (!sequencer_.has_path() || !plan_sets_speed_) {
     return std::nullopt;
   }
-  // A stop is judged to the goal tolerance, and so are the speeds on the way to it.
+  // The stop at the goal is judged to the goal tolerance, and so are the speeds before the stop.
   const double to = sequencer_.StationFor(state);
   const double from = to - config_.goal_tolerance * config_.vehicle.length -
                       std::abs(state.speed) * config_.control_period;
@@ -328,7 +332,8 @@ Command ClosedLoop::CommandAt(int step, const ControlInput& input, const LogRow&
   }
   Command now = command_;
   if (config_.steering_input == SteeringInput::kPrescribed) {
-    // The commanded angle holds at the end of the period; steps interpolate.
+    // The commanded angle holds at the end of the period; the physics steps before the end
+    // interpolate.
     now.steering =
         std::lerp(steering_before_, command_.steering, static_cast<double>(step + 1) / steps_);
   }

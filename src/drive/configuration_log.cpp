@@ -31,7 +31,7 @@ void ConfigurationLog::Record(const Plant& plant, double time) {
   if (table_.columns().size() == 1) {
     return;
   }
-  // Tolerance of half a microsecond: sums of timesteps may be below the multiple by rounding.
+  // The tolerance is half a microsecond: by rounding, sums of timesteps may be below the multiple.
   if (time + 5e-7 < period_ * static_cast<double>(next_)) {
     return;
   }

@@ -10,16 +10,17 @@
 
 namespace trackbed {
 
-/// Logs configurations at the first physics step at or after every multiple of a period.
+/// Logs the plant's configuration at the first physics step at or after every multiple of a period.
 class ConfigurationLog {
  public:
-  /// `columns` name the numbers of the plant's configuration; if empty, nothing is logged. Columns
-  /// of moving obstacles contain their planned positions, even if the plant does not simulate them.
+  /// `columns` name the numbers of the plant's configuration. If `columns` is empty, nothing is
+  /// logged. Columns of moving obstacles contain their planned positions, even if the plant does
+  /// not simulate them.
   ConfigurationLog(const std::vector<std::string>& columns, const World& world, double period);
 
   void Record(const Plant& plant, double time);
 
-  /// The table logged so far.
+  /// The table of configurations logged so far.
   [[nodiscard]] const Table& table() const { return table_; }
 
   Table Take() { return std::move(table_); }
@@ -30,8 +31,9 @@ class ConfigurationLog {
   double period_;
   long next_ = 0;
   Table table_;
-  std::vector<double> row_;                             // the last row
-  std::vector<std::pair<std::size_t, double>> moving_;  // column and speed [m/s] of obstacles
+  std::vector<double> row_;                             // The last row of the table.
+  std::vector<std::pair<std::size_t, double>> moving_;  // Column and speed [m/s] of each moving
+                                                        // obstacle.
 };
 
 }  // namespace trackbed

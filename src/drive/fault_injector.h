@@ -14,14 +14,14 @@ namespace trackbed {
 /// The vehicle as known to its controller.
 VehicleParams NominalVehicle(const Disturbances& disturbances, VehicleParams vehicle);
 
-/// Injects the disturbances of one run. Random numbers depend on the seed only and are the same for
+/// Injects the disturbances of one run. Random numbers depend only on the seed and are the same for
 /// every plant.
 class FaultInjector {
  public:
   struct Options {
-    double timestep = 0.0;        ///< of the physics [s]
-    double start_steering = 0.0;  ///< of wheels and actuator [rad]
-    SpeedControlOptions speed{};  ///< deceleration for a speed loss
+    double timestep = 0.0;        ///< Timestep of the physics [s].
+    double start_steering = 0.0;  ///< Initial angle of wheels and actuator [rad].
+    SpeedControlOptions speed{};  ///< Options that define the deceleration for a speed loss.
     std::uint64_t seed = 0;
   };
 
@@ -30,14 +30,14 @@ class FaultInjector {
   /// The noisy measurement of a pose in this control period; none without noise.
   std::optional<Pose2> Measure(const Pose2& pose);
 
-  /// Applies a speed loss to a commanded acceleration [m/s^2] along the gear, for a car with
-  /// `speed` [m/s] along the gear at `station` of the log.
+  /// Applies a speed loss to a commanded acceleration [m/s^2]. Acceleration and `speed` [m/s] are
+  /// along the gear; `station` is that of the log.
   double LimitSpeed(double acceleration, double speed, double time, double station);
 
-  /// Steering angle [rad] at the actuator in the coming physics step, after steering faults.
+  /// Steering angle at the actuator in the coming physics step, with steering faults [rad].
   double Steer(double wanted) { return steering_.Pass(wanted); }
 
-  /// Applies the lateral kicks due in the run's physics step `step`, counted from 0.
+  /// Applies the lateral kicks due in the physics step `step`, counted from 0.
   void Kick(long step, Plant& plant) const;
 
  private:

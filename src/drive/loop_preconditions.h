@@ -5,7 +5,7 @@
 
 namespace trackbed {
 
-/// PreconditionError for the first invalid argument of SimulateClosedLoop.
+/// Throws PreconditionError for the first invalid argument of SimulateClosedLoop.
 void CheckLoopArguments(const Plant& plant, const Plan& plan, const LoopConfig& config);
 
 }  // namespace trackbed

@@ -18,12 +18,12 @@
 namespace trackbed {
 namespace {
 
-/// Adds a note on turns driven below the mission's speed, unless the plan has notes.
+/// Adds a note about turns driven below the mission's speed, unless the plan has notes.
 void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   const auto slowest =
       std::min_element(plan->caps.begin(), plan->caps.end(),
                        [](const SpeedCap& a, const SpeedCap& b) { return a.speed < b.speed; });
-  constexpr double kNotedFraction = 0.99;  // of the speed
+  constexpr double kNotedFraction = 0.99;  // fraction of the mission's speed
   if (plan->notes.empty() && slowest != plan->caps.end() &&
       slowest->speed < kNotedFraction * speed) {
     plan.AddNote(fmt::format("speed reduced to {:.3g} m/s in a turn at s = {:.4g} m",
@@ -31,7 +31,7 @@ void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   }
 }
 
-/// Adds a note on an obstacle on the path, for planners that ignore obstacles.
+/// Adds a note about an obstacle on the path, for planners that ignore obstacles.
 void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
                   const std::vector<OrientedBox>& known) {
   const CollisionChecker touching(vehicle, known, 0.0);
@@ -40,7 +40,7 @@ void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
   }
 }
 
-/// The different friction factors in a world.
+/// The distinct friction factors in a world.
 std::vector<double> Roads(const World& world) {
   std::vector<double> roads{world.friction};
   for (const FrictionPatch& patch : world.friction_patches) {
@@ -51,7 +51,7 @@ std::vector<double> Roads(const World& world) {
   return roads;
 }
 
-/// The route on the world's road network; empty without one.
+/// The mission's route on the world's road network; empty without a route.
 LaneMission MakeLaneMission(const Scenario& scenario) {
   const auto& roads = scenario.world.road_network;
   return roads && roads->data
@@ -59,8 +59,8 @@ LaneMission MakeLaneMission(const Scenario& scenario) {
              : LaneMission{};
 }
 
-/// Limits of a speed profile at the limit, if the mission has one. `diagram` returns the g-g-v
-/// diagram for given friction factors.
+/// Limits for a speed profile at the limit, if the mission has such a profile. `diagram` returns
+/// the g-g-v diagram for given friction factors.
 template <typename Diagram>
 std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const Diagram& diagram) {
   const auto& profile = scenario.mission.speed_profile;

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Wraps a recorded drive as a plant, so that its configurations can be logged.
+/// Wraps a recorded drive as a plant, so that the drive's configurations can be logged.
 class RecordedCar final : public Plant {
  public:
   RecordedCar(const CarModel& model, const RecordedDrive& drive) : model_(model), drive_(drive) {

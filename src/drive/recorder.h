@@ -13,22 +13,23 @@ namespace trackbed {
 /// Records the log of one run: rows, plan changes, configurations and the first contact.
 class Recorder {
  public:
-  /// Keeps references to world, vehicle and hooks of the configuration, which must outlive it.
+  /// The recorder keeps references to world, vehicle and hooks of the configuration, which must
+  /// outlive it.
   Recorder(const LoopConfig& config, std::vector<std::string> controller_columns);
 
-  /// Must be called at the start and after every physics step, with the plant's state at `time`
-  /// [s].
+  /// Sample() must be called at the start and after every physics step, with the plant's state at
+  /// `time` [s].
   void Sample(const Plant& plant, double time);
 
-  /// Begins a row: `state` with the extremes since the last row, the last command, and the
+  /// Begins a row with `state`, the extremes since the last row, the last command, and the
   /// controller's values for that command.
   LogRow BeginRow(const VehicleState& state, const Command& command,
                   std::vector<double> controller_values);
-  /// Adds a row, and calls the hook `logged` (DriveHooks) if it is set.
+  /// Adds a row and, if set, calls the hook `logged` (DriveHooks).
   void AddRow(const LogRow& row);
   void AddPlanChange(PlanChange change) { log_.changes.push_back(std::move(change)); }
 
-  /// Time of the first contact with an obstacle [s]; none without contact.
+  /// Time of the first contact with an obstacle [s]; none if there is no contact.
   [[nodiscard]] const std::optional<double>& contact_time() const {
     return collisions_.contact_time();
   }

@@ -10,18 +10,18 @@
 
 // Decides in every control period whether to plan again:
 //   1. Note the obstacles that become known.
-//   2. On the route, call the avoider (if configured) for obstacles in turns that block the plan,
-//      once its delay has passed.
-//   3. Otherwise replan (if configured) at multiples of its period, or at once if a new obstacle is
-//      within stopping distance.
+//   2. On the route, call the avoider, if configured, for obstacles in turns that block the plan.
+//      The avoider is called once its delay has passed.
+//   3. If the avoider is not called, replan, if configured, at multiples of the replanning period.
+//      Replan at once if a new obstacle is within stopping distance.
 namespace trackbed {
 namespace {
 
-constexpr double kSameTime = 1e-9;  // [s]
-/// Deviations from the plan from which a car counts as having strayed.
-constexpr double kStrayed = 0.5;         // [m]
-constexpr double kStrayedHeading = 0.2;  // [rad]
-constexpr double kStrayedSpeed = 1.0;    // [m/s]
+constexpr double kSameTime = 1e-9;  // Tolerance of times [s].
+/// Deviations from the plan above which a car counts as having strayed.
+constexpr double kStrayed = 0.5;         // Distance from the plan [m].
+constexpr double kStrayedHeading = 0.2;  // Difference of the heading [rad].
+constexpr double kStrayedSpeed = 1.0;    // Difference of the speed [m/s].
 
 }  // namespace
 
@@ -63,7 +63,7 @@ void ReplanningMonitor::UpdateKnowledge(const VehicleState& state) {
     Knowledge& known = knowledge_[i];
     if (!known.since && IsKnown(options_.world.obstacles[i], state.time, footprint)) {
       known.since = state.time;
-      known.avoided = state.time == 0.0;  // the mission's planner knew it
+      known.avoided = state.time == 0.0;  // the mission's planner already knew the obstacle
     }
   }
 }
@@ -109,7 +109,7 @@ std::optional<FeasiblePlan> ReplanningMonitor::Avoid(const VehicleState& state, 
                                    *config.avoid);
   if (config.replan) {
     if (!around->blocked.empty()) {
-      return std::nullopt;  // the avoider finds no path; replanning may find one
+      return std::nullopt;  // the avoider finds no path, but replanning may find one
     }
     SetRoute(around);
   }
@@ -144,9 +144,8 @@ std::vector<MovingBox> ReplanningMonitor::KnownObstacles(const VehicleState& sta
       continue;
     }
     const OrientedBox box = FootprintAt(obstacle, state.time);
-    // The avoider handles an obstacle before replanning does, once the avoider's delay has passed.
-    // If it finds no path, replanning handles the
-    // obstacle.
+    // The avoider handles an obstacle before the replanner, once the avoider's delay has passed. If
+    // the avoider finds no path, replanning handles the obstacle.
     const bool for_avoider =
         !knowledge_[i].avoided && driving_.on_route &&
         IsForAvoider(options_.replanning, options_.vehicle, path, station, box);
@@ -184,7 +183,7 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
   constexpr double kSpacing = 1.0;          // [m]
   constexpr double kMinDeceleration = 0.1;  // [m/s^2]
   double hardest = MaxDeceleration(options_.vehicle, 1.0);
-  // Low friction extends the range of the search, since the car needs longer to stop.
+  // Low friction extends the range of the search, since the car then needs longer to stop.
   for (double ahead = 0.0; hardest > kMinDeceleration && 2.0 * hardest * ahead <= speed * speed;
        ahead += kSpacing) {
     const PathPoint at = path.At(station + ahead);
@@ -193,8 +192,8 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
       road = std::min(road, RoadFactor(options_.world, corner));
     }
     const double grip = MaxDeceleration(options_.vehicle, road);
-    // Friction ellipse: lateral force in a bend, at the speed reached there, reduces the braking
-    // force. At least about a third of it (sqrt 0.1) remains: a car too fast for the bend slides
+    // Friction ellipse: in a bend, the lateral force reduces the braking force. At least about a
+    // third of the braking force (sqrt 0.1) remains, since a car too fast for the bend slides
     // anyway.
     const double across = (speed * speed - 2.0 * hardest * ahead) * std::abs(at.curvature);
     const double most = MaxLateralAcceleration(options_.vehicle, road);

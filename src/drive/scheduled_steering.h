@@ -9,18 +9,19 @@ namespace trackbed {
 
 /// Motion of a car along its plan at the start of a physics step.
 struct MotionAlong {
-  double distance = 0.0;      ///< on the plan's odometer [m]
-  double speed = 0.0;         ///< [m/s], >= 0
-  double acceleration = 0.0;  ///< [m/s^2], along the path
+  double distance = 0.0;      ///< Distance on the plan's odometer [m].
+  double speed = 0.0;         ///< Speed, >= 0 [m/s].
+  double acceleration = 0.0;  ///< Acceleration along the path [m/s^2].
 };
 
-/// The command for a steering actuator in one physics step, so that its angle follows a schedule
-/// over distance [rad]. `rate` is the actuator's rate [rad/s]. 0: an actuator without delay, which
-/// follows the schedule at the end of each step.
+/// The command for a steering actuator in one physics step, with which its angle follows a schedule
+/// over distance [rad]. `rate` is the maximum rate of the actuator [rad/s]. A rate of 0 is an
+/// actuator without delay, which follows the schedule at the end of each step.
 ///
 /// An actuator turns at its full rate and then waits for the next step. On a ramp slower than its
-/// rate it leads by half of the waiting time on average, so the commanded angle is that of half the
-/// waiting time earlier. On a ramp at full rate it never waits.
+/// rate, the actuator is ahead by half of the waiting time on average. The commanded angle is
+/// therefore that of the schedule, half the waiting time earlier. On a ramp at full rate, the
+/// actuator never waits.
 inline double ScheduledSteering(const SteeringSchedule& schedule, const MotionAlong& motion,
                                 double timestep, double rate) {
   const auto after = [&](double time) {

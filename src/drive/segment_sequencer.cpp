@@ -38,7 +38,7 @@ void StationarySteer::Begin() {
 }
 
 void StationarySteer::Update(double steering) {
-  constexpr double kMaxSteeringChange = 1e-4;  // [rad] in a control period
+  constexpr double kMaxSteeringChange = 1e-4;  // steering change in a control period [rad]
   in_progress_ = in_progress_ && !(std::abs(steering - last_steering_) < kMaxSteeringChange);
   last_steering_ = steering;
 }
@@ -99,8 +99,8 @@ bool SegmentSequencer::IsAtEnd(const VehicleState& state) const {
     const double reach = std::min(options_.goal_tolerance, 0.5 * path.length());
     return StationFor(state) >= path.length() - reach;
   }
-  // The station tells the end of a loop from its start. Up to half a turn, an arc is at most pi/2
-  // times as long as its chord.
+  // The station distinguishes the end of a loop from the start of the loop. An arc of at most half
+  // a turn is at most pi/2 times as long as its chord.
   const Vec2 place = state.pose.position();
   const double away = std::min((path.At(path.length()).pose.position() - place).norm(),
                                (plan_.goal.position() - place).norm());

@@ -6,11 +6,11 @@
 
 namespace trackbed {
 
-/// How long a car has stood: moved by no more than a centimeter.
+/// Measures how long a car has stood, which means moved by no more than a centimeter.
 class Standstill {
  public:
-  /// The time since which it stands [s]; none if it does not, or if `counts` is false. Called once
-  /// per control period.
+  /// The time since which the car stands [s]; none if it moves, or if `counts` is false. Update()
+  /// is called once per control period.
   std::optional<double> Update(const VehicleState& state, bool counts) {
     constexpr double kNoMotion = 0.01;  // [m]
     const Vec2 place = state.pose.position();

@@ -11,12 +11,13 @@
 namespace trackbed {
 namespace {
 
-/// Simulated time after a collision, before the run ends [s].
+/// Simulated time between a collision and the end of the run [s].
 constexpr double kAfterCollision = 1.0;
 
-/// Limit beyond any slope on which a car can stand, and any roll angle from which it recovers.
+/// The limit is beyond any slope on which a car can stand, and beyond any roll angle from which it
+/// recovers.
 bool HasRolledOver(const VehicleState& state) {
-  constexpr double kUpright = 0.5;  // cosine of the angle from the vertical
+  constexpr double kUpright = 0.5;  // cosine of the angle between the car's axis and the vertical
   return std::cos(state.roll) * std::cos(state.pitch) < kUpright;
 }
 

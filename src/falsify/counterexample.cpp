@@ -9,8 +9,8 @@
 namespace trackbed {
 namespace {
 
-/// Expectations that describe the outcome of a run: those that it met, and the opposite of those
-/// that it violated.
+/// Expectations that describe the outcome of a run: the ones that the run met, and the opposite of
+/// the ones that it violated.
 class OutcomeExpectations {
  public:
   /// Returns false if no expectation can express the outcome of the check.
@@ -39,7 +39,7 @@ class OutcomeExpectations {
         break;
     }
     if (!check.other.empty()) {
-      return check.met;  // of `between`, which is kept
+      return check.met;  // a check of the section `between`, which is kept
     }
     return check.relation == Relation::kEquals ? AddEqual(check) : AddLimit(check);
   }
@@ -91,14 +91,14 @@ class OutcomeExpectations {
     }
     (is_upper ? OfMetric(check).max : OfMetric(check).min) = *bound;
     if (check.metric == "cross_track.max" && real != nullptr) {
-      // Without a bound the default of one car width would apply.
+      // Sets a bound explicitly, because otherwise the default of one car width would apply.
       Of(check.plant).max_cross_track = 2.0 * *real;
     }
     return true;
   }
 
   bool AddRequirement(const Check& check) {
-    // The metric is requirements.NAME.robustness.
+    // The name of the metric is requirements.NAME.robustness.
     const std::size_t dot = check.metric.find('.') + 1;
     Of(check.plant)
         .requirements.push_back(
@@ -110,7 +110,8 @@ class OutcomeExpectations {
   std::vector<std::pair<std::string, PlantExpectation>> plants_;
 };
 
-/// Whether the scenario passes. False if a negated requirement is too long or nested too deeply.
+/// Whether the scenario passes. Passes() returns false if a negated requirement is too long or
+/// nested too deeply.
 bool Passes(const Scenario& scenario) {
   try {
     return RunMission(scenario).verdict.passed;

@@ -52,8 +52,8 @@ SearchMethod NloptMethod(const std::string& name) {
   throw InternalError("no search of this name: " + name);
 }
 
-/// Runs several NLopt searches side by side. NLopt requests one value at a time, so each search has
-/// a thread. A batch contains one point of each search that has not ended.
+/// Runs several NLopt searches in parallel. NLopt requests one value at a time, so each search runs
+/// in a separate thread. A batch contains one point of each search that has not ended.
 class NloptSearches : public PointSearch {
  public:
   NloptSearches(const SearchSpec& spec, const SearchSpace& space, int restarts)
@@ -131,8 +131,8 @@ class NloptSearches : public PointSearch {
   struct Lane {
     UnitPoint start;
     State state = State::kRuns;
-    UnitPoint point;     // requested
-    double value = 0.0;  // at `point`
+    UnitPoint point;     // Point at which the search requests a value.
+    double value = 0.0;  // Value of the objective at `point`.
     std::exception_ptr failure;
     std::thread thread;
   };
@@ -183,7 +183,7 @@ class NloptSearches : public PointSearch {
   void RunLane(Lane& lane, std::uint64_t number, int first_runs, int last_runs) {
     try {
       const SearchMethod method = NloptMethod(spec_.method);
-      constexpr std::uint64_t kSeedStride = 1000003;  // between seeds of restarts
+      constexpr std::uint64_t kSeedStride = 1000003;  // difference between the seeds of restarts
       SearchResult best;
       for (std::uint64_t again = 0; first_runs > 0; ++again) {
         const std::uint64_t seed = spec_.seed + number + kSeedStride * again;
@@ -194,14 +194,14 @@ class NloptSearches : public PointSearch {
           best = found;
         }
         if (method == SearchMethod::kDirect) {
-          break;  // deterministic: a repetition finds the same
+          break;  // the method is deterministic, so a repetition finds the same point
         }
       }
       if (last_runs > 0 && best.ok()) {
         SearchFrom(lane, NloptMethod(spec_.finish), best.x, last_runs, spec_.seed);
       }
     } catch (const Stopped&) {
-      // The search was stopped.
+      // The exception ends the thread of a stopped search.
     } catch (...) {
       lane.failure = std::current_exception();
     }

@@ -8,12 +8,12 @@
 
 namespace trackbed {
 
-/// Returns the values at the given points; none ends the search.
+/// Runs points and returns their values; returning none ends the search.
 using RunBatch = std::function<std::optional<std::vector<std::optional<double>>>(
     const std::vector<UnitPoint>& points)>;
 
-/// Alternates between proposals of `search`, rounded to the steps of `space`, and their values from
-/// `run`, until one of the two ends.
+/// Alternates between proposals of `search` and their values from `run` until one of them ends the
+/// search. Proposals are rounded to the steps of `space`.
 void FollowSearch(PointSearch& search, const SearchSpace& space, const RunBatch& run);
 
 }  // namespace trackbed

@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// A run of the search, as recorded in its table.
+/// A run of the search, as recorded in the search's table.
 struct SearchRun {
   std::size_t row = 0;
   std::string status;
@@ -21,7 +21,7 @@ struct SearchRun {
   [[nodiscard]] bool violated() const { return status == "failed" || status == "no_plan"; }
 };
 
-/// Columns of the table.
+/// Columns of the table of a search.
 std::vector<std::string> SearchColumns(const Study& study);
 
 /// Runs each point once and records its row.
@@ -30,17 +30,17 @@ class SearchRuns {
   SearchRuns(const CheckedSearch& search, SweepRecords& records, const FalsifyOptions& options)
       : search_(search), records_(records), options_(options) {}
 
-  /// Returns one run per point; none if interrupted. Runs missing points in parallel and counts
-  /// them.
+  /// Returns one run per point, or none if interrupted. Runs missing points in parallel and counts
+  /// the new runs.
   std::optional<std::vector<SearchRun>> Run(const std::vector<UnitPoint>& points,
                                             const char* phase);
 
-  /// Whether the run of this point is known.
+  /// Whether the run of `point` is known.
   [[nodiscard]] bool Has(const UnitPoint& point) const;
   [[nodiscard]] std::size_t count() const { return next_; }
 
  private:
-  /// Restores a recorded run.
+  /// Restores a run from its recorded row.
   [[nodiscard]] SearchRun FromRecords(std::size_t row, const std::vector<std::string>& texts) const;
   [[nodiscard]] bool RunRow(std::size_t row, const UnitPoint& point, const char* phase);
   [[nodiscard]] std::vector<std::string> Texts(const UnitPoint& point) const;
@@ -48,9 +48,10 @@ class SearchRuns {
   const CheckedSearch& search_;
   SweepRecords& records_;
   const FalsifyOptions& options_;
-  std::map<std::vector<std::string>, SearchRun> known_;  // by values of the keys
-  std::size_t next_ = 0;                                 // next row
-  std::mutex mutex_;                                     // guards the progress
+  std::map<std::vector<std::string>, SearchRun> known_;  // Runs, keyed by the values of the
+                                                         // searched keys.
+  std::size_t next_ = 0;                                 // Number of the next row.
+  std::mutex mutex_;                                     // Guards the reports of progress.
 };
 
 }  // namespace trackbed

@@ -13,7 +13,8 @@
 namespace trackbed {
 namespace {
 
-/// The value nearest to `value` that is a whole number of steps within the range.
+/// The number nearest to `value` that is a whole number of steps from the start of the range, and
+/// within the range.
 double NearestStep(const SearchKey& key, double value) {
   return SteppedValue(key.from, key.step, std::round((value - key.from) / key.step));
 }
@@ -205,7 +206,7 @@ double SearchSpace::Step(std::size_t i) const {
     case DistributionKind::kInteger:
       return 1.0 / (key.to - key.from);
     case DistributionKind::kLogUniform:
-      return 1e-4 / std::log(key.to / key.from);  // five digits
+      return 1e-4 / std::log(key.to / key.from);  // five digits are kept
     default:
       if (key.step > 0.0) {
         return key.step / (key.to - key.from);

@@ -10,11 +10,11 @@
 namespace trackbed {
 namespace {
 
-/// As in statistics.cpp: tables of long doubles overflow under valgrind.
+/// As in statistics.cpp, avoids tables of long doubles, which overflow under valgrind.
 using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-/// Logarithm of the integral of q^s (1 - q)^f from 0 to p, or from p to 1, relative to p^s (1 -
-/// p)^f.
+/// Logarithm of the integral of q^s (1 - q)^f, relative to p^s (1 - p)^f. The integral of q^s (1 -
+/// q)^f is from 0 to p, or from p to 1.
 double LogRatio(double successes, double failures, double p, bool above) {
   const DoublePrecision policy;
   const double a = successes + 1.0;
@@ -22,7 +22,7 @@ double LogRatio(double successes, double failures, double p, bool above) {
   const double share =
       above ? boost::math::ibetac(a, b, p, policy) : boost::math::ibeta(a, b, p, policy);
   if (share < std::numeric_limits<double>::min()) {
-    return -std::numeric_limits<double>::infinity();  // far from a decision
+    return -std::numeric_limits<double>::infinity();  // the test is far from a decision
   }
   const double log_beta = boost::math::lgamma(a, policy) + boost::math::lgamma(b, policy) -
                           boost::math::lgamma(a + b, policy);

@@ -28,7 +28,7 @@ class Shrinker {
       MeasureSingleKeys();
       result_.complete = true;
     } catch (const BudgetExhausted&) {
-      // Returns the partial result.
+      // If interrupted, the shrinking returns its partial result.
     }
     if (result_.point.empty()) {
       result_.point = violation;
@@ -48,7 +48,7 @@ class Shrinker {
     return *evaluation;
   }
 
-  /// Accepts the point if it violates.
+  /// Accepts the point if its run violates an expectation.
   bool Take(const UnitPoint& point) {
     const Evaluation evaluation = Evaluate(point);
     if (evaluation.violated) {
@@ -98,8 +98,8 @@ class Shrinker {
 
   [[nodiscard]] double StepOf(std::size_t i) const { return std::max(tolerance_, space_.Step(i)); }
 
-  /// Tests whether each key fails to violate one step nearer to its nominal value. Returns false
-  /// after moving a key that still violates.
+  /// Tests for each key whether moving it one step nearer to its nominal value ends the violation.
+  /// MeasureHolds returns false after moving a key if the run still violates.
   bool MeasureHolds() {
     for (std::size_t i = 0; i < nominal_.size(); ++i) {
       const double place = result_.point[i];

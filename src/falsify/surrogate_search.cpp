@@ -55,12 +55,12 @@ class SurrogateSearch : public PointSearch {
   void Tell(const std::vector<std::optional<double>>& values) override {
     bool restart = false;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-      // dlib proposes a point again until it gets a value, so a point without a value gets the
-      // highest known one.
+      // dlib proposes a point again until it gets a value. A point without a value therefore gets
+      // the highest known value.
       const double value = values[i].value_or(highest_);
       Keep(batch_[i], value);
-      // dlib only accepts foreign or changed values when it is constructed, so it is then
-      // constructed again.
+      // dlib accepts changed values, or values that it has not asked for, only in its constructor.
+      // The search of dlib is therefore constructed again.
       restart =
           restart || requests_.find(batch_[i]) == requests_.end() || (value < 0.0 && !spec_.stop);
     }
@@ -76,9 +76,9 @@ class SurrogateSearch : public PointSearch {
   }
 
  private:
-  // dlib alternates between exploring and refining: a batch of two has one of each.
+  // dlib alternates between exploring and refining, so a batch of two has one point of each.
   static constexpr int kBatch = 2;
-  // Noise relative to the range of the values; default of dlib.
+  // Noise relative to the range of the values; the default of dlib.
   static constexpr double kNoise = 0.001;
 
   void Keep(const UnitPoint& point, double value) {
@@ -89,14 +89,16 @@ class SurrogateSearch : public PointSearch {
     }
   }
 
-  /// Objective at a known point. If the search continues after a violation, it should find other
-  /// regions, so the values near violations are raised, like in deflation for roots of equations.
+  /// Objective at a point whose run is known. If the search continues after a violation, it should
+  /// find other regions. The values near violations are therefore raised, as in deflation for roots
+  /// of equations.
   [[nodiscard]] double ObjectiveAt(const UnitPoint& point) const {
     const double value = known_.at(point);
     if (spec_.stop || violations_.empty()) {
       return value;
     }
-    constexpr double kRepulsionRadius = 0.15;  // relative to the range of a key
+    constexpr double kRepulsionRadius = 0.15;  // radius around a violation, relative to the range
+                                               // of a key
     double nearest = std::numeric_limits<double>::infinity();
     for (const UnitPoint& violation : violations_) {
       nearest = std::min(nearest, Distance(point, violation) / kRepulsionRadius);
@@ -104,8 +106,8 @@ class SurrogateSearch : public PointSearch {
     return std::max(value, 0.0) + height_ * std::exp(-0.5 * nearest * nearest);
   }
 
-  /// Amount by which values are raised at a violation: three times the median of the values that
-  /// pass.
+  /// Amount by which values are raised at a violation: three times the median of the passing
+  /// values.
   [[nodiscard]] double Height() const {
     std::vector<double> values;
     for (const auto& [point, value] : known_) {
@@ -133,8 +135,8 @@ class SurrogateSearch : public PointSearch {
     search_.set_seed(static_cast<time_t>(spec_.seed + known_.size()));
   }
 
-  /// A new point proposed by dlib. dlib ignores steps and may propose known points again; these get
-  /// their known value.
+  /// Asks dlib for a new point. dlib ignores steps and may propose known points again; such points
+  /// get their known value.
   std::optional<UnitPoint> Propose(const std::vector<UnitPoint>& batch) {
     constexpr int kMaxAttempts = 20;
     for (int i = 0; i < kMaxAttempts; ++i) {
@@ -182,12 +184,13 @@ class SurrogateSearch : public PointSearch {
 
   const SearchSpec& spec_;
   const SearchSpace& space_;
-  std::map<UnitPoint, double> known_;  // by snapped point
-  double highest_ = 0.0;               // highest of these
+  std::map<UnitPoint, double> known_;  // Objective of each known point, rounded to the steps.
+  double highest_ = 0.0;               // Highest known objective.
   std::vector<UnitPoint> violations_;
-  double height_ = 0.0;  // amount by which they are raised
+  double height_ = 0.0;  // amount by which values near violations are raised
   dlib::global_function_search search_{UnitCube(1)};
-  std::map<UnitPoint, dlib::function_evaluation_request> requests_;  // of the current batch
+  std::map<UnitPoint, dlib::function_evaluation_request> requests_;  // dlib's requests for the
+                                                                     // current batch
   std::vector<UnitPoint> batch_;
   int proposals_ = 0;
 };

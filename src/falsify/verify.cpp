@@ -24,7 +24,7 @@ std::string StatusOf(const SweepRecords& records, const SweepRow& row) {
   return row.cells.at(static_cast<std::size_t>(at));
 }
 
-/// Returns false if interrupted.
+/// RunBatch returns false if interrupted.
 bool RunBatch(const CheckedStudy& checked, std::size_t from, std::size_t to, SweepRecords& records,
               const VerifyOptions& options) {
   std::vector<std::size_t> missing;

@@ -19,9 +19,9 @@ using Point = boost::geometry::model::d2::point_xy<double>;
 using Bounds = boost::geometry::model::box<Point>;
 using Entry = std::pair<Bounds, std::size_t>;
 
-/// Up to this number of boxes, a linear search is used.
+/// Largest number of boxes for which the index uses a linear search.
 constexpr std::size_t kMaxLinearSearch = 16;
-/// Enlargement of bounds for rounding, relative to their coordinates and at least [m].
+/// Enlargement of bounds for rounding, relative to 1 m plus the largest coordinate.
 constexpr double kRounding = 1e-12;
 
 bool IsFinite(const OrientedBox& box) {

@@ -6,7 +6,7 @@
 namespace trackbed {
 namespace {
 
-/// Half length and half width of a box, along its axes.
+/// Half length and half width of a box, along the axes of the box.
 struct HalfSizes {
   double x;
   double y;
@@ -14,7 +14,7 @@ struct HalfSizes {
   explicit HalfSizes(const OrientedBox& box) : x(0.5 * box.length), y(0.5 * box.width) {}
 };
 
-/// Squared distance from a point in the box's frame to the box; 0 inside.
+/// Squared distance from a point in the box's frame to the box; 0 inside the box.
 double SquareToPoint(const HalfSizes& half, const Vec2& p) {
   const double x = std::max(std::abs(p.x()) - half.x, 0.0);
   const double y = std::max(std::abs(p.y()) - half.y, 0.0);
@@ -49,14 +49,14 @@ double Separation(const OrientedBox& a, const OrientedBox& b) {
   const double c = std::cos(turn);
   const double s = std::sin(turn);
   const Vec2 a_in_b{-c * b_in_a.x() - s * b_in_a.y(), s * b_in_a.x() - c * b_in_a.y()};
-  // std::max ignores a NaN that is not its first argument, so check all inputs.
+  // Check all inputs, because std::max ignores a NaN that is not its first argument.
   const double all = b_in_a.x() + b_in_a.y() + turn + half_a.x + half_a.y + half_b.x + half_b.y;
   if (std::isnan(all)) {
     return all;
   }
   const double along = std::abs(c);
   const double across = std::abs(s);
-  // Gaps along the axes of either box: the boxes are disjoint if one is positive.
+  // Compute the gaps along the axes of both boxes. The boxes are disjoint if one gap is positive.
   const double gap =
       std::max({std::abs(b_in_a.x()) - half_a.x - along * half_b.x - across * half_b.y,
                 std::abs(b_in_a.y()) - half_a.y - across * half_b.x - along * half_b.y,
@@ -92,7 +92,7 @@ double Distance(const Vec2& from, const Vec2& to, const OrientedBox& box) {
   const Vec2 q = ToLocal(box.center, to);
   const Vec2 middle = 0.5 * (p + q);
   const Vec2 along = 0.5 * (q - p);
-  // They intersect unless an axis of the box or the line's normal separates them.
+  // Line and box intersect unless an axis of the box or the line's normal separates them.
   const Vec2 reach{std::abs(along.x()), std::abs(along.y())};
   if (std::abs(middle.x()) <= half.x + reach.x() && std::abs(middle.y()) <= half.y + reach.y() &&
       std::abs(Cross(along, middle)) <= half.x * reach.y() + half.y * reach.x()) {

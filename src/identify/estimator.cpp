@@ -52,7 +52,7 @@ std::vector<std::size_t> Estimator::FixInertParameters() {
   std::vector<std::size_t> inert;
   for (const std::size_t i : free_) {
     const IdentifiedParameter& parameter = study_.parameters[i];
-    constexpr double kProbeFraction = 0.1;  // fraction of the range
+    constexpr double kProbeFraction = 0.1;  // step as a fraction of the parameter's range
     const double move = kProbeFraction * (parameter.to - parameter.from);
     std::vector<double> moved = start_;
     moved[i] = start_[i] + move <= parameter.to ? start_[i] + move : start_[i] - move;
@@ -68,10 +68,10 @@ std::vector<std::size_t> Estimator::FixInertParameters() {
 }
 
 double Estimator::Improve(std::vector<double> at) {
-  constexpr double kMinStep = 1e-4;  // smallest step, fraction of the range
-  constexpr double kMinGain = 1e-5;  // fraction of the cost
+  constexpr double kMinStep = 1e-4;  // Smallest step, as a fraction of the range.
+  constexpr double kMinGain = 1e-5;  // Smallest gain of a step, as a fraction of the cost.
   const int last = counter_.evaluations() + study_.evaluations;
-  double radius = 0.25;  // fraction of the range
+  double radius = 0.25;  // trust region, as a fraction of the range
   double cost = Cost(at);
   Keep(at, cost);
   while (std::isfinite(cost) && counter_.evaluations() < last) {
@@ -89,7 +89,7 @@ double Estimator::Improve(std::vector<double> at) {
       const double reached = Cost(next);
       const double share = (cost - reached) / expected;
       const double length = step.cwiseAbs().maxCoeff();
-      if (share > 0.1) {  // false for NaN
+      if (share > 0.1) {  // NaN makes the condition false
         moved = true;
         gained = cost - reached;
         at = next;

@@ -15,7 +15,7 @@ class ProgressCounter {
  public:
   ProgressCounter(const IdentificationHooks& hooks, int max_evaluations);
 
-  /// Throws Interrupted if the caller asks for it.
+  /// Throws Interrupted if the caller asks to stop.
   void Count();
   /// Counts unused evaluations of a budget as done.
   void SkipTo(int evaluations);
@@ -31,7 +31,8 @@ class ProgressCounter {
 /// bounds.
 std::vector<double> StartValues(const Identification& study, const CarModel& car);
 
-/// Current estimate of all parameters, some of which are free. Keeps references to its arguments.
+/// Current estimate of all parameters, some of which are free and the others fixed. Estimator keeps
+/// references to its arguments.
 class Estimator {
  public:
   Estimator(const Identification& study, const ResidualModel& model, ProgressCounter& work);
@@ -41,14 +42,14 @@ class Estimator {
   [[nodiscard]] double best_cost() const { return best_cost_; }
   [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }
 
-  /// Fixes the parameters that do not change the cost to the last bit, because the plant lacks the
-  /// part. Returns their indices.
+  /// Fixes the parameters that do not change any bit of the cost, because the plant lacks the part.
+  /// FixInertParameters returns the indices of the fixed parameters.
   std::vector<std::size_t> FixInertParameters();
 
-  /// Gauss-Newton steps in a trust region, starting at `at`; keeps the best values found. Returns
-  /// the cost reached. Each step is a quadratic program with the bounds, solved by NLopt's SLSQP.
-  /// (SLSQP on the cost itself takes six times as many evaluations, because it must build up the
-  /// Hessian that the residuals provide.)
+  /// Makes Gauss-Newton steps in a trust region, starting at `at`, and keeps the best values found.
+  /// Improve() returns the cost that it reaches. Each step is a quadratic program with the bounds,
+  /// solved by NLopt's SLSQP. (SLSQP on the cost itself would take six times as many evaluations.
+  /// SLSQP would have to build up the Hessian, which the residuals already provide.)
   double Improve(std::vector<double> at);
 
   /// Random values of the free parameters within their bounds.
@@ -63,7 +64,7 @@ class Estimator {
   [[nodiscard]] std::vector<double> Moved(std::vector<double> values,
                                           const Eigen::VectorXd& step) const;
   /// Step to the minimum of the linear model within bounds and trust region, relative to the
-  /// ranges.
+  /// parameters' ranges.
   [[nodiscard]] Eigen::VectorXd Step(const LinearModel& linear, const std::vector<double>& at,
                                      double radius) const;
 

@@ -15,18 +15,18 @@
 #include "trackbed/sim/car_parameters.h"
 
 // Identifies model parameters from records. Minimizes the loss of prediction residuals over all
-// windows (residuals.cpp) plus priors by Gauss-Newton in a trust region from several starts
-// (estimator.cpp). Parameters without effect are fixed first. Then, while the covariance
-// (linear_model.cpp) shows a parameter that the records do not determine better than its bounds do,
-// the worst one is fixed and the estimate is improved. Finally replays all records with the start
-// values and the fitted ones.
+// windows (residuals.cpp), plus priors. The method is Gauss-Newton in a trust region from several
+// starts (estimator.cpp). Parameters without effect on the cost are fixed first. The covariance
+// (linear_model.cpp) then shows whether the records determine each parameter better than its bounds
+// do. While the records do not determine a parameter, the worst parameter is fixed and the estimate
+// is improved. Finally, all records are replayed with the start values and with the fitted values.
 namespace trackbed {
 namespace {
 
-/// Above this correlation, the estimates of two parameters are hard to distinguish.
+/// If two estimates correlate more than this value, the parameters are hard to distinguish.
 constexpr double kStrongCorrelation = 0.95;
 
-/// Moves a problem of a parameter to its place in the study file.
+/// Moves a problem of a parameter to the parameter's place in the study file.
 [[noreturn]] void ThrowPlaced(const InputError& error, const Identification& study) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems) {
@@ -44,15 +44,15 @@ constexpr double kStrongCorrelation = 0.95;
 }
 
 bool IsAt(double value, double bound, const IdentifiedParameter& parameter) {
-  constexpr double kBoundTolerance = 1e-4;  // fraction of the range
+  constexpr double kBoundTolerance = 1e-4;  // tolerance as a fraction of the range
   return std::abs(value - bound) <= kBoundTolerance * (parameter.to - parameter.from);
 }
 
-/// The free parameter with the largest deviation, if that exceeds the deviation of a uniform
-/// distribution between its bounds; none if all are determined by the records.
+/// The free parameter with the largest deviation, if it exceeds the deviation of a uniform
+/// distribution between the bounds; none if the records determine all parameters.
 std::optional<std::size_t> LeastDetermined(const Eigen::MatrixXd& covariance) {
   std::optional<std::size_t> least;
-  double worst = 1.0 / std::sqrt(12.0);  // of a uniform distribution over the range
+  double worst = 1.0 / std::sqrt(12.0);  // deviation of a uniform distribution over the range
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
     const double deviation = std::sqrt(covariance(i, i));
     if (!(deviation <= worst)) {
@@ -69,8 +69,8 @@ double Correlation(const Eigen::MatrixXd& covariance, std::size_t a, std::size_t
   return covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
 }
 
-/// Replays the records with the start values and the estimates, unless the search was interrupted;
-/// sets the model with the estimates.
+/// Sets the model with the estimates. ReplayRecords replays the records with the start values and
+/// the estimates, unless the search was interrupted.
 void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
                    IdentificationResult& result) {
   std::vector<CarParameter> start;
@@ -120,8 +120,8 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
   }
 }
 
-/// Estimates the parameters, and fixes those that cannot be estimated, until the records determine
-/// all free ones.
+/// Estimates the parameters. Parameters that cannot be estimated are fixed, until the records
+/// determine all free ones.
 void Estimate(Estimator& estimator, const ResidualModel& model, ProgressCounter& work,
               IdentificationResult& result) {
   const Identification& study = result.study;
@@ -244,7 +244,7 @@ IdentificationResult Identify(const Identification& study, const IdentificationH
   try {
     Estimator estimator(result.study, model, work);
     if (!std::isfinite(estimator.best_cost())) {
-      static_cast<void>(model.CarsAt(estimator.start()));  // reports why
+      static_cast<void>(model.CarsAt(estimator.start()));  // throws the error that gives the reason
     }
     result.start_cost = estimator.best_cost();
     result.windows = static_cast<int>(model.windows());

@@ -17,9 +17,10 @@
 namespace trackbed {
 namespace {
 
-constexpr double kDivergedResidual = 100.0;  // residual after divergence, in deviations
+constexpr double kDivergedResidual = 100.0;  // residual after divergence, in units of the signal's
+                                             // deviation
 
-/// Fitted signal: its deviation, and the difference of a predicted state from the recorded one.
+/// A fitted signal: its deviation, and the difference of a predicted state from the recorded one.
 struct FittedSignal {
   double deviation;
   double (*difference)(const VehicleState& predicted, const VehicleState& recorded);
@@ -55,7 +56,7 @@ std::vector<std::vector<double>> ResidualsOf(const WindowPrediction& prediction,
                                              const std::vector<FittedSignal>& signals) {
   const RecordSpec& record = *scenario.record;
   std::vector<std::vector<double>> residuals(signals.size());
-  for (std::size_t k = 1; k < states; ++k) {  // the first state is recorded
+  for (std::size_t k = 1; k < states; ++k) {  // the loop skips the first state, which is recorded
     const double time = prediction.start + static_cast<double>(k) * scenario.drive.control_period;
     const RecordedSample sample = record.data->At(time);
     if (std::abs(sample.velocity_V.x()) < record.min_speed) {
@@ -117,7 +118,7 @@ std::vector<SignalResiduals> ResidualModel::At(std::span<const double> values) c
   }
   const std::vector<FittedSignal> signals = FittedSignals(study_.residuals);
   std::vector<std::vector<std::vector<double>>> of_windows(windows_.size());
-  // Groups windows, because each call follows the commands from the start of the record.
+  // Windows are grouped, because each call follows the commands from the start of the record.
   constexpr std::size_t kWindowsPerBatch = 8;
   const std::size_t parts = (windows_.size() + kWindowsPerBatch - 1) / kWindowsPerBatch;
   ForEachIndex(parts, threads_, [&](std::size_t part) {

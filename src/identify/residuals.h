@@ -10,10 +10,10 @@
 
 namespace trackbed {
 
-/// Thrown if the caller interrupts an identification; caught by Identify.
+/// Exception for an interruption by the caller; Identify catches it.
 struct Interrupted {};
 
-/// Residuals of one signal in one window, divided by the signal's deviation.
+/// Residuals of one signal in one window, divided by the deviation of the signal.
 struct SignalResiduals {
   std::size_t window = 0;
   std::vector<double> values{};
@@ -23,16 +23,17 @@ struct SignalResiduals {
 /// a plant diverges, its residuals are 100 deviations.
 class ResidualModel {
  public:
-  /// The study must outlive the model. `interrupted` is asked before each window, by all threads.
+  /// The study must outlive the model. All threads call `interrupted` before each window.
   ResidualModel(const Identification& study, int threads, std::function<bool()> interrupted = {});
 
   [[nodiscard]] const CarModel& car() const { return cars_.front(); }
   [[nodiscard]] std::size_t windows() const { return windows_.size(); }
-  /// Residuals for values of the study's parameters, in their order. Each signal always has the
-  /// same number of residuals in the same order. Empty if the model cannot be compiled with the
-  /// values. Throws Interrupted if the caller asks for it.
+  /// Residuals for values of the study's parameters, given in the order of the study. Each signal
+  /// always has the same number of residuals in the same order. At() returns nothing if the model
+  /// cannot be compiled with the values. At() throws Interrupted if the caller asks to stop.
   [[nodiscard]] std::vector<SignalResiduals> At(std::span<const double> values) const;
-  /// Cars of the fitted scenarios with these values. Throws InputError if they cannot be compiled.
+  /// Cars of the fitted scenarios with the given parameter values. CarsAt throws InputError if the
+  /// cars cannot be compiled.
   [[nodiscard]] std::vector<CarModel> CarsAt(std::span<const double> values) const;
 
  private:
@@ -44,7 +45,7 @@ class ResidualModel {
   const Identification& study_;
   int threads_;
   std::function<bool()> interrupted_;
-  std::vector<CarModel> cars_;  // one per fitted scenario
+  std::vector<CarModel> cars_;  // cars, one per fitted scenario
   std::vector<Window> windows_;
 };
 

@@ -16,7 +16,7 @@ using Rows = QuadraticProgram::Rows;
 using Bounds = QuadraticProgram::Bounds;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 
-/// minimize |y|^2/2 + linear^T y  subject to  rows y <= bounds
+/// The problem: minimize |y|^2/2 + linear^T y subject to rows y <= bounds.
 struct LeastDistance {
   Vector linear;
   Rows rows;
@@ -59,7 +59,7 @@ Vector SolveBySlsqp(LeastDistance& problem, const Vector& start, double toleranc
   } catch (const nlopt::roundoff_limited&) {
     // The solution is as accurate as rounding permits.
   } catch (const std::runtime_error&) {
-    // The constraints are contradictory; the caller sees the violation.
+    // The constraints are contradictory; the caller sees the violation of the constraints.
   }
   return ConstVectorMap(y.data(), n);
 }
@@ -86,7 +86,7 @@ QuadraticSolution Solve(const QuadraticProgram& program, double tolerance) {
   solution.x = -cholesky.solve(program.linear);
   const auto m = program.bounds.size();
 
-  // Substitute y = L^T x.
+  // Substitute y = L^T x into the problem.
   LeastDistance problem;
   problem.linear = cholesky.matrixL().solve(program.linear);
   Vector y = -problem.linear;
@@ -122,7 +122,7 @@ QuadraticSolution Solve(const QuadraticProgram& program, double tolerance) {
         problem.bounds[k++] = program.bounds[i];
       }
     }
-    // Rows become G L^-T.
+    // The substitution changes the rows G to G L^-T.
     problem.rows = cholesky.matrixL().solve(problem.rows.transpose()).transpose().eval();
     y = SolveBySlsqp(problem, y, tolerance);
     solution.x = cholesky.matrixU().solve(y);

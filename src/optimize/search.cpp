@@ -11,22 +11,23 @@
 #include "trackbed/core/error.h"
 
 // Optimization with NLopt under bounds and inequality constraints. Methods with native constraints
-// (isres, cobyla, slsqp) receive them. For unconstrained methods, infeasible points get values
-// above 1e100 that grow with the violation; DIRECT gets infinity. The evaluator caches the last
-// point, counts evaluations, differentiates centrally, and keeps the best point of all: least
-// violation first, then least value.
+// (isres, cobyla, slsqp) receive the constraints. For unconstrained methods, infeasible points get
+// values above 1e100 that grow with the violation. DIRECT gets infinity for infeasible points. The
+// evaluator caches the last point, counts evaluations and differentiates centrally. The evaluator
+// also keeps the best point, which has the least violation and, among equal violations, the least
+// value.
 
 namespace trackbed {
 namespace {
 
-/// Objective values from here on mean infeasible, for unconstrained methods.
+/// For unconstrained methods, objective values of kInfeasibleCost or more mean an infeasible point.
 constexpr double kInfeasibleCost = 1e100;
 
 /// How constraints are passed to a method.
 enum class Handling {
-  kNative,  ///< the method supports constraints
-  kRanked,  ///< the method only compares points: infeasible points rank below all feasible ones
-  kHidden,  ///< the method gets no value for infeasible points and estimates it from neighbors
+  kNative,  ///< The method supports constraints.
+  kRanked,  ///< The method only compares points. Infeasible points rank below all feasible points.
+  kHidden,  ///< The method gets no value for infeasible points and estimates it from neighbors.
 };
 
 Handling ConstraintHandling(nlopt::algorithm algorithm) {
@@ -78,7 +79,7 @@ class Evaluator {
     result_.value = std::numeric_limits<double>::infinity();
   }
 
-  /// The objective for the method, and its gradient if requested.
+  /// The objective for the method, and the objective's gradient if requested.
   double Objective(const double* x, double* gradient) {
     Evaluate(x);
     const double seen = MethodValue();
@@ -107,7 +108,7 @@ class Evaluator {
     return std::move(result_);
   }
 
-  std::exception_ptr failure;  // thrown by the caller's functions
+  std::exception_ptr failure;  // exception thrown by the caller's functions
 
  private:
   void Evaluate(const double* x) {
@@ -127,8 +128,8 @@ class Evaluator {
         }
       } catch (...) {
         failure = std::current_exception();
-        // If DIRECT of NLopt 2.7.1 is stopped during its first points, it reads uninitialized
-        // memory. So let it finish, without calling the caller's functions.
+        // If DIRECT of NLopt 2.7.1 is stopped during its first points, DIRECT reads uninitialized
+        // memory. Hence DIRECT must finish after a failure, without calling the caller's functions.
         if (options_.method != SearchMethod::kDirect) {
           throw nlopt::forced_stop();
         }
@@ -176,7 +177,8 @@ class Evaluator {
     }
   }
 
-  /// The objective in the method's terms; never NaN, which NLopt would compare.
+  /// The objective value that the method receives. The returned value is never NaN, because NLopt
+  /// compares values.
   [[nodiscard]] double MethodValue() const {
     if (handling_ == Handling::kHidden && violation_ > 0.0) {
       return std::numeric_limits<double>::infinity();
@@ -190,14 +192,16 @@ class Evaluator {
     return value_;
   }
 
-  /// Gradients of the objective and of the constraints (row by row) by central differences,
-  /// one-sided at the bounds. NLopt requests both for a point one after the other.
+  /// Gradients of the objective and of the constraints (row by row) by central differences. At the
+  /// bounds, the differences are one-sided. NLopt requests the gradients of objective and
+  /// constraints for a point one after the other.
   void Differentiate(const double* x) {
     if (differentiated_at_.size() == point_.size() &&
         std::equal(differentiated_at_.begin(), differentiated_at_.end(), x)) {
       return;
     }
-    // The cube root of an evaluation's rounding error balances it against the third derivative.
+    // The step is the cube root of an evaluation's rounding error. With the cube root, the rounding
+    // error balances the error from the third derivative.
     constexpr double kStep = 6e-6;
     const std::size_t n = point_.size();
     std::vector<double> at(x, x + n);
@@ -236,7 +240,8 @@ class Evaluator {
   double violation_ = 0.0;
   std::vector<double> constraints_;
   std::vector<double> differentiated_at_;
-  std::vector<double> gradient_;  // there, of the objective that the method sees
+  // Gradient, at `differentiated_at_`, of the objective that the method receives.
+  std::vector<double> gradient_;
   std::vector<double> jacobian_;
   int next_record_;
   SearchResult result_;
@@ -313,7 +318,8 @@ void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& bo
   } catch (const nlopt::roundoff_limited&) {
     // Rounding errors limit further progress.
   } catch (const std::runtime_error&) {
-    // NLopt gave up (slsqp: too many steps of its least-squares solver); keep the best point.
+    // NLopt gave up, for example because slsqp took too many steps in its least-squares solver.
+    // Keep the best point.
   }
 }
 
@@ -380,11 +386,12 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
     start[i] = problem.start.empty() ? 0.5 * (box.lower[i] + box.upper[i])
                                      : std::clamp(problem.start[i], box.lower[i], box.upper[i]);
   }
-  // NLopt's generator is per thread, seeded from the clock by default, and takes a 32-bit seed.
+  // NLopt's generator is per thread, takes a 32-bit seed, and is by default seeded from the clock.
   if (SearchFor(options.method).random) {
     nlopt::srand(static_cast<unsigned long>((seed ^ (seed >> 32U)) & 0xffffffffU));
   }
-  // DIRECT's cost grows with the square of its cells: run it three times, in ever smaller boxes.
+  // DIRECT's cost grows with the square of the number of its cells, so run DIRECT three times, in
+  // ever smaller boxes.
   const int looks = options.method == SearchMethod::kDirect ? 3 : 1;
   for (int look = 0; look < looks && !evaluator.failure; ++look) {
     if (look > 0 && evaluator.best().status != SearchStatus::kNotFinite) {

@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// Formats a number; uses an exponent for large ones.
+/// Formats a number; uses an exponent for large numbers.
 std::string Number(double number) {
   constexpr double kMaxPlainNumber = 1e9;
   return std::abs(number) <= kMaxPlainNumber ? fmt::format("{}", number)

@@ -11,12 +11,12 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
-// Fits a path to points. Repeated points are dropped, and the rest optionally resampled along
-// straight lines. A spline fit is a quintic smoothing spline over chord length (Reinsch 1967) with
-// the largest smoothing length, found by bisection, that keeps all points within the tolerance. It
-// is then sampled to segments, ever more finely until these keep the tolerance too. A polyline fit
-// joins straight lines by arcs with tangents of at most 1 mm. Points that turn back are reported as
-// reversals.
+// Fits a path to points. The fit drops repeated points, and optionally resamples the other points
+// along straight lines. A spline fit is a quintic smoothing spline over chord length (Reinsch
+// 1967). Bisection finds the largest smoothing length that keeps all points within the tolerance.
+// The fit then samples the spline to segments, ever more finely until the segments keep the
+// tolerance too. A polyline fit joins straight lines by arcs with tangents of at most 1 mm. The fit
+// reports points that turn back as reversals.
 
 namespace trackbed {
 namespace {
@@ -28,12 +28,12 @@ constexpr double kEqualityTolerance = 1e-9;  // [m]; closer points are repetitio
   throw InputError(Problem{.line = line, .key = key, .message = std::move(message)});
 }
 
-/// The line of a given point; 0: not known.
+/// Line number of a given point in its file; 0 if the line number is not known.
 int LineOf(const PathPoints& given, std::size_t point) {
   return given.lines.empty() ? 0 : given.lines[point];
 }
 
-/// "row 7 at (1, 2)", or "point 6 at (1, 2)" where rows are not known.
+/// Name of a point: "row 7 at (1, 2)", or "point 6 at (1, 2)" where rows are not known.
 std::string NameOf(const PathPoints& given, std::size_t point) {
   const Vec2& at = given.points[point];
   const int line = LineOf(given, point);
@@ -41,12 +41,12 @@ std::string NameOf(const PathPoints& given, std::size_t point) {
                      line > 0 ? static_cast<std::size_t>(line) : point + 1, at.x(), at.y());
 }
 
-/// The points that differ from their predecessor, with their chord length.
+/// The points that differ from their predecessor, with the chord length of these points.
 struct DistinctPoints {
   ChordPoints chords;
-  std::vector<std::size_t> number;  // index of each among the given points
-  std::vector<double> given_u;      // chord length of each given point
-  double period = 0.0;              // [m]; 0 for an open path
+  std::vector<std::size_t> number;  // Index of each distinct point among the given points.
+  std::vector<double> given_u;      // Chord length of each given point.
+  double period = 0.0;              // Period of a closed path [m]; 0 for an open path.
 };
 
 DistinctPoints Distinct(const PathPoints& given, bool closed) {
@@ -139,7 +139,8 @@ ChordPoints Resampled(const DistinctPoints& distinct, double spacing) {
   return resampled;
 }
 
-/// Calls `call` with the change of direction at each inner point; on a closed path, at every point.
+/// Calls `call` with the change of direction at each inner point. On a closed path, calls `call` at
+/// every point.
 template <typename Call>
 void ForEachTurn(const ChordPoints& chords, double period, const Call& call) {
   const std::size_t count = chords.points.size();
@@ -223,8 +224,8 @@ double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
   return deviation;
 }
 
-/// Fits with the largest smoothing length that keeps within `tolerance` [m] of both the given and
-/// the fitted points, and returns it.
+/// Fits with the largest smoothing length that keeps the spline within `tolerance` [m] of all given
+/// and fitted points. Returns the smoothing length of this fit.
 double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordPoints& fitted,
                  double tolerance) {
   const std::vector<double>& knots = spline.knots();
@@ -270,15 +271,16 @@ double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordP
   return good;
 }
 
-/// How far a spline gets from the straight line between two knots.
+/// Deviation of a spline from the straight line between two knots.
 struct Bulge {
-  double distance = 0.0;   // [m]
-  double plausible = 0.0;  // largest distance of a smooth path that turns with the points [m]
-  double length = 0.0;     // of the spline [m]
-  double chord = 0.0;      // [m]
-  std::size_t knot = 0;    // before it
+  double distance = 0.0;   // Largest distance of the spline from the line [m].
+  double plausible = 0.0;  // Largest distance of a smooth path that turns with the points [m].
+  double length = 0.0;     // Length of the spline between the knots [m].
+  double chord = 0.0;      // Length of the chord [m].
+  std::size_t knot = 0;    // Index of the knot before the bulge.
 
-  /// Both ends may be off by the tolerance.
+  /// Whether the spline swings aside too far. Both ends of the spline may deviate from the line by
+  /// the tolerance.
   [[nodiscard]] bool IsAside(double tolerance) const {
     return distance > plausible + tolerance || length > 0.5 * kPi * chord + 2.0 * tolerance;
   }
@@ -290,15 +292,17 @@ double DistanceToLine(const Vec2& p, const Vec2& from, const Vec2& to) {
   return (from + share * line - p).norm();
 }
 
-/// A circle through neighboring points turns by half its arcs where their chords meet. An arc
-/// beside a turn phi is at most 2 phi long, and its height is chord/2 tan(phi/2). Splines also
-/// swing by up to a fifth of the chord beside corners further off.
+/// Largest plausible bulge of a path. On a circle through three neighboring points, the turn
+/// between the two chords is half of the angle of both arcs. Hence an arc beside a turn phi has an
+/// angle of at most 2 phi. The height of this arc is chord/2 tan(phi/2). Splines also swing by up
+/// to a fifth of the chord near more distant corners.
 double PlausibleBulge(double chord, double turn) {
   constexpr double kSwing = 0.2;
   return chord * std::max(kSwing, 0.5 * std::tan(0.5 * std::min(turn, 0.5 * kPi)));
 }
 
-/// Between knots the spline is a polynomial of degree 5: sixteen points show how far it gets.
+/// The bulge after a knot. Between knots the spline is a polynomial of degree 5, so sixteen points
+/// show the distance from the line.
 Bulge BulgeAfter(const SmoothingSpline& spline, std::size_t knot, const Vec2& from, const Vec2& to,
                  double turn) {
   constexpr int kPieces = 16;
@@ -315,7 +319,7 @@ Bulge BulgeAfter(const SmoothingSpline& spline, std::size_t knot, const Vec2& fr
   return bulge;
 }
 
-/// The largest bulge; the first one that is aside, if any is.
+/// The largest bulge. If bulges swing aside too far, returns the first such bulge.
 Bulge FindBulge(const SmoothingSpline& spline, const ChordPoints& fitted, double period,
                 double tolerance) {
   const std::size_t count = fitted.points.size();
@@ -335,7 +339,7 @@ Bulge FindBulge(const SmoothingSpline& spline, const ChordPoints& fitted, double
   return largest;
 }
 
-/// How much shorter the straight lines are without a point.
+/// Difference in length of the straight lines with and without a point.
 double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
   const double before = i > 0 ? (points[i] - points[i - 1]).norm() : 0.0;
   const double after = i + 1 < points.size() ? (points[i + 1] - points[i]).norm() : 0.0;
@@ -348,7 +352,8 @@ double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
   const std::vector<Vec2>& points = distinct.chords.points;
   const std::size_t before = LastBefore(distinct.chords.u, fitted.u[bulge.knot]);
   const std::size_t after = (before + 1) % points.size();
-  // Of both ends of the gap and their neighbors, the one that takes the line furthest about.
+  // Find the wrong point: among the ends of the gap, the point whose removal shortens the polyline
+  // most.
   std::size_t wrong = before;
   for (const std::size_t i : {before, after}) {
     wrong = DetourOf(points, i) > DetourOf(points, wrong) ? i : wrong;
@@ -364,8 +369,8 @@ double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
        LineOf(given, number));
 }
 
-/// The station of the point at chord length u: that of its knot or, if it has none, that of the
-/// nearest point between the adjacent knots.
+/// The station of the point at chord length u. A point at a knot has the station of the knot. Any
+/// other point has the station of the nearest point between the adjacent knots.
 double StationOf(const SampledSpline& sampled, const std::vector<double>& knots, const Path& path,
                  double u, const Vec2& point) {
   const std::size_t i = LastBefore(knots, u);
@@ -376,7 +381,7 @@ double StationOf(const SampledSpline& sampled, const std::vector<double>& knots,
   return path.Project({point.x(), point.y(), 0.0}, {sampled.knot_stations[i], to}).s;
 }
 
-/// The largest distance of a distinct point from its station, and the index of that point.
+/// The largest distance of a distinct point from its station, and the index of this point.
 std::pair<double, std::size_t> LargestDeviation(const Path& path, const ChordPoints& chords,
                                                 const std::vector<double>& stations) {
   std::pair<double, std::size_t> largest{0.0, 0};
@@ -389,9 +394,9 @@ std::pair<double, std::size_t> LargestDeviation(const Path& path, const ChordPoi
 
 void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct, FittedPath& fitted,
                std::vector<double>& stations) {
-  constexpr double kSpacing = 0.1;  // [m]; larger on a path of more than 100 km
+  constexpr double kSpacing = 0.1;  // [m]; larger on a path of more than 100 km.
   constexpr int kMaxHalvings = 6;
-  constexpr double kUsualSegments = 1e6;  // of a long path
+  constexpr double kUsualSegments = 1e6;  // Number of segments of a long path.
   constexpr std::size_t kMaxSegments = 4'000'000;
   const double tolerance = fitted.options.max_deviation;
   SmoothingSpline spline(knots, distinct.period);
@@ -448,9 +453,10 @@ void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
   }
 }
 
-/// The largest difference between given headings and the path's [rad].
+/// The largest difference between the given headings and the headings of the path [rad].
 double HeadingDifference(const FittedPath& fitted) {
-  constexpr double kOpposite = 2.0;  // [rad]; a smaller one may come from another reference axis
+  // [rad]; a smaller difference may come from another reference axis of the car
+  constexpr double kOpposite = 2.0;
   double largest = 0.0;
   for (std::size_t i = 0; i < fitted.given.yaw.size(); ++i) {
     const double yaw = fitted.path.At(fitted.stations[i]).pose.yaw;
@@ -495,7 +501,8 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
   if (chords.points.size() > 2) {
     const double turn = AngleDifference(direction(1), direction(0));
     const double curvature = 2.0 * std::sin(turn) / (chords.points[2] - chords.points[0]).norm();
-    // Relative to the tangent at the first point, which precedes the chord by half its turn.
+    // The angle is relative to the tangent at the first point. The tangent's direction precedes the
+    // chord's direction by half of the turn along the chord.
     yaw -= 0.5 * curvature * chords.u[1] + std::asin(std::clamp(ahead * curvature, -1.0, 1.0));
   }
   Vec2 before = given.points.front();
@@ -503,8 +510,8 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
     const Vec2 along = point - before;
     before = point;
     if (along.norm() > kEqualityTolerance) {
-      // Along a straight line of length d, tan(phi/2) of the angle phi to the line falls by
-      // exp(-d/ahead).
+      // Let phi be the angle to a straight line of length d. Along the straight line, tan(phi/2)
+      // falls by the factor exp(-d/ahead).
       const double line = std::atan2(along.y(), along.x());
       const double angle = AngleDifference(line, yaw);
       yaw = line - 2.0 * std::atan(std::tan(0.5 * angle) * std::exp(-along.norm() / ahead));
@@ -543,7 +550,7 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
     name_points(fitted.reversals);
     return fitted;
   }
-  std::vector<double> stations;  // of the distinct points
+  std::vector<double> stations;  // stations of the distinct points
   if (options.fit == PathFit::kSpline && own.points.size() > 2) {
     FitSpline(own, distinct, fitted, stations);
   } else {
@@ -567,8 +574,8 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
   const auto [deviation, where] = LargestDeviation(fitted.path, distinct.chords, stations);
   fitted.deviation = deviation;
   fitted.deviation_point = distinct.number[where];
-  // A repeated point has its predecessor's station; the last point of a closed path, the path's
-  // end.
+  // A repeated point has its predecessor's station. The last point of a closed path has the station
+  // of the path's end.
   for (const double u : distinct.given_u) {
     const std::size_t i = LastBefore(distinct.chords.u, u);
     fitted.stations.push_back(u > distinct.chords.u[i] ? fitted.path.length() : stations[i]);

@@ -10,8 +10,9 @@
 
 // Paths of segments with quadratic curvature. Lines and arcs are evaluated in closed form. On other
 // segments, ten-node Gauss quadrature integrates the position over pieces that turn by at most half
-// a radian. Projection brackets the foot points between points a quarter radian apart and refines
-// them by TOMS 748. SegmentsThrough interpolates heading and curvature of given points exactly.
+// a radian. Projection brackets the foot points of a point between points a quarter radian apart.
+// The TOMS 748 method then refines the bracketed foot points. SegmentsThrough interpolates heading
+// and curvature of given points exactly.
 
 namespace trackbed {
 namespace {
@@ -20,8 +21,8 @@ bool IsLineOrArc(const Segment& segment) {
   return segment.sharpness == 0.0 && segment.sharpness_rate == 0.0;
 }
 
-/// Heading change over `distance`, before multiplication by the direction: the integral of the
-/// curvature.
+/// Heading change over `distance`: the integral of the curvature, not yet multiplied by the
+/// direction.
 double HeadingChange(const Segment& segment, double distance) {
   return distance * (segment.curvature + distance * (segment.sharpness / 2.0 +
                                                      distance * segment.sharpness_rate / 6.0));
@@ -34,7 +35,7 @@ double MaxHeadingChange(const Segment& segment, double distance) {
                                  distance * std::abs(segment.sharpness_rate) / 6.0));
 }
 
-/// The pose after `distance` along a segment, in its direction of motion.
+/// The pose after `distance` along a segment, in the segment's direction of motion.
 Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   const double moved = segment.direction * distance;
   if (IsLineOrArc(segment)) {
@@ -59,12 +60,12 @@ Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   return {position.x(), position.y(), yaw(distance)};
 }
 
-/// NearestDistance for segments of varying curvature. The foot points of p, at which p lies abeam,
-/// are bracketed between points a quarter radian apart.
+/// NearestDistance for segments of varying curvature. The point p lies abeam of its foot points.
+/// The function brackets the foot points between points a quarter radian apart.
 double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                       double to) {
-  // How far p lies ahead of the point at d, along the motion; crosses zero downward at a foot
-  // point.
+  // Distance that p lies ahead of the point at d, along the motion. At a foot point, the distance
+  // ahead crosses zero downward.
   const auto ahead = [&](double d) {
     return segment.direction * ToLocal(Along(start, segment, d), p).x();
   };
@@ -91,8 +92,9 @@ double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p,
   return best;
 }
 
-/// Distance along an (unbounded) segment to its point nearest to p. On an arc, the smallest such
-/// distance in [from, to]; without one, the closer of `from` and `to`.
+/// Distance along an (unbounded) segment to the point of the segment nearest to p. On an arc,
+/// returns the smallest distance in [from, to] that leads to the nearest point. If no such distance
+/// lies in [from, to], returns the closer of `from` and `to`.
 double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                        double to) {
   if (!IsLineOrArc(segment)) {
@@ -102,12 +104,12 @@ double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p
   if (segment.curvature == 0.0) {
     return std::clamp(segment.direction * local.x(), from, to);
   }
-  const double radius = 1.0 / segment.curvature;  // signed
+  const double radius = 1.0 / segment.curvature;  // signed radius of the arc
   const double sign = std::copysign(1.0, radius);
   const double turned = std::atan2(sign * local.x(), sign * (radius - local.y()));
   const double lap = 2.0 * kPi * std::abs(radius);
   double distance = segment.direction * radius * turned;
-  distance += lap * std::ceil((from - distance) / lap);  // the first one not below `from`
+  distance += lap * std::ceil((from - distance) / lap);  // the first distance not below `from`
   if (distance <= to) {
     return distance;
   }
@@ -132,7 +134,7 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
                    "segment of length {}, curvature {}, sharpness {} and {}, direction {}",
                    segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
                    segment.direction);
-    // The number of quadrature pieces is that of half radians turned.
+    // The number of quadrature pieces equals the number of half radians that the segment turns.
     constexpr double kMaxHeadingChange = 1e4;
     TRACKBED_REQUIRE(
         IsLineOrArc(segment) || MaxHeadingChange(segment, segment.length) <= kMaxHeadingChange,
@@ -142,7 +144,8 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
         MaxHeadingChange(segment, segment.length), kMaxHeadingChange);
     starts_.push_back(Along(starts_.back(), segment, segment.length));
     length_ += segment.length;
-    constexpr double kMaxLength = 1e12;  // [m]; stations are rounded by 0.1 mm there
+    // [m]; at a length of 1e12 m, stations are rounded by 0.1 mm.
+    constexpr double kMaxLength = 1e12;
     TRACKBED_REQUIRE(length_ <= kMaxLength, "Path: {} m; must be at most {} m", length_,
                      kMaxLength);
     stations_.push_back(length_);
@@ -240,8 +243,8 @@ std::vector<Segment> Path::Cut(Stations within) const {
   std::vector<Segment> pieces;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Segment& whole = segments_[i];
-    // A range that begins or ends at a joint excludes the segment beyond it, even if the joint's
-    // station is rounded.
+    // A range that begins or ends at a joint excludes the segment beyond the joint, even if the
+    // joint's station is rounded.
     const double end = stations_[i + 1];
     const double from =
         within.from >= end ? whole.length : std::max(within.from - stations_[i], 0.0);
@@ -287,7 +290,8 @@ std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points) {
     const CurvePoint& b = points[i];
     const double h = b.s - a.s;
     TRACKBED_CHECK(h > 0.0, "points at {} and {} m", a.s, b.s);
-    // Quadratic curvature with given end values, whose mean gives the change of heading.
+    // The curvature is quadratic with given end values, and the mean curvature gives the change of
+    // heading.
     const double mean = (b.yaw - a.yaw) / h;
     segments.push_back({h, a.curvature, 1, (6.0 * mean - 4.0 * a.curvature - 2.0 * b.curvature) / h,
                         6.0 * (a.curvature + b.curvature - 2.0 * mean) / (h * h)});

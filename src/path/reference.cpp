@@ -6,14 +6,15 @@
 #include "trackbed/core/error.h"
 
 // Speed profiles with constant acceleration between knots. StopAtEnd splits the path at the ends of
-// the speed caps. A backward pass limits the speed at each split by braking to the end, a forward
-// pass by accelerating from the start. Each stretch then gets knots where it starts to cruise and
-// to brake. A start that is too fast brakes as hard as needed until it meets the profile.
+// the speed caps. A backward pass limits the speed at each split by braking to the end. A forward
+// pass limits the speed by accelerating from the start. Each stretch then gets knots where the car
+// starts to cruise and where it starts to brake. A car that starts too fast brakes as hard as
+// needed until it meets the profile.
 
 namespace trackbed {
 namespace {
 
-/// Shorter stretches of a profile are dropped [m].
+/// Stretches of a profile shorter than kNegligible are dropped [m].
 constexpr double kNegligible = 1e-9;
 
 /// A stretch between two stations with a constant speed limit.
@@ -23,7 +24,7 @@ struct Stretch {
   double speed;
 };
 
-/// Splits [0, length] at the ends of the caps.
+/// Splits [0, length] at the ends of the speed caps.
 std::vector<Stretch> SplitAtSpeedCaps(double length, double limit,
                                       const std::vector<SpeedCap>& caps) {
   std::vector<double> ends{0.0, length};
@@ -52,9 +53,10 @@ std::vector<Stretch> SplitAtSpeedCaps(double length, double limit,
   return stretches;
 }
 
-/// Adds the knots inside a stretch with given squared speeds at its ends, which its length permits.
-/// The car brakes at `braking` or accelerates to the stretch's speed, cruises, and brakes to the
-/// exit speed.
+/// Adds the knots inside a stretch with given squared speeds at its ends. The caller ensures that
+/// the length of the stretch permits the speeds at its ends. First the car brakes at `braking` or
+/// accelerates to the stretch's speed. After reaching the stretch's speed, the car cruises and
+/// brakes to the exit speed.
 void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared, double braking,
                    const SpeedLimits& limits, std::vector<SpeedProfile::Knot>& knots) {
   const double a = in_squared > stretch.speed * stretch.speed ? -braking : limits.acceleration;
@@ -72,7 +74,7 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
     add(stretch.from + ramp, v_squared);
     add(stretch.to - brake, v_squared);
   } else if (a > 0.0) {
-    // The highest speed cannot be reached: accelerate until braking must begin.
+    // The car cannot reach the highest speed, so it accelerates until it must begin to brake.
     const double peak = (out_squared - in_squared + 2.0 * b * length) / (2.0 * (a + b));
     add(stretch.from + peak, in_squared + 2.0 * a * peak);
   }
@@ -164,7 +166,7 @@ double SpeedProfile::StationAt(double time) const {
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
     const Knot& a = knots_[i];
     const Knot& b = knots_[i + 1];
-    // Infinite if both speeds are 0: the car stays there.
+    // The duration is infinite if both speeds are 0, because the car stays at rest.
     const double duration = 2.0 * (b.s - a.s) / (a.speed + b.speed);
     if (time < duration) {
       const double acceleration = (b.speed - a.speed) / duration;
@@ -194,7 +196,7 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
       braking = std::max(braking, (start_squared - speed * speed) / (2.0 * from));
     }
   }
-  // A start that is too fast for the path ahead brakes at `braking` until it meets the profile.
+  // A car that starts too fast for the path ahead brakes at `braking` until it meets the profile.
   bool too_fast = start_squared > squared[0];
   squared[0] = start_squared;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
@@ -229,7 +231,7 @@ SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits
     const SpeedProfile profile =
         StopAtEnd(leg.to - leg.from, first ? start_speed : 0.0, limits, own);
     for (const SpeedProfile::Knot& knot : profile.knots()) {
-      // After adding the leg's start, stations near its ends may coincide by rounding.
+      // After adding the leg's start, stations near the leg's ends may coincide by rounding.
       if (first || leg.from + knot.s > knots.back().s + 0.5 * kNegligible) {
         knots.push_back({leg.from + knot.s, knot.speed});
       }
@@ -244,7 +246,7 @@ SpeedProfile Excerpt(const SpeedProfile& profile, Stations within) {
                    "Excerpt: stations {} and {}; must be numbers", within.from, within.to);
   std::vector<SpeedProfile::Knot> knots{{0.0, profile.SpeedAt(within.from)}};
   for (const SpeedProfile::Knot& knot : profile.knots()) {
-    // After subtracting `from`, stations near the ends may coincide with them by rounding.
+    // After subtracting `from`, stations near the ends may coincide with the ends by rounding.
     if (knot.s > within.from + 0.5 * kNegligible && knot.s < within.to - 0.5 * kNegligible) {
       knots.push_back({knot.s - within.from, knot.speed});
     }

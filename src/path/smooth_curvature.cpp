@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSpacing = 0.1;  // [m]
 
-/// Mean position of the path over the window around its start.
+/// Mean position of the path over the window around the path's start.
 Vec2 MeanAtStart(const Path& path, double window) {
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces = std::ceil(window / kSpacing);

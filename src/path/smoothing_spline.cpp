@@ -50,7 +50,8 @@ SmoothingSpline::SmoothingSpline(const ChordPoints& fitted, double period)
   for (Eigen::Index i = 0; i < all_knots_.size(); ++i) {
     const Eigen::Index own = i - kDegree;
     if (period > 0.0) {
-      const Eigen::Index turns = (own + kDegree * count) / count - kDegree;  // rounded down
+      // Number of periods, rounded down.
+      const Eigen::Index turns = (own + kDegree * count) / count - kDegree;
       all_knots_[i] = knots_[static_cast<std::size_t>(own - turns * count)] +
                       static_cast<double>(turns) * period;
     } else {
@@ -86,7 +87,8 @@ void SmoothingSpline::AddData(const ChordPoints& fitted) {
 }
 
 void SmoothingSpline::AddPenalty() {
-  // P''' is quadratic between knots, so three nodes integrate its square exactly.
+  // The third derivative P''' is quadratic between knots, so three nodes integrate its square
+  // exactly.
   const double node = std::sqrt(0.6);
   const std::array<std::pair<double, double>, 3> rule{
       {{-node, 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {node, 5.0 / 9.0}}};
@@ -146,8 +148,8 @@ Vec2 SmoothingSpline::At(double u, int order) const {
 
 SampledSpline Sample(const SmoothingSpline& spline, double spacing, std::size_t max_points) {
   constexpr double kTurn = 0.2;            // [rad]
-  constexpr int kMaxHalvings = 12;         // halvings
-  constexpr double kMinDerivative = 1e-3;  // |P'| is about 1
+  constexpr int kMaxHalvings = 12;         // number of halvings
+  constexpr double kMinDerivative = 1e-3;  // small, because |P'| is about 1
   using Quadrature = boost::math::quadrature::gauss<double, 7>;
   const auto length = [&](double from, double to) {
     return Quadrature::integrate([&](double u) { return spline.At(u, 1).norm(); }, from, to);

@@ -16,30 +16,32 @@ struct ChordPoints {
   std::vector<Vec2> points;
 };
 
-/// The smoothing spline of degree 5 of fit_path.h. With `period` > 0 [m] it is closed: the last
-/// point connects to the first one, and u repeats after `period`.
+/// The smoothing spline of degree 5 of fit_path.h. With `period` > 0 [m], the spline is closed. The
+/// last point of a closed spline connects to the first point, and u repeats after `period`.
 class SmoothingSpline {
  public:
-  /// Needs at least two points, or three for a closed path.
+  /// Needs at least two points for an open path, and at least three points for a closed path.
   SmoothingSpline(const ChordPoints& fitted, double period);
 
-  /// Fits with the smoothing length l [m]. Returns false and leaves the spline unchanged if the
-  /// equations are singular to machine precision.
+  /// Fits the spline with the smoothing length l [m]. If the equations are singular to machine
+  /// precision, returns false and leaves the spline unchanged.
   bool Fit(double smoothing_length);
 
-  /// d^order P/du^order, for order 0 to 2.
+  /// Derivative d^order P/du^order, for order 0 to 2.
   [[nodiscard]] Vec2 At(double u, int order = 0) const;
 
-  /// The knots, between which the spline is a polynomial: from the first point's u to the last
-  /// point's; for a closed path, to the first point's u one period later.
+  /// The knots, between which the spline is a polynomial. The first knot is the first point's u.
+  /// The last knot is the last point's u or, for a closed path, the first point's u one period
+  /// later.
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
   struct Basis {
-    Eigen::Index first;       // index of the first nonzero coefficient, up to the period
-    Eigen::ArrayXXd factors;  // one row per derivative
+    // Index of the first nonzero coefficient, before the modulus of Coefficient.
+    Eigen::Index first;
+    Eigen::ArrayXXd factors;  // Factors of the coefficients, one row per derivative.
   };
   [[nodiscard]] Basis BasisAt(double u, int order) const;
   [[nodiscard]] Eigen::Index Coefficient(Eigen::Index i) const { return i % size_; }
@@ -62,11 +64,12 @@ class SmoothingSpline {
 struct SampledSpline {
   std::vector<CurvePoint> points;
   std::vector<double> knot_stations;  ///< [m]
-  bool is_too_long = false;           ///< more points than allowed
+  bool is_too_long = false;           ///< Whether sampling would need more points than allowed.
 };
 
-/// Samples at most `spacing` [m] apart that turn by at most 0.2 rad from one to the next. Empty if
-/// the spline has a cusp, or if that takes more than `max_points` points.
+/// Samples the spline at most `spacing` [m] apart. Adjacent samples differ by at most 0.2 rad in
+/// heading. Returns no points if the spline has a cusp, or if the samples would exceed
+/// `max_points`.
 SampledSpline Sample(const SmoothingSpline& spline, double spacing, std::size_t max_points);
 
 }  // namespace trackbed

@@ -11,7 +11,7 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/text_table.h"
 
-// Solutions of CommonRoad: one trajectory of states per planning problem.
+// Reads solutions of CommonRoad, which have one trajectory of states per planning problem.
 namespace trackbed {
 namespace {
 
@@ -49,7 +49,7 @@ double Required(const XMLElement& state, const char* name, double largest,
   return *number;
 }
 
-/// The trajectory's element, such as ksTrajectory.
+/// The XML element of the trajectory, such as ksTrajectory.
 const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
   const XMLElement* first = nullptr;
   for (const XMLElement* child = root.FirstChildElement(); child != nullptr;

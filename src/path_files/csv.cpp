@@ -17,10 +17,10 @@
 #include "trackbed/core/table.h"
 #include "trackbed/core/text_table.h"
 
-// Reads paths from tables with a header line of column names, which may be commented out by '#'.
-// Columns are found by their usual names (PathColumnNames) or by the caller's, and converted to SI
-// units. Problems are collected with their line and column. Times become speeds if there is no
-// speed column.
+// Reads paths from tables with a header line of column names, which '#' may comment out. The reader
+// finds columns by their usual names (PathColumnNames) or by the caller's names. The reader
+// converts the values to SI units and collects problems with their line and column. If the table
+// has no speed column, times become speeds.
 namespace trackbed {
 namespace {
 
@@ -65,12 +65,12 @@ char FindDelimiter(const fs::path& file) {
   return delimiter;
 }
 
-/// Column of a quantity.
+/// Column of a quantity in the table.
 struct Column {
   std::size_t index;
-  double factor;  // to SI units
+  double factor;  // factor that converts to SI units
   double offset = 0.0;
-  double largest = 0.0;  // in SI units
+  double largest = 0.0;  // largest value in SI units
 };
 
 enum Quantity { kX, kY, kYaw, kCurvature, kSpeed, kTime, kQuantities };
@@ -167,7 +167,7 @@ class CsvPath {
     ConvertTumHeading();
   }
 
-  /// TUM's racing lines measure headings from north.
+  /// Converts headings of TUM's racing lines, which are measured from north.
   void ConvertTumHeading() {
     const auto has = [&](const char* name) {
       return std::find(names_.begin(), names_.end(), name) != names_.end();

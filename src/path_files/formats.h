@@ -10,22 +10,25 @@
 
 namespace trackbed {
 
-inline constexpr double kMaxPosition = 1e7;       ///< distance of a position from the origin [m]
-inline constexpr double kMaxPathSpeed = 100.0;    ///< [m/s]
-inline constexpr double kMaxPathCurvature = 1e6;  ///< [1/m]
-inline constexpr int kMaxDepth = 64;              ///< largest nesting depth
+/// Largest distance of a position from the origin [m].
+inline constexpr double kMaxPosition = 1e7;
+inline constexpr double kMaxPathSpeed = 100.0;    ///< Largest speed [m/s].
+inline constexpr double kMaxPathCurvature = 1e6;  ///< Largest curvature [1/m].
+inline constexpr int kMaxDepth = 64;              ///< Largest nesting depth.
 
 /// A format of path files.
 struct PathFormatEntry {
   PathFormat format = PathFormat::kAuto;
-  const char* name = "";                                        ///< value of the key `format`
-  const char* description = "";                                 ///< for users
-  std::vector<std::string> endings{};                           ///< of files, in lower case
-  bool (*may_be)(const std::filesystem::path& file) = nullptr;  ///< by its content; null: yes
+  const char* name = "";               ///< Value of the key `format`.
+  const char* description = "";        ///< Description of the format for users.
+  std::vector<std::string> endings{};  ///< Endings of file names, in lower case.
+  /// Whether the file's content fits the format; if null, any content fits.
+  bool (*may_be)(const std::filesystem::path& file) = nullptr;
   PathFile (*read)(const std::filesystem::path& file, const PathMap& map) = nullptr;
 };
 
-/// The table of formats, one entry each. Files with an ending that is not listed have the first.
+/// The table of formats, one entry each. The first format applies to files with an ending that is
+/// not listed.
 const std::vector<PathFormatEntry>& PathFormats();
 
 PathFile ReadPathCsv(const std::filesystem::path& file, const PathColumns& columns);
@@ -35,16 +38,19 @@ PathFile ReadGeoJson(const std::filesystem::path& file, const nlohmann::json& js
                      const PathMap& map);
 PathFile ReadCommonRoad(const std::filesystem::path& file, const std::string& text);
 
-/// Parses a JSON text. InputError.
+/// Parses a JSON text. Throws InputError if the text is not valid JSON.
 nlohmann::json ParseJsonText(const std::string& text, const std::string& file);
-/// Parses the first document of a YAML text, with numbers as in JSON; ignores the rest. InputError.
+/// Parses the first document of a YAML text, with numbers as in JSON. Ignores all other documents.
+/// Throws InputError if the text is not valid YAML.
 nlohmann::json ParseYamlText(const std::string& text, const std::string& file);
 
-/// The number at `key`, finite and at most `largest` in magnitude; otherwise InputError.
+/// The number at `key`. Throws InputError unless the number is finite and at most `largest` in
+/// magnitude.
 double NumberOf(const nlohmann::json& value, const std::string& key, double largest,
                 const std::string& file);
 
-/// Computes speeds from times [s]. InputError unless the times increase, about "point N" at `key`.
+/// Computes speeds from times [s]. If the times do not increase, throws InputError about "point N"
+/// at `key`.
 void AddSpeeds(PathPoints& points, const std::vector<double>& times, const std::string& file);
 
 [[noreturn]] void Refuse(const std::filesystem::path& file, const std::string& key,

@@ -8,7 +8,7 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
 
-// GeoJSON (RFC 7946): one line string, alone, as a feature or in a collection of features.
+// Reads GeoJSON (RFC 7946): one line string, alone, as a feature or in a collection of features.
 namespace trackbed {
 namespace {
 
@@ -56,7 +56,8 @@ void FindLines(const json& value, const std::string& key, Found& found) {
   }
 }
 
-/// Name of the reference system in the member `crs` of GeoJSON 2008; none without it.
+/// Name of the reference system in the member `crs` of GeoJSON 2008. Returns none if the member
+/// `crs` is absent.
 std::optional<std::string> NamedSystem(const json& root) {
   if (root.contains("crs") && root["crs"].is_object() && root["crs"].contains("properties") &&
       root["crs"]["properties"].is_object() && root["crs"]["properties"].contains("name") &&
@@ -93,7 +94,7 @@ class Projection84 {
   std::unique_ptr<PJ, PJ* (*)(PJ*)> projection_;
 };
 
-/// The first two numbers of each position; the third is the height.
+/// The first two numbers of each position; the third number is the height.
 std::vector<Vec2> Positions(const Found& found, const std::string& file, double largest) {
   const json& list = *found.coordinates;
   if (!list.is_array()) {

@@ -42,7 +42,8 @@ PathFile ReadAsNavPath(const fs::path& file, const PathMap& /*map*/) {
       file, is_json ? ParseJsonText(text, file.string()) : ParseYamlText(text, file.string()));
 }
 
-/// The format of a file by its ending and content; the first format for other endings.
+/// The format of a file by its ending and content. For endings that no format lists, returns the
+/// first format.
 const PathFormatEntry& FormatOf(const fs::path& file) {
   const std::string ending = Ending(file);
   for (const PathFormatEntry& entry : PathFormats()) {

@@ -13,27 +13,29 @@
 #include "trackbed/control/signal.h"
 #include "trackbed/core/error.h"
 
-// Imports the log of a drive: reads rows in SI units and ENU axes (log_rows.h), checks columns for
-// contradictions (log_check.h), and resamples poses and signals to a grid of constant period by
-// local polynomials (local_polynomial.h: Cleveland 1979), whose derivatives give velocity and
-// acceleration. A measured speed, yaw rate or acceleration replaces the derivative. Inputs such as
-// the steering angle are interpolated linearly, gaps are filled linearly and marked invalid.
+// Imports the log of a drive. Rows are read in SI units and ENU axes (log_rows.h), and columns are
+// checked for contradictions (log_check.h). Local polynomials (local_polynomial.h: Cleveland 1979)
+// resample poses and signals to a grid of constant period; their derivatives give velocity and
+// acceleration. A measured speed, yaw rate or acceleration replaces the polynomial's derivative.
+// Inputs such as the steering angle are interpolated linearly. Gaps are filled linearly and marked
+// invalid.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMinDuration = 1.0;  // [s]
-constexpr double kMaxSamples = 1e6;   // 130 MB
+constexpr double kMinDuration = 1.0;  // Shortest imported part [s].
+constexpr double kMaxSamples = 1e6;   // Limit of the memory: 130 MB.
 
-/// X_WV of the rear axle from X_WS of the measured point.
+/// Pose X_WV of the rear axle from the pose X_WS of the measured point.
 Pose2 VehiclePose(const Pose2& X_WS, const LogSensor& X_VS) {
   const Vec2 p_SV = ToLocal({X_VS.x, X_VS.y, X_VS.yaw}, Vec2::Zero());
   return Compose(X_WS, {p_SV.x(), p_SV.y(), -X_VS.yaw});
 }
 
-/// The updates of a series that repeats the values of a slower loop. Linear between updates; a
-/// value constant for longer than a period is held until one period before it changes.
+/// The updates of a series that repeats the values of a slower loop. The series is linear between
+/// two updates. A value that stays constant for longer than a period is held until one period
+/// before it changes.
 LogSeries Updates(const LogSeries& rows, double period) {
   LogSeries updates;
   const auto add = [&](double time, double value) {
@@ -64,7 +66,8 @@ Signal Linear(const LogSeries& series, const std::optional<double>& period) {
   return signal;
 }
 
-/// Fits a series with its own timestamps at any time; constant beyond its ends.
+/// Fits a series that has its own timestamps, at any time. The fitted value is constant beyond the
+/// ends of the series.
 class FittedSeries {
  public:
   FittedSeries(const LogSeries& series, const LogMap& map)
@@ -137,7 +140,7 @@ class Importer {
   const LogMap& map_;
   LogRows rows_;
   RecordedDrive drive_;
-  double start_ = 0.0;  // start of the grid, since the first row of the log [s]
+  double start_ = 0.0;  // start of the grid, relative to the first row of the log [s]
 };
 
 void Importer::RequireRows() const {
@@ -216,7 +219,7 @@ void Importer::FitPoses() {
   const LocalPolynomial fits(rows_.time, values, map_.resample.half_width, map_.resample.degree);
   const std::vector<LogStretch> stretches = SplitAtGaps(rows_.time, map_.gap);
   auto stretch = stretches.begin();
-  // Tolerance: grid times are rounded, row times are not.
+  // The tolerance is needed because grid times are rounded, and row times are not.
   const double slack = 1e-6 * drive_.period;
   for (RecordedSample& sample : drive_.samples) {
     const double at = LogTime(sample);
@@ -265,8 +268,8 @@ void Importer::FitSignals() {
   }
 }
 
-/// Interpolates samples in gaps linearly between the gap's ends. The grid begins and ends within
-/// rows.
+/// Interpolates samples in a gap linearly between the gap's ends. The grid begins and ends within
+/// rows, so every gap has two ends.
 void Importer::FillGaps() {
   std::vector<RecordedSample>& samples = drive_.samples;
   const auto valid = [](const RecordedSample& sample) { return sample.valid; };
@@ -342,7 +345,7 @@ void Importer::NoteGaps() {
   int missing = 0;
   double longest = 0.0;
   double longest_at = 0.0;
-  double since = 0.0;  // start of the gap
+  double since = 0.0;  // start time of the gap
   bool in_gap = false;
   for (const RecordedSample& sample : drive_.samples) {
     missing += sample.valid ? 0 : 1;

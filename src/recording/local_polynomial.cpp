@@ -37,11 +37,11 @@ LocalFit LocalPolynomial::At(double at, const LogStretch& stretch) const {
   const std::ptrdiff_t needed = std::min<std::ptrdiff_t>(degree_ + 1, end - begin);
   double width = half_width_;
   if (last - first < needed) {
-    while (last - first < needed) {  // adds the nearer neighbor
+    while (last - first < needed) {  // adds the neighboring row that is nearer in time
       const bool before = first != begin && (last == end || at - *(first - 1) <= *last - at);
       before ? static_cast<void>(--first) : static_cast<void>(++last);
     }
-    // Width at which the furthest row still has a third of the weight.
+    // Width of the weight function at which the furthest row has a third of the full weight.
     width = 1.5 * std::max(at - *first, *(last - 1) - at);
     width = width > 0.0 ? width : half_width_;
   }

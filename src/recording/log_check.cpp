@@ -11,24 +11,24 @@
 #include "trackbed/control/signal.h"
 #include "trackbed/core/angle.h"
 
-// Compares columns of a log with derivatives of its positions, fitted by local polynomials: the yaw
-// rate and the yaw with the course, and speed, yaw rate and steering with the pose by the slope or
-// sign of a least-squares fit. Wrong units and signs are recognized because the corrected column
-// agrees, or by the fitted factor (3.6, 180/pi, -1). Robust against outliers: compares upper
-// quartiles.
+// Compares columns of a log with derivatives of the logged positions, fitted by local polynomials.
+// Yaw and yaw rate are compared with the course. Speed, yaw rate and steering are compared with the
+// pose by the slope or sign of a least-squares fit. A wrong unit or sign is recognized if the
+// corrected column agrees, or by the fitted factor (3.6, 180/pi, -1). The comparison uses upper
+// quartiles, which are robust against outliers.
 namespace trackbed {
 namespace {
 
-constexpr double kTurns = 0.02;  // slower turns are not judged [rad/s]
+constexpr double kTurns = 0.02;  // turns slower than this rate are not judged [rad/s]
 
-/// Motion at one moment of the drive, derived from position and logged yaw.
+/// Motion at one moment of the drive, derived from the position and the logged yaw.
 struct Moment {
   double time;
-  double speed;        // [m/s]
-  double course;       // [rad]
-  double course_rate;  // [rad/s]
-  double yaw_rate;     // derivative of the yaw [rad/s]
-  double yaw;          // [rad]
+  double speed;        // Speed of the measured point [m/s].
+  double course;       // Direction of motion [rad].
+  double course_rate;  // Derivative of the course [rad/s].
+  double yaw_rate;     // Derivative of the yaw [rad/s].
+  double yaw;          // Logged yaw [rad].
 };
 
 double UpperQuartile(std::vector<double> values) {
@@ -37,8 +37,9 @@ double UpperQuartile(std::vector<double> values) {
   return *place;
 }
 
-/// The moments at which the measured point moves with at least a fifth of its RMS speed, with every
-/// yaw multiplied by `scale`. Fewer than 8000 of them, evenly spread.
+/// The moments at which the measured point moves with at least a fifth of its RMS speed. Every yaw
+/// of the moments is multiplied by `scale`. Moments() returns fewer than 8000 evenly spread
+/// moments.
 std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale) {
   constexpr std::size_t kMaxMoments = 4000;
   std::vector<double> yaw = rows.yaw;
@@ -74,7 +75,7 @@ std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale
   return all;
 }
 
-/// Upper quartile of the yaw rate error relative to that of the course rate; none if the drive
+/// Upper quartile of the yaw rate error, relative to that of the course rate; none if the drive
 /// hardly turns.
 std::optional<double> Misfit(const std::vector<Moment>& moments) {
   std::vector<double> apart;
@@ -131,8 +132,8 @@ void CheckYawRateOfYaw(const LogRows& rows, const LogMap& map, Found& found) {
                 100.0 * *misfit));
 }
 
-/// Detects a yaw with a constant offset of about a quarter turn from the course, as of compass
-/// headings.
+/// Detects a yaw that differs from the course by a constant of about a quarter turn, as compass
+/// headings do.
 void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& found) {
   if (moments.size() < 20) {
     return;
@@ -143,7 +144,8 @@ void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& 
   }
   mean /= static_cast<double>(moments.size());
   const double off = std::atan2(mean.y(), mean.x());
-  constexpr double kMinConcentration = 0.9;  // length of the mean direction; 1: constant
+  constexpr double kMinConcentration = 0.9;  // Smallest length of the mean direction; a constant
+                                             // direction has length 1.
   // Driving in reverse gives an offset of half a turn.
   if (mean.norm() > kMinConcentration && std::abs(off) > 0.6 && std::abs(off) < kPi - 0.6) {
     found.emplace_back(YawKey(map),
@@ -153,7 +155,8 @@ void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& 
   }
 }
 
-/// Slope b of the least-squares fit column = b * (quantity of the pose), and their correlation.
+/// Slope b of the least-squares fit column = b * (quantity of the pose), and the correlation of the
+/// two.
 struct Ratio {
   double slope = 0.0;
   double correlation = 0.0;
@@ -265,7 +268,7 @@ Found FindContradictions(const LogRows& rows, const LogMap& map) {
   if (rows.has[kSpeedSignal]) {
     CheckSpeed(rows, moments, found);
   }
-  if (rows.has[kYawRateSignal] && found.empty()) {  // needs a correct yaw
+  if (rows.has[kYawRateSignal] && found.empty()) {  // the check needs a correct yaw
     CheckYawRate(rows, moments, found);
   }
   for (const LogSignal signal : {kSteeringSignal, kSteeringCommandSignal}) {

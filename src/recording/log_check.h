@@ -9,12 +9,13 @@
 
 namespace trackbed {
 
-/// Finds columns that contradict each other, each with the key of the map to check: headings that
-/// turn differently from the path, for example degrees read as radians or with the wrong sign;
-/// speeds, yaw rates and steering that disagree with the pose.
+/// Finds columns that contradict each other, each with the map key to check. A heading may turn
+/// differently from the path, for example if degrees are read as radians or the sign is wrong.
+/// Speeds, yaw rates and steering may disagree with the pose.
 ///
-/// Compares upper quartiles and least-squares fits over the moving part of the drive, so that
-/// outliers in single rows have little effect. Drives that hardly turn or move are not judged.
+/// The check compares upper quartiles and least-squares fits over the moving part of the drive.
+/// Outliers in single rows therefore have little effect. Drives that hardly turn or move are not
+/// judged.
 std::vector<std::pair<std::string, std::string>> FindContradictions(const LogRows& rows,
                                                                     const LogMap& map);
 

@@ -16,19 +16,19 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
 
-// Reads the CSV file of a log, and the other files that the map names, row by row. Time is relative
-// to the first row. Rows outside the imported part or excluded by a condition of the map are
-// skipped, as are poses that are incomplete or repeat a time. Numbers are converted by scale, unit,
-// offset and curve of their column; NED poses become ENU, and signals positive to the right change
-// their sign.
+// Reads the CSV file of a log, and the other files that the map names, row by row. Times are
+// relative to the first row of the log. Rows outside the imported part, and rows excluded by a
+// condition of the map, are skipped. Poses that are incomplete or repeat a time are skipped, too.
+// Numbers are converted by the scale, unit, offset and curve of their column. NED poses become ENU,
+// and signals positive to the right change their sign.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxNumbers = 50'000'000;  // 400 MB
+constexpr std::size_t kMaxNumbers = 50'000'000;  // limit of the memory: 400 MB
 
-/// Column of a signal, and its sign in the frame of the vehicle.
+/// Column of a signal, with the signal's sign in the frame of the vehicle.
 struct SignalColumn {
   LogSignal signal;
   LogColumn column;
@@ -36,7 +36,8 @@ struct SignalColumn {
 };
 
 std::vector<SignalColumn> SignalColumns(const LogMap& map) {
-  const double turn = map.frame == LogFrame::kNed ? -1.0 : 1.0;  // if positive to the right
+  const double turn = map.frame == LogFrame::kNed ? -1.0 : 1.0;  // sign of signals that are
+                                                                 // positive to the right
   std::vector<SignalColumn> columns;
   const auto add = [&](LogSignal signal, const auto& column, double sign) {
     if (column) {
@@ -65,7 +66,7 @@ char DelimiterOf(const LogMap& map) {
                                                      : '\t';
 }
 
-/// Column names without duplicates.
+/// A list of column names without duplicates.
 class ColumnNames {
  public:
   std::size_t Add(const std::string& name) {
@@ -111,7 +112,7 @@ class LogReader {
  private:
   using Numbers = std::vector<double>;
 
-  /// Column and last time of one file.
+  /// Column of the time in one file, and the last time read.
   struct Clock {
     std::size_t column;
     std::optional<std::size_t> nanoseconds;
@@ -126,8 +127,8 @@ class LogReader {
     return clock;
   }
 
-  /// Time of a row since the first row of the log [s]. None, with a problem, if it is missing or
-  /// decreases.
+  /// Time of a row since the first row of the log [s]. TimeOf adds a problem and returns none if
+  /// the time is missing or decreases.
   std::optional<double> TimeOf(Clock& clock, const Numbers& numbers, const fs::path& file, int line,
                                ProblemList& problems) {
     const double count = numbers[clock.column];
@@ -140,7 +141,7 @@ class LogReader {
       origin_ = {count, nanoseconds};
       rows_.origin = count;
     }
-    // Subtracts before scaling: differences are exact even for counts near 1e18.
+    // Subtracts before scaling, so that differences are exact even for counts near 1e18.
     const double time = (count - origin_->first) * UnitInSi(map_.time.unit) +
                         (nanoseconds - origin_->second) * 1e-9;
     if (clock.last && time < *clock.last) {
@@ -179,7 +180,7 @@ class LogReader {
     LogSeries& series = rows_.signals[signal.signal];
     const double at = time - column.delay;
     if (!series.time.empty() && at <= series.time.back()) {
-      return;  // same time as the row before
+      return;  // the row has the same time as the row before
     }
     Count(2);
     double value = column.scale * (number * UnitInSi(column.unit)) + column.offset;
@@ -192,7 +193,7 @@ class LogReader {
 
   void ReadPoses();
   void ReadOther(const std::string& name, const char* key);
-  /// Adds position and yaw of a row, if it has both.
+  /// Adds position and yaw of a row that has both.
   void TakePose(const Numbers& numbers, double time, int line,
                 const std::vector<std::size_t>& columns);
 
@@ -300,7 +301,7 @@ void LogReader::ReadOther(const std::string& name, const char* key) {
   ProblemList problems;
   ReadCsvNumbers(file, names.names(), DelimiterOf(map_), [&](const Numbers& numbers, int line) {
     const std::optional<double> time = TimeOf(clock, numbers, file, line, problems);
-    if (time) {  // no restriction to the imported part: rows may be far apart
+    if (time) {  // rows outside the imported part are not skipped, since rows may be far apart
       for (const auto& [signal, column] : signals) {
         TakeSignal(*signal, numbers[column], *time);
       }

@@ -12,11 +12,12 @@
 namespace trackbed {
 namespace {
 
-/// A column and the sample's field that it holds.
+/// A column, and the field of the sample that it contains.
 struct Column {
   const char* name;
   std::function<double&(RecordedSample& sample)> number;
-  bool RecordedDrive::*has = nullptr;  // whether the drive has the column; none: always
+  bool RecordedDrive::*has = nullptr;  // flag of the drive that says whether the drive has the
+                                       // column; none: always
 };
 
 const std::vector<Column>& Columns() {
@@ -101,7 +102,7 @@ RecordedDrive ReadRecordCsv(const std::filesystem::path& file) {
   ProblemList problems;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double expected = static_cast<double>(row) * drive.period;
-    constexpr double kRounding = 1e-6;  // of a period
+    constexpr double kRounding = 1e-6;  // tolerance as a fraction of the period
     if (!(drive.period > 0.0) ||
         std::abs(drive.samples[row].time - expected) > kRounding * drive.period) {
       problems.Add({file.string(), excerpt.lines[row], 0, "t_s",

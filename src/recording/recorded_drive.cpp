@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Speed of backward motion [m/s] that position noise may cause in a car at rest.
+/// Speed of backward motion [m/s] that position noise may suggest for a car at rest.
 constexpr double kBackwards = 0.05;
 
 RecordedSample Between(const RecordedSample& a, const RecordedSample& b, double share) {
@@ -32,7 +32,7 @@ RecordedSample Between(const RecordedSample& a, const RecordedSample& b, double 
   return sample;
 }
 
-/// The drive's signals for playback: "steering_command and throttle".
+/// Names of the drive's signals for playback, such as "steering_command and throttle".
 std::string SignalsOf(const RecordedDrive& drive) {
   std::string names;
   const auto add = [&](bool has, const char* name) {
@@ -83,7 +83,7 @@ RecordedSample RecordedDrive::At(double time) const {
                    period);
   const double last = static_cast<double>(samples.size() - 1);
   const double place = std::clamp(time / period, 0.0, last);
-  // Times that differ from a sample's only by rounding use that sample.
+  // A time that differs from a sample's time only by rounding uses that sample.
   constexpr double kRounding = 1e-6;
   const double nearest = std::round(place);
   if (std::abs(place - nearest) < kRounding) {

@@ -16,13 +16,13 @@
 namespace trackbed {
 namespace {
 
-/// Data shared by all windows.
+/// Data that all windows share.
 struct Replay {
   const CarModel& car;
   const RecordedDrive& drive;
   const ReplayOptions& options;
   PlaybackOptions inputs;
-  int steps;  // per control period
+  int steps;  // number of steps per control period
 };
 
 /// State of the steering actuator after some control periods of the drive.
@@ -40,8 +40,8 @@ int StepsPerPeriod(double period, double timestep) {
   return static_cast<int>(std::lround(steps));
 }
 
-/// Follows the commands from the start of the drive. Returns the state at each of `periods`, which
-/// must increase.
+/// Simulates the actuator from the start of the drive, following its commands. Returns the
+/// actuator's state at each of `periods`, which must increase.
 std::vector<SteeringHistory> FollowCommands(const Replay& replay,
                                             const std::vector<long>& periods) {
   const VehicleParams& params = replay.car.params();
@@ -110,7 +110,7 @@ WindowPrediction Predict(const Replay& replay, const std::string& name, long fir
   return window;
 }
 
-/// Quantile of sorted values, with linear interpolation.
+/// Quantile of sorted values, with linear interpolation between them.
 double QuantileOf(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto before = static_cast<std::size_t>(place);
@@ -138,7 +138,7 @@ std::vector<WindowPrediction> PredictWindows(const CarModel& car, const std::str
                    "PredictWindows: a horizon of {} s; must be above 0", horizon);
   std::vector<long> first;
   for (const double restart : restarts) {
-    // The grid may end between two control periods.
+    // The tolerance allows a grid that ends between two control periods.
     TRACKBED_REQUIRE(restart >= 0.0 && restart + horizon <= drive.duration() + 1.5 * period,
                      "PredictWindows: a window from {} s to {} s of a drive of {} s", restart,
                      restart + horizon, drive.duration());
@@ -195,7 +195,8 @@ WindowErrors MeasureWindows(const std::vector<WindowPrediction>& windows,
   RelativeRms yaw_rate;
   RelativeRms lateral;
   for (const WindowPrediction& window : windows) {
-    for (std::size_t k = 1; k < window.states.size(); ++k) {  // the first is the record itself
+    for (std::size_t k = 1; k < window.states.size(); ++k) {  // the loop skips the first state,
+                                                              // which is the record itself
       const VehicleState& state = window.states[k];
       const VehicleState recorded = StateOf(drive.At(state.time), vehicle, false);
       if (std::abs(recorded.speed) >= min_speed) {

@@ -16,19 +16,19 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/report/names.h"
 
-// Comparisons on a report page. Pairs come from compare.json (of a comparison folder or next to the
-// runs), from equal plant names in several runs, or, for a single run without a comparison, from
-// its plants. Differences are computed again from the logs; if their maxima do not match
-// compare.json, the logs have changed and the page is refused. Curves are thinned to a common limit
-// of rows.
+// Data of the comparisons on a report page. Pairs come from compare.json, in a comparison folder or
+// next to the runs. Without compare.json, several runs are paired by equal plant names, and a
+// single run pairs its own plants. Differences are computed again from the logs. If the maxima of
+// the differences do not match compare.json, the logs have changed and the page is refused. Curves
+// are thinned to a common limit of rows.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Limit of the rows of all curves together: beyond the resolution of a chart, and small enough for
-/// ten pairs.
+/// Limit of the rows of all curves together. The limit exceeds the resolution of a chart, but is
+/// small enough for ten pairs.
 constexpr std::size_t kCurveRows = 3000;
 
 [[noreturn]] void FailOutdated(const fs::path& file, const std::string& message) {
@@ -45,17 +45,17 @@ struct Drive {
 struct Pair {
   Drive first;
   Drive second;
-  std::optional<JsonValue> outcome;  ///< of a comparison that was judged: its pair in compare.json
+  std::optional<JsonValue> outcome;  ///< pair in compare.json, for a comparison that was judged
 };
 
-/// Adds the pairs and the verdict of a comparison. Run indices start at `at`.
+/// Adds the pairs and the verdict of a comparison to the page. Indices of the runs start at `at`.
 void AddJudgedPairs(const fs::path& folder, const std::vector<fs::path>& runs, std::size_t at,
                     std::vector<Pair>& pairs, ordered_json& verdicts) {
   const JsonValue json = ReadJson(folder / run_folder::kCompareJson);
   const std::size_t last = ComparedRuns(folder).size() - 1;
   for (const JsonValue& pair : json.At("pairs").Elements()) {
     const std::vector<JsonValue> plants = pair.At("plants").Elements(2);
-    // In a comparison of two runs, a name has its folder and its plant.
+    // In a comparison of two runs, a name consists of folder and plant.
     const auto drive = [&](std::size_t which, std::size_t run) {
       return Drive{run, fs::path(plants[which].Text()).filename()};
     };
@@ -97,7 +97,7 @@ void AddPairsOfRun(const std::vector<FinishedDrive>& drives, std::vector<Pair>& 
   }
 }
 
-/// Notes on plants that are in the first run but not in another one, or vice versa.
+/// Notes on plants that the first run has and another run lacks, or vice versa.
 ordered_json UnpairedPlants(const std::vector<fs::path>& runs,
                             const std::vector<std::vector<FinishedDrive>>& drives) {
   ordered_json left_out = ordered_json::array();
@@ -117,14 +117,14 @@ ordered_json UnpairedPlants(const std::vector<fs::path>& runs,
   return left_out;
 }
 
-/// Rejects a comparison whose logs have changed since.
+/// Refuses a comparison whose logs have changed since it was made.
 void RefuseIfChanged(const JsonValue& outcome, const PlantComparison& now) {
   constexpr double kEqualityTolerance =
-      1e-6;  // [m], [rad], [rad/s]: of rounding on another machine
+      1e-6;  // tolerance for rounding on another machine [m], [rad], [rad/s]
   for (const ComparedQuantity& quantity : ComparedQuantities()) {
     const std::optional<double> then = outcome.At(quantity.key).At("max").NumberOrNull();
     const double max = (now.*quantity.difference).max;
-    // Null stands for a maximum that is not finite.
+    // Null in the file is a maximum that is not finite.
     if (then ? !(std::abs(*then - max) <= kEqualityTolerance) : std::isfinite(max)) {
       FailOutdated(outcome.file(), "does not match the runs' current logs");
     }
@@ -160,7 +160,7 @@ ordered_json CurveJson(const Table& differences, std::size_t row_limit) {
   return json;
 }
 
-/// The bounds of a pair, by their names.
+/// The bounds of a pair, keyed by their names.
 ordered_json TolerancesJson(const JsonValue& tolerances) {
   ordered_json json = ordered_json::object();
   for (const auto& [name, bound] : tolerances.Members()) {
@@ -198,7 +198,7 @@ std::vector<fs::path> ComparedRuns(const fs::path& folder) {
   std::vector<fs::path> runs;
   const std::optional<JsonValue> names = json.Find("runs");
   for (const std::string& name : names ? names->Texts() : std::vector<std::string>()) {
-    const fs::path path = folder / name;  // absolute paths stay absolute
+    const fs::path path = folder / name;  // an absolute path stays absolute
     if (runs.empty() || fs::weakly_canonical(runs.front()) != fs::weakly_canonical(path)) {
       runs.push_back(path);
     }

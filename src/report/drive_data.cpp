@@ -19,8 +19,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kReachedTolerance = 1e-6;  // [rad]; as in PlantMetrics
-constexpr double kMinSpan = 0.1;            // [s]; shortest visible interval
+constexpr double kReachedTolerance = 1e-6;  // Tolerance of the steering angle [rad], as in
+                                            // PlantMetrics.
+constexpr double kMinSpan = 0.1;            // Shortest visible interval [s].
 
 /// Intervals in which the actuator did not reach the command of the previous row.
 std::vector<std::array<double, 2>> RateLimitSpans(const Table& log) {
@@ -44,7 +45,8 @@ std::vector<std::array<double, 2>> RateLimitSpans(const Table& log) {
   return spans;
 }
 
-/// When the car learned of an obstacle; none if it never did, or knew it from the start.
+/// Time at which the car detected an obstacle; none if it never did, or knew the obstacle from the
+/// start.
 std::optional<double> KnownFrom(const Obstacle& obstacle, const Table& log,
                                 const VehicleParams& car) {
   const std::vector<double> time = log.Column("t_s");
@@ -69,7 +71,7 @@ std::string ForceColumn(const char* kind, const char* wheel) {
   return fmt::format("{}_force_{}_N", kind, wheel);
 }
 
-/// Fractions of a tyre's friction used, for each row of a log.
+/// Used fractions of a tyre's friction, for each row of a log.
 struct TyreShares {
   std::vector<double> along;
   std::vector<double> across;

@@ -73,7 +73,7 @@ ordered_json CorrelationJson(const JsonValue& correlation) {
   return {{"names", names}, {"matrix", matrix}};
 }
 
-/// The errors of one plant on one record.
+/// The prediction errors of one plant on one record.
 ordered_json PlantJson(const JsonValue& plant) {
   ordered_json json{{"windows", ordered_json::array()}};
   if (const std::optional<JsonValue> yaw_rate = plant.Find("yaw_rate_relative_rms")) {

@@ -11,7 +11,8 @@
 namespace trackbed {
 namespace {
 
-/// Writes units with superscripts: m/s² for m/s^2. A path without an entry is its own label.
+/// Formats units with superscripts: m/s² for m/s^2. A path without a registered metric is its own
+/// label.
 ShownName Shown(const std::optional<MetricInfo>& info, const std::string& path) {
   if (!info) {
     return {path, ""};
@@ -74,7 +75,7 @@ ShownName NameOfOutput(const std::string& path) {
 }
 
 ShownName NameOfKey(const std::string& key) {
-  // The table uses N as index of all lists.
+  // In the table, N is the index in all lists.
   static const std::regex index(R"(\[\d+\])");
   const std::string listed = std::regex_replace(key, index, "[N]");
   for (const KeySection& section : ScenarioKeys()) {

@@ -22,12 +22,12 @@ ordered_json OrNull(double number) {
   return std::isfinite(number) ? ordered_json(number) : ordered_json();
 }
 
-/// A limit of 0 is unknown.
+/// A limit of 0 means unknown.
 ordered_json LimitJson(double limit) {
   return limit > 0.0 ? OrNull(limit) : ordered_json();
 }
 
-/// Limit of the drawn speeds [m/s]; nothing limits the speed on a straight.
+/// Limit of the drawn speeds [m/s], since nothing limits the speed on a straight.
 constexpr double kMaxShownSpeed = 100.0;
 
 Table DemandTable(const PathCheck& check) {

@@ -51,7 +51,7 @@ void MakeReadable(ordered_json& json) {
 std::string Readable(const std::string& text) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
   if (std::all_of(text.begin(), text.end(), IsPlain)) {
-    return text;  // mostly embedded films, which are long
+    return text;  // most long texts are embedded films
   }
   std::string readable;
   for (auto at = text.begin(); at != text.end();) {

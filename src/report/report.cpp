@@ -20,20 +20,20 @@
 #include "trackbed/report/live.h"
 
 // Report pages. ReportData collects runs, a comparison, a study or an identification as JSON. A
-// page is a fixed text (page_text.h) with that data in a script element, rendered by the JavaScript
-// in page/. All texts pass WithReadableTexts, and '<' is escaped, so that data from foreign files
-// cannot become markup. Films are linked, or embedded as base64. The page is written atomically,
-// after checking that the run folders have not changed meanwhile.
+// page is a fixed text (page_text.h) with the data in a script element. The JavaScript in page/
+// renders the data of a page. All texts pass WithReadableTexts, and '<' is escaped, so that data
+// from foreign files cannot become markup. Films are linked, or embedded as base64. The page is
+// written atomically, after checking that the run folders have not changed meanwhile.
 namespace trackbed {
 namespace {
 
 constexpr std::size_t kMaxFilmBytes = std::size_t{128}
-                                      << 20U;  // in a page, which browsers keep in memory
+                                      << 20U;  // limit for the films in a page, kept in memory
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Limit of the rows of all logs together: about 1 MB.
+/// Limit of the rows of all logs together, about 1 MB.
 constexpr std::size_t kRows = 7500;
 
 std::string Escaped(const std::string& text) {
@@ -44,15 +44,15 @@ std::string Escaped(const std::string& text) {
   return markup;
 }
 
-/// Serializes JSON for a script element; its text cannot close the element.
+/// Serializes JSON for a script element; text in the JSON cannot close the element.
 std::string ScriptJson(const ordered_json& json) {
-  // Invalid UTF-8 is replaced: names of entries are not shown, so they have not been checked.
+  // Invalid UTF-8 is replaced, since names of entries are not shown and were not checked.
   const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {
     if (c == '<') {
-      safe += "\\u003c";  // only occurs inside strings
+      safe += "\\u003c";  // the character occurs only inside strings
     } else {
       safe += c;
     }
@@ -60,7 +60,7 @@ std::string ScriptJson(const ordered_json& json) {
   return safe;
 }
 
-/// A path as relative URL, percent-encoded where necessary.
+/// Converts a path to a relative URL, percent-encoded where necessary.
 std::string FileUrl(const fs::path& path) {
   std::string url;
   for (const char c : path.generic_string()) {
@@ -133,10 +133,10 @@ void CheckFolders(const std::vector<fs::path>& paths) {
   }
 }
 
-/// Runs shown by a report.
+/// The runs that a report shows.
 struct ShownRuns {
-  std::vector<fs::path> folders;       ///< empty for a study
-  std::optional<fs::path> comparison;  ///< folder of the comparison, if one is shown
+  std::vector<fs::path> folders;       ///< Folders of the runs; empty for a study.
+  std::optional<fs::path> comparison;  ///< Folder of the comparison, if one is shown.
 };
 
 ShownRuns RunsToShow(const std::vector<fs::path>& paths) {

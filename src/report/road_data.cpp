@@ -22,7 +22,7 @@ nlohmann::ordered_json PointsJson(const std::vector<Vec2>& points) {
 }  // namespace
 
 nlohmann::ordered_json RoadsJson(const std::filesystem::path& folder) {
-  constexpr double kSpacing = 1.5;  // [m]; 3 cm off an arc of 10 m
+  constexpr double kSpacing = 1.5;  // spacing that deviates 3 cm from an arc of 10 m [m]
   const RoadPaint paint =
       PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
   nlohmann::ordered_json json{{"bands", nlohmann::ordered_json::array()},

@@ -30,10 +30,10 @@
 #include "trackbed/sim/car_model.h"
 #include "trackbed/track/track_file.h"
 
-// Data of one run for a report page, read from its folder: verdict and checks, world, plan, logs
-// and numbers of each plant, and the resolved scenario. Logs are thinned to their row limit
-// (RowsToShow). The scene (vehicle, motion, ground) is added if all plants have state logs. Events
-// and tyre forces need the compiled model and are added last.
+// Data of one run for a report page, read from its folder. The data has verdict and checks, world,
+// plan, logs and numbers of each plant, and the resolved scenario. Logs are thinned to their row
+// limit (RowsToShow). The scene (vehicle, motion, ground) is added if all plants have state logs.
+// Events and tyre forces need the compiled model and are added last.
 namespace trackbed {
 namespace {
 
@@ -42,7 +42,7 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kMaxScenarioBytes = std::size_t{1} << 20U;
 
-/// Name of a log column on the page, and whether every log has it.
+/// Name of a log column on the page, and whether every log has the column.
 struct Channel {
   const char* name;
   const char* column;
@@ -65,7 +65,7 @@ constexpr std::array kChannels{
     Channel{"longitudinal_acceleration", "longitudinal_acceleration_mps2", false},
     Channel{"clearance", "clearance_m", false}};
 
-/// Extends the box from `low` to `high` by the points of a line.
+/// Extends the box from `low` to `high` to contain the points of a line.
 void Widen(const ordered_json& line, Vec2& low, Vec2& high) {
   for (const auto& [name, axis] : {std::pair{"x", 0}, std::pair{"y", 1}}) {
     for (const double value : line.at(name).get<std::vector<double>>()) {
@@ -75,19 +75,19 @@ void Widen(const ordered_json& line, Vec2& low, Vec2& high) {
   }
 }
 
-/// x and y of a path.
+/// The x and y coordinates of a path.
 ordered_json LineJson(const Table& table, const std::vector<std::size_t>& rows) {
   return {{"x", RoundedColumn(table, "x_m", rows)}, {"y", RoundedColumn(table, "y_m", rows)}};
 }
 
 ordered_json PlanLine(const fs::path& file) {
-  constexpr std::size_t kMaxRows = 20000;  // rows of plan.csv: 2 km
+  constexpr std::size_t kMaxRows = 20000;  // largest number of rows of plan.csv, for 2 km
   const Table table = ReadCsvExcerpt(file, {"x_m", "y_m"}).table;
   return LineJson(table, RowsToShow(table, kMaxRows));
 }
 
-/// New plans in sequence, each with the time from which it holds. Thinned evenly to about 4000
-/// points in total.
+/// New plans in sequence, each with the time from which it is valid. Plans are thinned evenly to
+/// about 4000 points in total.
 ordered_json NewPlans(const fs::path& file) {
   constexpr std::size_t kMaxPoints = 4000;
   const Table table = ReadCsvExcerpt(file, {"from_t_s", "x_m", "y_m"}).table;
@@ -136,7 +136,7 @@ ordered_json LogJson(const fs::path& file, std::size_t row_limit) {
   return json;
 }
 
-/// Status, time, station and cause of a run's end: {status, t, s, cause}.
+/// Status, time, station and cause of a run's end, as {status, t, s, cause}.
 ordered_json EndJson(const JsonValue& metrics) {
   ordered_json json{{"status", metrics.At("status").Text()}};
   for (const auto& [name, key] : {std::pair{"t", "status_t"}, std::pair{"s", "status_s"}}) {
@@ -219,7 +219,7 @@ ordered_json CarJson(const VehicleParams& car) {
           {"grip_acceleration", Rounded(car.friction_lateral * kGravity)}};
 }
 
-/// Method, gates and line of the plan.
+/// Data of the plan: method, gates and line.
 ordered_json PlanJson(const fs::path& folder) {
   const JsonValue file = ReadJson(folder / run_folder::kPlanJson);
   ordered_json plan{{"status", file.At("status").Text()}};
@@ -260,7 +260,7 @@ ordered_json EdgesJson(const Track& track) {
   return {{"left", line(track.left_edge())}, {"right", line(track.right_edge())}};
 }
 
-/// Adds the data of the 3D scene, if all plants have state logs.
+/// Adds the data of the 3D scene if all plants have state logs.
 void AddScene(const fs::path& folder, const World& world, std::size_t row_limit,
               ordered_json& run) {
   for (const ordered_json& plant : run["plants"]) {
@@ -323,7 +323,7 @@ std::size_t PlantCount(const fs::path& folder) {
 
 namespace {
 
-/// The world of the run as `run` shows it, and its plan.
+/// Adds the run's world and its plan to `run`, and returns the world.
 World AddWorldAndPlan(const fs::path& folder, const fs::path& scenario, ordered_json& run) {
   for (const char* map : {kMapYaml, kMapPgm}) {
     if (fs::exists(folder / map)) {
@@ -347,7 +347,7 @@ World AddWorldAndPlan(const fs::path& folder, const fs::path& scenario, ordered_
   return world;
 }
 
-/// A text for each name.
+/// The texts of a section, keyed by name.
 ordered_json TextsJson(const JsonValue& section) {
   ordered_json json = ordered_json::object();
   for (const auto& [name, text] : section.Members()) {
@@ -385,7 +385,8 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
   }
   run["resolved"] = ReadFile(scenario, kMaxScenarioBytes);
   AddScene(folder, world, row_limit / 2, run);
-  AddCar(folder, world, row_limit / 2, run);  // last: takes longest
+  AddCar(folder, world, row_limit / 2, run);  // added last, because the data of the car takes
+                                              // longest
   return run;
 }
 

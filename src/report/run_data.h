@@ -7,14 +7,14 @@
 
 namespace trackbed {
 
-/// The log column shown under this name in a plant's `log` on the page.
+/// Name of the log column that the page shows under `name` in a plant's `log`.
 const char* ColumnOfChannel(const std::string& name);
 
 /// Whether the folder contains a finished run.
 bool IsRunFolder(const std::filesystem::path& folder);
 
-/// Data of one run, shown as `name`, with at most `row_limit` rows per log. Throws InputError if
-/// the folder does not match its metrics.json.
+/// Data of one run, shown as `name`, with at most `row_limit` rows per log. RunData throws
+/// InputError if the folder does not match its metrics.json.
 nlohmann::ordered_json RunData(const std::filesystem::path& folder, const std::string& name,
                                std::size_t row_limit);
 

@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kIntervals = 10;  // of a key's range, to count runs
+constexpr std::size_t kIntervals = 10;  // number of intervals of a key's range in which runs are
+                                        // counted
 
 std::optional<std::size_t> FindColumn(const TextTable& table, const std::string& name) {
   const auto found = std::find(table.columns().begin(), table.columns().end(), name);
@@ -29,7 +30,7 @@ std::optional<std::size_t> FindColumn(const TextTable& table, const std::string&
              : std::optional(static_cast<std::size_t>(found - table.columns().begin()));
 }
 
-/// Equal intervals of a key's range; on a logarithmic range, equal ratios.
+/// Equal intervals of a key's range. On a logarithmic range, the intervals have equal ratios.
 class Intervals {
  public:
   explicit Intervals(const JsonValue& distribution)
@@ -42,7 +43,8 @@ class Intervals {
     if (kind_ == "log_uniform" && !(from_ > 0.0)) {
       distribution.At("from").Refuse("a number above 0");
     }
-    // Whole numbers get equal widths; ranges of fewer than ten are divided into single numbers.
+    // Intervals of whole numbers have equal widths. A range of fewer than ten numbers is divided
+    // into single numbers.
     constexpr auto kMaxCount = static_cast<double>(kIntervals);
     count_ = kind_ == "integer" ? static_cast<std::size_t>(std::min(kMaxCount, to_ - from_ + 1.0))
                                 : kIntervals;
@@ -55,7 +57,7 @@ class Intervals {
                          : kind_ == "integer"   ? (value - from_ + 0.5) / (to_ - from_ + 1.0)
                                                 : (value - from_) / (to_ - from_);
     const double interval = std::floor(place * static_cast<double>(count_));
-    // Not a number: a value outside the domain of the logarithm.
+    // The position of a value outside the domain of the logarithm is not a number.
     return interval > 0.0
                ? static_cast<std::size_t>(std::min(interval, static_cast<double>(count_ - 1)))
                : 0;
@@ -68,7 +70,7 @@ class Intervals {
   std::size_t count_;
 };
 
-/// Rows with a robustness, that is, rows that were run.
+/// Rows that were run, and therefore have a robustness.
 struct Runs {
   explicit Runs(const TextTable& all) : table(all) {
     const std::optional<std::size_t> column = FindColumn(all, "robustness");
@@ -82,7 +84,7 @@ struct Runs {
 
   const TextTable& table;
   std::vector<std::size_t> rows;
-  std::vector<double> robustness;  ///< of each of `rows`
+  std::vector<double> robustness;  ///< robustness of each of `rows`
 };
 
 /// Number of runs and failures in each interval of a key.
@@ -100,7 +102,8 @@ ordered_json CoverageJson(const JsonValue& distribution, std::size_t column, con
   return {{"tried", tried}, {"failed", failed}};
 }
 
-/// Runs of the search with a lower robustness than all before: the steps of the best value so far.
+/// Runs of the search with a lower robustness than all runs before. The best value of the search
+/// changes only at the runs that BestSoFar returns.
 ordered_json BestSoFar(const Runs& runs, std::size_t searched) {
   ordered_json best = ordered_json::array();
   std::optional<double> least;
@@ -113,8 +116,9 @@ ordered_json BestSoFar(const Runs& runs, std::size_t searched) {
   return best;
 }
 
-/// A key of `margins` in falsify.json, with the range in which it passes alone as a pair. On a side
-/// without such a run, the nominal value is the end.
+/// The entry of a key in `margins` of falsify.json. The range in which the run passes if this key
+/// alone is varied is given as a pair. On a side without a passing run, the range ends at the
+/// nominal value.
 ordered_json MarginJson(const JsonValue& margin) {
   const auto number = [&](const char* name) -> ordered_json {
     const std::optional<JsonValue> value = margin.Find(name);
@@ -185,7 +189,7 @@ ordered_json SearchData(const fs::path& file, const TextTable& table) {
     return nullptr;
   }
   const JsonValue sweep = ReadJson(description);
-  // The folder may hold the outcome of an earlier search in another study.
+  // The folder may contain the outcome of an earlier search in another study.
   const std::optional<JsonValue> search = sweep.Find("search");
   if (!search) {
     return nullptr;

@@ -22,9 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMaxShownRows = 4000;  // shown individually
+constexpr std::size_t kMaxShownRows = 4000;  // limit of rows that are shown individually
 
-/// A number as number, an empty cell as null, anything else as text.
+/// Converts a number to a number, an empty cell to null, and any other cell to text.
 ordered_json CellJson(const std::string& cell) {
   if (cell.empty()) {
     return nullptr;
@@ -33,7 +33,7 @@ ordered_json CellJson(const std::string& cell) {
   return number ? ordered_json(Rounded(*number)) : ordered_json(cell);
 }
 
-/// Content of sweep.json next to the table; empty if the file is missing.
+/// Content of sweep.json next to the table; empty if that file is missing.
 ordered_json StudyDescription(const fs::path& table) {
   const fs::path file = table.parent_path() / run_folder::kSweepJson;
   std::error_code ignored;
@@ -42,7 +42,7 @@ ordered_json StudyDescription(const fs::path& table) {
   }
   const JsonValue json = ReadJson(file);
   const bool complete = json.At("complete").Flag();
-  // A row of the table has the study's row number only if none is missing.
+  // A row of the table has the study's row number only if no row is missing.
   const bool has_all = complete && !json.Find("shard");
   const auto text_of = [](const std::optional<JsonValue>& text) {
     return text ? text->Text() : std::string();
@@ -103,7 +103,9 @@ std::optional<fs::path> StudyTable(const fs::path& path) {
 }
 
 TextTable ReadStudyTable(const fs::path& file) {
-  const bool is_own = file.filename() == run_folder::kSweepCsv;  // not a copy under another name
+  const bool is_own = file.filename() == run_folder::kSweepCsv;  // whether the table is the study's
+                                                                 // own and not a copy under another
+                                                                 // name
   return ReadTextCsv(is_own ? run_folder::RequireFile(file) : file);
 }
 
@@ -137,7 +139,8 @@ ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& befo
   }
   if (ordered_json search = SearchData(file, table); !search.is_null()) {
     study["search"] = std::move(search);
-    study["statistics"] = nullptr;  // not a random sample: a search prefers the worst region
+    study["statistics"] = nullptr;  // no statistics: a search prefers the worst region, so its rows
+                                    // are not a random sample
   } else {
     study["statistics"] = StudyStatistics(table);
   }

@@ -7,11 +7,11 @@
 
 namespace trackbed {
 
-/// Paired differences (ComparePairs) between two studies, before and after a change, of the rows
-/// with equal settings: for the pass rate and each common output.
+/// Paired differences (ComparePairs) between two studies, before and after a change. Rows with
+/// equal settings are paired. The pass rate and each common output have a difference.
 ///
-/// Throws InputError naming the files if they vary different keys, have equal settings in several
-/// rows, or have no row in common.
+/// Throws InputError naming the files if the studies vary different keys, have equal settings in
+/// several rows, or have no row in common.
 nlohmann::ordered_json StudyDifference(const TextTable& before, const std::string& before_file,
                                        const TextTable& after, const std::string& after_file);
 

@@ -11,11 +11,12 @@
 #include "src/report/numbers.h"
 #include "trackbed/analysis/statistics.h"
 
-// Statistics of a study for its page (statistics.h): pass rate, and per output quantiles,
-// distribution function, first-order sensitivity indices of the varied parameters, mean in each
-// class of a parameter, and rank correlations between outputs. Uses the rows with a result; outputs
-// with fewer than 20 values are omitted. For large studies, StudyRowsToShow selects evenly spaced
-// rows plus the ten extremes of each output at either end.
+// Statistics of a study for its page (statistics.h): the pass rate, and statistics per output. The
+// statistics of an output are quantiles, distribution function, first-order sensitivity indices of
+// the varied parameters, mean in each class of a parameter, and rank correlations with other
+// outputs. Rows with a result are used, and outputs with fewer than 20 values are omitted. For
+// large studies, StudyRowsToShow selects evenly spaced rows plus the ten lowest and ten highest
+// values of each output.
 namespace trackbed {
 namespace {
 
@@ -23,15 +24,17 @@ using nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
 constexpr std::size_t kMinRows = 20;
-constexpr std::size_t kMaxEffectClasses = 12;      // classes of a parameter in a chart
-constexpr std::size_t kMaxCorrelatedOutputs = 24;  // outputs
-constexpr std::size_t kMaxStaircasePoints = 200;   // points of a distribution function
+constexpr std::size_t kMaxEffectClasses = 12;      // Largest number of classes of a parameter in a
+                                                   // chart.
+constexpr std::size_t kMaxCorrelatedOutputs = 24;  // Largest number of correlated outputs.
+constexpr std::size_t kMaxStaircasePoints = 200;   // Largest number of points of a distribution
+                                                   // function.
 
 ordered_json IntervalJson(const Interval& interval) {
   return {Rounded(interval.low), Rounded(interval.high)};
 }
 
-/// Columns of a study's table by kind.
+/// Columns of a study's table, sorted by kind.
 struct StudyColumns {
   explicit StudyColumns(const TextTable& table) {
     const std::vector<std::string>& names = table.columns();
@@ -46,7 +49,7 @@ struct StudyColumns {
     }
   }
 
-  /// Whether all non-empty cells are numbers, and there is at least one.
+  /// Whether the column has a non-empty cell and all such cells are numbers.
   static bool IsNumeric(const TextTable& table, std::size_t column) {
     bool any = false;
     for (const std::vector<std::string>& row : table.rows()) {
@@ -64,13 +67,13 @@ struct StudyColumns {
   std::vector<std::size_t> outputs;
 };
 
-/// Values of an output, with their rows.
+/// Values of an output, with the rows that contain them.
 struct Sample {
   std::vector<std::size_t> rows;
   std::vector<double> values;
 };
 
-/// Number of classes for numbers: about thirty rows each.
+/// Number of classes for numbers, so that each has about thirty rows.
 std::size_t ClassesFor(std::size_t rows) {
   return std::clamp<std::size_t>(rows / 30, 2, 64);
 }
@@ -218,7 +221,7 @@ class StudyAnalysis {
     return json;
   }
 
-  /// Mean of the output in each class.
+  /// Mean of the output in each class of a parameter.
   [[nodiscard]] static ordered_json EffectsOf(const Classes& classes, const Sample& sample,
                                               bool is_rate) {
     std::vector<std::vector<double>> values(classes.names.size());
@@ -244,8 +247,8 @@ class StudyAnalysis {
 
   const TextTable& table_;
   StudyColumns columns_;
-  Sample passed_;                    // rows with a result; 1 if passed
-  std::vector<std::size_t> varied_;  // parameters
+  Sample passed_;                    // For each row with a result, 1 if it passed, else 0.
+  std::vector<std::size_t> varied_;  // Columns of the varied parameters.
 };
 
 }  // namespace

@@ -12,15 +12,17 @@ namespace trackbed {
 /// Whether a row with this status counts as passed.
 bool HasPassed(const std::string& status);
 
-/// Statistics of all rows of a study: pass rate, and of each output its distribution and the
-/// effects of the parameters (statistics.h, 95 % intervals). Null for tables with fewer than 20
-/// rows that have a result.
+/// Statistics of all rows of a study. The statistics are the pass rate, the distribution of each
+/// output and the effects of the parameters on the outputs (statistics.h, 95 % intervals).
+/// StudyStatistics is null for tables in which fewer than 20 rows have a result.
 nlohmann::ordered_json StudyStatistics(const TextTable& table);
 
-/// Rows of a study that a page shows individually, in order.
+/// Rows of a study that a page shows individually, in the order of the table.
 struct ShownRows {
-  std::vector<std::size_t> even;      ///< all rows up to `limit`, else `limit` evenly spaced rows
-  std::vector<std::size_t> extremes;  ///< if larger: ten extremes of each output at either end
+  std::vector<std::size_t> even;      ///< All rows if there are at most `limit`, else `limit`
+                                      ///< evenly spaced rows.
+  std::vector<std::size_t> extremes;  ///< In a larger study, the ten lowest and ten highest values
+                                      ///< of each output.
 };
 
 ShownRows StudyRowsToShow(const TextTable& table, std::size_t limit);

@@ -13,7 +13,8 @@ template <typename Precedes>
 Degrees SlidingExtreme(const Degrees& values, const Windows& windows, const Degree& of_none,
                        const Precedes& precedes) {
   Degrees extremes(values.size());
-  std::deque<std::uint32_t> wedge;  // samples, each the extreme of those after it
+  // Indices of samples; each sample has the extreme value of itself and the later samples.
+  std::deque<std::uint32_t> wedge;
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
     for (; next < windows.end[i]; ++next) {
@@ -63,7 +64,7 @@ Degrees SlidingMax(const Degrees& values, const Windows& windows) {
 
 Degrees Until(const Degrees& phi, const Degrees& psi, const Windows& windows) {
   const std::size_t count = phi.size();
-  Degrees from_here(count + 1, kFalse);  // `until` without time bounds
+  Degrees from_here(count + 1, kFalse);  // Degrees of `until` without time bounds.
   Windows before{std::vector<std::uint32_t>(count), windows.begin};
   for (std::size_t i = count; i-- > 0;) {
     from_here[i] = Max(psi[i], Min(phi[i], from_here[i + 1]));

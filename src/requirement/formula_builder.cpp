@@ -44,7 +44,7 @@ bool GivesNumber(FormulaOperation operation) {
   return operation < FormulaOperation::kLess;
 }
 
-/// The leading name or number, otherwise a single character.
+/// The leading name or number of a text, otherwise a single character.
 std::string_view FirstWord(std::string_view text) {
   const auto in_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.'; };
   const auto is_continuation = [](unsigned char c) { return (c & 0xC0U) == 0x80U; };
@@ -59,7 +59,7 @@ std::string_view FirstWord(std::string_view text) {
   return text.substr(0, length);
 }
 
-/// A part of a formula in quotes, shortened.
+/// A part of a formula in quotes, shortened if it is long.
 std::string Quoted(std::string_view part) {
   constexpr std::size_t kMaxQuotedLength = 60;
   return part.size() <= kMaxQuotedLength ? fmt::format("'{}'", part)

@@ -7,38 +7,40 @@
 
 namespace trackbed {
 
-/// Builds a formula while the parser reads its text, and checks that operands are conditions or
-/// numbers as required. InputError with the column in the text.
+/// Builds a formula while the parser reads its text. Checks that operands are conditions or numbers
+/// as required. Throws InputError with the column in the text.
 class FormulaBuilder {
  public:
-  /// `text` must outlive the builder; all other texts must be parts of it.
+  /// `text` must outlive the builder. All other texts must be parts of `text`.
   FormulaBuilder(std::string_view text, const std::vector<std::string>& allowed)
       : text_(text), allowed_(allowed) {}
 
   void AddNumber(std::string_view number);
   void AddSignal(std::string_view name);
 
-  /// Begins an operation; its operands follow.
+  /// Begins an operation; the operands of the operation follow.
   void Open(FormulaOperation operation, std::string_view sign);
-  /// Adds a bound to the last operation that was begun: the number, or T minus the number.
+  /// Adds a bound to the last operation that was begun: the number, or the duration T minus the
+  /// number.
   void AddBound(std::string_view number);
   void AddBoundFromEnd(std::string_view number);
   /// Ends the operation, after its last operand.
   void Close();
 
   void OpenParenthesis(std::string_view sign);
-  /// Ends the second or a later argument of `min` and `max`, before its comma or parenthesis.
+  /// Ends the second or a later argument of `min` and `max`, before the comma or parenthesis that
+  /// follows.
   void FoldArgument();
-  /// Ends `abs`, `min` or `max`.
+  /// Ends a call of `abs`, `min` or `max`.
   void CloseFunction(std::string_view sign);
   void CloseParenthesis(std::string_view sign);
 
   [[nodiscard]] std::vector<FormulaStep> TakeSteps();
   [[nodiscard]] std::vector<std::string> TakeSignals() { return std::move(signals_); }
 
-  /// InputError at the part of the text that begins at `at`.
+  /// Throws InputError at the part of the text that begins at `at`.
   [[noreturn]] void Fail(const char* at, const std::string& message) const;
-  /// InputError that names the text at `at` and what was expected there.
+  /// Throws InputError that names the text at `at` and the text that was expected there.
   [[noreturn]] void FailExpected(const char* at, const std::string& expected) const;
 
  private:

@@ -5,9 +5,9 @@
 #include <boost/spirit/home/x3.hpp>
 #include <functional>
 
-// The grammar of formulas. The next word determines every choice, so nothing is parsed twice. Every
-// recursive rule begins with FormulaBuilder::Open or OpenParenthesis, which limit the depth.
-// Messages name the rules as what is expected.
+// The grammar of formulas. The next word determines every choice, so the parser parses nothing
+// twice. Every recursive rule begins with FormulaBuilder::Open or OpenParenthesis, which limit the
+// depth. Error messages name the expected rule.
 namespace trackbed {
 namespace formula_grammar {
 namespace {
@@ -168,7 +168,8 @@ void ParseFormula(std::string_view text, FormulaBuilder& builder) {
   const char* first = text.data();
   const char* last = first + text.size();
   try {
-    // x3::eps turns a mismatch at the first word into an expectation failure, like later ones.
+    // x3::eps turns a mismatch at the first word into an expectation failure, like later
+    // mismatches.
     const auto whole = x3::with<grammar::BuilderTag>(
         std::ref(builder))[x3::eps > grammar::formula > grammar::end_of_formula];
     x3::phrase_parse(first, last, whole, x3::ascii::space);

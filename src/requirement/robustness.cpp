@@ -6,7 +6,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/requirement/formula.h"
 
-// Evaluation of formulas on logs.
+// Evaluates formulas on logs.
 namespace trackbed {
 namespace {
 
@@ -126,7 +126,7 @@ class Evaluation {
         return Reduce(numbers_, [](double a, double b) { return a * b; });
       case FormulaOperation::kDivide:
         return Reduce(numbers_, [](double a, double b) { return a / b; });
-      case FormulaOperation::kMin:  // not std::min, which may drop a NaN
+      case FormulaOperation::kMin:  // does not use std::min, which may drop a NaN
         return Reduce(numbers_, [](double a, double b) { return std::isnan(a) || a < b ? a : b; });
       case FormulaOperation::kMax:
         return Reduce(numbers_, [](double a, double b) { return std::isnan(a) || a > b ? a : b; });

@@ -10,18 +10,19 @@
 
 #include "trackbed/core/angle.h"
 
-// Joins the centers of a route's lanes to a path. Each center is the reference line plus a lateral
-// offset; a lane change blends two offsets by a quintic. Centers are split at the joints of the
-// file's polynomials and sampled to points with exact heading and curvature. Kinks up to 0.2 rad
-// are rounded over 0.5 m on either side. Gaps, kinks and deviations beyond the limits are refused.
+// Joins the centers of a route's lanes to a path. Each lane center is the reference line plus a
+// lateral offset. A lane change blends two offsets by a quintic polynomial. The algorithm splits
+// the centers at the joints of the file's polynomials. The algorithm samples the pieces to points
+// with exact heading and curvature. Kinks up to 0.2 rad are rounded over 0.5 m on either side. The
+// algorithm refuses gaps, kinks and deviations beyond the limits.
 
 namespace trackbed {
 namespace {
 
-constexpr double kSpacing = 0.25;       // spacing of the points that segments join [m]
-constexpr double kKink = 1e-6;          // smaller kinks need no rounding [rad]
+constexpr double kSpacing = 0.25;       // Spacing of the points that segments join [m].
+constexpr double kKink = 1e-6;          // Smaller kinks need no rounding [rad].
 constexpr double kMaxKink = 0.2;        // [rad]
-constexpr double kRounding = 0.5;       // length that is replaced on either side of a kink [m]
+constexpr double kRounding = 0.5;       // Length that is replaced on either side of a kink [m].
 constexpr double kMaxDeviation = 0.05;  // [m]
 
 /// A point of a lane's center, in driving direction.
@@ -41,14 +42,14 @@ struct RoadStretch {
 
   [[nodiscard]] int direction() const { return stretch.to > stretch.from ? 1 : -1; }
 
-  /// t of the path as a function of s, with derivatives. `piece_of` is that of LaneBordersAt.
+  /// Offset t of the path as a function of s, with derivatives. LaneBordersAt explains `piece_of`.
   [[nodiscard]] CubicValue Offset(double s, double piece_of) const {
     const CubicValue a = LaneBordersAt(road, section, stretch.lane, s, piece_of).Center();
     if (stretch.to_lane == stretch.lane) {
       return a;
     }
     const CubicValue b = LaneBordersAt(road, section, stretch.to_lane, s, piece_of).Center();
-    // Quintic from 0 to 1 with zero slope and curvature at both ends.
+    // Quintic polynomial from 0 to 1 with zero slope and curvature at both ends.
     const double scale = 1.0 / (stretch.to - stretch.from);
     const double q = std::clamp((s - stretch.from) * scale, 0.0, 1.0);
     const double w = q * q * q * (10.0 + q * (-15.0 + 6.0 * q));
@@ -65,7 +66,7 @@ struct RoadStretch {
 std::vector<double> Joints(const RoadStretch& own) {
   const double low = std::min(own.stretch.from, own.stretch.to);
   const double high = std::max(own.stretch.from, own.stretch.to);
-  // Closer joints are rounding errors, or the pieces between them are negligibly short.
+  // Closer joints are rounding errors, or the pieces between these joints are negligibly short.
   constexpr double kMinSpacing = 0.01;  // [m]
   std::vector<double> joints;
   const auto add = [&](double s) { joints.push_back(s); };
@@ -92,14 +93,14 @@ std::vector<double> Joints(const RoadStretch& own) {
   return apart;
 }
 
-/// The center R(s) + t(s) N(s), with the left normal N, and its derivatives by s. With m = dR/ds (1
-/// - kappa t), its tangent is m T + t' N.
+/// The center R(s) + t(s) N(s), with the left normal N, and the derivatives of the center by s. The
+/// tangent of the center is m T + t' N, with m = dR/ds (1 - kappa t).
 struct CenterState {
   Vec2 position{0.0, 0.0};
   double heading = 0.0;
   double curvature = 0.0;
-  double speed = 0.0;   ///< derivative of its arc length by s
-  bool folded = false;  ///< beyond the center of curvature
+  double speed = 0.0;   ///< Derivative of the center's arc length by s.
+  bool folded = false;  ///< Whether the center lies beyond the center of curvature.
 };
 
 CenterState StateAt(const RoadStretch& own, double s, double piece_of) {
@@ -121,7 +122,7 @@ CenterState StateAt(const RoadStretch& own, double s, double piece_of) {
   return state;
 }
 
-/// The smooth pieces of a stretch, in driving direction; none if the center is folded.
+/// The smooth pieces of a stretch, in driving direction. Returns none if the center is folded.
 std::vector<Piece> SmoothPieces(const RoadStretch& own) {
   std::vector<Piece> pieces;
   const std::vector<double> joints = Joints(own);
@@ -161,7 +162,7 @@ std::vector<Piece> SmoothPieces(const RoadStretch& own) {
 /// Joins pieces with continuous distances and headings; merges pieces across a kink.
 class Joiner {
  public:
-  /// Adds a piece. Returns the reason if it cannot be joined, otherwise an empty text.
+  /// Adds a piece. Returns the reason if the piece cannot be joined, otherwise an empty text.
   std::string Add(Piece piece) {
     if (runs_.empty()) {
       runs_.push_back(std::move(piece));
@@ -200,8 +201,8 @@ class Joiner {
     return "";
   }
 
-  /// Builds the path. Merges the pieces of a line or an arc into one segment, because planners look
-  /// for curvature steps and measure the distance between them.
+  /// Builds the path. Merges the pieces of a line or an arc into one segment, because planners
+  /// measure the distance between curvature steps.
   [[nodiscard]] Path Join() const {
     std::vector<Segment> segments;
     for (const Piece& run : runs_) {
@@ -210,7 +211,7 @@ class Joiner {
         points.push_back(point.curve);
       }
       for (Segment& segment : SegmentsThrough(points)) {
-        constexpr double kEqualityTolerance = 1e-9;  // [1/m]; 1e-4 rad over 100 km
+        constexpr double kEqualityTolerance = 1e-9;  // [1/m]; turns a line of 100 km by 1e-4 rad
         const double change = std::abs(segment.sharpness) * segment.length +
                               std::abs(segment.sharpness_rate) * segment.length * segment.length;
         if (change < kEqualityTolerance) {

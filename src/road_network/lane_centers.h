@@ -9,7 +9,7 @@ namespace trackbed {
 
 /// Result of joining the lane centers of a route.
 struct JoinedPath {
-  std::string failure;  ///< for people; empty on success
+  std::string failure;  ///< reason of the failure, as a text for people; empty on success
   Path path;
   double deviation = 0.0;  ///< largest distance of the path from the centers [m]
 };

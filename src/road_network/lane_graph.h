@@ -8,7 +8,7 @@
 
 #include "trackbed/road_network/road_network.h"
 
-/// The drivable lanes of a network, and their links.
+/// The drivable lanes of a network, and the links between these lanes.
 namespace trackbed {
 
 /// A lane within a lane section.
@@ -23,23 +23,23 @@ struct LaneNode {
   bool operator==(const LaneNode&) const = default;
 };
 
-/// Graph of the drivable lanes of a network. Keeps a reference to the network.
+/// Graph of the drivable lanes of a network. The graph keeps a reference to the network.
 class LaneGraph {
  public:
   explicit LaneGraph(const RoadNetwork& network);
 
-  /// The lane's node; none if it is not drivable.
+  /// The node of a lane. Returns none if the lane is not drivable.
   [[nodiscard]] std::optional<std::size_t> Find(const Road& road, std::size_t section,
                                                 int lane) const;
   [[nodiscard]] const LaneNode& node(std::size_t index) const { return nodes_[index]; }
 
-  /// The shortest path in driving direction from the end of one lane to the start of another, both
-  /// included. The two may be the same lane, for a loop. Empty if there is none. Cost: O(lanes log
-  /// lanes).
+  /// The shortest path in driving direction from the end of one lane to the start of another lane.
+  /// The path includes both lanes. The two lanes may be the same lane, for a loop. Returns an empty
+  /// path if no path exists. Cost: O(lanes log lanes).
   [[nodiscard]] std::vector<std::size_t> ShortestWay(std::size_t from, std::size_t to) const;
 
  private:
-  /// The weight of a link is the length of the lane that it leaves [m].
+  /// The weight of a link is the length of the lane that the link leaves [m].
   using Graph =
       boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property,
                             boost::property<boost::edge_weight_t, double>>;
@@ -47,13 +47,13 @@ class LaneGraph {
   void Link(std::size_t from, std::size_t to);
   void AddLinks(std::size_t index);
   void AddJunction(std::size_t index, const std::string& id);
-  /// Links to a lane of a road that is entered at `contact`.
+  /// Adds links to a lane of a road that the car enters at `contact`.
   void AddLink(std::size_t from, const Road& road, RoadEnd contact, int lane);
 
   const RoadNetwork& network_;
-  std::vector<LaneNode> nodes_;  // grouped by road, in order of sections and lanes
-  std::map<std::string, std::size_t, std::less<>> first_;  // first node of each road
-  std::map<std::string, std::size_t, std::less<>> last_;   // end of each road's nodes
+  std::vector<LaneNode> nodes_;  // Nodes grouped by road, in order of sections and lanes.
+  std::map<std::string, std::size_t, std::less<>> first_;  // First node of each road.
+  std::map<std::string, std::size_t, std::less<>> last_;   // End of each road's nodes.
   Graph links_;
 };
 

@@ -98,7 +98,7 @@ Lane ReadLane(const XmlFields& fields, int id, bool has_lane_offset,
   return lane;
 }
 
-/// Reads the lanes of a <left>, <center> or <right>.
+/// Reads the lanes of a <left>, <center> or <right> element.
 void ReadSide(const XmlFields& section, const char* side, bool has_lane_offset, LaneSection& into,
               std::vector<std::string>& unread_heights) {
   const XMLElement* group = section.Child(side);
@@ -109,7 +109,7 @@ void ReadSide(const XmlFields& section, const char* side, bool has_lane_offset, 
     const int id = unnamed.Integer("id");
     const XmlFields fields(element, fmt::format("{}.{}.lane[{}]", section.where(), side, id),
                            section.problems());
-    constexpr int kMaxLanes = 100;  // per side, as in mission.route
+    constexpr int kMaxLanes = 100;  // maximum per side, as in mission.route
     if (id < -kMaxLanes || id > kMaxLanes) {
       fields.AddError("id", fmt::format("{} is out of range; must be at least {} and at most {}",
                                         id, -kMaxLanes, kMaxLanes));

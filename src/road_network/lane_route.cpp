@@ -30,7 +30,7 @@ struct Found {
   std::size_t node;
 };
 
-/// Adds stretches and sums up their length.
+/// Adds stretches and sums up the length of these stretches.
 class Stretches {
  public:
   void Add(const Road& road, int lane, int to_lane, double from, double to) {
@@ -39,7 +39,7 @@ class Stretches {
       all_.push_back({road.id, lane, to_lane, from, to});
     }
   }
-  /// AddUpToEnd adds the rest of a lane, AddFromStart its beginning.
+  /// AddUpToEnd adds the rest of a lane. AddFromStart adds the beginning of a lane.
   void AddUpToEnd(const LaneNode& node, double from) {
     Add(*node.road, node.lane, node.lane, from, node.follows_road() ? node.end() : node.start());
   }
@@ -62,8 +62,8 @@ Found FindPlace(const RoadNetwork& network, const LaneGraph& graph, const LanePl
   return {&road, section, graph.Find(road, section, place.lane).value()};
 }
 
-/// Adds the stretches between two places. Returns the reason if there is no path, otherwise an
-/// empty text.
+/// Adds the stretches between two places. Returns the reason if no path exists, otherwise an empty
+/// text.
 std::string Connect(const LaneGraph& graph, const LanePlace& a, const Found& from,
                     const LanePlace& b, const Found& to, Stretches& stretches) {
   const LaneNode& node = graph.node(from.node);

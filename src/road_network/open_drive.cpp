@@ -17,7 +17,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Larger documents would take gigabytes of memory.
+/// Documents with more elements would take gigabytes of memory.
 constexpr std::ptrdiff_t kMaxElements = 4000000;
 
 void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& problems) {
@@ -50,7 +50,7 @@ Junction ReadJunction(const XmlFields& fields) {
     const bool direct = element.Attribute("linkedRoad") != nullptr;
     connection.connecting = direct ? own.Text("linkedRoad") : own.OptionalText("connectingRoad");
     if (connection.incoming.empty() || connection.connecting.empty()) {
-      return;  // a virtual connection, which nothing drives over
+      return;  // a virtual connection, which no car drives over
     }
     connection.contact = ReadContactPoint(own);
     ForEachChild(&element, "laneLink", [&](const XMLElement& link, std::size_t) {
@@ -62,7 +62,7 @@ Junction ReadJunction(const XmlFields& fields) {
   return junction;
 }
 
-/// Adds a part by its id; a repeated id is an error.
+/// Adds a part by its id. A repeated id is an error.
 template <typename Part>
 void AddById(Part part, int line, const char* kind, std::map<std::string, Part, std::less<>>& parts,
              XmlProblems& problems) {

@@ -15,12 +15,13 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr Bounds kCoordinate{-1e8, 1e8};     // [m]; UTM northings are below 1e7
+constexpr Bounds kCoordinate{-1e8, 1e8};     // [m]; northings of UTM are below 1e7.
 constexpr Bounds kGeometryLength{0.0, 1e6};  // [m]
 constexpr Bounds kBend{-1e3, 1e3};           // [1/m]
-/// Tolerance between the station of a geometry and the end of the previous one [m].
+/// Tolerance between the station of a geometry and the end of the previous geometry [m].
 constexpr double kMaxStationGap = 0.1;
-/// Shorter geometries are dropped as rounding errors of the exporting program [m].
+/// Geometries shorter than kMinGeometryLength [m] are dropped as rounding errors of the exporting
+/// program.
 constexpr double kMinGeometryLength = 1e-9;
 
 /// Pose and length of a geometry, common to all shapes.

@@ -30,7 +30,7 @@ double Second(const Coefficients& c, double p) {
 /// so smooth that ten nodes integrate it to machine precision.
 constexpr std::size_t kParts = 32;
 
-/// Index of the piece that applies at s; the first piece if s is before it.
+/// Index of the piece that applies at s. If s lies before the first piece, returns the first piece.
 template <typename Piece>
 std::size_t IndexAt(const std::vector<Piece>& pieces, double s) {
   const auto after = std::upper_bound(pieces.begin(), pieces.end(), s,
@@ -73,7 +73,7 @@ ParametricCubic::ParametricCubic(const Coefficients& u, const Coefficients& v, d
 }
 
 ParametricCubic ParametricCubic::OverU(const Coefficients& v, double length) {
-  // The curve is at least as long as its u, so its end lies within `length`.
+  // The curve is at least as long as its u, so the curve's end lies within `length`.
   const Coefficients u{0.0, 1.0, 0.0, 0.0};
   const ParametricCubic whole(u, v, length, length);
   const double end = whole.Parameter(length);

@@ -30,7 +30,8 @@ bool HasSlope(const PiecewiseCubic& function) {
   });
 }
 
-/// Whether a piecewise constant function has steps; a level road must not have any.
+/// Whether a piecewise constant function has steps. The function of a level road must not have
+/// steps.
 bool HasSteps(const PiecewiseCubic& function) {
   const auto& pieces = function.pieces();
   return std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kDashLength = 3.0;         // [m]
 constexpr double kDashPeriod = 9.0;         // [m]
-constexpr double kDefaultMarkWidth = 0.12;  // of marks without a width [m]
-constexpr double kDoubleGap = 0.1;          // between the lines of a double mark [m]
+constexpr double kDefaultMarkWidth = 0.12;  // Width of marks without a width [m].
+constexpr double kDoubleGap = 0.1;          // Gap between the lines of a double mark [m].
 
 Vec2 Beside(const Road& road, double s, double piece_of, double t) {
   return ToWorld(road.reference.At(s, piece_of).pose, {0.0, t});
@@ -40,7 +40,8 @@ bool IsPaved(const Lane& lane) {
   return std::find(kUnpaved.begin(), kUnpaved.end(), lane.type) == kUnpaved.end();
 }
 
-/// For each line of a mark, from left to right, whether it is dashed: "solid broken" has two.
+/// Whether each line of a mark is dashed, from left to right. The mark "solid broken" has two
+/// lines.
 std::vector<bool> DashedLines(const std::string& type) {
   if (type == "none") {
     return {};
@@ -60,7 +61,7 @@ std::vector<bool> DashedLines(const std::string& type) {
 class Painter {
  public:
   Painter(const RoadNetwork& network, double spacing) : spacing_(spacing) {
-    double length = 0.0;  // of all lanes
+    double length = 0.0;  // length of all lanes
     for (const auto& [id, road] : network.roads) {
       for (std::size_t i = 0; i < road.sections.size(); ++i) {
         length += (road.SectionEnd(i) - road.sections[i].s) *
@@ -82,7 +83,7 @@ class Painter {
   void Section(const Road& road, std::size_t index) {
     const LaneSection& section = road.sections[index];
     const double end = road.SectionEnd(index);
-    // From the left: groups of adjacent paved lanes.
+    // Paint groups of adjacent paved lanes, beginning from the left.
     const std::vector<Lane>& lanes = section.lanes;
     for (std::size_t first = 0; first < lanes.size();) {
       if (lanes[first].id == 0 || !IsPaved(lanes[first])) {
@@ -140,7 +141,8 @@ class Painter {
         add(from, to);
         continue;
       }
-      const double period = std::max(kDashPeriod, 2.0 * spacing_);  // no more dashes than points
+      // Limits the dashes to the number of points.
+      const double period = std::max(kDashPeriod, 2.0 * spacing_);
       for (double begin = from; begin < to; begin += period) {
         add(begin, std::min(begin + kDashLength, to));
       }

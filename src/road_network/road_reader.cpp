@@ -51,7 +51,8 @@ void ReadHeights(const XmlFields& fields, Road& road) {
   }
 }
 
-/// Checks that the lane ids that links name exist in the section beyond; reports each id once.
+/// Checks that the lane ids of the links exist in the adjacent section; reports each missing id
+/// once.
 void CheckLaneIds(const std::vector<int>& ids, const LaneSection& beyond, const std::string& key,
                   int line, XmlProblems& problems) {
   for (const int id : ids) {

@@ -11,13 +11,14 @@
 /// Readers for the parts of an OpenDRIVE file.
 namespace trackbed {
 
-/// Reads a <road>. Errors are added to the problems.
+/// Reads a <road> element. Adds errors to the problems.
 Road ReadRoad(const tinyxml2::XMLElement& element, XmlProblems& problems);
 
-/// Reads the <planView> of a road; empty after an error.
+/// Reads the <planView> of a road. Returns an empty line after an error.
 ReferenceLine ReadPlanView(const XmlFields& road, double length);
 
-/// Reads the cubic polynomials in the elements `name`; `start` is the attribute of their start.
+/// Reads the cubic polynomials in the elements `name`. The attribute `start` gives the start of
+/// each polynomial.
 PiecewiseCubic ReadCubics(const tinyxml2::XMLElement* parent, const char* name, const char* start,
                           const std::string& where, XmlProblems& problems);
 
@@ -26,7 +27,7 @@ PiecewiseCubic ReadCubics(const tinyxml2::XMLElement* parent, const char* name, 
 std::vector<LaneSection> ReadLaneSections(const XmlFields& lanes, const Road& road,
                                           std::vector<std::string>& unread_heights);
 
-/// Reads "start" or "end"; other values are an error.
+/// Reads "start" or "end". Other values are an error.
 RoadEnd ReadContactPoint(const XmlFields& fields);
 
 /// Reports links to missing roads, junctions and lanes.

@@ -34,7 +34,8 @@ class XmlProblems {
   ProblemList problems_;
 };
 
-/// The attributes of an element; `where` is its place for messages, "road[3].planView.geometry[0]".
+/// The attributes of an element. Messages name the element by `where`, for example
+/// "road[3].planView.geometry[0]".
 class XmlFields {
  public:
   XmlFields(const tinyxml2::XMLElement& element, std::string where, XmlProblems& problems)
@@ -45,20 +46,20 @@ class XmlFields {
   [[nodiscard]] int line() const { return element_.GetLineNum(); }
   [[nodiscard]] XmlProblems& problems() const { return problems_; }
 
-  /// A number within bounds; after an error, the permitted value nearest to 0.
+  /// A number within bounds. After an error, returns the permitted value nearest to 0.
   [[nodiscard]] double Number(const char* name, Bounds bounds = {}) const;
-  /// Same, but returns `missing` if the attribute is absent.
+  /// A number within bounds, or `missing` if the attribute is absent.
   [[nodiscard]] double Number(const char* name, Bounds bounds, double missing) const;
   /// An integer; 0 after an error.
   [[nodiscard]] int Integer(const char* name) const;
   /// A non-empty text; "" after an error.
   [[nodiscard]] std::string Text(const char* name) const;
-  /// The attribute's text; "" if it is absent.
+  /// The text of the attribute; "" if the attribute is absent.
   [[nodiscard]] std::string OptionalText(const char* name) const;
 
   void AddError(const char* name, std::string message) const;
 
-  /// The only child of that name, or null; a second one is an error.
+  /// The only child with this name, or null. A second child with this name is an error.
   [[nodiscard]] const tinyxml2::XMLElement* Child(const char* name) const;
 
  private:
@@ -67,7 +68,7 @@ class XmlFields {
   XmlProblems& problems_;
 };
 
-/// Calls `take(element, index)` for each child element of that name.
+/// Calls `take(element, index)` for each child element with this name.
 template <typename Take>
 void ForEachChild(const tinyxml2::XMLElement* parent, const char* name, const Take& take) {
   if (parent == nullptr) {

@@ -70,7 +70,7 @@ void CheckMetrics(Diagnostics& c) {
   });
 }
 
-/// Rejects expectations on quantities that the run does not measure: path errors need a plan,
+/// Rejects expectations on quantities that the run does not measure. Path errors need a plan, and
 /// clearances need obstacles.
 void CheckMeasuredQuantities(Diagnostics& c) {
   const bool has_path = c.scenario.plan || !c.CouldReadPlan({"method"});

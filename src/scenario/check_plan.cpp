@@ -12,10 +12,10 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
 
-// Cross-checks of the mission and the plan: rules between keys that the schema of a single key
+// Cross-checks of the mission and the plan: rules between keys, which the schema of a single key
 // cannot express. Each check returns early if one of its keys could not be read, so that an error
-// is reported once. Rules depend on the planner's registry entry (PlannerEntry:
-// follows_track, follows_lanes, needs_limits, min_waypoints, ...) and not on its name.
+// is reported once. Rules depend on the planner's registry entry and not on its name (PlannerEntry:
+// follows_track, follows_lanes, needs_limits, min_waypoints, ...).
 namespace trackbed {
 namespace {
 
@@ -27,7 +27,7 @@ void AddProblems(Diagnostics& c, const std::string& section, std::vector<OptionP
   }
 }
 
-/// Rules between the options of the planner, and of the planner of detours.
+/// Checks rules between the options of the planner, and between those of the planner of detours.
 void CheckPlanners(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   if (!plan) {
@@ -151,7 +151,7 @@ void CheckHeadings(Diagnostics& c) {
   }
 }
 
-/// Bounds the work of the planner, and the rows of the plan, by the length of the route.
+/// Limits the length of the route, and thereby the planner's work and the plan's rows.
 void CheckRouteLength(Diagnostics& c) {
   const std::vector<Vec2>& waypoints = c.scenario.mission.waypoints;
   double length = 0.0;
@@ -208,8 +208,9 @@ void CheckWaypoints(Diagnostics& c) {
   }
 }
 
-/// Profiles at the limit apply to a single plan. Local avoidance and replanning change speeds
-/// during the run, so they are rejected, except for planners that follow a track.
+/// A speed profile at the limit applies to a single plan. Local avoidance and replanning change
+/// speeds during the run. With a profile at the limit, local avoidance and replanning are therefore
+/// rejected, except for planners that follow a track.
 void CheckSpeedProfile(Diagnostics& c) {
   const auto& profile = c.scenario.mission.speed_profile;
   if (!profile || !c.CouldRead({"mission.speed_profile", "mission.speed_profile.method"}) ||
@@ -244,7 +245,7 @@ void CheckSpeedProfile(Diagnostics& c) {
   }
 }
 
-/// A track needs a planner that follows one, and vice versa.
+/// A track needs a planner that follows a track, and vice versa.
 void CheckTrack(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const bool has_track = c.scenario.mission.track.has_value();

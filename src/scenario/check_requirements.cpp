@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// Whether the name can be one word of a metric's path.
+/// Whether the name can be a word in the path of a metric.
 bool IsMetricWord(const std::string& name) {
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
   return !name.empty() && name.size() <= 100 && is_letter(name.front()) &&
@@ -84,8 +84,10 @@ class RequirementCheck {
     return "";
   }
 
-  std::vector<std::pair<std::string, std::vector<std::string>>> columns_;  // by plant
-  std::set<std::pair<std::string, std::string>> names_;                    // plant and name
+  std::vector<std::pair<std::string, std::vector<std::string>>> columns_;  // Columns of the log of
+                                                                           // each plant.
+  std::set<std::pair<std::string, std::string>> names_;                    // Pairs of plant and
+                                                                           // name.
   std::vector<std::pair<std::string, std::string>> found_;
 };
 

@@ -43,7 +43,7 @@ void CheckSpeedOverTime(Diagnostics& c) {
   }
 }
 
-/// Rules between the options of the controller.
+/// Checks rules between the options of the controller.
 void CheckController(Diagnostics& c) {
   const ControllerOptions& options = c.scenario.control.steering;
   const auto check = ControllerFor(options).check;
@@ -69,7 +69,7 @@ void CheckSteps(Diagnostics& c) {
   }
 }
 
-/// Bounds the memory of a run: a row of a log takes about 1 kB.
+/// Limits the memory of a run, since a row of a log takes about 1 kB.
 void CheckRows(Diagnostics& c) {
   constexpr double kMaxRows = 2e6;
   const DriveSpec& drive = c.scenario.drive;
@@ -94,7 +94,7 @@ void CheckPicture(Diagnostics& c) {
   }
 }
 
-/// Rejects ground steeper than 45 degrees: it acts as a wall, not as a driving surface.
+/// Rejects ground steeper than 45 degrees, because it acts as a wall, not as a driving surface.
 void CheckGround(Diagnostics& c) {
   constexpr double kMaxSlope = 1.0;
   for (std::size_t i = 0; i < c.scenario.world.ground.bumps.size(); ++i) {
@@ -104,7 +104,7 @@ void CheckGround(Diagnostics& c) {
         !c.could_read(key + ".width") || !c.could_read(key + ".edge")) {
       continue;
     }
-    // The largest slope of h cos^2(pi/2 q), with q = d/reach, is pi/2 h / reach.
+    // With q = d/reach, the largest slope of h cos^2(pi/2 q) is pi/2 h / reach.
     const auto check = [&](double reach, const char* where) {
       const double steepest = 0.5 * kPi * bump.height / reach;
       if (steepest > kMaxSlope) {

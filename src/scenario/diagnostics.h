@@ -21,7 +21,7 @@ inline std::string PlannerSection(const Scenario& scenario) {
   return layers ? "plan.global." : "plan.";
 }
 
-/// Name of the first planner with this property, which a message recommends.
+/// Name of the first planner with this property, for the advice in a message.
 inline const char* NameOfPlannerThat(bool PlannerEntry::*property) {
   const std::vector<PlannerEntry>& planners = Planners();
   return std::find_if(planners.begin(), planners.end(),
@@ -32,7 +32,8 @@ inline const char* NameOfPlannerThat(bool PlannerEntry::*property) {
 /// Collects problems between keys of a scenario, each with the key to report.
 struct Diagnostics {
   const Scenario& scenario;
-  /// Whether the value of a key was read. A key that was not has already been reported.
+  /// Whether the value of a key was read. If a key was not read, its problem has already been
+  /// reported.
   const std::function<bool(const std::string& key)>& could_read;
   std::vector<std::pair<std::string, std::string>> found{};
 
@@ -40,8 +41,8 @@ struct Diagnostics {
     return std::all_of(keys.begin(), keys.end(), could_read);
   }
 
-  /// Same as CouldRead, for keys of the global plan, which may be given in `plan` or in
-  /// `plan.global`.
+  /// Same as CouldRead, for keys of the global plan. Keys of the global plan may be given in `plan`
+  /// or in `plan.global`.
   [[nodiscard]] bool CouldReadPlan(std::initializer_list<const char*> keys) const {
     return could_read("plan.global") &&
            std::all_of(keys.begin(), keys.end(), [&](const std::string& key) {

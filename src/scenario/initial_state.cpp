@@ -10,17 +10,17 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
 
-// Initial state of a run, shared by planners, plants and the resolved scenario.
+// Initial state of a run, for planners, plants and the resolved scenario.
 namespace trackbed {
 namespace {
 
-/// The first recorded sample; null without a record.
+/// The first recorded sample of the scenario; null without a record.
 const RecordedSample* FirstSample(const Scenario& scenario) {
   return scenario.record && scenario.record->data ? &scenario.record->data->samples.front()
                                                   : nullptr;
 }
 
-/// The state in which the plan begins, whatever the mission says; none for most planners.
+/// The state in which the plan begins, independent of the mission; none for most planners.
 std::optional<PlannedStart> StartOfPlan(const Scenario& scenario) {
   if (!scenario.plan) {
     return std::nullopt;
@@ -105,7 +105,7 @@ StartState InitialState(const Scenario& scenario) {
   const RecordedSample* recorded = FirstSample(scenario);
   if (recorded != nullptr) {
     const StartState own = StartFrom(*recorded, start.steering);
-    // The recorded sideslip only applies at the recorded speed.
+    // The recorded sideslip applies only at the recorded speed.
     if (start.speed == own.speed) {
       start.lateral_speed = own.lateral_speed;
       start.yaw_rate = own.yaw_rate;

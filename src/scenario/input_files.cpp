@@ -13,8 +13,9 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
-// The files beside the resolved scenario of a run: their names and contents, and the keys that name
-// them there. Controllers and planners add their own files through their registry entries.
+// The files next to the resolved scenario of a run: their names and contents, and the keys that
+// name them in the resolved scenario. Controllers and planners add their own files through their
+// registry entries.
 namespace trackbed {
 namespace {
 
@@ -22,7 +23,7 @@ void Append(std::vector<InputFile> more, std::vector<InputFile>& files) {
   files.insert(files.end(), more.begin(), more.end());
 }
 
-/// Whether the controller replays the recorded drive of the scenario, and not a file.
+/// Whether the controller replays the recorded drive of the scenario and not a file.
 bool ReplaysRecord(const Scenario& scenario) {
   const ControllerEntry& controller = ControllerFor(scenario.control.steering);
   return scenario.record && controller.replays_record != nullptr &&

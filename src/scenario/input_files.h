@@ -4,8 +4,7 @@
 
 namespace trackbed {
 
-/// The scenario with the names that its files have in a run folder: those of InputFiles, and
-/// kVehicleXml.
+/// The scenario with the file names of a run folder: those of InputFiles, and kVehicleXml.
 Scenario WithResolvedFiles(const Scenario& scenario);
 
 }  // namespace trackbed

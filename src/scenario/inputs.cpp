@@ -24,16 +24,17 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
-// Reads the files that a scenario names, in this order: record, track, map, road network, those of
-// the controller, those of the planner. Each reader first checks that its keys were read and that
-// the file may be read: it must lie in the scenario's folder, in an asset folder or, except for
-// recordings, in Trackbed's data folder. Attempt separates problems inside a file, which are
-// returned with their position there, from problems of a key, which are reported at the key.
+// Reads the files that a scenario names. Record, track, map and road network come first, then the
+// files of the controller and of the planner. Each reader first checks that its keys were read and
+// that the file may be read. A file must lie in the scenario's folder or in an asset folder. A file
+// may lie in Trackbed's data folder, unless it is a recording. Attempt separates problems inside a
+// file from problems of a key. Problems inside a file are returned with their position in the file;
+// problems of a key are reported at the key.
 namespace trackbed {
 namespace {
 
-/// Calls `read`. Returns the problems found inside a file; reports problems of a key to
-/// `add_error`.
+/// Calls `read` and handles its errors. Returns the problems found inside a file. Reports problems
+/// of a key to `add_error`.
 std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
                              ReaderContext& context, const AddKeyError& add_error) {
   try {
@@ -57,7 +58,7 @@ std::vector<std::filesystem::path> WithOwnData(std::vector<std::filesystem::path
   try {
     folders.push_back(DataFolder());
   } catch (const InputError&) {
-    // This installation has no data folder.
+    // Ignores the error: this installation has no data folder.
   }
   return folders;
 }
@@ -142,7 +143,7 @@ std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
 /// Reads the files that a controller or a planner names in its section of the scenario.
 class SectionReader final : public InputReader {
  public:
-  /// `section` is the prefix of its keys, `others` are further folders that may be read.
+  /// `section` is the prefix of the section's keys; `others` are further folders that may be read.
   SectionReader(const Scenario& scenario, std::string section,
                 std::vector<std::filesystem::path> others, ReaderContext& context,
                 const AddKeyError& add_error)
@@ -180,7 +181,7 @@ class SectionReader final : public InputReader {
     problems_.insert(problems_.end(), more.begin(), more.end());
   }
 
-  /// Problems inside the files.
+  /// Problems found inside the files.
   [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
 
  private:
@@ -299,7 +300,7 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
       [&] {
         roads.data =
             std::make_shared<const OpenDriveFile>(ReadOpenDriveFile(scenario.folder / roads.file));
-        // After an error the route may differ from the intended one.
+        // After an error, the route may differ from the intended one, so its ground is not used.
         if (context.problems.empty()) {
           LayRouteGround(scenario, add_error);
         }
@@ -312,7 +313,8 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
 std::string ImageAccessError(const std::filesystem::path& image,
                              const std::filesystem::path& folder,
                              const std::vector<std::filesystem::path>& others) {
-  // Uses absolute paths: lexically_relative returns nothing for a relative and an absolute path.
+  // The paths are absolute, since lexically_relative returns nothing for a relative and an absolute
+  // path.
   const std::filesystem::path from = std::filesystem::absolute(folder / ".").lexically_normal();
   const std::filesystem::path to = std::filesystem::absolute(image).lexically_normal();
   return ReadAccessError(to.lexically_relative(from).string(), folder, others);

@@ -13,7 +13,7 @@
 
 namespace trackbed {
 
-/// Lists the keys that a struct's Visit declares; defaults are the values of the given instance.
+/// Lists the keys that a struct's Visit declares. Default values are those of the given instance.
 class KeyLister final : public KeyVisitor {
  public:
   KeyLister(std::vector<KeySection>& sections, KeySection own)
@@ -128,7 +128,7 @@ class KeyLister final : public KeyVisitor {
   }
 
   std::vector<KeySection>& sections_;
-  std::size_t index_;  // not a reference: the vector grows
+  std::size_t index_;  // index, not a reference, because the vector grows
 };
 
 }  // namespace trackbed

@@ -22,8 +22,8 @@ enum class MapMode { kTrinary, kScale };
 /// Keys of the YAML file of a ROS map.
 struct RosMapKeys {
   std::string image;
-  double resolution = 0.0;     ///< [m]
-  std::vector<double> origin;  ///< x, y [m], yaw [rad]
+  double resolution = 0.0;     ///< Side of a pixel [m].
+  std::vector<double> origin;  ///< Pose of the lower left corner: x, y [m], yaw [rad].
   std::string negate;
   double occupied_thresh = 0.0;
   double free_thresh = 0.0;
@@ -46,7 +46,8 @@ void Visit(KeyVisitor& keys, RosMapKeys& map) {
   keys.Field({"mode", "", "what the thresholds mean"}, map.mode, Need::kOptional, modes);
 }
 
-/// Reads a file of at most kMaxMapFileBytes bytes. An unreadable file is an InputError.
+/// Reads a file of at most kMaxMapFileBytes bytes. ReadMapFile throws InputError for an unreadable
+/// file.
 std::string ReadMapFile(const fs::path& file) {
   try {
     return ReadFile(file, kMaxMapFileBytes);

@@ -19,7 +19,7 @@ namespace {
   throw InputError(Problem{.file = file, .message = std::move(message)});
 }
 
-/// Checks the size before an image of that size is allocated.
+/// Checks the size of an image before allocating it.
 void CheckSize(const std::string& file, std::uint64_t columns, std::uint64_t rows) {
   if (columns == 0 || rows == 0 || columns > kMaxMapCells || rows > kMaxMapCells ||
       columns * rows > kMaxMapCells) {
@@ -32,7 +32,7 @@ void CheckSize(const std::string& file, std::uint64_t columns, std::uint64_t row
 class PgmNumbers {
  public:
   PgmNumbers(const std::string& content, const std::string& file) : file_(file), rest_(content) {
-    rest_.remove_prefix(2);  // P2 or P5
+    rest_.remove_prefix(2);  // skips the format, P2 or P5
   }
 
   /// The next whole number after white space and comments.
@@ -87,7 +87,7 @@ MapImage ReadPgm(const std::string& content, const std::string& file) {
   const bool is_text = content[1] == '2';
   const std::size_t bytes = white > 255 ? 2 : 1;
   const std::string_view pixels = numbers.AfterBlank();
-  // In text format each pixel takes at least one digit and one blank.
+  // In text format, each pixel takes at least one digit and one blank.
   const std::size_t needed = is_text ? 2 * count - 1 : bytes * count;
   if (pixels.size() < needed) {
     RefuseImage(file, fmt::format("ends early: {} x {} pixels take {}{} bytes, found {}", columns,

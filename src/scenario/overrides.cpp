@@ -12,7 +12,7 @@ namespace {
   throw InputError(Problem{"--set", 0, 0, text, std::move(message)});
 }
 
-/// Descends one step into the tree: "name" or "[3]".
+/// Descends one step into the tree. Each step into the tree is "name" or "[3]".
 void StepInto(YAML::Node& node, const std::string& text, std::string_view step) {
   if (step.starts_with('[')) {
     std::size_t index = 0;

@@ -9,7 +9,8 @@
 
 namespace trackbed {
 
-/// Reads a single section of a scenario file. Throws InputError with all problems found in it.
+/// Reads a single section of a scenario file. ReadSection throws InputError with all problems found
+/// in the section.
 template <typename Struct>
 Struct ReadSection(const std::filesystem::path& file, const Key& key) {
   ReaderContext context{.file = file.string(), .overridden = {}, .problems = {}};

@@ -17,10 +17,11 @@ struct ReaderContext {
   std::vector<Problem> problems;
   std::vector<std::string> unread;  // dotted keys whose value is unknown because of a problem
 
-  /// Adds a problem of the key at `mark`, or at --set if the key was overridden.
+  /// Adds a problem of the key at `mark`. If the key was overridden, the problem is reported at
+  /// --set.
   void AddError(const YAML::Mark& mark, const std::string& dotted, std::string message);
 
-  /// Whether the key, and every element of it if it is a list, was read.
+  /// Whether the key was read; for a list, whether every element was read.
   [[nodiscard]] bool Read(std::string_view dotted) const;
 };
 

@@ -83,7 +83,7 @@ Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::s
   try {
     playback.recording = ReplayInputs(*drive, record.steering, record.drive);
   } catch (const InputError&) {
-    // Without steering or when reversing, the record can be viewed and compared but not replayed.
+    // Without steering, or in reverse, the record can be viewed and compared but not replayed.
     record.windows.clear();
   }
   scenario.control.steering = std::move(playback);

@@ -15,8 +15,9 @@ namespace {
 
 constexpr int kMaxDimensions = 1000;
 
-/// Independent random stream per coordinate. The C++ standard defines the engine and its seeding to
-/// the bit, but not its distributions, so these are implemented here.
+/// An independent random stream for each coordinate of a sample. The C++ standard defines the
+/// engine and its seeding to the bit. The standard does not define distributions to the bit, so
+/// these are implemented here.
 std::mt19937_64 StreamOf(std::uint64_t seed, int dimension) {
   constexpr unsigned kHalf = 32;
   std::seed_seq sequence{static_cast<std::uint32_t>(seed),
@@ -25,7 +26,7 @@ std::mt19937_64 StreamOf(std::uint64_t seed, int dimension) {
   return std::mt19937_64(sequence);
 }
 
-/// Midpoint of one of 2^52 intervals, in (0, 1).
+/// Midpoint of one of 2^52 intervals of (0, 1), chosen by `bits`.
 double Unit(std::uint64_t bits) {
   constexpr unsigned kDroppedBits = 12;
   constexpr int kKeptBits = 52;
@@ -56,7 +57,7 @@ Eigen::MatrixXd Random(const SampleSpec& spec, int dimensions) {
 
 Eigen::MatrixXd LatinHypercube(const SampleSpec& spec, int dimensions) {
   Eigen::MatrixXd sample(spec.count, dimensions);
-  const double largest = std::nextafter(1.0, 0.0);  // if rounding gives 1
+  const double largest = std::nextafter(1.0, 0.0);  // used if rounding gives 1
   for (int j = 0; j < dimensions; ++j) {
     std::mt19937_64 stream = StreamOf(spec.seed, j);
     const std::vector<int> order = Permutation(spec.count, stream);
@@ -85,8 +86,8 @@ Eigen::MatrixXd Sobol(const SampleSpec& spec, int dimensions) {
   return sample;
 }
 
-/// Boost's tables of long doubles overflow at startup where long doubles have only 64 bits, as
-/// under valgrind.
+/// Boost's tables of long doubles overflow at startup if long doubles have only 64 bits, as under
+/// valgrind.
 using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 double NormalQuantile(const Distribution& distribution, double u) {
@@ -95,8 +96,8 @@ double NormalQuantile(const Distribution& distribution, double u) {
   const double below = std::isinf(distribution.min) ? 0.0 : cdf(normal, distribution.min);
   const double up_to = std::isinf(distribution.max) ? 1.0 : cdf(normal, distribution.max);
   const double share = below + u * (up_to - below);
-  // In the far tail the cumulative probabilities are indistinguishable: return the bound nearer to
-  // the mean.
+  // In the far tail, the cumulative probabilities are indistinguishable. In the far tail, the bound
+  // nearer to the mean is returned.
   if (!(share > 0.0)) {
     return distribution.max;
   }

@@ -28,16 +28,17 @@
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/sim/scene.h"
 
-// Reads a scenario: parses the YAML, applies the overrides, visits all keys (visit.h), reads the
-// files that they name (inputs.cpp), then checks rules between keys (cross_check.cpp), requirements
-// and names of metrics. Collects all problems and reports them in the order of the file.
-// ResolvedYaml writes the scenario back as YAML, with all defaults made explicit and all files
-// under their names in a run folder.
+// Reads a scenario. ReadScenario parses the YAML, applies the overrides, visits all keys (visit.h)
+// and reads the files that the keys name (inputs.cpp). Finally, ReadScenario checks rules between
+// keys (cross_check.cpp), requirements and names of metrics. All problems are collected and
+// reported in the order of the file. ResolvedYaml writes the scenario back as YAML. In the resolved
+// scenario, all defaults are explicit, and all files have their names in a run folder.
 namespace trackbed {
 namespace {
 
-/// Removes expectations on plants that are not run. Only used if drive.plants is overridden: a file
-/// must be consistent, but overriding its plants must not require editing its expectations.
+/// Removes expectations on plants that are not run. Expectations are removed only if drive.plants
+/// is overridden. A scenario file must be consistent, but overriding its plants must not require
+/// editing its expectations.
 void DropUnusedExpectations(Scenario& scenario) {
   std::erase_if(scenario.expect.plants,
                 [&](const auto& entry) { return !Drives(scenario, entry.first); });
@@ -47,10 +48,10 @@ void DropUnusedExpectations(Scenario& scenario) {
   });
 }
 
-/// Expectations on metrics that no run can have: pairs of key and message.
+/// Expectations on metrics that no run can have, as pairs of key and message.
 std::vector<std::pair<std::string, std::string>> UnknownMetrics(
     const Expectations& expect, const std::vector<std::string>& possible) {
-  std::vector<std::string> shown;  // the first element stands for the whole list
+  std::vector<std::string> shown;  // the first element of a list stands for the whole list
   std::copy_if(possible.begin(), possible.end(), std::back_inserter(shown),
                [](const std::string& path) {
                  const std::size_t bracket = path.find('[');
@@ -225,7 +226,7 @@ std::string OneLine(Options options) {
   YamlWriter writer(out);
   Visit(writer, options);
   out << YAML::EndMap;
-  const std::string text = out.c_str();  // enclosed in braces
+  const std::string text = out.c_str();  // text enclosed in braces
   return text.substr(1, text.size() - 2);
 }
 

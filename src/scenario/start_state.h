@@ -6,12 +6,12 @@
 
 namespace trackbed {
 
-/// Bicycle angle of the wheels on the straights of the plan [rad]; 0 without a plan.
+/// Wheel angle of the bicycle model on the plan's straights [rad]; 0 without a plan.
 double NeutralSteering(const Scenario& scenario);
 
-/// Initial speed [m/s] if mission.speed does not define it. The first available of
-/// mission.start.speed, a recording with speeds, a record, a path followed at its own speeds, and
-/// control.speed.over_time.
+/// Initial speed if mission.speed does not define the speed [m/s]. The initial speed is the first
+/// available of mission.start.speed, a recording with speeds, a record, a path followed at its own
+/// speeds, and control.speed.over_time.
 std::optional<double> StartSpeedBesideMission(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -14,16 +14,17 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/optimize/search.h"
 
-// Points of a study. The grid is the product of `list` and all lists of values: point numbers are
-// mixed-radix numbers with `list` as the lowest digit, then the keys from last to first. Conditions
-// (`when`) drop keys, and duplicate points are then removed. At each grid point, keys with
-// distributions take the quantiles of a unit sample (sampling.cpp); columns of one file share a
-// coordinate. Derived keys (derived_keys.cpp) follow. A point becomes a scenario by overriding the
-// base scenario, and problems are mapped back to the study's lines.
+// Computes the points of a study. The grid is the product of `list` and all lists of values. Point
+// numbers are mixed-radix numbers: `list` is the lowest digit, then follow the keys from last to
+// first. Conditions (`when`) drop keys. If points are duplicates after keys were dropped, the
+// duplicates are removed. At each grid point, keys with distributions take the quantiles of a unit
+// sample (sampling.cpp). Columns of one file share a coordinate of the sample. Derived keys
+// (derived_keys.cpp) are computed last. A point becomes a scenario by overriding the base scenario.
+// Problems of a point are mapped back to the lines of the study.
 namespace trackbed {
 namespace {
 
-/// File name under which ParseScenario reports problems of overrides; a study passes its settings
+/// File name under which ParseScenario reports problems of overrides. A study passes its settings
 /// as overrides.
 constexpr const char* kOverride = "--set";
 
@@ -33,7 +34,7 @@ std::string OverrideKey(const Override& override_text) {
 
 /// Moves a problem of a setting to the setting's place in the study.
 void PlaceInStudy(const Study& study, const std::vector<Setting>& settings, Problem& problem) {
-  // For an override that cannot be applied, problem.key is the whole text.
+  // If an override cannot be applied, problem.key is the whole text of the override.
   const std::string key = problem.file == kOverride ? OverrideKey(problem.key) : "";
   for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting) {
     if (!key.empty() && Replaces(setting->key, key)) {
@@ -46,7 +47,7 @@ void PlaceInStudy(const Study& study, const std::vector<Setting>& settings, Prob
   }
 }
 
-/// Collects the problems of many points and reports each once.
+/// Collects the problems of many points and reports each problem once.
 class Problems {
  public:
   explicit Problems(const Study& study) : study_(study) {}
@@ -102,7 +103,7 @@ class Problems {
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> known_;
 };
 
-/// Rejects overrides of keys that the study varies: one of the two values would be lost.
+/// Rejects overrides of keys that the study varies, since one of the two values would be lost.
 void CheckOverrides(const Study& study) {
   std::vector<Problem> problems;
   for (const Override& override_text : study.overrides) {
@@ -128,7 +129,7 @@ bool Holds(const Condition& condition, const Study& study, const std::vector<Set
   if (found == point.end()) {
     found = std::find_if(study.set.begin(), study.set.end(), is_key);
     if (found == study.set.end()) {
-      return false;  // the key was dropped by its own condition
+      return false;  // a key was dropped by its own condition
     }
   }
   return std::any_of(
@@ -195,7 +196,7 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
   const auto add = [&](const Setting& setting) {
     overrides.push_back(fmt::format("{}={}", setting.key, setting.value));
   };
-  // Order: settings of the whole study, command line, settings of this point.
+  // Order of the settings: those of the whole study, of the command line, then of this point.
   const auto own = all.end() - static_cast<std::ptrdiff_t>(settings.size() + (bisected ? 1 : 0));
   std::for_each(all.begin(), own, add);
   overrides.insert(overrides.end(), study.overrides.begin(), study.overrides.end());
@@ -276,7 +277,8 @@ std::vector<Setting> StudyPoints::OfGrid(std::size_t combination) const {
   if (!study_.list.empty()) {
     listed = study_.list[digit(study_.list.size())];
   }
-  // The last key is the lowest digit. A key can only depend on keys before it.
+  // The last key is the lowest digit of the point number. A key can depend only on keys that
+  // precede it.
   std::vector<std::size_t> chosen(study_.vary.size());
   for (std::size_t k = study_.vary.size(); k-- > 0;) {
     if (!study_.vary[k].distribution) {
@@ -375,7 +377,7 @@ void CheckPoints(const StudyPoints& points, bool all) {
   const Study& study = points.study();
   Problems problems(study);
   bool any_valid = false;
-  // Whether the scenario at this point is valid.
+  // Whether the scenario with these settings is valid.
   const auto is_valid = [&](const std::vector<Setting>& settings, std::optional<double> bisected) {
     problems.CountPoint();
     try {
@@ -405,7 +407,7 @@ void CheckPoints(const StudyPoints& points, bool all) {
     } else {
       const BisectSpec& bisect = *study.bisect;
       const bool at_from = is_valid(settings, bisect.from);
-      // Checks a third value that is not round: bisection tries arbitrary values.
+      // Checks a third value that is not round, since bisection tries arbitrary values.
       good = is_valid(settings, bisect.to) && at_from &&
              is_valid(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
     }

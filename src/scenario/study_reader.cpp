@@ -10,10 +10,10 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/study.h"
 
-// Reads a study file: visits the keys (study_visit.h), reads sections of scenario keys by callbacks
-// (variation_reader.cpp), then checks rules between the keys, such as conditions on keys set
-// earlier and settings that overwrite each other. Collects all problems and reports them in the
-// order of the file.
+// Reads a study file. The reader visits the keys (study_visit.h) and reads sections of scenario
+// keys by callbacks (variation_reader.cpp). Finally, rules between the keys of the study are
+// checked. For example, a condition may only use keys set earlier, and settings must not overwrite
+// each other. All problems are collected and reported in the order of the file.
 namespace trackbed {
 namespace {
 
@@ -279,15 +279,15 @@ class StudyReader {
     if (search.method == "direct" && search.restarts > 1) {
       refuse("restarts", "direct does the same each time; 1 at most");
     }
-    // Requires runs for about three rounds of DIRECT; the first evaluates the center and two points
-    // per key.
+    // Requires runs for about three rounds of DIRECT. The first round evaluates the center and two
+    // points per key.
     if (search.method == "direct" && search.runs < 4 * (2 * keys + 1)) {
       refuse("runs", fmt::format("{} for direct and {} keys; at least {}", search.runs, keys,
                                  4 * (2 * keys + 1)));
     }
   }
 
-  /// A condition may only use keys that are set before. A key of the grid must not depend on a
+  /// A condition may use only keys that are set before it. A key of the grid must not depend on a
   /// sampled key.
   void CheckConditions(const Study& study) {
     Names of_grid;

@@ -15,15 +15,15 @@ bool Replaces(const std::string& later, const std::string& earlier);
 std::vector<Setting> AllSettings(const Study& study, const std::vector<Setting>& point,
                                  std::optional<double> bisected);
 
-/// Parses a YAML value as a number; none if it is not one.
+/// Parses a YAML value as a number; none if it is not a number.
 std::optional<double> NumberOf(const std::string& value);
 
-/// Appends the values of the study's formulas at a point with these settings. Throws InputError,
-/// placed at the formula, if a value is not finite.
+/// Appends the values of the study's formulas at a point with these settings. AddDerived throws
+/// InputError, placed at the formula, if a value is not finite.
 void AddDerived(const Study& study, std::vector<Setting>& settings);
 
-/// Throws InputError, placed at the formula, if it is invalid or uses a key that the study does not
-/// set.
+/// Throws InputError, placed at the formula, if a formula is invalid or uses a key that the study
+/// does not set.
 void CheckFormulas(const Study& study);
 
 /// Settings of the keys that differ between runs, at least one per key.

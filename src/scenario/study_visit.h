@@ -10,7 +10,7 @@
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/scenario/study.h"
 
-/// Keys of a study, shared by reading and listing.
+/// Keys of a study, used for reading and listing.
 namespace trackbed {
 
 enum class GridScale { kLinear, kLog };
@@ -34,7 +34,8 @@ inline void Visit(KeyVisitor& a, GridRange& range) {
           Need::kOptional, scales);
 }
 
-/// Visits the parameters of a distribution; its kind defines which ones exist.
+/// Visits the parameters of a distribution. The kind of the distribution defines which parameters
+/// exist.
 inline void Visit(KeyVisitor& a, Distribution& distribution) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   switch (distribution.kind) {
@@ -69,7 +70,7 @@ inline void Visit(KeyVisitor& a, Distribution& distribution) {
   }
 }
 
-/// Names of distributions in files; `file` draws rows of a table.
+/// Names of distributions in files. The distribution `file` draws rows of a table.
 inline constexpr const char* kFileDistribution = "file";
 template <typename Enum, std::size_t count>
 EnumNames<Enum> NamesOf(const std::array<Enum, count>& values) {
@@ -139,7 +140,8 @@ inline void Visit(KeyVisitor& a, BisectSpec& bisect) {
           bisect.tolerance, Need::kRequired, kPositive);
 }
 
-/// A study file. The functions read the sections whose keys are keys of the scenario.
+/// A study file and the functions that read its sections. The functions of StudyFile read the
+/// sections whose keys are keys of the scenario.
 struct StudyFile {
   using Read = std::function<void(const YAML::Node& node, const std::string& key)>;
 

@@ -9,10 +9,10 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// Reads one entry of `vary`: a list of values, {values, when}, a range {from, to, steps, scale}, or
-// a distribution with its parameters. Values are kept as YAML text in flow style, so that they can
-// be applied as overrides of a scenario. Ranges are expanded to values with 15 digits; a column of
-// a CSV file becomes a choice among its cells.
+// Reads one entry of `vary`. An entry is a list of values, {values, when}, a range {from, to,
+// steps, scale}, or a distribution with its parameters. Values are kept as YAML text in flow style,
+// so that they can be applied as overrides of a scenario. A range is expanded to values with 15
+// digits. A column of a CSV file becomes a choice among its cells.
 namespace trackbed {
 namespace {
 
@@ -172,7 +172,7 @@ class VariationReader {
         }
         if (distribution.step > 0.0 && distribution.from < distribution.to) {
           const double steps = (distribution.to - distribution.from) / distribution.step;
-          // Tolerates the binary rounding of decimal fractions such as 0.2.
+          // The tolerance covers the binary rounding of decimal fractions such as 0.2.
           if (std::round(steps) < 1.0 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
             AddError(node["step"], dotted + ".step",
                      fmt::format("{} to {} is no whole number of steps of {}", distribution.from,

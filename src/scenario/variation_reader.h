@@ -10,7 +10,7 @@
 #include "src/scenario/reader_context.h"
 #include "trackbed/scenario/study.h"
 
-/// Readers for the sections of a study that set keys of its scenario.
+/// Readers for the sections of a study that set keys of the study's scenario.
 namespace trackbed {
 
 /// A key with its value as YAML text.
@@ -19,7 +19,7 @@ Setting ParseSetting(const std::string& key, const YAML::Node& value);
 using ReadEntry =
     std::function<void(const YAML::Node& key, const YAML::Node& value, const std::string& dotted)>;
 
-/// Calls `read` with each key of a section of scenario keys, and its value.
+/// Calls `read` with each key of a section of scenario keys, and with the key's value.
 void ForEachKey(ReaderContext& context, const YAML::Node& node, const std::string& section,
                 const ReadEntry& read);
 

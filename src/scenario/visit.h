@@ -11,7 +11,7 @@
 #include "trackbed/scenario/record.h"
 #include "trackbed/scenario/scenario.h"
 
-/// Keys of a scenario, shared by reading, writing and listing.
+/// Keys of a scenario, used for reading, writing and listing.
 namespace trackbed {
 
 inline constexpr Key kVehicleSection{"vehicle", "", "vehicle"};

@@ -6,7 +6,7 @@
 /// Keys of the maneuvers.
 namespace trackbed {
 
-/// Shared by the maneuvers that fit gradients.
+/// Keys of all maneuvers that fit gradients.
 template <typename Options>
 void VisitGradients(KeyVisitor& a, Options& options) {
   a.Field({"settle", "s", "samples before this time are ignored"}, options.settle, Need::kOptional,

@@ -147,7 +147,7 @@ inline void Visit(KeyVisitor& a, Obstacle& obstacle) {
     a.Section({"velocity", "", "velocity of the box, without rotation; default: static"}, velocity);
   }
   if (writes && !obstacle.known_from_time && !obstacle.known_from_range) {
-    return;  // omit an empty section
+    return;  // omits an empty section
   }
   KnownFromKeys known{obstacle};
   a.Section(

@@ -14,12 +14,12 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
-// Loads YAML and explains syntax errors. A first pass of yaml-cpp's event parser (EventTracker)
-// tracks open collections and quotes, and limits nesting and the number of values. If it fails,
-// Explain maps yaml-cpp's message and position to the line and the wording that a user can act on:
-// missing colon, wrong indentation, tab, unclosed bracket, unquoted special character. Unclosed
-// quotes are detected by a second pass, because yaml-cpp often reads on to the end of the text.
-// Valid text is then loaded as nodes.
+// Loads YAML and explains syntax errors to the user. A first pass of yaml-cpp's event parser
+// (EventTracker) tracks open collections and quotes. EventTracker limits nesting and the number of
+// values. If the first pass fails, Explain maps yaml-cpp's message and position to a line and to
+// wording that helps the user. Examples are a missing colon, wrong indentation, a tab, an unclosed
+// bracket and an unquoted special character. A second pass detects unclosed quotes, because
+// yaml-cpp often reads on to the end of the text. Finally, valid text is loaded as nodes.
 namespace trackbed {
 namespace {
 
@@ -38,7 +38,7 @@ bool IsPrintable(boost::locale::utf::code_point c) {
 
 void RejectInvalidText(const std::string& text, const std::string& file) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
-  YAML::Mark mark;  // columns count bytes, as in yaml-cpp
+  YAML::Mark mark;  // position; columns count bytes, as in yaml-cpp
   for (auto at = text.begin(); at != text.end();) {
     const auto begin = at;
     const boost::locale::utf::code_point c = Utf8::decode(at, text.end());
@@ -54,8 +54,8 @@ void RejectInvalidText(const std::string& text, const std::string& file) {
   }
 }
 
-/// Follows the parser, so that an error can be related to the open collections. Limits nesting and
-/// repetition: anchors can expand a small file to an endless tree.
+/// Follows the parser, so that an error can be related to the open collections. The tracker limits
+/// nesting and repetition: anchors can expand a small file to an endless tree.
 class EventTracker : public YAML::EventHandler {
  public:
   explicit EventTracker(std::string file) : file_(std::move(file)) {}
@@ -93,14 +93,14 @@ class EventTracker : public YAML::EventHandler {
   [[nodiscard]] YAML::Mark open() const {
     return open_.empty() ? YAML::Mark::null_mark() : open_.back().mark;
   }
-  /// Start of the last value if it is quoted, else null.
+  /// Start of the last value if that value is quoted, else null.
   [[nodiscard]] YAML::Mark quoted() const { return quoted_; }
 
  private:
   struct Collection {
     YAML::Mark mark;
     YAML::anchor_t anchor;
-    std::size_t begin;  // number of values before it
+    std::size_t begin;  // number of values before the anchor
   };
 
   void Count(const YAML::Mark& mark, std::size_t values) {
@@ -169,13 +169,13 @@ YAML::Mark MarkAt(int line, std::size_t column) {
   return mark;
 }
 
-/// Position and wording of a syntax error for the user.
+/// Position of a syntax error, and its wording for the user.
 struct SyntaxError {
   YAML::Mark mark;
   std::string message;
 };
 
-/// Explains a misplaced key; most often the line before it is wrong.
+/// Explains a misplaced key. Most often the line before a misplaced key is wrong.
 SyntaxError ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
   const auto here = static_cast<std::size_t>(mark.line);
   const std::string_view line = lines[here];
@@ -279,8 +279,9 @@ SyntaxError Explain(const std::string& text, const YAML::Exception& error,
   return {mark, "not YAML: " + said};
 }
 
-/// Whether a quote is still open at the end. yaml-cpp only reports this if no line feed follows;
-/// otherwise it takes the rest of the text as the quoted value.
+/// Whether a quote is still open at the end of the text. yaml-cpp reports an open quote only if no
+/// line feed follows. If a line feed follows, yaml-cpp takes the rest of the text as the quoted
+/// value.
 bool EndsInQuotes(const std::string& text) {
   EventTracker tracker("");
   try {
@@ -303,7 +304,7 @@ std::string ReadInput(const std::filesystem::path& file) {
 
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
   RejectInvalidText(text, file);
-  const std::string lines = text + "\n";  // completes a value at the end
+  const std::string lines = text + "\n";  // the line feed completes a value at the end of the text
   EventTracker tracker(file);
   std::optional<SyntaxError> syntax_error;
   try {

@@ -11,10 +11,11 @@
 #include "trackbed/core/file_name.h"
 #include "trackbed/core/spelling.h"
 
-// KeyVisitor that reads a YAML mapping. Each Field takes its key from the mapping, checks type,
-// range and allowed names, and reports problems with their position and a hint. Values in quotes
-// are text, never numbers. Finish reports duplicate and unknown keys, with the nearest spelling.
-// A misspelled key marks the intended key as unread, so that it causes no follow-up errors.
+// A KeyVisitor that reads a YAML mapping. Each Field takes its key from the mapping and checks
+// type, range and allowed names. Problems of keys are reported with their position and a hint.
+// Values in quotes are text, never numbers. Finish reports duplicate and unknown keys, with the
+// nearest spelling. A misspelled key marks the intended key as unread, so that it causes no
+// follow-up errors.
 namespace trackbed {
 namespace {
 
@@ -22,7 +23,7 @@ bool IsQuoted(const YAML::Node& node) {
   return node.IsScalar() && node.Tag() == "!";
 }
 
-/// Reads a value of type T; a quoted value is text, even if it looks like a number.
+/// Reads a value of type T. A quoted value is text, even if it looks like a number.
 template <typename T>
 bool Decode(const YAML::Node& node, T& value) {
   const ClassicLocale locale;  // yaml-cpp parses numbers with the global locale
@@ -56,7 +57,7 @@ std::string YamlReader::Dotted(const char* key) const {
 }
 
 void YamlReader::AddError(const YAML::Node& node, const std::string& dotted, std::string message) {
-  // yaml-cpp places a missing value at the token after it, so use the position of the key.
+  // yaml-cpp places a missing value at the next token, so the position of the key is used.
   context_.AddError(node.IsNull() ? last_key_mark_ : node.Mark(), dotted, std::move(message));
 }
 
@@ -143,7 +144,7 @@ void YamlReader::VisitMethod(const Key& key, Need need, const Methods& methods) 
   inner.Field(kMethod, method, Need::kRequired, names);
   const auto found = std::find(names.begin(), names.end(), method);
   if (found == names.end()) {
-    return;  // the known keys depend on the method
+    return;  // the known keys depend on the method, which is unknown
   }
   methods.select(static_cast<std::size_t>(found - names.begin()));
   methods.visit_selected(inner);
@@ -254,7 +255,7 @@ void YamlReader::Field(const Key& key, int& value, Need need, Range range) {
 
 void YamlReader::Field(const Key& key, std::uint64_t& value, Need need) {
   if (const auto node = Take(key.name, need)) {
-    // A stream parses -1 as the largest representable number.
+    // A stream would read -1 into an unsigned number as the largest representable number.
     if (node->Scalar().starts_with('-') || !Decode(*node, value)) {
       AddError(
           *node, Dotted(key.name),

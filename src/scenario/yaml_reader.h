@@ -18,8 +18,8 @@
 
 namespace trackbed {
 
-/// Reads a YAML mapping into a struct by the keys that its `Visit` declares (key_visitor.h). Finish
-/// reports unknown and duplicate keys.
+/// Reads a YAML mapping into a struct by the keys that the struct's `Visit` declares
+/// (key_visitor.h). Finish reports unknown and duplicate keys.
 class YamlReader final : public KeyVisitor {
  public:
   YamlReader(ReaderContext& context, const YAML::Node& node, std::string key);
@@ -44,7 +44,7 @@ class YamlReader final : public KeyVisitor {
   void Pair(const Key& key, int& first, int& second, Range range) override;
   [[nodiscard]] bool HasAny(const char* key, const Names& inner) const override;
 
-  /// Visits a key whose value is parsed by `read`, which also gets the dotted key.
+  /// Visits a key whose value is parsed by `read`, which also receives the dotted key.
   template <typename Read>
   void Custom(const Key& key, const char* type, const Read& read) {
     const auto node = Take(key.name, Need::kOptional);
@@ -57,7 +57,7 @@ class YamlReader final : public KeyVisitor {
 
   void Finish();
 
-  /// Describes a node: "a section", "a list", "'word'", …
+  /// Describes a node as "a section", "a list", "'word'", …
   static std::string Describe(const YAML::Node& node);
 
  protected:
@@ -75,7 +75,8 @@ class YamlReader final : public KeyVisitor {
   bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
   void AddError(const YAML::Node& node, const std::string& dotted, std::string message);
-  /// Describes a value that is not a T; suggests removing quotes if that would make it one.
+  /// Describes a value that is not of type T. If removing quotes would make the value a T, the text
+  /// suggests to remove the quotes.
   template <typename T>
   static std::string DescribeNo(const YAML::Node& node);
 
@@ -83,7 +84,7 @@ class YamlReader final : public KeyVisitor {
   YAML::Node node_;
   std::string key_;
   Names known_;
-  YAML::Mark last_key_mark_;  // position of the key taken last
+  YAML::Mark last_key_mark_;  // position of the key that was taken last
 };
 
 }  // namespace trackbed

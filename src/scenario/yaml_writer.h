@@ -13,8 +13,8 @@
 
 namespace trackbed {
 
-/// Counterpart of YamlReader: writes the keys that a struct's Visit declares, with the shortest
-/// numbers that read back to the same value. Omits optional values that are not set.
+/// Counterpart of YamlReader. Writes the keys that a struct's Visit declares, with the shortest
+/// numbers that read back to the same value. The writer omits optional values that are not set.
 class YamlWriter final : public KeyVisitor {
  public:
   explicit YamlWriter(YAML::Emitter& out) : out_(out) {}

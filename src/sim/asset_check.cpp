@@ -13,11 +13,15 @@
 namespace trackbed {
 namespace {
 
-constexpr std::uint32_t kMaxPixels = 8192;         // along a side
-constexpr std::uint32_t kMaxHeightSamples = 4096;  // of a height field, along a side
-constexpr std::uint32_t kMaxFaces = 200000;        // MuJoCo's own limit for an STL file
-constexpr std::uint32_t kMaxFacets = 256;          // of a drawn sphere or plane, along a side
-/// MuJoCo's error texts hold about 500 characters.
+constexpr std::uint32_t kMaxPixels = 8192;         // Largest number of pixels along a side of a
+                                                   // picture.
+constexpr std::uint32_t kMaxHeightSamples = 4096;  // Largest number of samples along a side of a
+                                                   // height field.
+constexpr std::uint32_t kMaxFaces = 200000;        // MuJoCo's own limit of the faces of an STL
+                                                   // file.
+constexpr std::uint32_t kMaxFacets = 256;          // Largest number of facets along a side of a
+                                                   // drawn sphere or plane.
+/// MuJoCo's error texts hold about 500 characters, which limits the words in them.
 constexpr std::size_t kMaxWordLength = 200;
 
 std::string LowerExtension(const std::filesystem::path& file) {
@@ -49,7 +53,7 @@ std::optional<std::uint32_t> ReadBigEndian(std::string_view content, std::size_t
   return number;
 }
 
-/// W3C, Portable Network Graphics (Second Edition), sections 5.2 and 11.2.2.
+/// Checks a PNG file (W3C, Portable Network Graphics, Second Edition, sections 5.2 and 11.2.2).
 std::string PngError(std::string_view content) {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
   if (!content.starts_with(kSignature) || content.size() < 16 || content.substr(12, 4) != "IHDR") {
@@ -67,7 +71,7 @@ std::string PngError(std::string_view content) {
   return "";
 }
 
-/// STL: a header of 80 bytes, the count of triangles, then 50 bytes per triangle.
+/// An STL file has a header of 80 bytes, the count of triangles, then 50 bytes per triangle.
 std::string StlError(std::string_view content) {
   constexpr std::size_t kHeader = 84;
   constexpr std::size_t kFace = 50;
@@ -78,7 +82,7 @@ std::string StlError(std::string_view content) {
   return "";
 }
 
-/// MuJoCo's height field format: the counts of rows and columns, then the heights.
+/// MuJoCo's height field format has the counts of rows and columns, then the heights.
 std::string HeightFieldError(std::string_view content) {
   const auto rows = ReadNumber<std::int32_t>(content, 0);
   const auto columns = ReadNumber<std::int32_t>(content, 4);
@@ -102,7 +106,8 @@ std::string HeightFieldError(std::string_view content) {
   return "";
 }
 
-/// Length of the longest word of an attribute: lists consist of numbers, names of one word.
+/// Length of the longest word of an attribute. The lists in attributes consist of numbers, and
+/// names consist of one word.
 std::size_t LongestWord(std::string_view text) {
   std::size_t longest = 0;
   while (!text.empty()) {

@@ -33,8 +33,8 @@ struct Stand {
 };
 
 Stand RestPoseOn(const VehicleParams& params, const Pose2& pose, const Ground& ground) {
-  // The height is that of the ground under the wheels, placed as on level ground: a slope shortens
-  // their horizontal distance by a second-order term only.
+  // The height is that of the ground under the wheels, placed as on level ground. A slope shortens
+  // the wheels' horizontal distance by a second-order term only.
   const bool steered = params.kind == VehicleKind::kSteered;
   const double ahead_of_axle = steered ? params.wheelbase : params.length - params.rear_overhang;
   const double track_front = steered ? params.track_front : params.width;
@@ -143,7 +143,7 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
   const int chassis_qpos = chassis().chassis_qpos;
   set(chassis_qpos, pose.x);
   set(chassis_qpos + 1, pose.y);
-  const mjtNum sag = level[chassis_qpos + 2];  // normal to the ground
+  const mjtNum sag = level[chassis_qpos + 2];  // height along the normal to the ground
   const double upright = laden ? (stand.turn * Eigen::Vector3d::UnitZ()).z() : 1.0;
   set(chassis_qpos + 2, sag / upright + stand.height);
   const mjtNum* lean = level + chassis_qpos + 3;

@@ -15,12 +15,13 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
-// Car parameters by name: reads them from a compiled model and writes them into its scene.
+// Reads car parameters by name from a compiled model, and writes them into its scene.
 //
 // A parameter is an entry of <custom><numeric>, a range of an actuator, or a property of the whole
-// vehicle. For the latter, the chassis gets the mass, center of gravity and inertia that, with the
-// other bodies (parallel axis theorem), give the wanted total. The spring preload follows the
-// changed wheel loads, so the ride height at rest stays.
+// vehicle. For a property of the whole vehicle, the chassis gets new mass, center of gravity and
+// inertia. The new values of the chassis and the other bodies (parallel axis theorem) give the
+// wanted total. The spring preload follows the changed wheel loads, so the ride height at rest
+// stays.
 namespace trackbed {
 namespace {
 
@@ -30,7 +31,8 @@ using tinyxml2::XMLElement;
   throw InputError(Problem{.file = car.file(), .key = name, .message = std::move(message)});
 }
 
-/// Properties of the whole vehicle. Setting one changes the mass, center or inertia of the chassis.
+/// Properties of the whole vehicle. Setting a property of the whole vehicle changes the mass,
+/// center or inertia of the chassis.
 enum class Mass { kMass, kCgToRear, kCgHeight, kYawInertia };
 
 /// An actuator range that is symmetric, or whose upper end is the parameter.
@@ -69,7 +71,7 @@ const std::map<std::string, ActuatorRange>& Ranges() {
   return table;
 }
 
-/// "steering_curve[3]": a numeric and one of its numbers.
+/// A numeric and the index of one of its numbers, such as "steering_curve[3]".
 struct NumericName {
   std::string name;
   std::size_t index = 0;
@@ -97,8 +99,8 @@ std::vector<double> NumericData(const CarModel& car, const std::string& name) {
   return {data, data + model.numeric_size[id]};
 }
 
-/// The numeric that holds the value of `name`: `name` itself or, without the suffix "_front" or
-/// "_rear", the numeric for both axles.
+/// The numeric that holds the value of `name`. The numeric is `name` itself or, without the suffix
+/// "_front" or "_rear", the numeric for both axles.
 std::string NumericInModel(const CarModel& car, const std::string& name) {
   if (!NumericData(car, name).empty()) {
     return name;
@@ -195,7 +197,7 @@ void AddComment(XMLElement& element, const std::string& text) {
   }
   std::string safe = text;
   for (std::size_t at = 0; (at = safe.find("--", at)) != std::string::npos;) {
-    safe.replace(at, 2, "- -");  // "--" would end the comment
+    safe.replace(at, 2, "- -");  // the characters "--" would end the comment
   }
   tinyxml2::XMLDocument& document = *element.GetDocument();
   tinyxml2::XMLNode* comment = document.NewComment((" " + safe + " ").c_str());
@@ -218,7 +220,8 @@ void SetNumeric(const CarModel& car, XMLElement& root, const CarParameter& param
     element = Custom(root).InsertNewChildElement("numeric");
     element->SetAttribute("name", name.c_str());
   } else {
-    data = ParseNumbers(element->Attribute("data"));  // includes numbers that were set earlier
+    data = ParseNumbers(element->Attribute("data"));  // the numbers include those that were set
+                                                      // earlier
     data.resize(NumericData(car, name).size());
   }
   CheckIndex(car, parameter.name, index, data);
@@ -314,7 +317,7 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   inertial->SetAttribute("mass", new_chassis_mass);
   inertial->SetAttribute("pos", Numbers({new_x, position[1], new_z}).c_str());
   // Roll and pitch inertia scale with the mass of the chassis. No principal moment of a body may
-  // exceed the sum of the two others, so both are raised if needed.
+  // exceed the sum of the other two, so the roll and pitch inertia are raised if needed.
   const double heavier = new_chassis_mass / own;
   double roll = inertia[0] * heavier;
   double pitch = inertia[1] * heavier;
@@ -370,7 +373,7 @@ Scene WithCarParameters(const CarModel& car, const std::vector<CarParameter>& pa
   }
   scene.xml = Print(document);
   scene.lines.clear();
-  scene.trusted = true;  // already compiled once: only numbers have changed
+  scene.trusted = true;  // the scene was compiled before, and only numbers have changed
   return scene;
 }
 

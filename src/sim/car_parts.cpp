@@ -14,10 +14,11 @@
 #include "src/sim/wheel_pair_parts.h"
 #include "trackbed/core/error.h"
 
-// Reads a car with steered front wheels from its compiled model. First finds all parts by name; if
-// some are missing, reports these alone. Then checks their types, places, axes and ranges against
-// docs/models.md and computes the parameters: masses, steering, tyres, limits of motion. Positions
-// are those at qpos0. Collects every problem and throws them as one InputError.
+// Reads a car with steered front wheels from the car's compiled model. All parts are first found by
+// name. If some parts are missing, only these are reported. Next, types, places, axes and ranges of
+// the parts are checked against docs/models.md. Finally the parameters of the car are computed:
+// masses, steering, tyres, limits of motion. Positions of the parts are those at qpos0. All
+// problems are collected and thrown as one InputError.
 namespace trackbed {
 namespace {
 
@@ -72,8 +73,8 @@ class CarReader final : private PartsReader {
       parts_.spin_dof[w] = m_.jnt_dofadr[spin_[w]];
       parts_.wheel[w] = m_.jnt_bodyid[spin_[w]];
       parts_.carrier[w] = m_.body_parentid[parts_.wheel[w]];
-      // Inertia about the spin axis, the wheel body's y axis if the model gives the inertia in that
-      // frame.
+      // Inertia about the spin axis. The spin axis is the wheel body's y axis, if the model gives
+      // the inertia in that frame.
       const mjtNum* inertia = m_.body_inertia + 3 * parts_.wheel[w];
       parts_.spin_inertia[w] = *std::max_element(inertia, inertia + 3);
       parts_.hub_height[w] = Wheel(w, 2);
@@ -196,7 +197,8 @@ class CarReader final : private PartsReader {
     }
   }
 
-  /// Rejects a joint range that is narrower than the steering: it is usually given in other units.
+  /// Rejects a joint range that is narrower than the steering, since it is usually given in other
+  /// units.
   void CheckJointRange(int joint, const char* name, double lowest, double highest) {
     const mjtNum* range = m_.jnt_range + 2 * joint;
     if (!m_.jnt_limited[joint]) {
@@ -229,7 +231,8 @@ class CarReader final : private PartsReader {
                fmt::format("must not be negative, found {:.4g}", parts_.tyres->vertical_damping));
     }
     if (stiffness == 0.0) {
-      constexpr double kDeflection = 0.06;  // of the radius; typical at nominal pressure
+      constexpr double kDeflection = 0.06;  // deflection of a tyre as a fraction of its radius;
+                                            // typical at nominal pressure
       const int payload = mj_name2id(&m_, mjOBJ_BODY, kPayloadBody);
       const double mass = params_.mass - (payload < 0 ? 0.0 : m_.body_mass[payload]);
       stiffness = 0.25 * mass * std::abs(m_.opt.gravity[2]) / (kDeflection * params_.wheel_radius);

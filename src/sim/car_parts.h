@@ -13,7 +13,8 @@ struct VehicleDescription {
   VehicleParams params;
 };
 
-/// Coefficients that a car with a tyre description must have: the required MagicFormulaFields.
+/// Names of the coefficients that a car with a tyre description must have. The names are those of
+/// the required MagicFormulaFields.
 inline constexpr const char* kNeededCoefficients =
     "p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both axles under these names or of each with "
     "_front and _rear";
@@ -22,15 +23,16 @@ inline constexpr const char* kNeededCoefficients =
 inline constexpr const char* kPayloadBody = "payload";
 inline constexpr const char* kLadenKeyframe = "laden";
 
-/// The parts of a car; InputError naming its file if it has no steered wheels. `needed_by` names
-/// the feature that needs them.
+/// The parts of a car. SteeredParts throws InputError naming the car's file if the car has no
+/// steered wheels. Messages name `needed_by`, the feature that needs the parts.
 const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by);
 
-/// The car's tyres; InputError naming its file and the missing coefficients if it has none.
+/// The tyres of a car. RequireTyres throws InputError naming the car's file and the missing
+/// coefficients if the car has no tyres.
 const CarTyres& RequireTyres(const CarModel& car, const std::string& needed_by);
 
-/// InputError naming `file` and every missing part; if all are there, every part that does not meet
-/// the requirements of docs/models.md.
+/// Throws InputError naming `file` and every missing part. If all parts exist, the error names
+/// every part that does not meet the requirements of docs/models.md.
 VehicleDescription DescribeVehicle(const mjModel_& model, const std::string& file);
 
 }  // namespace trackbed

@@ -7,20 +7,21 @@
 #include "src/sim/mujoco_plant.h"
 #include "src/sim/wheel_contacts.h"
 
-// The MuJoCo plant of a car with steered front wheels. A step:
-//   1. Act: the steering servo turns at a limited rate, or the angle is prescribed; motor or brakes
+// The MuJoCo plant of a car with steered front wheels. A step of the plant has three parts:
+//   1. Act: the steering servo turns at a limited rate, or the angle is prescribed. Motor or brakes
 //      give the wanted acceleration plus the driving resistance.
 //   2. ApplyWheelForces: Magic Formula tyres (magic_formula_tyres.h) and dry friction act on the
-//   wheels.
-//   3. Finish: the front wheels follow the rack, or the prescribed angle, at Ackermann angles. This
-//      replaces the model's polynomial coupling.
+//      wheels.
+//   3. Finish: the front wheels follow the rack, or the prescribed angle, at Ackermann angles. The
+//      plant does not use the polynomial coupling of the model.
 namespace trackbed {
 namespace {
 
-/// Armature so large that no torque of a car changes a joint's speed noticeably [kg m^2].
+/// Armature so large that no torque of a car noticeably changes a joint's speed [kg m^2].
 constexpr double kLocked = 1e8;
 
-/// Springs of the plant carry the car on Magic Formula tyres, MuJoCo's contacts on contact tyres.
+/// With Magic Formula tyres, springs of the plant carry the car. With contact tyres, MuJoCo's
+/// contacts carry the car.
 TyreSupport SupportFor(const PlantSetup& setup) {
   return SelectTyreLaw(setup.car, setup.tyre) == TyreLaw::kMagicFormula ? TyreSupport::kSprings
                                                                         : TyreSupport::kContacts;
@@ -39,7 +40,7 @@ class CarPlant final : public MujocoPlant {
     if (SupportFor(setup) == TyreSupport::kSprings) {
       tyres_.emplace(car(), model());
       for (const int spin : parts.spin_dof) {
-        model().dof_frictionloss[spin] = 0.0;  // HoldWheels applies it instead
+        model().dof_frictionloss[spin] = 0.0;  // HoldWheels applies the friction instead
       }
     }
     linked_ = ReleaseLinkage();
@@ -107,13 +108,15 @@ class CarPlant final : public MujocoPlant {
   void PrescribeAngle(double steering);
   [[nodiscard]] std::array<WheelState, 4> ContactWheels() const;
 
-  bool prescribed_;                           // the steering angle is prescribed
-  bool hold_ = false;                         // the brakes hold the car at rest
-  bool linked_ = false;                       // the front wheels follow the rack
-  FrontAngles slopes_;                        // d(wheel angle)/d(rack angle)
-  std::optional<MagicFormulaTyres> tyres_;    // none: MuJoCo's contacts hold the wheels
-  std::array<double, 4> bearing_friction_{};  // [N m]
-  std::array<double, 4> dry_friction_{};      // of bearings and brakes [N m]
+  bool prescribed_;                           // Whether the steering angle is prescribed.
+  bool hold_ = false;                         // Whether the brakes hold the car at rest.
+  bool linked_ = false;                       // Whether the front wheels follow the rack.
+  FrontAngles slopes_;                        // Derivative of the wheel angle with respect to the
+                                              // rack angle.
+  std::optional<MagicFormulaTyres> tyres_;    // Tyre forces of the plant; none: MuJoCo's contacts
+                                              // hold the wheels.
+  std::array<double, 4> bearing_friction_{};  // Friction of the wheels' bearings [N m].
+  std::array<double, 4> dry_friction_{};      // Dry friction of bearings and brakes [N m].
 };
 
 void CarPlant::Steer(double wanted) {
@@ -124,10 +127,10 @@ void CarPlant::Steer(double wanted) {
       std::clamp(rate, -params.steering_rate, params.steering_rate);
 }
 
-/// Disables the model's coupling of the front wheels to the rack. Its polynomial is an
-/// approximation, whose error would make the front tyres push against each other. FollowRack sets
-/// Ackermann angles instead. Returns false if the model does not couple both front wheels to the
-/// rack by joint equalities.
+/// Disables the model's coupling of the front wheels to the rack. The coupling's polynomial is an
+/// approximation. The error of the polynomial would make the front tyres push against each other.
+/// FollowRack sets Ackermann angles instead of the polynomial coupling. ReleaseLinkage returns
+/// false if the model does not couple both front wheels to the rack by joint equalities.
 bool CarPlant::ReleaseLinkage() {
   const CarParts& parts = car().parts();
   const auto follows_rack = [&](int joint_dof) {
@@ -148,7 +151,7 @@ bool CarPlant::ReleaseLinkage() {
   for (std::size_t w = 0; w < coupling.size(); ++w) {
     mj::DisableEquality(model(), data(), coupling[w]);
     const int dof = parts.steer_dof[w];
-    // The rack has to turn the wheels, too, at a ratio of about 1.
+    // The rack also has to turn the wheels, at a ratio of about 1.
     model().dof_armature[parts.rack_dof] += model().dof_M0[dof];
     model().dof_damping[parts.rack_dof] += model().dof_damping[dof];
     model().dof_damping[dof] = 0.0;
@@ -157,7 +160,8 @@ bool CarPlant::ReleaseLinkage() {
   return true;
 }
 
-/// Applies the wheels' torques about their steering axes, as of the last step, to the rack.
+/// Applies the wheels' torques about their steering axes to the rack. The torques of the wheels are
+/// those of the last step.
 void CarPlant::LoadRack() {
   const CarParts& parts = car().parts();
   const mjtNum* acceleration = data().qacc;
@@ -181,7 +185,7 @@ void CarPlant::FollowRack() {
 void CarPlant::Propel(const Command& command) {
   const CarParts& parts = car().parts();
   const double radius = car().params().wheel_radius;
-  double rolling_mass = car().unladen().mass;  // with the rotating inertia of the wheels
+  double rolling_mass = car().unladen().mass;  // mass including the rotating inertia of the wheels
   for (const double inertia : parts.spin_inertia) {
     rolling_mass += inertia / (radius * radius);
   }
@@ -196,7 +200,7 @@ void CarPlant::Propel(const Command& command) {
     Brake(0.0, false);
     return;
   }
-  // Torque at the wheels [N m] that motor or brakes must add to the driving resistance.
+  // Torque at the wheels that motor or brakes must add to the driving resistance [N m].
   const double torque = along_gear * rolling_mass * radius + resistance;
   const bool drive = torque > 0.0 && !hold_;
   data().ctrl[parts.drive_actuator] = drive ? command.gear * std::min(torque, DriveLimit()) : 0.0;
@@ -248,8 +252,8 @@ double CarPlant::Resistance(int gear) const {
   return dry + gear * (Drag() + climb) * car().params().wheel_radius;
 }
 
-/// Sine of the slope angle at the center of gravity: the slopes under the axles, interpolated
-/// there.
+/// Sine of the slope angle at the center of gravity, interpolated between the slopes under the
+/// axles.
 double CarPlant::Grade() const {
   const Ground& ground = car().scene().ground;
   if (IsFlat(ground)) {
@@ -290,7 +294,8 @@ std::array<WheelState, 4> CarPlant::ContactWheels() const {
   std::array<WheelState, 4> wheels;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const WheelContact& contact = contacts[w];
-    // The slip reference is the speed, but at least the speed below which a car counts as standing.
+    // The reference of the slip is the rolling speed, but at least the speed below which a car
+    // counts as standing.
     const double reference = std::max(std::abs(contact.rolling_speed), kAtRestSpeed);
     wheels[w] = {.normal_force = std::max(0.0, contact.up.dot(forces[w])),
                  .longitudinal_force = contact.forward.dot(forces[w]),

@@ -25,8 +25,8 @@ namespace {
 
 constexpr std::size_t kGigabyte = std::size_t{1} << 30;
 /// Limits for a compilation in a separate process.
-constexpr std::size_t kMemory = 2 * kGigabyte;  // [bytes]
-constexpr int kSeconds = 60;                    // [s] of processor time
+constexpr std::size_t kMemory = 2 * kGigabyte;  // Largest memory [bytes].
+constexpr int kSeconds = 60;                    // Processor time [s].
 /// Largest size of a compiled model.
 constexpr std::int64_t kMaxBytes = kGigabyte;
 
@@ -39,7 +39,7 @@ struct VfsDeleter {
 using Vfs = std::unique_ptr<mjVFS, VfsDeleter>;
 
 Vfs MakeVfs() {
-  Vfs vfs(new mjVFS);  // too large for the stack
+  Vfs vfs(new mjVFS);  // allocated on the heap, because it is too large for the stack
   mj_defaultVFS(vfs.get());
   return vfs;
 }
@@ -48,14 +48,14 @@ void Add(mjVFS& vfs, const std::string& file, const std::string& content) {
   TRACKBED_CHECK(mj::AddToVfs(vfs, file, content) == 0, "cannot hand {} to MuJoCo", file);
 }
 
-/// A model, or the compiler's error.
+/// A compiled model, or the error of the compiler.
 struct Compiled {
   MujocoModel model;
   std::string error;
 };
 
 Compiled CompileInProcess(const std::string& xml, const std::vector<SceneAsset>& assets) {
-  const ClassicLocale locale;  // MuJoCo reads numbers through the global one
+  const ClassicLocale locale;  // MuJoCo reads numbers with the global locale
   const Vfs vfs = MakeVfs();
   Add(*vfs, "model.xml", xml);
   for (const SceneAsset& asset : assets) {
@@ -79,11 +79,13 @@ std::string SizeLimitMessage() {
   return fmt::format("takes more than {} MB of memory", kMemory >> 20);
 }
 
-// The other process sends one of these letters, then the model's bytes or the text of an error.
+// The compiling process sends one of the letters below, then the model's bytes or the text of an
+// error.
 constexpr char kModelFollows = 'M';
 constexpr char kErrorFollows = 'E';
 
-/// Runs in the other process. Also tries the calls in which MuJoCo would crash on an invalid model.
+/// CompileAndTry runs in the compiling process. The compiling process also tries the calls in which
+/// MuJoCo would crash on an invalid model.
 std::string CompileAndTry(const std::string& xml, const std::vector<SceneAsset>& assets) try {
   const Compiled compiled = CompileInProcess(xml, assets);
   const auto fail = [](const std::string& text) { return kErrorFollows + text; };
@@ -125,12 +127,13 @@ Compiled CompileInSubProcess(const std::string& xml, const std::vector<SceneAsse
 }
 
 struct CompileError {
-  std::string text;  ///< one line
-  int line = 0;      ///< in the composed model; 0 when unknown
+  std::string text;  ///< Text of the error in one line.
+  int line = 0;      ///< Line in the composed model; 0 if unknown.
 };
 
 /// After its message, MuJoCo names the element: "Element 'joint', line 46", or "Object name = rack,
-/// id = 1, line = 63, column = -1", since 3.1 "Element name 'rack', id 1, line 63".
+/// id = 1, line = 63, column = -1". Since MuJoCo 3.1, the text is "Element name 'rack', id 1, line
+/// 63".
 CompileError ParseMujocoError(const std::string& message) {
   static const std::regex kind("^(XML )?Error: (Error: )?(Schema violation: )?");
   static const std::regex place(
@@ -150,7 +153,7 @@ CompileError ParseMujocoError(const std::string& message) {
 }  // namespace
 
 MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks looks) {
-  static_cast<void>(PhysicsVersion());  // checks that library and headers agree
+  static_cast<void>(PhysicsVersion());  // checks that library and headers have the same version
   const std::string xml = looks == Looks::kDiscarded ? DiscardLooks(scene.xml) : scene.xml;
   // A process forked while another thread compiles would wait for MuJoCo's lock forever.
   static std::mutex compiling;

@@ -8,15 +8,15 @@
 
 namespace trackbed {
 
-/// The car's parameters with the steering of the setup: wheels with a prescribed angle reach it at
-/// once.
+/// The car's parameters with the steering of the setup. If the setup prescribes the wheel angle,
+/// the wheels reach it at once.
 VehicleParams Steered(const PlantSetup& setup);
 
 /// The start of a run as a state of the rear axle.
 KinematicState InPlane(const StartState& start);
 
-/// A plant made of a planar car that follows its commands exactly: KinematicCar, SingleTrackCar.
-/// Its wheels spin without slip, which only films show.
+/// A plant made of a planar car that follows its commands exactly, such as KinematicCar or
+/// SingleTrackCar. The plant's wheels spin without slip, which only films show.
 template <typename Car>
 class ExactPlant final : public Plant {
  public:
@@ -57,7 +57,8 @@ class ExactPlant final : public Plant {
     return model_.FlatConfiguration(state_.pose, state_.steering, spin_);
   }
 
-  /// An unstable car spins ever faster. The limit is the one that MuJoCo uses.
+  /// An unstable car spins ever faster and diverges. The limit of divergence is the limit that
+  /// MuJoCo uses.
   [[nodiscard]] bool diverged() const override {
     constexpr double kMaxCoordinate = 1e10;
     const Pose2& pose = car_.state().pose;
@@ -72,7 +73,7 @@ class ExactPlant final : public Plant {
  private:
   const CarModel& model_;
   Car car_;
-  VehicleState state_;  // of the car now
+  VehicleState state_;  // present state of the car
   std::vector<double> spin_;
 };
 

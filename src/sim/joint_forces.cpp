@@ -10,7 +10,7 @@ using Eigen::Vector3d;
 
 void AddForce(const mjModel& model, mjData& data, int body, const Vector3d& point_W,
               const Vector3d& force_W, const Vector3d& moment_W) {
-  int moved = body;  // the body itself or its nearest ancestor with joints
+  int moved = body;  // body that joints move: `body` or its nearest ancestor with joints
   while (moved > 0 && model.body_dofnum[moved] == 0) {
     moved = model.body_parentid[moved];
   }

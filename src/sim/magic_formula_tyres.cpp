@@ -14,10 +14,11 @@
 namespace trackbed {
 namespace {
 
-/// At this speed and above, a tyre is a rolling tyre; below, it turns into a spring [m/s].
+/// From this speed on, a tyre is a rolling tyre; below this speed, it gradually becomes a spring
+/// [m/s].
 constexpr double kWalkingPace = 1.5;
-/// Speed from which rolling resistance acts fully [m/s]. At a smaller one it would be dry friction,
-/// which needs the constraint solver.
+/// Speed from which rolling resistance acts fully [m/s]. At a smaller speed, rolling resistance
+/// would be dry friction, which needs the constraint solver.
 constexpr double kRollingSpeed = 0.2;
 
 std::size_t AxleIndex(std::size_t wheel) {
@@ -33,7 +34,7 @@ class Relaxation {
     gain_ = timestep / sigma * (x > 1e-9 ? decay_ / x : 1.0);
   }
 
-  /// Advances `s` by a timestep. Returns s + tau s'.
+  /// Advances `s` by a timestep and returns s + tau s'.
   [[nodiscard]] double Step(double& s, double slip_speed, double tau) const {
     s += gain_ * slip_speed - decay_ * s;
     return s + tau / sigma_ * (slip_speed - speed_ * s);
@@ -42,25 +43,26 @@ class Relaxation {
  private:
   double speed_;
   double sigma_;
-  double decay_;  // decay of the slip in a step
-  double gain_;   // of slip per slip speed [s/m]
+  double decay_;  // Decay of the slip in a step.
+  double gain_;   // Slip per slip speed [s/m].
 };
 
-/// tau that damps an oscillation of angular frequency `omega` critically. In steps of W = omega dt,
-/// a mass on a spring with damping tau has the eigenvalues of
-///   l^2 - (2 - W^2 - W omega tau) l + 1 - W omega tau = 0,
-/// which are both 1 - W if omega tau = 2 - W. For W > 1, omega tau = 1/W gives 0 and 1 - W^2.
+/// The value of tau that critically damps an oscillation of angular frequency `omega`. Consider a
+/// mass on a spring with damping tau, in steps of W = omega dt. The motion's eigenvalues solve
+///   l^2 - (2 - W^2 - W omega tau) l + 1 - W omega tau = 0.
+/// Both eigenvalues are 1 - W if omega tau = 2 - W. For W > 1, omega tau = 1/W gives the
+/// eigenvalues 0 and 1 - W^2.
 double Damping(double omega, double timestep) {
   const double step = omega * timestep;
   return (step < 1.0 ? 2.0 - step : 1.0 / step) / omega;
 }
 
-/// Natural frequency [rad/s] of a wheel's spin on its tyre at a load: R sqrt(C_kappa/(sigma I)).
+/// Natural frequency of a wheel's spin on its tyre at a load, R sqrt(C_kappa/(sigma I)) [rad/s].
 double SpinFrequency(const MagicFormula& tyre, double load, double radius, double inertia) {
   return radius * std::sqrt(SlipStiffness(tyre, load) / (tyre.relaxation_length * inertia));
 }
 
-/// Slip of full sliding: 3 mu F_z/C, as in the brush model.
+/// Slip at which the whole contact patch slides: 3 mu F_z/C, as in the brush model.
 double SlidingSlip(double friction, double load, double stiffness) {
   return 3.0 * friction * load / stiffness;
 }
@@ -80,9 +82,9 @@ MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, const mjModel& model)
   }
 }
 
-/// Wheel spin on a tyre is damped stably up to omega dt = sqrt(2), even if one wheel carries the
-/// load of the whole axle. A wheel of mass m that hops on its tyre of stiffness k and damping c is
-/// stable up to k/m dt^2 + 2 c/m dt = 4.
+/// Damping of a wheel's spin on its tyre is stable up to omega dt = sqrt(2), even if one wheel
+/// carries the load of the whole axle. A wheel of mass m that hops on its tyre of stiffness k and
+/// damping c is stable up to k/m dt^2 + 2 c/m dt = 4.
 void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight,
                                       const mjModel& model) const {
   const VehicleParams& params = car.params();
@@ -104,7 +106,7 @@ void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight,
   };
   check(std::sqrt(2.0) / fastest, "wheel spin");
   const CarTyres& tyres = *car.parts().tyres;
-  double lightest = car.params().mass;  // corner [kg]
+  double lightest = car.params().mass;  // smallest mass of a corner of the car [kg]
   for (const int carrier : car.parts().carrier) {
     lightest = std::min(lightest, model.body_subtreemass[carrier]);
   }
@@ -180,7 +182,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const double c_alpha = CorneringStiffness(tyre, load);
     const double spin_omega = SpinFrequency(tyre, load, radius, car_.parts().spin_inertia[w]);
     const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma * load));
-    // tau_x is at most the time constant sigma/speed of the slip.
+    // The damping tau_x is at most the time constant sigma/speed of the slip.
     const double damping = Damping(spin_omega, timestep_);
     const double tau_x = speed * damping > sigma ? sigma / speed : damping;
     const double tau_y =
@@ -188,14 +190,15 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const Relaxation relaxation(speed, sigma, timestep_);
     const double kappa = relaxation.Step(slip.x, contact.slip_speed_x, tau_x);
     const double tangent = relaxation.Step(slip.y, contact.slip_speed_y, tau_y);
-    // Limits the slip to what a tyre can hold, so that no larger deflection remains when it stops
-    // sliding.
+    // Limits the slip to what a tyre can hold, so that no larger deflection remains when the tyre
+    // stops sliding.
     const double most_x = SlidingSlip(road[w] * tyre.p_dx1, load, c_kappa) + speed / kWalkingPace;
     const double most_y = SlidingSlip(road[w] * tyre.p_dy1, load, c_alpha) + speed / kWalkingPace;
     slip.x = std::clamp(slip.x, -most_x, most_x);
     slip.y = std::clamp(slip.y, -most_y, most_y);
 
-    // Left and right tyres are mirror images; the law's asymmetries are those of the left tyre.
+    // Left and right tyres are mirror images. The asymmetries of the tyre law are those of the left
+    // tyre.
     const double side = w % 2 == 0 ? 1.0 : -1.0;
     const double lean = -std::asin(std::clamp(contact.spin_axis.dot(contact.up), -1.0, 1.0));
     const double travel = Travel(data, w);
@@ -213,8 +216,8 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
                            std::clamp(contact.spin * radius / kRollingSpeed, -1.0, 1.0);
     const Eigen::Vector3d push = load * contact.up + state.longitudinal_force * contact.forward +
                                  state.lateral_force * contact.left;
-    // The moment corresponds to an arm R about the spin axis at any hub height: with another arm,
-    // the road would do work on a wheel without slip.
+    // The moment corresponds to an arm R about the spin axis at any hub height. With another arm
+    // than R, the road would do work on a wheel without slip.
     const double arm = contact.up.dot(hub - contact.point);
     const Eigen::Vector3d moment =
         -(rolling + state.longitudinal_force * (radius - arm)) * contact.spin_axis;

@@ -14,23 +14,23 @@
 #include "src/sim/mujoco_compat.h"
 #include "trackbed/core/error.h"
 
-// Checks every number of a compiled model against a table of bounds: arrays of mjModel by the macro
-// MJMODEL_POINTERS, numbers under <custom> by name, then the options, the names of joints and the
-// actuators. Collects up to 20 problems, each with the name of its object, and throws them as one
-// InputError.
+// Checks every number of a compiled model against a table of bounds. CheckModel checks the arrays
+// of mjModel by the macro MJMODEL_POINTERS, and numbers under <custom> by name. The options, the
+// names of joints and the actuators are checked last. Up to 20 problems are collected, each with
+// the name of its object, and thrown as one InputError.
 namespace trackbed {
 namespace {
 
 /// The largest magnitude that MuJoCo accepts in a simulation.
 constexpr double kMaxMagnitude = 1e10;
 
-/// Largest magnitude of the numbers of that name, well beyond any vehicle.
+/// Largest magnitude of the numbers with this name, well beyond any vehicle.
 struct Bound {
   std::string_view name;
   double largest;
 };
 
-/// Bounds of numbers under <custom>, SI units.
+/// Bounds of numbers under <custom>, in SI units.
 constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
                                    Bound{"steering_wheel_rate", 1e3},
                                    Bound{"steering_rate", 1e3},
@@ -49,11 +49,12 @@ constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
                                    Bound{"rolling_resistance", 1.0},
                                    Bound{"camber_gain_front", 1e1},
                                    Bound{"camber_gain_rear", 1e1}};
-constexpr double kMaxCoefficient = 1e3;  // of a tyre's Magic Formula: "p_cx1"
+constexpr double kMaxCoefficient = 1e3;  // bound of a tyre's Magic Formula coefficients, such as
+                                         // "p_cx1"
 
-/// Bounds of the compiled model's arrays that hold numbers of the file, SI units. MuJoCo derives
-/// the other arrays from these, or only draws them. Arrays that a version of MuJoCo lacks are
-/// skipped.
+/// Bounds of the compiled model's arrays that hold numbers of the file, in SI units. MuJoCo
+/// computes its other arrays from the checked arrays, or only draws them. Arrays that a version of
+/// MuJoCo lacks are skipped.
 constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"qpos_spring", kMaxMagnitude},
                                   Bound{"body_pos", 1e5},
@@ -150,7 +151,7 @@ constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"key_mpos", kMaxMagnitude},
                                   Bound{"key_mquat", kMaxMagnitude},
                                   Bound{"key_ctrl", kMaxMagnitude}};
-/// Arrays that must not be negative: negative numbers would add energy.
+/// Arrays that must not be negative, since negative numbers would add energy.
 constexpr std::array<std::string_view, 9> kNonNegative{
     "jnt_stiffness",  "dof_damping",     "dof_armature",     "dof_frictionloss", "tendon_stiffness",
     "tendon_damping", "tendon_armature", "actuator_damping", "actuator_armature"};
@@ -178,7 +179,7 @@ class ModelChecker {
   }
 
  private:
-  /// Keeps the first problems only: an invalid number is often repeated in many rows.
+  /// Keeps only the first problems, since an invalid number is often repeated in many rows.
   static std::vector<Problem> FirstOf(std::vector<Problem> problems) {
     constexpr std::size_t kMaxProblems = 20;
     problems.resize(std::min(problems.size(), kMaxProblems));
@@ -189,13 +190,13 @@ class ModelChecker {
     problems_.push_back({file_, 0, 0, std::move(name), std::move(message)});
   }
 
-  /// The object's name, or "joint 3" without one.
+  /// The name of an object, or "joint 3" if it has no name.
   [[nodiscard]] std::string Named(int type, const char* kind, int id) const {
     const char* name = mj_id2name(&m_, type, id);
     return name == nullptr ? fmt::format("{} {}", kind, id) : name;
   }
 
-  /// The object that row `row` of an array belongs to; `rows` is MuJoCo's name of the array's size.
+  /// The object that row `row` of an array belongs to. `rows` is MuJoCo's name of the array's size.
   [[nodiscard]] std::string Owner(std::string_view rows, int row) const {
     struct Kind {
       std::string_view rows;
@@ -240,7 +241,7 @@ class ModelChecker {
     }
   }
 
-  /// Skips indices, flags and numbers that are only drawn.
+  /// Skips arrays of indices, of flags, and of numbers that are only drawn.
   template <typename Other>
   void CheckArray(std::string_view, std::string_view, const Other*, int, int) {}
 
@@ -299,7 +300,8 @@ class ModelChecker {
 
   /// Joint names become columns of CSV files, before their units.
   void CheckJointNames() {
-    std::set<std::string, std::less<>> taken{"x", "y", "z"};  // columns of the chassis' position
+    std::set<std::string, std::less<>> taken{"x", "y", "z"};  // names of the columns of the
+                                                              // chassis' position
     for (int joint = 0; joint < m_.njnt; ++joint) {
       const int type = m_.jnt_type[joint];
       if (type != mjJNT_HINGE && type != mjJNT_SLIDE) {
@@ -320,7 +322,7 @@ class ModelChecker {
     }
   }
 
-  /// Each actuator must have one control, so that their indices agree.
+  /// Each actuator must have one control, so that the indices of actuators and controls agree.
   void CheckActuators() {
     if (!mj::HasOneControlEach(m_)) {
       AddError("actuator",

@@ -9,14 +9,14 @@
 #include <span>
 #include <string>
 
-/// The differences between the supported versions of MuJoCo's physics: 2.2.2, 3.3 and newer, 4.0.1.
-/// Where the headers declare different members, templates test for them with `requires`, since only
-/// templates may name a member that a version lacks. Where the headers declare different
-/// enumerators, the version number decides. docs/how-to/mujoco-versions.md lists the differences,
-/// render/mujoco_compat.h has those of drawing.
+/// Covers the differences between MuJoCo versions in the physics. Supported versions are 2.2.2, 3.3
+/// and newer, and 4.0.1. If headers of two versions declare different members, templates test for
+/// them with `requires`. Only templates may name a member that a version lacks. If the headers
+/// declare different enumerators, the version number decides. docs/how-to/mujoco-versions.md lists
+/// the differences, and render/mujoco_compat.h has those of drawing.
 namespace trackbed::mj {
 
-/// Adds a file to a virtual file system. Returns 0 on success.
+/// Adds a file to a virtual file system. AddFile returns 0 on success.
 template <std::same_as<mjVFS> Vfs>
 int AddToVfs(Vfs& vfs, const std::string& file, const std::string& content) {
   const auto size = static_cast<int>(content.size());
@@ -37,8 +37,8 @@ inline std::int64_t SizeOf(const mjModel& model) {
   return static_cast<std::int64_t>(mj_sizeModel(&model));
 }
 
-/// Disables an equality constraint, which is a state of the data since 3.0, a part of the model
-/// before.
+/// Disables an equality constraint. The flag of the constraint is in mjData since MuJoCo 3.0, and
+/// in mjModel before.
 template <std::same_as<mjModel> Model, std::same_as<mjData> Data>
 void DisableEquality(Model& model, [[maybe_unused]] Data& data, int equality) {
   if constexpr (requires { model.eq_active0; }) {
@@ -49,7 +49,8 @@ void DisableEquality(Model& model, [[maybe_unused]] Data& data, int equality) {
   }
 }
 
-/// Whether each actuator has exactly one control; before 3.17 all had.
+/// Whether each actuator has exactly one control. Before MuJoCo 3.17, every actuator had exactly
+/// one control.
 template <std::same_as<mjModel> Model>
 bool HasOneControlEach(const Model& model) {
   if constexpr (requires { model.nactuator; }) {
@@ -59,8 +60,8 @@ bool HasOneControlEach(const Model& model) {
   }
 }
 
-/// Index into `act` of an actuator's state; -1 if it has none. Before 2.3 the actuators with a
-/// state, one number each, were the last ones.
+/// Index into `act` of an actuator's state. -1 if the actuator has no state. Before MuJoCo 2.3, the
+/// last actuators were those with a state, one number each.
 template <std::same_as<mjModel> Model>
 int ActivationAddress(const Model& model, int actuator) {
   if constexpr (requires { model.actuator_actadr; }) {
@@ -71,8 +72,8 @@ int ActivationAddress(const Model& model, int actuator) {
   }
 }
 
-/// Moment of an actuator about a degree of freedom, after mj_transmission. The matrix is sparse
-/// since 3.2.5.
+/// Moment of an actuator about a degree of freedom, after mj_transmission. The matrix of moments is
+/// sparse since MuJoCo 3.2.5.
 template <std::same_as<mjData> Data>
 mjtNum ActuatorMoment([[maybe_unused]] const mjModel& model, const Data& data, int actuator,
                       int dof) {
@@ -91,9 +92,10 @@ mjtNum ActuatorMoment([[maybe_unused]] const mjModel& model, const Data& data, i
 
 /// Locks the joints `dofs` by an armature. The model must be at rest in its initial configuration.
 ///
-/// Since 3.17 the constraint solver scales its tolerance by the trace of the inertia matrix, which
-/// includes the armature, instead of the compiled model's trace. The function reduces the tolerance
-/// by as much as the trace grows; otherwise contacts would be solved a thousand times less exactly.
+/// The constraint solver scales its tolerance by the trace of the inertia matrix. Before MuJoCo
+/// 3.17, the trace was that of the compiled model. Since MuJoCo 3.17, the trace includes the
+/// armature. LockJoints reduces the tolerance by as much as the trace grows. With the larger
+/// tolerance, contacts would be solved a thousand times less exactly.
 inline void LockJoints(mjModel& model, std::span<const int> dofs, double armature) {
 #if mjVERSION_HEADER >= 3017000
   const double trace = std::accumulate(model.dof_M0, model.dof_M0 + model.nv, 0.0);
@@ -104,11 +106,12 @@ inline void LockJoints(mjModel& model, std::span<const int> dofs, double armatur
   }
 }
 
-/// Iterations of the constraint solver in the last step. Since 3.0 MuJoCo counts them per island.
+/// Iterations of the constraint solver in the last step. MuJoCo counts iterations per island since
+/// 3.0.
 template <std::same_as<mjData> Data>
 int SolverIterations(const Data& data) {
   if constexpr (requires { data.solver_niter; }) {
-    return data.solver_niter[0];  // without islands, the first one has all constraints
+    return data.solver_niter[0];  // without islands, the first entry is for all constraints
   } else {
     return data.solver_iter;
   }
@@ -123,10 +126,11 @@ inline const char* WarningText(int warning, int info) {
 
 /// Sets the options under which all versions compute the same motion.
 ///
-/// Islands (on by default since 3.3.6) are solved separately and stop separately: a laden car
-/// creeps, and a run differs from 2.2.2 by millimeters instead of rounding. The mid-phase of
-/// collision detection (since 2.3.3) takes a geom's bounding box from the compiled model, but
-/// RoadContact moves planes out of their boxes: a car on contact tyres would fall through terrain.
+/// Islands (on by default since 3.3.6) are solved separately and stop separately. With islands, a
+/// laden car creeps, and a run differs from 2.2.2 by millimeters instead of rounding. The mid-phase
+/// of collision detection (since 2.3.3) takes a geom's bounding box from the compiled model.
+/// RoadContact moves planes out of their boxes, so a car on contact tyres would fall through
+/// terrain.
 inline void SetCommonOptions([[maybe_unused]] mjModel& model) {
 #if mjVERSION_HEADER >= 233
   model.opt.disableflags |= mjDSBL_MIDPHASE;

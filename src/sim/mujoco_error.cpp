@@ -4,11 +4,11 @@
 
 #include "trackbed/core/error.h"
 
-// Handlers of the calling thread, which precede the global ones. The library exports these
-// functions, for example for its Python bindings, but mujoco.h does not declare them.
+// Handlers of the calling thread, which precede the global ones. MuJoCo exports the functions for
+// thread-local handlers, for example for its Python bindings, but mujoco.h does not declare them.
 extern "C" {
 #if mjVERSION_HEADER >= 3010000
-mjfLogHandler _mjPRIVATE_setTlsLogHandler(mjfLogHandler handler);  // returns the previous one
+mjfLogHandler _mjPRIVATE_setTlsLogHandler(mjfLogHandler handler);  // returns the previous handler
 #else
 void (*_mjPRIVATE__get_tls_error_fn(void))(const char*);
 void _mjPRIVATE__set_tls_error_fn(void (*handler)(const char*));

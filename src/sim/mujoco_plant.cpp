@@ -13,11 +13,13 @@
 #include "trackbed/core/error.h"
 #include "trackbed/sim/mujoco_error.h"
 
-// Simulates a vehicle with MuJoCo. A step: the derived class sets actuators and brakes (Act), the
-// planes under the tyres follow the ground, moving obstacles get their planned state, the tyre
-// contacts their road friction; mj_step1; then air, lateral push and wheels apply their forces
-// (ApplyWheelForces); mj_step2; the derived class ends the step (Finish). mj_step1 computes the
-// positions and velocities on which these forces depend.
+// Simulates a vehicle with MuJoCo. A step of the plant has five parts:
+//   1. The derived class sets actuators and brakes (Act). The planes under the tyres follow the
+//      ground, moving obstacles get their planned state, and tyre contacts get the road's friction.
+//   2. mj_step1 computes the positions and velocities on which the forces of part 3 depend.
+//   3. Air, lateral push and wheels apply their forces (ApplyWheelForces).
+//   4. mj_step2 integrates the motion.
+//   5. The derived class ends the step (Finish).
 namespace trackbed {
 namespace {
 
@@ -203,21 +205,22 @@ double MujocoPlant::Drag() const {
   return -0.5 * kAirDensity * air_V.norm() * air_V.x() * car_.chassis().aerodynamics.drag_area;
 }
 
-/// The road's friction factor under each wheel. Also sets the friction of the tyres' contacts.
+/// The road's friction factor under each wheel. UpdateRoadFriction also sets the friction of the
+/// tyres' contacts.
 MujocoPlant::Road MujocoPlant::UpdateRoadFriction() {
   const std::span<const int> wheels = car_.wheels();
   Road road{};
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const mjtNum* hub = data_->xpos + 3 * wheels[w];
     road[w] = RoadFactor(world_, {hub[0], hub[1]});
-    // Scales sliding friction only: torsional and rolling friction are lengths, not road
+    // Only sliding friction is scaled: torsional and rolling friction are lengths, not road
     // properties.
     model_->geom_friction[3 * car_.tyres()[w]] = tyre_friction_[w] * road[w];
   }
   return road;
 }
 
-/// Velocity of the air relative to the car, world frame [m/s].
+/// Velocity of the air relative to the car, in the world frame [m/s].
 Vector3d MujocoPlant::AirSpeed() const {
   const mjtNum* at = ChassisPosition();
   const Vec2 wind = WindAt(world_, {at[0], at[1]}, data_->time);
@@ -266,12 +269,12 @@ VehicleState MujocoPlant::Observe() const {
   const VehicleParams& params = car_.params();
   const mjtNum* position = ChassisPosition();
   const Matrix3d R_WV = ChassisRotation();
-  const Vector3d v_W = Vec(ChassisVelocity());             // of the origin of V
-  const Vector3d w_W = R_WV * Vec(ChassisVelocity() + 3);  // free joints spin in their own frame
+  const Vector3d v_W = Vec(ChassisVelocity());             // Velocity of the origin of V.
+  const Vector3d w_W = R_WV * Vec(ChassisVelocity() + 3);  // Free joints spin in their own frame.
   const mjtNum* qacc = data_->qacc + car_.chassis().chassis_dof;
   const Vector3d a_W = Vec(qacc);
   const Vector3d alpha_W = R_WV * Vec(qacc + 3);
-  // Velocities are those of points at ground height, as is the pose; accelerations are those of the
+  // Velocities and the pose are those of points at ground height; accelerations are those of the
   // center of gravity.
   const Vector3d v_cg_W = v_W + w_W.cross(R_WV * Vector3d(params.cg_to_rear, 0.0, 0.0));
   const Vector3d to_cg_W = R_WV * Vector3d(params.cg_to_rear, 0.0, car_.chassis().cg_height);
@@ -291,7 +294,7 @@ VehicleState MujocoPlant::Observe() const {
   state.longitudinal_acceleration = ahead.dot(a_cg_W.head<2>());
   state.lateral_acceleration = left.dot(a_cg_W.head<2>());
   const double cg_speed = ahead.dot(v_cg_W.head<2>());
-  // Sideslip is 0 at rest, where it would consist of rounding errors.
+  // Sideslip is set to 0 at rest, where it would consist of rounding errors.
   state.sideslip =
       v_cg_W.head<2>().norm() < kAtRestSpeed ? 0.0 : std::atan(state.lateral_speed / cg_speed);
   const Wheels wheels = ObserveWheels();

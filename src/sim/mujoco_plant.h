@@ -15,8 +15,8 @@
 
 namespace trackbed {
 
-/// Base of the MuJoCo plants: the vehicle's state, the road, the air and external forces. Derived
-/// classes drive the wheels.
+/// Base of the MuJoCo plants, with the vehicle's state, the road, the air and external forces.
+/// Derived classes drive the wheels of the vehicle.
 class MujocoPlant : public Plant {
  public:
   void Step(const Command& command) final;
@@ -37,24 +37,24 @@ class MujocoPlant : public Plant {
   using Road = std::array<double, 4>;
   /// Wheel states that the derived class observes.
   struct Wheels {
-    double actuator = 0.0;  ///< VehicleState::steering_actuator
-    double steering = 0.0;  ///< VehicleState::steering
+    double actuator = 0.0;  ///< Value for VehicleState::steering_actuator.
+    double steering = 0.0;  ///< Value for VehicleState::steering.
     std::optional<std::array<WheelState, 4>> forces;
   };
 
   /// Initializes position and velocity from `setup.start`, without the spin of the wheels.
   explicit MujocoPlant(const PlantSetup& setup, TyreSupport support = TyreSupport::kContacts);
-  /// Sets the speeds of the wheels' spin joints, in the order of CarModel::wheels(), to rolling
-  /// without slip.
+  /// Sets the speeds of the wheels' spin joints to rolling without slip. The joints are in the
+  /// order of CarModel::wheels().
   void RollWheels(std::span<const int> spin_dof, const StartState& start);
-  /// Must be called after spin and actuators are set, before the first step.
+  /// Begin() must be called after spin and actuators are set, and before the first step.
   void Begin();
 
-  /// Called before a step: sets actuators and brakes.
+  /// Sets actuators and brakes; called before a step.
   virtual void Act(const Command& command) = 0;
-  /// Called between mj_step1 and mj_step2: adds wheel forces to qfrc_applied.
+  /// Adds wheel forces to qfrc_applied; called between mj_step1 and mj_step2.
   virtual void ApplyWheelForces(const Road& /*road*/) {}
-  /// Called after a step.
+  /// Ends a step; called after mj_step2.
   virtual void Finish(const Command& /*command*/) {}
   [[nodiscard]] virtual Wheels ObserveWheels() const = 0;
 
@@ -89,19 +89,20 @@ class MujocoPlant : public Plant {
 
   const CarModel& car_;
   const World& world_;
-  MujocoModel model_;  // own copy: brakes and road change it
+  MujocoModel model_;  // own copy of the model, which brakes and road change
   MujocoData data_;
   RoadContact ground_;
   std::vector<Slider> sliders_;
-  std::vector<bool> is_obstacle_;          // for each geom
-  std::vector<bool> is_of_car_;            // for each geom
-  std::array<double, 4> tyre_friction_{};  // of the contacts, for a road factor of 1
-  double yaw_ = 0.0;                       // unwrapped [rad]
-  double distance_ = 0.0;                  // [m]
-  double pending_lateral_force_ = 0.0;     // to the left, for the coming step [N]
+  std::vector<bool> is_obstacle_;          // For each geom, whether it is an obstacle.
+  std::vector<bool> is_of_car_;            // For each geom, whether it belongs to the car.
+  std::array<double, 4> tyre_friction_{};  // Friction of the tyre contacts for a road factor of 1.
+  double yaw_ = 0.0;                       // Heading, unwrapped [rad].
+  double distance_ = 0.0;                  // Distance driven [m].
+  double pending_lateral_force_ = 0.0;     // Lateral force to the left, for the coming step [N].
 };
 
-/// The MuJoCo plant of a car with steered front wheels, and of a vehicle with differential drive.
+/// Makes the MuJoCo plant of a car with steered front wheels, or of a vehicle with differential
+/// drive.
 std::unique_ptr<Plant> MakeCarPlant(const PlantSetup& setup);
 std::unique_ptr<Plant> MakeWheelPairPlant(const PlantSetup& setup);
 

@@ -12,12 +12,14 @@
 
 namespace trackbed {
 
-/// Base of the vehicle readers: finds parts by name in a compiled model and collects all errors.
+/// Base of the vehicle readers. PartsReader finds parts by name in a compiled model and collects
+/// all errors.
 class PartsReader {
  protected:
   /// Tolerance for decimal fractions in a file [m], and for axes and relative sizes [1].
   static constexpr double kExact = 1e-6;
-  /// Cosine of the largest angle between a wheel's axes and the car's: toe, camber, kingpin.
+  /// Cosine of the largest angle between a wheel's axes and the car's axes, due to toe, camber or
+  /// kingpin.
   static constexpr double kUpright = 0.7;
 
   PartsReader(const mjModel& model, const std::string& file);
@@ -25,11 +27,13 @@ class PartsReader {
   void AddError(std::string name, std::string message);
   void ThrowIfAnything() const;
 
-  /// Index of the named object; -1 after an error if it is missing.
+  /// Index of the named object. Find() adds an error and returns -1 if the object is missing.
   int Find(int type, const char* kind, const std::string& name);
-  /// Index of the named joint; -1 after an error if it is missing or of another type.
+  /// Index of the named joint. Joint() adds an error and returns -1 if the joint is missing or of
+  /// another type.
   int Joint(const std::string& name, int type, const char* kind);
-  /// The first number of a <custom><numeric>, or 0 after an error.
+  /// The first number of a <custom><numeric>. Number() adds an error and returns 0 if the numeric
+  /// is missing.
   double Number(const std::string& name);
 
   [[nodiscard]] std::string QuotedName(int type, int id) const;
@@ -41,21 +45,21 @@ class PartsReader {
 
   /// Reads state address, mass, inertia and center of gravity of the bodies below the free joint.
   void ReadChassis(int free_joint);
-  /// Checks that the chassis' origin lies under the two wheels of `axle`; messages call them
-  /// `wheels`.
+  /// Checks that the chassis' origin lies under the two wheels of `axle`. Messages call the two
+  /// wheels `wheels`.
   void CheckOrigin(const char* axle, const char* wheels, int left, int right);
   /// Checks axis and tyre of the wheel with the joint spin_`wheel`. The tyre must be as large as
-  /// the geom `first`; otherwise the message is "`all` must be equal".
+  /// the geom `first`. If the tyre has another size, the message is "`all` must be equal".
   void CheckWheel(const std::string& wheel, int spin, int tyre, int first, const char* all);
-  /// Checks that at qpos0 the wheel touches the model's own ground, within half its radius. Skips
-  /// ground that is not level.
+  /// Checks that at qpos0 the wheel touches the model's own ground, within half its radius.
+  /// CheckStand ignores ground that is not level.
   void CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius);
   void ReadFootprint(int site);
   void ReadAerodynamics();
 
   const mjModel& m_;
   std::string file_;
-  MujocoData data_;  // positions at qpos0
+  MujocoData data_;  // positions of the model at qpos0
   std::vector<Problem> problems_;
   Numerics numerics_{
       m_, [this](const std::string& name, const std::string& message) { AddError(name, message); }};

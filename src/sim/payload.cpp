@@ -34,13 +34,13 @@ class Settling {
     }
   }
 
-  /// Simulates until the car is at rest. False if that takes more than 30 s.
+  /// Simulates until the car is at rest. Run() returns false if the car is not at rest after 30 s.
   bool Run() {
     const MujocoErrorScope errors;
-    constexpr double kMaxSettlingTime = 30.0;  // [s]
+    constexpr double kMaxSettlingTime = 30.0;  // Longest time of settling [s].
     // With springs of 1 Hz and more, a car this slow is less than a micrometer from its
     // equilibrium.
-    constexpr double kRestSpeed = 1e-6;  // [m/s], [rad/s]
+    constexpr double kRestSpeed = 1e-6;  // Speeds at rest [m/s], [rad/s].
     constexpr double kCheckInterval = 0.5;
     // Checks the largest speed of an interval, since the car is also slow at its turning points.
     double fastest = 0.0;

@@ -24,7 +24,7 @@ std::unique_ptr<Plant> MakeMujocoWith(const PlantSetup& setup) {
   return MakeMujocoPlant(own);
 }
 
-/// One line for each plant.
+/// The registry of plants, with one line per plant.
 Registry<PlantEntry>& Table() {
   static Registry<PlantEntry> table(
       "plant",

@@ -4,12 +4,12 @@
 
 namespace trackbed {
 
-// The actuators of these plants follow each command at once; see steering_filter_plant.h for
-// delays.
+// The actuators of a planar plant follow each command at once. For actuators with delays see
+// steering_filter_plant.h.
 
 std::unique_ptr<Plant> MakeIdealKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
 
-/// InputError naming the missing coefficients if the car's file has no tyres.
+/// Throws InputError naming the missing coefficients if the car's file has no tyres.
 std::unique_ptr<Plant> MakeSingleTrackPlant(const PlantSetup& setup);
 
 std::unique_ptr<Plant> MakeMujocoPlant(const PlantSetup& setup);

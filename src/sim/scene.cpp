@@ -63,8 +63,8 @@ std::string XmlErrorText(const XMLDocument& document) {
   }
 }
 
-/// Removes text: MJCF consists of elements and attributes only, and tinyxml2 cannot read back text
-/// that it prints behind the root element.
+/// Removes text, since MJCF consists only of elements and attributes. tinyxml2 cannot read back
+/// text that it prints behind the root element.
 void RemoveText(tinyxml2::XMLNode& parent) {
   for (tinyxml2::XMLNode *node = parent.FirstChild(), *next = nullptr; node != nullptr;
        node = next) {
@@ -83,20 +83,22 @@ bool IsShipped(std::string_view content) {
   return std::find(kShippedHashes.begin(), kShippedHashes.end(), hash) != kShippedHashes.end();
 }
 
-/// Reads an XML file. Sets `shipped` to false if the file is not shipped with Trackbed.
+/// Reads an XML file into `document`. Load() sets `shipped` to false if the file is not shipped
+/// with Trackbed.
 void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
     Fail(file, 0, "no such file");
   }
-  constexpr std::size_t kMaxModelBytes = std::size_t{16} << 20U;  // takes 400 MB as a document
+  constexpr std::size_t kMaxModelBytes = std::size_t{16} << 20U;  // a file of this size takes 400
+                                                                  // MB as a document
   const std::string text = ReadFile(file, kMaxModelBytes);
   shipped = shipped && IsShipped(text);
   if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
     if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) {
       Fail(file, 0, "the file is empty; expected a <mujoco> element");
     }
-    // For truncated text tinyxml2 reports the line after the last one.
+    // For truncated text, tinyxml2 reports the line after the last one.
     const auto lines = std::count(text.begin(), text.end(), '\n') + (text.ends_with('\n') ? 0 : 1);
     const int line = std::min(document.ErrorLineNum(), static_cast<int>(lines));
     Fail(file, line, "not XML: " + XmlErrorText(document));
@@ -110,7 +112,7 @@ void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
 /// The car's file, and the folders from which it may include files.
 struct Origin {
   fs::path file;
-  fs::path folder;  ///< folder of the file
+  fs::path folder;  ///< folder of the car's file
   const std::vector<fs::path>& others;
   bool& shipped;  ///< whether all files read so far are shipped with Trackbed
 };
@@ -119,8 +121,8 @@ bool IsSameButForCase(std::string_view a, std::string_view b) {
   return a.size() == b.size() && ::strncasecmp(a.data(), b.data(), a.size()) == 0;
 }
 
-/// The path for `name` relative to the folder of the car's file. InputError with the place of
-/// `element`, in `file`, if reading it is not allowed.
+/// The path for `name` relative to the folder of the car's file. Throws InputError with the place
+/// of `element`, which is in `file`, if the path may not be read.
 fs::path Find(const fs::path& name, const Origin& origin, const fs::path& file,
               const XMLElement& element) {
   fs::path found = origin.folder / name;
@@ -151,7 +153,7 @@ void ResolveIncludes(XMLElement& parent, const fs::path& file, const Origin& ori
   for (XMLElement* child = parent.FirstChildElement(); child != nullptr;) {
     XMLElement* next = child->NextSiblingElement();
     if (child->Name() != kInclude && IsSameButForCase(child->Name(), kInclude)) {
-      // MuJoCo ignores case here and would open the file.
+      // MuJoCo ignores the case of the name <include> and would open the file.
       Fail(file, child->GetLineNum(), fmt::format("<{}> must be written <include>", child->Name()));
     }
     if (child->Name() == kInclude) {
@@ -179,7 +181,7 @@ void ResolveIncludes(XMLElement& parent, const fs::path& file, const Origin& ori
   }
 }
 
-/// Calls with every element from `element` on, in document order.
+/// Calls `call` with every element from `element` on, in document order.
 template <typename Call>
 void ForEachElement(const XMLElement& element, const Call& call) {
   call(element);
@@ -189,8 +191,8 @@ void ForEachElement(const XMLElement& element, const Call& call) {
   }
 }
 
-/// The attribute's value in the last <compiler> that sets it: in MuJoCo later ones override earlier
-/// ones.
+/// The attribute's value in the last <compiler> that sets it. In MuJoCo, later elements override
+/// earlier ones.
 std::string CompilerAttribute(const XMLElement& root, const char* name) {
   std::string value;
   for (const XMLElement* compiler = root.FirstChildElement("compiler"); compiler != nullptr;
@@ -202,8 +204,8 @@ std::string CompilerAttribute(const XMLElement& root, const char* name) {
   return value;
 }
 
-/// Collects the files that assets refer to and replaces the references by plain names, so that the
-/// composed model and its assets can be written to any one folder.
+/// Collects the files that assets refer to, and replaces the references by plain names. The
+/// composed model and its assets can therefore be written to any one folder.
 void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
   std::size_t bytes = 0;
   const fs::path mesh_folder = CompilerAttribute(root, "meshdir");
@@ -231,8 +233,10 @@ void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
         // The number distinguishes equal file names from different folders.
         const std::string number = fmt::format("asset{}_", scene.assets.size());
         const std::string own = FileNameOf(source.filename().string());
-        const std::string name = own.starts_with(number) ? own : number + own;  // composed before
-        // Without a name, MuJoCo names an asset after its file.
+        const std::string name = own.starts_with(number) ? own : number + own;  // A composed model
+                                                                                // has such names
+                                                                                // already.
+        // Without a name, MuJoCo names an asset after the asset's file.
         if (std::string_view(attribute) == "file" && asset->Attribute("name") == nullptr) {
           asset->SetAttribute("name", source.stem().c_str());
         }
@@ -282,7 +286,7 @@ XMLElement* FindNamed(XMLElement& root, const char* section, std::string_view na
   return nullptr;
 }
 
-/// Whether the element has this name and this attribute alone: a composed model has it already.
+/// Whether the element has the given name and only the given attribute, as in a composed model.
 bool HasOnly(const XMLElement* element, std::string_view name, const char* attribute,
              std::string_view value) {
   return element != nullptr && element->Name() == name && element->NoChildren() &&
@@ -291,7 +295,7 @@ bool HasOnly(const XMLElement* element, std::string_view name, const char* attri
 }
 
 /// The steering rate of a car is the control range of its actuator. A differential drive has no
-/// such actuator; its rate is a <custom> number.
+/// steering actuator. The steering rate of a differential drive is a <custom> number.
 void SetSteeringRate(XMLElement& root, double rate) {
   if (XMLElement* steer = FindNamed(root, "actuator", "steer")) {
     steer->SetAttribute("ctrlrange", Numbers({-rate, rate}).c_str());
@@ -306,7 +310,8 @@ fs::path DataFolder() {
   if (const char* folder = std::getenv("TRACKBED_DATA"); folder != nullptr && *folder != '\0') {
     return folder;
   }
-  // An installed program finds its data by a relative path, so both may be moved together.
+  // An installed program finds its data by a relative path, so program and data may be moved
+  // together.
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const fs::path beside = (program.parent_path() / TRACKBED_DATA_FROM_PROGRAM).lexically_normal();
@@ -365,14 +370,14 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
   if (options.steering_rate) {
     SetSteeringRate(root, *options.steering_rate);
   }
-  // autolimits is the default since MuJoCo 3.0. The last <compiler> that sets an attribute wins, so
-  // a file may still override it.
+  // The option `autolimits` is the default since MuJoCo 3.0. The last <compiler> that sets an
+  // attribute wins, so a file may still override this value.
   if (!HasOnly(root.FirstChildElement(), "compiler", "autolimits", "true")) {
     XMLElement* compiler = document.NewElement("compiler");
     compiler->SetAttribute("autolimits", true);
     root.InsertFirstChild(compiler);
   }
-  // The last <option> wins.
+  // In MuJoCo, the last <option> wins.
   const std::string timestep = fmt::format("{}", options.timestep);
   if (!HasOnly(root.LastChildElement(), "option", "timestep", timestep)) {
     XMLElement* option = document.NewElement("option");
@@ -382,7 +387,7 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
 
   scene.xml = Print(document);
   ForEachElement(root, [&](const XMLElement& element) {
-    scene.lines.push_back(element.GetLineNum());  // 0 for included and added elements
+    scene.lines.push_back(element.GetLineNum());  // the line is 0 for included and added elements
   });
   return scene;
 }
@@ -419,7 +424,7 @@ void WriteScene(const Scene& scene, const fs::path& file) {
       WriteFileAtomically(own, asset.content);
     }
   }
-  WriteFileAtomically(file, scene.xml);  // last, since it refers to the assets
+  WriteFileAtomically(file, scene.xml);  // written last, since it refers to the assets
 }
 
 }  // namespace trackbed

@@ -6,7 +6,7 @@
 namespace trackbed {
 
 /// The response of a steering actuator that turns the wheels by up to `limit` [rad] to both sides.
-/// Ideal if the model does not describe it.
+/// The response is ideal if the model does not describe it.
 SteeringResponse ReadSteeringResponse(const Numerics& numerics, double limit);
 
 }  // namespace trackbed

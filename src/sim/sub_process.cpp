@@ -26,7 +26,7 @@ std::string ErrnoText(int error) {
   return std::generic_category().message(error);
 }
 
-/// Writes the whole text; false if the reader has closed the pipe.
+/// Writes the whole text to a pipe. WriteAll returns false if the reader has closed the pipe.
 bool WriteAll(int pipe, const char* data, std::size_t size) {
   while (size > 0) {
     const ssize_t written = ::write(pipe, data, size);
@@ -59,10 +59,10 @@ std::size_t AddressSpace() {
 
 [[noreturn]] void RunChildProcess(const std::function<std::string()>& compute, std::size_t space,
                                   int seconds, int pipe) {
-  // The process dies with its parent, whose file locks it has inherited.
+  // The process must die with its parent, whose file locks it has inherited.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Libraries that call exit() would flush buffers copied from this process; some also print an
-  // error.
+  // Libraries that call exit() would flush buffers copied from the parent process; some also print
+  // an error.
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     ::dup2(nowhere, stream);
@@ -75,7 +75,8 @@ std::size_t AddressSpace() {
 #else
   static_cast<void>(space);
 #endif
-  // The waiting process reports a crash, not a signal handler of the program or of a sanitizer.
+  // The waiting process reports a crash, so the signal handlers of the program or of a sanitizer
+  // are disabled.
   for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) {
     ::signal(crash, SIG_DFL);
   }
@@ -88,7 +89,7 @@ std::size_t AddressSpace() {
   ::_exit(written ? 0 : 1);  // skips exit handlers and buffers copied from the parent
 }
 
-/// Reads the pipe until the other end closes it, or until the time `until`.
+/// Reads the pipe until its other end is closed, or until the time `until`.
 std::string ReadUntil(int pipe, std::chrono::steady_clock::time_point until) {
   std::string text;
   std::array<char, 65536> block{};
@@ -135,7 +136,7 @@ SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std:
     RunChildProcess(compute, space, seconds, pipe[1]);
   }
   ::close(pipe[1]);
-  // Twice the processor time, in case the machine is busy.
+  // Waits for twice the processor time, in case the machine is busy.
   const std::string text =
       ReadUntil(pipe[0], std::chrono::steady_clock::now() + std::chrono::seconds(2 * seconds));
   ::close(pipe[0]);
@@ -146,7 +147,7 @@ SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std:
     outcome.finished = text.size() - sizeof size == size;
   }
   if (!outcome.finished) {
-    ::kill(child, SIGKILL);  // no effect if it has ended
+    ::kill(child, SIGKILL);  // killing a process that has ended has no effect
   }
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

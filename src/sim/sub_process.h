@@ -7,17 +7,19 @@ namespace trackbed {
 
 /// Result of a computation in a separate process.
 struct SubProcessOutcome {
-  bool finished = false;  ///< `result` is the function's return value
+  bool finished = false;  ///< whether the function returned; `result` is then its return value
   std::string result;
-  std::string cause;  ///< if it did not finish: "Segmentation fault", "exit code 1"
+  std::string cause;  ///< reason if the function did not return: "Segmentation fault", "exit code
+                      ///< 1"
 };
 
-/// Calls `compute` in a copy of this process. The copy can open no file; it may allocate `memory`
-/// bytes and use `seconds` of processor time. Nothing in it, not even a crash, affects this
-/// process; its output is discarded.
+/// Calls `compute` in a copy of this process. The copy can open no file. The copy may allocate
+/// `memory` bytes and use `seconds` of processor time. No error in the copy, not even a crash,
+/// affects this process. The copy's output is discarded.
 ///
-/// `compute` must not throw and must not use a lock that another thread may hold. RunError if no
-/// process can be started. The memory limit is omitted under sanitizers, which map terabytes.
+/// `compute` must not throw and must not use a lock that another thread may hold. InSubProcess
+/// throws RunError if no process can be started. Under sanitizers, which map terabytes, the process
+/// has no memory limit.
 SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std::size_t memory,
                                int seconds);
 

@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// The names of a coefficient: for both axles, for the front and for the rear axle.
+/// The names of a coefficient: for both axles, for the front axle and for the rear axle.
 std::array<std::string, 3> CoefficientNames(const MagicFormulaField& field) {
   const std::string name = field.name;
   return {name, name + "_front", name + "_rear"};
@@ -104,7 +104,7 @@ std::optional<CarTyres> ReadTyres(const Numerics& numerics) {
       numerics.Read(both, value);
       numerics.Read(own[axle], value);
       const bool given = numerics.Has(both) || numerics.Has(own[axle]);
-      // Other numbers, such as a relaxation length, do not describe a tyre alone.
+      // Numbers such as a relaxation length do not describe a tyre alone.
       any = any || (given && (both.starts_with("p_") || both.starts_with("r_")));
       if (field.required && !given) {
         missing.push_back(own[axle]);

@@ -11,7 +11,7 @@ double TopSpeed(const Traction& traction) {
   if (traction.power <= 0.0) {
     return std::isfinite(by_force) ? by_force : 0.0;
   }
-  // Power left beyond the driving resistance [W]; it decreases with the speed.
+  // Power left beyond the driving resistance [W], which decreases with the speed.
   const auto spare = [&](double v) {
     return traction.power - (traction.rolling + drag * v * v) * v;
   };

@@ -41,7 +41,7 @@ std::vector<ShapeJoint> JointsOf(const mjModel& model, int body) {
   return joints;
 }
 
-/// As in MuJoCo, a geom with the default color has its material's color.
+/// As in MuJoCo, a geom with the default color has the color of its material.
 std::array<double, 4> DrawnColor(const mjModel& model, int geom) {
   const float* own = model.geom_rgba + 4 * geom;
   const int material = model.geom_matid[geom];
@@ -95,7 +95,7 @@ ShapeMesh Bounds(const ShapeMesh& mesh) {
   return box;
 }
 
-/// Whether the body belongs to a vehicle: vehicles have a free joint, moving obstacles do not.
+/// Whether the body belongs to a vehicle. Vehicles have a free joint; moving obstacles do not.
 bool IsOfVehicle(const mjModel& model, int body) {
   const int root = model.body_rootid[body];
   return model.body_jntnum[root] > 0 && model.jnt_type[model.body_jntadr[root]] == mjJNT_FREE;
@@ -107,7 +107,7 @@ VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name) {
   const MujocoModel compiled = CompileScene(scene, name, Looks::kKept);
   const mjModel& model = *compiled;
   VehicleShape shape;
-  std::map<int, int> bodies;  // index in the model to index in the shape
+  std::map<int, int> bodies;  // maps a body's index in the model to that in the shape
   for (int body = 1; body < model.nbody; ++body) {
     if (!IsOfVehicle(model, body)) {
       continue;
@@ -119,7 +119,7 @@ VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name) {
                             .quaternion = Copied<4>(model.body_quat + 4 * body),
                             .joints = JointsOf(model, body)});
   }
-  std::map<int, int> meshes;  // index in the model to index in the shape
+  std::map<int, int> meshes;  // maps a mesh's index in the model to that in the shape
   for (int geom = 0; geom < model.ngeom; ++geom) {
     const char* type = TypeName(model.geom_type[geom]);
     const std::array<double, 4> rgba = DrawnColor(model, geom);

@@ -20,8 +20,8 @@ bool IsRoad(const mjModel& model, int geom) {
   return name != nullptr && std::string_view(name).starts_with("ground");
 }
 
-/// Calls with wheel, contact, index of the contact, and a sign. Contact forces act on the second
-/// geom; times the sign, they act on the wheel.
+/// Calls `call` with wheel, contact, index of the contact, and a sign. Contact forces act on the
+/// second geom. Multiplied by the sign, a contact force acts on the wheel.
 template <typename Call>
 void ForEachRoadContact(const CarModel& car, const mjModel& model, const mjData& data,
                         const Call& call) {
@@ -45,7 +45,7 @@ WheelContact ContactAt(const CarModel& car, const mjModel& model, const mjData& 
   const double radius = car.params().wheel_radius;
   const int body = car.parts().wheel[w];
   const mjtNum* rotation = data.xmat + 9 * body;
-  std::array<mjtNum, 6> velocity{};  // angular, linear
+  std::array<mjtNum, 6> velocity{};  // angular, then linear velocity
   mj_objectVelocity(&model, &data, mjOBJ_BODY, body, velocity.data(), 0);
   WheelContact wheel;
   wheel.touches = true;
@@ -71,7 +71,8 @@ std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel
   up.fill(Vector3d::Zero());
   point.fill(Vector3d::Zero());
   std::array<double, 4> weight{};
-  // On a rough road a wheel may touch at several points: takes their mean, weighted by depth.
+  // On a rough road, a wheel may touch at several points. The mean of the points, weighted by
+  // depth, is taken.
   ForEachRoadContact(car, model, data,
                      [&](std::size_t w, const mjContact& contact, int, double sign) {
                        const double depth = std::max(contact.includemargin - contact.dist, 1e-9);
@@ -99,7 +100,7 @@ std::array<Vector3d, 4> RoadForces(const CarModel& car, const mjModel& model, co
       car, model, data, [&](std::size_t w, const mjContact& contact, int i, double sign) {
         std::array<mjtNum, 6> force{};
         mj_contactForce(&model, &data, i, force.data());
-        for (int axis = 0; axis < 3; ++axis) {  // the rows of the contact's frame
+        for (int axis = 0; axis < 3; ++axis) {  // rows of the contact's frame
           forces[w] += sign * force[static_cast<std::size_t>(axis)] * Vec(contact.frame + 3 * axis);
         }
       });

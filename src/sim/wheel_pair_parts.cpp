@@ -10,11 +10,11 @@
 namespace trackbed {
 namespace {
 
-/// A wheel's speed servo, as its actuator describes it.
+/// A wheel's speed servo, as described by its actuator.
 struct Servo {
-  double gain = 0.0;    ///< torque per speed error [N m s/rad]
-  double torque = 0.0;  ///< largest [N m]
-  double speed = 0.0;   ///< largest [rad/s]
+  double gain = 0.0;    ///< Torque per speed error [N m s/rad].
+  double torque = 0.0;  ///< Largest torque [N m].
+  double speed = 0.0;   ///< Largest speed [rad/s].
 };
 
 class WheelPairReader final : private PartsReader {
@@ -135,7 +135,7 @@ class WheelPairReader final : private PartsReader {
   }
 
   void ReadLimits() {
-    // On a turn of half the track, the inner wheel is at rest.
+    // In a turn with a radius of half the track, the inner wheel is at rest.
     if (!(turning_radius_ >= 0.5 * params_.track_rear)) {
       AddError("turning_radius", fmt::format("must be at least half the track, {:.4g} m, so that "
                                              "the inner wheel does not reverse; found {:.4g}",
@@ -150,7 +150,7 @@ class WheelPairReader final : private PartsReader {
   void ReadPerformance() {
     const double radius = params_.wheel_radius;
     double wheel_mass = 0.0;
-    double rolling = 0.0;  // resistance [N]
+    double rolling = 0.0;  // rolling resistance [N]
     for (std::size_t w = 0; w < kDrivenWheels.size(); ++w) {
       const mjtNum* inertia = m_.body_inertia + 3 * parts_.wheel[w];
       const int dof = parts_.spin_dof[w];
@@ -184,9 +184,9 @@ class WheelPairReader final : private PartsReader {
     params_.top_speed = (parts_.wheel_speed - parts_.servo_slack) * radius;
   }
 
-  /// Positions of other supports on the ground at qpos0, ahead of the driven wheels [m]: spheres,
-  /// ellipsoids and capsules. Each is treated as the only other support, since with several ones
-  /// the loads depend on springs.
+  /// Positions of other supports on the ground at qpos0, ahead of the driven wheels [m]. Other
+  /// supports are spheres, ellipsoids and capsules. Each support is treated as the only one, since
+  /// with several supports the loads depend on springs.
   [[nodiscard]] std::vector<double> OtherSupports() const {
     constexpr double kMaxGroundGap = 1e-3;  // [m]
     std::vector<double> ahead;
@@ -204,7 +204,7 @@ class WheelPairReader final : private PartsReader {
     return ahead;
   }
 
-  /// Half height of a round geom [m]; 0 for other types.
+  /// Half height of a round geom [m]; 0 for other types of geoms.
   [[nodiscard]] double HalfHeight(int geom) const {
     const mjtNum* size = m_.geom_size + 3 * geom;
     const mjtNum* up = data_->geom_xmat + 9 * geom + 6;  // the world's z axis in the geom's frame
@@ -229,9 +229,9 @@ class WheelPairReader final : private PartsReader {
   WheelPairParts parts_;
   int free_ = -1;  // joint
   std::array<int, 2> spin_{};
-  int footprint_ = -1;           // site
-  double servo_torque_ = 0.0;    // largest of one motor [N m]
-  double turning_radius_ = 0.0;  // smallest [m]
+  int footprint_ = -1;           // Index of the site.
+  double servo_torque_ = 0.0;    // Largest torque of one motor [N m].
+  double turning_radius_ = 0.0;  // Smallest turning radius [m].
 };
 
 }  // namespace

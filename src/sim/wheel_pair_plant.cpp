@@ -9,8 +9,8 @@
 namespace trackbed {
 namespace {
 
-/// Two wheels on speed servos with an integral part. Without it turns would be too wide: in a turn,
-/// the center of gravity needs a yaw moment m l_g v psi' from the motors.
+/// Two wheels on speed servos that have an integral part. Without the integral part, turns would be
+/// too wide. In a turn, the center of gravity needs a yaw moment m l_g v psi' from the motors.
 class WheelPairPlant final : public MujocoPlant {
  public:
   explicit WheelPairPlant(const PlantSetup& setup)
@@ -67,14 +67,16 @@ class WheelPairPlant final : public MujocoPlant {
   [[nodiscard]] double NextSpeed(int gear, double acceleration, double speed) const {
     const WheelPairParts& parts = car().wheel_pair();
     const double radius = car().params().wheel_radius;
-    // At a larger difference the torque saturates; limiting it avoids windup.
+    // At a larger difference of speeds, the torque saturates. Limiting the difference avoids
+    // windup.
     const double slack = parts.servo_slack * radius;
     const double wanted = gear * wanted_speed_;
     const double change = acceleration * model().opt.timestep;
     const double next = change > 0.0 ? std::min(wanted + change, std::max(wanted, speed + slack))
                                      : std::max(wanted + change, std::min(wanted, speed - slack));
-    // Near the motors' largest speed, less the servos' integral part, the vehicle slows down rather
-    // than leave its curve: the outer wheel runs at 1 + |tan delta|/2 times the vehicle's speed.
+    // Near the motors' largest speed, less the servos' integral part, the vehicle slows down and
+    // does not leave its curve. The outer wheel runs at 1 + |tan delta|/2 times the vehicle's
+    // speed.
     const double fastest =
         (parts.wheel_speed * radius - slack) / (1.0 + 0.5 * std::abs(std::tan(ratio_)));
     return std::clamp(next, 0.0, fastest);
@@ -86,8 +88,9 @@ class WheelPairPlant final : public MujocoPlant {
     const double left = radius * data().qvel[spin[0]];
     const double right = radius * data().qvel[spin[1]];
     const double speed = 0.5 * (left + right);
-    // tan(delta) is a ratio to the speed. Below this speed [m/s] it is blended into the commanded
-    // one, since at rest it would consist of rounding errors.
+    // The ratio tan(delta) is relative to the speed. Below this speed, the measured ratio
+    // tan(delta) is blended into the commanded one [m/s]. At rest, the ratio would consist of
+    // rounding errors.
     constexpr double kCrawl = 0.1;
     const double wanted = std::tan(ratio_);
     const double missing = right - left - speed * wanted;
@@ -95,10 +98,10 @@ class WheelPairPlant final : public MujocoPlant {
     return {.actuator = ratio_, .steering = std::atan(tangent), .forces = {}};
   }
 
-  double wanted_speed_;                       // [m/s]
-  double ratio_;                              // delta, after its rate limit [rad]
-  std::array<double, 2> integral_{};          // of the servos [rad/s]
-  std::array<double, 2> bearing_friction_{};  // [N m]
+  double wanted_speed_;                       // Commanded speed [m/s].
+  double ratio_;                              // Steering ratio delta, limited in its rate [rad].
+  std::array<double, 2> integral_{};          // Integral part of the servos [rad/s].
+  std::array<double, 2> bearing_friction_{};  // Friction of the bearings [N m].
 };
 
 }  // namespace

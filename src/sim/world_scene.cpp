@@ -15,27 +15,29 @@
 #include "trackbed/sim/scene.h"
 
 /// Adds ground and obstacles of a world to the scene of a car:
-///   - WithGround: the plane, height fields for terrain, bumps and side slopes, and a plane under
-///     each wheel, which RoadContact keeps tangent to the exact ground.
-///   - WithObstacles: a shell for the car that touches obstacles only, a box per obstacle (with two
-///     slide joints if it moves), and the walls of the map.
+///   - WithGround adds the plane, and height fields for terrain, bumps and side slopes. WithGround
+///     also adds a plane under each wheel, which RoadContact keeps tangent to the exact ground.
+///   - WithObstacles adds a box per obstacle, with two slide joints if the obstacle moves.
+///     WithObstacles also adds the walls of the map, and a shell for the car that touches obstacles
+///     only.
 namespace trackbed {
 namespace {
 
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Thickness of a height field below its lowest sample [m]; this part lies below the plane.
+/// Thickness of a height field below its lowest sample [m]. The base of the height field lies below
+/// the plane.
 constexpr double kBase = 0.1;
 
 /// Heights over a rectangle, in MuJoCo's format.
 struct HeightField {
-  double lowest = 0.0;   ///< z [m]
-  double highest = 0.0;  ///< z [m]
+  double lowest = 0.0;   ///< Lowest z of the samples [m].
+  double highest = 0.0;  ///< Highest z of the samples [m].
   std::string file;
 };
 
-/// Count of cells along a side of a height field.
+/// Number of cells along a side of a height field.
 int CellsAlong(double side) {
   constexpr double kCell = 0.05;  // [m]
   return std::clamp(static_cast<int>(std::ceil(side / kCell)), 16, 256);
@@ -74,7 +76,7 @@ HeightField Sample(const Feature& feature, const Ground& ground) {
                 [&](const Vec2& p) { return ground.grade.dot(p) + Rise(feature, p); });
 }
 
-/// The rectangle of a range of a terrain's blocks.
+/// The rectangle that a range of a terrain's blocks covers.
 OrientedBox BlocksAt(const Terrain::Size& size, int column, int row, int columns, int rows) {
   const Vec2 sides = Terrain::kBlock * Vec2(columns, rows);
   const Vec2 middle = size.low + Terrain::kBlock * Vec2(column, row) + 0.5 * sides;
@@ -95,9 +97,9 @@ bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
          refined(kProbeOffset, -kProbeOffset) && refined(kProbeOffset, kProbeOffset);
 }
 
-/// Calls `add(box, field)` for the height fields that make up a terrain: one per refined block,
-/// with a sample at each of its nodes, and coarse ones elsewhere, which are lowered under the
-/// refined ones.
+/// Calls `add(box, field)` for the height fields that make up a terrain. Each refined block is one
+/// field, with a sample at each of its nodes. Coarse fields cover the rest of the terrain and are
+/// lowered under the refined fields.
 void SampleTerrain(
     const Terrain& terrain,
     const std::function<void(const OrientedBox& box, const HeightField& field)>& add) {
@@ -112,8 +114,9 @@ void SampleTerrain(
       }
     }
   }
-  constexpr int kMaxBlocks = 64;       // 257 samples along a side
-  constexpr double kCoarseDrop = 4.0;  // [m]: drops more steeply than the refined ground
+  constexpr int kMaxBlocks = 64;       // A field of this many blocks has 257 samples along a side.
+  constexpr double kCoarseDrop = 4.0;  // Drop of the coarse field, steeper than the refined ground
+                                       // [m].
   for (int row = 0; row < size.rows; row += kMaxBlocks) {
     for (int column = 0; column < size.columns; column += kMaxBlocks) {
       const int columns = std::min(kMaxBlocks, size.columns - column);
@@ -135,7 +138,7 @@ void Place(XMLElement& geom, const Eigen::Vector3d& position, const Eigen::Quate
   geom.SetAttribute("quat", Numbers({turn.w(), turn.x(), turn.y(), turn.z()}).c_str());
 }
 
-/// Adds a copy of the geom `ground`, with its friction, looks and so on.
+/// Adds a copy of the geom `ground`, with its friction, looks and other attributes.
 XMLElement& AddLike(XMLElement& ground, const std::string& name) {
   XMLElement* geom = ground.ShallowClone(ground.GetDocument())->ToElement();
   ground.Parent()->InsertEndChild(geom);
@@ -165,7 +168,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   int count = 0;
   const auto add = [&](const OrientedBox& box, const HeightField& field, const char* rgba) {
     if (field.highest == field.lowest) {
-      return;  // for example a side slope of 0
+      return;  // flat, for example a side slope of 0
     }
     const std::string name = fmt::format("ground_{}", count);
     const std::string file = name + ".hfield";
@@ -199,7 +202,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     add(Extent(side_slope), Sample(side_slope, ground), nullptr);
   }
   if (count > 0) {
-    // Both names of wheels: those of a car and of a differential drive.
+    // Handles both sets of wheel names: those of a car and of a differential drive.
     for (const auto& [wheel, index] :
          {std::pair("fl", 0), std::pair("fr", 1), std::pair("rl", 2), std::pair("rr", 3),
           std::pair("left", 0), std::pair("right", 1)}) {
@@ -209,7 +212,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
       XMLElement& geom = AddLike(*plane, fmt::format("ground_{}", wheel));
       geom.SetAttribute("contype", 0);
       geom.SetAttribute("conaffinity", WheelPlaneBit(static_cast<std::size_t>(index)));
-      geom.SetAttribute("group", 4);  // not drawn
+      geom.SetAttribute("group", 4);  // a group that is not drawn
     }
   }
   scene.xml = Print(document);
@@ -218,11 +221,11 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   return scene;
 }
 
-/// So heavy that no car can move it [kg].
+/// Mass of an obstacle [kg], so heavy that no car can move it.
 constexpr double kHeavy = 1e6;
 
-/// Inserts a body that slides over the ground, with the joints `name`_x and `name`_y. Sets all
-/// their attributes, since the car's defaults must not apply.
+/// Inserts a body that slides over the ground, with the joints `name`_x and `name`_y. All
+/// attributes of the joints are set, since the car's defaults must not apply.
 XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2& place) {
   XMLElement* body = bodies.InsertNewChildElement("body");
   body->SetAttribute("name", name.c_str());
@@ -240,8 +243,8 @@ XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2
   return body;
 }
 
-/// Moving obstacles touch only the car. Contacts with the ground, with static obstacles and with
-/// each other are excluded, since their motion is prescribed.
+/// Moving obstacles touch only the car. Contacts of moving obstacles with the ground, with static
+/// obstacles and with each other are excluded, since their motion is prescribed.
 void ExcludeContacts(XMLElement& root, const std::vector<std::string>& sliders) {
   if (sliders.empty()) {
     return;
@@ -260,8 +263,8 @@ void ExcludeContacts(XMLElement& root, const std::vector<std::string>& sliders) 
   }
 }
 
-/// Appends zeros for the new joints to the keyframes; the coordinates are relative to the initial
-/// position.
+/// Appends zeros for the new joints to the keyframes. The coordinates of the joints are relative to
+/// the initial position.
 void ExtendKeyframes(XMLElement& root, int joints) {
   for (XMLElement* frame = root.FirstChildElement("keyframe"); frame != nullptr;
        frame = frame->NextSiblingElement("keyframe")) {
@@ -315,7 +318,7 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   XMLElement* chassis = FindInWorld(root, "body", "chassis");
   TRACKBED_CHECK(chassis != nullptr, "the car has no body 'chassis'");
 
-  // Bit 1 is the default of all geoms. Bit 2 belongs to the shell alone, so that it touches
+  // Bit 1 is the default of all geoms. Bit 2 belongs to the shell alone. The shell thereby touches
   // obstacles but not, for example, the car's own wheels. The shell ends a tenth of the car's
   // height above the ground, so that it does not scrape on soft springs.
   const double half_height = 0.45 * vehicle.height;

@@ -20,7 +20,8 @@ constexpr std::uintmax_t kMaxTrackFileBytes = std::uintmax_t{16} << 20U;
 constexpr double kMaxPosition = 1e5;     // [m]
 constexpr double kMaxWidth = 1000.0;     // [m]
 constexpr double kMaxLapLength = 200e3;  // [m]
-constexpr double kMaxTurn = 150.0;       // at a point [deg]: beyond it the line turns back
+// Largest turn at a point [deg]; beyond this angle, the line turns back.
+constexpr double kMaxTurn = 150.0;
 constexpr const char* kFirstColumn = "# x_m";
 
 void CheckSize(const std::filesystem::path& file) {
@@ -33,7 +34,7 @@ void CheckSize(const std::filesystem::path& file) {
   }
 }
 
-/// The name of the first column: '#' begins the header, but belongs to no name.
+/// The name of the first column. The '#' that begins the header belongs to no name.
 const char* FindFirstColumn(const std::filesystem::path& file, const Table& table) {
   for (const char* name : {kFirstColumn, "#x_m", "x_m"}) {
     if (table.Find(name) >= 0) {
@@ -46,7 +47,7 @@ const char* FindFirstColumn(const std::filesystem::path& file, const Table& tabl
                                       "'# x_m,y_m,w_tr_right_m,w_tr_left_m'"});
 }
 
-/// A line that jumps to and fro is no track, and cannot be smoothed to one.
+/// Rejects a line that jumps back and forth, because it cannot be smoothed to a track.
 void CheckShape(const std::string& name, const std::vector<int>& lines,
                 const std::vector<TrackPoint>& points, ProblemList& problems) {
   const std::size_t count = points.size();

@@ -37,7 +37,8 @@ void CheckSection(const GgvSection& section, std::size_t size) {
   }
 }
 
-/// Position of a value in an increasing list: the index below it and the fraction to the next one.
+/// Position of a value in an increasing list: the index below the value, and the fraction to the
+/// next value.
 struct Place {
   std::size_t index = 0;
   double share = 0.0;
@@ -57,8 +58,8 @@ Place PlaceAmong(const std::vector<double>& values, double value, const Measure&
           (measure(value) - low) / (measure(*above) - low)};
 }
 
-/// Position on a section's boundary whose f_y is `ratio` times the largest. The boundary's points
-/// have the numbers 0 to `last`.
+/// Position on a section's boundary where f_y is `ratio` times the largest f_y. The boundary's
+/// points have the numbers 0 to `last`.
 Place PlaceOnBoundary(double ratio, std::size_t last) {
   const double sine = std::sqrt(1.0 - ratio * ratio);
   if (last == 1) {
@@ -106,8 +107,9 @@ GgvDiagram::GgvDiagram(const LongitudinalForces& forces, std::vector<GgvSection>
 GgvDiagram::Weights GgvDiagram::WeightsAt(const GgvPoint& point) const {
   const Place road = PlaceAmong(roads_, point.road, [](double x) { return x; });
   const Place speed = PlaceAmong(speeds_, point.speed, [](double v) { return v * v; });
+  // Beyond the ends of `roads_`, the forces are proportional to the friction factor of the road.
   const double beyond =
-      point.road / std::clamp(point.road, roads_.front(), roads_.back());  // scales beyond the ends
+      point.road / std::clamp(point.road, roads_.front(), roads_.back());  // scale factor
   Weights weights;
   const auto add = [&](std::size_t at_road, std::size_t at_speed, double weight) {
     if (weight > 0.0) {
@@ -158,7 +160,8 @@ AccelerationRange GgvDiagram::AccelerationsAt(const GgvPoint& point, double shar
   whole.lateral /= share;
   const TyreRange tyres = TyresAt(whole);
   const double resistance = forces_.drag * point.speed * point.speed / forces_.mass + slope;
-  const double against = forces_.rolling_resistance + forces_.mass * resistance;  // [N]
+  // Resistance against the motion [N].
+  const double against = forces_.rolling_resistance + forces_.mass * resistance;
   const double motor = share * DriveForce(point.speed) - against;
   const double brakes = forces_.brake_force > 0.0 ? share * forces_.brake_force
                                                   : std::numeric_limits<double>::infinity();

@@ -9,18 +9,19 @@
 
 #include "trackbed/core/error.h"
 
-// Computes the g-g-v diagram of a two-axle car. For f_x and f_y, the load transfer gives the four
-// wheel loads: f_x over the wheelbase, f_y split between the axles by their roll stiffness. An axle
-// holds its force if its tyres (Magic Formula or friction circles) reach the wanted lateral force
-// beside their longitudinal one. Bisection finds the largest f_y at each f_x, and the limits of
-// driving and braking at fractions cos(angle) of the largest f_y.
+// Computes the g-g-v diagram of a two-axle car. For the accelerations f_x and f_y, the load
+// transfer gives the four wheel loads. The load transfer of f_x depends on the wheelbase. The axles
+// share the load transfer of f_y by their roll stiffness. The tyre model is the Magic Formula or a
+// friction circle. An axle holds its force if its tyres reach the required lateral force in
+// addition to their longitudinal force. Bisection finds the largest f_y at each f_x. Bisection also
+// finds the limits of driving and braking at fractions cos(angle) of the largest f_y.
 namespace trackbed {
 namespace {
 
 constexpr double kInfeasibleGrip = -1.0;  // an axle that cannot hold its longitudinal force
 
-/// The lateral force [N] of a tyre at a slip angle, at the slip ratio for which its longitudinal
-/// force is `along`; none if there is no such ratio.
+/// The lateral force [N] of a tyre at a slip angle. The slip ratio is the ratio at which the tyre's
+/// longitudinal force is `along`. Returns none if no slip ratio gives the longitudinal force.
 std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double road, double along,
                                   TyreSlip slip) {
   if (!(load > 0.0)) {
@@ -42,7 +43,7 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
   for (const double high : kRatios) {
     const TyreForce above = at(high);
     if (side * above.longitudinal >= wanted) {
-      // Between these ratios the force is almost linear.
+      // Between adjacent slip ratios of the table, the force is almost linear.
       const double span = side * (above.longitudinal - below.longitudinal);
       const double share = (wanted - side * below.longitudinal) / span;
       return at(std::lerp(low, high, share)).lateral;
@@ -55,17 +56,17 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
 
 /// Loads and forces that an axle must hold.
 struct AxleDemand {
-  std::array<double, 2> load{};  // of the inner and the outer wheel [N]
-  double along = 0.0;            // of each wheel [N]
-  double camber = 0.0;           // [rad]
+  std::array<double, 2> load{};  // Load of the inner and the outer wheel [N].
+  double along = 0.0;            // Longitudinal force of each wheel [N].
+  double camber = 0.0;           // Camber angle [rad].
   double road = 1.0;
 };
 
 /// Lateral grip of an axle that holds its longitudinal force.
 struct AxleGripState {
-  double most = kInfeasibleGrip;  // largest lateral force [N]; kInfeasibleGrip if it cannot hold
-                                  // the longitudinal force
-  double angle = 0.0;             // slip angle of the wanted force, or of the largest [rad]
+  // Largest lateral force [N]; kInfeasibleGrip if the axle cannot hold its longitudinal force.
+  double most = kInfeasibleGrip;
+  double angle = 0.0;  // Slip angle of the required force, or of the largest force [rad].
 };
 
 AxleGripState OnFrictionCircles(double friction, const AxleDemand& demand) {
@@ -98,7 +99,7 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
     return sum;
   };
   constexpr double kMaxSlip = 0.5;  // [rad]
-  constexpr int kBits = 8;          // of the angle; the force is flat around its peak
+  constexpr int kBits = 8;  // bits of precision of the angle; the force is flat around its peak
   const auto [peak, negative] = boost::math::tools::brent_find_minima(
       [&](double at) { return -lateral_at(at); }, 0.0, kMaxSlip, kBits);
   AxleGripState state{.most = std::max(-negative, lateral_at(0.0)), .angle = peak};
@@ -123,11 +124,13 @@ class SteadyState {
     lean_ = weight_ * car.cg_height;
   }
 
-  /// Whether both axles hold their forces. The tyres also push against the drag of their slip
-  /// angles, which depends on the tyre forces: a fixed-point iteration.
+  /// Whether both axles hold their forces. The tyres must also overcome the drag of their slip
+  /// angles. The drag of the slip angles depends on the tyre forces, so the function uses a
+  /// fixed-point iteration.
   [[nodiscard]] bool AxlesHold(double longitudinal, double lateral) const {
-    constexpr int kDragIterations = 4;  // each reduces the error of the drag about tenfold
-    double slip_drag = 0.0;             // [m/s^2]
+    // Each iteration reduces the error of the drag about tenfold.
+    constexpr int kDragIterations = 4;
+    double slip_drag = 0.0;  // [m/s^2]
     bool hold = true;
     for (int round = 0; round < kDragIterations; ++round) {
       double next = 0.0;
@@ -151,7 +154,7 @@ class SteadyState {
     return lateral <= RollOver() && AxlesHold(longitudinal, lateral);
   }
 
-  /// The largest f_y at f_x; 0 if the car holds none.
+  /// The largest f_y that the car holds at f_x; 0 if the car holds no f_y.
   [[nodiscard]] double MaxLateral(double longitudinal) const {
     return Largest(0.0, kMaxAcceleration,
                    [&](double lateral) { return Holds(longitudinal, lateral); });
@@ -168,7 +171,8 @@ class SteadyState {
   static constexpr double kMaxAcceleration = 40.0;  // [m/s^2]; exceeds any car without downforce
   static constexpr double kSameDrag = 0.005;        // [m/s^2]
 
-  /// `wheels` is the longitudinal force of all tyres in wheel direction, over the mass [m/s^2].
+  /// The argument `wheels` is the longitudinal force of all tyres in wheel direction, divided by
+  /// the mass [m/s^2].
   [[nodiscard]] AxleDemand DemandOn(std::size_t i, double longitudinal, double wheels,
                                     double lateral) const {
     const GripAxle& axle = car_.axles[i];
@@ -185,11 +189,11 @@ class SteadyState {
             .road = road_};
   }
 
-  /// The largest number in [low, high] for which `holds` is true, by bisection. It must be true for
-  /// all smaller ones.
+  /// The largest number in [low, high] for which `holds` is true, by bisection. The condition
+  /// `holds` must also be true for all smaller numbers.
   template <typename Test>
   [[nodiscard]] static double Largest(double low, double high, const Test& holds) {
-    constexpr int kHalvings = 16;  // 40/2^16 = 0.0006 m/s^2
+    constexpr int kHalvings = 16;  // [m/s^2]; the resolution is 40/2^16 = 0.0006 m/s^2
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
       (holds(middle) ? low : high) = middle;
@@ -197,7 +201,7 @@ class SteadyState {
     return low;
   }
 
-  /// The f_y at which the inner wheels of both axles are unloaded.
+  /// The acceleration f_y at which the inner wheels of both axles are unloaded.
   [[nodiscard]] double RollOver() const {
     double moment = 0.0;
     for (const GripAxle& axle : car_.axles) {
@@ -209,10 +213,10 @@ class SteadyState {
 
   const GripModel& car_;
   double road_;
-  double drag_;            // [N]
-  double weight_;          // [N]
-  double roll_stiffness_;  // of both axles [N m/rad]
-  double lean_;            // m g h [N m/rad]
+  double drag_;            // Aerodynamic drag [N].
+  double weight_;          // Weight of the car [N].
+  double roll_stiffness_;  // Roll stiffness of both axles [N m/rad].
+  double lean_;            // Rolling moment m g h per roll angle [N m/rad].
 };
 
 GgvSection ComputeSection(const GripModel& car, double road, double speed) {
@@ -263,8 +267,8 @@ double MaxLateralForce(const GripModel& car, double road, double longitudinal) {
 
 GgvDiagram ComputeGgv(const GripModel& car, const std::vector<double>& roads) {
   CheckModel(car, roads);
-  // The drag, and with it the load transfer, is linear in the square of the speed: two speeds
-  // suffice.
+  // The drag and the load transfer from the drag are linear in the square of the speed, so two
+  // speeds suffice.
   constexpr double kMaxTableSpeed = 60.0;  // [m/s]
   std::vector<double> speeds{0.0};
   if (car.forces.drag > 0.0 && car.drag_height != car.cg_height) {

@@ -59,7 +59,8 @@ Pose2 KinematicCar::PoseAfter(const MotionPiece& piece, double moved) const {
     const double turn = moved * std::cos(slip) * CurvatureForSteering(params_, state_.steering);
     return MoveOnArc(state_.pose, moved, turn, slip);
   }
-  // Fourth-order Runge-Kutta method; speed and steering are known functions of time.
+  // The fourth-order Runge-Kutta method integrates the yaw. Speed and steering are known functions
+  // of time.
   const auto rates = [&](double time, double yaw) {
     return RatesAt(yaw, state_.speed + piece.acceleration * time,
                    state_.steering + piece.steering_rate * time);

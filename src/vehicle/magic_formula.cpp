@@ -9,33 +9,35 @@ namespace {
 
 /// Width [rad] over which the sign function of the camber is smoothed.
 constexpr double kCamberSign = 5e-4;
-/// Tyres are measured up to about 6 degrees [rad]. At larger camber, the formula's square of the
-/// camber would give a car that rolls over ever more grip.
+/// Largest camber that enters the formula [rad]. Tyres are measured up to about 6 degrees. At
+/// larger camber, the squared camber in the formula would give more and more grip to a car that
+/// rolls over.
 constexpr double kMaxCamber = 0.1;
 
-/// f(u) = C atan(u - E (u - atan u)).
+/// The function f(u) = C atan(u - E (u - atan u)).
 double Shape(double c, double e, double u) {
   return c * std::atan(u - e * (u - std::atan(u)));
 }
 
-/// Weight of combined slip: the factor on a force due to the other slip component, `slip`. 1 at
-/// zero slip.
+/// Weight of combined slip: the factor on a force due to the other slip component, `slip`. The
+/// weight is 1 at zero slip.
 double Weight(double b, double c, double e, double shift, double slip) {
   const double kept = std::cos(Shape(c, e, b * (slip + shift)));
   return shift == 0.0 ? kept : kept / std::cos(Shape(c, e, b * shift));
 }
 
-/// cos(atan(x)).
+/// Cosine of atan(x).
 double CosAtan(double x) {
   return 1.0 / std::sqrt(1.0 + x * x);
 }
 
-/// (F_z - F_z0)/F_z0.
+/// Relative load change (F_z - F_z0)/F_z0.
 double LoadChange(const MagicFormula& tyre, double load) {
   return tyre.f_z0 > 0.0 ? (load - tyre.f_z0) / tyre.f_z0 : 0.0;
 }
 
-/// Friction coefficient mu: decreases with the load, to at least a tenth of its nominal value.
+/// Friction coefficient mu. The coefficient decreases with the load, to at least a tenth of its
+/// nominal value.
 double Friction(double at_nominal, double per_load, double load_change) {
   return std::max(at_nominal + per_load * load_change, 0.1 * at_nominal);
 }
@@ -101,7 +103,7 @@ double CorneringStiffness(const MagicFormula& tyre, double load) {
     return -tyre.p_ky1 * load;
   }
   const double x = load / (tyre.p_ky2 * tyre.f_z0);
-  return -tyre.p_ky1 * tyre.f_z0 * 2.0 * x / (1.0 + x * x);  // sin(2 atan(x))
+  return -tyre.p_ky1 * tyre.f_z0 * 2.0 * x / (1.0 + x * x);  // factor sin(2 atan(x)) in closed form
 }
 
 double SlipStiffness(const MagicFormula& tyre, double load) {
@@ -113,6 +115,7 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     return {};
   }
   const double gamma = std::clamp(slip.camber, -kMaxCamber, kMaxCamber);
+  // The smoothed sign of gamma turns the shift to the side of the camber.
   const double side =
       slip.shift * gamma / std::sqrt(gamma * gamma + kCamberSign * kCamberSign);  // sgn gamma
   const double lean = std::abs(gamma);

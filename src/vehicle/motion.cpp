@@ -18,7 +18,7 @@ Motion MotionUnder(const Command& command, const VehicleParams& params, double s
       command.steering, command.acceleration, duration);
   const SteeringMove move =
       MoveSteering({params.steering_limit, params.steering_rate}, steering, command.steering);
-  // A car stops at zero speed. From rest it accelerates only in the direction of its gear.
+  // A car stops at zero speed. From rest, the car accelerates only in the direction of its gear.
   const bool slowing = speed * command.acceleration < 0.0;
   const bool may_leave = command.acceleration * command.gear > 0.0;
   const bool held = speed == 0.0 && !may_leave;
@@ -46,8 +46,8 @@ Motion MotionUnder(const Command& command, const VehicleParams& params, double s
     piece.end_speed = speed;
     piece.end_steering = move.At(done);
   }
-  // The rates jump at the ends of the pieces; the earlier piece counts. Within a nanosecond, times
-  // differ by rounding only.
+  // The rates jump at the ends of the pieces. At the end of a piece, the rates of the earlier piece
+  // apply. Times within a nanosecond differ only by rounding.
   constexpr double kNanosecond = 1e-9;
   motion.steering_rate = duration <= move.ramp_time + kNanosecond ? move.rate : 0.0;
   motion.acceleration = rests && rest_time < duration - kNanosecond ? 0.0 : command.acceleration;

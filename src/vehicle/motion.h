@@ -9,19 +9,20 @@ namespace trackbed {
 
 /// A piece of a step in which steering and speed are linear in time and the speed keeps its sign.
 struct MotionPiece {
-  double duration = 0.0;       ///< [s]; 0: the piece is empty
-  double steering_rate = 0.0;  ///< [rad/s]
-  double acceleration = 0.0;   ///< [m/s^2]
-  double end_steering = 0.0;   ///< [rad]; exact, so that rounding errors do not accumulate
-  double end_speed = 0.0;      ///< [m/s]; exact: 0 where the car comes to rest
+  double duration = 0.0;       ///< Duration of the piece [s]; 0: the piece is empty.
+  double steering_rate = 0.0;  ///< Steering rate [rad/s].
+  double acceleration = 0.0;   ///< Acceleration of the car [m/s^2].
+  /// Steering angle at the end [rad], exact, so that rounding errors do not accumulate.
+  double end_steering = 0.0;
+  double end_speed = 0.0;  ///< Speed at the end [m/s], exact: 0 where the car comes to rest.
 };
 
 /// Steering and speed of a car that follows a constant command exactly. A new piece begins when the
-/// steering reaches its target and when the car comes to rest.
+/// steering reaches its target, and when the car comes to rest.
 struct Motion {
   std::array<MotionPiece, 3> pieces;
-  double steering_rate = 0.0;  ///< of the last piece [rad/s]
-  double acceleration = 0.0;   ///< of the last piece [m/s^2]
+  double steering_rate = 0.0;  ///< Steering rate of the last piece [rad/s].
+  double acceleration = 0.0;   ///< Acceleration of the last piece [m/s^2].
 };
 
 Motion MotionUnder(const Command& command, const VehicleParams& params, double steering,

@@ -57,7 +57,7 @@ FrontAngles AckermannAngles(const VehicleParams& params, double steering) {
   const double k = params.track_front / (2.0 * params.wheelbase);
   const double sine = std::sin(steering);
   const double cosine = std::cos(steering);
-  // cot(left) = cot(delta) - k for a left turn, in which the left wheel is the inner one.
+  // In a left turn, the left wheel is the inner wheel, and cot(left) = cot(delta) - k.
   return {std::atan2(sine, cosine - k * sine), std::atan2(sine, cosine + k * sine)};
 }
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kMaxStep = 0.002;  // [s]
 
-/// Radau IIA with three stages (Hairer and Wanner 1996, IV.5). The last stage is the end of the
-/// step.
+/// The integrator Radau IIA with three stages (Hairer and Wanner 1996, IV.5). The last stage of
+/// Radau IIA is the end of the step.
 struct Radau {
   Eigen::Vector3d node;
   Eigen::Matrix3d weight;
@@ -124,11 +124,12 @@ SingleTrackCar::Ratios SingleTrackCar::RatiosAt(double direction, double acceler
 void SingleTrackCar::StepByRadau(const MotionPiece& piece) {
   const Radau& radau = RadauIIA();
   const double h = piece.duration;
-  // The speed has the same sign in the whole step.
+  // The speed has the same sign during the whole step.
   const double direction = std::copysign(1.0, state_.speed + piece.end_speed);
   const Ratios start = RatiosAt(direction, piece.acceleration);
 
-  // |u_i| f_i + Decay_i h sum_j w_ij f_j = B tan(delta_i) - Decay_i z_0 for the slopes f of z.
+  // For the slopes f of z, solve |u_i| f_i + Decay_i h sum_j w_ij f_j = B tan(delta_i) - Decay_i
+  // z_0.
   Eigen::Matrix<double, 6, 6> matrix;
   Eigen::Matrix<double, 6, 1> right;
   Eigen::Vector3d speed;
@@ -179,7 +180,8 @@ VehicleState SingleTrackCar::FullState() const {
   full.steering_actuator = state_.steering;
   full.steering = state_.steering;
   if (state_.speed != 0.0 || acceleration_ != 0.0) {
-    // (F_f + F_r)/m. A car that has just come to rest moved against its acceleration before.
+    // Use the acceleration (F_f + F_r)/m of the tyres. A car that has just come to rest moved
+    // against its acceleration before.
     const double direction =
         std::copysign(1.0, state_.speed != 0.0 ? state_.speed : -acceleration_);
     const Ratios ratios = RatiosAt(direction, acceleration_);

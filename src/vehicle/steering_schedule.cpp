@@ -187,7 +187,8 @@ std::vector<KinematicState> RollOut(const VehicleParams& params, const Kinematic
       }
       const double next =
           std::min({done + step, distance, knot != knots.end() ? knot->distance : distance});
-      // The path does not depend on the speed. At this one, the actuator turns for the whole step.
+      // The path does not depend on the speed, so choose the speed at which the actuator turns for
+      // the whole step.
       const double from = schedule.At(done);
       const double to = schedule.At(next);
       const double time = from == to ? next - done : std::abs(to - from) / params.steering_rate;

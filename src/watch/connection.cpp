@@ -14,9 +14,9 @@
 #include "src/watch/own_host.h"
 
 // Connections of the watch server on Boost.Beast, all in one thread. HttpConnection answers GET and
-// HEAD with the page, and checks Host and Origin first, so that pages of other sites can neither
-// read nor control the run. An upgrade request turns it into a LiveConnection, which reads commands
-// of the page and writes its news, one message at a time.
+// HEAD with the page. HttpConnection checks Host and Origin first, so that pages of other sites can
+// neither read nor control the run. An upgrade request turns the connection into a LiveConnection.
+// A LiveConnection reads commands of the page and writes news to it, one message at a time.
 namespace trackbed {
 namespace {
 
@@ -30,8 +30,10 @@ using beast::error_code;
 constexpr std::uint32_t kMaxHeaderBytes = 8192;  // bytes
 constexpr std::size_t kMaxMessageBytes = 4096;   // bytes
 constexpr std::chrono::seconds kRequestTime{15};
-constexpr std::chrono::seconds kPageTime{600};  // a page with a film may have 170 MB
-constexpr std::chrono::seconds kIdleTime{60};   // the client is pinged after half of it
+constexpr std::chrono::seconds kPageTime{600};  // Time limit for sending a page; with a film, the
+                                                // page may have 170 MB.
+constexpr std::chrono::seconds kIdleTime{60};   // Longest silence of a client, which is pinged
+                                                // after half of it.
 
 std::string_view View(beast::string_view text) {
   return {text.data(), text.size()};
@@ -111,7 +113,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   websocket::stream<beast::tcp_stream> socket_;
   LiveRun& run_;
   beast::flat_buffer buffer_;
-  std::string message_;  // being written
+  std::string message_;  // message that is being written
   LiveRun::Cursor cursor_;
   bool is_open_ = false;
   bool writes_ = false;
@@ -119,7 +121,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
 
 namespace {
 
-/// Answers requests in sequence, until the client closes or requests a WebSocket.
+/// Answers requests in sequence, until the client closes the connection or requests a WebSocket.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(tcp::socket socket, const Site& site, Connections& connections)
@@ -150,7 +152,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       return;
     }
     if (error) {
-      return;  // closed, or too slow
+      return;  // the client has closed the connection or is too slow
     }
     const Request request = parser_->release();
     const std::string_view host = View(request[http::field::host]);
@@ -168,7 +170,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   void Upgrade(const Request& request) {
     const std::string_view origin = View(request[http::field::origin]);
-    // A request without Origin comes from no browser, so no other page can have caused it.
+    // A request without Origin does not come from a browser, so no other page can have caused it.
     const bool own = request.count(http::field::origin) == 0 ||
                      IsOwnOrigin(origin, View(request[http::field::host]));
     if (!own) {

@@ -10,21 +10,22 @@
 
 namespace trackbed {
 
-/// Content of a server.
+/// The content that a server serves.
 struct Site {
-  boost::asio::ip::address address;           ///< listening address
-  std::shared_ptr<const std::string> page{};  ///< shared with connections that still write it
-  LiveRun* live = nullptr;                    ///< null if no run is in progress
+  boost::asio::ip::address address;           ///< Listening address of the server.
+  std::shared_ptr<const std::string> page{};  ///< Page, shared with connections that are still
+                                              ///< writing it.
+  LiveRun* live = nullptr;                    ///< The run; null if no run is in progress.
 };
 
-/// WebSocket; keeps itself alive while operations are pending.
+/// A WebSocket connection that keeps itself alive while operations are pending.
 class LiveConnection;
 
-/// Connections of a server, all in one thread.
+/// The connections of a server, all in one thread.
 class Connections {
  public:
   /// Serves HTTP on a new connection, and a WebSocket if the client requests one. `site` must
-  /// outlive this object.
+  /// outlive the Connections object.
   void Add(boost::asio::ip::tcp::socket socket, const Site& site);
 
   /// Sends news to each WebSocket that is not writing.

@@ -15,16 +15,16 @@
 
 namespace trackbed {
 
-/// Run in progress, shared by the threads of its plants, which add rows, and the connections, which
-/// send them. All functions are thread-safe.
+/// A run in progress, shared by several threads. Threads of the plants add rows; connections send
+/// them. All functions of LiveRun are thread-safe.
 class LiveRun {
  public:
-  /// `first` is the ReportData at the beginning of the run, as for LivePage; `id` identifies the
+  /// `first` is the ReportData at the beginning of the run, as for LivePage. `id` identifies the
   /// run.
   LiveRun(const nlohmann::ordered_json& first, std::string id, double control_period, double speed,
           bool paused);
 
-  /// Hooks of a plant, and of its end.
+  /// Hooks for the simulation of a plant and for its end.
   DriveHooks HooksOf(const std::string& plant);
   void EndOf(const std::string& plant);
 
@@ -33,29 +33,30 @@ class LiveRun {
   /// Called when the report of the run can be loaded.
   void Finish();
 
-  /// Part of the run that a connection has sent to its page.
+  /// The part of the run that a connection has sent to its page.
   struct Cursor {
-    std::string state;                                 ///< sent last
-    std::vector<std::array<std::size_t, 3>> places{};  ///< rows, poses and plans of each plant
+    std::string state;                                 ///< State that was sent last.
+    std::vector<std::array<std::size_t, 3>> places{};  ///< Numbers of sent rows, poses and plans of
+                                                       ///< each plant.
     bool finished = false;
   };
 
-  /// The next message for a page as JSON; none if it is up to date. One of
+  /// The next message for a page as JSON; none if the page is up to date. The messages are:
   ///   {"type": "state", "id", "paused", "speed"}  speed is a number or "max"
   ///   {"type": "rows", "plants": [{"first": [row, pose, plan], "rows", "poses", "plans"}, ...]}
   ///   {"type": "finished"}                        after all rows
-  /// Rows are those of LiveRows; a message has at most about 100 kB.
+  /// Rows are those of LiveRows, and a message has at most about 100 kB.
   std::optional<std::string> Next(Cursor& cursor) const;
 
   /// Executes a command of a page: {"do": "pause" | "resume" | "step"}, or {"do": "speed", "speed":
-  /// number | "max"}. Returns what is wrong with the message, empty if it was executed.
+  /// number | "max"}. Execute returns the error in the message; empty if the command was executed.
   std::string Execute(std::string_view message);
 
  private:
   struct Plant {
     std::string name;
     LiveRows text;
-    std::array<std::vector<std::string>, 3> added{};  // rows, poses, plans
+    std::array<std::vector<std::string>, 3> added{};  // added rows, poses and plans
     std::size_t configurations_seen = 0;
     double next_pose = 0.0;  // [s]
     std::size_t changes_seen = 0;

@@ -7,9 +7,9 @@
 namespace trackbed {
 
 /// Whether the Host header names the server at `address`. A browser that another site's DNS
-/// directed here (DNS rebinding) sends that site's name. Accepted are `address`, localhost if
-/// `address` is a loopback address or unspecified, and any IP address if it is unspecified. The
-/// port may be that of a forwarder.
+/// directed here (DNS rebinding) sends the name of that site. Accepted names are `address` and, if
+/// it is a loopback address or unspecified, localhost. If `address` is unspecified, any IP address
+/// is an accepted name. The port in the header may be that of a forwarder.
 bool IsOwnHost(std::string_view host, const boost::asio::ip::address& address);
 
 /// Whether a page with this Origin header was loaded from `host`, given as in the Host header.

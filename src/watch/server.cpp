@@ -88,7 +88,7 @@ class Server::Implementation {
       if (error == asio::error::operation_aborted) {
         return;
       }
-      if (error) {  // e.g. out of file descriptors: retry later
+      if (error) {  // an error such as missing file descriptors: retry later
         wait_to_accept_ = true;
         return;
       }

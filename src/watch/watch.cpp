@@ -27,7 +27,7 @@ std::string NewId() {
 }
 
 /// ReportData at the beginning of the run, with the first row of each plant's log. Reports are read
-/// from run folders, so this writes one, hidden inside the output folder.
+/// from run folders, so a run folder is written, hidden inside the output folder.
 ordered_json DataAtBegin(const RunResult& planned, const CarModel& car, const fs::path& folder) {
   const RunResult begun = DriveRun(
       planned, car,
@@ -51,13 +51,13 @@ void Serve(Server& server, const WatchHooks& hooks, const std::atomic<bool>& fai
   server.Run([&] { return failed || (hooks.interrupted && hooks.interrupted()); });
 }
 
-/// Reports the end of a run, which happens in the simulation thread, in the server's thread.
+/// Reports the end of a run in the server's thread. The run ends in the simulation thread.
 class RunFinisher {
  public:
   RunFinisher(const OutputFolder& folder, Server& server, const WatchHooks& hooks)
       : folder_(folder), server_(server), hooks_(hooks) {}
 
-  /// Writes the folder, and shows its page unless the run was interrupted.
+  /// Writes the run folder, and shows its page unless the run was interrupted.
   void Report(const RunResult& result, LiveRun* live) {
     WriteRunFolder(result, folder_);
     if (result.interrupted) {
@@ -72,7 +72,7 @@ class RunFinisher {
     });
   }
 
-  /// Calls `finished` once.
+  /// Calls `finished` only once.
   void NotifyFinished(const RunResult& result) {
     if (!std::exchange(notified_, true) && hooks_.finished) {
       hooks_.finished(result);
@@ -83,7 +83,7 @@ class RunFinisher {
   const OutputFolder& folder_;
   Server& server_;
   const WatchHooks& hooks_;
-  bool notified_ = false;  // used in the server's thread
+  bool notified_ = false;  // whether `finished` was called; used in the server's thread
 };
 
 }  // namespace
@@ -119,12 +119,12 @@ RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFo
   try {
     Serve(server, hooks, failed);
   } catch (...) {
-    live.Interrupt();  // otherwise `driven` waits for the end of the run
+    live.Interrupt();  // otherwise `driven` would wait for the end of the run
     throw;
   }
   live.Interrupt();
   driven.get();
-  finisher.NotifyFinished(result);  // if the run ended together with the server
+  finisher.NotifyFinished(result);  // needed if the run ended together with the server
   return result;
 }
 

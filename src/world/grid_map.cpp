@@ -21,7 +21,7 @@ class OpenCells {
     return column < columns_ && row < rows_ && open_[Index(column, row)] != 0;
   }
 
-  /// The widest rectangle from a cell on, then the highest of that width.
+  /// The widest rectangle that begins at a cell; of equally wide rectangles, the highest.
   [[nodiscard]] CellRectangle Widest(int column, int row) const {
     CellRectangle found{column, row, 0, 1};
     while (IsOpen(column + found.columns, row)) {
@@ -40,7 +40,7 @@ class OpenCells {
     return found;
   }
 
-  /// The highest rectangle from a cell on, then the widest of that height.
+  /// The highest rectangle that begins at a cell; of equally high rectangles, the widest.
   [[nodiscard]] CellRectangle Highest(int column, int row) const {
     CellRectangle found{column, row, 1, 0};
     while (IsOpen(column, row + found.rows)) {

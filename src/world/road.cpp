@@ -19,7 +19,7 @@ struct Lift {
   Vec2 slope = Vec2::Zero();
 };
 
-/// C(distance / reach): 1 up to distance 0, where it begins to fall; 0 from `reach` on.
+/// The function C(distance / reach). C is 1 up to distance 0, then falls, and is 0 from `reach` on.
 Profile Falloff(double distance, double reach) {
   if (distance <= 0.0) {
     return {1.0, 0.0};
@@ -31,13 +31,13 @@ Profile Falloff(double distance, double reach) {
   return {std::cos(angle) * std::cos(angle), -0.5 * kPi / reach * std::sin(2.0 * angle)};
 }
 
-/// Symmetric about 0: flat in the middle, 0 at +-half.
+/// A profile symmetric about 0: flat in the middle, 0 at +-half.
 Profile SymmetricFalloff(double place, double half, double reach) {
   const Profile one = Falloff(std::abs(place) - half + reach, reach);
   return {one.height, std::copysign(1.0, place) * one.slope};
 }
 
-/// Product of a profile along u and one along v, with its slope in world axes.
+/// Product of a profile along u and a profile along v, with the product's slope in world axes.
 Lift Product(const Pose2& pose, double height, const Profile& along, const Profile& across) {
   const Vec2 u = Direction(pose.yaw);
   return {height * along.height * across.height,
@@ -56,7 +56,7 @@ Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
   const Vec2 p = ToLocal(stretch.area.center, point_W);
   const double half_length = 0.5 * stretch.area.length;
   const double width = stretch.area.width;
-  const double up = std::copysign(1.0, stretch.slope);  // the sign of v uphill
+  const double up = std::copysign(1.0, stretch.slope);  // sign of v in the uphill direction
   const double w = 0.5 * width + up * p.y();
   Profile across;
   if (w > width) {
@@ -71,7 +71,7 @@ Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
       across);
 }
 
-/// Height and slope of the highest feature.
+/// Height and slope of the highest feature of the ground.
 Lift Highest(const Ground& ground, const Vec2& point_W) {
   Lift highest;
   const auto look = [&](const auto& features) {

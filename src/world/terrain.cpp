@@ -10,7 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// Weights of four neighbors, and their derivatives by the position u between the middle two.
+/// Weights of four neighbors, and the derivatives of these weights by the position u between the
+/// middle two neighbors.
 struct Weights {
   std::array<double, 4> value;
   std::array<double, 4> slope;
@@ -24,7 +25,7 @@ Weights SplineWeights(double u) {
           {-0.5 * v * v, (1.5 * u - 2.0) * u, -(1.5 * v - 2.0) * v, 0.5 * u * u}};
 }
 
-/// Weights of cubic convolution (interpolating, with slopes by central differences).
+/// Weights of cubic convolution, which interpolates with slopes by central differences.
 Weights ConvolutionWeights(double u) {
   const double uu = u * u;
   return {{0.5 * u * (-1.0 + 2.0 * u - uu), 1.0 + 0.5 * uu * (3.0 * u - 5.0),
@@ -33,7 +34,7 @@ Weights ConvolutionWeights(double u) {
            u * (1.5 * u - 1.0)}};
 }
 
-/// Weighted sum over sixteen neighbors, `at(i, j)` with i along x.
+/// Weighted sum over sixteen neighbors. In `at(i, j)`, i counts along x.
 template <typename At>
 Terrain::Point Sum(const Weights& x, const Weights& y, double cell, const At& at) {
   Terrain::Point sum;
@@ -51,7 +52,7 @@ Terrain::Point Sum(const Weights& x, const Weights& y, double cell, const At& at
   return sum;
 }
 
-/// Index of the cell at a coordinate, and the position in it.
+/// Index of the cell at a coordinate, and the position of the coordinate in this cell.
 std::pair<int, double> CellAt(double place, double cell, int count) {
   const int index = std::clamp(static_cast<int>(place / cell), 0, count - 1);
   return {index, place / cell - index};
@@ -114,7 +115,7 @@ bool Terrain::IsRefined(int column, int row) const {
 
 Terrain::Point Terrain::At(const Vec2& point_W) const {
   const Vec2 place = point_W - size_.low;
-  // NaN counts as outside.
+  // The condition treats NaN as outside the terrain.
   if (!(place.x() >= 0.0 && place.y() >= 0.0 && place.x() <= kBlock * size_.columns &&
         place.y() <= kBlock * size_.rows)) {
     return {size_.base, Vec2::Zero()};

@@ -77,7 +77,7 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
   double nearest = std::numeric_limits<double>::infinity();
   for (const Obstacle& obstacle : world.obstacles) {
     const OrientedBox box = FootprintAt(obstacle, time);
-    // Bounding circles exclude most boxes from being the nearest.
+    // Bounding circles show that most boxes cannot be the nearest box.
     const double circles = nearest + radius + 0.5 * std::hypot(box.length, box.width);
     if ((box.center.position() - middle).squaredNorm() < circles * circles) {
       nearest = std::min(nearest, Distance(footprint, box));
@@ -101,12 +101,12 @@ double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
          reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);
 }
 
-/// Limit of the bisections: enough for any motion of a car, and it bounds the time for a diverged
-/// one.
+/// Limit of the bisections. The limit of bisections suffices for any motion of a car, and bounds
+/// the time for a diverged motion.
 constexpr long kMaxBisections = 100000;
 
-/// Bisects the motion between two samples, over which the clearance changes by at most `moved` [m],
-/// until it cannot be smaller than the best one by more than a tolerance.
+/// Bisects the motion between two samples, over which the clearance changes by at most `moved` [m].
+/// Stops when the clearance cannot be smaller than the best clearance by more than a tolerance.
 void Approach(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
               const ClearanceSample& to, double moved, long& looks, ClosestApproach& best) {
   constexpr double kTolerance = 5e-3;  // [m]
@@ -114,7 +114,7 @@ void Approach(const World& world, const VehicleParams& vehicle, const ClearanceS
   constexpr double kDepth = 1e-3;  // [m]
   const double least = 0.5 * (from.clearance + to.clearance - moved);
   const double near = best.clearance - std::max(kTolerance, kShare * best.clearance);
-  // Below the tolerance, continues to find out whether they touch.
+  // Below the tolerance, the bisection continues to find out whether car and obstacle touch.
   if (best.clearance == 0.0 || moved < kDepth || (least > 0.0 && least >= near) || --looks < 0) {
     return;
   }

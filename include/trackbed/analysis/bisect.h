@@ -8,16 +8,16 @@ namespace trackbed {
 
 /// How a bisection ended.
 enum class BisectStatus {
-  kFound,        ///< between a value that passes and one that fails
-  kFailsAtFrom,  ///< not even the lowest value passes: there is no answer
-  kPassesAtTo,   ///< even the highest value passes: the answer lies above
-  kInterrupted,  ///< the caller stopped it
+  kFound,        ///< Answer found: between a value that passes and one that fails.
+  kFailsAtFrom,  ///< Even the lowest value fails: there is no answer.
+  kPassesAtTo,   ///< Even the highest value passes: the answer lies above.
+  kInterrupted,  ///< The caller stopped the bisection.
 };
 
-/// "found", "fails_at_from", …: the spelling of sweep.csv.
+/// The spelling of a bisection's status in sweep.csv: "found", "fails_at_from", ….
 const char* ToString(BisectStatus status);
 
-/// One value that was tried.
+/// One value that a bisection evaluated.
 struct Trial {
   double value = 0.0;
   bool passed = false;
@@ -27,17 +27,17 @@ struct Trial {
 
 struct Bisection {
   BisectStatus status = BisectStatus::kInterrupted;
-  double value = 0.0;         ///< highest value that passed; set with kFound or kPassesAtTo
-  std::vector<Trial> trials;  ///< in order of evaluation
+  double value = 0.0;         ///< Highest value that passed; set with kFound or kPassesAtTo.
+  std::vector<Trial> trials;  ///< Values in order of evaluation.
 };
 
-/// Bisects for the highest value that passes, between `from`, which should pass, and `to`, which
-/// should fail. Both are tried first.
+/// Bisects for the highest value that passes. The value `from` should pass and `to` should fail.
+/// The values `from` and `to` are evaluated first.
 ///
 /// Guarantees: with kFound, `value` passed and a value at most `tolerance` above it failed (or the
-/// next double, if that is further). If passing is not monotonic, it finds one of the boundaries.
-/// Cost: at most 2 + ceil(log2((to - from)/tolerance)) trials. `passes` returns nothing when
-/// interrupted. InternalError unless from < to and tolerance > 0.
+/// next double, if that is further). If passing is not monotonic, the bisection finds one of the
+/// boundaries. Cost: at most 2 + ceil(log2((to - from)/tolerance)) trials. The function `passes`
+/// returns nothing when interrupted. InternalError unless from < to and tolerance > 0.
 Bisection Bisect(double from, double to, double tolerance,
                  const std::function<std::optional<bool>(double value)>& passes);
 

@@ -17,43 +17,44 @@
 /// Reads the JSON files of a run folder, as Trackbed writes them.
 namespace trackbed {
 
-/// Parses a JSON file. InputError with file, line and column if it is not JSON, and if it is nested
-/// deeper than 64 levels; RunError as ReadFile, or if the file is larger than 16 MiB.
+/// Parses a JSON file. InputError with file, line and column if the text is not JSON or is nested
+/// deeper than 64 levels. RunError as for ReadFile, or if the file is larger than 16 MiB.
 nlohmann::ordered_json ParseJson(const std::filesystem::path& file);
 
-/// Parses `text`, the content of `file` or a part of it. Errors as ParseJson.
+/// Parses `text`, which is the content of `file` or a part of it. Throws the same errors as
+/// ParseJson.
 nlohmann::ordered_json ParseJsonOf(const std::string& file, std::string_view text);
 
-/// The content of a JSON file: indented, with a line feed at the end. Bytes that are not UTF-8
-/// become U+FFFD.
+/// The content of a JSON file: indented, with a line feed at the end. Bytes that are not UTF-8 are
+/// replaced by U+FFFD.
 std::string JsonText(const nlohmann::ordered_json& json);
 
-/// A value in a JSON file that Trackbed writes, with its place. Readers of such files use these
-/// getters alone: a file can be changed, cut off or made by anyone.
+/// A value in a JSON file that Trackbed writes, with its place. Code that reads result files uses
+/// only these getters, because a file may have been edited or truncated.
 ///
 /// Errors: every getter throws InputError with file, key ("pairs[0].tolerances"), what was found
 /// and what is allowed.
 class JsonValue {
  public:
-  /// The root of a document. Messages name `file` and `key`.
+  /// The root of a document. Error messages name `file` and `key`.
   JsonValue(nlohmann::ordered_json json, std::string file, std::string key = "");
 
   /// A member of a section.
   [[nodiscard]] JsonValue At(const std::string& name) const;
-  /// A member of a section; none if it is absent.
+  /// A member of a section; nullopt if the member is absent.
   [[nodiscard]] std::optional<JsonValue> Find(const std::string& name) const;
   /// All members of a section, in the order of the file.
   [[nodiscard]] std::vector<std::pair<std::string, JsonValue>> Members() const;
   /// The elements of a list.
   [[nodiscard]] std::vector<JsonValue> Elements() const;
-  /// The elements of a list of exactly `count`.
+  /// The elements of a list that must have exactly `count` elements.
   [[nodiscard]] std::vector<JsonValue> Elements(std::size_t count) const;
 
   [[nodiscard]] std::string Text() const;
-  /// A text that is one of these.
+  /// A text that must be one of the given texts.
   [[nodiscard]] std::string OneOf(const std::vector<std::string>& allowed) const;
   [[nodiscard]] double Number() const;
-  /// None for null, which stands for a number that was not finite.
+  /// A number; nullopt for null, which represents a number that was not finite.
   [[nodiscard]] std::optional<double> NumberOrNull() const;
   /// A whole number from 0 to `max`.
   [[nodiscard]] std::uint64_t Count(std::uint64_t max = kMaxCount) const;
@@ -61,16 +62,16 @@ class JsonValue {
   [[nodiscard]] std::vector<std::string> Texts() const;
   [[nodiscard]] bool IsNull() const;
   [[nodiscard]] bool IsSection() const;
-  /// A text, a number, true, false or null, unchanged.
+  /// Any scalar value, unchanged: text, number, true, false or null.
   [[nodiscard]] const nlohmann::ordered_json& Scalar() const;
-  /// A section of scalars, unchanged.
+  /// A section whose members are all scalars, unchanged.
   [[nodiscard]] const nlohmann::ordered_json& Scalars() const;
-  /// The file that the value is in, for messages.
+  /// The file that contains the value, for messages.
   [[nodiscard]] const std::string& file() const { return *file_; }
-  /// Any value, unchanged: to be copied or compared only.
+  /// The value as JSON, unchanged. Use it only to copy or compare.
   [[nodiscard]] const nlohmann::ordered_json& json() const { return *json_; }
 
-  /// Refuses the value: "expected `allowed`, found …".
+  /// Rejects the value with the message "expected `allowed`, found …".
   [[noreturn]] void Refuse(std::string_view allowed) const;
 
   static constexpr std::uint64_t kMaxCount = 1'000'000'000;
@@ -80,15 +81,16 @@ class JsonValue {
   [[nodiscard]] std::string KeyOf(const std::string& name) const;
 
   std::shared_ptr<const nlohmann::ordered_json> document_;
-  const nlohmann::ordered_json* json_;  // in the document
+  const nlohmann::ordered_json* json_;  // Value, owned by the document.
   std::shared_ptr<const std::string> file_;
   std::string key_;
 };
 
-/// Reads a JSON file of a run folder. InputError as run_folder::RequireFile and ParseJson.
+/// Reads a JSON file of a run folder. Throws the InputErrors of run_folder::RequireFile and
+/// ParseJson.
 JsonValue ReadJson(const std::filesystem::path& file);
 
-/// The cones of each gate in plan.json; empty without gates.
+/// The positions of the cones of each gate in plan.json; empty without gates.
 std::vector<std::vector<Vec2>> GateCones(const JsonValue& plan);
 
 }  // namespace trackbed

@@ -11,12 +11,12 @@
 #include "trackbed/scenario/maneuver.h"
 #include "trackbed/vehicle/params.h"
 
-/// Metrics of standard maneuvers (all described in docs/maneuvers.md).
+/// Metrics of standard maneuvers. The page docs/maneuvers.md describes all of them.
 ///
 /// Symbols: delta steering of the road wheels [rad], psi' yaw rate [rad/s], a_y lateral
 /// acceleration [m/s^2] and beta sideslip angle [rad] at the center of gravity, v speed [m/s], L
-/// wheelbase [m]. Signs as in docs/conventions.md; where a metric should not depend on the
-/// direction, right turns are mirrored.
+/// wheelbase [m]. The signs follow docs/conventions.md. Right turns are mirrored for metrics that
+/// should not depend on the direction.
 ///
 /// steady_state_circle and slowly_increasing_steer (ISO 4138, SAE J266), by least squares:
 ///   understeer_gradient  K, slope of delta - L psi'/v over a_y [rad s^2/m]
@@ -52,32 +52,34 @@ namespace trackbed {
 
 struct ManeuverMetrics {
   std::string method;
-  double begin = 0.0;  ///< start of the evaluated part [s]
-  double end = 0.0;    ///< its end [s]
-  /// As PlantMetrics::steering_saturated_fraction, over the control periods from `begin` to `end`.
+  double begin = 0.0;  ///< Start of the evaluated part [s].
+  double end = 0.0;    ///< End of the evaluated part [s].
+  /// Computed as PlantMetrics::steering_saturated_fraction, over the control periods from `begin`
+  /// to `end`.
   double steering_saturated_fraction = 0.0;
-  std::vector<std::pair<std::string, double>> values;  ///< by name; SI units
-  /// Set if the standard has limits; false for every maneuver in which the car rolls over.
+  std::vector<std::pair<std::string, double>> values;  ///< Metrics by name, in SI units.
+  /// Whether the limits of the standard are met; nullopt if it has none. False if the car rolls
+  /// over.
   std::optional<bool> passed;
-  std::string missing;  ///< unmeasured quantities and the reason; else empty
+  std::string missing;  ///< Unmeasured quantities and the reason; empty if all were measured.
 
-  /// A value by its name.
+  /// Returns a metric by its name.
   [[nodiscard]] std::optional<double> Find(std::string_view name) const;
 };
 
-/// Evaluates a run. `plan` holds the gates of a lane change. A run without the complete maneuver
-/// (too short, never steered) gives fewer metrics and the reason. Never throws for a log with rows.
-/// Cost O(rows).
+/// Evaluates a run. `plan` holds the gates of a lane change. An incomplete maneuver (too short,
+/// never steered) gives fewer metrics and a reason in `missing`. Never throws for a log with rows.
+/// Cost: linear in the rows.
 ManeuverMetrics EvaluateManeuver(const ManeuverOptions& options, const RunLog& log,
                                  const Plan& plan, const VehicleParams& vehicle);
 
-/// All metrics of an evaluation, each 0.
+/// Returns all metrics of an evaluation, each with the value 0.
 ManeuverMetrics AllMetrics(const ManeuverOptions& options);
 
-/// Every value of the section `maneuver` of metrics.json, with its name there, in file order.
+/// Lists every value in the section `maneuver` of metrics.json, by name, in file order.
 std::vector<Metric> ListMetrics(const ManeuverMetrics& metrics);
 
-/// The label of a name in that section, for any maneuver; nullopt for an unknown name.
+/// Returns the label of a metric in the section `maneuver`; nullopt for an unknown name.
 std::optional<MetricInfo> DescribeManeuverMetric(std::string_view name);
 
 }  // namespace trackbed

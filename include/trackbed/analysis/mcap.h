@@ -7,9 +7,9 @@
 /// Export of runs as MCAP, the container format of Foxglove and other viewers.
 namespace trackbed {
 
-/// A run as an MCAP file (mcap.dev/spec, version 0): chunks of 1 MB with index, statistics and
-/// checksums, without compression; messages in JSON, in the order of their times. Times count from
-/// the start of the run [ns].
+/// Exports a run as an MCAP file (mcap.dev/spec, version 0). The file has chunks of 1 MB with
+/// index, statistics and checksums, without compression. Messages are JSON, in order of time. Times
+/// count from the start of the run [ns].
 ///
 /// | topic | schema | |
 /// |---|---|---|
@@ -19,7 +19,7 @@ namespace trackbed {
 /// | `/<plant>/footprint` | foxglove.SceneUpdate | a box as large as the car, once |
 /// | `/obstacles` | foxglove.SceneUpdate | boxes, where they are; again every 0.1 s if any moves |
 ///
-/// Poses are planar: without ground height, roll and pitch. The same run gives the same bytes.
+/// Poses are planar: they omit ground height, roll and pitch. The same run gives the same bytes.
 std::string ToMcap(const RunResult& result);
 
 }  // namespace trackbed

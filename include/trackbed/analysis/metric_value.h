@@ -8,27 +8,28 @@
 /// The value of a metric and the part of the run that it refers to.
 namespace trackbed {
 
-/// Monostate: undefined, such as the recovery time of a car that never recovered; null in
-/// metrics.json.
+/// The value of a metric. Monostate means undefined, written as null to metrics.json; for example
+/// the recovery time of a car that never recovered.
 using MetricValue = std::variant<std::monostate, bool, int, double, std::string>;
 
 /// The part of a run that a value refers to.
 enum class MetricSpan {
-  kRun,       ///< all of it
-  kEnd,       ///< its end
-  kMoment,    ///< one moment, such as that of a largest value
-  kSince,     ///< from `from_t` on
-  kInterval,  ///< from `from_t` to `t`
+  kRun,       ///< The whole run.
+  kEnd,       ///< The end of the run.
+  kMoment,    ///< One moment, such as that of the largest value.
+  kSince,     ///< The part of the run from `from_t` on.
+  kInterval,  ///< The interval from `from_t` to `t`.
 };
 
 struct MetricPlace {
   MetricSpan span = MetricSpan::kRun;
-  double s = 0.0;       ///< station of the moment; with kRun, kEnd and kSince, of the run's end [m]
-  double t = 0.0;       ///< time of the moment, or of the interval's end [s]
-  double from_t = 0.0;  ///< [s]
+  /// Station of the moment [m]; with kRun, kEnd and kSince, the station of the run's end.
+  double s = 0.0;
+  double t = 0.0;       ///< Time of the moment, or of the interval's end [s].
+  double from_t = 0.0;  ///< Start of the part [s].
 };
 
-/// A value and its place. The end of the run is filled in by the caller.
+/// A value with the place where it was measured. The caller fills in the end of the run.
 struct MetricReading {
   MetricValue value;
   MetricPlace at;
@@ -36,7 +37,7 @@ struct MetricReading {
 
 /// One value of a plant's entry in metrics.json.
 struct Metric {
-  std::string path;  ///< "cross_track.max", "turns[0].lateral_offset"
+  std::string path;  ///< Path, such as "cross_track.max", "turns[0].lateral_offset".
   MetricValue value;
   MetricPlace at;
 };
@@ -45,7 +46,7 @@ struct Metric {
 struct StandardLimit {
   enum class Relation { kAtMost, kAtLeast };
   Relation relation = Relation::kAtMost;
-  double bound = 0.0;  ///< in the quantity's unit
+  double bound = 0.0;  ///< Bound in the unit of the quantity.
 
   [[nodiscard]] bool Met(double value) const {
     return relation == Relation::kAtMost ? value <= bound : value >= bound;
@@ -54,15 +55,17 @@ struct StandardLimit {
 
 /// Label and unit of a metric.
 struct MetricInfo {
-  std::string label;      ///< "Maximum cross-track error"
-  std::string unit;       ///< SI, "m/s^2"; empty for ratios, counts and texts
-  bool headline = false;  ///< shown first in a report
-  std::optional<StandardLimit> limit = std::nullopt;  ///< of a standard maneuver
+  std::string label;      ///< Label such as "Maximum cross-track error".
+  std::string unit;       ///< SI unit, "m/s^2"; empty for ratios, counts and texts.
+  bool headline = false;  ///< Whether reports show the metric first.
+  /// Limit that a standard sets for the maneuver.
+  std::optional<StandardLimit> limit = std::nullopt;
 };
 
 nlohmann::ordered_json ToJson(const MetricValue& value);
 
-/// Text for the table of a study: numbers with the shortest round-trip digits, texts unchanged.
+/// Formats a value for a study's table: numbers with the shortest round-trip digits, texts
+/// unchanged.
 std::string ToText(const MetricValue& value);
 
 }  // namespace trackbed

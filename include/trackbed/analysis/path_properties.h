@@ -7,7 +7,7 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/world/world.h"
 
-/// Properties of a planned path before it is driven, the usual measures for comparing planners.
+/// Properties of a planned path before it is driven: the usual measures for comparing planners.
 namespace trackbed {
 
 /// A successful plan, with its world and vehicle.
@@ -17,17 +17,17 @@ struct PlannedPath {
   const VehicleParams& vehicle;
 };
 
-/// A property of a path, in plan.json and among the outputs of studies as `plan.NAME`.
+/// A property of a path. Plan.json contains it, and studies have the output `plan.NAME`.
 struct PathProperty {
-  const char* name;   ///< with its unit: "curvature_max_radpm"
-  const char* label;  ///< on a report
-  const char* unit;   ///< SI
-  /// None if the path has no such value.
+  const char* name;   ///< Name with the unit: "curvature_max_radpm".
+  const char* label;  ///< Label in a report.
+  const char* unit;   ///< SI unit.
+  /// Measures the property; nullopt if the path has no such value.
   std::optional<double> (*measure)(const PlannedPath& path);
 };
 
-/// All properties, in the order of plan.json. With kappa the curvature over the station s of a path
-/// of length L:
+/// All properties, in the order of plan.json. Symbols: kappa curvature, s station, L length of the
+/// path.
 ///   length_m                  L
 ///   duration_s                time of the plan's speeds, without its stops
 ///   curvature_max_radpm       max |kappa|
@@ -41,8 +41,9 @@ struct PathProperty {
 ///                             and are known from the start, at most 1 cm too large, and 0 if one
 ///                             is touched; nothing without such obstacles
 ///
-/// The first seven are exact, to rounding. A path of length 0 has the value 0 of each of them.
-/// Cost: some us a segment, and one Clearance() per (c - c_min) or 1 cm of path.
+/// The properties other than clearance_min_m are exact, to rounding. For a path of length 0, these
+/// properties are 0. Cost: a few us per segment, and one Clearance() per (c - c_min) or 1 cm of
+/// path.
 const std::vector<PathProperty>& PathProperties();
 
 }  // namespace trackbed

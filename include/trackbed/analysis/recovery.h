@@ -10,12 +10,13 @@ namespace trackbed {
 
 /// Recovery of a run after a disturbance.
 struct RecoveryMetrics {
-  double from = 0.0;           ///< end of the last temporary disturbance [s]
-  std::optional<double> time;  ///< from then until the car stays near its path [s]; none: never
+  double from = 0.0;  ///< End of the last temporary disturbance [s].
+  /// Time from `from` until the car stays near its path [s]; nullopt if it never does.
+  std::optional<double> time;
 };
 
-/// A car is near its path within `disturb.recovered_within`, checked once per control period. None
-/// without a path, or if no temporary disturbance ended during the run.
+/// Measures when the car stays near its path, within `disturb.recovered_within`, checked once per
+/// control period. Nullopt without a path, or if no temporary disturbance ended during the run.
 std::optional<RecoveryMetrics> MeasureRecovery(const RunLog& log, const Disturbances& disturb,
                                                const Wind& wind);
 

@@ -15,8 +15,7 @@ RequirementMetrics MeasureRequirement(const RequirementExpectation& requirement,
 /// Evaluates the requirements on all plants, then those on the log's plant.
 std::vector<RequirementMetrics> MeasureRequirements(const Expectations& expect, const RunLog& log);
 
-/// The path of the robustness in the plant's entry in metrics.json:
-/// "requirements.NAME.robustness".
+/// The path of the robustness in the plant's entry in metrics.json: "requirements.NAME.robustness".
 std::string RequirementPath(const std::string& name);
 
 }  // namespace trackbed

@@ -15,78 +15,79 @@ namespace trackbed {
 /// Wall-clock times of one plant, written to timing.json only.
 struct DriveTiming {
   std::string plant;
-  double wall_time = 0.0;         ///< [s]
-  double real_time_factor = 0.0;  ///< simulated over wall time
-  int updates = 0;                ///< of the steering
-  double update_mean = 0.0;       ///< [s]
-  double update_max = 0.0;        ///< [s]
+  double wall_time = 0.0;         ///< Wall-clock time of the simulation [s].
+  double real_time_factor = 0.0;  ///< Simulated time divided by wall-clock time.
+  int updates = 0;                ///< Number of steering updates.
+  double update_mean = 0.0;       ///< Mean time of a steering update [s].
+  double update_max = 0.0;        ///< Longest time of a steering update [s].
 };
 
-/// One run of a scenario: planned once, simulated on each plant, measured and judged.
+/// One run of a scenario: planned once, then simulated on each plant, measured and judged.
 struct RunResult {
   Scenario scenario;
-  Scene scene;            ///< the composed MJCF that was driven
-  VehicleParams vehicle;  ///< the car that was driven, with its payload
+  Scene scene;            ///< Composed MJCF scene of the simulation.
+  VehicleParams vehicle;  ///< Simulated car, with its payload.
   FeasiblePlan plan;
   std::vector<RunLog> logs;
   std::vector<PlantMetrics> metrics;
-  std::vector<PlantComparison> comparisons;  ///< every pair of plants
+  std::vector<PlantComparison> comparisons;  ///< Comparisons of every pair of plants.
   Verdict verdict;
   bool interrupted = false;
-  double planning_time = 0.0;  ///< wall clock [s]
+  double planning_time = 0.0;  ///< Wall-clock time of planning [s].
   std::vector<DriveTiming> timing;
 };
 
 struct RunHooks {
   /// Called before each plant is simulated; returns the hooks of that simulation.
   std::function<DriveHooks(const std::string& plant)> drive{};
-  /// Called when a plant's simulation has ended, including by an exception.
+  /// Called when a plant's simulation has ended, even by an exception.
   std::function<void(const std::string& plant)> ended{};
-  /// Simulate all plants at the same time, each in a separate thread that calls its hooks;
-  /// otherwise one after the other in the caller's thread. The results are the same.
+  /// Whether to simulate all plants at the same time, each in a separate thread that calls its
+  /// hooks. If false, plants run one after another in the caller's thread. The results are the
+  /// same.
   bool together = false;
 };
 
-/// Plans, simulates, measures and judges. A mission that cannot be planned gives a failed verdict
-/// with the reason and no logs. Errors: InputError from the scenario's model.
+/// Plans, simulates, measures and judges a scenario. If the mission cannot be planned, the verdict
+/// has failed with a reason, and there are no logs. Throws the InputErrors of the scenario's model.
 RunResult RunMission(const Scenario& scenario, const RunHooks& hooks = {});
 
-/// As above, with a car of the cache.
+/// As RunMission above, with a car from the cache.
 RunResult RunMission(const Scenario& scenario, CarCache& cars, const RunHooks& hooks = {});
 
-/// As above, for a validated scenario and a car loaded by LoadCar.
+/// As RunMission above, for a validated scenario and a car loaded by LoadCar.
 RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks = {});
 
-/// The two parts of RunMission: planning before the simulation, and the simulation with its
-/// evaluation. Errors: those of RunMission, and exceptions of the hooks.
+/// The two parts of RunMission: planning, then simulation with evaluation. PlanRun and the
+/// simulation throw the errors of RunMission, and exceptions of the hooks.
 RunResult PlanRun(const Scenario& scenario, const CarModel& car);
 RunResult DriveRun(RunResult planned, const CarModel& car, const RunHooks& hooks = {});
 
-/// The content of metrics.json.
+/// Returns the content of metrics.json.
 nlohmann::ordered_json MetricsJson(const RunResult& result);
 
 /// Optional files of a run folder.
 struct RunFolderOptions {
-  bool mcap = false;  ///< run.mcap, if anything was simulated
+  bool mcap = false;  ///< Whether to write run.mcap, if anything was simulated.
 };
 
 /// Writes the run folder (plan.csv, plan.json, <plant>.csv, <plant>.state.csv, model.xml,
 /// timing.json, scenario.resolved.yaml, metrics.json, manifest.json) in one step (ResultWriter).
-/// Removes files of an earlier run in the same folder that this run does not have, so that the
-/// folder never mixes two runs. RunError when the folder cannot be written; the earlier run then
-/// remains.
+/// Also removes files of an earlier run that this run does not have, so that the folder never mixes
+/// two runs. RunError if the folder cannot be written; the earlier run then remains.
 void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
                     const RunFolderOptions& options = {});
 
-/// Adds the same files as a result of `writer`, which may get others before it commits.
+/// Adds the files of WriteRunFolder as a result of `writer`, which may get more results before it
+/// commits.
 void AddRunFolder(const RunResult& result, ResultWriter& writer,
                   const RunFolderOptions& options = {});
 
-/// Writes plan.json and, if there is a path, plan.csv and other tables of what PlanRun returned, in
-/// one step (ResultWriter).
+/// Writes the result of PlanRun in one step (ResultWriter): plan.json, and plan.csv and further
+/// tables if there is a path.
 void WritePlan(const RunResult& planned, const OutputFolder& folder);
 
-/// Versions of Trackbed and its libraries, as in metrics.json.
+/// Returns the versions of Trackbed and its libraries, as in metrics.json.
 nlohmann::ordered_json Versions();
 
 }  // namespace trackbed

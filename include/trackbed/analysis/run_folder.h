@@ -9,13 +9,14 @@
 /// the files.
 namespace trackbed::run_folder {
 
-// Of every result: the sizes and SHA-256 of its files.
+// Manifest of every result, with the sizes and SHA-256 of its files.
 inline constexpr const char* kManifest = "manifest.json";
-// Hidden folders in the output folder while a result is written: see output_folder.h.
-inline constexpr const char* kPartial = ".trackbed.partial";  ///< not complete yet
-inline constexpr const char* kComplete =
-    ".trackbed.complete";  ///< complete, being moved into place
-// The names of the results in the manifest.
+// Hidden folders in the output folder while a result is written (see output_folder.h).
+/// Folder of a result that is not complete yet.
+inline constexpr const char* kPartial = ".trackbed.partial";
+/// Folder of a complete result that is being moved into place.
+inline constexpr const char* kComplete = ".trackbed.complete";
+// Names of the results in the manifest.
 inline constexpr const char* kRun = "run";
 inline constexpr const char* kPlan = "plan";
 inline constexpr const char* kComparison = "comparison";
@@ -25,7 +26,7 @@ inline constexpr const char* kFalsification = "falsification";
 inline constexpr const char* kVerification = "verification";
 inline constexpr const char* kSubmission = "submission";
 
-// Of a run.
+// Files of a run.
 inline constexpr const char* kScenarioYaml = "scenario.resolved.yaml";
 inline constexpr const char* kModelXml = "model.xml";
 inline constexpr const char* kPlanCsv = "plan.csv";
@@ -36,82 +37,86 @@ inline constexpr const char* kTimingJson = "timing.json";
 inline constexpr const char* kMetricsJson = "metrics.json";
 inline constexpr const char* kMcap = "run.mcap";
 
-// Made from a finished run.
+// Files made from a finished run.
 inline constexpr const char* kVideo = "video.mp4";
 inline constexpr const char* kPicture = "picture.png";
-inline constexpr const char* kReport = "report.html";  ///< of a comparison or a study, too
+inline constexpr const char* kReport = "report.html";  ///< Also made from a comparison or a study.
 
-// Of a comparison; in the folder of the run itself if it compares that run's plants.
+// Files of a comparison. The plants of one run are compared in the folder of that run.
 inline constexpr const char* kCompareCsv = "compare.csv";
 inline constexpr const char* kCompareJson = "compare.json";
 
-// Of a study.
+// Files of a study.
 inline constexpr const char* kSweepCsv = "sweep.csv";
 inline constexpr const char* kSweepJson = "sweep.json";
-/// Grows with the study and lets an interrupted study resume: SweepRecords.
+/// Records of the finished rows, which let an interrupted study resume (SweepRecords).
 inline constexpr const char* kSweepRecords = "sweep.records";
 
-// Of a search, in addition to those of a study.
+// Files of a search, in addition to those of a study.
 inline constexpr const char* kFalsifyJson = "falsify.json";
-inline constexpr const char* kCounterexample = "counterexample";  ///< the folder of its run
-inline constexpr const char* kCounterexampleYaml = "counterexample.yaml";  ///< in that folder
+/// Folder of the counterexample's run.
+inline constexpr const char* kCounterexample = "counterexample";
+/// Scenario in the folder of the counterexample.
+inline constexpr const char* kCounterexampleYaml = "counterexample.yaml";
 
-// Of a verification, beside those of a study.
+// Files of a verification, in addition to those of a study.
 inline constexpr const char* kVerifyJson = "verify.json";
 
-// Of a study, in whose folder they are.
-inline constexpr const char* kRows = "rows";  ///< the folder of the runs that it keeps, by row
+// Folder in the output folder of a study.
+inline constexpr const char* kRows = "rows";  ///< Folder of the runs that a study keeps, by row.
 
-// Of a study that was handed to Slurm.
+// Files of a study that was submitted to Slurm.
 inline constexpr const char* kArraySh = "array.sh";
 inline constexpr const char* kMergeSh = "merge.sh";
 
-// Of an identification.
+// Files of an identification.
 inline constexpr const char* kIdentifyJson = "identify.json";
-inline constexpr const char* kRecords = "records";  ///< the folder of its runs, by record
-/// <record>.residuals.csv. InputError unless the record's name is a plain file name.
+/// Folder of the runs of an identification, by record.
+inline constexpr const char* kRecords = "records";
+/// Returns the file name <record>.residuals.csv. InputError unless the record's name is a plain
+/// file name.
 std::string ResidualsCsv(const std::string& record);
 
-/// Files that a plan with a path may have beside plan.json, with the tables of all planners.
+/// Files besides plan.json that a plan with a path may have, including the tables of all planners.
 std::vector<std::string> PathFiles();
 
 // Files of a plant, by its name in the registry: "mujoco:contact" has "mujoco-contact.csv".
 // InputError for a name that would leave the folder.
 
-std::string LogCsv(const std::string& plant);    ///< <plant>.csv
-std::string StateCsv(const std::string& plant);  ///< <plant>.state.csv
-// Of the plans adopted during the run.
-std::string NewPlansCsv(const std::string& plant);      ///< <plant>.plan.csv
-std::string NewPlansJson(const std::string& plant);     ///< <plant>.plan.json
-std::string NewPlansTreeCsv(const std::string& plant);  ///< <plant>.tree.csv
+std::string LogCsv(const std::string& plant);    ///< Returns <plant>.csv.
+std::string StateCsv(const std::string& plant);  ///< Returns <plant>.state.csv.
+// Files of the plans adopted during the run.
+std::string NewPlansCsv(const std::string& plant);      ///< Returns <plant>.plan.csv.
+std::string NewPlansJson(const std::string& plant);     ///< Returns <plant>.plan.json.
+std::string NewPlansTreeCsv(const std::string& plant);  ///< Returns <plant>.tree.csv.
 
-/// The plant whose StateCsv has this name; nullopt for the name of another file. For a plant that
+/// Returns the plant whose StateCsv has this name; nullopt for other file names. For a plant that
 /// is not in the registry, returns the name as spelled in the file name.
 std::optional<std::string> PlantOfStateCsv(const std::string& file_name);
 
-/// Every file name that a run folder may have, for all plants in the registry.
+/// Returns every file name that a run folder may have, for all plants in the registry.
 std::vector<std::string> AllNames();
 
-/// Returns `file`, which must be a file of a run folder. InputError naming it if it does not exist,
-/// is a folder, or is a link out of the run folder, whose content must not enter a report. If the
-/// folder has a manifest (folders of older versions do not), also InputError unless the file's
-/// content matches it; this reads the file.
+/// Checks a file of a run folder and returns it. InputError naming the file if it does not exist,
+/// is a folder, or is a link out of the run folder, whose content must not enter a report.
+/// InputError if the content differs from the folder's manifest; this check reads the file. Folders
+/// of older versions have no manifest and skip that check.
 std::filesystem::path RequireFile(const std::filesystem::path& file);
 
-/// Tells the results in a folder from others: the SHA-256 of its manifest.json, "" if it has none.
+/// Identifies the results in a folder by the SHA-256 of its manifest.json; "" without a manifest.
 std::string ResultHash(const std::filesystem::path& folder);
 
-/// InputError naming the folder if it is between two results, or if it has results with another
-/// ResultHash than `hash`, which is that in the file `source`.
+/// InputError naming the folder if it is between two results, or if its ResultHash differs from
+/// `hash`. The message names `source`, the file that states `hash`.
 void RequireResult(const std::filesystem::path& folder, const std::string& hash,
                    const std::filesystem::path& source);
 
-/// Detects whether results were replaced while their folders were read. Construct it before reading
-/// the files and call RequireUnchanged afterwards, so that no folder's files mix two results.
+/// Detects whether results were replaced while their folders were read. Construct a Reading before
+/// reading the files, and call RequireUnchanged afterwards.
 class Reading {
  public:
   explicit Reading(std::vector<std::filesystem::path> folders);
-  /// InputError naming a folder whose manifest has changed.
+  /// Throws InputError naming a folder whose manifest has changed.
   void RequireUnchanged() const;
 
  private:

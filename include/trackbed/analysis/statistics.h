@@ -13,8 +13,9 @@ struct Interval {
   double high = 0.0;
 };
 
-/// The score interval of the probability of success, after `passed` successes in `count`
-/// independent trials, without continuity correction (Wilson 1927). [0, 1] if there were no trials.
+/// The score interval of the probability of success, without continuity correction (Wilson 1927).
+/// There were `passed` successes in `count` independent trials. Without trials, the interval is [0,
+/// 1].
 ///
 /// PreconditionError unless passed <= count and confidence is in (0, 1).
 Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence);
@@ -33,47 +34,51 @@ struct MeanEstimate {
   std::optional<Interval> interval{};
 };
 
-/// PreconditionError unless there are values and confidence is in (0, 1).
+/// Estimates the mean of a sample. PreconditionError unless there are values and confidence is in
+/// (0, 1).
 MeanEstimate EstimateMean(const std::vector<double>& values, double confidence);
 
 /// A parameter of a study prepared for the analysis of variance: each row belongs to one of `count`
 /// classes.
 struct Classes {
   std::vector<std::size_t> of_row;
-  std::vector<std::string> names;  ///< one per class: its value, or the median of its values
+  /// Names of the classes: the value, or the median of its values.
+  std::vector<std::string> names;
 };
 
-/// Makes each distinct text a class if there are at most `max_classes` texts or one is not a
-/// number. Otherwise sorts the rows by number and divides them into `max_classes` classes of equal
-/// size; ties stay together.
+/// Divides the rows of a parameter into classes. If there are at most `max_classes` distinct texts,
+/// or if one text is not a number, each distinct text is a class. Otherwise sorts the rows by
+/// number and divides them into `max_classes` classes of equal size. Equal values stay in one
+/// class.
 ///
 /// PreconditionError unless max_classes is at least 2.
 Classes Classify(const std::vector<std::string>& values, std::size_t max_classes);
 
 /// The share of the variance of an output that a parameter explains alone.
 struct FirstOrderIndex {
-  double index = 0.0;  ///< at most 1; about 0, possibly negative, for a parameter without influence
+  /// The index, at most 1. About 0, possibly negative, for a parameter without influence.
+  double index = 0.0;
   Interval interval{};
 };
 
 struct IndexOptions {
   double confidence = 0.95;
-  int resamples = 200;  ///< of the bootstrap, at least 2
+  int resamples = 200;  ///< Number of bootstrap resamples, at least 2.
 };
 
 /// First-order Sobol' indices Var(E[Y | X]) / Var(Y), one per parameter, from a given sample of any
-/// design: the correlation ratio of the classes (Pearson 1905; Plischke, Borgonovo and Smith 2013),
-/// minus its expectation by chance for classes of this size (Kelley 1935, epsilon squared), so that
-/// a parameter without influence has the expectation 0. The parameters of the sample must be
-/// independent. A numeric parameter divided into B classes gives an index too small by a fraction
-/// of about 1 / B^2.
+/// design. The estimate is the correlation ratio of the classes (Pearson 1905; Plischke, Borgonovo
+/// and Smith 2013), minus its expectation by chance for classes of this size (Kelley 1935, epsilon
+/// squared). A parameter without influence therefore has the expectation 0. The parameters of the
+/// sample must be independent. If a numeric parameter is divided into B classes, its index is too
+/// small by a fraction of about 1 / B^2.
 ///
 /// The intervals are those of a normal distribution with the standard deviation of bootstrap
 /// resamples (Efron and Tibshirani 1993), the same on every machine.
 ///
 /// An index is nullopt if the output does not vary or the parameter has as many classes as rows.
-/// PreconditionError unless all have the same number of rows. Cost: 2 ns per row, parameter and
-/// resample.
+/// PreconditionError unless the output and all parameters have the same number of rows. Cost: 2 ns
+/// per row, parameter and resample.
 std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
     const std::vector<Classes>& parameters, const std::vector<double>& output,
     const IndexOptions& options = {});
@@ -81,13 +86,15 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
 /// Spearman's rank correlation of two lists (Spearman 1904): Pearson's correlation of their ranks;
 /// equal values share their mean rank.
 struct RankCorrelation {
-  double rho = 0.0;     ///< in [-1, 1]
-  Interval interval{};  ///< by Fisher's transformation with the variance (1 + rho^2/2)/(n - 3) of
-                        ///< Bonett and Wright (2000); zero width for rho = 1 or -1
+  double rho = 0.0;  ///< Coefficient in [-1, 1].
+  /// Interval by Fisher's transformation with the variance (1 + rho^2/2)/(n - 3) of Bonett and
+  /// Wright (2000). The interval has zero width for rho = 1 or -1.
+  Interval interval{};
 };
 
-/// Nullopt for fewer than 4 pairs, or if one list does not vary. PreconditionError unless both have
-/// the same number of values, all finite, and confidence is in (0, 1). Cost: that of sorting both.
+/// Correlates two lists. Nullopt for fewer than 4 pairs, or if one list does not vary.
+/// PreconditionError unless both lists have the same number of values, all finite, and confidence
+/// is in (0, 1). Cost: that of sorting both lists.
 std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
                                               const std::vector<double>& b, double confidence);
 
@@ -95,17 +102,17 @@ std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
 struct PairedDifference {
   MeanEstimate mean;
   double median = 0.0;
-  std::size_t higher = 0;  ///< pairs in which b is above a
+  std::size_t higher = 0;  ///< Number of pairs in which b exceeds a.
   std::size_t lower = 0;
   std::size_t equal = 0;
-  /// The probability of a split of `higher` and `lower` at least this uneven if neither is more
-  /// likely: the exact two-sided sign test (Arbuthnott 1710), without equal pairs. 1 if all pairs
-  /// are equal.
+  /// p-value of the exact two-sided sign test (Arbuthnott 1710), without equal pairs: the
+  /// probability of a split at least as uneven as `higher` and `lower`, if both are equally likely.
+  /// 1 if all pairs are equal.
   double sign_test = 1.0;
 };
 
-/// PreconditionError unless both have the same number of values, at least one, and confidence is in
-/// (0, 1).
+/// Compares paired values. PreconditionError unless both lists have the same number of values, at
+/// least one, and confidence is in (0, 1).
 PairedDifference ComparePairs(const std::vector<double>& a, const std::vector<double>& b,
                               double confidence);
 

@@ -18,12 +18,12 @@
 /// Runs a study and writes its results to one table.
 namespace trackbed {
 
-/// Results of a run for a table, by their dotted paths: `metrics.<plant>.…`,
-/// `between.<plant>.<plant>.…`, `verdict.passed`, `verdict.failures`, `verdict.robustness`
-/// (RobustnessOf), `plan.status`, `plan.length_m` and the other PathProperties(),
-/// `timing.planning_s` (differs every time). Names are those of metrics.json, elements of lists are
-/// `[0]`, `[1]`, …. Results of a run on a single plant are also listed as `metrics.*.…`, so that a
-/// study of plants needs one column for each result.
+/// Results of a run for a table, by dotted path: `metrics.<plant>.…`, `between.<plant>.<plant>.…`,
+/// `verdict.passed`, `verdict.failures`, `verdict.robustness` (RobustnessOf), `plan.status`,
+/// `plan.length_m` and the other PathProperties(), `timing.planning_s` (which differs between
+/// runs). The names are those of metrics.json. Elements of lists are `[0]`, `[1]`, …. Results of a
+/// run on a single plant are also listed as `metrics.*.…`, so that a study of plants needs one
+/// column for each result.
 using Outputs = std::map<std::string, std::string>;
 
 Outputs CollectOutputs(const RunResult& result);
@@ -33,35 +33,36 @@ std::vector<std::string> PossibleOutputs(const Scenario& scenario);
 
 /// The result of one run.
 struct RunOutcome {
-  std::string status;  ///< "passed", "failed", "driven" (no expectations), or "no_plan"
+  std::string status;  ///< Status "passed", "failed", "driven" (no expectations), or "no_plan".
   bool passed = false;
-  std::string reason{};  ///< why it failed or has no plan
+  std::string reason{};  ///< Reason why the run failed or has no plan.
   Outputs outputs;
-  std::optional<RunResult> result{};  ///< the complete result, if DriveOnce ran it
+  std::optional<RunResult> result{};  ///< Complete result, if DriveOnce ran the scenario.
 };
 
 /// Runs a scenario, on any thread; returns nothing when interrupted.
 using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& scenario)>;
 
-/// A study that has been validated as far as possible before it is run. Immutable, and shared
-/// between threads.
+/// A study that has been validated as far as possible before its runs. Immutable; threads can share
+/// it.
 struct CheckedStudy {
   StudyPoints points;
-  std::unique_ptr<CarCache> cars;             ///< never null
-  std::map<std::string, std::string> inputs;  ///< SHA-256 of the study's inputs, by name
+  std::unique_ptr<CarCache> cars;             ///< Cache of the compiled cars, never null.
+  std::map<std::string, std::string> inputs;  ///< SHA-256 of the study's input files, by name.
 };
 
 /// Reads the points of the study (CheckPoints), compiles the cars, makes the plants and checks the
-/// outputs. InputError with the problems of the points or their cars, or with all unknown outputs
-/// and the nearest path to each. With `all`, one invalid point is an error; without, only if no
-/// point is valid.
+/// outputs. InputError listing the problems of the points or their cars. InputError listing all
+/// unknown outputs, each with the most similar path. If `all` is true, one invalid point is an
+/// error. If `all` is false, it is only an error if no point is valid.
 CheckedStudy CheckStudy(Study study, bool all = true);
 
 /// Plans, simulates, measures and judges a scenario of the study.
 std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario& scenario,
                                     const std::function<bool()>& interrupted = {});
 
-/// A part of the rows of a study: one of every `count` rows, the one at `index`, from 1.
+/// The part of a study's rows that one process runs: every `count`-th row, starting at row `index`,
+/// which counts from 1.
 struct Shard {
   int index = 1;
   int count = 1;
@@ -72,41 +73,44 @@ struct Shard {
 };
 
 struct SweepOptions {
-  int jobs = 1;                                   ///< runs at the same time, at least 1
-  std::function<void(double fraction)> progress;  ///< called after each row, one call at a time
-  std::function<bool()> interrupted;              ///< asked before each run, by any thread
-  Shard shard{};                                  ///< rows outside of the shard are left out
-  /// If not empty: runs the rows with one of these statuses again, instead of the missing rows.
+  int jobs = 1;  ///< Number of runs at the same time, at least 1.
+  /// Called after each row, by one thread at a time.
+  std::function<void(double fraction)> progress;
+  std::function<bool()> interrupted;  ///< Whether to stop; called before each run, by any thread.
+  Shard shard{};                      ///< Rows outside of the shard are skipped.
+  /// Statuses of rows to run again, instead of the missing rows; ignored if empty.
   std::vector<std::string> again{};
-  /// Called after each run, by any thread, before its row is appended; not for bisections.
+  /// Called after each run, by any thread, before its row is appended. The callback is not called
+  /// for bisections.
   std::function<void(std::size_t row, const RunOutcome& outcome)> finished{};
-  /// Stops as soon as half the width of the pass rate's interval, at each point of the grid, is at
-  /// most this: from 0.001 to 0.5. For studies with a sample, without bisection. Checked after
-  /// every kUntilBatch points of the sample, so that the result does not depend on `jobs`.
+  /// Stops as soon as the pass rate's interval, at each point of the grid, has at most this
+  /// half-width, which is from 0.001 to 0.5. The option `until_pass_rate` needs a study with a
+  /// sample and without bisection. Checked after every kUntilBatch points of the sample, so that
+  /// the result does not depend on `jobs`.
   std::optional<double> until_pass_rate{};
 };
 
 inline constexpr std::size_t kUntilBatch = 100;
 
-/// The number of rows of a study: each point `repeat` times.
+/// The number of rows of a study: `repeat` rows for each point.
 std::size_t CountRows(const StudyPoints& points);
 
-/// Identifies the records of the study: its description, its columns, the versions of the programs,
+/// Identifies the records of a study by its description, its columns, the versions of the programs,
 /// and `inputs`, the hashes of its input files.
 nlohmann::ordered_json SweepHeader(const StudyPoints& points,
                                    const std::map<std::string, std::string>& inputs = {});
 
-/// Runs the rows of a study that are missing in `records` and appends each as soon as it is
-/// finished: each point `repeat` times with consecutive seeds, or a bisection at each. An
-/// interruption leaves unfinished rows out.
+/// Runs the rows of a study that are missing in `records`, and appends each row as soon as it is
+/// finished. Each point gives `repeat` rows with consecutive seeds, or a bisection. An interruption
+/// leaves unfinished rows out.
 ///
-/// A rejected point, and a run that throws an InputError, give a row with the status `refused` and
-/// the first problem as the reason. A run that throws an exception that indicates a bug gives a row
-/// with the status `error`. The other runs are not affected.
+/// A rejected point gives a row with the status `refused` and the first problem as the reason. A
+/// run that throws an InputError gives such a row, too. An exception that indicates a bug gives a
+/// row with the status `error`. The other runs are not affected.
 ///
 /// Guarantees: the content of a row does not depend on `jobs`, shards, or the order in which rows
-/// are finished. A RunError of `run` (no memory) or of `records` (a full disk) stops the sweep and
-/// is rethrown. InternalError unless jobs is positive. Apart from SweepRecords, memory does not
+/// are finished. A RunError of `run` (out of memory) or of `records` (full disk) stops the sweep
+/// and is rethrown. InternalError unless jobs is positive. Apart from SweepRecords, memory does not
 /// grow with the rows.
 void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords& records,
              const SweepOptions& options);
@@ -114,11 +118,11 @@ void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords
 /// Counts of the rows in some records.
 struct SweepSummary {
   std::size_t rows = 0;
-  std::size_t rows_expected = 0;  ///< more than `rows` if the study was interrupted
-  std::size_t runs = 0;           ///< of these rows
-  std::size_t passed = 0;         ///< rows that passed, or whose bisection found a value
-  std::size_t refused = 0;        ///< rows whose scenario is invalid
-  std::size_t errors = 0;         ///< rows whose run met a bug of the program
+  std::size_t rows_expected = 0;  ///< Number of rows of the complete study.
+  std::size_t runs = 0;           ///< Number of runs in these rows.
+  std::size_t passed = 0;         ///< Number of rows that passed, or whose bisection found a value.
+  std::size_t refused = 0;        ///< Number of rows whose scenario is invalid.
+  std::size_t errors = 0;         ///< Number of rows whose run met a bug of the program.
 
   [[nodiscard]] bool complete() const { return rows == rows_expected; }
 };
@@ -133,23 +137,23 @@ SweepSummary Summarize(const SweepRecords& records, const Shard& shard = {});
 SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const OutputFolder& folder,
                         const std::string& stopped = "");
 
-/// Adds the same files as a result of `writer`, which may get others before it commits, such as
-/// falsify.json. It removes those of an earlier search or verification.
+/// Adds the files of WriteSweep as a result of `writer`, which may get further files before it
+/// commits, such as falsify.json. Removes the files of an earlier search or verification.
 SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWriter& writer,
                       const std::string& stopped = "");
 
-/// Copies the rows of several record files of one study, such as those of its shards, to `records`.
+/// Merges several record files of one study, such as those of its shards, into `records`.
 ///
-/// InputError naming a file and the difference when it belongs to another study, and when two files
-/// disagree on a row.
+/// InputError naming the file and the difference if a file belongs to another study. InputError if
+/// two files disagree on a row.
 void MergeRecords(const std::vector<std::filesystem::path>& files, SweepRecords& records);
 
-/// The numbers of the rows whose run folders are kept by a study that keeps the highest or lowest
-/// values of an output: worst first; of equal values, the earlier row first.
+/// The numbers of the rows whose run folders the study keeps: those with the highest or lowest
+/// values of an output. The worst row is first; among equal values, the earlier row.
 std::vector<std::size_t> WorstRows(const SweepRecords& records);
 
-/// The overrides of a row, in the order in which they apply to the scenario that the header names:
-/// with them, a run reproduces the row. InputError when there is no such row.
+/// The overrides of a row, in their order of application. A run of the scenario in the header with
+/// these overrides reproduces the row. InputError if there is no such row.
 std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t row);
 
 /// The missing rows, counted from 0: "3, 17 to 20".
@@ -157,12 +161,12 @@ std::string MissingRows(const SweepRecords& records);
 
 /// The result of a study with few rows, in memory.
 struct SweepResult {
-  TextTable table{{"status"}};         ///< as sweep.csv
-  nlohmann::ordered_json description;  ///< as sweep.json
+  TextTable table{{"status"}};         ///< The content of sweep.csv.
+  nlohmann::ordered_json description;  ///< The content of sweep.json.
   SweepSummary summary;
 };
 
-/// RunRows for all rows, in memory.
+/// Runs all rows in memory, as RunRows.
 SweepResult RunSweep(const StudyPoints& points, const RunScenarioOnce& run,
                      const SweepOptions& options);
 

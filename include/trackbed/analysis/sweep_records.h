@@ -16,53 +16,53 @@
 namespace trackbed {
 
 /// The finished rows of a study in a file that only grows, so that a study that was killed at any
-/// moment can resume. The first line identifies the study, each further line is a row: "CRC-32
-/// JSON", the checksum of the JSON in eight hexadecimal digits.
+/// moment can resume. The first line identifies the study, each further line is a row "CRC-32
+/// JSON". The checksum of the JSON has eight hexadecimal digits.
 ///
-/// A row is appended by one write. An incomplete last line, left by a killed process, a full disk
-/// or a power failure, is cut off when the file is opened. If several lines have the same row, the
-/// last one counts. Rows are forced to the disk at most once a second.
+/// Each row is appended by a single write. An incomplete last line, left by a killed process, a
+/// full disk or a power failure, is cut off when the file is opened. If several lines have the same
+/// row, the last one counts. Rows are forced to the disk at most once a second.
 ///
-/// Memory: 8 bytes for each row that the study has.
+/// Memory: 8 bytes for each row of the study.
 class SweepRecords {
  public:
   /// Opens the file, or creates it at once with its header. `header` describes the current study,
   /// including its number of rows `rows_expected`.
   ///
-  /// InputError naming the file, the keys that differ and the `remedy` if the file belongs to
-  /// another study; RunError when it cannot be read or written.
+  /// If the file belongs to another study, InputError naming the file, the differing keys and the
+  /// `remedy`. RunError if the file cannot be read or written.
   SweepRecords(const std::filesystem::path& file, const nlohmann::ordered_json& header,
                std::string_view remedy = "--restart removes them, another folder (-o) keeps them");
-  /// Opens an existing file of any study for reading only, possibly while a sweep writes to it.
-  /// InputError when it has no header.
+  /// Opens an existing file of any study for reading only, even while a sweep writes to it.
+  /// InputError if the file has no header.
   explicit SweepRecords(const std::filesystem::path& file);
-  /// Whether the file is a regular one that begins with a header as SweepRecords writes it.
+  /// Whether the file is a regular file that begins with a header written by SweepRecords.
   static bool IsFileOfRecords(const std::filesystem::path& file);
-  /// Removes the file, if there is one. RunError if it is a link, a folder, or not a file of
+  /// Removes the file if it exists. RunError if the file is a link, a folder, or does not contain
   /// records (IsFileOfRecords).
   static void Remove(const std::filesystem::path& file);
-  /// In memory.
+  /// Makes records that are kept in memory, without a file.
   static SweepRecords InMemory(nlohmann::ordered_json header);
 
-  /// The header unchanged, to be copied or compared.
+  /// The header unchanged. Use it only to copy or compare.
   [[nodiscard]] const nlohmann::ordered_json& header() const { return header_->json(); }
-  /// The header, to be read. InputError as JsonValue.
+  /// The header for reading. Throws the InputErrors of JsonValue.
   [[nodiscard]] const JsonValue& Header() const { return *header_; }
-  /// The columns of the table, `status` among them. InputError if the header has none.
+  /// The columns of the table, including `status`. InputError if the header has none.
   [[nodiscard]] const std::vector<std::string>& Columns() const;
   [[nodiscard]] std::size_t rows() const { return offsets_.size(); }
   [[nodiscard]] bool Has(std::size_t row) const { return offsets_[row] >= 0; }
-  /// Number of rows present.
+  /// Number of rows that are present.
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  /// Several threads may append at a time. RunError on a full disk: the file then keeps the rows
-  /// before and no part of this one.
+  /// Appends a row. Several threads may append at the same time. RunError if the disk is full: the
+  /// file then keeps the earlier rows and no part of this row.
   void Append(std::size_t row, const nlohmann::ordered_json& content);
 
-  /// Reads a row, which must be present: unchanged, to be copied or compared. InputError if it is
-  /// not JSON.
+  /// Reads a row, which must be present. Use the result only to copy or compare. InputError if the
+  /// row is not JSON.
   [[nodiscard]] nlohmann::ordered_json Read(std::size_t row) const;
-  /// Reads a row, which must be present. InputError as JsonValue and Read.
+  /// Reads a row, which must be present. Throws the InputErrors of JsonValue and Read.
   [[nodiscard]] JsonValue Entry(std::size_t row) const;
 
  private:
@@ -75,16 +75,17 @@ class SweepRecords {
 
   std::filesystem::path file_;
   Descriptor descriptor_;
-  std::optional<JsonValue> header_;  // known once a constructor returns
+  std::optional<JsonValue> header_;  // Header, known when a constructor has returned.
   std::vector<std::string> columns_;
-  std::vector<std::int64_t> offsets_;  // of the lines; -1: row missing
+  std::vector<std::int64_t> offsets_;  // Offsets of the lines in the file; -1: row missing.
   std::size_t count_ = 0;
-  std::int64_t end_ = 0;     // of the file, in bytes
-  std::int64_t synced_ = 0;  // time of the last sync, in seconds
-  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // guards appending
+  std::int64_t end_ = 0;     // Size of the file in bytes.
+  std::int64_t synced_ = 0;  // Time of the last sync, in seconds.
+  std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // Guards appending.
 };
 
-/// The paths at which two values differ, "vary.world.friction: [0.3] was [0.5]", at most five.
+/// Lists the paths at which two values differ, at most five: "vary.world.friction: [0.3] was
+/// [0.5]".
 std::vector<std::string> Differences(const nlohmann::ordered_json& now,
                                      const nlohmann::ordered_json& before);
 

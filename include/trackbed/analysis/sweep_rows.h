@@ -25,12 +25,12 @@ struct SweepRow {
 /// The form in which records store a row.
 nlohmann::ordered_json ToJson(const SweepRow& row);
 
-/// Reads a row of records, which must be present. InputError as JsonValue, and unless it has a cell
-/// for each column.
+/// Reads a row of records, which must be present. Throws the InputErrors of JsonValue. InputError
+/// unless the row has a cell for each column.
 SweepRow ReadRow(const SweepRecords& records, std::size_t row);
 
-/// Makes the row of a point's `repetition`; nothing when interrupted. An exception of a run becomes
-/// the row's reason, except for RunError, which passes through.
+/// Makes the row of a point's `repetition`; returns nothing when interrupted. An exception of a run
+/// becomes the row's reason. A RunError is rethrown.
 std::optional<SweepRow> MakeRow(const Study& study, const RunScenarioOnce& run,
                                 const StudyPoint& point, std::uint64_t repetition);
 

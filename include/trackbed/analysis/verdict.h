@@ -15,87 +15,93 @@ namespace trackbed {
 /// The required relation of a value to its bound.
 enum class Relation { kAtMost, kAtLeast, kEquals };
 
-/// "at_most", "at_least", "equals": the spelling of metrics.json.
+/// The spelling of a relation in metrics.json: "at_most", "at_least", "equals".
 const char* ToString(Relation relation);
 
 /// The reason for a check.
 enum class CheckReason {
-  kExpected,      ///< the scenario's `expect` says so
-  kArrival,       ///< every run must arrive
-  kNoContact,     ///< every run must touch no obstacle
-  kCorridor,      ///< on a path, stay within one car width of it
-  kOverspeed,     ///< on a path, no faster than the speed control can correct
-  kSteeringRate,  ///< steering rate within the actuator's limit
-  kCollision,     ///< `expect.collision`
-  kComparable,    ///< the station ranges of two compared plants overlap
-  kSameEnd,       ///< two compared runs ended with the same status
-  kRequirement,   ///< `expect.requirements`
+  kExpected,   ///< The scenario's `expect` contains the check.
+  kArrival,    ///< Every run must arrive.
+  kNoContact,  ///< Every run must touch no obstacle.
+  kCorridor,   ///< On a path, the car must stay within one car width of it.
+  /// On a path, the car must not be faster than its speed control can correct.
+  kOverspeed,
+  kSteeringRate,  ///< The steering rate must be within the actuator's limit.
+  kCollision,     ///< `expect.collision` contains the check.
+  kComparable,    ///< The station ranges of two compared plants must overlap.
+  kSameEnd,       ///< Two compared runs must end with the same status.
+  kRequirement,   ///< `expect.requirements` contains the check.
 };
 
 /// A bound and the value compared with it.
 struct Check {
   std::string plant;
-  std::string other;   ///< the second plant of a compared pair; else empty
-  std::string metric;  ///< its path in metrics.json: "cross_track.max", "position.max"
+  std::string other;   ///< Second plant of a compared pair; else empty.
+  std::string metric;  ///< Path of the metric in metrics.json: "cross_track.max", "position.max".
   Relation relation = Relation::kAtMost;
-  MetricValue bound;  ///< with kEquals, a text as the scenario has it: "true", "arrived", "3"
-  MetricValue value;  ///< monostate: not measured, and the check is not met
-  MetricPlace at;     ///< where the value was
+  /// Bound of the value; with kEquals, the text in the scenario: "true", "arrived", "3".
+  MetricValue bound;
+  /// Measured value. Monostate means that it was not measured; the check is then not met.
+  MetricValue value;
+  MetricPlace at;  ///< Place of the value in the run.
   bool met = false;
 
   CheckReason reason = CheckReason::kExpected;
-  std::string name;  ///< of the metric, in messages
-  std::string unit;  ///< of bound and value; empty if dimensionless
-  std::string
-      detail;  ///< additional text of the message: why there is no value, why the car stopped
-  std::string formula;  ///< of a requirement; its value is the robustness, its bound 0
+  std::string name;    ///< Name of the metric in messages.
+  std::string unit;    ///< Unit of bound and value; empty if dimensionless.
+  std::string detail;  ///< Added to the message: why there is no value, why the car stopped.
+  /// Formula of a requirement. The value of the check is the robustness, the bound is 0.
+  std::string formula;
 };
 
-/// The plant of a check, or "a – b".
+/// The name of the plant of a check, or "a – b" for two plants.
 std::string PlantsOf(const Check& check);
 
 /// The verdict on a run.
 struct Verdict {
-  bool judged = true;                 ///< whether there was anything to check
-  bool passed = true;                 ///< judged, and no check failed
-  std::vector<std::string> failures;  ///< one line each, with value, bound, station and time
-  std::vector<std::string> notes;     ///< additional remarks
-  std::vector<Check> checks;          ///< all that was checked, met or not
+  bool judged = true;                 ///< Whether there was anything to check.
+  bool passed = true;                 ///< Whether the run was judged and no check failed.
+  std::vector<std::string> failures;  ///< One line each, with value, bound, station and time.
+  std::vector<std::string> notes;     ///< Additional remarks.
+  std::vector<Check> checks;          ///< All checks, met or not.
 };
 
 /// Checks any metric of a plant by its path.
 Check CheckMetric(const PlantMetrics& plant, const std::string& path, Relation relation,
                   const MetricValue& bound);
 
-/// Checks whether a requirement is satisfied; a robustness of 0 alone does not decide that. A
+/// Checks whether a requirement is satisfied, which a robustness of 0 alone does not decide. A
 /// requirement without robustness is not met.
 Check CheckRequirement(const std::string& plant, const RequirementMetrics& requirement);
 
-/// One check per given bound. Plants without common stations give a single check, which is not met.
+/// Makes one check per given bound. Plants without common stations give a single check, which is
+/// not met.
 std::vector<Check> CheckBounds(const DifferenceBounds& bounds, const PlantComparison& comparison);
 
-/// The message of a check that is not met: metric, value, bound, station and time. Empty if another
-/// check reports the same fault: a contact also sets the end status.
+/// The message of a check that is not met: metric, value, bound, station and time. The message is
+/// empty if another check reports the same fault; for example, a contact also sets the end status.
 std::string FailureMessage(const Check& check);
 
-/// The messages of CheckBounds.
+/// Returns the messages of the checks of CheckBounds that are not met.
 std::vector<std::string> Exceeded(const DifferenceBounds& bounds,
                                   const PlantComparison& comparison);
 
-/// Adds the check, and its message to the failures if it is not met.
+/// Adds the check to the verdict. If the check is not met, its message is added to the failures.
 void AddCheck(Check check, Verdict& verdict);
 
-/// Checks the scenario's expectations and, unless these say otherwise, for every plant:
-///   * that it arrives; an expected `status` or `collision: true` replaces that,
-///   * that it touches no obstacle,
-///   * on a path, that it stays within one car width of it (`max_cross_track` replaces that),
-///   * on a path, that it is nowhere faster than planned by more than its speed control can correct
-///     (an expectation on `overspeed_max` replaces that),
-///   * that its wheels turned no faster than the actuator allows, plus 3 % for their compliance;
-///     faster wheels mean that the timestep is too long for the car.
+/// Judges a run. Checks the scenario's expectations and, by default, for every plant:
+///
+///   * that the car arrives; an expected `status` or `collision: true` replaces this check,
+///   * that the car touches no obstacle,
+///   * on a path, that the car stays within one car width of it (`max_cross_track` replaces this
+///     check),
+///   * on a path, that the car exceeds the planned speed by no more than its speed control can
+///     correct (an expectation on `overspeed_max` replaces this check),
+///   * that the wheels are steered no faster than the actuator allows, plus 3 % for their
+///     compliance; faster wheels mean that the timestep is too long for the car.
 ///
 /// A run without a path, obstacles and expectations is not judged, and has not passed. Adds a note
-/// for a maneuver in which the steering did not reach its command for more than 2 % of the time.
+/// if the steering did not reach its command for more than 2 % of a maneuver.
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons);
 

@@ -6,57 +6,57 @@
 #include <string_view>
 #include <vector>
 
-/// The names of all files that the verbs write: the one list from which the check for files of
-/// others (output_folder.h), the removal of results and the table of docs/cli.md follow.
+/// The names of all files that the verbs write. The check for foreign files (output_folder.h), the
+/// removal of results and the table of docs/cli.md all use this list.
 ///
-/// A part in angle brackets stands for what differs: "<plant>.csv". A name that ends in a slash is
-/// a folder.
+/// A part in angle brackets is variable: "<plant>.csv". A name that ends in a slash is a folder.
 namespace trackbed {
 
-/// A result as manifest.json calls it, with the names that its files may have.
+/// The name of a result in manifest.json, with the names that its files may have.
 struct ResultNames {
   std::string result;
   std::vector<std::string> names;
 };
 
-/// Every result there is.
+/// All results that Trackbed writes.
 const std::vector<ResultNames>& AllResultNames();
 
-/// What a verb writes.
+/// The results and files that a verb writes.
 struct VerbNames {
-  std::string verb;                  ///< as in "sweep submit"
-  std::vector<std::string> results;  ///< of its output folder, see AllResultNames
-  /// Beside them in that folder: pages and films, records, folders.
+  std::string verb;                  ///< Name of the verb, such as "sweep submit".
+  std::vector<std::string> results;  ///< Results in the verb's output folder, see AllResultNames.
+  /// Further names in that folder: pages and films, records, folders.
   std::vector<std::string> others{};
-  /// Options whose argument names a file to write: it replaces what is there.
+  /// Options whose argument names a file to write. An existing file is replaced.
   std::vector<std::string> explicit_files{};
 };
 
-/// Every verb that writes.
+/// All verbs that write files.
 const std::vector<VerbNames>& AllVerbNames();
 
-/// All names of a verb's output folder, those of its results first, each once.
+/// All names in a verb's output folder, each once. The names of its results come first.
 std::vector<std::string> NamesOfVerb(std::string_view verb);
 
-/// Texts for the parts in angle brackets.
+/// The texts that replace the parts in angle brackets.
 using NameParts = std::map<std::string, std::vector<std::string>>;
 
-/// The names that files of the verb's output folder have with these parts, and with the plants of
-/// the registry; without those of folders, and those with other parts.
+/// The file names in the verb's output folder, with these parts and the plants of the registry
+/// inserted. Omits folders, and names that contain other parts.
 std::vector<std::string> FileNamesOfVerb(std::string_view verb, const NameParts& parts = {});
 
 /// Whether a file of the result may have this name.
 bool IsNameOf(std::string_view result, const std::string& name);
 
-/// The text that a page carries in its head: with it WriteReport tells its pages from others.
+/// The text in the head of a page by which WriteReport recognizes Trackbed's pages.
 inline constexpr std::string_view kPageMark = "<meta name=\"generator\" content=\"Trackbed\">";
-/// The chunk behind the header of a picture (W3C, Portable Network Graphics, section 11.3.4: tEXt).
+/// The chunk that follows the header of a picture (W3C, Portable Network Graphics, section 11.3.4:
+/// tEXt).
 const std::string& PictureMark();
 /// The last bytes of a video: a box that players skip (ISO/IEC 14496-12, section 8.1.2: free).
 const std::string& VideoMark();
 
-/// Whether the file is a page (.html), picture (.png) or video (.mp4) that carries Trackbed's mark,
-/// and no link.
+/// Whether the file carries Trackbed's mark: a page (.html), picture (.png) or video (.mp4). False
+/// for links.
 bool HasMark(const std::filesystem::path& file);
 
 }  // namespace trackbed

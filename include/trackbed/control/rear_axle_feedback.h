@@ -11,22 +11,24 @@ namespace trackbed {
 ///
 /// Symbols: e, psi cross-track and heading error of the rear axle [m, rad]; D = +1 forwards, -1
 /// backwards; kappa the path's curvature at the car; psi_0(kappa) the heading error of the steady
-/// turn on it, 0 for a car without slip; d `distance` [m].
+/// turn on that curvature, 0 for a car without slip; d `distance` [m].
 ///   kappa_c = kappa cos(psi - psi_0)/(1 - kappa e) - D 2 (psi - psi_0)/d - e sinc(psi - psi_0)/d^2
 /// The command is the steering of the steady turn with curvature kappa_c: atan(L kappa_c) for a car
 /// without slip, with the understeer of the linear single-track car if it has tyre coefficients.
 ///
-/// For a car without slip whose wheels follow the command at once, (e/d)^2 + psi^2 never grows: it
-/// returns to the path from any errors with kappa e < 1. Small errors decay as exp(-s/d),
+/// For a car without slip whose wheels follow the command at once, (e/d)^2 + psi^2 never grows. The
+/// car returns to the path from any errors with kappa e < 1. Small errors decay as exp(-s/d),
 /// critically damped, where s is the distance driven.
 ///
 /// The default d is long enough for the rate limit of the wheels and for the response time of the
 /// car: the largest of ReturnDistance for the offset e, ReturnDistance for L/8, and 3 |v| T
 /// (src/control/preview_distance.h).
 ///
-/// Has no preview: it lags a step of curvature by the time that the wheels need to turn.
+/// The law has no preview: at a step of curvature, it lags by the time that the wheels need to
+/// turn.
 struct RearAxleFeedbackOptions {
-  std::optional<double> distance;  ///< d [m], >= 0.01; none: from car, speed and cross-track error
+  /// d [m], >= 0.01; by default from car, speed and cross-track error.
+  std::optional<double> distance;
 };
 void Visit(KeyVisitor& keys, RearAxleFeedbackOptions& options);
 

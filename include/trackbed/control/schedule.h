@@ -4,8 +4,8 @@
 
 namespace trackbed {
 
-/// Open loop: steers the plan's schedule at the distance that the car will have driven by the end
-/// of the period, so that a rate-limited actuator reproduces the schedule for any period.
+/// Open loop: steers the plan's schedule, evaluated at the distance that the car will have driven
+/// by the end of the period. A rate-limited actuator then reproduces the schedule for any period.
 struct ScheduleOptions {};
 void Visit(KeyVisitor& keys, ScheduleOptions& options);
 

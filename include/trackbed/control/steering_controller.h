@@ -19,47 +19,47 @@ namespace trackbed {
 
 struct Recording;
 
-/// The input of a controller, once per control period.
+/// The input of a controller in one control period.
 struct ControlInput {
   const VehicleParams& vehicle;
   const Reference& reference;
   const SteeringSchedule& schedule;
   VehicleState state;
-  double station = 0.0;    ///< station of the car on the path [m]; see StationSource
-  double period = 0.0;     ///< control period [s]
-  double plan_time = 0.0;  ///< since the plan took effect [s]
-  double speed_gain =
-      SpeedControlOptions{}.gain;  ///< for controllers that also set the speed [1/s]
+  double station = 0.0;    ///< Station of the car on the path [m]; see StationSource.
+  double period = 0.0;     ///< Length of the control period [s].
+  double plan_time = 0.0;  ///< Time since the plan took effect [s].
+  /// Gain of the speed control [1/s], for controllers that also set the speed.
+  double speed_gain = SpeedControlOptions{}.gain;
 };
 
-/// Returns the commanded bicycle angle [rad] at the end of the coming period; the vehicle's
-/// actuator limits angle and rate. A controller does no input or output, reads no clock, and draws
-/// random numbers only from a fixed seed.
+/// A steering controller. Steer returns the commanded bicycle angle [rad] at the end of the coming
+/// period; the vehicle's actuator limits angle and rate. A controller does no input or output,
+/// reads no clock, and draws random numbers only from a fixed seed.
 class SteeringController {
  public:
   virtual ~SteeringController() = default;
   virtual double Steer(const ControlInput& input) = 0;
 
-  /// The commanded acceleration [m/s^2] over the coming period, limited only by the car. None:
+  /// The commanded acceleration [m/s^2] over the coming period; only the car limits it. Nullopt if
   /// SpeedControl sets the speed.
   virtual std::optional<double> Accelerate(const ControlInput& input);
 
   /// Diagnostics of the last update, for the log: constant column names, and one value per column.
-  /// Empty by default.
+  /// The list is empty by default.
   [[nodiscard]] virtual std::vector<std::string> Columns() const;
   [[nodiscard]] virtual std::vector<double> Values() const;
 };
 
 /// The source of a controller's station.
 enum class StationSource {
-  kProjection,  ///< the nearest point of the path: closes the loop
-  kOdometer,    ///< the distance driven: open loop
+  kProjection,  ///< Nearest point of the path: closed loop.
+  kOdometer,    ///< Distance driven: open loop.
 };
 
 /// A controller in the registry (controllers.h). The functions may be null, except `make`.
 struct ControllerEntry {
   const char* name;
-  const char* summary;  ///< one line, for users
+  const char* summary;  ///< One-line summary for users.
   ControllerOptions defaults;
   StationSource station = StationSource::kProjection;
   bool needs_plan = true;
@@ -67,33 +67,33 @@ struct ControllerEntry {
 
   // Rules of the options. OnOptions adapts functions that take the options struct.
 
-  /// Rules between the controller's keys.
+  /// Checks rules that relate several keys of the controller.
   std::vector<OptionProblem> (*check)(const ControllerOptions& options,
                                       const CouldReadKey& could_read) = nullptr;
-  /// End of a run without a plan [s]; null, or none: not set by the controller.
+  /// Returns the end of a run without a plan [s]. Null or nullopt: the controller does not set it.
   std::optional<double> (*duration)(const ControllerOptions& options) = nullptr;
 
-  // Recorded inputs, for controllers that replay them.
+  // Recorded inputs of controllers that replay them.
 
-  /// The recording that is replayed.
+  /// Returns the recording that is replayed.
   const Recording& (*recording)(const ControllerOptions& options) = nullptr;
-  /// Whether the scenario's recorded drive, if any, is replayed instead of a file.
+  /// Whether the controller replays the scenario's recorded drive instead of a file.
   bool (*replays_record)(const ControllerOptions& options) = nullptr;
   void (*set_recording)(ControllerOptions& options, const Recording& recording) = nullptr;
 
-  // Files.
+  // Input files of the options.
 
   /// Reads the files that the options name into the options.
   void (*read_inputs)(ControllerOptions& options, InputReader& reader) = nullptr;
-  /// The files of the options as the run folder keeps them.
+  /// Returns the files of the options in the form that the run folder stores.
   std::vector<InputFile> (*input_files)(const ControllerOptions& options) = nullptr;
-  std::vector<std::string> input_names{};  ///< every name that `input_files` may return
-  /// Changes the options to name the files of `input_files`, or none if the scenario's recorded
-  /// drive is replayed.
+  std::vector<std::string> input_names{};  ///< All names that `input_files` may return.
+  /// Changes the options to name the files of `input_files`. If the scenario's recorded drive is
+  /// replayed, the options then name no file.
   void (*resolve)(ControllerOptions& options, bool from_record) = nullptr;
 };
 
-/// A ControllerEntry::make for a class that is constructed from its options.
+/// Implements ControllerEntry::make for a class that is constructed from its options.
 template <typename Options, typename Controller>
 std::unique_ptr<SteeringController> MakeBy(const ControllerOptions& options) {
   return std::make_unique<Controller>(options.Get<Options>());

@@ -13,66 +13,68 @@ namespace trackbed {
 
 /// A constant angle from the start of the run.
 struct ConstantSteeringOptions {
-  double steering = 0.0;  ///< [rad]
+  double steering = 0.0;  ///< Commanded angle [rad].
 };
 void Visit(KeyVisitor& keys, ConstantSteeringOptions& options);
 
-/// A step to A (ISO 7401, step input). With a rate r, delta = A min(1, r tau/abs(A)); without one,
-/// it jumps after t0, limited by the car's actuator.
+/// A step to A (ISO 7401, step input). With a rate r, delta = A min(1, r tau/abs(A)). Without a
+/// rate, the command jumps after t0, and the car's actuator limits it.
 struct StepSteeringOptions {
-  double amplitude = 0.0;      ///< A [rad]
-  double at = 1.0;             ///< t0 [s]
-  std::optional<double> rate;  ///< r [rad/s], > 0
+  double amplitude = 0.0;      ///< Step A [rad].
+  double at = 1.0;             ///< Start time t0 [s].
+  std::optional<double> rate;  ///< Rate r [rad/s], > 0.
 };
 void Visit(KeyVisitor& keys, StepSteeringOptions& options);
 
-/// Slowly increasing steer (SAE J266, ISO 4138): toward `end` at a constant rate r, then constant.
+/// Slowly increasing steer (SAE J266, ISO 4138): a ramp toward `end` at a constant rate r, then a
+/// constant angle.
 struct RampSteeringOptions {
-  double end = 0.0;    ///< [rad]
-  double rate = 0.01;  ///< r [rad/s], > 0
-  double at = 1.0;     ///< t0 [s]
+  double end = 0.0;    ///< Final angle [rad].
+  double rate = 0.01;  ///< Rate r [rad/s], > 0.
+  double at = 1.0;     ///< Start time t0 [s].
 };
 void Visit(KeyVisitor& keys, RampSteeringOptions& options);
 
-/// delta = A sin(2 pi f tau) for a number of cycles, then 0; half cycles also end at 0.
+/// A sine, delta = A sin(2 pi f tau), for a number of cycles, then 0. Half cycles also end at 0.
 struct SineSteeringOptions {
-  double amplitude = 0.0;  ///< A [rad]
-  double frequency = 0.4;  ///< f [Hz], > 0
-  double cycles = 1.0;     ///< > 0
-  double at = 1.0;         ///< t0 [s]
+  double amplitude = 0.0;  ///< Amplitude A [rad].
+  double frequency = 0.4;  ///< Frequency f [Hz], > 0.
+  double cycles = 1.0;     ///< Number of cycles, > 0.
+  double at = 1.0;         ///< Start time t0 [s].
 };
 void Visit(KeyVisitor& keys, SineSteeringOptions& options);
 
-/// ISO 19365: one sine cycle with a dwell at its second peak, -A at tau = 3/(4 f), then back to 0
-/// at tau = 1/f + dwell.
+/// Sine with dwell (ISO 19365): one sine cycle that dwells at its second peak, -A at tau = 3/(4 f).
+/// The angle returns to 0 at tau = 1/f + dwell.
 struct SineWithDwellOptions {
-  double amplitude = 0.0;  ///< A [rad]
-  double frequency = 0.7;  ///< f [Hz], > 0
-  double dwell = 0.5;      ///< [s], >= 0
-  double at = 1.0;         ///< t0 [s]
+  double amplitude = 0.0;  ///< Amplitude A [rad].
+  double frequency = 0.7;  ///< Frequency f [Hz], > 0.
+  double dwell = 0.5;      ///< Duration of the dwell [s], >= 0.
+  double at = 1.0;         ///< Start time t0 [s].
 };
 void Visit(KeyVisitor& keys, SineWithDwellOptions& options);
 
-/// Frequency from f0 to f1 over the duration T.
+/// The course of the frequency from f0 to f1 over the duration T.
 enum class Sweep {
-  kLinear,       ///< f(tau) = f0 + (f1 - f0) tau/T
-  kExponential,  ///< f(tau) = f0 (f1/f0)^(tau/T): equal time per octave
+  kLinear,       ///< f(tau) = f0 + (f1 - f0) tau/T.
+  kExponential,  ///< f(tau) = f0 (f1/f0)^(tau/T): the same time for each octave.
 };
 
-/// delta = A sin(phi(tau)) for 0 <= tau < T, then 0, with phi' = 2 pi f(tau), phi(0) = 0:
+/// A swept sine: delta = A sin(phi(tau)) for 0 <= tau < T, then 0. The phase has phi' = 2 pi f(tau)
+/// and phi(0) = 0:
 ///   linear:       phi = 2 pi (f0 tau + (f1 - f0) tau^2/(2 T))
 ///   exponential:  phi = 2 pi f0 T ((f1/f0)^(tau/T) - 1)/ln(f1/f0)
 struct SweptSineOptions {
-  double amplitude = 0.0;        ///< A [rad]
-  double start_frequency = 0.2;  ///< f0 [Hz], > 0
-  double end_frequency = 2.0;    ///< f1 [Hz], > 0
-  double duration = 20.0;        ///< T [s], > 0
+  double amplitude = 0.0;        ///< Amplitude A [rad].
+  double start_frequency = 0.2;  ///< Initial frequency f0 [Hz], > 0.
+  double end_frequency = 2.0;    ///< Final frequency f1 [Hz], > 0.
+  double duration = 20.0;        ///< T [s], > 0.
   Sweep sweep = Sweep::kLinear;
-  double at = 1.0;  ///< t0 [s]
+  double at = 1.0;  ///< Start time t0 [s].
 };
 void Visit(KeyVisitor& keys, SweptSineOptions& options);
 
-/// delta(t) [rad].
+/// The commanded angle delta(t) [rad].
 double SteeringAt(const ConstantSteeringOptions& options, double time);
 double SteeringAt(const StepSteeringOptions& options, double time);
 double SteeringAt(const RampSteeringOptions& options, double time);
@@ -80,7 +82,7 @@ double SteeringAt(const SineSteeringOptions& options, double time);
 double SteeringAt(const SineWithDwellOptions& options, double time);
 double SteeringAt(const SweptSineOptions& options, double time);
 
-/// The controllers of these profiles.
+/// The controllers of these steering profiles.
 ControllerEntry ConstantSteering();
 ControllerEntry StepSteering();
 ControllerEntry RampSteering();

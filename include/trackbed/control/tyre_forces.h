@@ -6,14 +6,16 @@ namespace trackbed {
 
 /// The lateral forces of the axles in the model of LqrOptions and MpcOptions.
 enum class TyreForces {
-  kNone,  ///< no slip: the kinematic car, for any tyre coefficients
-  /// Proportional to the slip angle, with the stiffness at the static loads, at the present speed.
+  /// No slip: the model is the kinematic car, even if the car has tyre coefficients.
+  kNone,
+  /// Lateral forces proportional to the slip angle, with the stiffness at the static loads and the
+  /// present speed.
   kLinear,
   /// Brush model (Pacejka 2012, ch. 3), linearized at the planned lateral and longitudinal
   /// acceleration. Stiffness and friction are proportional to the axle's load, which braking and
-  /// driving shift; the braking or driving force reduces both. Turns ahead are taken at their
-  /// planned speeds. Assumes a friction factor of 1 and no drag. Equals kLinear for a car with
-  /// unknown friction or axle loads.
+  /// driving shift. The braking or driving force reduces stiffness and friction. Turns ahead are
+  /// evaluated at their planned speeds. The model assumes a friction factor of 1 and no drag. The
+  /// brush model equals kLinear for a car with unknown friction or axle loads.
   kBrush,
 };
 void Visit(KeyVisitor& keys, TyreForces& forces);

@@ -4,11 +4,11 @@ namespace trackbed {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// The angle in (-pi, pi] that points the same way as `angle` [rad]. NaN and infinities give NaN.
-/// Exact for inputs already in range; otherwise within 1 ulp of |angle|.
+/// The angle in (-pi, pi] with the same direction as `angle` [rad]. NaN and infinities give NaN.
+/// The result is exact for inputs in this range; otherwise its error is at most 1 ulp of |angle|.
 double WrapAngle(double angle);
 
-/// a - b [rad], wrapped to (-pi, pi].
+/// The difference a - b [rad], wrapped to (-pi, pi].
 double AngleDifference(double a, double b);
 
 }  // namespace trackbed

@@ -8,33 +8,33 @@
 #include <utility>
 #include <vector>
 
-/// Four kinds of failure, by who has to act:
+/// Four kinds of failure, distinguished by who has to act:
 ///   * InputError: the user's input is wrong (a file, an option, a model). Exit code 2.
 ///   * RunError: the environment failed (a full disk, an unwritable folder, no encoder). Exit code
 ///     2.
 ///   * PreconditionError: the calling program passed an invalid argument to a function of the
 ///     library; a bug in the calling program.
 ///   * InternalError: an internal check failed; a bug in Trackbed. Exit code 1.
-/// A plan that is not found or a run that ends early is an outcome, not an error: see PlanStatus
-/// and DriveStatus.
+/// Some failures are outcomes, not errors: a plan that is not found (PlanStatus) and a run that
+/// ends early (DriveStatus).
 namespace trackbed {
 
 /// One problem in an input, with its position.
 struct Problem {
-  std::string file{};     ///< as the user named it; empty when there is no file
-  int line = 0;           ///< 1-based; 0 when unknown
-  int column = 0;         ///< 1-based; 0 when unknown
-  std::string key{};      ///< dotted key, such as "mission.waypoints[2]"; may be empty
-  std::string message{};  ///< what was found and what is allowed
+  std::string file{};     ///< File name as the user gave it; empty if there is no file.
+  int line = 0;           ///< Line number from 1; 0 if unknown.
+  int column = 0;         ///< Column number from 1; 0 if unknown.
+  std::string key{};      ///< Dotted key, such as "mission.waypoints[2]"; may be empty.
+  std::string message{};  ///< What was found and what is allowed.
 
-  /// "file:line:column: key: message", without unknown parts, WithoutControls, on one line.
-  /// Truncates a key or message after 4000 bytes.
+  /// Formats the problem as "file:line:column: key: message", on one line, without unknown parts
+  /// and control characters (WithoutControls). Truncates a key or message after 4000 bytes.
   [[nodiscard]] std::string ToString() const;
-  /// "key: message", in the form of ToString; independent of the file's location.
+  /// Formats "key: message" like ToString, independent of the file's location.
   [[nodiscard]] std::string WithoutPlace() const;
 };
 
-/// Bad input. `what()` lists every problem, one line each.
+/// Invalid input from the user. The text `what()` lists every problem, one line each.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);
@@ -46,19 +46,20 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// A failure of the environment: `what()` is one line for the user.
+/// A failure of the environment. The text `what()` is one line for the user.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// A bad argument: `what()` names the function, the argument, its value and what is allowed.
+/// An invalid argument. The text `what()` names the function, the argument, its value and what is
+/// allowed.
 class PreconditionError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
 };
 
-/// A bug: an invariant of the program does not hold.
+/// A bug in Trackbed: an invariant of the program does not hold.
 class InternalError : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -76,8 +77,8 @@ std::string WithoutControls(std::string_view text);
 
 }  // namespace trackbed
 
-/// Throws PreconditionError when `condition` on a caller's argument is false. The remaining
-/// arguments are an fmt message.
+/// Throws PreconditionError if `condition`, which states a requirement on a caller's argument, is
+/// false. The remaining arguments are an fmt message.
 #define TRACKBED_REQUIRE(condition, ...)                              \
   do {                                                                \
     if (!(condition))                                                 \

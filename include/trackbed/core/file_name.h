@@ -3,21 +3,22 @@
 #include <string>
 #include <string_view>
 
-/// File names made of names from input. A name of a model, a log or a plant never becomes a path.
+/// File names made from names in the input. The name of a model, a log or a plant never becomes a
+/// path.
 namespace trackbed {
 
-/// The longest result of FileNameOf [bytes]. Endings and the marks of temporary files fit behind
-/// it: file systems allow 255.
+/// The longest result of FileNameOf [bytes]. File systems allow 255 bytes, which leaves room for
+/// file extensions and for the marks of temporary files.
 inline constexpr std::size_t kMaxFileNameLength = 100;
 
-/// `name` as a plain file name: letters, digits, '.', '_' and '-' stay, ':' becomes '-', and every
-/// other byte '_'. A leading dot becomes '_' as well, so that no name is hidden, "." or "..". Of a
-/// longer name the last kMaxFileNameLength bytes stay: they tell the format. An empty name becomes
-/// "unnamed". Several names may become one.
+/// Converts `name` to a plain file name. Letters, digits, '.', '_' and '-' stay, ':' becomes '-',
+/// and every other byte becomes '_'. A leading dot becomes '_', so that no name is hidden, "." or
+/// "..". Of a longer name, the last kMaxFileNameLength bytes stay, because they include the
+/// extension. An empty name becomes "unnamed". Several names may give the same file name.
 std::string FileNameOf(std::string_view name);
 
-/// Whether `name` is a plain file name: 1 to 255 letters, digits, '.', '_' and '-', the first of
-/// which is no dot.
+/// Whether `name` is a plain file name: 1 to 255 letters, digits, '.', '_' and '-', not beginning
+/// with a dot.
 bool IsFileName(std::string_view name);
 
 }  // namespace trackbed

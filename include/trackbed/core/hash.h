@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// SHA-256 of bytes added in parts. Cost: about 2 ns a byte.
+/// SHA-256 of bytes added in parts. Cost: about 2 ns per byte.
 class Sha256Sum {
  public:
   Sha256Sum();
@@ -15,7 +15,7 @@ class Sha256Sum {
   ~Sha256Sum();
 
   void Add(std::string_view content);
-  /// The hash of all that was added, hexadecimal. Call once, last.
+  /// Returns the hash of all added bytes in hexadecimal. Call Finish once, as the last call.
   [[nodiscard]] std::string Finish();
 
  private:
@@ -23,7 +23,7 @@ class Sha256Sum {
   std::unique_ptr<Context> context_;
 };
 
-/// SHA-256 of some bytes, hexadecimal.
+/// Returns the SHA-256 of some bytes in hexadecimal.
 std::string Sha256(std::string_view content);
 
 }  // namespace trackbed

@@ -6,12 +6,13 @@
 
 namespace trackbed {
 
-/// The word of `known` with the smallest edit distance to `word`. Empty if that distance is more
-/// than a third of the word (at least two edits are allowed), or would change all of it. Ties go to
-/// the earlier word. Cost O(|word| x total length of known).
+/// The word of `known` with the smallest edit distance to `word`; the first of several equal ones.
+/// Empty if the distance is more than a third of the word's length (two edits are always allowed).
+/// Empty if the edits would change every letter. Cost O(|word| x total length of known).
 std::string NearestSpelling(std::string_view word, const std::vector<std::string>& known);
 
-/// "'word'; did you mean 'near'?" or "'word'; allowed: a, b, c", for messages about unknown names.
+/// Formats a message about an unknown name: "'word'; did you mean 'near'?" or "'word'; allowed: a,
+/// b, c".
 std::string UnknownName(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace trackbed

@@ -4,10 +4,10 @@
 
 namespace trackbed {
 
-/// Wall-clock time since construction, by a steady clock.
+/// Measures the wall-clock time since construction with a steady clock.
 class Stopwatch {
  public:
-  /// Elapsed time [s], >= 0.
+  /// The elapsed time [s], >= 0.
   [[nodiscard]] double Seconds() const;
 
  private:

@@ -10,11 +10,12 @@
 
 namespace trackbed {
 
-/// A table of numbers with named columns, the format of a run's CSV files: one header line of names
-/// that include their units ("speed_mps"), then one line of numbers per row.
+/// A table of numbers with named columns: the format of a run's CSV files. The header line has the
+/// column names, which include units ("speed_mps"). Each further line has the numbers of one row.
 ///
-/// Guarantees: numbers are written in the shortest form that reads back to the same double (a
-/// negative zero as 0), so ToCsv and ReadCsv are inverse to each other. Does not hold text cells.
+/// Guarantees: numbers are written in the shortest form that reads back to the same double; a
+/// negative zero is written as 0. ReadCsv therefore restores the table that ToCsv wrote. The table
+/// cannot hold text.
 class Table {
  public:
   explicit Table(std::vector<std::string> columns);
@@ -29,56 +30,59 @@ class Table {
     return cells_[row * columns_.size() + column];
   }
 
-  /// Index of a column, or -1.
+  /// The index of a column; -1 if the table has no such column.
   [[nodiscard]] int Find(std::string_view column) const;
-  /// A whole column by name; InputError naming a missing column.
+  /// A whole column by name. InputError naming the column if it is missing.
   [[nodiscard]] std::vector<double> Column(std::string_view column) const;
 
   [[nodiscard]] std::string ToCsv() const;
 
  private:
   std::vector<std::string> columns_;
-  std::vector<double> cells_;  // row by row
+  std::vector<double> cells_;  // All cells, row by row.
 };
 
-/// Reads a CSV file with a header line (RFC 4180 through libcsv). InputError with file and line for
-/// a cell that is not a number; for a repeated or empty column name (both with the number of the
-/// cell); for a row of the wrong length; for an empty file; and for more than 4096 columns, 5e7
-/// cells or 64 KiB in a cell. Lists the first twenty problems. RunError as ReadFile. Skips empty
-/// lines, spaces around cells and a byte order mark.
+/// Reads a CSV file with a header line (RFC 4180 through libcsv). Skips empty lines, spaces around
+/// cells and a byte order mark.
+///
+/// InputError with file and line for a cell that is not a number and for a row of the wrong length.
+/// For a repeated or empty column name, the message also has the number of the cell. InputError for
+/// an empty file, and for more than 4096 columns, 5e7 cells or 64 KiB in a cell. Lists the first
+/// twenty problems. Throws the RunErrors of ReadFile.
 Table ReadCsv(const std::filesystem::path& file);
 
-/// The problems of a file: the first twenty by line, and the number of further ones.
+/// Collects the problems of a file: the first twenty in order of lines, and the number of further
+/// ones.
 class ProblemList {
  public:
   void Add(Problem problem);
   [[nodiscard]] bool empty() const { return problems_.empty(); }
-  /// Throws an InputError with the problems, in the order of their lines; does nothing if there are
-  /// none.
+  /// Throws an InputError with the problems, in order of lines. Does nothing if there are no
+  /// problems.
   void ThrowIfAny() const;
 
  private:
-  std::vector<Problem> problems_;  // in the order of their lines
+  std::vector<Problem> problems_;  // Problems in order of lines.
   std::size_t omitted_ = 0;
 };
 
 /// Selected columns of a CSV file from another program.
 struct CsvExcerpt {
-  Table table;             ///< the requested columns that the file has, in file order
-  std::vector<int> lines;  ///< line numbers of the rows in the file, from 1
+  Table table;             ///< Requested columns that the file has, in file order.
+  std::vector<int> lines;  ///< Line numbers of the rows in the file, from 1.
 };
 
-/// Reads the columns `needed`, at least one, and those of `optional` that are present; ignores
-/// other columns. InputError as ReadCsv, and for a missing needed column (with the nearest
-/// spelling) and a cell that is not finite.
+/// Reads the columns `needed`, at least one, and those of `optional` that the file has. Ignores
+/// other columns. Throws the InputErrors of ReadCsv. InputError for a missing needed column (with
+/// the nearest spelling) and for a cell that is not finite.
 CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::string> needed,
                           std::vector<std::string> optional = {});
 
 /// Reads columns of a CSV file of any length as a stream. Calls `take` for each row with the
 /// numbers of `columns`, in that order, and the line on which the row begins. `columns` must not
-/// repeat a name. Empty cells are NaN. InputError as ReadCsvExcerpt, after the last row, but
-/// without the limit on cells and without rejecting values that are not finite, which are passed
-/// on. RunError as ReadFile.
+/// repeat a name. Empty cells are NaN. Values that are not finite are passed on, and there is no
+/// limit on the number of cells. Otherwise throws the InputErrors of ReadCsvExcerpt, after the last
+/// row. Throws the RunErrors of ReadFile.
 void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::string>& columns,
                     char delimiter,
                     const std::function<void(const std::vector<double>& numbers, int line)>& take);

@@ -13,48 +13,51 @@ namespace trackbed {
 
 /// How a run ended.
 enum class DriveStatus {
-  kArrived,      ///< at rest at the goal, within drive.goal_tolerance; without a path: the
-                 ///< mission's duration is over
-  kStopped,      ///< staying at rest elsewhere
-  kBlocked,      ///< at rest before an obstacle without a path around it
-  kPartial,      ///< at rest at the end of a partial plan (Plan::partial)
-  kTimeLimit,    ///< drive.time_limit is over
-  kDiverged,     ///< the simulation diverged (MuJoCo warning); the log ends before
-  kSunk,         ///< a wheel is below the road by more than its radius
-  kAirborne,     ///< all wheels are above the road by more than their radius, for a second
-  kStuck,        ///< moved less than a centimeter in ten seconds although it should drive
-  kCollided,     ///< the car touched an obstacle; the log continues for one second
-  kRolledOver,   ///< the car leans by more than 60 degrees
-  kInterrupted,  ///< the caller asked to stop
+  /// At rest at the goal, within drive.goal_tolerance. Without a path: the mission's duration is
+  /// over.
+  kArrived,
+  kStopped,    ///< At rest elsewhere than at the goal.
+  kBlocked,    ///< At rest before an obstacle, with no path around it.
+  kPartial,    ///< At rest at the end of a partial plan (Plan::partial).
+  kTimeLimit,  ///< The limit drive.time_limit has been reached.
+  kDiverged,   ///< The simulation diverged (MuJoCo warning); the log ends before that.
+  kSunk,       ///< A wheel is below the road by more than its radius.
+  kAirborne,   ///< All wheels are above the road by more than their radius, for a second.
+  /// The car should drive, but moved less than a centimeter in ten seconds.
+  kStuck,
+  kCollided,     ///< The car touched an obstacle; the log continues for one second.
+  kRolledOver,   ///< The car leans by more than 60 degrees.
+  kInterrupted,  ///< The caller stopped the run.
 };
 
-/// "arrived", "stopped", …: the spelling of metrics.json.
+/// The spelling of a status in metrics.json: "arrived", "stopped", ….
 const char* ToString(DriveStatus status);
 
-/// One control period: the state at its start and the command given then. Clearance and
-/// `state.obstacle_force` are the extremes of the period that ended here, over every physics step.
+/// One control period: the state and the command at its start. Clearance and `state.obstacle_force`
+/// are the extremes over all physics steps of the preceding period.
 struct LogRow {
   VehicleState state;
   Command command;
-  /// Distance and heading error relative to the path without extensions (except for a car that
-  /// stops slightly beyond the path's end); none without a path.
+  /// Cross-track and heading error relative to the path, without its straight extensions unless the
+  /// car stops slightly beyond the end. Nullopt without a path.
   std::optional<Projection> tracking;
-  /// Smallest clearance of the footprint [m], 0 on contact; none without obstacles.
+  /// Smallest clearance of the footprint [m], 0 on contact; nullopt without obstacles.
   std::optional<double> clearance;
-  /// Highest speed of the plan over the goal tolerance and one control period behind the car [m/s].
-  /// None without a path, at the end of the run, and where the controller or control.speed sets the
-  /// speed instead of the plan.
+  /// Highest planned speed between the car and a point behind it, by the goal tolerance and one
+  /// control period [m/s]. Nullopt without a path, at the end of the run, and while the controller
+  /// or control.speed sets the speed.
   std::optional<double> planned_speed{};
-  std::optional<Pose2> measured;  ///< the pose that the controller received; none without noise
-  std::vector<double>
-      controller;     ///< diagnostics of its last update; columns as RunLog::controller_columns
-  bool valid = true;  ///< false in a gap of a recorded drive
+  /// Pose that the controller received; none without measurement noise.
+  std::optional<Pose2> measured;
+  /// Diagnostics of the last update; columns as RunLog::controller_columns.
+  std::vector<double> controller;
+  bool valid = true;  ///< Whether the row is valid; false in a gap of a recorded drive.
 };
 
 /// A plan adopted during the run.
 struct PlanChange {
-  double time = 0.0;     ///< when it took effect [s]
-  double station = 0.0;  ///< station in the log at which the plan's stations begin [m]
+  double time = 0.0;     ///< Time at which the plan took effect [s].
+  double station = 0.0;  ///< Station in the log at which the plan's stations begin [m].
   Plan plan;
 };
 
@@ -62,16 +65,18 @@ struct PlanChange {
 struct RunLog {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
-  std::string cause;                            ///< why the physics ended the run; else empty
-  std::optional<double> contact_time;           ///< first contact with an obstacle [s]; none: never
-  std::vector<std::string> controller_columns;  ///< SteeringController::Columns
-  std::vector<LogRow> rows;                     ///< stations continue across plan changes
+  std::string cause;  ///< Cause if the physics ended the run; else empty.
+  /// Time of the first contact with an obstacle [s]; none: never.
+  std::optional<double> contact_time;
+  std::vector<std::string> controller_columns;  ///< Names from SteeringController::Columns.
+  std::vector<LogRow> rows;  ///< Rows of the log; stations continue across plan changes.
   std::vector<PlanChange> changes;
-  Table configurations;  ///< `t_s` and the car's configuration (CarModel::configuration_columns)
+  /// The time `t_s` and the car's configuration (CarModel::configuration_columns).
+  Table configurations;
 };
 
-/// The rows in the format of `<plant>.csv`. Columns that need a path or tyres are present only with
-/// these.
+/// Converts the rows to the format of `<plant>.csv`. Columns that need a path or tyres are only
+/// present if the run has a path or tyres.
 Table ToTable(const RunLog& log);
 
 }  // namespace trackbed

@@ -17,83 +17,86 @@ namespace trackbed {
 /// A study whose keys can be searched.
 struct CheckedSearch {
   Study study;
-  CheckedStudy runs;  ///< cars and inputs of a sample in the box
+  CheckedStudy runs;  ///< Cars and inputs of a sample of the searched box.
   SearchSpace space;
 };
 
-/// Validates a study for searching. InputError as SearchSpace; as CheckStudy, if no point of a
-/// sample of 64 is valid; and when the study has no `search`.
+/// Validates a study for a search. InputError if the study has no `search`, or if no point of a
+/// sample of 64 is valid. Also throws the InputErrors of SearchSpace and CheckStudy.
 CheckedSearch CheckSearch(Study study);
 
-/// Identifies the records of the search. Rows are runs, in the order in which they were proposed:
-/// the keys, `status`, `robustness`, the decisive check, the `phase` of the search (nominal,
+/// Identifies the records of the search. Each row is a run, in the order of the proposals. A row
+/// has the keys, `status`, `robustness`, the decisive check, the `phase` of the search (nominal,
 /// search, shrink), the outputs and the reason.
 nlohmann::ordered_json FalsifyHeader(const CheckedSearch& search);
 
 struct FalsifyOptions {
-  int jobs = 1;                         ///< runs at the same time, at least 1
-  std::function<bool()> interrupted{};  ///< asked before each run, by any thread
+  int jobs = 1;                         ///< Number of runs at the same time, at least 1.
+  std::function<bool()> interrupted{};  ///< Whether to stop; called before each run, by any thread.
   /// Called after each run with its row, by one thread at a time.
   std::function<void(std::size_t row)> progress{};
-  /// Limit on the search's wall-clock time [s]: the search ends with the first batch that finishes
-  /// after it. The result then depends on the machine.
+  /// Limit on the wall-clock time of the search [s]. The search ends with the first batch that
+  /// finishes after the limit, so that its result depends on the machine.
   std::optional<double> time_limit{};
 };
 
-/// A point that was run.
+/// A point of the search that was run.
 struct SearchedPoint {
-  std::size_t row = 0;  ///< of the table
+  std::size_t row = 0;  ///< Row of the table.
   UnitPoint point;
   std::vector<Setting> settings;
   double robustness = 0.0;
-  std::string limit;   ///< the decisive check
-  std::string reason;  ///< why the run failed; empty if it passed
+  std::string limit;   ///< Name of the decisive check.
+  std::string reason;  ///< Why the run failed; empty if it passed.
 };
 
 enum class FalsifyStatus {
-  kBroken,        ///< a run failed
-  kNotFalsified,  ///< no run failed
+  kBroken,        ///< A run failed.
+  kNotFalsified,  ///< No run failed.
   kInterrupted,
 };
 
-/// "broken", "not_falsified", "interrupted": the spelling of falsify.json.
+/// The spelling of a status in falsify.json: "broken", "not_falsified", "interrupted".
 const char* ToString(FalsifyStatus status);
 
 struct FalsifyResult {
   FalsifyStatus status = FalsifyStatus::kNotFalsified;
-  std::size_t runs = 0;         ///< of the search, including the nominal point
-  std::size_t shrink_runs = 0;  ///< after the search
-  std::size_t violations = 0;   ///< of the runs of the search
-  std::size_t refused = 0;      ///< points without a scenario
-  std::size_t errors = 0;       ///< runs that hit a bug of the program
+  std::size_t runs = 0;         ///< Number of runs of the search, including the nominal point.
+  std::size_t shrink_runs = 0;  ///< Number of runs of the shrinking after the search.
+  std::size_t violations = 0;   ///< Number of violations among the runs of the search.
+  std::size_t refused = 0;      ///< Number of points without a scenario.
+  std::size_t errors = 0;       ///< Number of runs that met a bug of the program.
   bool out_of_time = false;
-  std::optional<SearchedPoint> first;           ///< the first violation
-  std::optional<SearchedPoint> least;           ///< the lowest robustness of the search
-  std::optional<SearchedPoint> counterexample;  ///< the nearest violation to the nominal point
-  ShrinkResult shrunk;                          ///< margins of the counterexample, if one was found
+  std::optional<SearchedPoint> first;           ///< The first violation.
+  std::optional<SearchedPoint> least;           ///< Point of the search with the lowest robustness.
+  std::optional<SearchedPoint> counterexample;  ///< Violation nearest to the nominal point.
+  ShrinkResult shrunk;  ///< Margins of the counterexample, if one was found.
 };
 
-/// Runs the nominal point, then the points that the search proposes, and shrinks the violation
-/// nearest to the nominal point. If the nominal point fails, the search ends at once.
+/// Searches for a violation and shrinks the violation nearest to the nominal point. Runs the
+/// nominal point first, then the points that the search proposes. If the nominal point fails, the
+/// search ends.
 ///
-/// Appends each run to `records` (FalsifyHeader) and reuses rows that are already there: calling it
-/// again resumes an interrupted search.
+/// Appends each run to `records` (FalsifyHeader) and reuses rows that are already there: calling
+/// Falsify again resumes an interrupted search.
 ///
-/// Guarantees: the same result for any number of jobs, interrupted or not, unless there is a time
-/// limit; the counterexample was run and failed. Without a counterexample nothing is proved. Points
-/// without a scenario, and runs that end with an exception, have a row but no robustness.
+/// Guarantees: the result does not depend on the number of jobs or on interruptions, unless there
+/// is a time limit. The counterexample was run and failed. A search without a counterexample proves
+/// nothing. Points without a scenario, and runs that end with an exception, have a row but no
+/// robustness.
 ///
-/// Errors: InputError when the scenario expects nothing; RunError of `records` and of runs.
+/// Errors: InputError if the scenario expects nothing; RunError of `records` and of runs.
 FalsifyResult Falsify(const CheckedSearch& search, SweepRecords& records,
                       const FalsifyOptions& options = {});
 
-/// As above, with records in memory.
+/// As Falsify above, with records in memory.
 FalsifyResult Falsify(const CheckedSearch& search, const FalsifyOptions& options = {});
 
 /// The content of falsify.json.
 nlohmann::ordered_json ToJson(const FalsifyResult& result, const CheckedSearch& search);
 
-/// Repeats the counterexample as a complete run. InternalError unless it fails as it did before.
+/// Repeats the counterexample as a complete run. InternalError unless the counterexample fails in
+/// the same way as in the search.
 RunResult RunCounterexample(const FalsifyResult& result, const CheckedSearch& search);
 
 }  // namespace trackbed

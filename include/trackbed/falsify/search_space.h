@@ -10,50 +10,51 @@ namespace trackbed {
 /// A point of the unit cube: the position of each key between the ends of its range.
 using UnitPoint = std::vector<double>;
 
-/// A key that is searched.
+/// A key whose value the search varies.
 struct SearchKey {
-  std::string key;                                     ///< dotted
-  DistributionKind kind = DistributionKind::kUniform;  ///< uniform, log_uniform or integer
+  std::string key;  ///< Dotted key.
+  /// Distribution: uniform, log_uniform or integer.
+  DistributionKind kind = DistributionKind::kUniform;
   double from = 0.0;
   double to = 1.0;
-  double step = 0.0;     ///< values are `from` + k `step`; 0: no step
-  double nominal = 0.0;  ///< within the range
-  int line = 0;          ///< in the study's file
+  double step = 0.0;     ///< Values are `from` + k `step`; 0: no step.
+  double nominal = 0.0;  ///< Nominal value, within the range.
+  int line = 0;          ///< Line in the study's file.
   int column = 0;
 };
 
 /// The box in which a study's keys are searched, as the unit cube.
 ///
-/// A position is the fraction of the range from `from`; for a log_uniform key, of the range of the
-/// logarithm. Values are rounded: to integers, to the key's step, else to a decimal step between a
-/// 10 000th and a 1000th of the range, or to five digits for logarithmic ranges. The nominal value
-/// and the ends are not rounded.
+/// The position of a key is the fraction of its range, counted from `from`. For a log_uniform key,
+/// it is the fraction of the range of the logarithm. Values are rounded to integers or to the key's
+/// step. Values of other keys are rounded to a decimal step between a 10 000th and a 1000th of the
+/// range, or to five digits for logarithmic ranges. The nominal value and the ends are not rounded.
 class SearchSpace {
  public:
-  /// `scenario` is that of the study without the keys of `vary`. It provides the nominal values
-  /// that the study does not set.
+  /// Makes the box of a study. `scenario` is the study's scenario without the keys of `vary`. That
+  /// scenario provides the nominal values that the study does not set.
   ///
   /// InputError placed in the study for a key without a range (a list of values, a distribution
-  /// without ends, a condition); for `list`, `repeat` or `bisect`; and for a nominal value that
-  /// belongs to a key that is not searched, lies outside of its range, is not a number, or is set
-  /// nowhere.
+  /// without ends, a condition), and for `list`, `repeat` or `bisect`. InputError for a nominal
+  /// value that is not a number, is set nowhere, lies outside of the range, or belongs to a key
+  /// that is not searched.
   SearchSpace(const Study& study, const Scenario* scenario);
-  /// For tests and programs.
+  /// Makes a box from keys, for tests and programs.
   explicit SearchSpace(std::vector<SearchKey> keys);
 
   [[nodiscard]] const std::vector<SearchKey>& keys() const { return keys_; }
   [[nodiscard]] const UnitPoint& nominal() const { return nominal_; }
 
-  /// The value of the key `i` at a position in [0, 1].
+  /// The value of key `i` at a position in [0, 1].
   [[nodiscard]] double Value(std::size_t i, double place) const;
-  /// The nearest point with rounded values; its Value equals that of `point`.
+  /// The nearest point with rounded values. The values of its keys equal those of `point`.
   [[nodiscard]] UnitPoint Snap(const UnitPoint& point) const;
-  /// The distance between two adjacent positions of a key whose values differ.
+  /// The distance between adjacent positions of a key at which the values differ.
   [[nodiscard]] double Step(std::size_t i) const;
-  /// The position below which a fraction `share`, in [0, 1), of the key's values lies. Integers and
-  /// steps, including the ends of the range, are equally likely.
+  /// The position below which a fraction `share`, in [0, 1), of the key's values lies. All integers
+  /// and all steps, including the ends of the range, are equally likely.
   [[nodiscard]] double PlaceOfShare(std::size_t i, double share) const;
-  /// The scenario's settings (keys with values) at a point.
+  /// The keys with their values at a point, as settings of the scenario.
   [[nodiscard]] std::vector<Setting> Settings(const UnitPoint& point) const;
 
  private:

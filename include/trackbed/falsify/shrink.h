@@ -11,52 +11,57 @@ namespace trackbed {
 
 /// The result of a run at a point.
 struct Evaluation {
-  std::optional<double> robustness{};  ///< none if there is no such scenario
+  /// Robustness of the run; none if there is no such scenario.
+  std::optional<double> robustness{};
   bool violated = false;
 };
 
-/// Evaluates a point. None if it may not be run: the budget is used up, or the search was
-/// interrupted. The same point must give the same evaluation each time.
+/// Evaluates a point. Nullopt if the budget is used up or the search was interrupted. The same
+/// point must give the same evaluation each time.
 using EvaluatePoint = std::function<std::optional<Evaluation>(const UnitPoint& point)>;
 
-/// How far a key can be moved alone, with all others at their nominal values.
+/// How far one key can be moved while all other keys have their nominal values.
 struct SingleKeyReach {
-  double passes = 0.0;       ///< the outermost position that passed, toward the end of the range
-  bool whole_range = false;  ///< that position is the end itself
+  /// The outermost position that passed, toward the end of the range.
+  double passes = 0.0;
+  bool whole_range = false;  ///< Whether that position is the end of the range.
 };
 
-/// A key at the counterexample.
+/// The margins of one key at the counterexample.
 struct KeyMargin {
-  /// The position nearest to the counterexample's, toward the nominal one and at most a tolerance
-  /// (or the key's step) away, that passes with all other keys at the counterexample's values. None
-  /// for a key at its nominal value.
+  /// The nearest position, toward the nominal one, that passes with all other keys at the
+  /// counterexample's values. This position is at most a tolerance (or the key's step) away from
+  /// the counterexample. Nullopt for a key at its nominal value.
   std::optional<double> holds_to{};
   /// Change of the robustness over the whole range of the key, extrapolated from points a tolerance
-  /// to either side; none if one of them has no robustness.
+  /// to either side. Nullopt if one of the two points has no robustness.
   std::optional<double> sensitivity{};
-  std::optional<SingleKeyReach> down{};  ///< none for a key whose nominal value is the range's end
+  /// Reach downwards; none for a key whose nominal value is the range's end.
+  std::optional<SingleKeyReach> down{};
   std::optional<SingleKeyReach> up{};
 };
 
 struct ShrinkResult {
-  UnitPoint point;              ///< violates; was evaluated
-  double robustness = 0.0;      ///< at `point`
-  double distance = 0.0;        ///< from the nominal point
-  bool complete = false;        ///< false: the budget was used up before the shrinking converged
-  std::vector<KeyMargin> keys;  ///< margins that are not known yet have no values
+  UnitPoint point;              ///< Shrunk violation, which was evaluated.
+  double robustness = 0.0;      ///< Robustness at `point`.
+  double distance = 0.0;        ///< Distance of `point` from the nominal point.
+  bool complete = false;        ///< False if the budget was used up before the shrinking converged.
+  std::vector<KeyMargin> keys;  ///< Margins by key; margins that are not known yet have no values.
 };
 
-/// Shrinks a violation in the Euclidean norm of the positions: along the ray to the nominal point,
-/// then key by key toward the nominal value (all the way if that still violates), both by
-/// bisection. Repeats until a round gains less than the tolerance, then computes the margins.
+/// Shrinks a violation in the Euclidean norm of the positions. Bisects along the ray to the nominal
+/// point, then for each key between the value and the nominal value. A key takes its nominal value
+/// if that still violates. Rounds repeat until one gains less than the tolerance; then the margins
+/// are computed.
 ///
 /// Guarantees: the result was evaluated and violates, and is no further from the nominal point than
-/// `violation`. If it is complete, moving any single key by the tolerance toward its nominal value
-/// removes the violation. Does not find the globally nearest violation unless the violations are a
-/// half-space. Cost: about 10 evaluations for each key and round with a tolerance of 0.01.
+/// `violation`. If the result is complete, moving any single key by the tolerance toward its
+/// nominal value removes the violation. The result is only guaranteed to be the globally nearest
+/// violation if the violations are a half-space. Cost: about 10 evaluations for each key and round
+/// with a tolerance of 0.01.
 ///
 /// PreconditionError unless the tolerance is positive. InternalError if `violation` passes or the
-/// nominal point does not.
+/// nominal point fails.
 ShrinkResult Shrink(const SearchSpace& space, const UnitPoint& violation, double tolerance,
                     const EvaluatePoint& evaluate);
 

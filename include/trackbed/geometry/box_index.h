@@ -10,11 +10,11 @@
 namespace trackbed {
 
 /// Finds the nearest of many rectangles: an R-tree (Guttman 1984) of the rectangles' axis-aligned
-/// bounds. Immutable.
+/// bounds. The index is immutable.
 ///
-/// All distances are those of oriented_box.h between the rectangles themselves, exact to rounding;
-/// the tree only selects candidates. Cost: building O(n log n), 2 ms for 5000; a query examines
-/// only nearby rectangles, some microseconds in a tree of 5000.
+/// All distances are those of oriented_box.h between the rectangles, exact to rounding; the tree
+/// only selects candidates. Cost: building O(n log n), 2 ms for 5000 rectangles. A query examines
+/// only nearby rectangles and takes a few microseconds in a tree of 5000.
 class BoxIndex {
  public:
   BoxIndex() : BoxIndex(std::vector<OrientedBox>{}) {}
@@ -26,18 +26,18 @@ class BoxIndex {
 
   [[nodiscard]] const std::vector<OrientedBox>& boxes() const { return boxes_; }
 
-  /// The smallest Distance() from a rectangle to any of the boxes [m], capped at `at_most`. NaN if
+  /// The smallest Distance() from a rectangle to any of the boxes [m], at most `at_most`. NaN if
   /// `box` is not finite.
   [[nodiscard]] double DistanceTo(const OrientedBox& box,
                                   double at_most = std::numeric_limits<double>::infinity()) const;
 
-  /// Whether the segment between two points keeps more than `distance` [m] from every box.
+  /// Whether the segment between two points is more than `distance` [m] away from every box.
   [[nodiscard]] bool KeepsFrom(const Vec2& from, const Vec2& to, double distance) const;
 
  private:
   struct Tree;
   std::vector<OrientedBox> boxes_;
-  std::unique_ptr<Tree> tree_;  // null for few boxes: testing all of them is faster
+  std::unique_ptr<Tree> tree_;  // Null for few boxes: testing all of them is faster.
 };
 
 }  // namespace trackbed

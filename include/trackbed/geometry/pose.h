@@ -21,30 +21,30 @@ struct Pose2 {
 /// The unit vector that points along `yaw`.
 Vec2 Direction(double yaw);
 
-/// `vector` turned left by 90 degrees.
+/// The vector `vector` turned left by 90 degrees.
 inline Vec2 LeftNormal(const Vec2& vector) {
   return {-vector.y(), vector.x()};
 }
 
-/// z component of a x b: positive when b points to the left of a.
+/// The z component of the cross product a x b: positive if b points to the left of a.
 inline double Cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// X_WB = X_WA * X_AB: the pose of B in W, given the pose of A in W and of B in A. The yaws are
-/// added without wrapping, so that a heading can be followed over several turns.
+/// Returns X_WB = X_WA * X_AB, the pose of B in W, from the pose of A in W and the pose of B in A.
+/// The yaws are added without wrapping, so that a heading can be followed over several turns.
 Pose2 Compose(const Pose2& X_WA, const Pose2& X_AB);
 
-/// p_WQ of a point whose coordinates in the frame A are p_AQ.
+/// World coordinates p_WQ of a point whose coordinates in the frame A are p_AQ.
 Vec2 ToWorld(const Pose2& X_WA, const Vec2& p_AQ);
 
-/// p_AQ of a point whose world coordinates are p_WQ.
+/// Coordinates p_AQ in the frame A of a point whose world coordinates are p_WQ.
 Vec2 ToLocal(const Pose2& X_WA, const Vec2& p_WQ);
 
-/// The pose of a frame that has moved by `distance` [m, negative backwards] along its own x axis
-/// while turning by `turn` [rad] at a constant rate: exact for lines and arcs. `slip` [rad] is the
-/// constant angle from the x axis to the direction of motion (the sideslip angle at the moving
-/// point).
+/// The pose of a frame that has moved by `distance` [m, negative backwards] along its x axis while
+/// turning by `turn` [rad] at a constant rate. The result is exact for lines and arcs. `slip` [rad]
+/// is the constant angle from the x axis to the direction of motion (the sideslip angle at the
+/// moving point).
 Pose2 MoveOnArc(const Pose2& start, double distance, double turn, double slip = 0.0);
 
 }  // namespace trackbed

@@ -12,9 +12,9 @@
 
 /// Estimates parameters of a car model from recorded drives.
 ///
-/// The plant restarts at the recorded state every `horizon` and predicts until the next restart.
-/// With r_ij the residuals of one signal in window i divided by their deviation, the estimate
-/// minimizes
+/// The plant restarts at the recorded state after every `horizon` and predicts until the next
+/// restart. With r_ij the residuals of one signal in window i divided by their deviation, the
+/// estimate minimizes
 ///     J(p) = sum over windows and signals of mean_j rho(r_ij)
 ///            + 1/2 sum_k ((p_k - mean_k)/deviation_k)^2
 /// within the bounds. A window counts as one measurement of each signal, since consecutive
@@ -25,33 +25,36 @@
 /// White 1980): the covariance is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p), g_i the gradient of window
 /// i, n the number of windows, H the Gauss-Newton Hessian of J. A parameter whose standard error
 /// exceeds the deviation of a uniform distribution over its bounds, (to - from)/sqrt(12), is not
-/// identified: it is held at its start, and the others are estimated again. Of parameters that the
-/// records cannot distinguish, all but one are held in the same way.
+/// identified: it is held at its start value, and the other parameters are estimated again. If the
+/// records cannot distinguish several parameters, only one of them is estimated.
 namespace trackbed {
 
 enum class ParameterStatus {
   kIdentified,
-  kAtLowerBound,   ///< the estimate is a bound; it has no standard error
-  kAtUpperBound,   ///< no standard error, as for kAtLowerBound
-  kNotIdentified,  ///< the records do not determine it: held at its start
-  kUnfinished,     ///< the search was interrupted: best value so far
+  kAtLowerBound,  ///< The estimate is the lower bound; it has no standard error.
+  kAtUpperBound,  ///< The estimate is the upper bound; it has no standard error.
+  /// The records do not determine the parameter. The parameter is held at its start value.
+  kNotIdentified,
+  /// The search was interrupted. The value is the best so far.
+  kUnfinished,
 };
 
-/// "identified", "at_lower_bound", …: the spelling of identify.json.
+/// The spelling of a status in identify.json: "identified", "at_lower_bound", ….
 const char* ToString(ParameterStatus status);
 
 struct ParameterEstimate {
   IdentifiedParameter parameter;
-  double start = 0.0;  ///< where the first search began
-  double value = 0.0;  ///< of the fitted model; the start of a parameter that is not identified
+  double start = 0.0;  ///< Start value of the first search.
+  double value = 0.0;  ///< Value in the fitted model; the start value if not identified.
   ParameterStatus status = ParameterStatus::kIdentified;
-  std::optional<double> standard_error{};  ///< of identified parameters
-  std::string remark{};  ///< why it is not identified, or which parameter it is hard to tell from
+  std::optional<double> standard_error{};  ///< Standard error of an identified parameter.
+  /// Why the parameter is not identified, or from which parameter it is hard to distinguish.
+  std::string remark{};
 };
 
-/// One record, replayed on every plant of its scenario by the model before and after the fit.
+/// One record, replayed on every plant of its scenario with the model before and after the fit.
 struct IdentifiedRecord {
-  std::string name;  ///< of the scenario
+  std::string name;  ///< Name of the scenario.
   bool held_out = false;
   RunResult start;
   RunResult fitted;
@@ -60,54 +63,58 @@ struct IdentifiedRecord {
 struct IdentificationResult {
   Identification study;
   std::vector<ParameterEstimate> parameters;
-  std::vector<std::vector<double>> correlation;  ///< of the identified parameters, in their order
+  /// Correlation matrix of the identified parameters, in their order.
+  std::vector<std::vector<double>> correlation;
   double start_cost = 0.0;
   double cost = 0.0;
-  std::vector<double>
-      start_costs;  ///< minimum reached by each search: equal values suggest a single minimum
+  /// Minimum found by each search; equal values suggest a single minimum.
+  std::vector<double> start_costs;
   int windows = 0;
-  int evaluations = 0;  ///< of the cost
+  int evaluations = 0;  ///< Number of evaluations of the cost.
   bool interrupted = false;
-  Scene model;  ///< with the estimates and their origins as comments
+  Scene model;  ///< Fitted model, with the estimates and their origins as comments.
   std::vector<IdentifiedRecord> records;
-  double wall_time = 0.0;  ///< [s]
+  double wall_time = 0.0;  ///< Wall-clock time [s].
 
   [[nodiscard]] const ParameterEstimate* Find(const std::string& name) const;
 };
 
 struct IdentificationHooks {
-  std::function<void(double fraction)> progress{};  ///< upper estimate of the work done
-  /// Ends the search early, with the best result so far and without replays of the records; before
-  /// the first evaluation with a RunError. Called by several threads.
+  std::function<void(double fraction)> progress{};  ///< Upper estimate of the finished fraction.
+  /// Whether to end the search early. The result is then the best so far, without replays of the
+  /// records. Before the first evaluation, an interruption throws RunError. Called by several
+  /// threads.
   std::function<bool()> interrupted{};
   int threads = 1;
 };
 
-/// Estimates the parameters, and replays every record with the model before and after.
+/// Estimates the parameters, then replays every record with the model before and after the fit.
 ///
-/// Guarantees: the same study gives the same estimates, bit for bit, with any number of threads;
-/// estimates lie within their bounds; the cost is never above that of the start. Does not prove
-/// that there is no better minimum. Errors: InputError, placed in the study's file, for parameters
-/// that the model does not have, for a start with which it cannot be compiled, and when no window
-/// of the records can be used. Cost: 2 p + 2 evaluations per step of the search, each the
-/// simulation of all windows and one compilation of the model; about ten steps per start.
+/// Guarantees: the same study gives the same estimates, bit for bit, with any number of threads.
+/// Estimates lie within their bounds, and the cost is never above that of the start values. The
+/// search does not prove that there is no better minimum. Errors: InputError, placed in the study's
+/// file, for parameters that the model does not have and for start values with which it cannot be
+/// compiled. InputError if no window of the records can be used. Cost: 2 p + 2 evaluations per step
+/// of the search, each the simulation of all windows and one compilation of the model; about ten
+/// steps per start.
 IdentificationResult Identify(const Identification& study, const IdentificationHooks& hooks = {});
 
-/// Checks that the model has the parameters of a study and compiles with their start values.
-/// Errors: as Identify.
+/// Checks that the model has the parameters of a study and compiles with their start values. Throws
+/// the InputErrors of Identify.
 void CheckIdentification(const Identification& study);
 
 /// The content of identify.json.
 nlohmann::ordered_json ToJson(const IdentificationResult& result);
 
-/// The names of the files that WriteIdentification writes to its folder, by the study alone.
+/// The names of the files that WriteIdentification writes to its folder, which depend only on the
+/// study.
 std::vector<std::string> IdentificationFiles(const Identification& study);
 
-/// The run folder of a record below the output folder. RunError as FolderBelow.
+/// The run folder of a record in the output folder. Throws the RunErrors of FolderBelow.
 std::filesystem::path RecordFolder(const std::filesystem::path& folder, const std::string& record);
 
-/// Writes identify.json, the fitted model `<vehicle>.xml` with its assets, timing.json, and for
-/// each record `<record>.residuals.csv` and a run folder with the fitted model in
+/// Writes identify.json, the fitted model `<vehicle>.xml` with its assets, and timing.json. For
+/// each record, writes `<record>.residuals.csv`, and a run folder with the fitted model to
 /// `records/<record>`.
 void WriteIdentification(const IdentificationResult& result, const OutputFolder& folder);
 

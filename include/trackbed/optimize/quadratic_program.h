@@ -6,7 +6,8 @@
 ///   minimize x^T H x/2 + f^T x  subject to  G x <= h
 namespace trackbed {
 
-/// Sizes are bounded, so that only NLopt allocates heap memory.
+/// A quadratic program. The sizes of the program are bounded, so that only NLopt allocates heap
+/// memory.
 struct QuadraticProgram {
   static constexpr int kMaxVariables = 40;
   static constexpr int kMaxConstraints = 4 * kMaxVariables;
@@ -17,27 +18,30 @@ struct QuadraticProgram {
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxConstraints, kMaxVariables>;
   using Bounds = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxConstraints, 1>;
 
-  Matrix hessian;    ///< H, symmetric positive definite
-  Vector linear;     ///< f
-  Rows constraints;  ///< G, any number of rows
-  Bounds bounds;     ///< h
+  Matrix hessian;    ///< Matrix H, symmetric positive definite.
+  Vector linear;     ///< Vector f.
+  Rows constraints;  ///< Matrix G, any number of rows.
+  Bounds bounds;     ///< Vector h.
 };
 
 struct QuadraticSolution {
-  bool ok = false;  ///< the constraints are met
+  bool ok = false;  ///< Whether the constraints are met.
   QuadraticProgram::Vector x;
-  double violation = 0.0;  ///< largest G x - h, 0 if met
-  int solves = 0;          ///< by SLSQP; 0: the unconstrained minimum meets the constraints
+  double violation = 0.0;  ///< Largest G x - h, 0 if all constraints are met.
+  /// Number of SLSQP runs. 0: the unconstrained minimum meets the constraints.
+  int solves = 0;
 };
 
-/// Solves by Cholesky decomposition if no constraint is active; otherwise with NLopt's SLSQP on an
-/// active set of constraints, extended until none is violated. SLSQP works in variables in which H
-/// is the identity, its initial Hessian: its first step is the solution, from any start.
+/// If no constraint is active, the solution is found by Cholesky decomposition. Otherwise NLopt's
+/// SLSQP solves for an active set of constraints, which is extended until no constraint is
+/// violated. The variables are transformed so that H becomes the identity, which is the initial
+/// Hessian of SLSQP. The first step of SLSQP is therefore the solution, from any start.
 ///
-/// Guarantees: constraints met to `tolerance`, absolute; the same program gives the same bits. Not
-/// ok if they are infeasible; x is then the least-violating point that was evaluated. InternalError
-/// unless H is positive definite, the sizes agree and all numbers are finite. Cost: 20 variables
-/// take about 10 us without active constraints, 0.1 to 1 ms with them.
+/// Guarantees: the constraints are met to the absolute `tolerance`, and the same program gives the
+/// same bits. If the constraints are infeasible, the solution is not ok, and x is the evaluated
+/// point with the smallest violation. InternalError unless H is positive definite, the sizes agree
+/// and all numbers are finite. Cost: 20 variables take about 10 us without active constraints, 0.1
+/// to 1 ms with them.
 QuadraticSolution Solve(const QuadraticProgram& program, double tolerance = 1e-9);
 
 }  // namespace trackbed

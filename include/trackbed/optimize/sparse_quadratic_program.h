@@ -8,35 +8,38 @@
 namespace trackbed {
 
 struct SparseQuadraticProgram {
-  Eigen::SparseMatrix<double> hessian;      ///< H, symmetric positive semidefinite, both triangles
-  Eigen::VectorXd linear;                   ///< f
-  Eigen::SparseMatrix<double> constraints;  ///< G
-  Eigen::VectorXd lower;                    ///< finite
-  Eigen::VectorXd upper;                    ///< finite, above `lower`
+  /// Matrix H, symmetric positive semidefinite, with both triangles.
+  Eigen::SparseMatrix<double> hessian;
+  Eigen::VectorXd linear;                   ///< Vector f.
+  Eigen::SparseMatrix<double> constraints;  ///< Matrix G.
+  Eigen::VectorXd lower;                    ///< Lower bounds, finite.
+  Eigen::VectorXd upper;                    ///< Upper bounds, finite, above `lower`.
 };
 
 struct SparseQuadraticSolution {
-  bool ok = false;  ///< solved, and the constraints are met
+  bool ok = false;  ///< Whether the program is solved and the constraints are met.
   Eigen::VectorXd x;
-  Eigen::VectorXd
-      multipliers;         ///< of the constraints: positive at an upper bound, negative at a lower
-  double violation = 0.0;  ///< largest distance of G x from its bounds, 0 if met
-  int iterations = 0;      ///< of the interior-point method
+  /// Multipliers of the constraints: positive at an upper bound, negative at a lower.
+  Eigen::VectorXd multipliers;
+  double violation = 0.0;  ///< Largest distance of G x from its bounds, 0 if all are met.
+  int iterations = 0;      ///< Number of iterations of the interior-point method.
 };
 
 /// How the interior-point method chooses its steps.
 enum class InteriorSteps {
-  kLineSearch,          ///< with an adaptive barrier parameter and a filter line search
-  kPredictorCorrector,  ///< Mehrotra's: 20 iterations instead of 40 to 60, but may not converge
+  /// Line search: an adaptive barrier parameter and a filter line search.
+  kLineSearch,
+  /// Mehrotra's predictor-corrector: 20 iterations instead of 40 to 60, but may not converge.
+  kPredictorCorrector,
 };
 
 /// Solves from `start` by IPOPT's interior-point method (Waechter and Biegler 2006) with MUMPS.
 ///
-/// Guarantees: constraints met to 1e-7 of the largest bound; the same program gives the same bits
-/// on one machine. Not ok if they are infeasible or not solved in 200 iterations (80 with
-/// kPredictorCorrector). PreconditionError unless the sizes agree, all numbers are finite and lower
-/// < upper. RunError in a build without IPOPT (TRACKBED_IPOPT=OFF). Cost: 0.1 s for 1000 variables
-/// in bands of 12 and 2000 constraints.
+/// Guarantees: the constraints are met to 1e-7 of the largest bound. The same program gives the
+/// same bits on one machine. The solution is not ok if the constraints are infeasible, or if the
+/// program is not solved in 200 iterations (80 with kPredictorCorrector). PreconditionError unless
+/// the sizes agree, all numbers are finite and lower < upper. RunError in a build without IPOPT
+/// (TRACKBED_IPOPT=OFF). Cost: 0.1 s for 1000 variables in bands of 12 and 2000 constraints.
 SparseQuadraticSolution Solve(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                               InteriorSteps steps = InteriorSteps::kLineSearch);
 

@@ -13,24 +13,24 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// Declares the keys of an options struct, once for reading, writing and listing.
+/// Declares the keys of an options struct. Reading, writing and listing use the same declaration.
 ///
-/// Each struct has a function
+/// Each options struct has a function
 ///
 ///     void Visit(KeyVisitor& keys, MyOptions& options) {
 ///       keys.Field({"distance", "m", "lookahead distance"}, options.distance,
 ///                  Need::kOptional, kPositive);
 ///     }
 ///
-/// found by argument-dependent lookup. The reader of YAML files, the writer of resolved scenarios
-/// and the lister of `trackbed docs` are visitors.
+/// which is found by argument-dependent lookup. The reader of YAML files, the writer of resolved
+/// scenarios and the lister of `trackbed docs` are visitors.
 namespace trackbed {
 
 /// A key and its description in the docs.
 struct Key {
   const char* name;
-  const char* unit;  ///< "m/s"; empty for non-quantities
-  const char* text;  ///< one line, for users
+  const char* unit;  ///< Unit, such as "m/s"; empty for keys that are not quantities.
+  const char* text;  ///< One-line description for users.
 };
 
 /// The key that selects one of several methods, each with separate keys.
@@ -39,21 +39,22 @@ inline constexpr Key kMethod{"method", "", "name of the method; each has its own
 enum class Need { kRequired, kOptional };
 
 /// Allowed values of a number. `above` is exclusive, `min` and `max` are inclusive. If a bound is
-/// missing, readers set one by the unit: see WithinReason.
+/// missing, readers set a bound that depends on the unit (WithinReason).
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   double above = -std::numeric_limits<double>::infinity();
-  bool is_direction = false;  ///< [rad]; read modulo whole turns, into (-pi, pi]
+  /// Whether it is a direction [rad], read modulo whole turns, into (-pi, pi].
+  bool is_direction = false;
 };
 
 inline constexpr Range kPositive{.above = 0.0};
 inline constexpr Range kNonNegative{.min = 0.0};
 
-inline constexpr Range kDirection{.is_direction = true};       ///< [rad]
-inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< [m]; larger than any route
-inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  ///< [m/s]
-inline constexpr Range kSteering{.min = -1.5, .max = 1.5};     ///< [rad]
+inline constexpr Range kDirection{.is_direction = true};       ///< Direction [rad].
+inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< Map position [m].
+inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  ///< Speed [m/s].
+inline constexpr Range kSteering{.min = -1.5, .max = 1.5};     ///< Steering angle [rad].
 
 /// A list of pairs of numbers: names of a single pair and of several, and the allowed values.
 struct PairShape {
@@ -65,11 +66,11 @@ struct PairShape {
 
 inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
 
-/// The range with bounds on both sides. A missing bound is set by the key's unit, beyond any
+/// The range with bounds on both sides. The key's unit determines a missing bound, beyond any
 /// realistic value: 1e5 m, 1e6 s or 1e3 m/s, for example, and 1e12 for other units.
 Range WithinReason(const Key& key, Range range);
 
-/// "above 0 and at most 10"; empty if all values are allowed.
+/// The allowed values as text: "above 0 and at most 10"; empty if all values are allowed.
 std::string AllowedBy(Range range);
 
 using Names = std::vector<std::string>;
@@ -99,12 +100,13 @@ class KeyVisitor {
   virtual void Field(const Key& key, std::vector<Vec2>& value, Need need,
                      const PairShape& shape = kPoint) = 0;
   virtual void Field(const Key& key, std::vector<double>& value, Need need, Range range = {}) = 0;
-  /// A required name usable as a file name: letters, digits, '_', '-', '.', not starting with '.'.
+  /// A required name that can be a file name: letters, digits, '_', '-', '.', not starting with
+  /// '.'.
   virtual void Identifier(const Key& key, std::string& value) = 0;
   /// A list of two whole numbers.
   virtual void Pair(const Key& key, int& first, int& second, Range range) = 0;
 
-  /// A name for each value of an enumeration.
+  /// The value of an enumeration, which has a name for each value.
   template <typename Enum>
   void Field(const Key& key, Enum& value, Need need,
              const EnumNames<Enum>& names) requires std::is_enum_v<Enum>;
@@ -115,7 +117,7 @@ class KeyVisitor {
     VisitSection(key, need, true, [&](KeyVisitor& inner) { Visit(inner, value); });
   }
 
-  /// An optional section whose absence has a meaning.
+  /// An optional section. The program distinguishes an absent section from an empty one.
   template <typename Struct>
   void Section(const Key& key, std::optional<Struct>& value);
 
@@ -123,8 +125,9 @@ class KeyVisitor {
   template <typename Struct>
   void List(const Key& key, std::vector<Struct>& values);
 
-  /// A section whose key `method` selects an entry of `table` by its `name`. The section's keys are
-  /// those of the entry's options (`defaults`), and `rest`, which are the same for all methods.
+  /// A section whose key `method` selects an entry of `table` by its `name`. The section has the
+  /// keys of the entry's options (`defaults`), and the keys of `rest`, which are the same for all
+  /// methods.
   template <typename Options, typename Entry>
   void Method(const Key& key, std::optional<Options>& value, const std::vector<Entry>& table,
               Need need, const Inside& rest = {});
@@ -132,7 +135,7 @@ class KeyVisitor {
   /// Lists a key that is described only by its text; does nothing in other modes.
   virtual void Mention(const Key&, const char* /*type*/) {}
 
-  /// In mode kRead: whether `key` is a section that has a key of `inner` but no `method`.
+  /// In mode kRead, whether `key` is a section that has a key of `inner` but no key `method`.
   [[nodiscard]] virtual bool HasAny(const char* /*key*/, const Names& /*inner*/) const {
     return false;
   }
@@ -146,32 +149,33 @@ class KeyVisitor {
     };
     std::vector<Entry> entries;
     std::optional<std::size_t> selected;
-    std::function<void(std::size_t entry)> select;  ///< with the entry's defaults
+    /// Selects an entry, with the entry's defaults.
+    std::function<void(std::size_t entry)> select;
     Inside visit_selected;
     std::function<void(std::size_t entry, KeyVisitor& keys)> visit_defaults;
     Inside rest;
   };
 
-  /// Visits the keys inside if the section exists: the writer decides by `present`, the reader by
-  /// its file. Returns whether it existed.
+  /// Visits the keys of a section if the section exists, and returns whether it exists. The writer
+  /// decides by `present`, the reader by its file.
   virtual bool VisitSection(const Key& key, Need need, bool present, const Inside& inside) = 0;
-  /// Resizes the list (the reader) and visits each element. The lister visits the element at
-  /// `size`, which stands for a new one.
+  /// Visits each element of a list. The reader first resizes the list. The lister visits the
+  /// element at index `size`, which represents a new element.
   virtual void VisitList(const Key& key, std::size_t size,
                          const std::function<void(std::size_t size)>& resize,
                          const std::function<void(KeyVisitor& keys, std::size_t i)>& visit) = 0;
   virtual void VisitMethod(const Key& key, Need need, const Methods& methods) = 0;
 };
 
-/// The number at `key` among the keys that `visit` declares; none if there is no such key.
+/// The number at `key` among the keys that `visit` declares; nullopt if there is no such key.
 std::optional<double> FindNumber(const std::string& key, const KeyVisitor::Inside& visit);
 
 /// PreconditionError unless every number among the keys is finite and within its key's range; the
-/// message names `owner`, the called function, and the key. For options that a program filled in:
-/// options read from files have been checked.
+/// message names `owner`, the called function, and the key. Use it for options that a program set;
+/// options read from files have already been checked.
 void RequireInRange(const std::string& owner, const KeyVisitor::Inside& visit);
 
-/// Whether two options belong to the same method, and their keys, for variants of options. Types
+/// For variants of options: whether two options belong to the same method, and their keys. Types
 /// that hold the options of registered methods have functions of the same names (method_options.h).
 template <typename... Options>
 bool AreOfOneMethod(const std::variant<Options...>& a, const std::variant<Options...>& b) {

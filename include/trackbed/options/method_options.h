@@ -28,7 +28,7 @@ class MethodOptions {
     return value_.type() == typeid(Options);
   }
 
-  /// The options, if they are of this type; else null.
+  /// Returns the options if their type is `Options`; else null.
   template <typename Options>
   [[nodiscard]] const Options* As() const {
     return std::any_cast<Options>(&value_);
@@ -38,7 +38,7 @@ class MethodOptions {
     return std::any_cast<Options>(&value_);
   }
 
-  /// The options; InternalError if they are of another type.
+  /// Returns the options. InternalError if the options are of another type.
   template <typename Options>
   [[nodiscard]] const Options& Get() const {
     TRACKBED_CHECK(Is<Options>(), "options of another method: {}", value_.type().name());

@@ -9,27 +9,27 @@
 /// method: "segments[2].curvature" for the key "plan.segments[2].curvature".
 namespace trackbed {
 
-/// A problem of the options, at the key to change.
+/// A problem of the options, reported at the key that the user should change.
 struct OptionProblem {
   std::string key;
-  std::string message;  ///< what was found and what is allowed
+  std::string message;  ///< What was found and what is allowed.
 };
 
-/// Whether the value of a key was read. A key that was not has already been reported, so that its
-/// checks are skipped.
+/// Whether the value of a key was read. An unreadable key has already been reported, so its checks
+/// are skipped.
 using CouldReadKey = std::function<bool(const std::string& key)>;
 
-/// A file that the options name, as a run folder keeps it.
+/// A file that the options name, in the form that a run folder stores.
 struct InputFile {
-  std::string name;     ///< in the run folder: "path.csv"
-  std::string content;  ///< of the file in the run folder
-  std::string source;   ///< the kind of file and its name in the options: "path lane.csv"
+  std::string name;     ///< Name in the run folder: "path.csv".
+  std::string content;  ///< Content of the file in the run folder.
+  std::string source;   ///< The kind of file and its name in the options: "path lane.csv".
 };
 
 /// Reads the files that the options name, and collects the problems.
 class InputReader {
  public:
-  /// Reads a file. InputError and RunError are reported.
+  /// Function that reads a file. InputErrors and RunErrors of the function are reported.
   using Read = std::function<void(const std::filesystem::path& file)>;
 
   virtual ~InputReader() = default;

@@ -15,13 +15,14 @@ namespace trackbed {
 template <typename Entry>
 class Registry {
  public:
-  /// `kind` is used in messages: "planner".
+  /// Makes a registry. Messages use the text `kind`, such as "planner".
   Registry(const char* kind, std::vector<Entry> entries)
       : kind_(kind), entries_(std::move(entries)) {}
 
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
-  /// PreconditionError when the name is empty or taken, or another entry has the same options type.
+  /// Adds an entry. PreconditionError if the name is empty or taken, or if another entry has the
+  /// same options type.
   void Add(Entry entry) {
     const std::string name = entry.name;
     TRACKBED_REQUIRE(!name.empty(), "a {} without a name", kind_);
@@ -36,7 +37,7 @@ class Registry {
     entries_.push_back(std::move(entry));
   }
 
-  /// InputError with the nearest spelling if there is no such entry.
+  /// The entry with the given name. InputError with the nearest spelling if there is no such entry.
   [[nodiscard]] const Entry& Find(const std::string& name) const {
     std::vector<std::string> names;
     for (const Entry& entry : entries_) {
@@ -48,7 +49,7 @@ class Registry {
     throw InputError(Problem{.message = "unknown " + (kind_ + (" " + UnknownName(name, names)))});
   }
 
-  /// The entry that the options belong to. InternalError for unregistered options.
+  /// The entry that has these options. InternalError for unregistered options.
   template <typename Options>
   [[nodiscard]] const Entry& For(const Options& options) const {
     const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {

@@ -7,27 +7,28 @@
 
 namespace trackbed {
 
-/// A Bezier curve P(u) = sum C(n,i) (1-u)^(n-i) u^i P_i over u in [0, 1], of degree n = number of
-/// control points - 1. The local path of Skackauskas, dissertation, listing F.2, has degree 7.
+/// A Bezier curve P(u) = sum C(n,i) (1-u)^(n-i) u^i P_i over u in [0, 1]. The degree n of the curve
+/// is the number of control points minus 1. The local path of Skackauskas (dissertation, listing
+/// F.2) has degree 7.
 ///
-/// Evaluation and derivatives are exact to rounding (Bernstein form, no differences). Curvature is
-/// positive to the left, and not finite where the curve has no direction (P'(u) = 0).
+/// Evaluation and derivatives are exact to rounding (Bernstein form, no differences). The curvature
+/// is positive to the left. The curvature is not finite at points without a direction (P'(u) = 0).
 class BezierCurve {
  public:
-  /// InternalError unless there are at least two points, all finite.
+  /// InternalError unless there are at least two control points, all finite.
   explicit BezierCurve(std::vector<Vec2> control_points);
 
   [[nodiscard]] const std::vector<Vec2>& control_points() const { return polygons_[0]; }
 
-  /// P(u) [m].
+  /// The point P(u) [m].
   [[nodiscard]] Vec2 At(double u) const { return Derivative(u, 0); }
-  /// d^order P/du^order [m], order 0 to 3.
+  /// The derivative d^order P/du^order [m], order 0 to 3.
   [[nodiscard]] Vec2 Derivative(double u, std::size_t order) const;
-  /// kappa(u) [1/m].
+  /// The curvature kappa(u) [1/m].
   [[nodiscard]] double Curvature(double u) const;
-  /// dkappa/ds at u [1/m^2].
+  /// The sharpness dkappa/ds at u [1/m^2].
   [[nodiscard]] double Sharpness(double u) const;
-  /// Arc length between two parameters [m], to a relative error of 1e-10 for curves that a car
+  /// The arc length between two parameters [m]. The relative error is 1e-10 for curves that a car
   /// drives.
   [[nodiscard]] double Length(double from = 0.0, double to = 1.0) const;
 
@@ -38,11 +39,11 @@ class BezierCurve {
   [[nodiscard]] std::vector<CurvePoint> Points(double spacing, double start_yaw) const;
 
  private:
-  std::array<std::vector<Vec2>, 4> polygons_;  // of the curve and its derivatives
+  std::array<std::vector<Vec2>, 4> polygons_;  // Control polygons of the curve and its derivatives.
 };
 
-/// kappa [1/m] and dkappa/ds [1/m^2] of a curve from the derivatives P', P'', P''' with respect to
-/// any parameter.
+/// Curvature kappa [1/m] and sharpness dkappa/ds [1/m^2] of a curve, from its derivatives P', P'',
+/// P''' with respect to any parameter.
 double CurvatureFromDerivatives(const Vec2& first, const Vec2& second);
 double SharpnessFromDerivatives(const Vec2& first, const Vec2& second, const Vec2& third);
 

@@ -12,34 +12,34 @@ namespace trackbed {
 /// Points of a path in the order of travel. Lists other than `points` are empty or have one entry
 /// per point.
 struct PathPoints {
-  std::vector<Vec2> points;       ///< of the rear-axle center [m]
-  std::vector<double> yaw;        ///< heading of the car [rad]
-  std::vector<double> curvature;  ///< positive to the left [1/m]
-  std::vector<double> speed;      ///< [m/s], >= 0
-  std::vector<int> lines{};       ///< of the file that the points are from, for messages; from 1
+  std::vector<Vec2> points;       ///< Positions of the rear-axle center [m].
+  std::vector<double> yaw;        ///< Headings of the car [rad].
+  std::vector<double> curvature;  ///< Curvatures, positive to the left [1/m].
+  std::vector<double> speed;      ///< Speeds [m/s], >= 0.
+  std::vector<int> lines{};       ///< Line numbers in the file, from 1, for messages.
 };
 
 /// How the points become a path.
 enum class PathFit {
-  kPolyline,  ///< straight lines from point to point, with corners
-  kSpline,    ///< the smoothest spline that stays within max_deviation of every point
+  kPolyline,  ///< Straight lines between the points, with corners.
+  kSpline,    ///< The smoothest spline that stays within max_deviation of every point.
 };
 
 struct PathFitOptions {
   PathFit fit = PathFit::kSpline;
-  double max_deviation = 0.05;  ///< of a spline from the points [m], > 0
-  bool closed = false;          ///< the path returns to its first point
-  /// Spacing of resampling before the fit [m]; none: fits the points as given.
+  double max_deviation = 0.05;  ///< Largest distance of a spline from the points [m], > 0.
+  bool closed = false;          ///< Whether the path returns to its first point.
+  /// Spacing of resampling before the fit [m]; nullopt: fits the given points.
   std::optional<double> resample{};
 };
 
 /// A point at which the direction of travel jumps.
 struct HeadingJump {
-  std::size_t point = 0;       ///< index among the points, from 0
-  double s = 0.0;              ///< station [m]
-  Vec2 position{0.0, 0.0};     ///< [m]
-  double angle = 0.0;          ///< change of direction, positive to the left [rad]
-  Stations rounded{0.0, 0.0};  ///< the arc that replaces the corner [m]
+  std::size_t point = 0;       ///< Index among the points, from 0.
+  double s = 0.0;              ///< Station of the point [m].
+  Vec2 position{0.0, 0.0};     ///< Position of the point [m].
+  double angle = 0.0;          ///< Change of direction, positive to the left [rad].
+  Stations rounded{0.0, 0.0};  ///< Stations of the arc that replaces the corner [m].
 };
 
 /// A path, and how it was fitted to the points.
@@ -47,16 +47,17 @@ struct FittedPath {
   PathPoints given;
   PathFitOptions options;
   Path path;
-  std::vector<double> stations;     ///< of each point [m]
-  double deviation = 0.0;           ///< largest distance of a point from its station [m]
-  std::size_t deviation_point = 0;  ///< index of that point
-  double bulge = 0.0;          ///< largest distance of a spline from the lines between points [m]
-  double bulge_station = 0.0;  ///< start of the line with that distance [m]
-  std::size_t repeated = 0;    ///< number of points dropped because they equal the one before
-  std::vector<HeadingJump> jumps;  ///< of a polyline, larger than 1e-9 rad
-  /// Points at which the path turns back by more than kMaxHeadingJump; there is no path then.
+  std::vector<double> stations;     ///< Station of each point [m].
+  double deviation = 0.0;           ///< Largest distance of a point from its station [m].
+  std::size_t deviation_point = 0;  ///< Index of that point.
+  double bulge = 0.0;          ///< Largest distance of a spline from the lines between points [m].
+  double bulge_station = 0.0;  ///< Start of the line at which the bulge is largest [m].
+  std::size_t repeated = 0;    ///< Number of points dropped because they equal the preceding point.
+  std::vector<HeadingJump> jumps;  ///< Corners of a polyline, larger than 1e-9 rad.
+  /// Points at which the direction of travel changes by more than kMaxHeadingJump. If there are
+  /// any, there is no path.
   std::vector<HeadingJump> reversals;
-  double smoothing_length = 0.0;  ///< l of a spline [m]; 0 of a polyline
+  double smoothing_length = 0.0;  ///< Smoothing length l of a spline [m]; 0 for a polyline.
   /// Largest difference between a given heading and the path's [rad].
   double heading_difference = 0.0;
 };
@@ -64,14 +65,15 @@ struct FittedPath {
 /// Longest path, measured along the straight lines between its points [m].
 inline constexpr double kMaxPathLength = 200e3;
 
-/// Largest change of the direction of travel at a point [rad]. A path that turns back by more
-/// cannot be fitted.
+/// Largest change of the direction of travel at a point [rad]. A path with a larger change cannot
+/// be fitted.
 inline constexpr double kMaxHeadingJump = 2.8;
 
 /// Converts a path of a reference point to that of the rear-axle center. The reference point, such
-/// as the center of gravity, lies on the car's axis `ahead` [m] of the rear axle. Exact if headings
-/// are given. Otherwise the rear axle follows without slip (a tractrix), starting as on the circle
-/// through the first three points. Drops curvatures, which belong to the other curve; keeps speeds.
+/// as the center of gravity, lies on the car's axis, `ahead` [m] of the rear axle. The result is
+/// exact if headings are given. Otherwise the rear axle follows the reference point without slip (a
+/// tractrix), starting on the circle through the first three points. Keeps speeds, and drops
+/// curvatures, because they belong to the original curve.
 PathPoints AtRearAxle(PathPoints given, double ahead);
 
 /// Fits a path through or along the points.
@@ -81,25 +83,27 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 ///
 /// A spline has degree 5 over the chord length u, with a knot at every point, and minimizes
 ///     sum over i of w_i |P(u_i) - p_i|^2 + l^6 integral of |P'''(u)|^2 du,
-/// where w_i [m] is the length of path that point i represents, and l [m] the smoothing length,
-/// below which details are smoothed out (Reinsch 1967; here with the third derivative, which favors
-/// slow steering among smooth paths). l is the largest value that keeps within max_deviation, found
-/// by bisection to 10 %. Curvature and curvature rate are continuous. P''' is 0 at the ends: there
-/// the curvature rate falls to 0 over about two points or l, whichever is longer, and is up to a
-/// tenth too large next to that.
+/// where w_i [m] is the length of path that point i represents, and l [m] the smoothing length.
+/// Details shorter than l are smoothed out (Reinsch 1967). Unlike Reinsch's, this integral has the
+/// third derivative, which favors slow steering. Bisection finds the largest l, to 10 %, for which
+/// the deviation is at most max_deviation. Curvature and curvature rate are continuous. At the
+/// ends, P''' is 0: the curvature rate falls to 0 over about two points or l, whichever is longer.
+/// Next to that, it is up to a tenth too large.
 ///
 /// Guarantees: no point lies further than max_deviation from the path's point at its station, as
-/// measured on the path itself; with `resample`, this holds for the resampled points on the
-/// straight lines. Between distant points a spline bulges, next to corners by a tenth of their
-/// distance and more: see `bulge`. It keeps within a fifth of their distance, or within the arc
-/// that turns with them. Does not account for obstacles or the limits of a car.
+/// measured on the path. With `resample`, the guarantee holds for the resampled points on the
+/// straight lines. Between distant points a spline bulges, next to corners by a tenth of the
+/// points' distance and more (see `bulge`). The bulge is at most a fifth of the points' distance,
+/// or within the arc that turns with the points. The fit does not account for obstacles or the
+/// limits of a car.
 ///
-/// Errors: InputError naming the first point whose heading is opposite to the direction of travel;
-/// for fewer than two different points; for more than 200 000 points to be fitted; for more than
-/// kMaxPathLength, naming the largest gap; for a deviation that cannot be met; and for a spline
-/// that swings farther aside, naming the point that is probably wrong. PreconditionError for
-/// numbers that are not finite and lists of different lengths. Cost of a spline: about 0.2 ms per
-/// point and 30 us per meter, 1 kB per point and 1 kB per meter.
+/// Errors: InputError for fewer than two different points, for more than 200 000 points to be
+/// fitted, and for a deviation that cannot be met. InputError naming the first point whose heading
+/// is opposite to the direction of travel. InputError naming the largest gap if the path is longer
+/// than kMaxPathLength. InputError naming the point that is probably wrong if a spline bulges
+/// further than guaranteed. PreconditionError for numbers that are not finite and for lists of
+/// different lengths. Cost of a spline: about 0.2 ms per point and 30 us per meter, 1 kB per point
+/// and 1 kB per meter.
 FittedPath FitPath(PathPoints given, const PathFitOptions& options);
 
 }  // namespace trackbed

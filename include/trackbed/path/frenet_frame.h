@@ -22,14 +22,14 @@ namespace trackbed {
 
 /// The state of a car in path coordinates.
 struct FrenetState {
-  double s = 0.0;               ///< [m]
-  double s_rate = 0.0;          ///< s_t [m/s]
-  double s_acceleration = 0.0;  ///< s_tt [m/s^2]
-  double d = 0.0;               ///< [m], positive left of the path
-  double d_slope = 0.0;         ///< d'
-  double d_bend = 0.0;          ///< d'' [1/m]
+  double s = 0.0;               ///< Station [m].
+  double s_rate = 0.0;          ///< Rate of the station, s_t [m/s].
+  double s_acceleration = 0.0;  ///< Acceleration of the station, s_tt [m/s^2].
+  double d = 0.0;               ///< Lateral offset [m], positive left of the path.
+  double d_slope = 0.0;         ///< Slope d' of the offset over the station.
+  double d_bend = 0.0;          ///< Second derivative d'' of the offset over the station [1/m].
 
-  /// d_t [m/s] and d_tt [m/s^2].
+  /// The derivatives of the offset by time, d_t [m/s] and d_tt [m/s^2].
   [[nodiscard]] double d_rate() const { return d_slope * s_rate; }
   [[nodiscard]] double d_acceleration() const {
     return d_bend * s_rate * s_rate + d_slope * s_acceleration;
@@ -41,29 +41,30 @@ struct FrenetState {
 /// The motion of a car's rear-axle center in the world.
 struct MotionState {
   Pose2 pose;
-  double curvature = 0.0;     ///< kappa, of its steering [1/m]
-  double speed = 0.0;         ///< v [m/s]
-  double acceleration = 0.0;  ///< a, along its heading [m/s^2]
+  double curvature = 0.0;     ///< Curvature kappa of the steering [1/m].
+  double speed = 0.0;         ///< Speed v [m/s].
+  double acceleration = 0.0;  ///< Acceleration a along the heading [m/s^2].
 
   bool operator==(const MotionState&) const = default;
 };
 
-/// Path coordinates of a car, relative to the nearest point of the path within the stations. None
-/// if the frame is undefined: the car is at or beyond the path's center of curvature (1 - kappa_r d
-/// <= 0), faces across or against the path (|Dtheta| >= 90 degrees), or the path is driven
-/// backwards there. Cost: a projection.
+/// Path coordinates of a car, relative to the nearest point of the path within the stations.
+/// Nullopt if the frame is undefined. The frame is undefined if the car is at or beyond the path's
+/// center of curvature (1 - kappa_r d <= 0), or faces across or against the path (|Dtheta| >= 90
+/// degrees). The frame is also undefined if the path is driven backwards at the nearest point.
+/// Cost: that of a projection.
 std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
                                     Stations within = {});
 
-/// The inverse of ToFrenet. None if 1 - kappa_r d <= 0 or the path is driven backwards. The yaw
-/// continues that of the path, not wrapped. Round trips are exact to 1e-9 where the path's
-/// curvature is continuous, and to rounding for lines and arcs.
+/// The inverse of ToFrenet. Nullopt if 1 - kappa_r d <= 0 or the path is driven backwards. The yaw
+/// continues that of the path and is not wrapped. Conversion to path coordinates and back is exact
+/// to 1e-9 if the path's curvature is continuous, and to rounding for lines and arcs.
 ///
 /// Use a path of continuous curvature for motions: a jump of the path's curvature makes the heading
 /// jump unless d d' is 0, and a jump of its sharpness makes the curvature jump.
 std::optional<MotionState> FromFrenet(const Path& path, const FrenetState& state);
 
-/// As above, with the path's point at `state.s` already evaluated.
+/// As FromFrenet above, with the path's point at `state.s` already evaluated.
 std::optional<MotionState> FromFrenet(const PathPoint& at, const FrenetState& state);
 
 }  // namespace trackbed

@@ -17,13 +17,13 @@ namespace trackbed {
 /// kappa(d) = curvature + sharpness d + sharpness_rate d^2/2: a line, an arc, a clothoid, or a
 /// piece of another curve (see SegmentsThrough).
 struct Segment {
-  double length = 0.0;          ///< [m], > 0
-  double curvature = 0.0;       ///< at its start [1/m]
-  int direction = 1;            ///< +1 forwards, -1 backwards
-  double sharpness = 0.0;       ///< dkappa/dd at its start [1/m^2]
-  double sharpness_rate = 0.0;  ///< d^2kappa/dd^2 [1/m^3]
+  double length = 0.0;          ///< Length [m], > 0.
+  double curvature = 0.0;       ///< Curvature at the start [1/m].
+  int direction = 1;            ///< Direction: +1 forwards, -1 backwards.
+  double sharpness = 0.0;       ///< Sharpness dkappa/dd at the start [1/m^2].
+  double sharpness_rate = 0.0;  ///< Rate of the sharpness, d^2kappa/dd^2 [1/m^3].
 
-  /// kappa(d) [1/m].
+  /// The curvature kappa(d) [1/m].
   [[nodiscard]] double CurvatureAt(double d) const {
     return curvature + d * (sharpness + 0.5 * d * sharpness_rate);
   }
@@ -33,24 +33,24 @@ struct Segment {
 
 /// A point of a path at one station.
 struct PathPoint {
-  double s = 0.0;          ///< [m]
-  Pose2 pose;              ///< rear-axle center, heading of the car
-  double curvature = 0.0;  ///< [1/m]
+  double s = 0.0;          ///< Station [m].
+  Pose2 pose;              ///< Position of the rear-axle center, heading of the car.
+  double curvature = 0.0;  ///< Curvature [1/m].
   int direction = 1;
-  double sharpness = 0.0;  ///< dkappa/ds [1/m^2]
+  double sharpness = 0.0;  ///< Sharpness dkappa/ds [1/m^2].
 };
 
 /// Curvature and direction of a path at one station.
 struct PathBend {
-  double curvature = 0.0;  ///< [1/m]
+  double curvature = 0.0;  ///< Curvature [1/m].
   int direction = 1;
 };
 
 /// The point of a path nearest to a pose, and the errors of the pose relative to it.
 struct Projection {
-  double s = 0.0;              ///< station of the nearest point [m]; see Path::Project
-  double cross_track = 0.0;    ///< [m], positive left of the path
-  double heading_error = 0.0;  ///< yaw of the pose minus yaw of the path [rad], in (-pi, pi]
+  double s = 0.0;              ///< Station of the nearest point [m]; see Path::Project.
+  double cross_track = 0.0;    ///< Cross-track error [m], positive left of the path.
+  double heading_error = 0.0;  ///< Yaw of the pose minus yaw of the path [rad], in (-pi, pi].
 };
 
 /// An interval of stations [m] to search.
@@ -59,57 +59,57 @@ struct Stations {
   double to = std::numeric_limits<double>::infinity();
 };
 
-/// A chain of segments from a start pose. Position and heading are continuous by construction (each
-/// segment starts at the end of the previous one, to rounding: below 1e-9 m over 10 km); curvature
-/// may jump between segments. Immutable.
+/// A chain of segments from a start pose. Position and heading are continuous, because each segment
+/// starts at the end of the previous one (to rounding: below 1e-9 m over 10 km). The curvature may
+/// jump between segments. A path is immutable.
 ///
 /// Beyond its start and end a path continues straight along its end tangents, with stations below 0
-/// and above length(): a car near the end of its path still has a path to follow.
+/// and above length(). A car near the end of its path thus still has a path to follow.
 ///
-/// Has no time or speed (see Reference), and does not know whether a car can follow it.
+/// A path has no time or speed (see Reference), and may have curvatures that a car cannot follow.
 class Path {
  public:
   /// A path of length 0 at the origin.
   Path() : Path(Pose2{}, {}) {}
 
-  /// InternalError unless every length is positive and finite, every curvature and sharpness
-  /// finite, every direction +1 or -1. PreconditionError unless the start is finite and no segment
-  /// with sharpness turns by more than 1e4 rad.
+  /// InternalError unless every length is positive and finite, every curvature and sharpness is
+  /// finite, and every direction is +1 or -1. PreconditionError unless the start is finite and no
+  /// segment with sharpness turns by more than 1e4 rad.
   Path(const Pose2& start, std::vector<Segment> segments);
 
   [[nodiscard]] double length() const { return length_; }
   [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
 
   /// The point at station s. At a joint, the curvature and direction are those of the segment that
-  /// begins there; on the straight continuations the curvature is 0. Cost O(log n).
+  /// begins at the joint. On the straight continuations, the curvature is 0. Cost O(log n).
   [[nodiscard]] PathPoint At(double s) const;
 
-  /// The curvature and direction of At(s), without the cost of its pose.
+  /// The curvature and direction of At(s), without the cost of computing the pose.
   [[nodiscard]] PathBend BendAt(double s) const;
 
   /// The nearest point to `pose` among the stations of `within`, which may extend beyond the ends.
-  /// Exact for lines and arcs, to 1e-9 m along the path for other segments. For a pose within a
-  /// tenth of the radius from a center of curvature of such a segment, most of which is then about
-  /// equally far, the result may not be the nearest point. Limiting the search to stations near the
-  /// last known one keeps a car from jumping to a later crossing or over a cusp. Ties go to the
-  /// smallest station. Cost O(segments within the stations). InternalError when `within` is empty,
-  /// PreconditionError for a pose that is not finite.
+  /// The result is exact for lines and arcs, and to 1e-9 m along the path for other segments. The
+  /// result may not be the nearest point for a pose within a tenth of the radius from a center of
+  /// curvature of such a segment. Limit the search to stations near the last known one, so that the
+  /// result does not jump to a later crossing or over a cusp. Among equally near points, the one
+  /// with the smallest station is returned. Cost O(segments within the stations). InternalError
+  /// when `within` is empty, PreconditionError for a pose that is not finite.
   [[nodiscard]] Projection Project(const Pose2& pose, Stations within = {}) const;
 
   /// Evenly spaced points, at most `spacing` [m] apart, over the whole path including both ends.
   /// PreconditionError for more than 2e7 points.
   [[nodiscard]] std::vector<PathPoint> Sample(double spacing) const;
 
-  /// The segments between two stations, cut there: starting at At(from).pose, they follow this path
-  /// up to `to`. Stations are clamped to the ends; empty if nothing remains.
+  /// The segments between two stations. The segments start at At(from).pose and follow this path up
+  /// to `to`. Stations are clamped to the ends of the path. Empty if nothing remains.
   [[nodiscard]] std::vector<Segment> Cut(Stations within) const;
 
  private:
   [[nodiscard]] std::size_t SegmentAt(double s) const;
 
   std::vector<Segment> segments_;
-  std::vector<Pose2> starts_;     // of each segment, and the end
-  std::vector<double> stations_;  // of each start, and the length
+  std::vector<Pose2> starts_;     // Start pose of each segment, and the end pose.
+  std::vector<double> stations_;  // Station of each start, and the length.
   double length_ = 0.0;
 };
 
@@ -119,16 +119,16 @@ std::vector<Stations> SplitIntoLegs(const Path& path, const std::vector<double>&
 
 /// A point that a curve passes through.
 struct CurvePoint {
-  double s = 0.0;          ///< distance along the curve [m]
-  double yaw = 0.0;        ///< of its tangent [rad], not wrapped
-  double curvature = 0.0;  ///< [1/m]
+  double s = 0.0;          ///< Distance along the curve [m].
+  double yaw = 0.0;        ///< Yaw of the tangent [rad], not wrapped.
+  double curvature = 0.0;  ///< Curvature [1/m].
 };
 
-/// Segments that follow a smooth curve forwards: one between each two neighbors, matching the
-/// curve's heading and curvature at both. With points h apart and k the largest third derivative of
-/// the curvature, headings between points are off by at most h^4 k/384, and the end by h^4 k/720
-/// times the length: about 1e-7 m for points 0.1 m apart on bends that a car drives. InternalError
-/// unless the distances rise.
+/// Segments that follow a smooth curve forwards. Each segment connects two neighboring points and
+/// matches the curve's heading and curvature at both. Let h be the distance of the points and k the
+/// largest third derivative of the curvature. The error of the heading between points is at most
+/// h^4 k/384, the error of the end point h^4 k/720 times the length. The latter is about 1e-7 m for
+/// points 0.1 m apart on bends that a car drives. InternalError unless the distances increase.
 std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points);
 
 }  // namespace trackbed

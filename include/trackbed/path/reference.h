@@ -8,18 +8,18 @@ namespace trackbed {
 
 /// Speed and acceleration limits.
 struct SpeedLimits {
-  double speed = 0.0;         ///< [m/s], > 0
-  double acceleration = 0.0;  ///< [m/s^2], > 0
-  double deceleration = 0.0;  ///< [m/s^2], > 0
+  double speed = 0.0;         ///< Speed [m/s], > 0.
+  double acceleration = 0.0;  ///< Acceleration [m/s^2], > 0.
+  double deceleration = 0.0;  ///< Deceleration [m/s^2], > 0.
 };
 
-/// Speed over station: v^2 is linear between knots, that is, the acceleration is piecewise
-/// constant. Speeds are >= 0; the sign of motion is the path's direction.
+/// Speed over station. Between knots, v^2 is linear: the acceleration is piecewise constant. Speeds
+/// are >= 0; the path determines the direction of motion.
 class SpeedProfile {
  public:
   struct Knot {
-    double s = 0.0;      ///< [m]
-    double speed = 0.0;  ///< [m/s]
+    double s = 0.0;      ///< Station [m].
+    double speed = 0.0;  ///< Speed [m/s].
   };
 
   SpeedProfile() = default;
@@ -28,17 +28,18 @@ class SpeedProfile {
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
 
-  // The functions below return NaN for a station or time that is NaN.
+  // The functions below return NaN if the station or time is NaN.
 
-  /// Speed [m/s] at a station; constant before the first knot and after the last one.
+  /// The speed [m/s] at a station; constant before the first knot and after the last one.
   [[nodiscard]] double SpeedAt(double s) const;
-  /// dv/dt [m/s^2] of a car that follows the profile, of the interval after s; 0 outside the knots.
+  /// The acceleration dv/dt [m/s^2] of a car that follows the profile, in the interval after s. 0
+  /// outside the knots.
   [[nodiscard]] double AccelerationAt(double s) const;
-  /// Time [s] from the first knot to s for a car that follows the profile; infinite past a
+  /// The time [s] from the first knot to s for a car that follows the profile; infinite past a
   /// standstill.
   [[nodiscard]] double TimeAt(double s) const;
   /// The station [m] of a car that has followed the profile for `time` [s] from its first knot: the
-  /// inverse of TimeAt. Stays where the profile comes to rest.
+  /// inverse of TimeAt. The station stays constant after the profile has come to rest.
   [[nodiscard]] double StationAt(double time) const;
 
  private:
@@ -49,33 +50,34 @@ class SpeedProfile {
 
 /// A section of a path with a speed limit.
 struct SpeedCap {
-  double from = 0.0;   ///< [m]
-  double to = 0.0;     ///< [m]
-  double speed = 0.0;  ///< [m/s], > 0
+  double from = 0.0;   ///< Start station [m].
+  double to = 0.0;     ///< End station [m].
+  double speed = 0.0;  ///< Speed limit [m/s], > 0.
 };
 
 /// A profile that leaves s = 0 at `start_speed`, drives as fast as limits and caps allow, and stops
 /// at s = length. If the length is too short to reach the limit, the profile peaks below it. If it
 /// is too short to brake from the start speed at the limit's deceleration, the profile brakes
-/// harder, at a constant deceleration. A start above the limit or a cap slows down at the limit's
-/// deceleration. PreconditionError for numbers that are not finite; the numbers of a cap may be
-/// infinite.
+/// harder, at a constant deceleration. If the start is above the limit or a cap, the profile slows
+/// down at the limit's deceleration. PreconditionError for numbers that are not finite; the numbers
+/// of a cap may be infinite.
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps = {});
 
-/// As StopAtEnd, for a path that may have cusps: also stops at each of them, and at `stops` [m].
+/// As StopAtEnd, for a path that may have cusps. The profile also stops at each cusp and at `stops`
+/// [m].
 SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits& limits,
                          const std::vector<SpeedCap>& caps = {},
                          const std::vector<double>& stops = {});
 
-/// The reference of a controller: path and speed.
+/// The reference of a controller: a path and a speed profile.
 struct Reference {
   Path path;
   SpeedProfile speed;
 };
 
-/// The speeds between two stations, shifted so that the first station becomes 0; the knots in
-/// between keep their speeds.
+/// The speeds between two stations, shifted so that the first station becomes 0. Knots in between
+/// keep their speeds.
 SpeedProfile Excerpt(const SpeedProfile& profile, Stations within);
 
 /// A section of a path and its speeds; stations count from the start of the section.

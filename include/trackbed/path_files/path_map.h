@@ -11,19 +11,21 @@
 namespace trackbed {
 
 enum class PathFormat {
-  kAuto,        ///< by file extension and first characters
-  kCsv,         ///< a table with named columns; racing lines of TUM, with their header behind '#'
-  kNavPath,     ///< nav_msgs/Path of ROS as YAML or JSON
-  kCommonRoad,  ///< a solution of CommonRoad, XML
-  kGeoJson,     ///< a line string, RFC 7946
+  kAuto,  ///< Determined by file extension and first characters.
+  /// A table with named columns. Racing lines of TUM have their header after '#'.
+  kCsv,
+  kNavPath,     ///< nav_msgs/Path of ROS as YAML or JSON.
+  kCommonRoad,  ///< A solution of CommonRoad, XML.
+  kGeoJson,     ///< A line string by RFC 7946.
 };
 
-/// The formats for users: "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution or GeoJSON".
+/// The list of formats for users: "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution or
+/// GeoJSON".
 std::string PathFormatList();
 
 /// The columns of a CSV file. Columns without a given name are found by their usual names
-/// (PathColumnNames), ignoring case. Units that are not given follow from the suffix of the
-/// column's name, else SI.
+/// (PathColumnNames), ignoring case. By default, the suffix of the column's name determines the
+/// unit; without a suffix, it is the SI unit.
 struct PathColumns {
   std::optional<std::string> x;
   std::optional<std::string> y;
@@ -31,25 +33,27 @@ struct PathColumns {
   std::optional<std::string> curvature;
   std::optional<std::string> speed;
   std::optional<std::string> time;
-  std::optional<std::string> position_unit;  ///< "m", "cm", "mm" or "km"
-  std::optional<std::string> yaw_unit;       ///< "rad" or "deg"
-  std::optional<std::string> speed_unit;     ///< "m/s", "km/h" or "mph"
+  std::optional<std::string> position_unit;  ///< Unit of positions: "m", "cm", "mm" or "km".
+  std::optional<std::string> yaw_unit;       ///< Unit of yaw: "rad" or "deg".
+  std::optional<std::string> speed_unit;     ///< Unit of speeds: "m/s", "km/h" or "mph".
 };
 void Visit(KeyVisitor& keys, PathColumns& columns);
 
 /// The meaning of the coordinates of a GeoJSON file.
 enum class PathCoordinates {
-  kAuto,    ///< WGS 84, or meters if its member `crs` names another reference system
-  kWgs84,   ///< longitude and latitude in degrees
-  kMeters,  ///< x and y of any projection
+  kAuto,    ///< WGS 84, or meters if the member `crs` names another reference system.
+  kWgs84,   ///< Longitude and latitude in degrees.
+  kMeters,  ///< x and y of any projection.
 };
 
 struct PathMap {
   PathFormat format = PathFormat::kAuto;
   PathColumns columns;
   PathCoordinates coordinates = PathCoordinates::kAuto;
-  std::optional<double> origin_latitude;   ///< of WGS 84 [deg]; none: the first point
-  std::optional<double> origin_longitude;  ///< of WGS 84 [deg]; none: the first point
+  /// Latitude of the origin in WGS 84 [deg]; none: the first point's.
+  std::optional<double> origin_latitude;
+  /// Longitude of the origin in WGS 84 [deg]; none: the first point's.
+  std::optional<double> origin_longitude;
 };
 void Visit(KeyVisitor& keys, PathMap& map);
 

@@ -12,7 +12,7 @@
 /// reader of YAML files is ReadLogMap (scenario/log_map_file.h).
 namespace trackbed {
 
-/// The kinds of quantities in a log; each has separate units.
+/// The kinds of quantities in a log, each with its set of units.
 enum class LogQuantity { kAngle, kSpeed, kYawRate, kSteeringAngle, kThrottle };
 
 /// The names of the units of a quantity, the SI unit first: "rad", "deg".
@@ -21,18 +21,20 @@ Names UnitsOf(LogQuantity quantity);
 /// The SI value of one unit, such as pi/180 for "deg". InternalError for an unknown unit.
 double UnitInSi(const std::string& unit);
 
-/// One column: the value is curve(scale * number in SI units + offset), measured `delay` before it
-/// was logged.
+/// One column of a log. The value of a column is curve(scale * number in SI units + offset),
+/// measured `delay` before it was logged.
 struct LogColumn {
   std::string column;
-  std::optional<std::string> file{};  ///< in the same folder as the log; none: the log itself
+  /// File of the column, in the same folder as the log; none: the log.
+  std::optional<std::string> file{};
   std::string unit;
   double scale = 1.0;
-  double offset = 0.0;        ///< in the SI unit
-  std::vector<Vec2> curve{};  ///< linear between points, constant beyond; empty: none
-  double delay = 0.0;         ///< [s]
-  /// Period of the slower loop whose values the rows repeat [s]: the value is linear between
-  /// updates of that loop. None: linear between rows.
+  double offset = 0.0;  ///< Offset in the SI unit.
+  /// Calibration curve, linear between points and constant beyond; empty: none.
+  std::vector<Vec2> curve{};
+  double delay = 0.0;  ///< Time between measurement and logging [s].
+  /// Period of the slower loop whose values the rows repeat [s]. The value is interpolated linearly
+  /// between updates of that loop. Nullopt: interpolated linearly between rows.
   std::optional<double> period{};
 };
 
@@ -42,11 +44,11 @@ struct LogColumnOf : LogColumn {
   LogColumnOf() { unit = UnitsOf(quantity).front(); }
 };
 
-/// The times of the rows.
+/// The columns of the rows' times.
 struct LogTime {
   std::string column;
   std::string unit = "s";
-  std::optional<std::string> nanoseconds{};  ///< a column to be added, for ROS stamps
+  std::optional<std::string> nanoseconds{};  ///< Column to add to the time, for ROS stamps.
 };
 
 struct LogPosition {
@@ -66,27 +68,30 @@ struct LogOrientation {
 enum class LogDelimiter { kComma, kSemicolon, kTab };
 
 enum class LogFrame {
-  kEnu,  ///< x east, y north, z up: all angles and rates positive to the left
-  kNed,  ///< x north, y east, z down: all angles and rates positive to the right
+  /// x east, y north, z up. All angles and rates are positive to the left.
+  kEnu,
+  /// x north, y east, z down. All angles and rates are positive to the right.
+  kNed,
 };
 
-/// X_VS: the pose of the measured point and its axes in the vehicle frame V.
+/// The pose X_VS of the measured point and its axes in the vehicle frame V.
 struct LogSensor {
-  double x = 0.0;    ///< ahead of the rear axle [m]
-  double y = 0.0;    ///< to its left [m]
-  double yaw = 0.0;  ///< [rad]
+  double x = 0.0;    ///< Position ahead of the rear axle [m].
+  double y = 0.0;    ///< Position to the left of the rear axle's center [m].
+  double yaw = 0.0;  ///< Yaw of the axes [rad].
 };
 
-/// An accelerometer along the axes of the vehicle. Its readings are transferred to the rear axle by
-/// the yaw rate and its derivative; gravity due to roll and pitch is not removed.
+/// An accelerometer along the axes of the vehicle. The accelerometer's readings are transferred to
+/// the rear axle by the yaw rate and its derivative; the influence of gravity through roll and
+/// pitch is not removed.
 struct LogAccelerometer {
   std::string x;
   std::string y;
   std::optional<std::string> file{};
   std::string unit = "m/s^2";
-  double delay = 0.0;  ///< [s]
-  double ahead = 0.0;  ///< of the rear axle [m]
-  double left = 0.0;   ///< of the vehicle's middle [m]
+  double delay = 0.0;  ///< Time between measurement and logging [s].
+  double ahead = 0.0;  ///< Position ahead of the rear axle [m].
+  double left = 0.0;   ///< Position to the left of the vehicle's middle [m].
 };
 
 /// A row is used only if the number in the column meets the condition.
@@ -97,35 +102,38 @@ struct LogCondition {
   std::optional<double> max{};
 };
 
-/// The time grid, and the local polynomials that give values and derivatives there.
+/// The time grid, and the local polynomials that give values and derivatives at its points.
 struct LogResample {
-  double rate = 100.0;      ///< [1/s]
-  double half_width = 0.1;  ///< of the polynomials' window [s]
-  int degree = 2;           ///< of the polynomials
+  double rate = 100.0;      ///< Samples per second [1/s].
+  double half_width = 0.1;  ///< Half width of the polynomials' window [s].
+  int degree = 2;           ///< Degree of the polynomials.
 };
 
 struct LogMap {
-  std::string name;  ///< used in RecordedDrive::notes
+  std::string name;  ///< Name of the map, used in RecordedDrive::notes.
   LogDelimiter delimiter = LogDelimiter::kComma;
   LogTime time;
   LogPosition position;
-  std::optional<LogColumnOf<LogQuantity::kAngle>> yaw{};  ///< either this or `orientation`
+  std::optional<LogColumnOf<LogQuantity::kAngle>> yaw{};  ///< Yaw; excludes `orientation`.
   std::optional<LogOrientation> orientation{};
   LogFrame frame = LogFrame::kEnu;
   LogSensor sensor{};
-  std::optional<LogColumnOf<LogQuantity::kSpeed>> speed{};       ///< instead of the position's
-  std::optional<LogColumnOf<LogQuantity::kYawRate>> yaw_rate{};  ///< instead of the yaw's
-  std::optional<LogAccelerometer> accelerometer{};               ///< instead of the position's
+  /// Replaces the speed from the position.
+  std::optional<LogColumnOf<LogQuantity::kSpeed>> speed{};
+  /// Replaces the yaw rate from the yaw.
+  std::optional<LogColumnOf<LogQuantity::kYawRate>> yaw_rate{};
+  /// Replaces the accelerations from the position.
+  std::optional<LogAccelerometer> accelerometer{};
   std::optional<LogColumnOf<LogQuantity::kSteeringAngle>> steering{};
   std::optional<LogColumnOf<LogQuantity::kSteeringAngle>> steering_command{};
   std::optional<LogColumnOf<LogQuantity::kThrottle>> throttle{};
   std::vector<LogCondition> valid{};
   LogResample resample{};
-  double gap = 0.2;            ///< longest time between rows that is interpolated [s]
-  double from = 0.0;           ///< start, since the log's first row [s]
-  std::optional<double> to{};  ///< end, since the log's first row [s]
-  double trim = 0.0;           ///< removed at both ends [s]
-  bool check = true;           ///< reject columns that contradict each other
+  double gap = 0.2;            ///< Longest time between rows that is interpolated [s].
+  double from = 0.0;           ///< Start, from the log's first row [s].
+  std::optional<double> to{};  ///< End, from the log's first row [s].
+  double trim = 0.0;           ///< Time removed at both ends [s].
+  bool check = true;           ///< Whether to reject columns that contradict each other.
 };
 
 void Visit(KeyVisitor& keys, LogMap& map);

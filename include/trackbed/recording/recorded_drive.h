@@ -13,63 +13,69 @@
 /// A recorded drive of a real vehicle, on a uniform time grid.
 namespace trackbed {
 
-/// One sample of a recorded drive. V is the vehicle frame: origin on the ground under the rear
-/// axle's center, x forward, y left. The values do not depend on a model of the vehicle.
+/// One sample of a recorded drive. The vehicle frame V has its origin on the ground under the rear
+/// axle's center, x forward and y to the left. The values do not depend on a model of the vehicle.
 struct RecordedSample {
-  double time = 0.0;                   ///< since the first sample [s]
-  Pose2 pose{};                        ///< X_WV; yaw is not wrapped
-  Vec2 velocity_V = Vec2::Zero();      ///< of V's origin over the ground, in axes of V [m/s]
-  double yaw_rate = 0.0;               ///< [rad/s]
-  Vec2 acceleration_V = Vec2::Zero();  ///< of V's origin over the ground, in axes of V [m/s^2]
-  double yaw_acceleration = 0.0;       ///< [rad/s^2]
-  double steering = 0.0;               ///< measured at the road wheels [rad], positive left
-  double steering_command = 0.0;       ///< as received by the car's steering actuator [rad]
-  double throttle = 0.0;               ///< drive command, as an acceleration [m/s^2]
-  bool valid = true;                   ///< false in a gap, in which the sample is interpolated
+  double time = 0.0;               ///< Time since the first sample [s].
+  Pose2 pose{};                    ///< Pose X_WV; the yaw is not wrapped.
+  Vec2 velocity_V = Vec2::Zero();  ///< Velocity of V's origin over the ground, in axes of V [m/s].
+  double yaw_rate = 0.0;           ///< Yaw rate [rad/s].
+  /// Acceleration of V's origin over the ground, in axes of V [m/s^2].
+  Vec2 acceleration_V = Vec2::Zero();
+  double yaw_acceleration = 0.0;  ///< Yaw acceleration [rad/s^2].
+  double steering = 0.0;  ///< Measured angle of the road wheels [rad], positive to the left.
+  double steering_command = 0.0;  ///< Command received by the car's steering actuator [rad].
+  double throttle = 0.0;          ///< Drive command, as an acceleration [m/s^2].
+  bool valid = true;  ///< Whether the sample is valid; in a gap, samples are interpolated.
 };
 
-/// Uniform samples, at least two; the first at time 0.
+/// A recorded drive. The drive has at least two uniform samples, the first one at time 0.
 struct RecordedDrive {
-  std::string name;     ///< of the file, without its extension
-  double period = 0.0;  ///< between samples [s]
+  std::string name;     ///< Name of the file, without its extension.
+  double period = 0.0;  ///< Time between samples [s].
   std::vector<RecordedSample> samples{};
-  bool has_steering = false;          ///< the samples have a measured steering angle
-  bool has_steering_command = false;  ///< the samples have a steering command
-  bool has_throttle = false;          ///< the samples have a drive command
-  std::vector<std::string> notes{};   ///< processing steps and remarks
+  bool has_steering = false;          ///< Whether the samples have a measured steering angle.
+  bool has_steering_command = false;  ///< Whether the samples have a steering command.
+  bool has_throttle = false;          ///< Whether the samples have a drive command.
+  std::vector<std::string> notes{};   ///< Processing steps and remarks.
 
   [[nodiscard]] double duration() const { return samples.back().time; }
   /// The fraction of valid samples.
   [[nodiscard]] double valid_fraction() const;
-  /// Linear between samples, constant beyond the ends; valid if both neighbors are. Cost O(1).
+  /// The sample at a time, linear between samples and constant beyond the ends. The result is valid
+  /// if both neighboring samples are valid. Cost O(1).
   [[nodiscard]] RecordedSample At(double time) const;
 };
 
-/// The sample as a state of the given vehicle: speeds and accelerations at its center of gravity,
+/// Converts a sample to a state of the given vehicle. Speeds and accelerations are those of the
+/// vehicle's center of gravity:
 ///   v_y = v_y(V) + l r,  a_x = a_x(V) - l r^2,  a_y = a_y(V) + l r',
-/// with l the distance from the rear axle to the center of gravity. Steering is the measured angle
-/// if `measured`, else the command. `distance` stays 0; sideslip is 0 below kAtRestSpeed.
+/// with l the distance from the rear axle to the center of gravity. If `measured` is true, the
+/// steering is the measured angle, else the command. `distance` stays 0; sideslip is 0 below
+/// kAtRestSpeed.
 VehicleState StateOf(const RecordedSample& sample, const VehicleParams& vehicle, bool measured);
 
 /// The start of a plant at the sample, with its wheels at `steering` [rad], and the recorded yaw
-/// rate and lateral speed. Below 0.2 m/s, where noise dominates the recorded direction of motion,
-/// the car rolls without slip instead. At rest if the recorded car goes backwards.
+/// rate and lateral speed. Below 0.2 m/s, noise dominates the recorded direction of motion, so the
+/// car starts without slip. If the recorded car goes backwards, the start is at rest.
 StartState StartFrom(const RecordedSample& sample, double steering);
 
 /// The steering input of a replay.
 enum class ReplaySteering {
-  kCommand,   ///< the recorded command, through the car's steering response
-  kMeasured,  ///< the recorded angle of the road wheels, as a command through that response
+  kCommand,  ///< Recorded command, applied through the car's steering response.
+  /// Recorded angle of the road wheels, applied as a command through the steering response.
+  kMeasured,
 };
 
 /// The longitudinal input of a replay.
 enum class ReplayDrive {
-  kSpeed,     ///< the recorded speed: its change, plus a gain on the speed error
-  kThrottle,  ///< the recorded drive command, as an acceleration
+  /// Recorded speed: its rate of change, plus a gain on the speed error.
+  kSpeed,
+  kThrottle,  ///< Recorded drive command, as an acceleration.
 };
 
-/// The inputs of a replay over time, for the controller `playback`. InputError when the drive lacks
-/// the signal. With kSpeed, InputError when the car goes backwards faster than 0.05 m/s in a valid
+/// The inputs of a replay over time, for the controller `playback`. InputError if the drive lacks
+/// the signal. With kSpeed, InputError if the car goes backwards faster than 0.05 m/s in a valid
 /// sample, because a replay only drives forward.
 Recording ReplayInputs(const RecordedDrive& drive, ReplaySteering steering, ReplayDrive source);
 

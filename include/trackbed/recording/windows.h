@@ -18,37 +18,37 @@ namespace trackbed {
 struct ReplayOptions {
   ReplaySteering steering = ReplaySteering::kCommand;
   ReplayDrive drive = ReplayDrive::kSpeed;
-  double control_period = 0.01;  ///< a whole number of the car's timesteps [s]
-  /// Gain on the speed error [1/s]: a plant with an unmodeled deceleration a stays a/gain slower
-  /// than the recorded speed.
+  double control_period = 0.01;  ///< Control period, a whole number of the car's timesteps [s].
+  /// Gain on the speed error [1/s]. With an unmodeled deceleration a, the plant is slower than the
+  /// recorded speed by a/gain.
   double speed_gain = 20.0;
-  TyreLaw tyre = TyreLaw::kAuto;  ///< of the plant `mujoco`
+  TyreLaw tyre = TyreLaw::kAuto;  ///< Tyre law of the plant `mujoco`.
   SteeringInput input = SteeringInput::kActuator;
   World world{};
-  std::function<bool()> interrupted{};  ///< polled once per window; ends the work early
+  std::function<bool()> interrupted{};  ///< Whether to end the work early; called once per window.
 };
 
-/// One window.
+/// The predicted states of one window.
 struct WindowPrediction {
-  double start = 0.0;  ///< time in the drive [s]
-  /// States at start, start + control_period, … to the window's end; `time` counts from the drive's
-  /// start. Fewer if the plant diverged.
+  double start = 0.0;  ///< Start time in the drive [s].
+  /// States at start, start + control_period, … to the window's end; The member `time` counts from
+  /// the drive's start. There are fewer states if the plant diverged.
   std::vector<VehicleState> states{};
   bool diverged = false;
 };
 
-/// The plant's states over [restart, restart + horizon] for each of `restarts` [s], in the same
-/// order.
+/// Predicts the plant's states over [restart, restart + horizon] for each of `restarts` [s], in the
+/// same order.
 ///
 /// Restart times are rounded to whole control periods. At a restart, the plant has the recorded
 /// pose, speed, lateral speed and yaw rate (StartFrom; the kinematic car only pose and speed;
-/// MuJoCo's car stands on its springs as at rest). The steering actuator has the state that the
-/// recorded commands since the start of the drive produce, including dead time and backlash.
+/// MuJoCo's car stands on its springs as at rest). The steering actuator has the state that results
+/// from the recorded commands since the start of the drive, including dead time and backlash.
 /// Commands are those of the controller `playback`, as in a scenario with `record`, which replays
 /// the whole drive.
 ///
 /// Guarantees: the same arguments give the same states, bit for bit; windows are independent of
-/// each other. The car is not changed, and several threads may share it. Errors: InputError as
+/// each other. The car is not changed, and several threads may share it. Errors: the InputErrors of
 /// ReplayInputs and MakePlant; PreconditionError for a control period that is not a whole number of
 /// timesteps, or a restart or horizon outside of the drive. Cost: one plant for each window
 /// (MuJoCo's: 0.1 ms), the steps of all windows, and 0.1 us per timestep of the drive.
@@ -57,29 +57,31 @@ std::vector<WindowPrediction> PredictWindows(const CarModel& car, const std::str
                                              const std::vector<double>& restarts, double horizon,
                                              const ReplayOptions& options = {});
 
-/// Starts of windows of `horizon` [s], at multiples of `spacing` [s] from the start of the drive:
-/// those whose window fits into the drive, has only valid samples, and has a mean speed of at least
-/// `min_speed` [m/s].
+/// Starts of windows of `horizon` [s], at multiples of `spacing` [s] from the start of the drive.
+/// Includes only windows that fit into the drive, have only valid samples, and have a mean speed of
+/// at least `min_speed` [m/s].
 std::vector<double> WindowStarts(const RecordedDrive& drive, double horizon, double spacing,
                                  double min_speed);
 
-/// Errors of predictions relative to the record. Quantiles are taken over the windows, linearly
-/// interpolated between the two nearest values. Relative errors are over all states of all windows
-/// at which the recorded speed is at
-/// least `min_speed`: root mean square of the difference over that of the recorded quantity.
+/// Errors of predictions relative to the record. Quantiles are over the windows, interpolated
+/// linearly between the two nearest values. Relative errors include the states of all windows at
+/// which the recorded speed is at least `min_speed`. A relative error is the root mean square of
+/// the difference divided by that of the recorded quantity.
 struct WindowErrors {
-  double horizon = 0.0;                ///< [s]
-  int count = 0;                       ///< number of windows
-  int diverged = 0;                    ///< diverged windows; they count as infinitely far away
-  double position_median = 0.0;        ///< of the distance at the window's end [m]
-  double position_p90 = 0.0;           ///< of the distance at the window's end [m]
-  double heading_median = 0.0;         ///< of the absolute heading error at the window's end [rad]
-  double heading_p90 = 0.0;            ///< of the absolute heading error at the window's end [rad]
-  double yaw_rate_relative_rms = 0.0;  ///< [1]
-  double lateral_acceleration_relative_rms = 0.0;  ///< [1]
+  double horizon = 0.0;          ///< Length of the windows [s].
+  int count = 0;                 ///< Number of windows.
+  int diverged = 0;              ///< Number of diverged windows, whose errors count as infinite.
+  double position_median = 0.0;  ///< Median of the distance at the window's end [m].
+  double position_p90 = 0.0;     ///< 90 % quantile of the distance at the window's end [m].
+  double heading_median = 0.0;  ///< Median of the absolute heading error at the window's end [rad].
+  /// 90 % quantile of the absolute heading error at the window's end [rad].
+  double heading_p90 = 0.0;
+  double yaw_rate_relative_rms = 0.0;  ///< Relative error of the yaw rate [1].
+  /// Relative error of the lateral acceleration [1].
+  double lateral_acceleration_relative_rms = 0.0;
 };
 
-/// PreconditionError if there are no windows.
+/// Measures the errors of windows. PreconditionError if there are no windows.
 WindowErrors MeasureWindows(const std::vector<WindowPrediction>& windows,
                             const RecordedDrive& drive, const VehicleParams& vehicle,
                             double horizon, double min_speed);

@@ -9,9 +9,9 @@ namespace trackbed {
 
 /// Texts in the title of a path check.
 struct PathCheckTitle {
-  std::string name;     ///< of the file
-  std::string vehicle;  ///< name of the model
-  std::string notes;    ///< remarks on the file, one per line
+  std::string name;     ///< Name of the file.
+  std::string vehicle;  ///< Name of the vehicle model.
+  std::string notes;    ///< Remarks on the file, one per line.
 };
 
 /// A check as JSON, without values over the station: verdict, largest speed, limits, fit and
@@ -19,8 +19,9 @@ struct PathCheckTitle {
 nlohmann::ordered_json PathCheckJson(const PathCheckTitle& title, const FittedPath& fitted,
                                      const PathCheck& check, const PathCheckOptions& options);
 
-/// As PathCheckJson, with the path's demands over its stations, for ReportPage: a page with a map,
-/// the faults, and charts of curvature, steering, lateral acceleration and possible speed.
+/// Formats a check like PathCheckJson, with the path's demands over its stations. ReportPage makes
+/// a page of it with a map, the faults, and charts of curvature, steering, lateral acceleration and
+/// possible speed.
 nlohmann::ordered_json PathCheckReport(const PathCheckTitle& title, const FittedPath& fitted,
                                        const PathCheck& check, const PathCheckOptions& options);
 

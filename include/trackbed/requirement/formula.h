@@ -23,8 +23,9 @@
 ///     x + y,  x - y,  x * y,  x / y,  -x
 ///     number, signal, abs(x), min(x, y, …), max(x, y, …), ( )
 ///
-/// Bounds a and b are seconds from the moment at which the formula is evaluated, 0 <= a <= b, or
-/// `T`, the duration of the log, or `T - c`, at least 0. The default window is [0, T].
+/// Bounds a and b count in seconds from the moment at which the formula is evaluated, 0 <= a <= b.
+/// A bound may also be `T`, the duration of the log, or `T - c`, at least 0. The default window is
+/// [0, T].
 ///
 /// Semantics (Donzé and Maler 2010; Fainekos and Pappas 2009), over the samples i of a log at times
 /// t_i:
@@ -37,14 +38,14 @@
 ///     phi until[a, b] psi   maximum over these j of min(psi_j, phi_i, …, phi_{j-1})
 ///
 /// Samples are not interpolated, and bounds hold to 1 ns. A window that extends beyond the end of
-/// the log is clipped to it. Without samples in the window, `always` is +infinity, `eventually` and
-/// `until` are -infinity, as in RTAMT (Nickovic and Yamaguchi 2020).
+/// the log is clipped at the end. Without samples in the window, `always` is +infinity,
+/// `eventually` and `until` are -infinity, as in RTAMT (Nickovic and Yamaguchi 2020).
 namespace trackbed {
 
 /// A bound of a window: a time, or a time before the end of the log.
 struct WindowBound {
-  double seconds = 0.0;   ///< [s]; non-negative
-  bool from_end = false;  ///< the bound is T - seconds
+  double seconds = 0.0;   ///< Time [s], nonnegative.
+  bool from_end = false;  ///< Whether the bound is T - seconds.
 };
 
 /// The operations of a formula.
@@ -72,35 +73,37 @@ enum class FormulaOperation {
   kUntil,
 };
 
-/// One step of a formula in postfix order: it pops its one or two operands from a stack and pushes
-/// its result.
+/// One step of a formula in postfix order. The step pops its one or two operands from a stack and
+/// pushes its result.
 struct FormulaStep {
   FormulaOperation operation = FormulaOperation::kNumber;
-  double number = 0.0;     ///< of kNumber
-  std::size_t signal = 0;  ///< of kSignal: index into Formula::signals
-  WindowBound from{};      ///< of kAlways, kEventually and kUntil
+  double number = 0.0;     ///< Value of kNumber.
+  std::size_t signal = 0;  ///< Index of the signal of kSignal in Formula::signals.
+  WindowBound from{};      ///< Bound of kAlways, kEventually and kUntil.
   WindowBound to{};
-  std::size_t begin = 0;  ///< the text of the step and its operands, [begin, end)
+  /// Range [begin, end) of the text of the step and its operands.
+  std::size_t begin = 0;
   std::size_t end = 0;
 };
 
 /// A parsed formula.
 class Formula {
  public:
-  static constexpr std::size_t kMaxLength = 4096;  ///< of the text [bytes]
-  static constexpr std::size_t kMaxDepth = 50;     ///< nesting of parentheses and operators
+  static constexpr std::size_t kMaxLength = 4096;  ///< Largest length of the text [bytes].
+  static constexpr std::size_t kMaxDepth = 50;  ///< Largest nesting of parentheses and operators.
 
-  /// InputError with the column of the text (from 1), the text found and the alternatives: for a
-  /// syntax error; for a signal that is not among `signals` (with the nearest spelling); for a
-  /// number instead of a condition, or the reverse; for bounds out of order or above 1e6 s; for a
-  /// formula without signals; and for exceeding kMaxLength or kMaxDepth. Cost O(length).
+  /// Parses a formula. InputErrors name the column of the text (from 1), the found text and the
+  /// alternatives. InputError for a syntax error, and for a signal that is not among `signals`
+  /// (with the nearest spelling). InputError for a number instead of a condition, or the reverse,
+  /// and for bounds out of order or above 1e6 s. InputError for a formula without signals, and for
+  /// a text that exceeds kMaxLength or kMaxDepth. Cost O(length).
   static Formula Parse(std::string_view text, const std::vector<std::string>& signals);
 
   [[nodiscard]] const std::string& text() const { return text_; }
-  /// The signals used, in order of first use.
+  /// The signals of the formula, in order of first use.
   [[nodiscard]] const std::vector<std::string>& signals() const { return signals_; }
   /// The time after a sample within which the log can affect the robustness at the sample [s];
-  /// infinity if a bound is relative to the end of the log, or missing.
+  /// infinity if a bound is missing or relative to the end of the log.
   [[nodiscard]] double horizon_s() const;
   [[nodiscard]] const std::vector<FormulaStep>& steps() const { return steps_; }
 
@@ -112,26 +115,29 @@ class Formula {
 
 /// The value of a formula at the first sample of a log.
 struct FormulaResult {
-  /// In the unit of the decisive comparison; +-infinity if no sample decides, because all relevant
-  /// windows begin after the end of the log.
+  /// Robustness in the unit of the decisive comparison. The robustness is +-infinity if no sample
+  /// decides, because all relevant windows begin after the end of the log.
   double robustness = 0.0;
-  /// Whether the formula holds: robustness > 0, or, if that is 0, a strict or nonstrict comparison
-  /// decides: `x <= y` holds for x = y, `x < y` does not.
+  /// Whether the formula holds, that is, robustness > 0. If the robustness is 0, the kind of
+  /// comparison decides: `x <= y` holds for x = y, `x < y` does not.
   bool satisfied = false;
-  std::optional<std::size_t> row;  ///< decisive sample, the earliest if there are several
+  /// Row of the decisive sample, the earliest if there are several.
+  std::optional<std::size_t> row;
 };
 
 /// Evaluates a formula at the first sample. The log must have the formula's signals as columns, and
 /// increasing times `t_s` [s]. InputError naming signal and time for a signal that is missing or
-/// not finite, a comparison that is not finite (division by zero), times that do not increase, and
-/// a log without rows. Cost O(steps x rows) in time for windows of any length (Lemire 2006), and
-/// O(depth x rows) in memory.
+/// not finite, and for a comparison that is not finite (division by zero). InputError for times
+/// that do not increase, and for a log without rows. Cost: O(steps x rows) in time for windows of
+/// any length (Lemire 2006), and O(depth x rows) in memory.
 FormulaResult Evaluate(const Formula& formula, const Table& log);
 
-/// FormulaResult::robustness: > 0 satisfied, < 0 violated. Errors as Evaluate.
+/// The robustness at the first sample: > 0 satisfied, < 0 violated. Throws the InputErrors of
+/// Evaluate.
 double Robustness(const Formula& formula, const Table& log);
 
-/// The robustness at each sample, as if the log began there. Errors as Evaluate.
+/// The robustness at each sample, as if the log began at that sample. Throws the InputErrors of
+/// Evaluate.
 std::vector<double> RobustnessOverTime(const Formula& formula, const Table& log);
 
 }  // namespace trackbed

@@ -9,26 +9,27 @@
 
 #include "trackbed/road_network/reference_line.h"
 
-/// Roads, their lanes and how they are linked, as OpenDRIVE describes them (ASAM OpenDRIVE 1.7.0).
+/// Roads, their lanes and their links, in the terms of OpenDRIVE (ASAM OpenDRIVE 1.7.0).
 ///
-/// Symbols: s station along a road's reference line in the plane [m], from 0 to its length;
-/// t lateral coordinate [m], positive to the left of growing s. Lanes are counted from the center
-/// lane, which has no width and the number 0: 1, 2, ... to the left, -1, -2, ... to the right.
+/// Symbols: s station along a road's reference line in the plane [m], from 0 to its length; t
+/// lateral coordinate [m], positive to the left in the direction of growing s. The center lane has
+/// no width and the number 0. Lanes to its left are numbered 1, 2, ..., lanes to its right -1, -2,
+/// ....
 namespace trackbed {
 
 /// The painted line at the outer border of a lane, or on the center lane.
 struct RoadMark {
-  double s = 0.0;      ///< start, from the start of its lane section [m]
-  std::string type;    ///< "solid", "broken", "solid solid", "none", ... as in the file
-  std::string color;   ///< "standard", "white", "yellow", ... as in the file
-  double width = 0.0;  ///< [m]; 0: unknown
+  double s = 0.0;      ///< Distance of the start from the start of the lane section [m].
+  std::string type;    ///< Type in the file: "solid", "broken", "solid solid", "none", ...
+  std::string color;   ///< Color in the file: "standard", "white", "yellow", ...
+  double width = 0.0;  ///< Width [m]; 0: unknown.
 };
 
 struct Lane {
   int id = 0;
-  std::string type;  ///< "driving", "shoulder", "sidewalk", ... as in the file
-  /// Over the distance from the start of the lane section [m]: its width, or if `has_border` the
-  /// t coordinate of its outer border.
+  std::string type;  ///< Type in the file: "driving", "shoulder", "sidewalk", ...
+  /// The width of the lane, or with `has_border` the t coordinate of its outer border. The extent
+  /// is a function of the distance from the start of the lane section [m].
   PiecewiseCubic extent;
   bool has_border = false;
   /// Linked lanes at the start and end of the section, in growing s.
@@ -39,10 +40,10 @@ struct Lane {
 
 /// A stretch of road with a constant number of lanes.
 struct LaneSection {
-  double s = 0.0;           ///< station of its start [m]
-  std::vector<Lane> lanes;  ///< from left to right; numbers fall by one
+  double s = 0.0;           ///< Station of the start [m].
+  std::vector<Lane> lanes;  ///< Lanes from left to right, with numbers that decrease by one.
 
-  /// Null if there is no lane of that number.
+  /// The lane of that number; null if there is none.
   [[nodiscard]] const Lane* Find(int lane) const;
 };
 
@@ -51,32 +52,35 @@ enum class RoadEnd { kStart, kEnd };
 /// The road or junction beyond an end of a road.
 struct RoadLink {
   bool is_junction = false;
-  std::string id;                     ///< of that road or junction
-  RoadEnd contact = RoadEnd::kStart;  ///< the end of that road; unused for junctions
-  int line = 0;                       ///< in the file
+  std::string id;  ///< Id of that road or junction.
+  /// End of that road at which the link arrives; unused for junctions.
+  RoadEnd contact = RoadEnd::kStart;
+  int line = 0;  ///< Line in the file.
 };
 
 struct Road {
   std::string id;
   std::string name;
-  double length = 0.0;                  ///< [m], > 0
-  std::optional<std::string> junction;  ///< the junction that it is part of
+  double length = 0.0;                  ///< Length [m], > 0.
+  std::optional<std::string> junction;  ///< Id of the junction that contains the road.
   bool left_hand_traffic = false;
   ReferenceLine reference;
-  PiecewiseCubic elevation;       ///< z of the reference line [m] over s
-  PiecewiseCubic superelevation;  ///< roll about the reference line [rad]: positive, left side up
-  PiecewiseCubic lane_offset;     ///< t of the center lane [m] over s
-  std::vector<LaneSection> sections;  ///< at least one, in growing s, the first at 0
+  PiecewiseCubic elevation;  ///< Height z of the reference line [m] over s.
+  /// Roll about the reference line [rad]; positive if the left side is higher.
+  PiecewiseCubic superelevation;
+  PiecewiseCubic lane_offset;         ///< Coordinate t of the center lane [m] over s.
+  std::vector<LaneSection> sections;  ///< At least one section, in growing s, the first at 0.
   std::optional<RoadLink> predecessor;
   std::optional<RoadLink> successor;
-  /// Additional heights in the file that are not supported: "shape", "crossfall", "lane height",
-  /// "level lane".
+  /// Kinds of additional heights in the file that are not supported: "shape", "crossfall", "lane
+  /// height", "level lane".
   std::vector<std::string> unread_heights;
-  int line = 0;  ///< in the file
+  int line = 0;  ///< Line in the file.
 
-  /// The index of the section at s; at a border, of the section that begins there.
+  /// The index of the section at s. At a border of two sections, the index is that of the section
+  /// that begins there.
   [[nodiscard]] std::size_t SectionAt(double s) const;
-  /// Station of a section's end [m].
+  /// The station of a section's end [m].
   [[nodiscard]] double SectionEnd(std::size_t section) const;
 };
 
@@ -84,10 +88,10 @@ struct Road {
 struct JunctionConnection {
   std::string incoming;
   std::string connecting;
-  RoadEnd contact = RoadEnd::kStart;  ///< the end of the connecting road
-  std::vector<std::pair<int, int>>
-      lane_links;  ///< lane of the incoming, lane of the connecting road
-  int line = 0;    ///< in the file
+  RoadEnd contact = RoadEnd::kStart;  ///< End of the connecting road at which it is connected.
+  /// Pairs of a lane of the incoming road and one of the connecting road.
+  std::vector<std::pair<int, int>> lane_links;
+  int line = 0;  ///< Line in the file.
 };
 
 struct Junction {
@@ -96,60 +100,61 @@ struct Junction {
 };
 
 struct RoadNetwork {
-  std::map<std::string, Road, std::less<>> roads;          ///< by id
-  std::map<std::string, Junction, std::less<>> junctions;  ///< by id
-  std::vector<std::string> notes;                          ///< unused parts of the file
+  std::map<std::string, Road, std::less<>> roads;          ///< Roads by id.
+  std::map<std::string, Junction, std::less<>> junctions;  ///< Junctions by id.
+  std::vector<std::string> notes;                          ///< Notes on unused parts of the file.
 };
 
 /// The borders of a lane at one station, as t coordinates [m] with their derivatives over s.
 struct LaneBorders {
-  CubicValue inner;  ///< toward the center lane
+  CubicValue inner;  ///< Border toward the center lane.
   CubicValue outer;
 
   [[nodiscard]] CubicValue Center() const;
-  /// Width [m]; 0 for the center lane.
+  /// The width of the lane [m]; 0 for the center lane.
   [[nodiscard]] double Width() const;
 };
 
-/// PreconditionError for a lane that the section does not have. At the border of two pieces of the
-/// file's functions, `piece_of` [m] selects the applicable pieces. Cost O(lanes log
-/// pieces).
+/// The borders of a lane. PreconditionError for a lane that the section does not have. At the
+/// border of two pieces of the file's functions, `piece_of` [m] selects the applicable pieces. Cost
+/// O(lanes log pieces).
 LaneBorders LaneBordersAt(const Road& road, std::size_t section, int lane, double s,
                           double piece_of);
 LaneBorders LaneBordersAt(const Road& road, int lane, double s);
 
 /// The unit vector across a road's surface to the left of its reference line: the level normal of
 /// the line, rotated by `roll` about its tangent in space. `tangent` is the derivative of the line
-/// over the station, as seen from above, `slope` that of its elevation.
+/// over the station, as seen from above; `slope` is the derivative of the line's elevation.
 Eigen::Vector3d AcrossSurface(const Vec2& tangent, double slope, double roll);
 
 /// A point on the surface of a road.
 struct RoadPosition {
-  double x = 0.0;        ///< [m]
-  double y = 0.0;        ///< [m]
-  double z = 0.0;        ///< [m]
-  double heading = 0.0;  ///< of the reference line, towards growing s [rad]; not wrapped
+  double x = 0.0;  ///< Coordinate x [m].
+  double y = 0.0;  ///< Coordinate y [m].
+  double z = 0.0;  ///< Coordinate z [m].
+  /// Heading of the reference line in the direction of growing s [rad], not wrapped.
+  double heading = 0.0;
 };
 
-/// The point at the distance t [m] from the reference line along the surface: along the left normal
-/// of the line, rotated by the superelevation about the line's tangent in space. Excludes the
-/// heights of Road::unread_heights. PreconditionError for a station outside of the road by more
-/// than 1 mm, or numbers that are not finite.
+/// The point of the surface at the distance t [m] from the reference line. The distance is measured
+/// along the left normal of the line, rotated by the superelevation about the line's tangent in
+/// space. The heights of Road::unread_heights are ignored. PreconditionError for a station outside
+/// of the road by more than 1 mm, or numbers that are not finite.
 RoadPosition PositionAt(const Road& road, double s, double t);
 
-/// As PositionAt, at the distance `offset` [m] from the center of a lane, positive to the left of
-/// growing s. PreconditionError also for a missing lane.
+/// As PositionAt, at the distance `offset` [m] from the center of a lane, positive to the left in
+/// the direction of growing s. PreconditionError for a missing lane.
 RoadPosition LanePositionAt(const Road& road, int lane, double s, double offset = 0.0);
 
-/// Whether the road is level at constant height: no slope, no superelevation, no unread heights.
+/// Whether the road is level at constant height, without slope, superelevation and unread heights.
 bool IsLevel(const Road& road);
 
 /// Whether vehicles use lanes of this type: "driving", "entry", "exit", "onRamp", "offRamp",
 /// "connectingRamp", "slipLane", "bidirectional", "bus", "taxi", "HOV", "mwyEntry", "mwyExit".
 bool IsDrivable(const Lane& lane);
 
-/// Whether traffic on the lane moves towards growing s: right lanes in right-hand traffic, left
-/// lanes in left-hand traffic.
+/// Whether traffic on the lane moves in the direction of growing s. True for the right lanes in
+/// right-hand traffic, and the left lanes in left-hand traffic.
 bool FollowsRoad(const Road& road, int lane);
 
 }  // namespace trackbed

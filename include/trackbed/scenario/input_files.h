@@ -8,12 +8,12 @@
 
 namespace trackbed {
 
-/// The files of a scenario as a run folder keeps them beside the resolved scenario: its recorded
-/// drive, track, map and road network, and the files of its controller and planner. Not the
-/// vehicle's model.
+/// The files of a scenario in the form that the run folder stores. The files are the recorded
+/// drive, track, map and road network, and the files of the controller and planner. The vehicle's
+/// model is not included.
 std::vector<InputFile> InputFiles(const Scenario& scenario);
 
-/// Every name that InputFiles may return, for all registered controllers and planners.
+/// All names that InputFiles may return, for all registered controllers and planners.
 std::vector<std::string> InputFileNames();
 
 }  // namespace trackbed

@@ -7,23 +7,26 @@
 namespace trackbed {
 
 struct KeyInfo {
-  std::string name;      ///< within its section
-  std::string type;      ///< "number", "list of names", "section", …
-  std::string unit;      ///< "m/s"; empty for non-quantities
-  std::string fallback;  ///< default value; empty when there is none
-  std::string allowed;   ///< "above 0 and at most 10"; empty for all values of the type
-  std::string text;      ///< description, one line
+  std::string name;      ///< Name within the section.
+  std::string type;      ///< Type: "number", "list of names", "section", …
+  std::string unit;      ///< Unit such as "m/s"; empty for keys that are not quantities.
+  std::string fallback;  ///< Default value; empty if there is none.
+  /// Allowed values, "above 0 and at most 10"; empty if all values of the type are allowed.
+  std::string allowed;
+  std::string text;  ///< One-line description.
   bool required = false;
 };
 
 struct KeySection {
-  std::string key;     ///< dotted, with N for the elements of a list; empty for the whole file
-  std::string method;  ///< the method that has these keys; empty when they do not depend on one
-  std::string text;    ///< description, one line
+  /// Dotted key, with N for the elements of a list; empty for the whole file.
+  std::string key;
+  std::string method;  ///< Method that has these keys; empty if all methods have them.
+  std::string text;    ///< One-line description.
   std::vector<KeyInfo> keys;
 };
 
-/// The sections in the order of the file, each before those inside it.
+/// The sections of a scenario in the order of the file. Each section precedes the sections inside
+/// it.
 std::vector<KeySection> ScenarioKeys();
 
 /// The sections of a study.

@@ -10,40 +10,41 @@
 #include "trackbed/recording/log_map.h"
 #include "trackbed/recording/recorded_drive.h"
 
-/// A recorded drive in a scenario: every plant replays it and is compared with it.
+/// A recorded drive in a scenario. Every plant replays the drive and is compared with it.
 namespace trackbed {
 
 /// The section `record` of a scenario.
 struct RecordSpec {
-  std::string file;                ///< a log, or a `record.csv` of a run
-  std::optional<std::string> map;  ///< how to read the log; none: the file is a `record.csv`
-  std::optional<double> from{};    ///< replaces the map's `from` [s]
-  std::optional<double> to{};      ///< replaces the map's `to` [s]
+  std::string file;  ///< A log, or the `record.csv` of a run.
+  /// Log map that describes the log; none: the file is a `record.csv`.
+  std::optional<std::string> map;
+  std::optional<double> from{};  ///< Replaces the map's `from` [s].
+  std::optional<double> to{};    ///< Replaces the map's `to` [s].
   ReplaySteering steering = ReplaySteering::kCommand;
   ReplayDrive drive = ReplayDrive::kSpeed;
-  std::vector<double> windows{};  ///< horizons after which plants restart at the record [s]
-  double min_speed = 0.3;         ///< slower moments and windows are ignored [m/s]
-  /// RecordedDrive::notes, one per line; none: those of the import.
+  std::vector<double> windows{};  ///< Horizons after which plants restart at the record [s].
+  double min_speed = 0.3;         ///< Speed below which moments and windows are ignored [m/s].
+  /// RecordedDrive::notes, one per line; nullopt: the notes of the import.
   std::optional<std::string> notes{};
 
-  // Not a key: the drive itself, shared by all scenarios copied from one.
+  // The recorded drive, which is not a key. Copies of the scenario share it.
   std::shared_ptr<const RecordedDrive> data{};
 };
 
-/// The names allowed in drive.plants: those of Plants(), and kRecordedPlant, whose run is the
-/// record itself.
+/// The names allowed in drive.plants: those of Plants(), and kRecordedPlant. The run of
+/// kRecordedPlant is the record.
 std::vector<std::string> DrivenPlantNames();
 
-/// Names and one-line summaries of these plants, for users.
+/// Names and one-line summaries of the allowed plants, for users.
 std::vector<std::pair<std::string, std::string>> DrivenPlantSummaries();
 
-/// Reads a log map strictly. InputError with every problem of the file: unknown keys (with the
-/// nearest known one), missing or repeated keys, wrong types, values out of range, each with file,
-/// line, column and dotted key.
+/// Reads a log map strictly. InputError lists every problem of the file, each with file, line,
+/// column and dotted key: unknown keys (with the most similar known key), missing or repeated keys,
+/// wrong types, and values out of range.
 LogMap ReadLogMap(const std::filesystem::path& file);
 
 /// Whether the file has the keys `time` and `position`, which log maps have and scenarios do not.
-/// False when it cannot be read.
+/// False if the file cannot be read.
 bool IsLogMap(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -7,7 +7,7 @@
 namespace trackbed {
 
 /// The track of a run, from `track.csv` in its folder, with the smoothing of the run's scenario.
-/// Errors: those of ReadTrack and ReadScenario.
+/// Throws the errors of ReadTrack and ReadScenario.
 Track ReadRunTrack(const std::filesystem::path& track_csv, const std::filesystem::path& scenario);
 
 }  // namespace trackbed

@@ -13,25 +13,25 @@ namespace trackbed {
 
 /// A key of the scenario, its value, and the position in the study's file.
 struct Setting {
-  std::string key;    ///< dotted, as for --set
-  std::string value;  ///< YAML on one line
-  int line = 0;       ///< 1-based
-  int column = 0;     ///< 1-based
+  std::string key;    ///< Dotted key, as for --set.
+  std::string value;  ///< Value as YAML on one line.
+  int line = 0;       ///< Line number from 1.
+  int column = 0;     ///< Column number from 1.
 };
 
-/// Bisects for the highest passing value of a key.
+/// A bisection for the highest passing value of a key.
 struct BisectSpec {
-  std::string key;         ///< dotted; of a number
-  double from = 0.0;       ///< expected to pass
-  double to = 0.0;         ///< expected to fail; above `from`
-  double tolerance = 0.0;  ///< of the value found
+  std::string key;         ///< Dotted key of a number.
+  double from = 0.0;       ///< Value that is expected to pass.
+  double to = 0.0;         ///< Value above `from` that is expected to fail.
+  double tolerance = 0.0;  ///< Tolerance of the result.
   int line = 0;
   int column = 0;
 };
 
 /// An output of every run.
 struct OutputSpec {
-  std::string path;  ///< dotted, such as "metrics.mujoco.cross_track.max"
+  std::string path;  ///< Dotted path, such as "metrics.mujoco.cross_track.max".
   int line = 0;
   int column = 0;
 };
@@ -40,59 +40,60 @@ struct OutputSpec {
 struct KeepSpec {
   enum class Rows {
     kNone,
-    kFailed,  ///< rows that did not pass
+    kFailed,  ///< Rows that did not pass.
     kAll,
-    kHighest,  ///< the `count` with the highest values of the output `by`
-    kLowest,   ///< the `count` with the lowest values of the output `by`
+    kHighest,  ///< The `count` rows with the highest values of the output `by`.
+    kLowest,   ///< The `count` rows with the lowest values of the output `by`.
   };
   Rows rows = Rows::kNone;
   int count = 0;
   std::string by{};
 };
 
-/// The spelling in files, "worst 10 by metrics.mujoco.cross_track.max".
+/// The spelling in files: "worst 10 by metrics.mujoco.cross_track.max".
 std::string ToString(const KeepSpec& keep);
 
-/// Holds at points at which a key of the study has one of the given values.
+/// A condition, which holds at points at which a key of the study has one of the given values.
 struct Condition {
   std::string key;
-  std::vector<std::string> values;  ///< each as YAML on one line
+  std::vector<std::string> values;  ///< Values, each as YAML on one line.
 };
 
 /// A key that varies between runs.
 struct Variation {
-  std::string key;  ///< dotted
+  std::string key;  ///< Dotted key.
   int line = 0;
   int column = 0;
-  std::vector<Setting> alternatives{};         ///< of the grid; empty if the key is sampled
-  std::optional<Distribution> distribution{};  ///< if the key is sampled
-  /// The CSV file of its values; keys of the same file take their values from the same row.
+  std::vector<Setting> alternatives{};         ///< Values in the grid; empty if the key is sampled.
+  std::optional<Distribution> distribution{};  ///< Distribution of a sampled key.
+  /// The CSV file of the key's values. Keys of the same file have the values of the same row.
   std::string rows_of{};
-  /// The key is set only if all of them hold.
+  /// The key is only set if all of these conditions hold.
   std::vector<Condition> when{};
 };
 
 /// A key whose value is computed from other keys.
 struct DerivedKey {
-  std::string key;      ///< dotted
-  std::string formula;  ///< over keys of the study
+  std::string key;      ///< Dotted key.
+  std::string formula;  ///< Formula over keys of the study.
   int line = 0;
   int column = 0;
 };
 
 /// How `trackbed falsify` searches the keys with distributions for a run that fails.
 struct SearchSpec {
-  std::string method = "surrogate";  ///< one of StudySearches()
-  int runs = 200;                    ///< maximum number of runs of the search
+  std::string method = "surrogate";  ///< One of StudySearches().
+  int runs = 200;                    ///< Maximum number of runs of the search.
   /// Number of parallel NLopt searches, which share the runs; 0: two, or one for `direct`.
   int restarts = 0;
-  int population = 0;  ///< of crs2, esch and isres; 0: 4 n + 4 for n keys
+  /// Population of crs2, esch and isres. 0: 4 n + 4 for n keys.
+  int population = 0;
   /// Method for the last quarter of the runs: "none", "nelder_mead" or "cobyla".
   std::string finish = "none";
   std::uint64_t seed = 1;
-  bool stop = true;         ///< at the first violation
-  int shrink_runs = 200;    ///< maximum number of runs to shrink the counterexample
-  double tolerance = 0.01;  ///< of shrinking, as a fraction of each key's range
+  bool stop = true;         ///< Whether to stop at the first violation.
+  int shrink_runs = 200;    ///< Maximum number of runs to shrink the counterexample.
+  double tolerance = 0.01;  ///< Tolerance of shrinking, as a fraction of each key's range.
 };
 
 /// The allowed values of SearchSpec::method: "random", "latin_hypercube", "sobol", "surrogate"
@@ -104,71 +105,75 @@ const std::vector<std::string>& StudySearches();
 /// sample, so that the grid compares equal conditions.
 struct Study {
   std::string name;
-  std::string file;                  ///< as the user named it
-  std::filesystem::path scenario;    ///< resolved from the study's folder
-  std::string scenario_text;         ///< its content at the time of reading the study
-  std::vector<Override> overrides;   ///< from the command line; they take precedence over `set`
-  std::vector<std::string> cameras;  ///< as for ReadScenario
-  MetricPaths metrics;               ///< as for ReadScenario
-  std::vector<std::filesystem::path> asset_folders;  ///< as for ReadScenario
-  std::vector<Setting> set;                          ///< the same in every run
-  std::vector<Variation> vary;                       ///< in the file's order
-  std::vector<std::vector<Setting>> list;            ///< points that set several keys; empty: none
-  std::optional<SampleSpec> sample;                  ///< for the keys of `vary` with distributions
-  std::optional<SearchSpec> search;                  ///< for the keys of `vary` with distributions
-  std::vector<Setting> nominal;      ///< the point toward which a counterexample is shrunk
-  std::vector<DerivedKey> derive;    ///< in the file's order
-  int repeat = 1;                    ///< runs per point, with consecutive seeds
-  std::optional<BisectSpec> bisect;  ///< at every point of the grid
+  std::string file;                ///< File name as the user gave it.
+  std::filesystem::path scenario;  ///< Path of the scenario, resolved from the study's folder.
+  std::string scenario_text;       ///< Content of the scenario when the study was read.
+  /// Overrides from the command line, which take precedence over `set`.
+  std::vector<Override> overrides;
+  std::vector<std::string> cameras;                  ///< Same as for ReadScenario.
+  MetricPaths metrics;                               ///< Same as for ReadScenario.
+  std::vector<std::filesystem::path> asset_folders;  ///< Same as for ReadScenario.
+  std::vector<Setting> set;                          ///< Settings of every run.
+  std::vector<Variation> vary;                       ///< Varied keys, in the file's order.
+  std::vector<std::vector<Setting>> list;            ///< Points that set several keys; empty: none.
+  std::optional<SampleSpec> sample;  ///< Sample for the keys of `vary` with distributions.
+  std::optional<SearchSpec> search;  ///< Search over the keys of `vary` with distributions.
+  std::vector<Setting> nominal;      ///< Point toward which a counterexample is shrunk.
+  std::vector<DerivedKey> derive;    ///< Computed keys, in the file's order.
+  int repeat = 1;                    ///< Number of runs per point, with consecutive seeds.
+  std::optional<BisectSpec> bisect;  ///< Bisection at every point of the grid.
   std::vector<OutputSpec> outputs;
   KeepSpec keep{};
 };
 
 /// A point of a study.
 struct StudyPoint {
-  std::vector<Setting> settings;  ///< of `vary`, `list` and `derive`
-  Scenario scenario;              ///< with these settings, and the bisected key at `from`
-  std::string refused{};          ///< why the scenario is invalid; empty: it is valid
+  std::vector<Setting> settings;  ///< Settings of `vary`, `list` and `derive`.
+  Scenario scenario;              ///< Scenario with these settings, and the bisected key at `from`.
+  std::string refused{};          ///< Reason why the scenario is invalid; empty if it is valid.
 };
 
-/// Whether the file has the key `scenario`, which studies have and scenarios do not. False when it
-/// cannot be read.
+/// Whether the file has the key `scenario`, which studies have and scenarios do not. False if the
+/// file cannot be read.
 bool IsStudy(const std::filesystem::path& file);
 
 /// Reads a study as strictly as ReadScenario reads a scenario, and the text of its scenario.
-/// InputError with **every** problem of the study's keys, including keys that overwrite each other.
+/// InputError lists **every** problem of the study's keys, including keys that overwrite each
+/// other.
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                 const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {},
                 const std::vector<std::filesystem::path>& asset_folders = {});
 
-/// The scenario at a point, with the bisected key at `bisected`. InputError as ReadScenario;
-/// problems of the study's settings are placed in the study's file.
+/// The scenario at a point, with the bisected key at `bisected`. Throws the InputErrors of
+/// ReadScenario. Problems of the study's settings have their place in the study's file.
 Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
                    std::optional<double> bisected = {});
 
-/// The point with these settings and the derived keys; refused with the first problem if the
-/// scenario is invalid.
+/// Makes the point with these settings and the derived keys. If the scenario is invalid, the point
+/// has the first problem in StudyPoint::refused.
 StudyPoint PointWith(const Study& study, std::vector<Setting> settings);
 
-/// The number at a key of a scenario with all defaults filled in; none if there is no such key.
+/// The number at a key of a scenario with all defaults filled in; nullopt if there is no such key.
 std::optional<double> NumberAt(const Scenario& scenario, const std::string& key);
 
-/// The points of a study, computed on demand and not stored. The last key of the grid changes
-/// fastest, points of the list change faster than all keys of `vary`, and those of the sample
+/// The points of a study, computed on demand and not stored. In the grid, the last key changes
+/// fastest. Points of the list change faster than all keys of `vary`; points of the sample change
 /// faster than the list.
 ///
-/// Guarantees: a point depends only on the study. Immutable: several threads may read points at a
-/// time. Points of the grid that differ only in a key whose condition does not hold are merged.
+/// Guarantees: a point depends only on the study. The object is immutable: several threads may read
+/// points at the same time. Points of the grid that differ only in a key whose condition does not
+/// hold are merged.
 class StudyPoints {
  public:
-  /// InputError when keys have distributions and there is no `sample`.
+  /// InputError if keys have distributions and there is no `sample`.
   explicit StudyPoints(Study study);
 
   [[nodiscard]] const Study& study() const { return study_; }
   [[nodiscard]] std::size_t size() const { return combinations_ * samples(); }
-  /// The settings of the point `i` of `size()`. InputError if a formula has no value there.
+  /// The settings of the point `i` of `size()`. InputError if a formula has no value at that point.
   [[nodiscard]] std::vector<Setting> Settings(std::size_t i) const;
-  /// The point `i`; refused with the first problem if its scenario is invalid.
+  /// The point `i`. If its scenario is invalid, the point has the first problem in
+  /// StudyPoint::refused.
   [[nodiscard]] StudyPoint Read(std::size_t i) const;
 
  private:
@@ -177,19 +182,19 @@ class StudyPoints {
   void KeepDistinctPoints();
 
   Study study_;
-  std::size_t combinations_ = 1;         // of the grid
-  std::vector<std::size_t> distinct_{};  // indices among all combinations; empty: all are distinct
-  Eigen::MatrixXd unit_sample_;          // one row per point of the sample
-  std::vector<int> dimensions_;          // column of each key of `vary`; -1: not sampled
+  std::size_t combinations_ = 1;         // Number of combinations in the grid.
+  std::vector<std::size_t> distinct_{};  // Indices among all combinations; empty: all are distinct.
+  Eigen::MatrixXd unit_sample_;          // One row per point of the sample.
+  std::vector<int> dimensions_;          // Column of each key of `vary`; -1: not sampled.
 };
 
 /// The points that are checked before a study runs: all, or 1000 evenly spaced points, including
 /// the first and the last.
 std::vector<std::size_t> PointsToCheck(const StudyPoints& points);
 
-/// InputError with the problems of PointsToCheck, each reported once, with one point that has it
-/// unless all do. Bisections are checked at both ends and at a value in between. With `all`, every
-/// point must be valid; otherwise one valid point is enough.
+/// Checks PointsToCheck. InputError lists the problems, each once, with one of the points that have
+/// it unless all points have it. Bisections are checked at both ends and at a value in between. If
+/// `all` is true, every point must be valid; otherwise one valid point is enough.
 void CheckPoints(const StudyPoints& points, bool all);
 
 /// A value as text in a table: numbers in their shortest form, other values as YAML.

@@ -10,11 +10,12 @@ class Track;
 
 /// The section `mission.track` of a scenario: laps on a closed track.
 struct TrackSpec {
-  std::string file;                 ///< as ReadTrack (track/track_file.h)
-  int laps = 1;                     ///< timed laps, >= 1
-  std::optional<double> smoothing;  ///< of the center line: a wavelength [m]; none: Track's default
+  std::string file;  ///< File in a format of ReadTrack (track/track_file.h).
+  int laps = 1;      ///< Number of timed laps, >= 1.
+  /// Wavelength below which the center line is smoothed [m]; none: Track's default.
+  std::optional<double> smoothing;
 
-  // Not a key: the track itself, shared by all scenarios copied from one.
+  // The track, which is not a key. Copies of the scenario share it.
   std::shared_ptr<const Track> data{};
 };
 

@@ -8,16 +8,16 @@ namespace trackbed {
 
 /// The tyres, springs, brakes and drive of a car without its payload, for its g-g-v diagram.
 ///
-/// The roll stiffness of an axle is that of the slide joints between its wheels and the chassis and
-/// of the fixed tendons over them, in series with the springs of Magic Formula tyres. An axle
-/// without springs on contact tyres has no stiffness in the model, and gets 1e7 N m/rad for each
-/// ton. `law` must be resolved by SelectTyreLaw. InternalError for a vehicle without steered front
-/// wheels.
+/// The roll stiffness of an axle results from the slide joints between wheels and chassis and the
+/// fixed tendons over these joints. The springs of Magic Formula tyres are in series with that
+/// stiffness. An axle without springs on contact tyres has no stiffness in the model, and gets 1e7
+/// N m/rad for each ton. `law` must be resolved by SelectTyreLaw. InternalError for a vehicle
+/// without steered front wheels.
 GripModel MakeGripModel(const CarModel& car, TyreLaw law);
 
-/// The diagram of a vehicle on roads of the given factors: ComputeGgv for a car, FrictionGgv for a
-/// vehicle with differential drive. Braking is limited to MaxDeceleration, which no command
-/// exceeds.
+/// The diagram of a vehicle on roads of the given friction factors. The diagram is that of
+/// ComputeGgv for a car, and that of FrictionGgv for a vehicle with differential drive. Braking is
+/// limited to MaxDeceleration, which no command exceeds.
 GgvDiagram ComputeGgv(const CarModel& car, TyreLaw law, const std::vector<double>& roads);
 
 }  // namespace trackbed

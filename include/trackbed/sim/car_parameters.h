@@ -8,8 +8,8 @@
 
 /// Reads and replaces the numeric parameters of a car's model by name.
 ///
-/// Names are those of the numerics under <custom> (docs/models.md), such as `p_ky1_front`, with an
-/// index from 0 for one of several values, such as `steering_curve[1]`; and
+/// The names include those of the numerics under <custom> (docs/models.md), such as `p_ky1_front`.
+/// One of several values has an index from 0, such as `steering_curve[1]`. Further names are
 ///
 ///   mass          of the whole vehicle [kg]
 ///   cg_to_rear    its center of gravity ahead of the rear axle [m]
@@ -24,22 +24,22 @@ namespace trackbed {
 struct CarParameter {
   std::string name;
   double value = 0.0;
-  std::string origin{};  ///< written beside it as a comment; empty: none
+  std::string origin{};  ///< Comment beside the parameter in the model; empty: none.
 };
 
-/// The value of a parameter in the model. InputError naming the car's file, with the nearest
-/// spelling, for an unknown name.
+/// Returns the value of a parameter in the model. For an unknown name, InputError naming the car's
+/// file and the nearest spelling.
 double CarParameterValue(const CarModel& car, const std::string& name);
 
-/// The car's scene with the given parameter values; names must not repeat.
+/// Returns the car's scene with the given parameter values. Each name may occur only once.
 ///
-/// Masses and inertias change only in the body `chassis`, which needs an <inertial>; the springs
+/// Masses and inertias only change in the body `chassis`, which needs an <inertial>. The springs
 /// (slide joints between chassis and wheels) are preloaded so that the car still stands at zero
 /// travel. A parameter that the model did not have, such as `p_ky1_front`, is added.
 ///
-/// Errors: InputError as above, for a chassis without <inertial>, and for values that leave the
-/// chassis without mass or inertia. Other invalid values are detected when the scene is compiled to
-/// a CarModel. Cost: parsing and printing the model, below 1 ms.
+/// Errors: InputError for an unknown name, for a chassis without <inertial>, and for values that
+/// leave the chassis without mass or inertia. Other invalid values are detected when the scene is
+/// compiled to a CarModel. Cost: parsing and printing the model, below 1 ms.
 Scene WithCarParameters(const CarModel& car, const std::vector<CarParameter>& parameters);
 
 }  // namespace trackbed

@@ -15,10 +15,10 @@ struct MujocoDeleter {
 using MujocoModel = std::unique_ptr<mjModel_, MujocoDeleter>;
 using MujocoData = std::unique_ptr<mjData_, MujocoDeleter>;
 
-/// A copy of the model; RunError if there is not enough memory.
+/// Copies a model. RunError if there is not enough memory.
 MujocoModel CopyMujocoModel(const mjModel_& model);
 
-/// Data for the model, in its initial configuration; RunError if there is not enough memory.
+/// Makes data for the model, in its initial configuration. RunError if there is not enough memory.
 MujocoData MakeMujocoData(const mjModel_& model);
 
 }  // namespace trackbed

@@ -7,8 +7,8 @@
 
 namespace trackbed {
 
-/// Adds the payload to the car: a body `payload` fixed to `chassis`, and a keyframe `laden`, the
-/// laden equilibrium pose. `car` must have no payload, and a scene with flat ground and without
+/// Adds the payload to the car: a body `payload` fixed to `chassis`, and a keyframe `laden` with
+/// the equilibrium pose. `car` must have no payload. The car's scene must have flat ground and no
 /// obstacles. InputError naming the car's file if the car does not come to rest on its four wheels.
 /// Cost: at most a second of simulated time in MuJoCo.
 Scene WithPayload(const CarModel& car, const Payload& payload);

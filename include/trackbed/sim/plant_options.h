@@ -9,26 +9,28 @@ namespace trackbed {
 
 /// The initial state of a run.
 struct StartState {
-  Pose2 pose;             ///< rear-axle center
-  double speed = 0.0;     ///< [m/s]
-  double steering = 0.0;  ///< bicycle angle of both wheels and actuator [rad]
-  /// Of the rear axle, along y [m/s]; none: no slip. Only for plants that can slip.
+  Pose2 pose;             ///< Position of the rear-axle center, and yaw.
+  double speed = 0.0;     ///< Speed [m/s].
+  double steering = 0.0;  ///< Angle of wheels and actuator in the bicycle model [rad].
+  /// Lateral speed of the rear axle, along y [m/s]; nullopt: no slip. Only for plants that can
+  /// slip.
   std::optional<double> lateral_speed{};
-  std::optional<double> yaw_rate{};  ///< [rad/s]; none: no slip
+  std::optional<double> yaw_rate{};  ///< Yaw rate [rad/s]; none: no slip.
 };
 
 /// The tyre model of the MuJoCo plant.
 enum class TyreLaw {
-  kAuto,     ///< the Magic Formula for cars whose file has its coefficients, else contacts
-  kContact,  ///< MuJoCo's friction cone: negligible slip below the friction limit
-  /// Forces grow with slip (vehicle/magic_formula.h); contacts only carry the load.
+  /// The Magic Formula if the car's file has its coefficients, else contacts.
+  kAuto,
+  kContact,  ///< MuJoCo's friction cone, with negligible slip below the friction limit.
+  /// Magic Formula: forces grow with slip (vehicle/magic_formula.h). Contacts only carry the load.
   kMagicFormula,
 };
 
 /// How the commanded steering angle reaches the road wheels.
 enum class SteeringInput {
-  kActuator,    ///< through the car's actuator, within its rate and angle limits
-  kPrescribed,  ///< exactly and at once, for validation
+  kActuator,    ///< Through the car's actuator, within its rate and angle limits.
+  kPrescribed,  ///< Exactly and immediately, for validation.
 };
 
 }  // namespace trackbed

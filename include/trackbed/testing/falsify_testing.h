@@ -12,11 +12,11 @@
 ///
 ///     EXPECT_THAT(trackbed::FalsifyStudy("studies/lane_change.yaml"), trackbed::IsNotFalsified());
 ///
-/// A failing matcher prints the smallest counterexample and what failed.
+/// A failing matcher prints the smallest counterexample and the failed check.
 namespace trackbed {
 
-/// Searches the study on all threads of the machine, in memory, with `overrides` as on the command
-/// line. InputError with every problem of the file.
+/// Searches a study on all threads of the machine, in memory. `overrides` are those of the command
+/// line. InputError lists every problem of the file.
 FalsifyResult FalsifyStudy(const std::filesystem::path& file,
                            const std::vector<Override>& overrides = {});
 
@@ -24,7 +24,7 @@ FalsifyResult FalsifyStudy(const std::filesystem::path& file,
 /// in 61 runs".
 void PrintTo(const FalsifyResult& result, std::ostream* out);
 
-/// Matches if no run of the search failed or hit a bug of the program. That is not a proof.
+/// Matches if no run of the search failed or met a bug of the program. A match is not a proof.
 testing::Matcher<const FalsifyResult&> IsNotFalsified();
 
 }  // namespace trackbed

@@ -10,7 +10,7 @@
 #include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/run.h"
 
-/// Scenarios in GoogleTest: run one, then state expectations.
+/// Scenarios in GoogleTest: run a scenario, then state expectations.
 ///
 ///     const RunResult run = trackbed::RunScenario("scenarios/three_turns.yaml");
 ///     EXPECT_THAT(run, trackbed::ReachesGoal(0.5));
@@ -21,56 +21,56 @@
 ///                 trackbed::DiffersByAtMost({.position_max = 0.1, .yaw_rate_max = 0.05}));
 ///
 /// A failing matcher prints the value, the station and the time. Each matcher checks every plant of
-/// the run; a run without a plan, without the named plants, or without the measured quantity (a
-/// path, obstacles) does not match.
+/// the run. A run does not match if it has no plan, lacks the named plants, or lacks the measured
+/// quantity because there is no path or no obstacle.
 namespace trackbed {
 
-/// Plans and simulates the scenario on all its plants, with `overrides` as on the command line.
-/// InputError with every problem of the file.
+/// Plans and simulates the scenario on all its plants. `overrides` are those of the command line.
+/// InputError lists every problem of the file.
 RunResult RunScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {});
 
-/// As above, for a scenario made or changed in code.
+/// As RunScenario above, for a scenario made or changed in code.
 RunResult RunScenario(const Scenario& scenario);
 
-/// The differences between two plants of a run. InputError unless the run has both.
+/// The differences between two plants of a run. InputError unless the run has both plants.
 PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second);
 
-/// The differences of a plant between two runs, for example with different controllers; the two are
-/// named "<run>/<plant>". InputError unless both runs have the plant.
+/// The differences of a plant between two runs, for example with different controllers. The traces
+/// are named "<run>/<plant>". InputError unless both runs have the plant.
 PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant);
 
 /// Prints a comparison in GoogleTest: "kinematic and mujoco from 0 m to 138.2 m: maximum difference
 /// in position 0.02108 m, heading 0.01 rad, yaw rate 0.02 rad/s, steering 0.004 rad".
 void PrintTo(const PlantComparison& comparison, std::ostream* out);
 
-/// The differences never exceed the bounds; plants without common stations do not match.
+/// Matches if the differences never exceed the bounds. Plants without common stations do not match.
 testing::Matcher<const PlantComparison&> DiffersByAtMost(const DifferenceBounds& bounds);
 
 /// Prints a run in GoogleTest: "three_turns: kinematic arrived at 47.12 s, mujoco arrived at 47.13
 /// s; expectations met".
 void PrintTo(const RunResult& run, std::ostream* out);
 
-/// Largest cross-track error of every plant is at most `limit` [m].
+/// Matches if the largest cross-track error of every plant is at most `limit` [m].
 testing::Matcher<const RunResult&> TracksWithin(double limit);
 
-/// `first` and `second` are never further apart than `limit` [m] at equal station.
+/// Matches if `first` and `second` are never further apart than `limit` [m] at equal station.
 testing::Matcher<const RunResult&> StaysWithin(const std::string& first, const std::string& second,
                                                double limit);
 
-/// The footprint of every plant's car stays at least `distance` [m] from every obstacle.
+/// Matches if the footprint of every plant's car stays at least `distance` [m] from every obstacle.
 testing::Matcher<const RunResult&> KeepsClearance(double distance);
 
-/// Every plant arrives, at most `distance` [m] from the end of the path.
+/// Matches if every plant arrives, at most `distance` [m] from the end of the path.
 testing::Matcher<const RunResult&> ReachesGoal(double distance);
 
-/// The log of every plant satisfies a formula of temporal logic over its columns
+/// Matches if the log of every plant satisfies a formula of temporal logic over its columns
 /// (trackbed/requirement/formula.h): "always abs(cross_track_m) < 0.5". A failure names the
-/// robustness, station and time of the decisive sample. An invalid formula does not match, nor does
-/// one without a decisive sample.
+/// robustness, station and time of the decisive sample. Invalid formulas, and formulas without a
+/// decisive sample, do not match.
 testing::Matcher<const RunResult&> Satisfies(const std::string& formula);
 
-/// The run meets the `expect` section of its scenario.
+/// Matches if the run meets the `expect` section of its scenario.
 testing::Matcher<const RunResult&> MeetsItsExpectations();
 
 }  // namespace trackbed

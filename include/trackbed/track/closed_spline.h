@@ -10,11 +10,11 @@
 /// four times continuously differentiable.
 namespace trackbed {
 
-/// The basis: as many functions as knots, over one period.
+/// The basis: one function for each knot, over one period.
 class ClosedSplineBasis {
  public:
-  static constexpr std::size_t kSupport = 6;       ///< functions that are nonzero at a point
-  static constexpr std::size_t kMinFunctions = 6;  ///< minimum number of functions
+  static constexpr std::size_t kSupport = 6;  ///< Number of functions that are nonzero at a point.
+  static constexpr std::size_t kMinFunctions = 6;  ///< Minimum number of functions.
 
   /// The functions that are nonzero at a point, and their values.
   struct Local {
@@ -23,14 +23,15 @@ class ClosedSplineBasis {
     std::array<std::array<double, kSupport>, 3> weight{};
   };
 
-  /// PreconditionError unless the period is positive and finite and there are at least
-  /// kMinFunctions functions.
+  /// Makes a basis. PreconditionError unless the period is positive and finite, and `count` is at
+  /// least kMinFunctions.
   ClosedSplineBasis(double period, std::size_t count);
 
   [[nodiscard]] double period() const { return period_; }
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  /// The basis at any finite parameter, which is wrapped; with `order`, only of that derivative.
+  /// Evaluates the basis at any finite parameter, which is wrapped. With `order`, evaluates only
+  /// that derivative.
   [[nodiscard]] Local At(double t, std::optional<std::size_t> order = {}) const;
 
  private:
@@ -38,23 +39,25 @@ class ClosedSplineBasis {
   std::size_t count_;
 };
 
-/// sum of c_j B_j^(order)(t), order 0 to 2; the coefficients are rows.
+/// Evaluates the sum of c_j B_j^(order)(t), order 0 to 2. The rows of the matrix are the
+/// coefficients.
 Eigen::RowVectorXd Evaluate(const ClosedSplineBasis::Local& at, const Eigen::MatrixXd& coefficients,
                             std::size_t order);
 
 /// Samples of a curve, to which a spline is fitted.
 struct SplineSamples {
-  std::vector<double> t;        ///< parameters, within one period
-  std::vector<double> weights;  ///< of each point: the length that it represents, > 0
-  Eigen::MatrixXd values;       ///< a row for each point
+  std::vector<double> t;        ///< Parameters, within one period.
+  std::vector<double> weights;  ///< Length that each point represents, > 0.
+  Eigen::MatrixXd values;       ///< One row for each point.
 };
 
-/// The coefficients that minimize
+/// Fits a spline to samples: computes the coefficients that minimize
 ///   sum of w_i |P(t_i) - p_i|^2 + (wavelength/(2 pi))^6 integral of |P'''|^2 dt,
 /// with the penalty evaluated by third differences of the coefficients (P-splines, Eilers and Marx
-/// 1996). A wave of length l along the curve is attenuated to 1/(1 + (wavelength/l)^6): 1/2 at
-/// `wavelength`, 98 % at twice, 1.5 % at half of it. Cost O(count). PreconditionError unless sizes
-/// agree and the wavelength is positive.
+/// 1996). A wave of length l along the curve is attenuated to 1/(1 + (wavelength/l)^6). The
+/// attenuation factor is 50 % at `wavelength`, 98 % at twice `wavelength`, and 1.5 % at half of
+/// `wavelength`. Cost O(count). PreconditionError unless the sizes agree and the wavelength is
+/// positive.
 Eigen::MatrixXd FitClosedSpline(const ClosedSplineBasis& basis, const SplineSamples& samples,
                                 double wavelength);
 

@@ -14,21 +14,22 @@ namespace trackbed {
 
 struct MotionPiece;
 
-/// The reference point: the state's pose and speed are those of this point.
+/// The reference point of a car: the state's pose and speed are those of this point.
 enum class ReferencePoint { kRearAxle, kCenterOfGravity };
 
 struct KinematicState {
-  Pose2 pose;             ///< of the reference point
-  double speed = 0.0;     ///< v of the reference point [m/s], signed
-  double steering = 0.0;  ///< delta, angle of the actuator [rad]
-  double distance = 0.0;  ///< integral of |v| [m]
+  Pose2 pose;             ///< Pose of the reference point.
+  double speed = 0.0;     ///< Speed v of the reference point [m/s], signed.
+  double steering = 0.0;  ///< Angle delta of the actuator [rad].
+  double distance = 0.0;  ///< Driven distance, the integral of |v| [m].
 };
 
-/// Guarantees: exact while the steering angle is constant (to rounding, for any step and
-/// acceleration); while it moves, the error of a step is that of a fourth-order method on a smooth
-/// right-hand side: below 1e-10 m for steps up to 20 ms at 3 m/s. Steps are split where the
-/// steering reaches its target and where the car comes to rest, so that the result does not depend
-/// on the step size. No slip, roll or forces; the acceleration follows its command exactly.
+/// The kinematic car. Guarantees: a step at a constant steering angle is exact to rounding, for any
+/// length and acceleration. While the angle moves, the error is that of a fourth-order method on a
+/// smooth right-hand side: below 1e-10 m for steps up to 20 ms at 3 m/s. A step is split when the
+/// steering reaches its target and when the car comes to rest, so that the result does not depend
+/// on the step size. The car has no slip, roll or forces; its acceleration follows the command
+/// exactly.
 class KinematicCar {
  public:
   KinematicCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start);
@@ -42,8 +43,8 @@ class KinematicCar {
 
   [[nodiscard]] const KinematicState& state() const { return state_; }
 
-  /// The full state, with pose and speed of the rear axle for either reference point; accelerations
-  /// are those at the end of the last step. `time` is the sum of the steps.
+  /// The full state, with pose and speed of the rear axle for both reference points. Accelerations
+  /// are those at the end of the last step. The member `time` is the sum of the steps.
   [[nodiscard]] VehicleState FullState() const;
 
  private:
@@ -60,8 +61,8 @@ class KinematicCar {
   ReferencePoint reference_;
   KinematicState state_;
   double time_ = 0.0;
-  double steering_rate_ = 0.0;  // at the end of the last step [rad/s]
-  double acceleration_ = 0.0;   // at the end of the last step [m/s^2]
+  double steering_rate_ = 0.0;  // Steering rate at the end of the last step [rad/s].
+  double acceleration_ = 0.0;   // Acceleration at the end of the last step [m/s^2].
 };
 
 }  // namespace trackbed

@@ -7,89 +7,99 @@
 
 namespace trackbed {
 
-inline constexpr double kGravity = 9.81;  ///< [m/s^2]
+inline constexpr double kGravity = 9.81;  ///< Standard gravity, rounded [m/s^2].
 
 enum class VehicleKind {
-  kSteered,       ///< a car: two axles, steered front wheels
-  kDifferential,  ///< steers by the speeds of its two driven wheels, on one axle
+  kSteered,  ///< A car: two axles, steered front wheels.
+  /// A vehicle that steers by the speeds of its two driven wheels, on one axle.
+  kDifferential,
 };
 
-/// One axle of a vehicle with acceleration `a` on a flat road. Brakes and motor act on it with a
-/// fixed fraction, so that it exerts m force a on the road (corrected for its wheels' inertia),
-/// under a load of m (g weight + transfer a), with m the vehicle's mass. It slides when that
-/// exceeds the friction mu times the load:
+/// One axle of a vehicle with acceleration `a` on a flat road. Brakes and motor act on the axle
+/// with a fixed fraction. The axle exerts m force a on the road, corrected for its wheels' inertia,
+/// under a load of m (g weight + transfer a), with m the vehicle's mass. The axle slides when its
+/// force exceeds the friction mu times the load:
 ///   a > mu g weight/(force - mu transfer), or never if the denominator is not positive.
 struct AxleGrip {
-  double weight = 0.0;    ///< fraction of the weight at rest [1]
-  double force = 0.0;     ///< >= 0 [1]
-  double transfer = 0.0;  ///< of load; +- height of the center of gravity over the wheelbase [1]
+  double weight = 0.0;  ///< Fraction of the vehicle's weight at rest [1].
+  double force = 0.0;   ///< Fraction of the force, >= 0 [1].
+  /// Load transfer: +- height of the center of gravity over the wheelbase [1].
+  double transfer = 0.0;
 };
 
 /// The limits of a vehicle's braking or acceleration, straight ahead on a flat road.
 struct AccelerationLimit {
-  double by_force = 0.0;        ///< of the brakes or the motor [m/s^2]
-  std::vector<AxleGrip> axles;  ///< the axles that must not slide
+  double by_force = 0.0;        ///< Limit by the brakes or the motor [m/s^2].
+  std::vector<AxleGrip> axles;  ///< Axles that must not slide.
 
-  /// The smaller limit [m/s^2], >= 0. Loads are those of a lasting acceleration: after a sudden
-  /// command, a body that overshoots in pitch temporarily unloads the rear axle further. (MuJoCo:
+  /// The smaller limit [m/s^2], >= 0. The loads are those of a steady acceleration. After a sudden
+  /// command, a body that overshoots in pitch temporarily unloads the rear axle further. In MuJoCo,
   /// none of the Prius' wheels slide, and the BMW's rear wheels do not slide up to 95 % of its
-  /// limit.) Gravity is 9.81 m/s^2.
+  /// limit. Gravity is 9.81 m/s^2.
   [[nodiscard]] double At(double friction) const;
 };
 
-/// The parameters of a vehicle that planners and controllers use. Read from its compiled MJCF
-/// (sim/car_model.h), not stored elsewhere; tests may set them directly.
+/// The parameters of a vehicle that planners and controllers use. The parameters are read from the
+/// compiled MJCF (sim/car_model.h) and are not stored elsewhere. Tests may set them directly.
 ///
-/// Vehicle frame V: origin on the ground under the center of the rear axle, or of the axle of the
-/// driven wheels; x forward, y left, z up.
+/// The vehicle frame V has its origin on the ground under the center of the rear axle, or of the
+/// axle of the driven wheels. The axes of V are x forward, y left, z up.
 ///
 /// Steering angles are those of the bicycle model's front wheel at the middle of the front axle.
-/// With differential drive that wheel represents a ratio of wheel speeds. Its L is the track b of
+/// With differential drive, the angle represents a ratio of wheel speeds. L is then the track b of
 /// the driven wheels, so that kappa = tan(delta)/L means
 ///   tan(delta) = (v_R - v_L)/v,  v = (v_R + v_L)/2,
-/// a unicycle with yaw rate (v_R - v_L)/b. All code that uses the bicycle angle works for both.
+/// The vehicle is then a unicycle with the yaw rate (v_R - v_L)/b. All code that uses the bicycle
+/// angle works for both kinds of vehicles.
 struct VehicleParams {
   std::string name;
   VehicleKind kind = VehicleKind::kSteered;
-  double wheelbase = 0.0;     ///< L [m]; b with differential drive
-  double cg_to_rear = 0.0;    ///< l_g: center of gravity to rear axle, along x [m]
-  double track_front = 0.0;   ///< [m]; 0 with differential drive
-  double track_rear = 0.0;    ///< [m]
-  double wheel_radius = 0.0;  ///< [m]
-  double mass = 0.0;          ///< [kg]
-  double yaw_inertia = 0.0;   ///< of the whole car about its center of gravity [kg m^2]
-  /// Of an axle at its static load, for both tyres together [N/rad]; 0 without tyre coefficients.
+  double wheelbase = 0.0;  ///< Wheelbase L [m]; b with differential drive.
+  /// Distance l_g from the center of gravity to the rear axle, along x [m].
+  double cg_to_rear = 0.0;
+  double track_front = 0.0;   ///< Track of the front axle [m]; 0 with differential drive.
+  double track_rear = 0.0;    ///< Track of the rear axle [m].
+  double wheel_radius = 0.0;  ///< Radius of the wheels [m].
+  double mass = 0.0;          ///< Mass [kg].
+  /// Yaw inertia of the whole car about its center of gravity [kg m^2].
+  double yaw_inertia = 0.0;
+  /// Cornering stiffness of an axle at its static load, for both tyres together [N/rad]. 0 without
+  /// tyre coefficients.
   double cornering_stiffness_front = 0.0;
   double cornering_stiffness_rear = 0.0;
-  double steering_limit = 0.0;  ///< delta_max [rad]
-  /// omega_delta: largest rate of delta, at the road wheels [rad/s].
+  double steering_limit = 0.0;  ///< Steering angle delta_max [rad].
+  /// Largest rate omega_delta of delta, at the road wheels [rad/s].
   double steering_rate = 0.0;
-  double steering_lag = 0.0;  ///< tau: lag of the road wheels behind the actuator, on a ramp [s]
-  SteeringResponse steering_response{};  ///< of the actuator to commands
-  double steering_ratio =
-      0.0;                     ///< steering-wheel angle over road-wheel angle; 0: no steering wheel
-  double length = 0.0;         ///< of the footprint [m]
-  double width = 0.0;          ///< of the footprint [m]
-  double height = 0.0;         ///< of the footprint [m]
-  double rear_overhang = 0.0;  ///< rear axle to the rear end of the footprint [m]
+  /// Lag tau of the road wheels behind the actuator, on a ramp [s].
+  double steering_lag = 0.0;
+  SteeringResponse steering_response{};  ///< Response of the actuator to commands.
+  /// Steering-wheel angle divided by road-wheel angle; 0: no steering wheel.
+  double steering_ratio = 0.0;
+  double length = 0.0;  ///< Length of the footprint [m].
+  double width = 0.0;   ///< Width of the footprint [m].
+  double height = 0.0;  ///< Height of the footprint [m].
+  /// Distance from the rear axle to the rear end of the footprint [m].
+  double rear_overhang = 0.0;
 
-  // Limits straight ahead on a flat road of factor 1; 0: unknown, no limit.
+  // Limits straight ahead on a flat road of factor 1; 0 if unknown or unlimited.
 
-  /// mu: the largest force of a tyre over its load, the minimum over all tyres at their static
-  /// loads. For a car with tyre coefficients, the smaller value of the two tyre models, contacts
-  /// and Magic Formula, because a plan must suit both.
-  double friction_longitudinal = 0.0;  ///< [1]
-  double friction_lateral = 0.0;       ///< [1]
-  AccelerationLimit braking;           ///< without drag and rolling resistance, which would help
-  AccelerationLimit driving;           ///< from rest, minus the rolling resistance
-  double max_deceleration = 0.0;       ///< braking.At(friction_longitudinal) [m/s^2]
-  double max_acceleration = 0.0;       ///< driving.At(friction_longitudinal) [m/s^2]
-  /// The speed at which torque or power equal drag and rolling resistance in still air [m/s]; with
-  /// differential drive, that of both wheels at their largest speed, minus a control margin for the
+  /// Friction mu: the largest force of a tyre divided by its load, as the minimum over all tyres at
+  /// their static loads. A car with tyre coefficients has two tyre models, contacts and Magic
+  /// Formula. The smaller value of the two is used, because a plan must suit both models.
+  double friction_longitudinal = 0.0;  ///< Longitudinal friction [1].
+  double friction_lateral = 0.0;       ///< Lateral friction [1].
+  /// Limit of braking, without the help of drag and rolling resistance.
+  AccelerationLimit braking;
+  AccelerationLimit driving;      ///< Limit of driving from rest, minus the rolling resistance.
+  double max_deceleration = 0.0;  ///< Deceleration braking.At(friction_longitudinal) [m/s^2].
+  double max_acceleration = 0.0;  ///< Acceleration driving.At(friction_longitudinal) [m/s^2].
+  /// The speed at which torque or power equal drag and rolling resistance in still air [m/s]. With
+  /// differential drive, the speed of both wheels at their maximum, minus a control margin for the
   /// servos.
   double top_speed = 0.0;
 
-  /// l_f: center of gravity to front axle, along x [m]. Only for cars.
+  /// Distance l_f from the center of gravity to the front axle, along x [m]. The distance is only
+  /// defined for cars.
   [[nodiscard]] double cg_to_front() const { return wheelbase - cg_to_rear; }
   /// Delay of the road wheels behind the command, on a ramp within the rate limit [s].
   [[nodiscard]] double steering_delay() const { return steering_lag + steering_response.delay(); }
@@ -97,25 +107,25 @@ struct VehicleParams {
   [[nodiscard]] double min_turning_radius() const;
 };
 
-/// The largest deceleration [m/s^2] on a flat road of factor `road`; 0: unknown. For parameters
-/// without axles, at most max_deceleration times `road`.
+/// The largest deceleration [m/s^2] on a flat road of factor `road`; 0 if unknown. For parameters
+/// without axles, it is max_deceleration, or max_deceleration times `road` if that is less.
 double MaxDeceleration(const VehicleParams& params, double road);
 
-/// The largest acceleration [m/s^2], as MaxDeceleration.
+/// The largest acceleration [m/s^2] on a flat road of factor `road`, computed as MaxDeceleration.
 double MaxAcceleration(const VehicleParams& params, double road);
 
-/// The largest lateral acceleration [m/s^2], mu_y g times `road`; 0: unknown.
+/// The largest lateral acceleration [m/s^2], mu_y g times `road`; 0 if unknown.
 double MaxLateralAcceleration(const VehicleParams& params, double road);
 
 /// The steering angle [rad] with which the rear axle of a kinematic car follows `curvature` [1/m]:
 /// delta = atan(L kappa).
 double SteeringForCurvature(const VehicleParams& params, double curvature);
 
-/// kappa = tan(delta)/L [1/m].
+/// The curvature kappa = tan(delta)/L [1/m].
 double CurvatureForSteering(const VehicleParams& params, double steering);
 
-/// The angle [rad] at which the actuator comes to rest when it is commanded from 0 to `command`
-/// [rad]: the curve of the steering response minus half the backlash, within the limit.
+/// The angle [rad] at which the actuator comes to rest after a command from 0 to `command` [rad].
+/// The angle is the curve of the steering response minus half the backlash, within the limit.
 double RestingSteering(const VehicleParams& params, double command);
 
 /// Angles of the two front wheels [rad].
@@ -124,25 +134,25 @@ struct FrontAngles {
   double right = 0.0;
 };
 
-/// The Ackermann angles of the front wheels for a bicycle angle: both wheels and the bicycle's
-/// point at the same center on the rear axle's line (cot outer - cot inner = track/L).
+/// The Ackermann angles of the front wheels for a bicycle angle. Both wheels and the bicycle's
+/// wheel turn about the same center on the rear axle's line (cot outer - cot inner = track/L).
 FrontAngles AckermannAngles(const VehicleParams& params, double steering);
 
 /// The derivatives of AckermannAngles with respect to the bicycle angle [1].
 FrontAngles AckermannSlopes(const VehicleParams& params, double steering);
 
 /// The bicycle angle [rad] of two front wheels: the mean of the bicycle angles of each wheel (the
-/// inverse of AckermannAngles). Unlike the mean of cotangents, it is well conditioned around zero,
-/// where the mean of cotangents would turn slight toe into full lock.
+/// inverse of AckermannAngles). The mean of bicycle angles is well conditioned around zero, where
+/// the mean of cotangents would turn slight toe into full lock.
 double BicycleAngle(const VehicleParams& params, const FrontAngles& front);
 
-/// Speeds of the two wheels of the rear axle, or of a differential drive's wheels [m/s].
+/// Speeds of the two wheels of the rear axle, or of the wheels of a differential drive [m/s].
 struct AxleSpeeds {
   double left = 0.0;
   double right = 0.0;
 };
 
-/// v_L, v_R = v -+ kappa v b/2, without slip, with b the track of that axle.
+/// The wheel speeds v_L, v_R = v -+ kappa v b/2 without slip, with b the track of the axle.
 AxleSpeeds AxleSpeedsFor(const VehicleParams& params, double speed, double steering);
 
 }  // namespace trackbed

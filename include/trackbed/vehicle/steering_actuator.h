@@ -4,19 +4,19 @@ namespace trackbed {
 
 /// A steering actuator that moves the road wheels at a limited rate within limited angles.
 struct SteeringLimits {
-  double angle = 0.0;  ///< [rad], > 0, to both sides
-  double rate = 0.0;   ///< [rad/s], > 0, in both directions
+  double angle = 0.0;  ///< Largest angle to both sides [rad], > 0.
+  double rate = 0.0;   ///< Largest rate in both directions [rad/s], > 0.
 };
 
-/// The angle from `start` toward `wanted` (clipped to the limits): at the full rate for
-/// `ramp_time`, then constant at `end`.
+/// A move of the angle from `start` toward `wanted`, which is clipped to the limits. The angle
+/// moves at the full rate for `ramp_time`, then stays constant at `end`.
 struct SteeringMove {
-  double start = 0.0;      ///< [rad]
-  double end = 0.0;        ///< final angle [rad]
-  double rate = 0.0;       ///< signed rate while it moves [rad/s]
-  double ramp_time = 0.0;  ///< [s]
+  double start = 0.0;      ///< Initial angle [rad].
+  double end = 0.0;        ///< Final angle [rad].
+  double rate = 0.0;       ///< Signed rate during the ramp [rad/s].
+  double ramp_time = 0.0;  ///< Duration of the ramp [s].
 
-  /// The angle after `time` [rad]; exact.
+  /// The exact angle after `time` [rad].
   [[nodiscard]] double At(double time) const {
     return time < ramp_time ? start + rate * time : end;
   }

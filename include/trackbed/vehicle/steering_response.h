@@ -7,37 +7,41 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// The response of a steering actuator to a commanded angle, apart from its rate and angle limits.
+/// The response of a steering actuator to a commanded angle, without its rate and angle limits.
 namespace trackbed {
 
 /// A monotone curve through points: the piecewise cubic of Fritsch and Butland (1984), which does
-/// not overshoot between two points; constant before the first point and after the last.
+/// not overshoot between two points. The curve is constant before the first point and after the
+/// last point.
 class MonotoneCurve {
  public:
-  /// At least four points (x, y), both strictly increasing and finite, else PreconditionError.
+  /// Makes a curve from at least four points (x, y). PreconditionError unless both coordinates are
+  /// finite and strictly increasing.
   explicit MonotoneCurve(const std::vector<Vec2>& points);
 
-  /// Exact at the points. PreconditionError for an x that is not finite. Cost O(log points).
+  /// The value at x, exact at the points. PreconditionError for an x that is not finite. Cost O(log
+  /// points).
   [[nodiscard]] double At(double x) const;
 
  private:
-  double first_;  // x of the first point
-  double last_;   // x of the last point
+  double first_;  // x of the first point.
+  double last_;   // x of the last point.
   std::function<double(double)> interpolant_;
 };
 
-/// The actuator moves toward u_4(t), within its limits, for a commanded angle c(t):
+/// The response of the actuator. For a commanded angle c(t), the actuator moves toward u_4(t),
+/// within its limits:
 ///   u_1(t) = curve(c(t))                    the linkage and its calibration
 ///   u_2(t) = u_1(t - dead_time)             bus, computer and servo
 ///   time_constant u_3'(t) + u_3(t) = u_2(t) first order
 ///   u_4(t), with |u_4 - u_3| <= backlash/2  backlash: changes only at the edges of the play
 /// All angles are bicycle angles at the road wheels [rad], positive to the left.
 struct SteeringResponse {
-  std::vector<Vec2>
-      curve{};             ///< (command, angle) [rad], of a MonotoneCurve; empty: angle = command
-  double dead_time = 0.0;  ///< [s], >= 0
-  double time_constant = 0.0;  ///< [s], >= 0
-  double backlash = 0.0;       ///< total play [rad], >= 0
+  /// Points (command, angle) [rad] of a MonotoneCurve. Empty: angle = command.
+  std::vector<Vec2> curve{};
+  double dead_time = 0.0;      ///< Dead time [s], >= 0.
+  double time_constant = 0.0;  ///< Time constant [s], >= 0.
+  double backlash = 0.0;       ///< Backlash, the total play [rad], >= 0.
 
   /// Whether commands pass unchanged and without delay.
   [[nodiscard]] bool ideal() const;
@@ -45,29 +49,30 @@ struct SteeringResponse {
   [[nodiscard]] double delay() const { return dead_time + time_constant; }
 };
 
-/// Guarantees: an ideal response returns the command, bit for bit. A command that arrives during a
-/// timestep is weighted with the remaining fraction of the timestep. The lag is exact for a command
-/// that is constant over each timestep. Cost O(log points of the curve). PreconditionError for
-/// numbers that are not finite or out of range, or a dead time of more than 10^7 timesteps.
+/// Applies a steering response to commands. Guarantees: an ideal response returns the command, bit
+/// for bit. A command that arrives during a timestep is weighted with the remaining fraction of the
+/// timestep. The lag is exact for a command that is constant over each timestep. Cost O(log points
+/// of the curve). PreconditionError for numbers that are not finite or out of range, or a dead time
+/// of more than 10^7 timesteps.
 class SteeringFilter {
  public:
-  /// The actuator starts at `start` [rad], in the middle of the play, as if the command that holds
-  /// it there had been constant. `timestep` [s] > 0 is the time between calls of Pass.
+  /// The actuator starts at `start` [rad], in the middle of the play. The state is that after a
+  /// constant command has held that angle. `timestep` [s] > 0 is the time between calls of Pass.
   SteeringFilter(const SteeringResponse& response, double timestep, double start);
 
   /// The angle [rad] toward which the actuator moves during the coming timestep, if `command` [rad]
-  /// is commanded at its start.
+  /// is commanded at the start of the timestep.
   double Pass(double command);
 
  private:
   std::optional<MonotoneCurve> curve_;
-  double decay_;                    // of the lag, per timestep
-  double half_backlash_;            // half the backlash [rad]
-  std::vector<double> delay_line_;  // ring buffer
+  double decay_;                    // Decay of the lag per timestep.
+  double half_backlash_;            // Half the backlash [rad].
+  std::vector<double> delay_line_;  // Ring buffer.
   std::size_t oldest_ = 0;
-  // Fraction of a timestep in which the previous command still applies.
+  // Fraction of a timestep in which the command before still applies.
   double dead_time_fraction_ = 0.0;
-  double arrived_;  // command of the previous timestep
+  double arrived_;  // Command of the previous timestep.
   double lagged_;
   double output_;
 };

@@ -9,76 +9,80 @@
 /// dissertation, listing F.1, with corrected distances).
 ///
 /// Symbols: D distance traveled by the rear axle [m]; d_0 neutral angle of the wheels before,
-/// between and after turns [rad]; S_delta = v |delta - d_0|/omega_delta the distance rolled while
+/// between and after turns [rad]; S_delta = v |delta - d_0|/omega_delta the driven distance while
 /// the wheels turn from d_0 to delta.
 namespace trackbed {
 
-/// One turn: the wheels start toward `steering` at `start` and back toward neutral at `end`.
+/// One turn. The wheels start to turn toward `steering` at `start`, and back toward neutral at
+/// `end`.
 struct TurnSteering {
-  double start = 0.0;     ///< D [m], >= 0
-  double end = 0.0;       ///< D [m], > start
-  double steering = 0.0;  ///< [rad], positive to the left
+  double start = 0.0;     ///< Distance D [m], >= 0.
+  double end = 0.0;       ///< Distance D [m], > start.
+  double steering = 0.0;  ///< Steering angle [rad], positive to the left.
 };
 
-/// delta(D) as a continuous, piecewise linear function: toward the present target at the slope
-/// omega_delta/v, then constant. A turn that fits is a trapezoid; a turn whose hold is shorter than
-/// its ramp stays below its target; a turn that starts while the previous one returns takes effect
-/// immediately.
+/// The steering delta(D) as a continuous, piecewise linear function: toward the present target at
+/// the slope omega_delta/v, then constant. A turn that fits is a trapezoid. A turn whose hold is
+/// shorter than its ramp stays below its target. A turn that starts while the previous turn returns
+/// takes effect immediately.
 class SteeringSchedule {
  public:
   struct Knot {
-    double distance = 0.0;  ///< D [m]
-    double steering = 0.0;  ///< [rad]
+    double distance = 0.0;  ///< Distance D [m].
+    double steering = 0.0;  ///< Steering angle [rad].
   };
 
-  /// Straight ahead.
+  /// Makes a schedule that steers straight ahead.
   SteeringSchedule() = default;
 
-  /// Turns in the order of their starts; `slope` = omega_delta/v [rad/m] > 0, one for all turns or
-  /// one for each; `neutral` is d_0. InternalError if they are out of order.
+  /// Makes a schedule of turns in the order of their starts. `slope` = omega_delta/v [rad/m] > 0,
+  /// one for all turns or one for each turn. `neutral` is d_0. InternalError if the turns are out
+  /// of order.
   SteeringSchedule(const std::vector<TurnSteering>& turns, double slope, double neutral = 0.0);
   SteeringSchedule(const std::vector<TurnSteering>& turns, const std::vector<double>& slopes,
                    double neutral = 0.0);
 
   /// A schedule through the knots, at least one, in strictly increasing order of distance.
-  /// InternalError otherwise, PreconditionError unless they are finite.
+  /// InternalError for another order; PreconditionError unless the knots are finite.
   static SteeringSchedule Through(std::vector<Knot> knots);
 
-  /// Constant `steering` [rad].
+  /// A schedule of a constant angle `steering` [rad].
   static SteeringSchedule Constant(double steering);
 
-  /// Steering [rad]; constant before the first and after the last knot, NaN for NaN.
+  /// The steering angle [rad] at a distance; constant before the first and after the last knot. NaN
+  /// for NaN.
   [[nodiscard]] double At(double distance) const;
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
 
-  /// The part beyond `distance` [m], which becomes D = 0.
+  /// The part of the schedule beyond `distance` [m], which becomes D = 0.
   [[nodiscard]] SteeringSchedule From(double distance) const;
 
  private:
   std::vector<Knot> knots_;
 };
 
-/// S_delta [m]: the distance rolled at `speed` while the wheels turn by `steering`.
+/// The distance S_delta [m] that is driven at `speed` while the wheels turn by `steering`.
 double SteeringDistance(const VehicleParams& params, double steering, double speed);
 
 /// Heading gained [rad] while a rear-axle kinematic car at `speed` ramps its steering from zero to
 /// `steering` at the full rate: (v/(L omega)) (-ln cos delta), signed like the steering.
 double RampHeading(const VehicleParams& params, double steering, double speed);
 
-/// The rear axle's pose after that ramp, starting at the origin straight along x: exact to
-/// rounding, by quadrature of the heading above.
+/// The pose of the rear axle after the ramp of RampHeading, which starts at the origin along x. The
+/// pose is exact to rounding, by quadrature of the heading.
 Pose2 RampPose(const VehicleParams& params, double steering, double speed);
 
-/// The end state of an open-loop run: the kinematic car from `start` over `distance` [m]. Its
-/// wheels follow the schedule exactly, as at any speed within the steering rate limit. A start
-/// speed < 0 means backwards. `start` and the result are states of the reference point. Fourth
-/// order in `step` [m], split at the schedule's knots. InternalError for a start speed of 0.
+/// The end state of an open-loop run of the kinematic car from `start` over `distance` [m]. The
+/// wheels of the car follow the schedule exactly, as at any speed within the steering rate limit. A
+/// start speed < 0 means backwards. `start` and the result are states of the reference point. The
+/// integration is of fourth order in `step` [m], split at the schedule's knots. InternalError for a
+/// start speed of 0.
 KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
                        const SteeringSchedule& schedule, double distance, double step,
                        ReferencePoint reference = ReferencePoint::kRearAxle);
 
-/// The states at several nondecreasing distances [m].
+/// The states of an open-loop run at several nondecreasing distances [m].
 std::vector<KinematicState> RollOut(const VehicleParams& params, const KinematicState& start,
                                     const SteeringSchedule& schedule,
                                     const std::vector<double>& distances, double step,

@@ -14,7 +14,7 @@ namespace trackbed {
 /// The blocked cells of a map as walls. Immutable.
 class MapObstacles {
  public:
-  /// InternalError unless the map has as many cells as it needs.
+  /// InternalError unless the map has the number of cells that its columns and rows require.
   MapObstacles(GridMap map, UnknownCells unknown);
 
   [[nodiscard]] const GridMap& map() const { return map_; }
@@ -30,19 +30,21 @@ class MapObstacles {
   BoxIndex index_;
 };
 
-/// A map of a world, and its source.
+/// A map of a world, and the file that it comes from.
 struct MapSpec {
-  std::string file;              ///< a YAML file of ROS's map_server, or a .map of Moving AI
-  std::optional<double> cell{};  ///< side of a cell [m], > 0; only for a .map file, which has none
-  /// Position and direction of the outer corner of the cell at the bottom left; default: the
-  /// file's, or 0.
-  std::optional<double> x{};    ///< [m]
-  std::optional<double> y{};    ///< [m]
-  std::optional<double> yaw{};  ///< direction of the rows [rad]
+  /// File of the map: a YAML file of ROS's map_server, or a .map of Moving AI.
+  std::string file;
+  /// Side of a cell [m], > 0; only for a .map file, which has no scale.
+  std::optional<double> cell{};
+  /// Position and direction of the outer corner of the cell at the bottom left. Default: those in
+  /// the file, or 0.
+  std::optional<double> x{};    ///< x of the corner [m].
+  std::optional<double> y{};    ///< y of the corner [m].
+  std::optional<double> yaw{};  ///< Direction of the rows [rad].
   UnknownCells unknown = UnknownCells::kFree;
-  double height = 1.0;  ///< of the walls [m], > 0
+  double height = 1.0;  ///< Height of the walls [m], > 0.
 
-  // Not a key: the map itself, shared by all worlds copied from one.
+  // The map, which is not a key. Copies of the world share it.
   std::shared_ptr<const MapObstacles> data{};
 };
 

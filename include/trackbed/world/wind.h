@@ -9,26 +9,26 @@
 namespace trackbed {
 
 enum class GustShape {
-  kOneMinusCosine,  ///< (1 - cos(2 pi t / T))/2, from 0 to 1 at half time and back
-  kStep,            ///< 1 from the first moment to the last
+  kOneMinusCosine,  ///< (1 - cos(2 pi t / T))/2, from 0 to 1 at half time and back to 0.
+  kStep,            ///< Constant 1 over the whole duration.
 };
 
 /// A gust, everywhere or in one area.
 struct Gust {
-  Vec2 velocity = Vec2::Zero();    ///< peak velocity, added to all other wind [m/s]
-  double from = 0.0;               ///< [s]
-  std::optional<double> duration;  ///< [s]; none: unlimited, for a step only
+  Vec2 velocity = Vec2::Zero();    ///< Peak velocity, added to all other wind [m/s].
+  double from = 0.0;               ///< Start time [s].
+  std::optional<double> duration;  ///< Duration [s]; none: unlimited, for a step only.
   GustShape shape = GustShape::kOneMinusCosine;
-  std::optional<OrientedBox> area;  ///< its area, with sharp edges; none: everywhere
+  std::optional<OrientedBox> area;  ///< Area of the gust, with sharp edges; none: everywhere.
 };
 
 /// Constant, uniform wind, and gusts added to it.
 struct Wind {
-  Vec2 velocity = Vec2::Zero();  ///< [m/s]
+  Vec2 velocity = Vec2::Zero();  ///< Velocity of the air [m/s].
   std::vector<Gust> gusts{};
 };
 
-/// The fraction of its peak velocity that a gust has at `time`, in [0, 1].
+/// The fraction, in [0, 1], of its peak velocity that a gust has at `time`.
 double GustStrength(const Gust& gust, double time);
 
 /// Velocity of the air at a point and time [m/s]. Cost O(gusts).

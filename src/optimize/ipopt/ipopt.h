@@ -5,14 +5,14 @@
 namespace trackbed {
 
 struct IpoptResult {
-  bool solved = false;  ///< to IPOPT's tolerance
+  bool solved = false;  ///< whether the program is solved to IPOPT's tolerance
   Eigen::VectorXd x;
   Eigen::VectorXd multipliers;
   int iterations = 0;
 };
 
-/// Solves a program that has been checked and whose matrices are compressed. RunError in a build
-/// without IPOPT.
+/// Solves a program that has been checked and whose matrices are compressed. Throws RunError in a
+/// build without IPOPT.
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                          InteriorSteps steps);
 

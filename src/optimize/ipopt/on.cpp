@@ -15,15 +15,15 @@ using Sparse = Eigen::SparseMatrix<double>;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 using VectorMap = Eigen::Map<Eigen::VectorXd>;
 
-/// The program and the iteration count, for the callbacks.
+/// The program and the iteration count, for the callbacks of IPOPT.
 struct Context {
   const SparseQuadraticProgram& program;
   Sparse lower_triangle;
   int iterations = 0;
 };
 
-/// Deduces IPOPT's types from a callback, because no type names exist in all versions: 3.14
-/// deprecates Index, Number and Bool, and 3.11 lacks ipindex and ipnumber.
+/// Deduces IPOPT's types from a callback, because no type names exist in all versions. Version 3.14
+/// deprecates Index, Number and Bool. Version 3.11 lacks ipindex and ipnumber.
 template <typename Callback>
 struct TypesOf;
 template <typename BoolType, typename IndexType, typename NumberType>
@@ -40,7 +40,8 @@ Context& ContextOf(UserDataPtr data) {
   return *static_cast<Context*>(data);
 }
 
-/// Fills in the positions of a matrix's entries if `rows` is given, otherwise their values.
+/// Fills in the positions of a matrix's entries if `rows` is given, otherwise the values of the
+/// entries.
 void FillEntries(const Sparse& matrix, IpIndex* rows, IpIndex* columns, IpNumber* values) {
   Eigen::Index entry = 0;
   for (Eigen::Index outer = 0; outer < matrix.outerSize(); ++outer) {
@@ -100,7 +101,7 @@ IpBool CountIteration(IpIndex /*mode*/, IpIndex iteration, IpNumber /*objective*
 }
 
 void SetOptions(IpoptProblem problem, InteriorSteps steps) {
-  // The C interface takes non-const texts, which it does not change.
+  // The C interface takes non-const texts but does not change the texts.
   const auto set_text = [&](std::string name, const std::string& value) {
     std::string own = value;
     TRACKBED_CHECK(AddIpoptStrOption(problem, name.data(), own.data()) == TRUE, "{}", name);
@@ -108,7 +109,8 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
   const auto set_integer = [&](std::string name, int value) {
     TRACKBED_CHECK(AddIpoptIntOption(problem, name.data(), value) == TRUE, "{}", name);
   };
-  set_text("option_file_name", "");  // otherwise IPOPT reads ipopt.opt from the current folder
+  // With an empty name, IPOPT does not read ipopt.opt from the current folder.
+  set_text("option_file_name", "");
   set_text("hessian_constant", "yes");
   set_text("jac_d_constant", "yes");
   if (steps == InteriorSteps::kPredictorCorrector) {
@@ -116,7 +118,7 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
   } else {
     set_text("mu_strategy", "adaptive");
   }
-  set_text("sb", "yes");  // no banner
+  set_text("sb", "yes");  // keeps IPOPT from printing its banner
   set_integer("print_level", 0);
   set_integer("max_iter", steps == InteriorSteps::kPredictorCorrector ? 80 : 200);
   const auto set_number = [&](std::string name, double value) {
@@ -130,7 +132,7 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
 
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                          InteriorSteps steps) {
-  // MUMPS, IPOPT's linear solver in Debian, has global state: concurrent solutions crash.
+  // MUMPS, IPOPT's linear solver in Debian, has global state, so concurrent solutions would crash.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const auto n = static_cast<IpIndex>(program.linear.size());

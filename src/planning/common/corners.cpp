@@ -12,19 +12,20 @@
 #include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/route_start.h"
 
-// Rounds the corners of a polyline by clothoid, arc, clothoid. A corner's sharpness is what the
-// steering rate allows at its speed, so a slower corner is shorter. Each corner may use half of its
-// legs; bisection finds the fastest speed at which its tangents fit. Then the path is laid out and,
-// while it is too close to an obstacle, the corner nearest to the collision is slowed down by a
+// Rounds each corner of a polyline by a clothoid, an arc and a second clothoid. The steering rate
+// at a corner's speed determines the sharpness of its clothoids, so a slower corner is shorter.
+// Each corner may use half of each of its two legs. Bisection finds the fastest speed at which the
+// tangents of a corner fit on its legs. After rounding, the algorithm lays out the path. While the
+// path is too close to an obstacle, the algorithm slows the corner nearest to the collision by a
 // fifth.
 
 namespace trackbed {
 namespace {
 
-/// Heading changes below this are straight [rad].
+/// Largest heading change that counts as straight [rad].
 constexpr double kStraight = 1e-9;
 
-/// The corner's segments, curving to its side.
+/// The segments of the corner, curving to its side.
 std::vector<Segment> ToSegments(const RoundCorner& corner) {
   const double side = std::copysign(1.0, corner.heading_change);
   const double ramp = corner.curvature / corner.sharpness;
@@ -41,7 +42,7 @@ std::vector<Segment> ToSegments(const RoundCorner& corner) {
   return segments;
 }
 
-/// Joins the straights and the rounded corners to a path; fills in the corners' stations.
+/// Joins the straights and the rounded corners to a path, and fills in the stations of the corners.
 Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners) {
   std::vector<Segment> segments;
   double station = 0.0;
@@ -70,8 +71,8 @@ Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners
   return {StartOfRoute(polyline), std::move(segments)};
 }
 
-/// The highest speed up to `highest` at which both the first corner's tangent and the braking
-/// distance to that speed fit on the first leg, `leg` [m] long. None if no speed fits.
+/// The highest speed, up to `highest`, at the first corner. The corner's tangent and the braking
+/// distance must both fit on the first leg, which is `leg` [m] long. Returns none if no speed fits.
 template <typename Tangent>
 std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highest, double leg,
                                         const Tangent& tangent) {
@@ -83,8 +84,8 @@ std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highe
   if (lacks(highest) <= 0.0) {
     return highest;
   }
-  // A slower corner is shorter but its braking distance is longer, so the condition is not
-  // monotonic.
+  // A slower corner is shorter but needs a longer braking distance, so the condition is not
+  // monotonic in the speed.
   constexpr int kSteps = 100;
   for (int i = kSteps - 1; i >= 0; --i) {
     const double v = std::lerp(limits.min_speed, highest, static_cast<double>(i) / kSteps);
@@ -100,7 +101,8 @@ std::string DescribePlace(const RoundCorner& corner) {
                      corner.at.x(), corner.at.y());
 }
 
-/// The corner nearest to a station; null without corners, or if it already has the minimum speed.
+/// The corner nearest to a station. Returns null if there are no corners, or if the nearest corner
+/// already has the minimum speed.
 RoundCorner* CornerToSlow(std::vector<RoundCorner>& corners, double station, double min_speed) {
   RoundCorner* nearest = nullptr;
   const auto away = [&](const RoundCorner& corner) {
@@ -127,7 +129,7 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
   corner.speed = speed;
   corner.sharpness = vehicle.steering_rate / (vehicle.wheelbase * speed);
   corner.curvature = std::min(std::sqrt(h * corner.sharpness), max_curvature);
-  // By symmetry, the middle of the curve lies on the corner's bisector.
+  // By symmetry, the middle of the curve lies on the bisector of the corner.
   std::vector<Segment> half = ToSegments(corner);
   const bool has_arc = half.size() == 3;
   half.pop_back();
@@ -149,8 +151,8 @@ RoundCorner AtSpeed(const VehicleParams& vehicle, const CornerLimits& limits,
   return slower;
 }
 
-/// Lays out the path and slows down corners until it is clear. Returns the reason for a failure,
-/// for people; empty on success.
+/// Lays out the path and slows down corners until the path is clear of obstacles. Returns the
+/// reason for a failure as a text for people, and an empty text on success.
 std::string SlowUntilClear(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
                            const CornerLimits& limits, const CollisionChecker& clear,
                            RoundedCorners& result) {

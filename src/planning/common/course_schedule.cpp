@@ -15,16 +15,17 @@ double SharpestCurvature(const Segment& segment) {
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed, const std::vector<SpeedCap>& caps,
                                 const std::vector<double>& stops) {
-  // Minimum length of a ramp where the wheels turn at standstill: the schedule is over distance
-  // [m].
+  // Minimum length [m] of a ramp on which the wheels turn at standstill, because the schedule is a
+  // function of distance.
   constexpr double kMinRampLength = 1e-6;
-  constexpr double kSpacing = 0.5;  // [m]; the arctangent is within 1e-5 rad of linear over it
+  // Spacing [m] over which the arctangent is within 1e-5 rad of linear.
+  constexpr double kSpacing = 0.5;
   const auto steering = [&](double curvature) { return SteeringForCurvature(vehicle, curvature); };
   const std::vector<SteeringRamp> ramps = RampsOfSteps(vehicle, segments, speed, caps, stops);
   auto ramp = ramps.begin();
   std::vector<SteeringSchedule::Knot> knots;
   double begin = 0.0;
-  double taken = 0.0;  // length of the piece that the ramp at its beginning covers
+  double taken = 0.0;  // length of the piece's beginning that a ramp covers
   bool is_joined = false;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& segment = segments[i];

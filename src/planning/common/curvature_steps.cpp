@@ -9,12 +9,12 @@ namespace {
 
 /// A joint between two path pieces with a step in steering angle.
 struct Step {
-  double joint;     // [m]
-  double before;    // curvature before [1/m]
-  double after;     // curvature after [1/m]
-  double steering;  // magnitude of the step [rad]
-  double room;      // available to the ramp: length of the shorter adjacent piece [m]
-  bool cusp;        // the direction changes
+  double joint;     // Station of the joint [m].
+  double before;    // Curvature before the joint [1/m].
+  double after;     // Curvature after the joint [1/m].
+  double steering;  // Magnitude of the step [rad].
+  double room;      // Room for the ramp: length of the shorter adjacent piece [m].
+  bool cusp;        // Whether the direction of motion changes.
 };
 
 std::vector<Step> CurvatureSteps(const VehicleParams& vehicle,
@@ -36,8 +36,8 @@ std::vector<Step> CurvatureSteps(const VehicleParams& vehicle,
   return steps;
 }
 
-/// The speed at which a ramp, centered on the joint, fills half of the shorter adjacent piece on
-/// either side.
+/// The speed at which the ramp is as long as the shorter adjacent piece. The ramp is centered on
+/// the joint, so each half covers half of that length.
 double RampSpeedLimit(const VehicleParams& vehicle, const Step& step) {
   return vehicle.steering_rate * step.room / step.steering;
 }

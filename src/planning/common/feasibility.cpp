@@ -11,19 +11,21 @@
 #include "trackbed/planning/common/path_pieces.h"
 #include "trackbed/planning/common/road_hold.h"
 
-// Checks a plan against the car's limits and repairs it. Start, path, steering rate and
-// accelerations are sampled; the worst excess of each quantity is kept, with the remedy that would
-// help. If slower driving helps, MakeFeasible adds speed caps (steering rate, top speed, lateral
-// acceleration) and lowers the acceleration limits, up to four times; otherwise it refuses the
-// plan. Plans at the limit of the g-g-v diagram get new speeds from SetSpeedsAtLimit instead.
+// Checks a plan against the car's limits and repairs the plan. The check samples start, path,
+// steering rate and accelerations. The check keeps the worst excess of each quantity, with the
+// remedy that would help. If slower driving helps, MakeFeasible adds speed caps and lowers the
+// acceleration limits, up to four times. The caps are for steering rate, top speed and lateral
+// acceleration. If slower driving does not help, MakeFeasible refuses the plan. SetSpeedsAtLimit
+// computes new speeds for plans at the limit of the g-g-v diagram.
 
 namespace trackbed {
 namespace {
 
-constexpr double kRounding = 1e-6;      // relative tolerance of a limit
-constexpr double kCheckSpacing = 0.1;   // spacing of the checks along the path [m]
-constexpr double kMinPlanSpeed = 0.1;   // plans that would be slower are refused [m/s]
-constexpr double kSamePlace = 1e-3;     // [m]; per meter of wheelbase if that is shorter than 1 m
+constexpr double kRounding = 1e-6;     // Relative tolerance of a limit.
+constexpr double kCheckSpacing = 0.1;  // Spacing of the checks along the path [m].
+constexpr double kMinPlanSpeed = 0.1;  // Slowest permitted plan; slower plans are refused [m/s].
+// Tolerance [m] of the position; per meter of wheelbase if the wheelbase is shorter than 1 m.
+constexpr double kSamePlace = 1e-3;
 constexpr double kSameHeading = 1e-3;   // [rad]
 constexpr double kSameSteering = 1e-3;  // [rad]
 
@@ -33,7 +35,7 @@ class WorstExcess {
   WorstExcess(std::string what, std::string unit, Remedy remedy)
       : excess_{.what = std::move(what), .unit = std::move(unit), .remedy = remedy} {}
 
-  /// A limit of 0 is unknown and never exceeded.
+  /// A limit of 0 means that the limit is unknown, so nothing exceeds it.
   void Take(double required, double limit, double station) {
     if (limit > 0.0 && required > limit * (1.0 + kRounding) && required / limit > ratio_) {
       ratio_ = required / limit;
@@ -54,7 +56,8 @@ class WorstExcess {
   double ratio_ = 0.0;
 };
 
-/// Calls `call` with from, to and slope of each stretch of the schedule on which the wheels turn.
+/// Calls `call` with `from`, `to` and the slope of each stretch of the schedule on which the wheels
+/// turn.
 template <typename Call>
 void ForEachRamp(const SteeringSchedule& schedule, const Call& call) {
   const std::vector<SteeringSchedule::Knot>& knots = schedule.knots();
@@ -67,7 +70,7 @@ void ForEachRamp(const SteeringSchedule& schedule, const Call& call) {
   }
 }
 
-/// The largest v^2 |kappa| over a piece of the path.
+/// The largest lateral acceleration v^2 |kappa| over a piece of the path.
 double LateralOver(const RoadHold& road, const Path& path, const Stations& piece) {
   if (road.uniform()) {
     return road.Lateral(path, piece.from, 0.0);
@@ -77,12 +80,12 @@ double LateralOver(const RoadHold& road, const Path& path, const Stations& piece
                   road.Lateral(path, piece.to, curvature));
 }
 
-/// Whether the g-g-v diagram of the car made the plan's speeds.
+/// Whether the g-g-v diagram of the car determined the plan's speeds.
 bool IsAtLimit(const Plan& plan, const PlanRequest& request) {
   return request.limits || plan.diagnostics.speed_profile;
 }
 
-/// Whether a leg ends at s with a stop on the way, where the wheels may turn at standstill.
+/// Whether a leg ends at s with an intermediate stop, where the wheels may turn at standstill.
 bool EndsAtStop(const std::vector<Stations>& legs, double s) {
   constexpr double kEqualityTolerance = 1e-6;  // [m]
   return std::any_of(legs.begin(), legs.end(), [&](const Stations& leg) {
@@ -158,7 +161,7 @@ void CheckSteeringRate(const Plan& plan, const PlanRequest& request, std::vector
 }
 
 void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
-  constexpr double kController = 2.0;  // times the planned deceleration; see SpeedControl
+  constexpr double kController = 2.0;  // multiple of the planned deceleration; see SpeedControl
   const Path& path = plan.reference.path;
   const RoadHold road(request);
   WorstExcess braking("deceleration", "m/s^2", Remedy::kGentlerBraking);
@@ -184,14 +187,16 @@ void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector
   driving.AddTo(found);
 }
 
-/// Speed caps for the limits that depend on speed: steering rate, top speed and, unless the speeds
-/// are at the limit anyway, lateral acceleration.
+/// Speed caps for the limits that depend on speed: steering rate, top speed and lateral
+/// acceleration. Plans whose speeds are at the limit anyway get no cap for the lateral
+/// acceleration.
 std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
   const VehicleParams& vehicle = request.vehicle;
   const Path& path = plan.reference.path;
   std::vector<SpeedCap> caps;
   const double wanted = request.speed.speed;
-  // At the limit, the controllers need the rest of the steering rate.
+  // If the plan drives at the limit, use only a share of the steering rate, because the controllers
+  // need the rest.
   const double rate =
       vehicle.steering_rate * (request.limits ? request.limits->options.share : 1.0);
   if (vehicle.top_speed > 0.0 && vehicle.top_speed < wanted) {
@@ -211,7 +216,7 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
       const double lateral = LateralOver(road, path, piece.stations);
       speed = std::min(speed, std::sqrt(lateral / piece.curvature));
     }
-    add(piece.stations, speed);  // infinite on a straight
+    add(piece.stations, speed);  // the speed is infinite on a straight
   });
   const std::vector<Stations> legs = SplitIntoLegs(path, plan.stops);
   ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
@@ -231,7 +236,8 @@ std::string Listed(const std::vector<Excess>& excesses) {
   return fmt::format("{}", fmt::join(texts, "; "));
 }
 
-/// A plan may be held to the same limits again, on another start.
+/// Adds a note unless the plan already has it, because the same limits may be applied to a plan
+/// twice.
 void AddOnce(std::vector<std::string>& notes, std::string note) {
   if (std::find(notes.begin(), notes.end(), note) == notes.end()) {
     notes.push_back(std::move(note));
@@ -267,7 +273,7 @@ SpeedLimits ReduceAccelerations(const SpeedLimits& limits, const std::vector<Exc
   return gentler;
 }
 
-/// Describes the changes made to a plan: "speed reduced to 2.1 m/s where needed".
+/// Describes the changes made to a plan, for example "speed reduced to 2.1 m/s where needed".
 std::string DescribeSpeedChanges(const SpeedLimits& before, const SpeedLimits& after,
                                  double slowest) {
   std::vector<std::string> texts;
@@ -283,9 +289,9 @@ std::string DescribeSpeedChanges(const SpeedLimits& before, const SpeedLimits& a
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
-/// The plan with speeds at the limit of the g-g-v diagram. Those speeds are feasible by
-/// construction; the remaining excesses are paths that the car cannot follow at any speed, and
-/// starts that are too fast.
+/// The plan with speeds at the limit of the g-g-v diagram. Speeds at the limit of the g-g-v diagram
+/// are feasible by construction. Excesses remain for paths that the car cannot follow at any speed,
+/// and for starts that are too fast.
 Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
   std::vector<Excess> excesses;
   for (Excess& excess : FindExcesses(plan, request)) {
@@ -321,13 +327,14 @@ Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
   return plan;
 }
 
-/// The plan after the repair that the request wants, or refused; see MakeFeasible.
+/// The plan after the repair that the request asks for, or a refused plan; see MakeFeasible.
 Plan Repaired(Plan plan, const PlanRequest& request) {
   if (request.limits) {
     return DriveAtLimit(std::move(plan), request);
   }
   std::vector<Excess> first = FindExcesses(plan, request);
-  if (IsAtLimit(plan, request)) {  // the rest of a plan whose speeds the diagram made
+  // The plan is the rest of a plan whose speeds come from the g-g-v diagram.
+  if (IsAtLimit(plan, request)) {
     std::erase_if(first, [](const Excess& excess) { return excess.remedy != Remedy::kNone; });
   }
   if (first.empty()) {
@@ -351,8 +358,8 @@ Plan Repaired(Plan plan, const PlanRequest& request) {
   Plan slower = plan;
   slower.caps.insert(slower.caps.end(), caps.begin(), caps.end());
   SpeedLimits limits = request.speed;
-  // Braking for the new caps may itself be too hard, and gentler braking begins earlier, so
-  // iterate.
+  // Iterate, because braking for the new caps may itself be too hard, and gentler braking begins
+  // earlier.
   constexpr int kMaxAttempts = 4;
   std::vector<Excess> left = first;
   for (int i = 0; i < kMaxAttempts && !left.empty(); ++i) {

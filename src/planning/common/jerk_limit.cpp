@@ -7,16 +7,16 @@
 namespace trackbed {
 namespace {
 
-/// G at each station, with its slopes on both sides.
+/// The function G at each station, with its slopes on both sides.
 struct Bound {
   std::vector<double> value;
   std::vector<double> left;
   std::vector<double> right;
 };
 
-/// Integrates G'' = K: at each station the slope rises by 2 jerk/v times half the length of the two
-/// adjacent intervals. v is the largest speed around the station, so that second differences are
-/// limited exactly.
+/// Integrates the equation G'' = K. At each station, the slope rises by 2 jerk/v times half the
+/// length of the two adjacent intervals. The largest speed around the station is v, so that the
+/// limit holds exactly for second differences.
 Bound Integrate(const std::vector<double>& stations, double jerk,
                 const std::vector<double>& squares) {
   const std::size_t count = stations.size();
@@ -25,7 +25,8 @@ Bound Integrate(const std::vector<double>& stations, double jerk,
     const std::size_t before = i > 0 ? i - 1 : 0;
     const std::size_t after = std::min(i + 1, count - 1);
     const double fastest = std::max({squares[before], squares[i], squares[after]});
-    // Avoids division by zero where the car stands throughout; any value will do.
+    // Avoids a division by zero where the car stands throughout. Any positive speed avoids the
+    // division by zero.
     const double speed = std::sqrt(std::max(fastest, 1e-12));
     const double length = (stations[after] - stations[before]) * (after - before == 1 ? 2.0 : 1.0);
     if (i > 0) {
@@ -37,7 +38,7 @@ Bound Integrate(const std::vector<double>& stations, double jerk,
   return bound;
 }
 
-/// Step 1 of the header: w1.
+/// Computes the squared speeds w1 of LimitJerk, step 1.
 void LowerValleys(const std::vector<double>& stations, const Bound& bound,
                   std::vector<double>& squares) {
   const std::vector<double> given = squares;
@@ -63,7 +64,7 @@ void LowerValleys(const std::vector<double>& stations, const Bound& bound,
   }
 }
 
-/// Step 2 of the header: w2.
+/// Computes the squared speeds w2 of LimitJerk, step 2.
 void LowerToHull(const std::vector<double>& stations, const Bound& bound,
                  std::vector<double>& squares) {
   std::vector<std::size_t> hull;
@@ -103,7 +104,7 @@ void LimitJerk(const std::vector<double>& stations, double jerk, std::vector<dou
 
 void LimitJerkAround(const std::vector<double>& stations, double jerk,
                      std::vector<double>& squares) {
-  // The lap between two copies of itself.
+  // Place the lap between two copies of itself.
   const double length = stations.back() - stations.front();
   const std::size_t count = stations.size() - 1;
   std::vector<double> long_stations;

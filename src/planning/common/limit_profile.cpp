@@ -10,26 +10,25 @@
 #include "trackbed/vehicle/params.h"
 
 // Speed profile at the limit of a g-g-v diagram, by forward and backward passes (Heilmeier et al.
-// 2020).
-// 1. MaxSquares: the largest v^2 at each station that the tyres' lateral limit and the cap allow.
-// 2. Forward pass: accelerate as hard as possible. Backward pass: brake as late as possible.
-// 3. With a jerk limit, LimitJerk and the passes alternate until the passes hardly lower the
-//    result.
-// 4. A start that is too fast brakes as hard as possible, and the first excess is reported.
-// A lap starts at its slowest station and repeats the passes until start and end agree.
+// 2020). MaxSquares computes the largest v^2 at each station that the tyres' lateral limit and the
+// cap allow. The forward pass accelerates as hard as possible. The backward pass brakes as late as
+// possible. With a jerk limit, LimitJerk and the passes alternate until the passes hardly lower the
+// result. A start that is too fast brakes as hard as possible, and the first excess is reported.
+// For a lap, the passes start at the slowest station and repeat until the speeds at start and end
+// agree.
 
 namespace trackbed {
 namespace {
 
-using Squares = std::vector<double>;  // of speeds [m^2/s^2], one per station
+using Squares = std::vector<double>;  // Squared speeds [m^2/s^2], one per station.
 
-/// Accelerations available to a car at a station, as a function of its squared speed.
+/// Accelerations available to a car at a station, as a function of the squared speed.
 class Capability {
  public:
   Capability(const GgvDiagram& diagram, const LimitOptions& options)
       : diagram_(diagram), options_(options) {}
 
-  /// Largest dv/dt [m/s^2].
+  /// Largest acceleration dv/dt of the car [m/s^2].
   [[nodiscard]] double MaxAcceleration(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
     return Accelerations(demand).largest / demand.stretch;
@@ -40,8 +39,8 @@ class Capability {
     return Accelerations(demand).smallest / demand.stretch;
   }
 
-  /// How far the tyres are from their limit [m/s^2]; negative beyond it. Within the limit, the car
-  /// may have to slow down for lack of drive force, but never has to speed up.
+  /// Distance of the tyres from their limit [m/s^2]; negative beyond the limit. Within the limit,
+  /// the car may have to slow down for lack of drive force, but never has to speed up.
   [[nodiscard]] double Margin(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
     const double across = options_.share * diagram_.MaxLateral(demand.point) - demand.point.lateral;
@@ -57,22 +56,23 @@ class Capability {
     return std::min({across, weight, resistance - options_.share * tyres.braking});
   }
 
-  /// The largest square up to `most` within the tyres' limit; 0 without one.
+  /// The largest squared speed up to `most` within the tyres' limit; 0 if no speed is within it.
   [[nodiscard]] double MaxSquared(const LimitStation& at, double most) const;
 
  private:
-  static constexpr double kMinLoad = 0.05;  // of the weight; less counts as airborne
+  // Fraction of the weight; a smaller load counts as airborne.
+  static constexpr double kMinLoad = 0.05;
 
   struct Demand {
     GgvPoint point;
-    double load = 1.0;     // f_n/g, may be negative [1]
-    double stretch = 1.0;  // A
-    double slope = 0.0;    // component of gravity along the road [m/s^2]
+    double load = 1.0;     // Load f_n/g as a fraction of the weight, may be negative [1].
+    double stretch = 1.0;  // Stretch factor A of the road's length.
+    double slope = 0.0;    // Component of gravity along the road [m/s^2].
   };
 
   [[nodiscard]] static Demand DemandAt(const LimitStation& at, double squared) {
     Demand demand;
-    const double steep = 1.0 + at.grade * at.grade;  // A^2
+    const double steep = 1.0 + at.grade * at.grade;  // square of the stretch factor A
     const double tilt = std::sqrt(steep + at.bank * at.bank);
     demand.stretch = std::sqrt(steep);
     const double gravity = kGravity + squared * at.crest;
@@ -118,8 +118,9 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
   return Margin(at, above) >= 0.0 ? above : below;
 }
 
-/// The largest square up to `most` that can be reached over an interval of `length` from the square
-/// `from` at its other end. `can` gives the acceleration available at this end for a square.
+/// The largest squared speed up to `most` that the car can reach over an interval of `length`. At
+/// the other end of the interval, the squared speed is `from`. The function `can` returns the
+/// acceleration available to the car at a squared speed.
 template <typename Can>
 double Reach(double from, double length, double most, const Can& can) {
   const auto spare = [&](double squared) {
@@ -136,7 +137,7 @@ double Reach(double from, double length, double most, const Can& can) {
     at_low = spare(low);
   }
   if (at_low <= 0.0 || low >= most) {
-    return low;  // even the lowest speed is too high: the slope is too steep
+    return low;  // even the lowest speed is too high, because the slope is too steep
   }
   std::uintmax_t iterations = 12;
   const auto [below, above] = boost::math::tools::toms748_solve(
@@ -149,7 +150,8 @@ class Passes {
   Passes(const std::vector<LimitStation>& stations, const Capability& can)
       : stations_(stations), capability_(can) {}
 
-  /// Limits each square to what the car can reach by accelerating from the previous station.
+  /// Limits each squared speed to the value that the car can reach by accelerating from the
+  /// previous station.
   void Forward(Squares& squares) const {
     for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
       const double length = stations_[i + 1].s - stations_[i].s;
@@ -161,7 +163,8 @@ class Passes {
     }
   }
 
-  /// Limits each square to one from which the car can brake to the next station's.
+  /// Limits each squared speed to a value from which the car can brake to the speed at the next
+  /// station.
   void Backward(Squares& squares) const {
     for (std::size_t i = squares.size() - 1; i-- > 0;) {
       const double length = stations_[i + 1].s - stations_[i].s;
@@ -174,8 +177,8 @@ class Passes {
     }
   }
 
-  /// Raises the first squares to those of a car that starts with the square `start` and brakes as
-  /// hard as it can until it meets the profile.
+  /// Raises the first squared speeds for a car that starts too fast, with the squared speed
+  /// `start`. The car brakes as hard as it can until it meets the profile.
   void BrakeFrom(double start, Squares& squares) const {
     squares[0] = start;
     for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
@@ -214,7 +217,7 @@ void Check(const std::vector<LimitStation>& stations, const LimitOptions& option
   }
 }
 
-/// The largest square at each station, regardless of the other stations.
+/// The largest squared speed at each station, regardless of the other stations.
 Squares MaxSquares(const std::vector<LimitStation>& stations, const GgvDiagram& diagram,
                    const LimitOptions& options, const Capability& can) {
   double fastest = std::numeric_limits<double>::infinity();
@@ -253,11 +256,11 @@ LimitSpeeds Result(const std::vector<LimitStation>& stations, const Squares& squ
   return result;
 }
 
-/// Alternates smoothing and passes until the passes hardly lower the smoothed squares.
+/// Alternates smoothing and passes until the passes hardly lower the smoothed squared speeds.
 template <typename Smooth, typename Pass>
 void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
   constexpr int kMaxIterations = 100;
-  constexpr double kMinDecrease = 1e-4;  // relative decrease of a square
+  constexpr double kMinDecrease = 1e-4;  // relative decrease of a squared speed
   for (int round = 0; round < kMaxIterations; ++round) {
     smooth(squares);
     const Squares before = squares;
@@ -274,8 +277,8 @@ void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
   smooth(squares);
 }
 
-/// Repeats forward and backward passes over a lap until its start and end agree. The last square
-/// stands for the first one.
+/// Repeats forward and backward passes over a lap until its start and end agree. The last squared
+/// speed stands for the first station.
 void PassAroundLap(const Passes& passes, Squares& squares) {
   constexpr int kLaps = 50;
   constexpr double kEqualityTolerance = 1e-12;
@@ -342,7 +345,7 @@ LimitSpeeds LimitSpeedsAround(const std::vector<LimitStation>& stations, double 
                    stations.front().s, stations.back().s);
   const Capability can(diagram, options);
   const Squares allowed = MaxSquares(stations, diagram, options, can);
-  // Start at the slowest station: except on slopes, no pass lowers the speed there.
+  // Start at the slowest station: except on slopes, no pass lowers the speed at this station.
   const auto slowest = std::min_element(allowed.begin(), allowed.end()) - allowed.begin();
   std::vector<LimitStation> lap(stations.begin() + slowest, stations.end());
   Squares squares(allowed.begin() + slowest, allowed.end());

@@ -14,15 +14,15 @@ namespace trackbed {
 namespace {
 
 constexpr double kSamePlace = 1e-9;         // [m]
-const std::string kAtLimit = "speeds at ";  // begins the note of the predicted time
-/// Stations closer than this fraction of the spacing are merged.
+const std::string kAtLimit = "speeds at ";  // First words of the note with the predicted time.
+/// Stations closer than the fraction kMerged of the spacing are merged.
 constexpr double kMerged = 0.002;
 
 double LargerOf(double a, double b) {
   return std::abs(a) > std::abs(b) ? a : b;
 }
 
-/// Stations with curvature along segments; the first one is at `from`.
+/// Stations with curvature along segments; the first station is at `from`.
 std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double from, double spacing) {
   std::vector<LimitStation> nodes;
   double start = from;
@@ -45,7 +45,7 @@ std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double fro
   return nodes;
 }
 
-/// Ground and friction along a path.
+/// Ground height and friction along a path.
 class Surface {
  public:
   Surface(const Path& path, const PlanRequest& request) : path_(path), request_(request) {
@@ -92,8 +92,8 @@ class Surface {
 
   const Path& path_;
   const PlanRequest& request_;
-  double front_ = 0.0;  // position of the front axle [m]
-  double share_ = 0.0;  // fraction of the load on it
+  double front_ = 0.0;  // Position of the front axle [m].
+  double share_ = 0.0;  // Fraction of the load on the front axle.
   bool flat_ = true;
 };
 
@@ -104,7 +104,7 @@ void ApplyCaps(const std::vector<SpeedCap>& caps, std::vector<LimitStation>& sta
         cap.from > stations.back().s + kSamePlace) {
       continue;
     }
-    // Between two stations the speed does not exceed that at one of them.
+    // Between two stations, the speed does not exceed the larger speed of the two.
     auto first = std::lower_bound(stations.begin(), stations.end(), cap.from + kSamePlace, before);
     auto last = std::lower_bound(stations.begin(), stations.end(), cap.to - kSamePlace, before);
     first = first == stations.begin() ? first : first - 1;
@@ -183,7 +183,7 @@ std::vector<LimitStation> StationsAlong(const Path& path, const Stations& part,
   if (beyond > kSamePlace) {
     segments.push_back({.length = beyond});
   }
-  // A short leg from rest to rest needs stations in between.
+  // A short leg that begins and ends at rest needs stations in between.
   constexpr double kPieces = 16.0;
   const double spacing =
       std::min({0.5, 0.2 * request.vehicle.wheelbase, (part.to - part.from) / kPieces});
@@ -213,7 +213,7 @@ std::optional<LimitExcess> SetSpeedsAtLimit(Plan& plan, const PlanRequest& reque
                                   ? fmt::format(", slowest {:.3g} m/s at s = {:.4g} m",
                                                 findings.slowest, findings.slowest_s)
                                   : "";
-  // A rerouted plan has the time of the plan before it.
+  // A rerouted plan still has the note of the time predicted for the previous plan.
   std::erase_if(plan.notes, [](const std::string& note) { return note.starts_with(kAtLimit); });
   if (std::isfinite(findings.predicted_time)) {
     plan.notes.push_back(kAtLimit + fmt::format("{:.3g} of the limit: predicted time {:.4g} s{}",

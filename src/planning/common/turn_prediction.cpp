@@ -16,7 +16,7 @@ TurnError ErrorInTurn(const Path& path, const IsolatedTurn& turn, const Pose2& X
 
 TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const IsolatedTurn& turn,
                       double lag) {
-  // A lagging car turns later.
+  // A car whose steering lags turns later.
   const double late = turn.speed * lag;
   const double ramp = SteeringDistance(vehicle, turn.steering, turn.speed);
   const double held = turn.middle - turn.from - ramp - late;

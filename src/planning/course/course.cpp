@@ -69,7 +69,7 @@ Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
   return plan;
 }
 
-/// Requires at least one segment, and either a constant curvature or a ramp in each.
+/// Requires at least one segment, and either a constant curvature or a ramp in each segment.
 std::vector<OptionProblem> CheckSegments(const CourseOptions& options,
                                          const CouldReadKey& could_read) {
   std::vector<OptionProblem> problems;

@@ -13,8 +13,8 @@
 namespace trackbed {
 namespace {
 
-/// Lengths of the five sections, widths of the three gates, and lateral offsets of the second and
-/// third gate's centers from the first one's.
+/// Course of the lane change: lengths of the five sections and widths of the three gates. The
+/// lateral offsets of the second and third gates' centers count from the first gate's center.
 struct Course {
   std::array<double, 5> lengths;
   std::array<double, 3> widths;
@@ -130,7 +130,7 @@ std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehiclePar
         if (std::abs(corner.x()) <= 0.5 * lane.length) {
           take(corner);
         }
-        // The cones at the ends of the lane may be passed between two poses.
+        // Between two sampled poses, the car may pass the cones at the ends of the lane.
         for (const double end : {-0.5 * lane.length, 0.5 * lane.length}) {
           if (i > 0 && (before[c].x() - end) * (corner.x() - end) < 0.0) {
             take(before[c] +

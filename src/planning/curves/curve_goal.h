@@ -7,8 +7,8 @@
 
 namespace trackbed {
 
-/// Goal pose relative to the start, in units of the radius. Sine and cosine of the heading are
-/// computed once for all words.
+/// Goal pose relative to the start, in units of the radius. Sine and cosine of the goal's heading
+/// are computed once for all Dubins or Reeds-Shepp words.
 struct CurveGoal {
   double x = 0.0;
   double y = 0.0;
@@ -31,7 +31,7 @@ struct CurveGoal {
     cos = std::cos(yaw);
   }
 
-  /// Mirrored at the x axis: left and right change places.
+  /// Mirrors the goal at the x axis, which exchanges left and right.
   [[nodiscard]] CurveGoal Mirrored() const {
     CurveGoal goal = *this;
     goal.y = -y;
@@ -40,7 +40,8 @@ struct CurveGoal {
     return goal;
   }
 
-  /// Reflected at the y axis, for a car that drives the word in the other direction.
+  /// Reflects the goal at the y axis, for a car that drives a Dubins or Reeds-Shepp word in the
+  /// opposite direction.
   [[nodiscard]] CurveGoal Reversed() const {
     CurveGoal goal = *this;
     goal.x = -x;
@@ -49,7 +50,7 @@ struct CurveGoal {
     return goal;
   }
 
-  /// The start relative to the goal, for words that are driven from their end.
+  /// The start relative to the goal, for Reeds-Shepp words that the car drives from their end.
   [[nodiscard]] CurveGoal FromGoal() const {
     CurveGoal goal = *this;
     goal.x = x * cos + y * sin;

@@ -21,7 +21,7 @@ using route::LeadInForCurves;
 using route::RadiusFor;
 using route::Refused;
 
-/// A curve between two stops, and its cost.
+/// A curve between two stops, and the cost of the curve.
 struct FoundCurve {
   std::vector<Segment> segments;
   ShortestCurve curve;
@@ -29,8 +29,8 @@ struct FoundCurve {
   double cost = 0.0;  // [m]
 };
 
-/// The cheapest of `words` that is free of collisions and may begin as it does; each stop costs
-/// kStopPenalty.
+/// The cheapest of `words` that is free of collisions and whose beginning `may_begin` accepts. Each
+/// stop costs kStopPenalty.
 template <typename MayBegin>
 std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionChecker& clear,
                                     const Pose2& from, const std::vector<ShortestCurve>& words,
@@ -54,7 +54,7 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
   return free == candidates.end() ? std::nullopt : std::optional(std::move(*free));
 }
 
-/// Plans from stop to stop, each leg by the first free one of `words`.
+/// Plans from stop to stop; each leg uses the first collision-free curve of `words`.
 template <typename Options, typename Words>
 Plan PlanCurves(const Options& options, const PlanRequest& request, const Words& words) {
   for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius)}) {
@@ -77,8 +77,8 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
     std::vector<ShortestCurve> all = words(stops[i - 1], stops[i], radius);
     std::optional<FoundCurve> found;
     if (rolls) {
-      // Either start at once, if the wheels already have the right angle, or after a lead-in; take
-      // the shorter.
+      // Start at once if the wheels already have the right angle, or start after a lead-in. Take
+      // the shorter curve, with or without a lead-in.
       const double bend = CurvatureForSteering(request.vehicle, request.start_steering);
       found = FirstFree(request, clear, stops[0], all, options.min_speed, [&](const auto& own) {
         constexpr double kEqualityTolerance = 1e-6;  // [1/m]
@@ -124,7 +124,7 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
-  // All Reeds-Shepp words to a pose may begin backwards, which a rolling car cannot do; Dubins
+  // All Reeds-Shepp words to a pose may begin backwards, which a rolling car cannot do. Dubins
   // words begin forwards.
   return PlanCurves(options, request, [](const Pose2& from, const Pose2& to, double radius) {
     std::vector<ShortestCurve> words = ReedsSheppWords(from, to, radius);

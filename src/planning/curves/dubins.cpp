@@ -15,13 +15,13 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 
 constexpr double kRounding = 1e-12;
 
-/// Wraps to [0, 2 pi); an angle within rounding of 2 pi becomes 0.
+/// Wraps an angle to [0, 2 pi); an angle within rounding of 2 pi becomes 0.
 double Positive(double angle) {
   const double turned = angle - kTurn * std::floor(angle / kTurn);
   return turned > kTurn - kRounding ? 0.0 : turned;
 }
 
-/// The sweeps of a word's pieces [rad]; of a straight, its length in radii.
+/// The sweeps [rad] of the arcs of a Dubins word; the length of a straight is in radii.
 struct Sweeps {
   double first = 0.0;
   double middle = 0.0;
@@ -30,9 +30,10 @@ struct Sweeps {
   [[nodiscard]] double Sum() const { return first + middle + last; }
 };
 
-/// The following functions solve the words that begin with a left arc and are shorter than `limit`;
-/// otherwise they return kNone as the middle piece. The center of the first arc is at (0, 1), that
-/// of a last left arc at (x - sin, y + cos), and that of a last right arc at (x + sin, y - cos).
+/// The following functions solve the Dubins words that begin with a left arc and are shorter than
+/// `limit`. A function returns kNone as the middle piece if it finds no word. The center of the
+/// first arc is at (0, 1). The center of a last left arc is at (x - sin, y + cos). The center of a
+/// last right arc is at (x + sin, y - cos).
 Sweeps LeftStraightLeft(const CurveGoal& goal, double limit) {
   const double dx = goal.x - goal.sin;
   const double dy = goal.y - 1.0 + goal.cos;
@@ -49,13 +50,13 @@ Sweeps LeftStraightRight(const CurveGoal& goal, double limit) {
   const double dy = goal.y - 1.0 - goal.cos;
   const double square = dx * dx + dy * dy - 4.0;
   if (square < -kRounding) {
-    return {.middle = kNone};  // the circles overlap: no straight crosses between them
+    return {.middle = kNone};  // the circles overlap, so no straight crosses between them
   }
   const double straight = std::sqrt(std::max(square, 0.0));
   if (straight >= limit) {
     return {.middle = kNone};
   }
-  // The direction between the centers plus the angle atan(2/straight), by one arctangent.
+  // Add the angle atan(2/straight) to the direction between the centers, by one arctangent.
   const double first = Positive(std::atan2(dy * straight + 2.0 * dx, dx * straight - 2.0 * dy));
   return {first, straight, Positive(first - goal.yaw)};
 }
@@ -65,10 +66,10 @@ Sweeps LeftRightLeft(const CurveGoal& goal, double limit) {
   const double dy = goal.y - 1.0 + goal.cos;
   const double square = dx * dx + dy * dy;
   if (square > 16.0 + kRounding || limit <= kPi) {
-    return {.middle = kNone};  // too far apart for a circle that touches both
+    return {.middle = kNone};  // the outer circles are too far apart for a circle that touches both
   }
-  // The center of the middle arc lies `tilt` to the left of the line of the centers, seen from the
-  // first.
+  // Seen from the first center, the center of the middle arc lies `tilt` to the left of the line of
+  // the centers.
   const double tilt = std::acos(std::min(0.25 * std::sqrt(square), 1.0));
   const double middle = kPi + 2.0 * tilt;
   const double first = Positive(std::atan2(dy, dx) + 0.5 * kPi + tilt);

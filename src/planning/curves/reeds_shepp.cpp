@@ -7,17 +7,18 @@
 #include "src/planning/curves/curve_goal.h"
 #include "trackbed/core/angle.h"
 
-// Shortest paths of a car that drives forwards and backwards (Reeds and Shepp 1990, section 8).
-// Eight functions solve the base words, whose first arc is to the left and forwards. The other
-// words of each family follow by reversing the direction, mirroring left and right, and reading the
-// word from its end. The shortest word wins; a function may stop as soon as its word exceeds the
-// best length known.
+// Shortest paths of a car that drives forwards and backwards (Reeds and Shepp 1990, section 8). A
+// word is a sequence of arcs and straights. Eight functions solve the base words, whose first arc
+// is to the left and forwards. Three symmetries give the other words of a family from its base
+// word. The symmetries reverse the direction, mirror left and right, and read a Reeds-Shepp word
+// from its end. The planner takes the shortest Reeds-Shepp word. A function may stop as soon as its
+// word exceeds the best length known.
 
 namespace trackbed {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
-constexpr double kRight = 0.5 * kPi;  // a right angle
+constexpr double kRight = 0.5 * kPi;  // Right angle [rad].
 /// Tolerance for the sign of a sweep.
 constexpr double kRounding = 1e-12;
 
@@ -26,24 +27,25 @@ double WrapToPi(double angle) {
   return angle - 2.0 * kPi * std::nearbyint(angle * (0.5 / kPi));
 }
 
-/// Same as WrapToPi, for a sweep that must not be negative: returns pi in place of -pi.
+/// Same as WrapToPi, for a sweep that must not be negative: returns pi instead of -pi.
 double WrapNonNegative(double angle) {
   const double near = WrapToPi(angle);
   return near < kRounding - kPi ? near + 2.0 * kPi : near;
 }
 
-/// Same as WrapToPi, for a sweep that must not be positive: returns -pi in place of pi.
+/// Same as WrapToPi, for a sweep that must not be positive: returns -pi instead of pi.
 double WrapNonPositive(double angle) {
   return -WrapNonNegative(-angle);
 }
 
-/// Square root; rounding may have made the argument negative.
+/// Square root of an argument that rounding may have made negative.
 double Root(double square) {
   return std::sqrt(std::max(square, 0.0));
 }
 
-/// The free sweeps of a word of three to five pieces. `sum` adds the magnitudes of all sweeps, the
-/// fixed ones included; kNone if the word does not exist.
+/// The free sweeps of a Reeds-Shepp word of three to five pieces. The member `sum` adds the
+/// magnitudes of all sweeps, the fixed sweeps included. If the Reeds-Shepp word does not exist,
+/// `sum` is kNone.
 struct Sweeps {
   double t = 0.0;
   double u = 0.0;
@@ -55,11 +57,12 @@ Sweeps With(double t, double u, double v, double others = 0.0) {
   return {t, u, v, std::abs(t) + std::abs(u) + std::abs(v) + others};
 }
 
-// Each of the following functions solves an equation of Reeds and Shepp 1990, section 8, for the
-// word whose first arc is to the left and forwards. Words longer than `limit` need not be solved.
+// Each of the following functions solves an equation of Reeds and Shepp 1990, section 8. The
+// function finds the Reeds-Shepp word whose first arc is to the left and forwards. A function may
+// skip Reeds-Shepp words longer than `limit`.
 
-/// Vector from the center of the first arc to that of a last arc to the left (ToLeftCenter) or to
-/// the right (ToRightCenter).
+/// Vector from the center of the first arc to the center of the last arc. ToLeftCenter is for a
+/// last arc to the left, ToRightCenter for a last arc to the right.
 Vec2 ToLeftCenter(const CurveGoal& goal) {
   return {goal.x - goal.sin, goal.y - 1.0 + goal.cos};
 }
@@ -67,7 +70,7 @@ Vec2 ToRightCenter(const CurveGoal& goal) {
   return {goal.x + goal.sin, goal.y - 1.0 - goal.cos};
 }
 
-/// 8.1: L+S+L+.
+/// Equation 8.1 solves the word L+S+L+.
 Sweeps LSL(const CurveGoal& goal, double limit) {
   const Vec2 d = ToLeftCenter(goal);
   const double u = d.norm();
@@ -79,7 +82,7 @@ Sweeps LSL(const CurveGoal& goal, double limit) {
   return v >= -kRounding ? With(t, u, v) : Sweeps{};
 }
 
-/// 8.2: L+S+R+.
+/// Equation 8.2 solves the word L+S+R+.
 Sweeps LSR(const CurveGoal& goal, double limit) {
   const Vec2 d = ToRightCenter(goal);
   const double square = d.squaredNorm() - 4.0;
@@ -92,7 +95,7 @@ Sweeps LSR(const CurveGoal& goal, double limit) {
   return t >= -kRounding && v >= -kRounding ? With(t, u, v) : Sweeps{};
 }
 
-/// 8.3 and 8.4: L+R-L, whose last arc may go in either direction.
+/// Equations 8.3 and 8.4 solve the words L+R-L, whose last arc may go in either direction.
 Sweeps LRL(const CurveGoal& goal, double /*limit*/) {
   const Vec2 d = ToLeftCenter(goal);
   const double square = d.squaredNorm();
@@ -116,7 +119,7 @@ Sweeps OuterOfFour(const Vec2& d, double u, double v, double yaw, const Last& la
   return With(tau, u, last(tau - u + v - yaw), std::abs(v));
 }
 
-/// 8.7: L+R+L-R-, whose inner arcs sweep u and -u.
+/// Equation 8.7 solves the word L+R+L-R-, whose inner arcs sweep u and -u.
 Sweeps LRLR(const CurveGoal& goal, double /*limit*/) {
   const Vec2 d = ToRightCenter(goal);
   const double square = d.squaredNorm();
@@ -128,7 +131,7 @@ Sweeps LRLR(const CurveGoal& goal, double /*limit*/) {
   return sweeps.t >= -kRounding && sweeps.v <= kRounding ? sweeps : Sweeps{};
 }
 
-/// 8.8: L+R-L-R+, whose inner arcs both sweep u.
+/// Equation 8.8 solves the word L+R-L-R+, whose inner arcs both sweep u.
 Sweeps LRLRInner(const CurveGoal& goal, double /*limit*/) {
   const Vec2 d = ToRightCenter(goal);
   const double rho = (20.0 - d.squaredNorm()) / 16.0;
@@ -140,7 +143,7 @@ Sweeps LRLRInner(const CurveGoal& goal, double /*limit*/) {
   return sweeps.t >= -kRounding && sweeps.v >= -kRounding ? sweeps : Sweeps{};
 }
 
-/// 8.9: L+R-S-L-, whose second arc is a right angle.
+/// Equation 8.9 solves the word L+R-S-L-, whose second arc is a right angle.
 Sweeps LRSL(const CurveGoal& goal, double limit) {
   const Vec2 d = ToLeftCenter(goal);
   const double square = d.squaredNorm() - 4.0;
@@ -149,14 +152,14 @@ Sweeps LRSL(const CurveGoal& goal, double limit) {
   if (square < -kRounding || u > kRounding || kRight - u >= limit) {
     return {};
   }
-  // The direction of d plus the angle of (-2, r), by one arctangent.
+  // Add the angle of the vector (-2, r) to the direction of d, by one arctangent.
   const double t = WrapNonNegative(std::atan2(d.x() * r - 2.0 * d.y(), -2.0 * d.x() - d.y() * r));
   const double v = WrapNonPositive(goal.yaw - kRight - t);
   const bool fits = t >= -kRounding && v <= kRounding;
   return fits ? With(t, u, v, kRight) : Sweeps{};
 }
 
-/// 8.10: L+R-S-R-, whose second arc is a right angle.
+/// Equation 8.10 solves the word L+R-S-R-, whose second arc is a right angle.
 Sweeps LRSR(const CurveGoal& goal, double limit) {
   const Vec2 d = ToRightCenter(goal);
   const double u = 2.0 - d.norm();
@@ -168,7 +171,7 @@ Sweeps LRSR(const CurveGoal& goal, double limit) {
   return v <= kRounding ? With(t, u, v, kRight) : Sweeps{};
 }
 
-/// 8.11: L+R-S-L-R+, whose second and fourth arcs are right angles.
+/// Equation 8.11 solves the word L+R-S-L-R+, whose second and fourth arcs are right angles.
 Sweeps LRSLR(const CurveGoal& goal, double limit) {
   const Vec2 d = ToRightCenter(goal);
   const double square = d.squaredNorm() - 4.0;
@@ -182,7 +185,7 @@ Sweeps LRSLR(const CurveGoal& goal, double limit) {
   return t >= -kRounding && v >= -kRounding ? With(t, u, v, 2.0 * kRight) : Sweeps{};
 }
 
-/// Sweep of a piece, in terms of the free sweeps of its family.
+/// Sweep of a piece, expressed by the free sweeps of the piece's family.
 enum class Part : signed char { kT, kU, kMinusU, kV, kMinusRight };
 
 struct Family {
@@ -190,7 +193,7 @@ struct Family {
   int count;
   std::array<Bend, 5> bends;
   std::array<Part, 5> parts;
-  bool is_asymmetric;  ///< reading the word from its end gives another word
+  bool is_asymmetric;  ///< whether reading the Reeds-Shepp word from its end gives a different word
 };
 
 constexpr Bend kL = Bend::kLeft;
@@ -212,7 +215,7 @@ constexpr std::array<Family, 8> kFamilies{{
      false},
 }};
 
-/// A word of a family, with the symmetries that were applied to it.
+/// A Reeds-Shepp word of a family, with the symmetries that were applied to the word.
 struct Word {
   const Family* family = nullptr;
   bool mirrored = false;
@@ -252,7 +255,8 @@ ShortestCurve MakeCurve(const Word& word, double radius) {
   return curve;
 }
 
-/// Calls `take` with every word that is shorter than `limit()`, which may fall during the loop.
+/// Calls `take` with every Reeds-Shepp word that is shorter than `limit()`. The value of `limit()`
+/// may fall during the loop.
 template <typename Limit, typename Take>
 void ForEachWord(const CurveGoal& goal, const Limit& limit, const Take& take) {
   const std::array<CurveGoal, 4> seen{goal, goal.Reversed(), goal.Mirrored(),

@@ -5,7 +5,8 @@
 namespace trackbed {
 namespace {
 
-/// Pieces up to this length (in radii) are dropped: they come from rounding of a zero angle.
+/// Pieces up to kMinPieceLength (in radii) are dropped, because they come from rounding of a zero
+/// angle.
 constexpr double kMinPieceLength = 1e-12;
 
 bool IsThere(const CurvePiece& piece) {

@@ -26,7 +26,7 @@ class DrivenProblem {
     }
   }
 
-  /// The plan of the variables x. Throws Refusal if its turns are out of order.
+  /// The fillet plan for the variables x. Throws Refusal if the turns of the plan are out of order.
   [[nodiscard]] FilletPlan PlanAt(std::span<const double> x) const {
     std::vector<FilletTurn> turns = start_.turns;
     for (std::size_t k = 0; k < turns.size(); ++k) {
@@ -48,7 +48,7 @@ class DrivenProblem {
     return plan;
   }
 
-  /// Cost J of the plan's open-loop run.
+  /// Cost J of the open-loop run of a plan.
   [[nodiscard]] double Cost(const FilletPlan& plan) const {
     const double end = plan.stop_distance;
     const auto intervals = static_cast<std::size_t>(std::ceil(end / kSpacing));
@@ -58,7 +58,8 @@ class DrivenProblem {
       stations[i] = static_cast<double>(i) * spacing;
     }
     const KinematicState start{.pose = StartOfRoute(route_.waypoints),
-                               .speed = 1.0};  // any speed: schedule and stations are distances
+                               // Any speed works, because schedule and stations are distances.
+                               .speed = 1.0};
     const auto states =
         RollOut(vehicle_, start, plan.schedule, stations, kSpacing, options_.reference);
     double position = 0.0;
@@ -103,7 +104,7 @@ class DrivenProblem {
   const FilletOptions& options_;
   const std::vector<RadiusLimits>& limits_;
   const FilletPlan& start_;
-  double ramps_ = 0.0;  // sum of the ramp distances [m]
+  double ramps_ = 0.0;  // Sum of the ramp distances [m].
 };
 
 }  // namespace
@@ -122,7 +123,8 @@ FilletPlan SearchDriven(const VehicleParams& vehicle, const Route& route,
                               SearchFor(options.search.method).name, result.evaluations,
                               ToString(result.status))};
   }
-  // A global search finds the valley; a gradient method then converges along its floor.
+  // A global search finds the valley of the cost. A gradient method then converges along the floor
+  // of the valley.
   problem.start = result.x;
   SearchOptions polish = global;
   polish.method = SearchMethod::kSlsqp;

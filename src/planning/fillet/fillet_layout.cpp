@@ -12,7 +12,7 @@
 namespace trackbed::fillet {
 namespace {
 
-constexpr double kNoTurn = 1e-9;  // heading change [rad] below which legs count as collinear
+constexpr double kNoTurn = 1e-9;  // Heading change [rad] below which legs count as collinear.
 
 void PlaceArc(const Route& route, FilletTurn& turn) {
   const auto corner = static_cast<std::size_t>(turn.waypoint);
@@ -27,13 +27,13 @@ void PlaceArc(const Route& route, FilletTurn& turn) {
   turn.arc_length = turn.radius * std::abs(turn.heading_change);
 }
 
-/// Straights and arcs from waypoint to waypoint; fills in the turns' stations.
+/// Straights and arcs from waypoint to waypoint. Fills in the stations of the turns.
 Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
   std::vector<Segment> segments;
   double s = 0.0;
   const auto straight = [&](double length, int waypoint) {
-    // Turns whose tangent points coincide leave no straight, or a slightly negative one by
-    // rounding.
+    // If the tangent points of two turns coincide, the straight between the two turns has length
+    // zero, up to rounding.
     constexpr double negligible = 1e-10;  // [m]
     if (length < -negligible) {
       throw Refusal{PlanStatus::kTurnsOverlap, waypoint,
@@ -45,7 +45,7 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
       s += length;
     }
   };
-  // Straight length since the last arc; adds up over collinear legs.
+  // Straight length since the last arc; the lengths of collinear legs add up.
   double pending = 0.0;
   auto turn = turns.begin();
   for (std::size_t i = 0; i < route.legs.size(); ++i) {
@@ -107,7 +107,8 @@ std::vector<FilletTurn> FindTurns(const Route& route) {
     const Leg& out = route.legs[i + 1];
     FilletTurn turn;
     turn.waypoint = static_cast<int>(i) + 1;
-    // atan2 instead of the arc cosine of C.9: signed, and accurate near 0 and pi.
+    // Use atan2 instead of the arc cosine of equation C.9, because atan2 is signed and accurate
+    // near 0 and pi.
     turn.heading_change =
         std::atan2(Cross(in.direction, out.direction), in.direction.dot(out.direction));
     turn.interior_angle = kPi - std::abs(turn.heading_change);

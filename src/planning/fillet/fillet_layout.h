@@ -5,11 +5,11 @@
 
 #include "trackbed/planning/fillet/fillet.h"
 
-/// Layout of a fillet plan with known radii, and the limits of the radii. The functions are the
-/// steps of PlanFillets, in order.
+/// Layout of a fillet plan with known radii, and the limits of the radii. The functions in this
+/// file are the steps of PlanFillets, in order.
 namespace trackbed::fillet {
 
-/// Thrown at the first failure; PlanFillets turns it into a status.
+/// Thrown at the first failure of a fillet plan; PlanFillets turns the exception into a status.
 struct Refusal {
   PlanStatus status;
   int waypoint;
@@ -28,43 +28,45 @@ struct Route {
 
 Route MakeRoute(const std::vector<Vec2>& waypoints);
 
-/// The route's corners: waypoint, angles and shorter leg of every turn.
+/// The corners of the route: waypoint, angles and shorter leg of every turn.
 std::vector<FilletTurn> FindTurns(const Route& route);
 
-/// Limits of a turn's radius, and the constraint that is active at either end.
+/// Limits of a turn's radius, and the constraint that is active at either end of the interval.
 struct RadiusLimits {
   RadiusInterval radii;
   ActiveConstraint at_low;
   ActiveConstraint at_high;
-  RadiusConstraint constraint;  ///< that the turn satisfies
+  RadiusConstraint constraint;  ///< constraint that the turn satisfies
 };
 
-/// Sets the speed of a turn (and the reason, if it is not `speed`) and the limits of its radius.
+/// Sets the speed of a turn and the limits of its radius. If the turn's speed is not `speed`, sets
+/// the reason for the turn's speed.
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                          FilletTurn& turn);
 
-/// The constraint that is active at a radius, with a relative tolerance of 1e-3; kNone inside the
-/// limits.
+/// The constraint that is active at a radius, with a relative tolerance of 1e-3. Returns kNone if
+/// the radius lies inside the limits.
 ActiveConstraint ActiveAt(const RadiusLimits& limits, double radius);
 
-/// C.34 or C.40 as g(r) <= 0 [m].
+/// The function g(r) [m] of equation C.34 or C.40, which has the form g(r) <= 0.
 double ConstraintAt(const VehicleParams& vehicle, RadiusConstraint constraint,
                     const FilletTurn& turn, double radius);
 
-/// Arcs, path and steering of turns with known radii and speeds; the ramps are centered on the
-/// tangent points. Leaves out the schedule, because its order is checked last.
+/// Arcs, path and steering of turns with known radii and speeds. The ramps are centered on the
+/// tangent points. Leaves out the steering schedule, because its order is checked last.
 FilletPlan LayOut(const VehicleParams& vehicle, const Route& route, std::vector<FilletTurn> turns);
 
-/// The schedule of a plan's turns. Throws Refusal if they are out of order.
+/// The steering schedule of a plan's turns. Throws Refusal if the turns are out of order.
 SteeringSchedule MakeSchedule(const VehicleParams& vehicle, const std::vector<FilletTurn>& turns);
 
-/// Runs the two-pass search (kLiteral, kTurnLocal) over all turns; fills in radii and findings.
+/// Runs the two-pass search (kLiteral, kTurnLocal) over all turns. Fills in radii and findings.
 void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,
                  const FilletOptions& options, std::uint64_t seed,
                  const std::vector<RadiusLimits>& limits, std::vector<FilletTurn>& turns);
 
-/// Variables of a turn in the joint search, in this order: radius [m], shift of D_{2k-1}, and shift
-/// of the hold length D_2k - D_{2k-1}. The shifts are fractions of the ramp distance.
+/// Number of variables of a turn in the joint search. The variables are the radius [m], the shift
+/// of D_{2k-1} and the shift of the hold length D_2k - D_{2k-1}. The shifts are fractions of the
+/// ramp distance.
 inline constexpr std::size_t kDrivenVariables = 3;
 
 /// Runs the joint search (kDriven), starting at a plan with the largest radii.

@@ -5,15 +5,15 @@
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/planning/fillet/fillet.h"
 
-// Turns a fillet plan (Skackauskas, dissertation, appendix C and listing F.1) into a plan: the
-// path, its steering schedule, speed caps over the turns that are slower than the mission, and
-// isolated turns, whose heading error can be predicted. The rest defines the diagnostics of
-// plan.json and the keys of the options.
+// Turns a fillet plan (Skackauskas, dissertation, appendix C and listing F.1) into a plan. The plan
+// has the path, its steering schedule, and speed caps over the turns that are slower than the
+// mission. The plan also lists isolated turns, whose heading error can be predicted. The rest of
+// this file defines the diagnostics of plan.json and the keys of the options.
 
 namespace trackbed {
 namespace {
 
-/// Progress of a search for plan.json, with the radii among its variables.
+/// Progress of a search for plan.json. The variables of the search include the radii.
 struct SearchRecord {
   const std::string& method;
   const SearchResult& result;
@@ -23,7 +23,7 @@ struct SearchRecord {
 struct ProgressRecord {
   int evaluations = 0;
   double value = 0.0;
-  std::vector<double> radii;  ///< [m]
+  std::vector<double> radii;  ///< Radii of the turns [m].
 };
 
 void Visit(DiagnosticsVisitor& out, const ProgressRecord& own) {
@@ -48,7 +48,7 @@ void Visit(DiagnosticsVisitor& out, const SearchRecord& own) {
   }
 }
 
-/// Search of a single turn, with its initial values.
+/// Search for a single turn, with the initial values of the search.
 struct TurnSearchRecord {
   const std::string& method;
   const TurnSearch& search;
@@ -95,7 +95,7 @@ std::vector<IsolatedTurn> FindIsolatedTurns(const FilletPlan& plan) {
   return lone;
 }
 
-/// A turn's cap holds from the start of its first ramp to the end of its second.
+/// The speed cap of a turn extends from the start of its first ramp to the end of its second ramp.
 std::vector<SpeedCap> MakeSpeedCaps(const FilletPlan& plan, double speed) {
   std::vector<SpeedCap> caps;
   for (const FilletTurn& turn : plan.turns) {

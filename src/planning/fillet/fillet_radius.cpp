@@ -7,10 +7,11 @@
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/core/angle.h"
 
-// Limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)). C.34 bounds the
-// tangent length by half of the shorter leg; C.40 also reserves the distance over which the wheels
-// turn. Its g(r) has a single minimum, so the permitted radii are an interval between two roots. If
-// there is none at the mission's speed, the turn is slowed down, refused, or limited by C.34 alone.
+// Limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)). Equation C.34
+// bounds the tangent length by half of the shorter leg. Equation C.40 also reserves the distance
+// over which the wheels turn. The function g(r) of equation C.40 has a single minimum, so the
+// permitted radii are an interval between two roots. If no radius is permitted at the mission's
+// speed, the turn is slowed down, refused, or limited by equation C.34 alone.
 
 namespace trackbed {
 namespace {
@@ -18,7 +19,7 @@ namespace {
 /// Relative tolerance, so that a radius exactly on a limit is accepted.
 constexpr double kRounding = 1e-12;
 
-/// The root of f in [a, b], where f changes sign; returns the side with f <= 0.
+/// The root of f in [a, b], where f changes sign. Returns the side of the root with f <= 0.
 template <typename Function>
 double Root(const Function& f, double a, double b) {
   std::uintmax_t iterations = 200;
@@ -27,7 +28,7 @@ double Root(const Function& f, double a, double b) {
   return f(high) <= 0.0 ? high : low;
 }
 
-/// g(r) of C.40 [m].
+/// The function g(r) of equation C.40 [m].
 double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
                     double shorter_leg, double neutral, double radius) {
   const double travel = std::abs(std::atan(vehicle.wheelbase / radius) - neutral);
@@ -35,14 +36,16 @@ double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_
          0.5 * shorter_leg;
 }
 
-/// The radius with the smallest g; g falls below it and rises above it.
+/// The radius r with the smallest value of g(r) in equation C.40. The function g falls up to this
+/// radius and rises beyond this radius.
 double RoomiestRadius(const VehicleParams& vehicle, double speed, double interior_angle,
                       double neutral, RadiusInterval bounds) {
   const double L = vehicle.wheelbase;
   const double squared = speed / vehicle.steering_rate * L * std::tan(interior_angle / 2.0) - L * L;
   double roomiest = std::sqrt(std::max(0.0, squared));
   if (neutral > 0.0) {
-    // Beyond the radius that belongs to d_0, a larger radius means more steering travel.
+    // Beyond the radius of the neutral steering angle d_0, a larger radius needs more steering
+    // travel.
     roomiest = std::min(roomiest, L / std::tan(neutral));
   }
   return std::clamp(roomiest, bounds.low, bounds.high);
@@ -79,7 +82,7 @@ std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, do
 std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
                                         double shorter_leg, RadiusInterval bounds,
                                         SpeedInterval speeds, double neutral) {
-  // The smallest g rises with the speed.
+  // The smallest value of g(r) rises with the speed.
   const auto least = [&](double speed) {
     const double r = RoomiestRadius(vehicle, speed, interior_angle, neutral, bounds);
     return SteeringRoom(vehicle, speed, interior_angle, shorter_leg, neutral, r);
@@ -96,7 +99,7 @@ std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double int
 namespace fillet {
 namespace {
 
-/// Neutral steering toward the turn: n of SteeringRoomRadii.
+/// Neutral steering angle toward the turn: n of SteeringRoomRadii.
 double NeutralTowardTurn(const FilletTurn& turn) {
   return turn.heading_change < 0.0 ? -turn.neutral : turn.neutral;
 }
@@ -107,8 +110,8 @@ Refusal RefuseTurn(const FilletTurn& turn, PlanStatus status, const std::string&
                       turn.waypoint, why)};
 }
 
-/// The radii that C.40 permits. If there are none at the mission's speed, slows the turn down. None
-/// if C.34 replaces C.40.
+/// The radii that equation C.40 permits. If equation C.40 permits no radius at the mission's speed,
+/// slows the turn down. Returns none if equation C.34 replaces equation C.40.
 std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle, double speed,
                                                     const FilletOptions& options,
                                                     const RadiusInterval& bounds,
@@ -141,7 +144,7 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
     turn.note = fmt::format("{}; speed reduced to {:.4g} m/s", why, *slower);
     return room_at(*slower);
   }
-  // C.40 reserves a whole ramp on the leg, although half of the ramp lies on the arc.
+  // Equation C.40 reserves a whole ramp on the leg, although half of the ramp lies on the arc.
   const double v = std::min(options.min_speed, speed);
   const auto room =
       SteeringRoomRadii(vehicle, 0.5 * v, turn.interior_angle, turn.shorter_leg, bounds);
@@ -156,8 +159,9 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
   return room;
 }
 
-/// By how much the ramp S of a radius exceeds its longest permitted length [m]. A ramp centered on
-/// the tangent point displaces the car by S^2/(24 r); a quarter of the car's width is permitted.
+/// Amount by which the ramp length S of a radius exceeds the longest permitted length [m]. A ramp
+/// centered on the tangent point displaces the car by S^2/(24 r). The permitted displacement is a
+/// quarter of the car's width.
 double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double speed,
                   double radius) {
   constexpr double kShareOfWidth = 0.25;
@@ -167,7 +171,7 @@ double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double s
 }
 
 /// Slows a turn down until the ramp of its largest radius is short enough, but not below
-/// `min_speed`. Returns the radii that C.40 permits then.
+/// `min_speed`. Returns the radii that equation C.40 permits at the new speed.
 RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions& options,
                                const RadiusInterval& bounds, const RadiusInterval& room,
                                FilletTurn& turn) {
@@ -176,7 +180,7 @@ RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions
       slowest >= turn.speed || RampExcess(vehicle, turn, turn.speed, room.high) <= 0.0) {
     return room;
   }
-  // At a lower speed the largest radius grows and its ramp shortens.
+  // At a lower speed, the largest radius grows and the ramp of this radius shortens.
   const auto room_at = [&](double v) {
     return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds,
                              NeutralTowardTurn(turn))
@@ -197,7 +201,8 @@ RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                          FilletTurn& turn) {
   const double r_min = vehicle.min_turning_radius();
-  // The minimum radius is computed from the steering limit, an angle; tolerate its rounding.
+  // The minimum radius is computed from the steering limit, an angle, so tolerate the rounding of
+  // this radius.
   const double tolerance = 1e-9 * r_min;
   const auto refuse = [&](PlanStatus status, const std::string& why) {
     return RefuseTurn(turn, status, why);

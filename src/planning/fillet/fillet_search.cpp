@@ -9,10 +9,11 @@
 namespace trackbed::fillet {
 namespace {
 
-/// Step of the roll-outs on ramps [m]; their error is of fourth order, 1e-9 rad at 0.1 m.
+/// Step of the roll-outs on ramps [m]. The error of a roll-out is of fourth order, 1e-9 rad at a
+/// step of 0.1 m.
 constexpr double kStep = 0.1;
 
-/// Smaller heading changes within a window are rounding [rad].
+/// Heading changes below kNoHeading within a window are rounding errors [rad].
 constexpr double kNoHeading = 1e-9;
 
 /// Distance and heading change of a turn in the first run.
@@ -36,7 +37,7 @@ std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan&
     distances.push_back(turn.steer_return);
   }
   const SteeringSchedule schedule = MakeSchedule(vehicle, turns);
-  // Events need not be in order: an event may lie before the return of the previous turn.
+  // Events need not be in order: an event may lie before the end of the previous turn.
   std::vector<double> rising = distances;
   std::sort(rising.begin(), rising.end());
   const KinematicState start{.pose = {0.0, 0.0, 0.0}, .speed = speed, .steering = schedule.At(0.0)};
@@ -88,8 +89,8 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   SearchProblem problem;
   problem.lower = {vehicle.min_turning_radius()};
   problem.upper = {std::max(problem.lower[0], options.max_radius)};
-  // Initial value for local methods: the first run's radius lies on the bound, where a simplex
-  // would be degenerate.
+  // Initial radius for local methods. The radius of the first run would be a bad initial value: on
+  // the bound, a simplex is degenerate.
   problem.start = {0.5 * (limits.radii.low + limits.radii.high)};
   problem.objective = [&](std::span<const double> r) {
     const double yaw_rate = sign * speed / std::hypot(r[0], l_g);  // C.25
@@ -102,7 +103,8 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   };
   search.result = Search(problem, options.search, seed);
   if (!search.result.ok()) {
-    // The feasible set is too narrow for the search; its ends are known in closed form.
+    // The feasible set is too narrow for the search, but the ends of this set are known in closed
+    // form.
     problem.lower = {limits.radii.low};
     problem.upper = {limits.radii.high};
     search.result = Search(problem, options.search, seed);
@@ -125,7 +127,8 @@ void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,
     }
     FilletTurn& turn = turns[k];
     if (turn.speed < speed) {
-      turn.radius = limits[k].radii.high;  // slowed down until a single radius was left
+      // the turn was slowed down until only a single radius was permitted
+      turn.radius = limits[k].radii.high;
       continue;
     }
     TurnSearch search = SearchTurn(vehicle, speed, options, seed, windows[k], limits[k], turn);

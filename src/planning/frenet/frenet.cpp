@@ -12,20 +12,19 @@
 #include "src/planning/frenet/trajectory_check.h"
 #include "trackbed/core/error.h"
 
-// Optimal motions in the Frenet frame (Werling et al. 2010; weights as in the Frenet lecture).
-// 1. For every duration, polynomials s(t) to the target and d(t) or, at low speed, d(s) to every
-//    end offset.
-// 2. Candidates are sorted by their cost C.
-// 3. The first one that passes the coarse check, then the fine check of the full motion, is the
-//    plan.
+// Optimal motions in the Frenet frame (Werling et al. 2010; weights as in the Frenet lecture). For
+// every duration, the planner computes polynomials s(t) to the target. To every end offset, the
+// planner computes polynomials d(t) or, at low speed, d(s). The planner sorts the candidate motions
+// by their cost C. The plan is the first candidate that passes the coarse check and then the fine
+// check of the full motion.
 
 namespace trackbed {
 namespace {
 
-// Station intervals shorter than this get no lateral polynomial over the station [m].
+// Station intervals shorter than kShort [m] get no lateral polynomial over the station.
 constexpr double kShort = 0.05;
 
-/// s(t) to every longitudinal target at the end of one duration.
+/// The polynomials s(t) to every longitudinal target at the end of one duration.
 std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOptions& options,
                                    double duration) {
   const LineMotion from = LongitudinalMotion(request.start);
@@ -47,8 +46,8 @@ std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOpt
   return pieces;
 }
 
-/// Continues from the end of a piece to the horizon at constant speed and offset; none if the piece
-/// lasts that long.
+/// Continues from the end of a piece to the horizon at constant speed and offset. Returns none if
+/// the piece itself lasts until the horizon.
 std::optional<FrenetPiece> Extrapolate(const FrenetPiece& piece, double horizon) {
   if (!(horizon > piece.duration)) {
     return std::nullopt;

@@ -8,10 +8,10 @@
 namespace trackbed {
 namespace {
 
-/// Points closer than this do not form a segment [m].
+/// Points closer than kMinSegmentLength [m] do not form a segment.
 constexpr double kMinSegmentLength = 1e-3;
 
-/// Number of equal time intervals of a piece; none where the Frenet frame does not exist.
+/// Number of equal time intervals of a piece. Returns none where the Frenet frame does not exist.
 std::optional<int> CountIntervals(const Path& path, const FrenetPiece& piece, double time_step,
                                   double spacing) {
   constexpr int kProbes = 16;
@@ -87,7 +87,8 @@ std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
       if (!points.empty()) {
         const TrajectoryPoint& last = points.back();
         const double h = point.t - last.t;
-        // Euler-Maclaurin: the trapezoidal rule, corrected by the accelerations at both ends.
+        // Euler-Maclaurin formula: the trapezoidal rule, corrected by the accelerations at both
+        // ends.
         point.distance =
             last.distance +
             std::max(0.0, 0.5 * h * (last.motion.speed + state->speed) +

@@ -14,30 +14,32 @@
 #include "trackbed/core/error.h"
 
 // Motions through a lattice of stations, offsets and speeds (the Frenet lecture's third variant).
-// Label finds, layer by layer, the cheapest path to each node over all edges from earlier nodes, by
-// dynamic programming; it checks edges coarsely, cheapest first. Finish checks the cheapest path to
-// the last layer in full. If an edge fails, it is banned and labeling resumes at its layer.
+// By dynamic programming, Label finds the cheapest path to each node over all edges from earlier
+// nodes, layer by layer. Label checks edges coarsely, the cheapest edge first. Finish checks the
+// cheapest path to the last layer in full. If an edge of the cheapest path fails, Finish bans the
+// edge, and labeling resumes at the layer of the edge.
 
 namespace trackbed {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// Within this distance of its stop the car has arrived [m].
+// Distance from the stop within which the car has arrived [m].
 constexpr double kArrived = 0.05;
 
-/// A node of the lattice, with the cheapest path known to it.
+/// A node of the lattice, with the cheapest path known to the node.
 struct Node {
   FrenetState state;
-  FrenetTarget target;  // of the edges that end here, except a leader's station
+  // Target of the edges that end at this node; the station of a leader is added per edge.
+  FrenetTarget target;
   double cost = kInfinite;
   double time = 0.0;
   std::size_t from = 0;
-  FrenetPiece piece;  // from there to here
-  int edges = 0;      // number of edges that end here
+  FrenetPiece piece;  // Piece from the node `from` to this node.
+  int edges = 0;      // Number of edges that end at this node.
 };
 
 struct Edge {
-  double cost;  // of the whole path
+  double cost;  // Cost of the whole path.
   std::size_t from;
   FrenetPiece piece;
 };
@@ -62,7 +64,7 @@ class Lattice {
       plan_.reason = *check.blocked();
       return plan_;
     }
-    // An edge that passed the coarse check may fail the fine one: then search without that edge.
+    // An edge that passed the coarse check may fail the fine check; then search without this edge.
     std::size_t layer = 1;
     while (!plan_.ok() && Label(check, layer)) {
       layer = Finish(check);
@@ -77,7 +79,7 @@ class Lattice {
   }
 
  private:
-  /// Creates the nodes, layer by layer.
+  /// Creates the nodes of the lattice, layer by layer.
   void BuildLayers() {
     const double from = request_.start.s;
     const auto* stop = std::get_if<StopAt>(&request_.goal);
@@ -113,7 +115,7 @@ class Lattice {
     node.target.speed = wanted_speed;
   }
 
-  /// The motion between two nodes; none if it would stand still or move backward.
+  /// The motion between two nodes; none if the car would stand still or move backward.
   [[nodiscard]] std::optional<FrenetPiece> Between(const FrenetState& from,
                                                    const FrenetState& to) const {
     const double way = to.s - from.s;
@@ -129,7 +131,8 @@ class Lattice {
     return piece;
   }
 
-  /// All edges to a node from nodes that have a path, ranked by the cost of the path.
+  /// All edges to a node that start at nodes with a known path. The edges are ranked by the cost of
+  /// the path.
   void EdgesTo(const Node& node, std::size_t before) {
     edges_.clear();
     for (std::size_t i = 0; i < before; ++i) {
@@ -154,7 +157,7 @@ class Lattice {
     });
   }
 
-  /// Finds the cheapest path to every node from `layer` on. Returns whether one reaches the last
+  /// Finds the cheapest path to every node from `layer` on. Returns whether a path reaches the last
   /// layer.
   bool Label(const TrajectoryCheck& check, std::size_t layer) {
     for (; layer + 1 < layers_.size(); ++layer) {
@@ -194,8 +197,8 @@ class Lattice {
     return static_cast<std::ptrdiff_t>(layers_[layers_.size() - 2]);
   }
 
-  /// Checks the cheapest path in full: adopts it, or bans the edge that fails and returns the layer
-  /// in which that edge ends.
+  /// Checks the cheapest path in full. Adopts the path if the path passes the check. If an edge
+  /// fails, bans the edge and returns the layer in which the edge ends.
   std::size_t Finish(const TrajectoryCheck& check) {
     const auto end = std::min_element(nodes_.begin() + Last(), nodes_.end(),
                                       [](const Node& a, const Node& b) { return a.cost < b.cost; });
@@ -231,10 +234,10 @@ class Lattice {
   const Path& reference_;
   const FrenetRequest& request_;
   const LatticeOptions& options_;
-  std::vector<Node> nodes_;          // the start, then the layers
-  std::vector<std::size_t> layers_;  // index of each layer's first node, and the number of nodes
-  std::vector<Edge> edges_;          // of one node
-  std::vector<std::size_t> ranks_;   // of the edges, cheapest first
+  std::vector<Node> nodes_;          // All nodes: the start, then the nodes of each layer.
+  std::vector<std::size_t> layers_;  // Index of each layer's first node, and the number of nodes.
+  std::vector<Edge> edges_;          // Edges to one node.
+  std::vector<std::size_t> ranks_;   // Indices of the edges, cheapest first.
   std::set<std::pair<std::size_t, std::size_t>> banned_;
   FrenetPlan plan_;
 };

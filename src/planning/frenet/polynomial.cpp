@@ -33,7 +33,7 @@ double Polynomial::At(double t, std::size_t order) const {
 
 double Polynomial::IntegralOfSquare(std::size_t order, double duration) const {
   const auto& factors = kFactors.at(order);
-  std::array<double, 2 * kTerms> square{};  // coefficients of the derivative's square
+  std::array<double, 2 * kTerms> square{};  // coefficients of the squared derivative
   for (std::size_t i = order; i < kTerms; ++i) {
     for (std::size_t j = order; j < kTerms; ++j) {
       square[i + j - 2 * order] += factors[i] * coefficients[i] * factors[j] * coefficients[j];
@@ -48,7 +48,8 @@ double Polynomial::IntegralOfSquare(std::size_t order, double duration) const {
 
 Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration) {
   const double t = duration;
-  // Differences at the end from a motion of constant acceleration, scaled by powers of t.
+  // Differences, at the end, from a motion with constant acceleration. The differences are scaled
+  // by powers of t.
   const double p = to.position - from.position - t * (from.velocity + 0.5 * t * from.acceleration);
   const double v = t * (to.velocity - from.velocity - t * from.acceleration);
   const double a = t * t * (to.acceleration - from.acceleration);

@@ -18,10 +18,11 @@ struct SidePoint {
   double d = 0.0;  // [m]
 };
 
-constexpr int kPointsPerSide = 5;  // points on each long side
+constexpr int kPointsPerSide = 5;  // number of points on each long side
 using SidePoints = std::array<SidePoint, 2 * kPointsPerSide>;
 
-/// The points of both sides; none if a point lies at or beyond the center of curvature.
+/// The points of both sides of the footprint. Returns none if a point lies at or beyond the center
+/// of curvature.
 std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
                                   const FrenetState& frenet) {
   const double k = at.curvature;
@@ -39,8 +40,9 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
     if (to_center <= 0.0) {
       return std::nullopt;
     }
-    // d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k and s = atan(k ahead/(1 - k aside))/k,
-    // written so that they hold for k = 0 too.
+    // Coordinates of the point: d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k and s = atan(k
+    // ahead/(1 - k aside))/k. The code uses a form of the equations for d and s that also holds for
+    // k = 0.
     const double turned = k * ahead / to_center;
     constexpr double kSmall = 1e-6;
     const double along = std::abs(turned) < kSmall ? ahead / to_center : std::atan(turned) / k;
@@ -51,14 +53,15 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
   return points;
 }
 
-/// Lateral offset of an edge from a pose, and the edge's direction there.
+/// Lateral offset of an edge from a pose, and the direction of the edge at this offset.
 struct EdgeAbeam {
   double offset = 0.0;  // [m]
-  double cosine = 1.0;  // of the angle between edge and pose
+  double cosine = 1.0;  // Cosine of the angle between edge and pose.
 };
 
-/// Where the pose's normal crosses the edge near a fraction of the lap. Of several crossings,
-/// returns the one closest to the `expected` offset; without any, `expected`.
+/// Finds the intersection of the pose's normal with the edge, near a fraction of the lap. If the
+/// normal crosses the edge several times, returns the crossing closest to the `expected` offset. If
+/// the normal does not cross the edge, returns `expected`.
 EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, double expected) {
   constexpr double kSearchDistance = 20.0;  // [m]
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
@@ -87,11 +90,11 @@ EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, 
   return found;
 }
 
-/// Widens the edges to contain the footprint of a car on the path.
+/// Widens the road edges so that they contain the footprint of a car on the path.
 void WidenToFootprint(const Path& path, const VehicleParams& car, double spacing,
                       std::vector<RoadWidths>& widths) {
   constexpr double kSampleSpacing = 0.2;     // [m]
-  constexpr double kSampleTolerance = 2e-3;  // [m], allowance between the looks
+  constexpr double kSampleTolerance = 2e-3;  // [m], allowance between the samples
   const auto last = static_cast<double>(widths.size() - 1);
   const double count = std::ceil(path.length() / kSampleSpacing);
   for (double i = 0.0; i <= count; i += 1.0) {
@@ -154,7 +157,7 @@ RoadEdges EdgesBeside(const Path& path, const Track& track, const VehicleParams&
     const double share = place.s / track.length();
     const EdgeAbeam left = FindAbeam(track.left_edge(), pose, share, edges.left - place.offset);
     const EdgeAbeam right = FindAbeam(track.right_edge(), pose, share, edges.right - place.offset);
-    // `distance` is perpendicular to the edge; along the pose's normal it is larger.
+    // `distance` is perpendicular to the edge. Along the pose's normal, the distance is larger.
     widths.push_back({.left = left.offset - distance / std::max(left.cosine, 0.5),
                       .right = -right.offset - distance / std::max(right.cosine, 0.5)});
   }

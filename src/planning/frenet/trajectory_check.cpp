@@ -13,7 +13,7 @@ namespace {
 constexpr double kNodeSpacing = 0.25;  // [m]
 // Tolerance of a limit that is met exactly.
 constexpr double kRounding = 1e-9;
-// Below this speed d(t) does not determine the heading [m/s].
+// Smallest speed at which d(t) determines the heading [m/s].
 constexpr double kMinHeadingSpeed = 0.1;
 
 double HalfDiagonal(const OrientedBox& box) {
@@ -105,7 +105,8 @@ TrajectoryCheck::Reach TrajectoryCheck::ComputeReach(const PathPoint& at,
     for (const double y : {-0.5 * car.width, 0.5 * car.width}) {
       const double ahead = x * cosine - y * sine;
       const double aside = frenet.d + x * sine + y * cosine;
-      // d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k, written so that it holds for k = 0 too.
+      // The code uses a form of d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k that also holds for
+      // k = 0.
       const double to_center = 1.0 - k * aside;
       const double d = (2.0 * aside - k * (aside * aside + ahead * ahead)) /
                        (1.0 + std::sqrt(k * ahead * k * ahead + to_center * to_center));
@@ -177,7 +178,8 @@ std::optional<Rejection> TrajectoryCheck::CheckCoarsely(const FrenetPiece& piece
   };
   const double duration = piece.duration;
   const int intervals = std::max(1, static_cast<int>(std::ceil(duration / limits_.time_step)));
-  // Quintics need their highest steering rates at their ends: check there with the final spacing.
+  // Quintic polynomials have their highest steering rates at their ends, so check the ends with the
+  // final spacing.
   const double first = std::min(duration / intervals, limits_.spacing / piece.s.At(0.0, 1));
   const double last = std::min(duration / intervals, limits_.spacing / piece.s.At(duration, 1));
   auto rejection = check(0.0);

@@ -8,9 +8,9 @@
 
 namespace trackbed {
 
-/// Fast lookup of a path: nodes every quarter meter, and a series around each that continues its
-/// curvature linearly. Accurate to 1e-8 m within clothoids; near joints accurate enough for the
-/// coarse check.
+/// Table for fast lookup of path points, with nodes every quarter meter. Around each node, a series
+/// continues the curvature of the path linearly. Within clothoids, the lookup is accurate to 1e-8
+/// m. Near joints, the lookup is accurate enough for the coarse check.
 class PathTable {
  public:
   PathTable(const Path& path, Stations within);
@@ -26,19 +26,19 @@ class PathTable {
   std::vector<Node> nodes_;
 };
 
-/// Checks motions against a request and its limits.
+/// Checks motions against a request and the limits of the request.
 class TrajectoryCheck {
  public:
   /// Tabulates the path up to the station `to`, for CheckCoarsely. Keeps references to all
-  /// arguments but `to`.
+  /// arguments except `to`.
   TrajectoryCheck(const Path& path, const FrenetRequest& request, const FrenetLimits& limits,
                   double to);
 
-  /// Why no motion is possible from this start; none if one may be.
+  /// Reason why no motion is possible from the start; none if a motion may be possible.
   [[nodiscard]] const std::optional<std::string>& blocked() const { return blocked_; }
 
-  /// Checks a piece that begins `time` after the start, every `time_step` and more closely near its
-  /// ends.
+  /// Checks a piece that begins `time` after the start. The check samples the piece every
+  /// `time_step`, and more closely near the ends of the piece.
   [[nodiscard]] std::optional<Rejection> CheckCoarsely(const FrenetPiece& piece, double time) const;
 
   struct Flaw {
@@ -57,7 +57,7 @@ class TrajectoryCheck {
                                                     const FrenetState& frenet,
                                                     const MotionState& motion,
                                                     std::optional<PreviousPoint>& before) const;
-  /// How far the footprint extends to either side of the path, measured from the path's circle of
+  /// Extent of the footprint to either side of the path, measured from the path's circle of
   /// curvature.
   struct Reach {
     double left;
@@ -71,7 +71,7 @@ class TrajectoryCheck {
   const FrenetLimits& limits_;
   PathTable table_;
   std::optional<std::string> blocked_;
-  // Limits, relaxed to include the start.
+  // Limits, relaxed so that the start does not violate the limits.
   double speed_ = 0.0;
   double slowest_ = 0.0;
   double acceleration_ = 0.0;
@@ -81,16 +81,16 @@ class TrajectoryCheck {
   double steering_rate_ = 0.0;
   double left_ = 0.0;
   double right_ = 0.0;
-  double start_excess_ = 0.0;  // how far the start is beyond the edges [m]
+  double start_excess_ = 0.0;  // Distance of the start beyond the edges [m].
   struct Obstacle {
     MovingBox box;
-    double margin;  // required clearance
-    double reach;   // no collision if the centers are farther apart
+    double margin;  // Required clearance.
+    double reach;   // Distance between the centers beyond which no collision is possible.
   };
   std::vector<Obstacle> obstacles_;
 };
 
-/// InternalError for limits out of range or a start that is not finite.
+/// Throws InternalError for limits out of range or a start that is not finite.
 void CheckRequest(const FrenetRequest& request, const FrenetLimits& limits,
                   const FrenetWeights& weights);
 

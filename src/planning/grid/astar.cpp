@@ -9,17 +9,19 @@
 
 #include "trackbed/core/error.h"
 
-// A* (Hart et al. 1968) on a grid with eight neighbors. The grid has a border of occupied cells, so
-// that steps need no bounds check. Open cells are kept in buckets half a straight step wide, sorted
-// by the excess of g + h over h(start); the search ends when no bucket left can improve the goal's
-// cost. A start or goal in a pocket of at most 64 cells is detected first. DistancesTo is
-// Dijkstra's algorithm with the same buckets.
+// A* (Hart et al. 1968) on a grid with eight neighbors per cell. The grid has a border of occupied
+// cells, so that steps need no bounds check. Open cells are kept in buckets that are half a
+// straight step wide. Buckets are sorted by the excess of g + h over h(start). The search ends when
+// no remaining bucket can improve the goal's cost. Before the search, PocketSize detects a start or
+// goal in a pocket of at most 64 cells. The function DistancesTo runs Dijkstra's algorithm with the
+// same kind of buckets.
 
 namespace trackbed {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Cost of an occupied cell: lower than any path, so that no path improves it.
+/// Cost of an occupied cell. The cost of an occupied cell is lower than the cost of any path, so no
+/// path improves it.
 constexpr double kOccupied = -kNever;
 
 struct Step {
@@ -30,8 +32,8 @@ struct Step {
 constexpr std::array<Step, 8> kSteps{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
-/// Cost of the best known path to each cell, on a grid with a border of occupied cells, so that
-/// steps need no bounds check.
+/// Cost of the best known path to each cell, on a grid with a border of occupied cells. The border
+/// makes a bounds check of steps unnecessary.
 struct Costs {
   explicit Costs(const OccupancyGrid& grid)
       : width(grid.columns + 2),
@@ -65,8 +67,8 @@ struct Costs {
   int columns;
 };
 
-/// Bucket queue: buckets in ascending order of key, last in, first out within a bucket. Keys are
-/// never below the current bucket, except by rounding.
+/// Bucket queue: buckets in ascending order of key, last in, first out within a bucket. A new key
+/// is never below the current bucket, except by rounding.
 class Buckets {
  public:
   struct Entry {
@@ -75,7 +77,7 @@ class Buckets {
     double cost;
   };
 
-  /// Half a straight step: with this width few cells are expanded twice.
+  /// Bucket width of half a straight step, with which few cells are expanded twice.
   static constexpr double kWidth = 0.5;
 
   void Push(double key, const Entry& entry) {
@@ -86,8 +88,8 @@ class Buckets {
     buckets_[bucket].push_back(entry);
   }
 
-  /// Takes the next entry; false if the queue is empty. `done` is called after each bucket with the
-  /// lower bound of the remaining keys, and may end the search.
+  /// Takes the next entry from the queue. Returns false if the queue is empty. After each bucket,
+  /// calls `done` with the lower bound of the remaining keys; `done` may end the search.
   template <typename Done>
   bool Pop(Entry& entry, const Done& done) {
     while (now_ < buckets_.size() && buckets_[now_].empty()) {
@@ -113,9 +115,10 @@ class Buckets {
 /// Largest number of cells in a pocket.
 constexpr std::size_t kPocket = 64;
 
-/// The number of cells reachable from `cell`, if they are a pocket that does not contain `other`;
-/// otherwise 0. This takes microseconds, less than the setup of the search. Without it, a goal in a
-/// pocket would be found unreachable only after expanding all other cells.
+/// Counts the cells reachable from `cell` if these cells are a pocket that does not contain
+/// `other`. Otherwise returns 0. The count takes microseconds, less than the setup of the search.
+/// Without PocketSize, the search would expand all other cells before it reports that the goal is
+/// unreachable.
 std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t other) {
   const auto free = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < grid.columns && y < grid.rows &&
@@ -148,8 +151,8 @@ std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t 
   return reached.size();
 }
 
-/// Updates every neighbor whose best known path now leads through `cell`, at `cost`, and calls
-/// `take` with it, the number of the step and the new cost.
+/// Updates every neighbor whose best known path now leads through `cell`, at `cost`. For each
+/// updated neighbor, calls `take` with the neighbor, the number of the step and the new cost.
 template <typename Take>
 void ForEachBetter(Costs& costs, int cell, double cost, const Take& take) {
   const auto offer = [&](std::size_t i, double through) {
@@ -230,7 +233,7 @@ GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t go
   for (Buckets::Entry at{}; open.Pop(at, found);) {
     const int here = at.y * costs.width + at.x;
     if (at.cost > costs[here] || at.cost >= goal_cost) {
-      continue;  // a better path to this cell, or to the goal, has been found since
+      continue;  // the search has since found a better path to this cell, or to the goal
     }
     if (result.expansions >= budget) {
       result.status = GridStatus::kBudgetUsedUp;

@@ -32,13 +32,14 @@ PlanStatus ToPlanStatus(GridStatus status) {
   return PlanStatus::kNoPath;
 }
 
-/// Half a cell's diagonal [m]. Obstacles are inflated by it too, so that every point of a free
-/// cell, and of the line to the next cell's center, keeps the inflation's distance from them.
+/// Half a cell's diagonal [m], by which obstacles are additionally inflated. With the additional
+/// inflation, free cells and the lines between their centers keep the required distance from
+/// obstacles.
 double CellInflation(const AStarOptions& options) {
   return 0.5 * std::sqrt(2.0) * options.cell;
 }
 
-/// The centers of the cells; at the ends, the stops themselves.
+/// The centers of the cells. At the ends of the path, the stops replace the cell centers.
 std::vector<Vec2> WaypointsOnGrid(const OccupancyGrid& grid, const GridPath& way,
                                   const Vec2& goal) {
   std::vector<Vec2> points;
@@ -53,7 +54,8 @@ std::vector<Vec2> WaypointsOnGrid(const OccupancyGrid& grid, const GridPath& way
   return points;
 }
 
-/// Plans along `points`, then by A* from the last of them to each waypoint after the first.
+/// Plans along `points`, then by A* from the last of these points to each waypoint after the first
+/// waypoint.
 Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const OccupancyGrid& grid,
               double inflation, std::vector<Vec2> points) {
   const bool round = options.corners == Corners::kRound;
@@ -91,8 +93,9 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
                               options.safe_distance, options.min_speed);
 }
 
-/// First points of polylines that begin at the car's heading, the start included: straight on, then
-/// ahead or to either side, as a goal behind the car requires. Nearest first.
+/// Polylines that begin at the car's heading, each with the start as its first point. Each polyline
+/// first goes straight on. The next leg goes ahead or to either side, as a goal behind the car
+/// requires. The nearest polyline comes first.
 std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request) {
   const double radius = request.vehicle.min_turning_radius();
   const double braking =
@@ -105,7 +108,7 @@ std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request) {
   }
   for (const double radii : {1.5, 2.5}) {
     for (const double side : {1.0, -1.0}) {
-      // A quarter turn; and a half turn by two quarter turns.
+      // Make a quarter turn, or a half turn by two quarter turns.
       const Vec2 corner = from + (braking + radii * radius) * ahead;
       const Vec2 beside = corner + 2.0 * side * radii * radius * LeftNormal(ahead);
       ways.push_back({from, corner, beside});
@@ -147,7 +150,8 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
   Plan direct = PlanGrid(options, request, grid, inflation, {request.start.position()});
   const std::vector<Excess> excesses =
       direct.ok() ? FindExcesses(direct, request) : std::vector<Excess>{};
-  // Ignore violations that slowing down repairs: they do not depend on the initial heading.
+  // Ignore violations that slowing down repairs, because these violations do not depend on the
+  // initial heading.
   const bool begins_right = std::all_of(excesses.begin(), excesses.end(), [](const Excess& excess) {
     return excess.remedy != Remedy::kNone;
   });

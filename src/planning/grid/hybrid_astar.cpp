@@ -17,12 +17,12 @@
 #include "trackbed/planning/grid/astar.h"
 
 // Hybrid A* (Dolgov et al. 2008) over poses that a car can drive through, forwards and backwards.
-// 1. The heuristic is the larger of the Reeds-Shepp (or Dubins) length and a grid distance by
-//    Dijkstra's algorithm around the obstacles.
-// 2. Expanding a node drives arcs of curvature 0, +-1/(2r) and +-1/r in both directions. Per cell
-//    of position, heading and direction only the cheapest node is kept.
-// 3. The nearer a node is to the goal, the more often a collision-free curve to the goal is tried.
-//    The search ends when the cheapest open node ends with such a curve.
+// The heuristic is the larger of the Reeds-Shepp (or Dubins) length and the grid distance.
+// Dijkstra's algorithm computes the grid distance around the obstacles. Expanding a node drives
+// arcs of curvature 0, +-1/(2r) and +-1/r in both directions. The search keeps only the cheapest
+// node per cell of position, heading and direction. The nearer a node is to the goal, the more
+// often the search tries a collision-free curve to the goal. The search ends when the cheapest open
+// node ends with a curve to the goal.
 
 namespace trackbed {
 namespace {
@@ -35,15 +35,15 @@ struct Node {
   Pose2 pose;
   double cost = 0.0;
   int parent = -1;
-  Segment step;         ///< that ends here; empty for the start
-  int last_curve = -1;  ///< of a node at the goal: index of the curve that ends there
+  Segment step;         ///< Segment that ends at this pose; empty for the start.
+  int last_curve = -1;  ///< For a node at the goal, index of the last curve of its path.
 };
 
 struct Open {
   double estimate;
   int node;
 
-  /// Cheapest first; of equal estimates, the newest first.
+  /// Puts the cheapest node first; among nodes with equal estimates, the newest node first.
   bool operator<(const Open& other) const {
     return estimate != other.estimate ? estimate > other.estimate : node < other.node;
   }
@@ -87,7 +87,7 @@ class HybridAStar {
       }
       open_.pop();
       if (node.parent >= 0 && best_.at(NodeKey(node)) < node.cost) {
-        continue;  // a cheaper path to this cell has been found since
+        continue;  // the search has since found a cheaper path to this cell
       }
       if (result.expansions >= options_.budget) {
         return BudgetUsedUp(result);
@@ -106,9 +106,9 @@ class HybridAStar {
     return result;
   }
 
-  /// A cell is occupied if the rear axle's center cannot be anywhere in it: all of the cell is
-  /// closer to an obstacle than the footprint's nearest side. Returns an empty grid if the area has
-  /// too many cells.
+  /// A grid on which a cell is occupied if the rear axle's center cannot be anywhere in the cell.
+  /// In an occupied cell, all points are closer to an obstacle than the footprint's nearest side is
+  /// to the axle's center. Returns an empty grid if the area has too many cells.
   [[nodiscard]] OccupancyGrid MakeGrid(const VehicleParams& vehicle) const {
     const GridArea area =
         AreaAround(problem_.start, {problem_.start.position(), problem_.goal.position()},
@@ -124,14 +124,14 @@ class HybridAStar {
                      std::max(inflation, 0.0));
   }
 
-  /// Remaining distance to the goal on the grid [m]; a lower bound.
+  /// Remaining distance to the goal on the grid [m], as a lower bound.
   [[nodiscard]] double LeftOnGrid(const Pose2& pose) const {
     const int cell = grid_.CellAt(pose.position());
     if (cell < 0) {
       return std::numeric_limits<double>::infinity();
     }
-    // The distance between points of two cells is up to a diagonal shorter than between their
-    // centers.
+    // The distance between points of two cells may be up to a diagonal shorter than the distance
+    // between the centers.
     const double steps = distances_[static_cast<std::size_t>(cell)] / kOctileOverStraight;
     return options_.cell * std::max(steps - std::sqrt(2.0), 0.0);
   }
@@ -142,7 +142,7 @@ class HybridAStar {
     return std::max(LeftOnGrid(pose), curve);
   }
 
-  /// The cell of a node's position, heading and direction.
+  /// Key of the cell that contains a node's position, heading and direction.
   [[nodiscard]] std::int64_t NodeKey(const Node& node) const {
     const std::int64_t cell = grid_.CellAt(node.pose.position());
     const double turn = WrapAngle(node.pose.yaw - problem_.start.yaw) / (2.0 * kPi);
@@ -166,12 +166,13 @@ class HybridAStar {
   }
 
   void Expand(int index, const Node& node, int expansions) {
-    // Try more often near the goal: each radius of remaining distance skips one more attempt.
+    // Try a curve to the goal more often near the goal: each radius of remaining distance skips one
+    // more attempt.
     const double left = Left(node.pose);
     if (expansions % (1 + static_cast<int>(left / radius_)) == 0 || expansions == 1) {
       TryToEnd(index, node);
     }
-    const double length = 1.5 * options_.cell;  // more than a cell's diagonal
+    const double length = 1.5 * options_.cell;  // longer than a cell's diagonal
     for (const int direction : {1, -1}) {
       if (direction < 0 && (!options_.reverse || MustGoForwards(node))) {
         continue;
@@ -204,7 +205,7 @@ class HybridAStar {
     nodes_.push_back(node);
   }
 
-  /// Tries to reach the goal by a curve: the first free one of the cheapest few.
+  /// Tries to reach the goal by the first collision-free curve among the few cheapest curves.
   void TryToEnd(int index, const Node& node) {
     constexpr std::size_t kMaxAttempts = 4;
     struct Curve {
@@ -279,11 +280,11 @@ class HybridAStar {
     return result;
   }
 
-  /// The cheapest path to the goal so far, or the failure.
+  /// Returns the cheapest path to the goal found so far, or the failure.
   HybridAStarResult BudgetUsedUp(HybridAStarResult& result) const {
     for (std::size_t i = nodes_.size(); i-- > 0;) {
       if (nodes_[i].last_curve >= 0) {
-        return Found(result, static_cast<int>(i));  // the last one found is the cheapest
+        return Found(result, static_cast<int>(i));  // the last path found is the cheapest path
       }
     }
     return Fail(result, PlanStatus::kBudgetUsedUp,
@@ -295,10 +296,10 @@ class HybridAStar {
   double radius_;
   CollisionChecker clear_;
   OccupancyGrid grid_;
-  std::vector<double> distances_;  // on the grid, to the goal
+  std::vector<double> distances_;  // Distances to the goal on the grid.
   std::vector<Node> nodes_;
   std::priority_queue<Open> open_;
-  std::unordered_map<std::int64_t, double> best_;  // cost of the cheapest node of a cell
+  std::unordered_map<std::int64_t, double> best_;  // Cost of the cheapest node of a cell.
   double best_end_ = std::numeric_limits<double>::infinity();
   std::vector<std::vector<Segment>> last_curves_;
 };

@@ -11,7 +11,7 @@ std::size_t Index(const HeightGrid& grid, int column, int row) {
          static_cast<std::size_t>(column);
 }
 
-/// Halves the resolution: each height is the mean of up to four known ones.
+/// Halves the resolution of a grid. Each new height is the mean of up to four known heights.
 HeightGrid Halved(const HeightGrid& grid) {
   HeightGrid half{.columns = (grid.columns + 1) / 2, .rows = (grid.rows + 1) / 2, .heights = {}};
   for (int row = 0; row < half.rows; ++row) {
@@ -32,7 +32,7 @@ HeightGrid Halved(const HeightGrid& grid) {
   return half;
 }
 
-/// One relaxation step of the unknown heights.
+/// Performs one relaxation step of the unknown heights.
 void Relax(const HeightGrid& known, std::vector<double>& heights) {
   const std::vector<double> last = heights;
   for (int row = 0; row < known.rows; ++row) {
@@ -73,7 +73,8 @@ std::vector<double> FillHeights(const HeightGrid& known) {
       }
     }
   }
-  constexpr int kSteps = 12;  // per grid; the coarser grids have settled the long range
+  // Relaxation steps per grid; coarser grids have already settled the large scales.
+  constexpr int kSteps = 12;
   for (int i = 0; i < kSteps && !complete; ++i) {
     Relax(known, heights);
   }

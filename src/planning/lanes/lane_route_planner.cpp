@@ -16,7 +16,8 @@
 namespace trackbed {
 namespace {
 
-/// Why the car's pose differs from the start of the path, for people; empty if it does not.
+/// Reason, for people, why the car's pose differs from the start of the path; empty if it does not
+/// differ.
 std::string StartPoseError(const Pose2& car, const Pose2& path) {
   constexpr double kPlace = 1e-3;    // [m]
   constexpr double kHeading = 1e-3;  // [rad]
@@ -31,7 +32,8 @@ std::string StartPoseError(const Pose2& car, const Pose2& path) {
       distance, turn, path.x, path.y, path.yaw);
 }
 
-/// The first place that the car cannot steer through, for people; empty without one.
+/// Description, for people, of the first place that the car cannot steer through. Returns an empty
+/// text if the car can steer through all places.
 std::string SteeringLimitError(const VehicleParams& vehicle, const std::vector<Segment>& segments) {
   double station = 0.0;
   for (const Segment& segment : segments) {

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double kNodeSpacing = 1.0;  // [m]
 
-/// Outermost drivable lanes of a section; lane 0, the center lane, if there are none.
+/// Outermost drivable lanes of a section. Returns lane 0, the center lane, if no lane is drivable.
 std::pair<int, int> OutermostLanes(const LaneSection& section) {
   std::pair<int, int> found{0, 0};
-  for (const Lane& lane : section.lanes) {  // from left to right
+  for (const Lane& lane : section.lanes) {  // the lanes are ordered from left to right
     if (lane.id != 0 && IsDrivable(lane)) {
       found = {found.first == 0 ? lane.id : found.first, lane.id};
     }
@@ -29,7 +29,7 @@ double SmoothStep(double u) {
   return v * v * (3.0 - 2.0 * v);
 }
 
-/// Whether a piece of a road is short enough and turns little enough for one strip.
+/// Whether a piece of a road is short enough and straight enough for one strip.
 bool IsShort(const Road& road, double from, double to) {
   constexpr double kMaxLength = 16.0;  // [m]
   constexpr double kMaxTurn = 0.5;     // [rad]
@@ -87,7 +87,8 @@ RoadStrip::RoadStrip(const Road& road, double from, double to, double before, do
 }
 
 RoadStrip::Node RoadStrip::ReferenceAt(double s) const {
-  // Cubic interpolation between nodes; its error on an arc of 5 m radius is 0.02 mm.
+  // Cubic interpolation between nodes. On an arc of 5 m radius, the error of the interpolation is
+  // 0.02 mm.
   const double parts = static_cast<double>(nodes_.size() - 1);
   const double place = parts * (s - from_) / (to_ - from_);
   const std::size_t i = std::min(static_cast<std::size_t>(std::max(place, 0.0)), nodes_.size() - 2);
@@ -112,7 +113,7 @@ std::pair<double, double> RoadStrip::Borders(double s) const {
 }
 
 std::optional<RoadStrip::Place> RoadStrip::Locate(const Vec2& point_W) const {
-  constexpr double kFold = 0.1;  // of the radius of curvature
+  constexpr double kFold = 0.1;  // fraction of the radius of curvature
   constexpr double kFoldEnd = 0.5;
   double s = 0.5 * (from_ + to_);
   for (int i = 0; i < 20; ++i) {

@@ -8,31 +8,33 @@
 
 namespace trackbed {
 
-/// A short piece of a road with its drivable lanes, which locates points seen from above.
+/// A short piece of a road with its drivable lanes. The function Locate finds the place on the road
+/// that lies below a point.
 class RoadStrip {
  public:
-  /// Place on the road surface below a point. The surface extends beyond the lanes and, straight,
-  /// beyond the ends of the strip.
+  /// Place on the road surface below a point. The surface extends beyond the lanes. Beyond the ends
+  /// of the strip, the surface extends straight.
   struct Place {
-    double s = 0.0;            ///< within the strip [m]
-    double z = 0.0;            ///< of the surface [m]
-    double beside = 0.0;       ///< distance beyond the lanes [m]
-    double beyond = 0.0;       ///< distance beyond the ends of the strip [m]
-    double straight_on = 0.0;  ///< part of `beyond` that the extended road covers [m]
-    double share = 1.0;        ///< falls to 0 toward the center of curvature
+    double s = 0.0;            ///< Station within the strip [m].
+    double z = 0.0;            ///< Height of the surface [m].
+    double beside = 0.0;       ///< Distance beyond the lanes [m].
+    double beyond = 0.0;       ///< Distance beyond the ends of the strip [m].
+    double straight_on = 0.0;  ///< Part of `beyond` that the extended road covers [m].
+    double share = 1.0;        ///< Weight; falls to 0 toward the center of curvature.
   };
 
   /// A strip between two stations within one lane section and one piece of the reference line. The
-  /// road is extended straight by `before` and `after` meters. Keeps a reference to the road.
+  /// road is extended straight by `before` and `after` meters. The strip keeps a reference to the
+  /// road.
   RoadStrip(const Road& road, double from, double to, double before, double after);
 
-  /// None at, near or beyond the center of curvature.
+  /// Returns none for a point at, near or beyond the center of curvature.
   [[nodiscard]] std::optional<Place> Locate(const Vec2& point_W) const;
 
   [[nodiscard]] const Road& road() const { return *road_; }
   [[nodiscard]] double from() const { return from_; }
   [[nodiscard]] double to() const { return to_; }
-  /// t of the outermost borders of the drivable lanes [m]: right, left.
+  /// Coordinates t of the outermost borders of the drivable lanes [m], the right border first.
   [[nodiscard]] std::pair<double, double> Borders(double s) const;
   /// Center of a circle around the lanes.
   [[nodiscard]] const Vec2& middle() const { return middle_; }
@@ -41,7 +43,7 @@ class RoadStrip {
  private:
   struct Node {
     Vec2 position;
-    Vec2 tangent;  // derivative by station
+    Vec2 tangent;  // Derivative of the position by station.
   };
   [[nodiscard]] Node ReferenceAt(double s) const;
 
@@ -51,15 +53,15 @@ class RoadStrip {
   double to_ = 0.0;
   double before_ = 0.0;
   double after_ = 0.0;
-  int leftmost_ = 0;  // drivable lane
+  int leftmost_ = 0;  // Number of the leftmost drivable lane.
   int rightmost_ = 0;
-  double curvature_ = 0.0;   // mean [1/m]
-  std::vector<Node> nodes_;  // evenly spaced
+  double curvature_ = 0.0;   // Mean curvature [1/m].
+  std::vector<Node> nodes_;  // Evenly spaced nodes.
   Vec2 middle_{0.0, 0.0};
   double radius_ = 0.0;
 };
 
-/// Cuts a road between two stations into strips; leaves out stretches without drivable lanes.
+/// Cuts a road between two stations into strips. Leaves out stretches without drivable lanes.
 std::vector<RoadStrip> CutIntoStrips(const Road& road, double from, double to, double before,
                                      double after);
 

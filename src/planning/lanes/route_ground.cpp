@@ -14,37 +14,36 @@
 #include "src/planning/lanes/road_strip.h"
 #include "trackbed/core/error.h"
 
-// Makes smooth ground from the road surfaces along a route.
-// 1. The needed stretches of road, extended at both ends, are cut into short strips.
-// 2. A coarse terrain interpolates the heights of points on the lanes, and slopes to a level
-//    border.
-// 3. Blocks near the roads are refined: on a lane its own height, beside lanes a mean weighted by
-//    proximity, blended into the coarse terrain within 9.5 m.
-// 4. Routes whose lanes pass over each other, or that deviate from the ground by over 1 cm, are
-//    refused.
+// Makes smooth ground from the road surfaces along a route. First, the algorithm cuts the required
+// stretches of road, extended at both ends, into short strips. A coarse terrain interpolates the
+// heights of points on the lanes. Away from the lanes, the terrain slopes to a level border. Blocks
+// near the roads are refined. On a lane, the ground has the height of this lane. Beside lanes, the
+// ground has a mean height weighted by proximity, blended into the coarse terrain within 9.5 m. The
+// algorithm refuses routes whose lanes pass over each other, and routes that deviate from the
+// ground by over 1 cm.
 
 namespace trackbed {
 namespace {
 
-constexpr double kRoadExtension = 15.0;  // extension along its road before and after the route [m]
-constexpr double kStraightExtension = 6.0;  // straight extension beyond the end of that road [m]
-constexpr double kLaneSurfaceMargin = 1.5;  // width beside the lanes with the lanes' surface [m]
-constexpr double kBlendWidth = 8.0;  // width of the transition to the ground between roads [m]
+constexpr double kRoadExtension = 15.0;     // Extension of a road before and after the route [m].
+constexpr double kStraightExtension = 6.0;  // Straight extension beyond the end of a road [m].
+constexpr double kLaneSurfaceMargin = 1.5;  // Width of the lanes' surface beside the lanes [m].
+constexpr double kBlendWidth = 8.0;  // Width of the transition to the ground between roads [m].
 constexpr double kInfluenceDistance = kLaneSurfaceMargin + kBlendWidth;
-constexpr double kMargin = 128.0;        // around the route [m]
-constexpr double kLevelBorder = 24.0;    // width of the level border [m]
+constexpr double kMargin = 128.0;        // Margin around the route [m].
+constexpr double kLevelBorder = 24.0;    // Width of the level border [m].
 constexpr double kSlopeToBorder = 72.0;  // [m]
-constexpr double kBorderDepth = 1.0;     // height of the border below the lowest road [m]
+constexpr double kBorderDepth = 1.0;     // Height of the border below the lowest road [m].
 
 /// Stations of a road that the route needs.
 struct Stretch {
   double from = 0.0;
   double to = 0.0;
-  double before = 0.0;  // straight extension [m]
+  double before = 0.0;  // Straight extension before the stretch [m].
   double after = 0.0;
 };
 
-/// By road id; sorted and disjoint.
+/// Stretches by road id; the stretches of a road are sorted and disjoint.
 using Stretches = std::map<std::string, std::vector<Stretch>>;
 
 Stretches NeededStretches(const RoadNetwork& network, const std::vector<LaneStretch>& route) {
@@ -87,7 +86,7 @@ struct Crossing {
   std::string other;
   double other_s = 0.0;
   Vec2 place{0.0, 0.0};
-  double apart = 0.0;  // [m]
+  double apart = 0.0;  // Height difference between the lanes [m].
 };
 
 /// Combined surface of all strips.
@@ -97,7 +96,7 @@ class Surfaces {
 
   [[nodiscard]] const std::vector<RoadStrip>& strips() const { return strips_; }
 
-  /// The strips that affect a circle.
+  /// The strips that affect the ground within a circle.
   [[nodiscard]] std::vector<const RoadStrip*> Near(const Vec2& middle, double radius) const {
     std::vector<const RoadStrip*> near;
     for (const RoadStrip& strip : strips_) {
@@ -110,10 +109,10 @@ class Surfaces {
 
   struct Blend {
     double z = 0.0;
-    double share = 0.0;  // weight in the ground, from 1 on the lanes to 0
+    double share = 0.0;  // Weight in the ground: 1 on the lanes, falling to 0 beside the lanes.
   };
 
-  /// Mean height weighted by proximity; on a lane, that lane's height.
+  /// Mean height weighted by proximity; on a lane, the height of this lane.
   Blend At(const std::vector<const RoadStrip*>& near, const Vec2& point) {
     Blend blend;
     double sum = 0.0;
@@ -150,8 +149,8 @@ class Surfaces {
     return blend;
   }
 
-  /// The place with the largest height difference between two lanes, if it exceeds a mismatch of
-  /// heights.
+  /// The place with the largest height difference between two lanes. Returns none if all
+  /// differences are small enough to be mere mismatches of heights.
   [[nodiscard]] const std::optional<Crossing>& crossing() const { return crossing_; }
 
  private:
@@ -174,7 +173,7 @@ class Surfaces {
   std::optional<Crossing> crossing_;
 };
 
-/// Points across the lanes of a strip, at most 2 m apart along it.
+/// Points across the lanes of a strip, at most 2 m apart along the strip.
 std::vector<RoadPosition> PointsOn(const RoadStrip& strip) {
   constexpr double kSpacing = 2.0;  // [m]
   std::vector<RoadPosition> points;
@@ -189,7 +188,7 @@ std::vector<RoadPosition> PointsOn(const RoadStrip& strip) {
   return points;
 }
 
-/// Weight of a control height: 0 at the border of the terrain, 1 well inside.
+/// Weight of a control height: 0 at the border of the terrain, 1 well inside the terrain.
 double ShareInside(const Terrain::Size& size, int column, int row) {
   const int cells =
       std::min({column, row, size.CoarseColumns() - 1 - column, size.CoarseRows() - 1 - row});
@@ -198,7 +197,7 @@ double ShareInside(const Terrain::Size& size, int column, int row) {
   return u * u * (3.0 - 2.0 * u);
 }
 
-/// The terrain before refinement; none if it would be too large.
+/// The terrain before refinement. Returns none if the terrain would be too large.
 std::optional<Terrain> CoarseTerrain(const std::vector<RoadStrip>& strips) {
   std::vector<RoadPosition> points;
   for (const RoadStrip& strip : strips) {
@@ -253,7 +252,8 @@ void RefineAlong(Surfaces& surfaces, Terrain& terrain) {
   for (int row = 0; row < size.rows; ++row) {
     for (int column = 0; column < size.columns; ++column) {
       const Vec2 middle = size.low + Terrain::kBlock * Vec2(column + 0.5, row + 0.5);
-      constexpr double kRadius = 0.75 * Terrain::kBlock;  // circle around block and cell
+      // Radius of a circle around a block and its cell.
+      constexpr double kRadius = 0.75 * Terrain::kBlock;
       const std::vector<const RoadStrip*> near = surfaces.Near(middle, kRadius);
       if (near.empty()) {
         continue;
@@ -282,11 +282,11 @@ Deviation LargestDeviation(const RoadNetwork& network, const std::vector<LaneStr
     const double from = std::min(stretch.from, stretch.to);
     const double to = std::max(stretch.from, stretch.to);
     const std::size_t section = road.SectionAt(0.5 * (from + to));
-    constexpr double kSpacing = 0.15;  // [m]: not that of the interpolated points
+    constexpr double kSpacing = 0.15;  // [m]; differs from the spacing of the interpolated points
     const double parts = std::max(1.0, std::ceil((to - from) / kSpacing));
     for (double i = 0.0; i <= parts; i += 1.0) {
       const double s = std::lerp(from, to, i / parts);
-      // At the end of a stretch, evaluate the piece of road before it.
+      // At the end of a stretch, evaluate the piece of road before the end.
       const double piece_of = s < to ? s : std::nextafter(to, from);
       for (const int lane : {stretch.lane, stretch.to_lane}) {
         const LaneBorders borders = LaneBordersAt(road, section, lane, s, piece_of);
@@ -303,7 +303,7 @@ Deviation LargestDeviation(const RoadNetwork& network, const std::vector<LaneStr
   return largest;
 }
 
-/// Whether all roads of a route are level at the same height.
+/// Whether all roads of a route are level and have the same height.
 bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& route) {
   const auto height = [&](const LaneStretch& stretch) {
     return network.roads.find(stretch.road)->second.elevation.At(0.0).value;
@@ -314,11 +314,12 @@ bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& ro
   });
 }
 
-/// Why the road cannot be ground at this station, for people; empty if it can.
+/// Reason, for people, why no ground can be made from the road at this station; empty if the road
+/// is suitable.
 std::string GroundError(const Road& road, double s) {
   const CubicValue height = road.elevation.At(s);
   const double roll = road.superelevation.At(s).value;
-  constexpr double kMaxSlope = 1.0;  // as for bumps of the world's ground
+  constexpr double kMaxSlope = 1.0;  // the same limit as for bumps of the world's ground
   if (!(std::abs(height.slope) <= kMaxSlope && std::abs(std::tan(roll)) <= kMaxSlope &&
         std::cos(roll) > 0.0)) {
     return fmt::format(
@@ -346,7 +347,7 @@ std::string GroundError(const Road& road, double s) {
   return "";
 }
 
-/// Why the roads cannot be ground, for people; empty if they can.
+/// Reason, for people, why no ground can be made from the roads; empty if the roads are suitable.
 std::string GroundError(const RoadNetwork& network, const Stretches& needed) {
   double length = 0.0;
   for (const auto& [id, stretches] : needed) {

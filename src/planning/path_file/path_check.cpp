@@ -15,11 +15,12 @@ namespace trackbed {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-6;  // relative tolerance of a limit
-constexpr double kSpacing = 0.05;   // [m]; more on a path of more than 20 km
+constexpr double kRounding = 1e-6;  // Relative tolerance of a limit.
+// Spacing of the checks [m]; larger on a path of more than 20 km.
+constexpr double kSpacing = 0.05;
 constexpr double kMaxPieces = 4e5;
 
-/// A limit of 0 is unknown and becomes infinite.
+/// Converts a limit of 0, which means unknown, to infinity.
 double OrInfinite(double limit) {
   return limit > 0.0 ? limit : kInfinity;
 }
@@ -70,7 +71,8 @@ PathCheck Reversed(const FittedPath& fitted, PathCheck check) {
   return check;
 }
 
-/// The demand of a piece, and the limit that restricts its speed most.
+/// The demand of a piece of path on the car, and the limit that restricts the speed on this piece
+/// most.
 std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const PathPoint& begin,
                                               const VehicleParams& vehicle, double speed,
                                               const PathCheck& limits) {
@@ -142,8 +144,8 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
   };
   const double spacing = std::max(kSpacing, path.length() / kMaxPieces);
   ForEachPiece(path, vehicle, spacing, [&](const PathPiece& piece) {
-    // The arc that replaces a heading jump depends on the spacing of the points, not on the
-    // intended path: report the jump instead of its curvature.
+    // Report a heading jump instead of the curvature of the arc that replaces the jump. The arc
+    // depends on the spacing of the points, not on the intended path.
     while (jump != jumps.end() && jump->rounded.to <= piece.stations.from + 1e-9) {
       ++jump;
     }

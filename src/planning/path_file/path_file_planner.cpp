@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-/// Between two points, the speed is at most the mean of their speeds.
+/// Between two points, the speed is at most the mean of the speeds at these points.
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
   constexpr double kMinSpeed = 0.1;  // [m/s]; a trajectory starts and ends at standstill
   const std::vector<double>& speed = fitted.given.speed;
@@ -27,7 +27,7 @@ std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
       caps.push_back({from, to, std::max(0.5 * (speed[i] + speed[i + 1]), kMinSpeed)});
     }
   }
-  // On a closed path, add a cap from the last point back to the first.
+  // On a closed path, add a cap from the last point back to the first point.
   const double length = fitted.path.length();
   if (!speed.empty() && fitted.options.closed && fitted.stations.back() < length) {
     caps.push_back({fitted.stations.back(), length,
@@ -101,7 +101,7 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
   return plan;
 }
 
-/// Fits the path. InputError naming the file, unless the problem is that of a key.
+/// Fits the path. Throws InputError with the name of the file, unless a key causes the problem.
 std::shared_ptr<const FittedPath> Fit(PathPoints points, const PathFileOptions& options,
                                       const std::string& file) {
   try {
@@ -156,7 +156,7 @@ std::vector<InputFile> InputFilesOf(const PathFileOptions& options) {
 
 void Resolve(PathFileOptions& options) {
   options.file = kPathCsv;
-  options.map = {};  // PathCsv uses the default names
+  options.map = {};  // PathCsv uses the default column names
   options.ahead = 0.0;
 }
 

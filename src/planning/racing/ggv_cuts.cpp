@@ -8,7 +8,7 @@
 namespace trackbed {
 
 GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide side) {
-  constexpr double kStep = 1e-3;  // step in the sine
+  constexpr double kStep = 1e-3;  // step of the sine of the angle
   const GgvDiagram& diagram = limits.diagram;
   GgvPoint point{.speed = std::sqrt(squared), .road = limits.road};
   const double lateral = diagram.MaxLateral(point);
@@ -27,7 +27,7 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
   double along = lateral * sine;
   const double size = std::hypot(across, along);
   if (size <= 1e-9 * lateral) {
-    across = 1.0;  // at a corner: limit f_y to its maximum
+    across = 1.0;  // at a corner of the boundary: limit f_y to its maximum
     along = 0.0;
   } else {
     across /= size;
@@ -35,7 +35,7 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
   }
   const LongitudinalForces& car = diagram.forces();
   const double resistance = car.drag * squared / car.mass;
-  // f_x = a + resistance.
+  // Substitute f_x = a + resistance.
   return {.across = across,
           .along = sign * along,
           .bound =

@@ -5,7 +5,8 @@
 /// Tangents to the boundary of a g-g-v diagram, and the limits of motor and brakes, for optimizers.
 namespace trackbed {
 
-/// across f_y + along a <= bound, with the acceleration a and the lateral force f_y >= 0 [m/s^2].
+/// The inequality `across` f_y + `along` a <= `bound`, for the acceleration a and the lateral force
+/// f_y >= 0 [m/s^2].
 struct GgvCut {
   double across = 0.0;
   double along = 0.0;
@@ -14,14 +15,15 @@ struct GgvCut {
 
 enum class GgvSide { kDriving, kBraking };
 
-/// Tangent at the point where f_y is cos(angle) of its maximum, at a speed whose square is
-/// `squared` [m^2/s^2]. As a vector (across, along in f_x) it has length 1.
+/// Tangent at the point where f_y is cos(angle) times its maximum. The squared speed is `squared`
+/// [m^2/s^2]. The tangent's normal vector (across, along in f_x) has length 1.
 GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide side);
 
-/// Rate at which the tangent's direction turns along the boundary there [rad per m/s^2], at most 1.
+/// Rate at which the direction of the tangent from TyreCut turns along the boundary [rad per
+/// m/s^2], at most 1.
 double TyreCurvature(const LapLimits& limits, double squared, double angle, GgvSide side);
 
-/// Limit of motor or brakes.
+/// Limit of the motor or of the brakes.
 GgvCut ForceCut(const LapLimits& limits, double squared, GgvSide side);
 
 }  // namespace trackbed

@@ -9,37 +9,37 @@
 #include "trackbed/planning/racing/minimum_time.h"
 #include "trackbed/track/closed_spline.h"
 
-/// Laps along lines on a track, at stations evenly spaced along its center line.
+/// Laps along lines on a track, at stations evenly spaced along the track's center line.
 namespace trackbed {
 
 /// A lap along one line.
 struct Lap {
-  std::vector<LineShape> shapes;  // at the stations
-  std::vector<double> curvature;  // kappa there [1/m]
-  std::vector<double> stretch;    // dl/ds there
-  std::vector<double> lengths;    // of the line between adjacent stations [m]
+  std::vector<LineShape> shapes;  // Shapes of the line at the stations.
+  std::vector<double> curvature;  // Curvature kappa at the stations [1/m].
+  std::vector<double> stretch;    // Ratio dl/ds at the stations.
+  std::vector<double> lengths;    // Lengths of the line between adjacent stations [m].
   std::vector<double> speeds;     // [m/s]
   double time = 0.0;              // [s]
-  double sharpest = 0.0;          // largest |kappa| [1/m]
+  double sharpest = 0.0;          // Largest |kappa| of the lap [1/m].
 };
 
 class LapModel {
  public:
-  /// `count` is the number of stations.
+  /// The argument `count` is the number of stations.
   LapModel(const Track& track, const LapLimits& limits, std::size_t count);
 
   [[nodiscard]] const LapLimits& limits() const { return limits_; }
   [[nodiscard]] std::size_t count() const { return centers_.size(); }
-  [[nodiscard]] double step() const { return step_; }  ///< between stations [m]
+  [[nodiscard]] double step() const { return step_; }  ///< distance between adjacent stations [m]
   [[nodiscard]] double StationAt(std::size_t i) const { return step_ * static_cast<double>(i); }
   [[nodiscard]] std::size_t After(std::size_t i) const { return i + 1 == count() ? 0 : i + 1; }
   [[nodiscard]] const PathPoint& center(std::size_t i) const { return centers_[i]; }
 
-  /// The lap along a line at the limit. The line must not fold over.
+  /// The lap along a line, driven at the limit. The line must not fold over.
   [[nodiscard]] Lap Drive(const TrackLine& line) const;
 
   /// Change of curvature between adjacent stations that the steering rate allows at 1 m/s [m/s
-  /// 1/m]; infinite if it is not limited.
+  /// 1/m]. Returns infinity if the steering rate is not limited.
   [[nodiscard]] double SteeringReach(const Lap& lap, std::size_t i) const;
 
  private:

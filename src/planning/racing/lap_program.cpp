@@ -9,31 +9,33 @@
 // Quadratic programs of the trust-region method in minimum_time.h (problem of Casanova 2000 and
 // Christ et al. 2021). Variables are the changes of the line's spline coefficients and the relative
 // changes of the squared speeds. The objective is the lap time, to second order in speeds and
-// lengths. Rows bound offsets and steps, curvature, steering rate, lateral force, the tangents to
-// the tyres' g-g-v boundary, and motor and brakes. The boundary's curvature along active tangents
-// enters the Hessian, weighted by the multipliers of the previous program.
+// lengths. Rows of the program bound offsets and steps, curvature, steering rate and lateral force.
+// Further rows bound the forces of motor and brakes, and contain the tangents to the tyres' g-g-v
+// boundary. The boundary's curvature along active tangents enters the Hessian, weighted by the
+// multipliers of the previous program.
 
 namespace trackbed {
 namespace {
 
-/// Stands for infinity, because bounds of rows must be finite; actual values are far smaller.
+/// Stands for infinity, because bounds of rows must be finite. Actual bounds of rows are far
+/// smaller.
 constexpr double kUnbounded = 50.0;
-/// Keeps a cut at any distance from the lap, because no step may violate it: when a braking point
-/// moves along a straight, intervals change from driving to braking.
+/// Keeps a cut at any distance from the lap, because no step may violate the cut. When a braking
+/// point moves along a straight, intervals change from driving to braking.
 constexpr double kKeepAlways = kUnbounded;
-constexpr double kMinRange = 1e-9;  // least distance between the two bounds of a row
+constexpr double kMinRange = 1e-9;  // Least distance between the two bounds of a row.
 
 double Squared(double x) {
   return x * x;
 }
 
-/// Left side of a cut minus its bound.
+/// Left side of a cut minus the cut's bound.
 double Excess(const GgvCut& cut, double across, double along) {
   return cut.across * across + cut.along * along - cut.bound;
 }
 
-/// Angles at which tangents are laid to a quarter of the diagram near `angle`. Even small steps
-/// change accelerations considerably, so the tangents must follow the boundary closely.
+/// Angles, near `angle`, at which the program lays tangents to a quarter of the diagram. Even small
+/// steps change accelerations considerably, so the tangents must follow the boundary closely.
 std::vector<double> CutAngles(double angle) {
   constexpr std::array<double, 5> kAngleOffsets{-0.3, -0.1, 0.0, 0.1, 0.3};
   std::vector<double> angles;
@@ -61,7 +63,7 @@ void LapProgram::Form::Add(const Form& other, double factor) {
   }
 }
 
-/// Linear change of a function of d, d' and d'' whose derivatives are `by`.
+/// Linear change of a function of d, d' and d'' that has the derivatives `by`.
 LapProgram::Form LapProgram::OffsetForm(std::size_t i, const Eigen::Vector3d& by) const {
   Form form;
   for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
@@ -88,7 +90,7 @@ void LapProgram::Linearize(const Lap& lap) {
   acceleration_.assign(count, {});
   accelerations_.assign(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
-    // a = (w_j - w_i)/(2 l).
+    // The acceleration is a = (w_j - w_i)/(2 l).
     const std::size_t next = model_.After(i);
     const double length = lap.lengths[i];
     const double from = Squared(lap.speeds[i]);
@@ -136,7 +138,8 @@ void LapProgram::AddTime(const Lap& lap) {
     for (const auto& [variable, value] : stretch_[i].terms) {
       linear_[variable] += pace[i] * value;
     }
-    // |r'| is the norm of a vector linear in d and d'; its second derivative is u u^T/|r'|^3.
+    // The function |r'| is the norm of a vector linear in d and d', so its second derivative is u
+    // u^T/|r'|^3.
     const PathPoint& center = model_.center(i);
     const double slope = lap.shapes[i].square.derivatives()[1] / 2.0;  // d'
     const double along = std::sqrt(std::max(0.0, Squared(lap.stretch[i]) - Squared(slope)));
@@ -168,7 +171,7 @@ void LapProgram::AddBounds(const TrackLine& line, const Lap& lap, const LapTrust
   }
 }
 
-/// Rows for the car's smallest radius and for its steering rate between adjacent stations.
+/// Adds rows for the car's smallest radius and for its steering rate between adjacent stations.
 void LapProgram::AddCurvatures(const Lap& lap, double share) {
   const double most = model_.limits().curvature_max;
   for (std::size_t i = 0; i < model_.count(); ++i) {
@@ -182,8 +185,8 @@ void LapProgram::AddCurvatures(const Lap& lap, double share) {
   }
 }
 
-/// Rows for v |turned| <= reach at both ends of an interval, in units of the reach. A single row
-/// suffices for turning in the opposite direction.
+/// Adds rows for v |turned| <= reach at both ends of an interval, in units of the reach. For
+/// steering in the direction opposite to the lap's, a single row suffices.
 void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   const std::size_t next = model_.After(i);
   const double reach = model_.SteeringReach(lap, i);
@@ -212,7 +215,7 @@ void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   }
 }
 
-/// Rows for the largest lateral force, on both sides.
+/// Adds rows for the largest lateral force to the left and to the right.
 void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
   const LapLimits& limits = model_.limits();
   const double squared = Squared(lap.speeds[i]);
@@ -230,9 +233,10 @@ void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
   AddRow(form, -largest - std::abs(force), std::max(0.0, largest - std::abs(force)));
 }
 
-/// Adds a cut of interval `interval` by the limits at its end `at`. `bound_rate` is the derivative
-/// of its bound and directions by the relative change of w. Leaves out cuts farther away than
-/// `keep`; returns whether the cut was added.
+/// Adds a cut of the interval `interval` by the limits at the interval's end `at`. The argument
+/// `bound_rate` is a derivative by the relative change of w: that of the cut's bound and
+/// directions. Leaves out a cut that is farther away than `keep`. Returns whether the cut was
+/// added.
 bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                         double bound_rate, double keep) {
   const double squared = Squared(lap.speeds[at]);
@@ -246,13 +250,14 @@ bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, co
   const double side = lap.curvature[at] < 0.0 ? -1.0 : 1.0;
   form.Add(curvature_[at], cut.across * side * squared);
   form.Add(SpeedVariable(at), cut.across * across - bound_rate);
-  // Where the diagram is not convex, a tangent may cut off the lap itself: keep that feasible.
+  // Where the diagram is not convex, a tangent may cut off the lap itself, so keep the lap
+  // feasible.
   AddRow(form, -kUnbounded, std::max(0.0, -excess));
   return true;
 }
 
-/// Adds the cost of the boundary's curvature, which its tangent neglects: weight/2 times the
-/// squared displacement along the tangent.
+/// Adds the cost of the boundary's curvature, which the tangent neglects. The cost is weight/2
+/// times the squared displacement along the tangent.
 void LapProgram::AddBend(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                          double weight) {
   const double squared = Squared(lap.speeds[at]);
@@ -280,8 +285,8 @@ void LapProgram::TakeMultipliers(const Eigen::VectorXd& multipliers) {
 }
 
 void LapProgram::AddTyres(const Lap& lap, std::size_t i, GgvSide side) {
-  constexpr double kStep = 0.01;         // relative step in the squared speed
-  constexpr double kKeepFraction = 0.3;  // fraction of the largest lateral force
+  constexpr double kStep = 0.01;         // Relative step of the squared speed.
+  constexpr double kKeepFraction = 0.3;  // Fraction of the largest lateral force.
   const LapLimits& limits = model_.limits();
   const double squared = Squared(lap.speeds[i]);
   const double across = squared * std::abs(lap.curvature[i]);

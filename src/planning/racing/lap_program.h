@@ -11,21 +11,22 @@
 #include "src/planning/racing/line_shape.h"
 #include "trackbed/optimize/sparse_quadratic_program.h"
 
-/// Quadratic programs whose solutions shorten a lap's time.
+/// Quadratic programs whose solutions shorten the time of a lap.
 namespace trackbed {
 
-/// Trust region: bounds of a step.
+/// Trust region of a quadratic program: bounds of a step.
 struct LapTrust {
-  double offset = 1.0;   ///< change of d at a station [m]
-  double squared = 0.3;  ///< relative change of the squared speed there
+  double offset = 1.0;   ///< Change of d at a station [m].
+  double squared = 0.3;  ///< Relative change of the squared speed at a station.
 };
 
 /// Builds the quadratic program about each lap of the search.
 ///
-/// Variables: the changes of the line's coefficients [m], then the relative changes of the squared
-/// speeds. Where the tyres' lateral limit is active, kappa <= a/w, with w the squared speed, is
-/// replaced by kappa <= a/w_0 (1 - (w - w_0)/w_0). This is never larger, so with exact curvatures a
-/// step keeps the limit.
+/// The first variables are the changes of the line's coefficients [m]. The remaining variables are
+/// the relative changes of the squared speeds. The tyres' lateral limit is kappa <= a/w, with the
+/// squared speed w. Where the lateral limit is active, the program uses kappa <= a/w_0 (1 - (w -
+/// w_0)/w_0). The program's bound never exceeds a/w, so a step keeps the lateral limit if the
+/// curvatures are exact.
 class LapProgram {
  public:
   LapProgram(const LapModel& model, const ClosedSplineBasis& basis,
@@ -40,22 +41,23 @@ class LapProgram {
   SparseQuadraticProgram About(const TrackLine& line, const Lap& lap, const LapTrust& trust,
                                double share);
 
-  /// Stores the multipliers of the last program. The next program uses them to weight the curvature
-  /// of the boundary, which tangents neglect.
+  /// Stores the multipliers of the last program. The next program uses the multipliers to weight
+  /// the curvature of the boundary, which tangents neglect.
   void TakeMultipliers(const Eigen::VectorXd& multipliers);
 
  private:
-  /// A linear function of the variables.
+  /// A linear function of the variables of the program.
   struct Form {
     std::vector<std::pair<Eigen::Index, double>> terms{};
     void Add(Eigen::Index variable, double factor) { terms.emplace_back(variable, factor); }
     void Add(const Form& other, double factor);
   };
 
-  /// Decrease of the lap time per unit of tyre force in an interval, by the limits at its first and
-  /// at its second end, for driving and for braking.
+  /// Decrease of the lap time per unit of tyre force in an interval. The first index of Prices
+  /// selects the end of the interval whose limits apply. The second index selects driving or
+  /// braking.
   using Prices = std::array<std::array<double, 2>, 2>;
-  /// A row of a program that is a tangent.
+  /// A row of a program that stands for a tangent.
   struct TangentRow {
     Eigen::Index row = 0;
     std::size_t interval = 0;
@@ -86,12 +88,12 @@ class LapProgram {
   std::vector<OffsetBounds> bounds_;
   std::vector<ClosedSplineBasis::Local> locals_;
 
-  std::vector<Prices> prices_;  // of the previous program
+  std::vector<Prices> prices_;  // multipliers of the previous program, as prices
 
-  // Linearization about one lap:
-  std::vector<Form> curvature_;     // change of the curvature at the stations
-  std::vector<Form> stretch_;       // change of dl/ds at the stations
-  std::vector<Form> acceleration_;  // change of the acceleration of each interval
+  // The following members are the linearization about one lap.
+  std::vector<Form> curvature_;     // Change of the curvature at the stations.
+  std::vector<Form> stretch_;       // Change of dl/ds at the stations.
+  std::vector<Form> acceleration_;  // Change of the acceleration of each interval.
   std::vector<double> accelerations_;
   std::vector<Eigen::Triplet<double>> rows_;
   std::vector<TangentRow> tangents_;

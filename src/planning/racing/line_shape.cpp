@@ -16,8 +16,10 @@ LineShape ShapeAt(const PathPoint& center, const LineOffset& offset) {
   const OffsetDerivatives slope(offset.slope, 3, 1);
   const OffsetDerivatives bend(offset.bend, 3, 2);
   const OffsetDerivatives along = 1.0 - center.curvature * d;
+  // The second derivative r'' has the tangential part `along_rate` and the normal part
+  // `across_rate`.
   const OffsetDerivatives along_rate =
-      -(center.sharpness * d + 2.0 * center.curvature * slope);  // of the tangential part
+      -(center.sharpness * d + 2.0 * center.curvature * slope);  // tangential
   const OffsetDerivatives across_rate = bend + center.curvature * along;
   return {.cross = along * across_rate - slope * along_rate,
           .square = along * along + slope * slope};
@@ -25,7 +27,7 @@ LineShape ShapeAt(const PathPoint& center, const LineOffset& offset) {
 
 OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, double beside) {
   constexpr double kMaxRadiusFraction =
-      0.95;  // largest |d| as a fraction of the center line's radius
+      0.95;  // Largest |d| as a fraction of the center line's radius.
   const TrackEdges edges = track.EdgesAt(s);
   OffsetBounds bounds{edges.right + beside, edges.left - beside};
   if (center.curvature > 0.0) {

@@ -5,36 +5,38 @@
 
 #include "trackbed/planning/racing/track_line.h"
 
-/// Shape of a line on a track, with derivatives, and the bounds of its offset; for optimizers.
+/// Shape of a line on a track with the shape's derivatives, and the bounds of the line's offset;
+/// for optimizers.
 namespace trackbed {
 
-/// Splines for the offset of lines, with two knots per point of the track. In a hairpin a line's
-/// radius is a fraction of the center line's, over a correspondingly shorter distance; with one
-/// knot per point its curvature would ripple.
+/// Splines for the offset of lines, with two knots per point of the track. In a hairpin, a line's
+/// radius is a fraction of the center line's radius, over a correspondingly shorter distance. With
+/// only one knot per point, the curvature of a line in a hairpin would ripple.
 ClosedSplineBasis OffsetBasis(const Track& track);
 
-/// A value and its derivatives with respect to d, d' and d''.
+/// A value and the derivatives of this value with respect to d, d' and d''.
 using OffsetDerivatives = Eigen::AutoDiffScalar<Eigen::Vector3d>;
 
-/// Shape of a line at one station, from r' = (1 - kappa_c d) t + d' n, the derivative of its points
-/// r by the station.
+/// Shape of a line at one station. The derivative of the line's points r by the station is r' = (1
+/// - kappa_c d) t + d' n.
 struct LineShape {
-  OffsetDerivatives cross;   ///< r' x r''
-  OffsetDerivatives square;  ///< |r'|^2, so that kappa = cross/square^1.5 and dl/ds = square^0.5
+  OffsetDerivatives cross;  ///< Cross product r' x r''.
+  /// Squared norm |r'|^2; kappa = cross/square^1.5 and dl/ds = square^0.5.
+  OffsetDerivatives square;
 };
 LineShape ShapeAt(const PathPoint& center, const LineOffset& offset);
 
-/// Bounds of d at one station [m].
+/// Bounds of the offset d at one station [m].
 struct OffsetBounds {
   double lower = 0.0;
   double upper = 0.0;
 };
 
-/// The bounds of a line that keeps `beside` [m] away from the edges and does not cross the center
-/// of curvature of the center line.
+/// The bounds of a line that keeps a distance of `beside` [m] from the edges. The bounds also keep
+/// the line from crossing the center of curvature of the center line.
 OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, double beside);
 
-/// Why no line satisfies the bounds where they are empty, for people.
+/// Reason, for people, why no line satisfies the bounds at a station where the bounds are empty.
 std::string TooNarrow(const Track& track, double s, double beside);
 
 }  // namespace trackbed

@@ -14,7 +14,8 @@ namespace trackbed {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-/// kappa sqrt(dl/ds): the integral of its square over the station is that of kappa^2 over the line.
+/// The residual kappa sqrt(dl/ds). The integral of the squared residual over the station equals the
+/// integral of kappa^2 over the line.
 OffsetDerivatives Residual(const PathPoint& center, const LineOffset& at) {
   const LineShape shape = ShapeAt(center, at);
   return shape.cross / pow(shape.square, 1.25);
@@ -49,7 +50,7 @@ class CurvatureProblem {
   [[nodiscard]] const ClosedSplineBasis& basis() const { return basis_; }
   [[nodiscard]] Eigen::Index Variables() const { return static_cast<Eigen::Index>(basis_.count()); }
 
-  /// The integral of kappa^2 along the line of these coefficients.
+  /// The integral of kappa^2 along the line with the given coefficients.
   [[nodiscard]] double Integral(const Eigen::MatrixXd& coefficients) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < centers_.size(); ++i) {
@@ -78,8 +79,8 @@ class CurvatureProblem {
     }
     Sparse jacobian(Samples(), Variables());
     jacobian.setFromTriplets(entries.begin(), entries.end());
-    // Shifting the whole line leaves its curvature unchanged: regularize toward the last line where
-    // no edge is active.
+    // Where no edge is active, shifting the whole line leaves its curvature unchanged, so
+    // regularize toward the last line.
     const Sparse squares = jacobian.transpose() * jacobian;
     const double hold = 1e-10 * squares.diagonal().mean();
     Sparse identity(Variables(), Variables());
@@ -99,7 +100,7 @@ class CurvatureProblem {
   }
 
   ClosedSplineBasis basis_;
-  double step_;  // between samples [m]
+  double step_;  // distance between adjacent samples [m]
   std::vector<PathPoint> centers_;
   std::vector<ClosedSplineBasis::Local> locals_;
   SparseQuadraticProgram program_;
@@ -143,7 +144,7 @@ MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
       found.refused = "the quadratic program for the line was not solved";
       return found;
     }
-    // The initial line may violate the bounds; from the second iteration on the integral must not
+    // The initial line may violate the bounds. From the second iteration on, the integral must not
     // rise.
     Eigen::VectorXd next = solution.x;
     double next_integral = problem.Integral(next);

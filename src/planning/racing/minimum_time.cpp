@@ -17,9 +17,10 @@
 
 // Line of least lap time (problem of Casanova 2000 and Christ et al. 2021) by a trust-region
 // method. The search starts at the line of least curvature. Each step solves a quadratic program
-// (LapProgram) for changes of the line and of the speeds. The new line gets its own limit profile;
-// the step, or a half to a tenth of it, is kept only if the lap gets faster, or if an excess of
-// curvature falls. Otherwise the trust region shrinks. A grid twice as fine judges the result.
+// (LapProgram) for changes of the line and of the speeds. The new line gets its own limit profile.
+// The search tries the whole step, then a half to a tenth of the step. The search keeps a step only
+// if the lap gets faster, or if an excess of curvature falls. If no step is kept, the trust region
+// shrinks. A model with twice as many stations judges the resulting line.
 
 namespace trackbed {
 namespace {
@@ -34,7 +35,7 @@ std::size_t ProgramStations(const Track& track) {
                                   std::max(2.0, std::ceil(track.length() / (knots * kMaxSpacing))));
 }
 
-/// State of the search: the best lap so far, and why the search ended.
+/// State of the search: the best lap so far, and the reason why the search ended.
 class LapSearch {
  public:
   LapSearch(const Track& track, double beside, const LapLimits& limits, const TrackLine& start)
@@ -54,7 +55,7 @@ class LapSearch {
   }
 
   [[nodiscard]] const TrackLine& line() const { return line_; }
-  /// Iterations, gain and end. The caller fills in line and times.
+  /// Iterations, gain and end of the search. The caller fills in line and times of the result.
   [[nodiscard]] const MinimumTimeLine& found() const { return found_; }
 
  private:
@@ -66,14 +67,14 @@ class LapSearch {
     return bounds;
   }
 
-  /// Excess of the line's curvature over the largest allowed [1/m].
+  /// Excess of the line's curvature over the largest allowed curvature [1/m].
   [[nodiscard]] double Beyond(const Lap& lap) const {
     const double most = model_.limits().curvature_max;
     const double beyond = most > 0.0 ? lap.sharpest - most * (1.0 + kSameCurvature) : 0.0;
     return std::max(0.0, beyond);
   }
 
-  /// Solves one program and tries its step. Returns whether the search is over.
+  /// Solves one quadratic program and tries the resulting step. Returns whether the search is over.
   bool Step() {
     constexpr double kMinScale = 1e-3;
     constexpr double kConvergenceTolerance = 1e-4;  // fraction of the lap time
@@ -106,7 +107,8 @@ class LapSearch {
     return scale_ < kMinScale;
   }
 
-  /// Takes the step, or the largest fraction of it that improves the lap; false if none does.
+  /// Takes the step, or the largest fraction of the step that improves the lap. Returns false if no
+  /// fraction improves the lap.
   bool Take(const Eigen::VectorXd& step, double promised) {
     const double beyond = Beyond(lap_);
     for (const double part : {1.0, 0.5, 0.25, 0.1}) {
@@ -126,7 +128,8 @@ class LapSearch {
         return true;
       }
     }
-    // Shrink to below this step's size, even if the step was inside the trust region.
+    // Shrink the trust region to below this step's size, even if the step was inside the trust
+    // region.
     const double squared =
         step.tail(step.size() - program_.coefficients()).lpNorm<Eigen::Infinity>();
     scale_ = 0.1 * std::min(scale_, squared / kTrustSquared);
@@ -135,7 +138,7 @@ class LapSearch {
   }
 
   static constexpr double kTrustOffset = 1.0;   // [m]
-  static constexpr double kTrustSquared = 0.3;  // relative, of a squared speed
+  static constexpr double kTrustSquared = 0.3;  // Relative change of a squared speed.
   static constexpr double kMaxScale = 2.0;
 
   LapModel model_;
@@ -143,8 +146,8 @@ class LapSearch {
   LapProgram program_;
   TrackLine line_;
   Lap lap_;
-  double scale_ = 1.0;  // of the trust region
-  double share_ = 1.0;  // see LapProgram::About
+  double scale_ = 1.0;  // Scale of the trust region.
+  double share_ = 1.0;  // Fraction `share` of LapProgram::About.
   MinimumTimeLine found_;
 };
 

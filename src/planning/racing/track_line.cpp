@@ -14,22 +14,22 @@
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/frenet/polynomial.h"
 
-// Turns a line on a track into a plan of laps. The line is the offset d(s) from the center line.
-// From the car's offset, a quintic of difference joins it over the unrolled station. Points along
-// the line, with exact curvatures, become segments of quadratic curvature; after the last lap the
-// line continues for the braking distance.
+// Turns a line on a track into a plan of laps. The line is the offset d(s) from the center line. A
+// quintic polynomial of the offset difference joins the car's offset to the line over the unrolled
+// station. Points along the line, with exact curvatures, become segments of quadratic curvature.
+// After the last lap, the line continues for the braking distance.
 
 namespace trackbed {
 namespace {
 
-/// Transition from the car's offset to the line's.
+/// Transition from the car's offset to the offset of the line.
 struct Join {
-  double from = 0.0;    // station [m]
-  double length = 0.0;  // [m]
+  double from = 0.0;    // Station where the transition begins [m].
+  double length = 0.0;  // Length of the transition [m].
   Polynomial difference;
 };
 
-/// A line over the unrolled station, including the transition onto it.
+/// A line over the unrolled station, including the transition from the car onto the line.
 class Unrolled {
  public:
   Unrolled(const Track& track, const TrackLine& line, const Join& join)
@@ -46,7 +46,7 @@ class Unrolled {
     return offset;
   }
 
-  /// Position and shape at s; none where the Frenet frame does not exist.
+  /// Position and shape of the line at s. Returns none where the Frenet frame does not exist.
   [[nodiscard]] std::optional<MotionState> At(double s) const {
     const LineOffset offset = OffsetAt(s);
     return FromFrenet(
@@ -74,14 +74,14 @@ double Spacing(const Track& track) {
   return std::min(1.0, 0.25 * track.length() / static_cast<double>(track.points().size()));
 }
 
-/// A path through points of the line, and its stations at the given track stations.
+/// A path through points of the line, with the stations of the path at the given track stations.
 struct LinePath {
   std::vector<CurvePoint> points;
   std::vector<double> passed;  // stations of the path [m]
 };
 
-/// The line through at least two ascending stations of the track; none where the Frenet frame does
-/// not exist.
+/// The line through at least two ascending stations of the track. Returns none where the Frenet
+/// frame does not exist.
 std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
                                   const std::vector<double>& stations) {
   LinePath path;
@@ -103,8 +103,8 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
     const double parts = std::ceil(span / spacing);
     for (double k = 0.0; k < parts; k += 1.0) {
       const double s = stations[i] + span * k / parts;
-      // Inside a hairpin points get close, where the finest ripples of the line would limit the
-      // speed: leave some out.
+      // Leave some points out inside a hairpin. In hairpins, points get close, and the finest
+      // ripples of the line would limit the speed.
       const bool close = k > 0.0 && length - path.points.back().s < kMinSpacing * spacing;
       if (!close && !add(s)) {
         return std::nullopt;
@@ -119,7 +119,7 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
 /// The car's state on the track, with a station at most half a lap from the start line.
 struct Start {
   std::optional<FrenetState> at;
-  std::string refused;  // reason why the car cannot start there
+  std::string refused;  // reason why the car cannot start at its pose
 };
 
 Start FindStart(const Track& track, const PlanRequest& request) {

@@ -26,7 +26,7 @@
 namespace trackbed {
 namespace {
 
-/// The table of planners, one line each.
+/// The table of planners, with one line per planner.
 Registry<PlannerEntry>& RegisteredPlanners() {
   static Registry<PlannerEntry> table("planner", {
                                                      FilletPlanner(),

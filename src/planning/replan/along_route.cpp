@@ -11,27 +11,28 @@
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
-// Motions along a route among obstacles, by polynomials in the Frenet frame or by a lattice.
-// Maneuvers are tried in order: stop at the goal, proceed at the wanted speed, follow a leader,
-// proceed more slowly, stop behind an obstacle. A motion counts only if the car can brake after it:
-// clear of obstacles, within the steering limits and the track's edges, and before the goal. Moving
-// obstacles are extrapolated at constant velocity.
+// Motions along a route among obstacles, by polynomials in the Frenet frame or by a lattice. The
+// planner first tries to stop at the goal, to proceed at the wanted speed, and to follow a leader.
+// If these maneuvers fail, the planner tries to proceed more slowly and then to stop behind an
+// obstacle. The planner accepts a motion only if the car can brake after the motion. While braking,
+// the car must stay clear of obstacles, within the steering limits and the track's edges, and
+// before the goal. Moving obstacles are extrapolated at constant velocity.
 
 namespace trackbed {
 namespace {
 
-/// Fraction of speed times duration within which a smooth stop from that speed is possible.
+/// A smooth stop is possible within the fraction kStopShare of speed times duration.
 constexpr double kStopShare = 0.55;
 
-/// Tolerance of a stop at the goal [m]; the same as the lattice's.
+/// Tolerance of a stop at the goal [m], the same as the tolerance of the lattice.
 constexpr double kGoalTolerance = 0.05;
 
 double Front(const VehicleParams& vehicle) {
   return vehicle.length - vehicle.rear_overhang;
 }
 
-/// The method's options, with the safe distance and horizon of the settings and the given speed
-/// factors.
+/// The method's options, with the safe distance and horizon of the settings. The speed factors are
+/// `factors`.
 FrenetOptions AdaptOptions(FrenetOptions options, const AlongSettings& settings,
                            const std::vector<double>& factors) {
   options.limits.safe_distance = settings.safe_distance;
@@ -55,7 +56,7 @@ FrenetPlan Find(const Path& path, const FrenetRequest& request, const LatticeOpt
   return PlanLattice(path, request, options);
 }
 
-/// Distance before the end of the route within which the method can stop there.
+/// Distance before the end of the route within which the method can stop at the end.
 double StopReach(const FrenetOptions& options, double speed) {
   const auto longest = std::max_element(options.end_times.begin(), options.end_times.end());
   return longest == options.end_times.end() ? 0.0 : kStopShare * speed * *longest;
@@ -90,7 +91,7 @@ class AlongRoute {
       plan.to_goal = true;
       return plan;
     }
-    // Look beyond the motions' reach, to see what they approach.
+    // Look beyond the reach of the motions, to see the obstacles that the motions approach.
     const auto leader = LeaderIn(
         frame_.path, request_, settings_,
         request_.start.s + Front(request_.vehicle) + std::max(reach, speed * settings_.look_ahead));
@@ -134,9 +135,10 @@ class AlongRoute {
   }
 
  private:
-  /// Finds a motion to the goal state. Requires that the car can brake after it, clear of obstacles
-  /// and within the steering limits. Rejects motions that pass the route's goal, braking included,
-  /// or stop beside it, because the car could not return.
+  /// Finds a motion to the goal state. Requires that the car can brake after the motion, clear of
+  /// obstacles and within the steering limits. Rejects motions that pass the route's goal, braking
+  /// included. Also rejects motions that stop beside the route, because the car could not return to
+  /// the route.
   bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
     const FrenetRequest request{.vehicle = request_.vehicle,
                                 .speed = request_.speed,
@@ -160,15 +162,15 @@ class AlongRoute {
     return BrakesAfter(end, end.d) || (frame_.edges && end.d != 0.0 && BrakesAfter(end, 0.0));
   }
 
-  /// Whether the car can brake after the motion, while it moves over to an offset.
+  /// Whether the car can brake after the motion while it moves over to an offset.
   bool BrakesAfter(const FrenetState& end, double offset) {
     points_ = WithBraking(end, offset);
     return EndsBeforeGoal(points_.back().frenet) && BrakingIsClear() && BrakingIsDrivable() &&
            BrakingIsOnTrack();
   }
 
-  /// Whether two opposite turns at full lock lead from a stop back to the route, at its goal or
-  /// before.
+  /// Whether two opposite turns at full lock lead from a stop back to the route, at the latest at
+  /// its goal.
   [[nodiscard]] bool EndsBeforeGoal(const FrenetState& stop) const {
     const VehicleParams& car = request_.vehicle;
     const double radius = car.wheelbase / std::tan(car.steering_limit);
@@ -181,7 +183,7 @@ class AlongRoute {
                                                          double offset) const {
     FrenetMotion motion = found_.motion;
     if (end.s_rate > 0.0) {
-      // Standstill after the time end.s_rate/a and the distance end.s_rate^2/(2 a).
+      // The car stands still after the time end.s_rate/a and the distance end.s_rate^2/(2 a).
       const double braking = request_.speed.deceleration;
       const double distance = 0.5 * end.s_rate * end.s_rate / braking;
       motion.pieces.push_back(
@@ -191,14 +193,14 @@ class AlongRoute {
     }
     const FrenetLimits& limits = MotionLimits(options_);
     auto points = SampleMotion(frame_.path, motion, limits.time_step, limits.spacing);
-    // If the frame ends before the stop, return the motion without braking.
+    // If the Frenet frame ends before the stop, return the motion without braking.
     return points ? std::move(*points) : found_.points;
   }
 
   [[nodiscard]] bool BrakingIsClear() const {
     constexpr double kClearanceTolerance = 1e-2;  // [m], tolerance for clearance between samples
     const double began = found_.motion.duration();
-    // A start closer than the safe distance may keep its distance.
+    // A car that starts closer than the safe distance may keep its distance.
     const OrientedBox footprint = FootprintAt(request_.vehicle, points_.front().motion.pose);
     std::vector<double> margins;
     for (const MovingBox& obstacle : request_.obstacles) {
@@ -219,7 +221,7 @@ class AlongRoute {
     });
   }
 
-  /// Checks the steering while braking: a motion may end too fast for a bend after it.
+  /// Checks the steering while braking, because a motion may end too fast for a bend after its end.
   [[nodiscard]] bool BrakingIsDrivable() const {
     constexpr double kRounding = 1.0 + 1e-9;
     const VehicleParams& car = request_.vehicle;
@@ -244,8 +246,8 @@ class AlongRoute {
     return true;
   }
 
-  /// Checks that the footprint stays within the track's edges. A start beyond them may stay as far
-  /// beyond.
+  /// Checks that the footprint stays within the track's edges while braking. A footprint that
+  /// starts beyond the edges may stay at that distance beyond the edges.
   [[nodiscard]] bool BrakingIsOnTrack() const {
     if (!frame_.edges) {
       return true;
@@ -261,7 +263,7 @@ class AlongRoute {
     });
   }
 
-  /// Whether the motion ends beside the obstacle, laterally clear of it, or beyond it.
+  /// Whether the motion ends beside the obstacle, laterally clear of it, or beyond the obstacle.
   [[nodiscard]] bool PassesObstacle(const Leader& leader) const {
     const FrenetState end = found_.motion.At(found_.motion.duration());
     const double room = 0.5 * request_.vehicle.width + settings_.safe_distance;
@@ -278,8 +280,9 @@ class AlongRoute {
   const AlongRequest& request_;
   const AlongSettings& settings_;
   const AlongOptions& options_;
-  FrenetPlan found_;                     // result of the last attempt
-  std::vector<TrajectoryPoint> points_;  // of the motion and of the braking after it
+  FrenetPlan found_;  // Result of the last attempt.
+  // Points of the motion and of the braking after the motion.
+  std::vector<TrajectoryPoint> points_;
 };
 
 }  // namespace
@@ -321,8 +324,8 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
                 EdgesBeside(path, *route.laps.track, vehicle, edge_distance))};
   }
   // A step of curvature k from straight to a bend needs the longest window. While the curvature
-  // rises by k over the window w, |d(steering)/dt| <= v L k/w; steering = atan(L curvature) rises
-  // fastest at the beginning. Smoothing tightens the bend itself by (k w)^2/24.
+  // rises by k over the window w, |d(steering)/dt| <= v L k/w. The steering angle atan(L curvature)
+  // rises fastest at the beginning of the window. Smoothing tightens the bend itself by (k w)^2/24.
   constexpr double kSampleSpacing = 0.5;  // [m]
   double window = 0.1;                    // [m]
   for (const PathPoint& point : path.Sample(kSampleSpacing)) {

@@ -16,28 +16,29 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/world/world.h"
 
-// Searches for a detour around static obstacles by any planner that keeps clear of them. The detour
-// leaves the driven path on a straight, at once or where the car could have stopped, and returns to
-// the route on one of up to three straights behind the last blocked stretch. Planners without
-// headings get straight first and last legs of 10, 6 or 3 m. The comparator chooses the best path,
-// and only if it is better than the current one.
+// Searches for a detour around static obstacles by any planner that keeps clear of obstacles. The
+// detour leaves the driven path on a straight, at once or where the car could have stopped. The
+// detour returns to the route on one of up to three straights behind the last blocked stretch. For
+// planners without headings, the detour has straight first and last legs of 10, 6 or 3 m. The
+// comparator chooses the best path. The car takes the best path only if it is better than the
+// current path.
 
 namespace trackbed {
 namespace {
 
-/// Spacing of checks along paths [m].
+/// Spacing of collision checks along paths [m].
 constexpr double kPathCheckSpacing = 0.1;
-/// Curvature below this is straight [1/m].
+/// Largest curvature that counts as straight [1/m].
 constexpr double kStraight = 1e-4;
-/// Lengths of the first and last straight of a path with corners [m]: long ones leave room for
-/// gentle corners, short ones fit before nearby obstacles.
+/// Lengths of the first and last straight of a path with corners [m]. Long straights leave room for
+/// gentle corners; short straights fit before nearby obstacles.
 constexpr std::array<double, 3> kStraightLengths{10.0, 6.0, 3.0};
-/// Spacing of the places to return to the route [m], and their number.
+/// Spacing of the places to return to the route [m], and the number of these places.
 constexpr double kReturnSpacing = 5.0;
 constexpr int kReturnPoints = 3;
 /// Straight driving required after the return to the route, as time at the mission's speed [s].
 constexpr double kSettlingTime = 2.0;
-/// Minimum part of the driven path that a route keeps [m] and [s].
+/// Minimum part of the driven path that a route keeps, in [m] and [s].
 constexpr double kMinLead = 0.5;
 constexpr double kLeadTime = 0.5;
 
@@ -46,7 +47,7 @@ bool IsStraight(const Path& path, double s) {
   return std::abs(at.curvature) < kStraight && std::abs(at.sharpness) < kStraight;
 }
 
-/// The first station from `from` on where the path is straight for `length` or to its end.
+/// The first station at or after `from` where the path is straight for `length` or to its end.
 std::optional<double> StraightFrom(const Path& path, double from, double length) {
   double straight = 0.0;
   for (double s = from; s <= path.length(); s += kPathCheckSpacing) {
@@ -59,7 +60,7 @@ std::optional<double> StraightFrom(const Path& path, double from, double length)
   return straight > 0.0 ? std::optional(std::max(from, left)) : std::nullopt;
 }
 
-/// Speed cap at a joint between two pieces of path, as in CapsOfSteps.
+/// Speed cap at a joint between two pieces of path, computed as in CapsOfSteps.
 std::vector<SpeedCap> CapOfJoint(const VehicleParams& vehicle, const Path& path, double s,
                                  double speed) {
   const double before = path.At(s - kPathCheckSpacing).curvature;
@@ -107,7 +108,7 @@ class DetourSearch {
     }
     const Path& path = request_.driven.reference.path;
     const double lead = request_.station + kMinLead + kLeadTime * request_.station_speed;
-    // Leave at once, or once the car could have stopped.
+    // Leave the driven path at once, or where the car could have stopped.
     const double braking =
         0.5 * request_.station_speed * request_.station_speed / request_.speed.deceleration;
     std::vector<double> leaves;
@@ -145,13 +146,14 @@ class DetourSearch {
   }
 
  private:
-  /// A plan from the car on, and the stations between which the planner's path replaces the route.
+  /// A plan that begins at the car, and the stations between which the planner's path replaces the
+  /// route.
   struct JoinedPlan {
     FeasiblePlan plan;
     Stations replaced;  ///< [m]
   };
 
-  /// Asks the planner for a path between two stations; keeps the best path so far.
+  /// Asks the planner for a path between two stations. Keeps the best path found so far.
   void Try(double leave, double back, std::uint64_t attempt, Detour& detour) const {
     for (const double straight_on : kStraightLengths) {
       if (IsBudgetUsed(detour)) {
@@ -182,8 +184,9 @@ class DetourSearch {
                              path.Cut({request_.route_station, path.length()})));
   }
 
-  /// Scores a path from the car on. The required distance of its center line is that of the
-  /// footprint's sides or rear, whichever is nearer, plus 0.9 of the safe distance.
+  /// Scores a path that begins at the car. The path's center line must keep a distance from
+  /// obstacles. The required distance is the distance to the footprint's nearest side or rear, plus
+  /// 0.9 of the safe distance.
   [[nodiscard]] PathScore Score(const std::vector<Vec2>& way) const {
     const VehicleParams& car = request_.vehicle;
     const double inflation =
@@ -196,7 +199,8 @@ class DetourSearch {
                      choice_.comparator);
   }
 
-  /// Stations at which to return to the route: straight, with some of the route left.
+  /// Stations of straights at which the detour may return to the route. Part of the route must
+  /// remain after each station.
   [[nodiscard]] std::vector<double> Backs() const {
     const Path& path = request_.route.reference.path;
     const std::vector<Stations> blocked = BlockedStretches(
@@ -212,7 +216,8 @@ class DetourSearch {
       backs.push_back(*back);
       from = *back + kReturnSpacing;
     }
-    // Return at the end only if there is no other place: that skips the waypoints in between.
+    // Return at the end of the route only if there is no other place, because this return skips the
+    // waypoints in between.
     if (backs.empty() && behind < path.length() - 2.0 * kPathCheckSpacing) {
       backs.push_back(path.length());
     }
@@ -265,8 +270,8 @@ class DetourSearch {
     return Joined(leave, way, back, why);
   }
 
-  /// Steering of the driven motion's own samples within `driven`, and of the path's segments
-  /// beyond.
+  /// Steering schedule of a joined path. Within `driven`, the steering comes from the samples of
+  /// the driven motion. Beyond `driven`, the steering comes from the segments of the path.
   [[nodiscard]] SteeringSchedule JoinedSchedule(const Path& path, const std::vector<SpeedCap>& caps,
                                                 const Stations& driven) const {
     const double lead = driven.to - driven.from;
@@ -283,7 +288,7 @@ class DetourSearch {
     return SteeringSchedule::Through(std::move(knots));
   }
 
-  /// Joins the driven path up to `leave`, the detour, and the route from `back` on.
+  /// Joins three parts: the driven path up to `leave`, the detour, and the route from `back` on.
   std::optional<JoinedPlan> Joined(double leave, const Plan& way, double back,
                                    std::string& why) const {
     const Path& driven = request_.driven.reference.path;

@@ -14,8 +14,8 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
                                                  double offset) {
   constexpr double kStep = 0.1;  // [s]
   constexpr double kClearanceTolerance =
-      1e-2;  // [m], tolerance for planners that check clearance at samples
-  // Only the profile ahead: times before a stop in it may be infinite.
+      1e-2;  // [m], tolerance for planners that check clearance at samples.
+  // Use only the profile ahead, because times before a stop in the profile may be infinite.
   const SpeedProfile ahead =
       Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
   const auto station_at = [&](double time) { return station + ahead.StationAt(time); };
@@ -29,7 +29,7 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
     const double time = i * kStep;
     for (std::size_t j = 0; j < obstacles.size(); ++j) {
       if (too_near(time, obstacles[j])) {
-        // 0.1 s is 1.5 m at 15 m/s, so bisect for the time of first contact.
+        // A time step of 0.1 s is 1.5 m at 15 m/s, so bisect for the time of first contact.
         double clear = i == 0 ? time : time - kStep;
         double near = time;
         for (int halving = 0; halving < 10 && i > 0; ++halving) {

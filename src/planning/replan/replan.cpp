@@ -16,24 +16,27 @@
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
-// Replanning while driving. If the plan is clear and the car on it, the plan is kept. Otherwise the
-// options are tried in order: resume the route if the car is back on it; a motion along the route
-// (PlanAlongRoute) that proceeds or follows; a detour around static obstacles (PlanDetour); a
-// motion that stops behind an obstacle; and braking along the driven plan, comfortably if that
-// suffices and else up to the hardest braking.
+// Replanning while driving. If the plan is clear and the car is on the plan, the replanner keeps
+// the plan. If the plan is not clear, the replanner tries options in order. The replanner's first
+// option is to resume the route if the car is back on the route. The second option of the replanner
+// is a motion along the route (PlanAlongRoute) that proceeds or follows a leader. The third option
+// of the replanner is a detour around static obstacles (PlanDetour). The fourth option of the
+// replanner is a motion that stops behind an obstacle. The last option of the replanner is to brake
+// along the driven plan, comfortably if possible, otherwise harder.
 
 namespace trackbed {
 namespace {
 
-/// A plan that ends at the goal is kept over its last meters, unless there is a conflict.
+/// A plan that ends at the goal is kept over its last kLastMeters [m], unless a conflict lies
+/// ahead.
 constexpr double kLastMeters = 1.0;
-/// Within these tolerances of the route, a car is back on it.
+/// Tolerances of the route within which a car is back on the route.
 constexpr double kBackOffset = 0.02;     // [m]
 constexpr double kBackHeading = 0.005;   // [rad]
 constexpr double kBackSteering = 0.002;  // [rad]
-/// Paths shorter than this become empty [m].
+/// Paths shorter than kMinPathLength [m] become empty.
 constexpr double kMinPathLength = 1e-3;
-/// Distance to keep from an obstacle when the car brakes for it [m].
+/// Distance to keep from an obstacle when the car brakes for the obstacle [m].
 constexpr double kBrakeRoom = 0.5;
 
 bool Stands(const MovingBox& box) {
@@ -70,7 +73,7 @@ class Replanning {
   Replanned Run() {
     auto conflict = NextConflict(driving_.plan.reference, driving_.station);
     if (request_.strayed && !conflict) {
-      // Check the plan with the car's lateral offset.
+      // Check the plan, shifted by the car's lateral offset from the plan.
       const Pose2 beside = driving_.plan.reference.path.At(driving_.station).pose;
       conflict = NextConflict(driving_.plan.reference, driving_.station,
                               ToLocal(beside, request_.car.pose.position()).y());
@@ -97,7 +100,8 @@ class Replanning {
     if (along.kind == ManeuverType::kProceed || along.kind == ManeuverType::kFollow) {
       return Follow(std::move(motion), along);
     }
-    // Another start has other candidates: the plan may pass an obstacle that none of them passes.
+    // Candidate motions depend on their start. The current plan may pass an obstacle that no new
+    // candidate passes.
     const bool is_free = !conflict && !request_.strayed;
     if (is_free && !stuck) {
       return Keep();
@@ -105,7 +109,7 @@ class Replanning {
     if (options_.detour) {
       Detour detour = FindDetour();
       diagnostics_.detour = FindingsOn(detour);
-      // Detours consider static obstacles only, so check against the moving ones.
+      // Detours consider only static obstacles, so check the detour against moving obstacles.
       if (detour.route && !NextConflict((*detour.route)->reference, 0.0)) {
         diagnostics_.kind = "detour";
         detour.route->diagnostics().replan = diagnostics_;
@@ -127,7 +131,7 @@ class Replanning {
  private:
   [[nodiscard]] static Replanned Keep() { return {ReplanKind::kKeep, FeasiblePlan()}; }
 
-  /// Holds a new plan to the car and its road, as `infeasible` says.
+  /// Checks a new plan against the limits of the car and its road, by the policy `infeasible`.
   [[nodiscard]] FeasiblePlan Held(Plan plan, InfeasiblePolicy infeasible,
                                   double deceleration = 0.0) const {
     PlanRequest constrained = RequestOn(request_.road, request_.vehicle, request_.speed);
@@ -136,7 +140,7 @@ class Replanning {
     return MakeFeasibleFromHere(std::move(plan), constrained);
   }
 
-  /// Of a plan that cannot be slowed down without another look at what moves.
+  /// Policy for a plan that cannot be slowed down without a new check against moving obstacles.
   [[nodiscard]] InfeasiblePolicy WithoutSlowingDown() const {
     return request_.road.infeasible == InfeasiblePolicy::kAllow ? InfeasiblePolicy::kAllow
                                                                 : InfeasiblePolicy::kRefuse;
@@ -149,7 +153,7 @@ class Replanning {
                            options_.settings.safe_distance, options_.settings.look_ahead, offset);
   }
 
-  /// Conflict of a car that continues at its actual speed, not at the planned one.
+  /// Conflict of a car that continues at its actual speed, not at the planned speed.
   [[nodiscard]] std::optional<PredictedConflict> AheadOfTheCar() const {
     const double speed = request_.car.speed;
     const Plan plan = StopAfter(
@@ -168,7 +172,8 @@ class Replanning {
 
   [[nodiscard]] bool IsNearGoal() const { return LeftToDrive() < kLastMeters; }
 
-  /// The planned motion beside the car; the car's own if it has strayed.
+  /// The planned motion beside the car or, if the car has strayed from the plan, the car's own
+  /// motion.
   [[nodiscard]] MotionState Start() const {
     if (request_.strayed) {
       return request_.car;
@@ -186,7 +191,7 @@ class Replanning {
     return start;
   }
 
-  /// The rest of the route, if the motion has returned to it and it is clear.
+  /// The rest of the route, if the motion has returned to the route and the route is clear.
   [[nodiscard]] std::optional<Replanned> RejoinedRoute() const {
     const MotionState start = Start();
     const Path& path = driving_.route.reference.path;
@@ -209,8 +214,8 @@ class Replanning {
     return Replanned{ReplanKind::kRoute, std::move(rest)};
   }
 
-  /// The mission's speed, or that of a slow stretch within 2 s plus the distance to slow down to
-  /// it.
+  /// The mission's speed, or the speed of a slow stretch ahead. A slow stretch counts if it begins
+  /// within the distance driven in 2 s plus the distance to slow down.
   [[nodiscard]] double WantedSpeed(double speed) const {
     constexpr double kSpeedLeadTime = 2.0;  // [s]
     double wanted = request_.speed.speed;
@@ -231,7 +236,8 @@ class Replanning {
     AlongOptions options;
   };
 
-  /// Lowers the limits of motions to what the road holds under the route as far as they look.
+  /// Lowers the limits of motions to those that the road holds under the route, as far as the
+  /// motions look ahead.
   [[nodiscard]] Within OnThisRoad(double speed) const {
     Within within{request_.speed, *options_.along};
     const double fastest = std::max(speed, request_.speed.speed);
@@ -326,8 +332,8 @@ class Replanning {
     return found;
   }
 
-  /// Stops along the driven plan before the place of the conflict: comfortably if possible,
-  /// otherwise as hard as necessary, at most as hard as the car can.
+  /// Stops along the driven plan before the place of the conflict. The car brakes comfortably if
+  /// possible, otherwise as hard as necessary, at most as hard as it can.
   Replanned Brake(const PredictedConflict& conflict) {
     const MovingBox& obstacle = request_.obstacles[conflict.obstacle];
     const double speed = std::max(Start().speed, request_.car.speed);
@@ -335,10 +341,11 @@ class Replanning {
     const double braking = Stands(obstacle) ? BrakingWithin(room, speed) : BrakingFor(speed);
     const double shortest = speed * speed / (2.0 * braking);
     const bool comfortable = braking <= ComfortableBraking();
-    // Approach a static obstacle before braking; a moving one may come closer, so brake at once.
+    // Approach a static obstacle before braking. Brake at once for a moving obstacle, because it
+    // may come closer.
     const double way = Stands(obstacle) && comfortable ? std::max(shortest, room) : shortest;
     if (way < kMinPathLength && LeftToDrive() < kMinPathLength) {
-      return Keep();  // the plan ends here anyway
+      return Keep();  // the plan ends at the stopping place anyway
     }
     Plan stop = StopAfter(way, speed, comfortable);
     if (!Stands(obstacle) && !DelaysConflict(stop, conflict)) {
@@ -351,20 +358,20 @@ class Replanning {
     diagnostics_.deceleration = braking;
     stop.diagnostics.replan = diagnostics_;
     FeasiblePlan held = Held(stop, request_.road.infeasible, braking);
-    if (!held.ok()) {  // braking is what is left, even if the road holds less
+    if (!held.ok()) {  // braking is the only remaining option, even if the road holds less
       held = Held(stop, InfeasiblePolicy::kAllow, braking);
     }
     return {ReplanKind::kStop, std::move(held)};
   }
 
-  /// Whether `plan` delays the next conflict beyond the one that the car brakes for. Braking
+  /// Whether `plan` delays the next conflict beyond the conflict that the car brakes for. Braking
   /// hastens a collision from behind.
   [[nodiscard]] bool DelaysConflict(const Plan& plan, const PredictedConflict& conflict) const {
     const auto braked = NextConflict(plan.reference, 0.0);
     return !braked || braked->time >= conflict.time;
   }
 
-  /// Upper limit of hard braking, and on ice of comfortable braking [m/s^2].
+  /// Upper limit of hard braking, and on ice also of comfortable braking [m/s^2].
   [[nodiscard]] double HardestBraking() const {
     return request_.max_deceleration > 0.0 ? request_.max_deceleration
                                            : request_.speed.deceleration;
@@ -374,15 +381,15 @@ class Replanning {
     return std::min(request_.speed.deceleration, HardestBraking());
   }
 
-  /// The deceleration that stops from `speed` within `room`, at least the comfortable one and at
-  /// most the hardest.
+  /// The deceleration that stops the car from `speed` within `room`. The result is at least the
+  /// comfortable and at most the hardest deceleration.
   [[nodiscard]] double BrakingWithin(double room, double speed) const {
     const double needed = 0.5 * speed * speed / std::max(room, kMinPathLength);
     return std::min(std::max(needed, ComfortableBraking()), HardestBraking());
   }
 
-  /// The mildest braking that keeps clear of all known obstacles, moving ones included; otherwise
-  /// the hardest.
+  /// The mildest braking that keeps clear of all known obstacles, including moving obstacles. If no
+  /// braking keeps clear, returns the hardest braking.
   [[nodiscard]] double BrakingFor(double speed) const {
     const double hardest = HardestBraking();
     constexpr int kSteps = 8;
@@ -398,7 +405,7 @@ class Replanning {
   }
 
   /// A plan that stops from `speed` after `way` along the driven plan. A comfortable stop is at the
-  /// end of the driven plan if that is nearer.
+  /// end of the driven plan if this end is nearer.
   [[nodiscard]] Plan StopAfter(double way, double speed, bool comfortable) const {
     const Path& path = driving_.plan.reference.path;
     const double from = driving_.station;
@@ -412,13 +419,14 @@ class Replanning {
         Path(path.At(from).pose, to - from < kMinPathLength ? std::vector<Segment>{}
                                                             : SegmentsBetween(path, {from, to}));
     const Path& own = plan.reference.path;
-    // Hard braking has no use for caps: it obeys them anyway, or cannot.
+    // Hard braking needs no speed caps: the car obeys the caps anyway, or cannot obey them.
     plan.caps =
         comfortable ? Moved(CapsOf(driving_.plan), {from, to}, -from) : std::vector<SpeedCap>{};
     SpeedLimits limits = request_.speed;
     limits.deceleration = ComfortableBraking();
     plan.reference.speed = StopAtEnd(own.length(), speed, limits, plan.caps);
-    // The samples of a motion have their own steering; between them the path may bend faster.
+    // The samples of a motion have their own steering. Between samples, the path may bend faster
+    // than the steering allows.
     plan.sampled = driving_.plan.sampled;
     plan.schedule =
         plan.sampled && own.length() > 0.0

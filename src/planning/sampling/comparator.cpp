@@ -8,12 +8,13 @@
 namespace trackbed {
 namespace {
 
-/// The rest of a path for a car at `position`, from its nearest point on.
+/// The remaining path of a car at `position`. The remaining path begins at the point of the path
+/// nearest to the car.
 std::vector<Vec2> Rest(const std::vector<Vec2>& way, const Vec2& position) {
   std::size_t next = way.size();
   Vec2 nearest = way.back();
   double distance = (position - nearest).norm();
-  // Of two equally near points take the later one: no path is driven twice.
+  // If two points are equally near, take the later point, because no path is driven twice.
   for (std::size_t i = way.size() - 1; i > 0; --i) {
     const Vec2 along = way[i] - way[i - 1];
     const double square = along.squaredNorm();

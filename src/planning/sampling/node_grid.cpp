@@ -8,7 +8,7 @@
 namespace trackbed {
 namespace {
 
-/// Mean number of nodes per cell: upper limit, and value after division.
+/// Mean number of nodes per cell: the upper limit, and the value after cells are divided.
 constexpr double kMaxNodesPerCell = 16.0;
 constexpr double kNodesPerCell = 4.0;
 
@@ -18,7 +18,7 @@ NodeGrid::NodeGrid(const Vec2& low, const Vec2& high) : low_(low), high_(high), 
   Divide(1.0);
 }
 
-/// Divides the box into square cells, at least `cells` and at most three times as many.
+/// Divides the box into at least `cells` square cells, and at most three times as many.
 void NodeGrid::Divide(double cells) {
   const Vec2 box = high_ - low_;
   side_ = std::max(std::sqrt(box.prod() / cells), box.maxCoeff() / cells);
@@ -61,7 +61,8 @@ std::size_t NodeGrid::Nearest(const Vec2& p) const {
   const std::ptrdiff_t column = Column(p.x());
   const std::ptrdiff_t row = Row(p.y());
   Near nearest{std::numeric_limits<double>::infinity(), 0};
-  // Search rings of cells around the point's cell: nodes beyond ring r are more than r sides away.
+  // Search rings of cells around the point's cell. Nodes beyond ring r are more than r cell sides
+  // away.
   const std::ptrdiff_t rings = std::max(columns_, rows_);
   for (std::ptrdiff_t ring = 0; ring < rings; ++ring) {
     for (std::ptrdiff_t y = std::max(row - ring, std::ptrdiff_t{0});

@@ -7,11 +7,11 @@
 
 namespace trackbed {
 
-/// Square-cell index of points in the plane for neighbor queries. Points are added one by one;
-/// cells are divided as they fill, so that each holds a few.
+/// Square-cell index of points in the plane for neighbor queries. The points are added to the index
+/// one by one. The index divides cells as they fill, so that each cell holds a few points.
 ///
-/// Distances are exact to rounding. Cost: adding is O(1) amortized; a query visits the cells that
-/// its circle touches.
+/// Distances are exact to rounding. Adding a point costs O(1) amortized. A query visits the cells
+/// that its circle touches.
 class NodeGrid {
  public:
   struct Entry {
@@ -19,11 +19,11 @@ class NodeGrid {
     std::size_t node;
   };
   struct Near {
-    double square;  ///< of the distance [m^2]
+    double square;  ///< square of the distance [m^2]
     std::size_t node;
   };
 
-  /// All points lie within the box between two corners, which may be a line or a point.
+  /// All points lie within the box between two corners. The box may be a line or a point.
   NodeGrid(const Vec2& low, const Vec2& high);
 
   void Add(const Vec2& position, std::size_t node);
@@ -44,7 +44,7 @@ class NodeGrid {
 
   Vec2 low_;
   Vec2 high_;
-  double side_ = 1.0;  // of a cell [m]
+  double side_ = 1.0;  // side length of a cell [m]
   std::ptrdiff_t columns_ = 1;
   std::ptrdiff_t rows_ = 1;
   std::vector<std::vector<Entry>> cells_;

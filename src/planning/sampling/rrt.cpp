@@ -73,7 +73,7 @@ class Tree {
     return index_.qbegin(index::nearest(Point(p.x(), p.y()), 1))->second;
   }
 
-  /// Extends the tree toward one sample. Returns the goal's node once it is reached.
+  /// Extends the tree toward one sample. Returns the goal's node once the tree reaches the goal.
   std::optional<std::size_t> Iterate() {
     const Vec2 sample = Sample();
     const std::size_t from = Nearest(sample);
@@ -91,7 +91,7 @@ class Tree {
     return TryGoal(Add(position, from));
   }
 
-  /// Adds the goal's node if it is near the given node and the edge to it is free.
+  /// Adds the goal's node if the goal is near the given node and the edge between them is free.
   std::optional<std::size_t> TryGoal(std::size_t node) {
     const Vec2 position = nodes_[node].position;
     if (position == problem_.goal) {

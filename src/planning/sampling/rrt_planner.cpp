@@ -17,8 +17,9 @@
 
 // RRT for cars (LaValle 1998; smoothing and comparator of the wind-aware RRT). Each try grows one
 // tree per waypoint, smooths the path, removes needless waypoints and rounds the corners. If a tree
-// does not reach its goal, a partial path to its nearest node may be planned instead. Of several
-// tries a complete plan wins over a partial one; between equals the comparator decides.
+// does not reach its goal, the planner may plan a partial path to the node nearest to the goal. A
+// complete plan is better than a partial plan. Between plans of the same kind, the comparator
+// decides.
 namespace trackbed {
 namespace {
 
@@ -41,8 +42,8 @@ std::vector<OptionProblem> CheckSmoothing(const RrtPlannerOptions& options,
                        step)}};
 }
 
-/// Detours must be repeatable, so a wall-clock limit is rejected, and must return to the route, so
-/// a partial plan is rejected.
+/// Checks the options for detours. A detour must be repeatable, so the check rejects a wall-clock
+/// limit. A detour must return to the route, so the check rejects a partial plan.
 std::vector<OptionProblem> CheckDetour(const RrtPlannerOptions& options) {
   std::vector<OptionProblem> problems;
   if (options.time_limit) {
@@ -66,24 +67,26 @@ SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& reque
                           request);
 }
 
-/// A path through all goals, or the part of it that was found.
+/// A path through all goals, or the part of this path that was found.
 struct TreePath {
-  std::vector<Vec2> points;   ///< from the start through the goals reached, in the car's frame
-  std::size_t goals = 0;      ///< number of goals reached
-  std::vector<Vec2> nearest;  ///< path along the tree to the node nearest to the next goal
-  double left = 0.0;          ///< distance from that node to the next goal [m]
+  /// Points from the start through the goals reached, in the car's frame.
+  std::vector<Vec2> points;
+  std::size_t goals = 0;      ///< Number of goals reached.
+  std::vector<Vec2> nearest;  ///< Path along the tree to the node nearest to the next goal.
+  double left = 0.0;          ///< Distance between the next goal and the tree's nearest node [m].
   RrtStatus status = RrtStatus::kReached;
   std::vector<RrtLeg> legs;
-  std::vector<TreeNode> tree;  ///< in the world
+  std::vector<TreeNode> tree;  ///< nodes of the trees, in the world frame
 };
 
-/// Shared by the trees of one request.
+/// Data that the trees of one request share.
 struct Forest {
   const RrtPlannerOptions& options;
   const PlanRequest& request;
   const SamplingTask& task;
   const CornerTangents& tangents;
-  std::function<bool()> time_is_over;  ///< empty: never
+  /// Whether the time is over; if empty, the time is never over.
+  std::function<bool()> time_is_over;
 };
 
 /// Adds a tree's nodes, in the world frame, with the lengths of their paths.
@@ -91,7 +94,7 @@ void AddTree(const RrtResult& result, const Pose2& frame, std::vector<TreeNode>&
   const std::size_t first = tree.size();
   for (const RrtNode& node : result.nodes) {
     const Vec2& parent = result.nodes[node.parent].position;
-    // A parent precedes its children; the root is its own parent.
+    // Each parent node precedes its children; the root is its own parent.
     const double cost = tree.size() == first
                             ? 0.0
                             : tree[first + node.parent].cost + (node.position - parent).norm();
@@ -99,7 +102,8 @@ void AddTree(const RrtResult& result, const Pose2& frame, std::vector<TreeNode>&
   }
 }
 
-/// Smooths a tree's path, removes needless corners and appends it to `points`. Fills in `leg`.
+/// Smooths a tree's path, removes needless corners and appends the path to `points`. Fills in
+/// `leg`.
 void AddLeg(const Forest& forest, const std::vector<Vec2>& path, bool is_last,
             std::vector<Vec2>& points, RrtLeg& leg) {
   const RrtPlannerOptions& options = forest.options;
@@ -168,7 +172,8 @@ struct Try {
   [[nodiscard]] bool is_partial() const { return way.status != RrtStatus::kReached; }
 };
 
-/// Ranks plans to the goal before partial plans, and those before failures; then by score.
+/// Whether `other` is better than `current`. Plans to the goal are better than partial plans, and
+/// partial plans are better than failures. Within a rank, the score decides.
 bool IsBetterTry(const Try& other, const Try& current) {
   const auto rank = [](const Try& each) { return !each.plan.ok() ? 0 : each.is_partial() ? 1 : 2; };
   if (rank(other) != rank(current)) {
@@ -181,14 +186,15 @@ bool IsBetterTry(const Try& other, const Try& current) {
          std::pair(current.way.goals, -current.way.left);
 }
 
-/// Describes the budget: "10 trees of 10000 samples", "1 tree in 0.5 s".
+/// Describes the budget, for example "10 trees of 10000 samples" or "1 tree in 0.5 s".
 std::string DescribeBudget(const RrtPlannerOptions& options, std::size_t trees, bool time_is_over) {
   return fmt::format("{} {} ", trees, trees == 1 ? "tree" : "trees") +
          (time_is_over ? fmt::format("in {:.4g} s", *options.time_limit)
                        : fmt::format("of {} samples", options.iterations));
 }
 
-/// The start of a tree is free: it was checked, or it is a goal that was reached.
+/// The refused plan for a path that was not found. The start of a tree is free, because it was
+/// checked, or because it is a goal that was reached.
 Plan RefusedAs(const TreePath& way, const Forest& forest) {
   if (way.status == RrtStatus::kGoalBlocked) {
     return GoalBlocked(forest.task, way.goals + 1);
@@ -207,9 +213,9 @@ Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
   return tested.ok() ? plan : tested;
 }
 
-/// Plans along a path that does not reach its next goal, to the tree's node nearest to that goal.
-/// If the car cannot drive or stand there, because its front extends beyond the node, the last
-/// feasible node before it is used.
+/// Plans along a path that does not reach its next goal, to the tree's node nearest to this goal.
+/// The car may be unable to reach the nearest node, because the car's front extends beyond the
+/// node. If the nearest node is unreachable, the plan ends at the last feasible node before it.
 void UsePartialPath(const Forest& forest, Try& next) {
   const std::vector<Vec2> reached = next.way.points;
   const std::vector<Vec2> nearest = next.way.nearest;
@@ -265,7 +271,7 @@ RrtTreeFindings FindingsOn(const Try& each) {
   return found;
 }
 
-/// Adds to a failed or partial plan how close the trees came, and with which budget.
+/// Adds the search budget and the trees' distance to the goal to a failed or partial plan.
 void RecordBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan,
                   RrtDiagnostics& diagnostics) {
   if (plan.status == PlanStatus::kBudgetUsedUp) {
@@ -299,7 +305,8 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
     Try next = TryTree(forest, request.seed + (static_cast<std::uint64_t>(i) << 32U), samples);
     diagnostics.trees.push_back(FindingsOn(next));
     const RrtStatus status = next.way.status;
-    const bool hopeless = status == RrtStatus::kGoalBlocked;  // for every tree
+    // A blocked goal is hopeless for every tree.
+    const bool hopeless = status == RrtStatus::kGoalBlocked;
     if (!best || hopeless || IsBetterTry(next, *best)) {
       best = std::move(next);
       diagnostics.chosen = i;
@@ -328,7 +335,7 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
   }
   TRACKBED_CHECK(options.trees > 0 && options.time_limit.value_or(1.0) > 0.0,
                  "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
-  // With a time limit, a second attempt would need the same time again: try only one lead-in.
+  // With a time limit, a second attempt would need the same time again, so try only one lead-in.
   return PlanWithLeadIn(options, request, PlanTrees, options.time_limit ? 1 : kLeadIns);
 }
 

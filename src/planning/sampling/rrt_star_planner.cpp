@@ -23,7 +23,7 @@ SamplingTask MakeStarTask(const RrtStarPlannerOptions& options, const PlanReques
                           request);
 }
 
-/// The plan's failure if a tree did not reach this waypoint from the previous one.
+/// The failed plan for a tree that did not reach this waypoint from the previous waypoint.
 Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
                  const RrtStarResult& tree, std::size_t waypoint) {
   if (tree.status == RrtStarStatus::kGoalBlocked) {
@@ -50,8 +50,8 @@ void AddNodes(const RrtStarResult& result, const Pose2& frame, std::vector<TreeN
   }
 }
 
-/// The path between two waypoints: the straight line if it is free and as many edges as there are
-/// samples could cover it, otherwise the path of a tree.
+/// The path between two waypoints. The path is the straight line if the line is free and short
+/// enough for one edge per sample. If the line is blocked or too long, the path comes from a tree.
 RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& task,
                       const BoxIndex& obstacles, const Vec2& from, const Vec2& to,
                       std::uint64_t seed, long max_samples) {
@@ -81,7 +81,7 @@ RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& 
                      seed);
 }
 
-/// A plan along one tree through all waypoints; `diagnostics` receives its legs.
+/// A plan along one tree through all waypoints. `diagnostics` receives the legs of this plan.
 Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& request,
                   const SamplingTask& task, const CornerTangents& tangents, std::uint64_t seed,
                   RrtStarPlanDiagnostics& diagnostics, long& samples) {

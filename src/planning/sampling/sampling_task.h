@@ -12,21 +12,21 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/sampling/smoothing.h"
 
-/// Shared by the sampling planners. All random numbers are used in the car's start frame, so a
-/// mission that is moved or rotated as a whole gets the same plan, moved or rotated.
+/// Functions that the sampling planners share. The planners use all random numbers in the car's
+/// start frame. Hence moving or rotating a whole mission moves or rotates the plan in the same way.
 namespace trackbed {
 
 /// The mission in the car's start frame.
 struct SamplingTask {
-  Vec2 lead{0.0, 0.0};      ///< root of the first tree
-  std::vector<Vec2> goals;  ///< in order
+  Vec2 lead{0.0, 0.0};      ///< Root of the first tree.
+  std::vector<Vec2> goals;  ///< Goals in the order of the mission.
   std::vector<OrientedBox> obstacles;
   double inflation = 0.0;
-  GridArea area;  ///< sampled area
+  GridArea area;  ///< Area from which the planners sample.
   WindScoring wind;
 };
 
-/// The keys that define a task.
+/// The keys that define a sampling task.
 struct SamplingTaskOptions {
   Corners corners = Corners::kRound;
   double safe_distance = 0.0;
@@ -38,7 +38,7 @@ struct SamplingTaskOptions {
 
 SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequest& request);
 
-/// Checks the initial straight; returns a failed plan with the reason if it is blocked.
+/// Checks the initial straight. If the straight is blocked, returns a failed plan with the reason.
 Plan CheckLeadIn(const SamplingTask& task);
 
 /// Tangent lengths of corners at the lowest speed, tabulated by heading change.
@@ -46,36 +46,38 @@ class CornerTangents {
  public:
   CornerTangents(const VehicleParams& vehicle, double speed);
 
-  /// Never too short: uses the next larger heading change in the table.
+  /// Tangent length, never too short: the function uses the next larger heading change in the
+  /// table.
   double operator()(double turn) const;
 
  private:
   static constexpr std::size_t kCount = 200;
   static constexpr double kStep = kPi / kCount;
-  std::array<double, kCount> lengths_{};  // the entry for straight on is 0
+  std::array<double, kCount> lengths_{};  // the entry for a heading change of 0 is 0
 };
 
-/// Appends a tree's path to `points` without needless corners. The path begins at the last of
-/// `points`, which begin with the start.
+/// Appends a tree's path to `points` without needless corners. The points begin with the start of
+/// the mission. The tree's path begins at the last of `points`.
 void AddPruned(const SamplingTask& task, const CornerTangents& tangents, double corner_cost,
                const std::vector<Vec2>& path, bool is_last, std::vector<Vec2>& points);
 
 std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points);
 
-/// The failure of a plan whose waypoint, counted from 0, is blocked.
+/// The failed plan for a blocked waypoint. Waypoints are counted from 0.
 Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint);
 
-/// Length of the initial straight [m]: `lead_in`, but at most half the distance to the first
-/// waypoint after the start.
+/// Length of the initial straight [m]. The length is `lead_in`, but at most half the distance to
+/// the first waypoint after the start.
 double StraightStart(double lead_in, const PlanRequest& request);
 
 /// Number of initial straights that PlanWithLeadIn tries.
 inline constexpr int kLeadIns = 3;
 
-/// Retries a failed plan of a rolling car, which may need more room before its first corner than
-/// the trees leave. Tries up to `tries` longer initial straights. The first and longest one lets
-/// the car stop; if an obstacle blocks it, a half or a quarter of it may fit. These two grow only
-/// one tree each, because many refused missions have no plan at all.
+/// Retries a failed plan of a rolling car. The car may need more room before its first corner than
+/// the trees leave. The function tries up to `tries` longer initial straights. The first initial
+/// straight is the longest, on which the car can stop. If an obstacle blocks the longest straight,
+/// a half or a quarter of its length may fit. The function grows only one tree for each shorter
+/// straight, because many refused missions have no plan at all.
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {

@@ -9,7 +9,8 @@
 namespace trackbed {
 namespace {
 
-/// Score differences below this are rounding: in uniform wind all paths score alike [m].
+/// Score differences below kEqualityTolerance [m] are rounding errors. In uniform wind, all paths
+/// have the same score.
 constexpr double kEqualityTolerance = 1e-9;
 
 /// Wind score of one straight line.
@@ -45,7 +46,7 @@ class Smoother {
   }
 
  private:
-  /// Moves one coordinate of a point and returns the distance.
+  /// Moves one coordinate of a point and returns the distance of the move.
   double Move(std::size_t i, Eigen::Index coordinate) {
     const Vec2& before = smooth_[i - 1];
     const Vec2& after = smooth_[i + 1];

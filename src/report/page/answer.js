@@ -1,9 +1,10 @@
-// The first screen: how each run ended, the distance of each car from its path and of the cars from
-// each other, remarks on that moment, and the margins to the expectations.
+// The first screen. The first screen shows how each run ended, and the distances of each car from
+// its path and from the other cars. The first screen also has remarks on the moment of the largest
+// distance, and the margins to the expectations.
 
-const MOST_ROWS = 4;  // plants, largest distance from the path first
+const MOST_ROWS = 4;  // number of listed plants, the largest distance from the path first
 
-/** Status of metrics.json as text: "rolled over". */
+/** Text on a status of metrics.json, such as "rolled over". */
 function statusText(status) {
   return status.replace(/_/g, ' ');
 }
@@ -15,7 +16,7 @@ function endText({ end }) {
     + (end.cause ? ` (${end.cause})` : '');
 }
 
-/** Where a track is furthest from its path: {size, side, s, t}. */
+/** The point where a track is furthest from its path: {size, side, s, t}. */
 function furthestFromPath(track) {
   const size = valueOf(track.numbers, 'cross_track.max');
   if (size === null) return null;
@@ -24,7 +25,7 @@ function furthestFromPath(track) {
   return { size, t, s: valueOf(track.numbers, 'cross_track.max_s'), side: signed < 0 ? 'right' : 'left' };
 }
 
-/** Where two tracks are furthest apart at equal station. */
+/** The point where two tracks are furthest apart at equal station. */
 function furthestApart(pair) {
   if (!pair.curve) return null;
   const value = (name) => valueOf(pair.numbers, `position.${name}`);
@@ -32,9 +33,9 @@ function furthestApart(pair) {
 }
 
 /**
- * The moment at which the page opens, the first that exists: the first collision or roll-over, the
- * largest distance between cars, the largest distance of a car from its path, the first end of a
- * run that did not arrive.
+ * The moment that the page shows first. This is the first of the following that exists: the first
+ * collision or roll-over, the largest distance between cars, the largest distance of a car from its
+ * path, the first end of a run that did not arrive.
  */
 const keyMoment = (() => {
   const broken = d3.min(tracks, brokenAt);
@@ -87,7 +88,9 @@ function remarks(track, moment) {
   return list;
 }
 
-/** Draws a bar from zero to a value, with a mark at the limit; charts can share the scale. */
+/**
+ * Draws a bar from zero to a value, with a mark at the limit. Several charts can share the scale.
+ */
 function drawBar(parent, { value, limit, most, css, good }) {
   const bar = parent.append('span').attr('class', `bar ${good === false ? 'bad' : ''}`).attr('aria-hidden', 'true');
   const low = Math.min(0, 1.15 * value, 1.15 * (limit || 0));
@@ -98,11 +101,12 @@ function drawBar(parent, { value, limit, most, css, good }) {
 }
 
 /**
- * Draws the summary: collisions and roll-overs, the car furthest from its path (where and by how
- * much), then the other cars.
+ * Draws the summary. Collisions and roll-overs are first. Then follows the car furthest from its
+ * path, with place and distance, then the other cars.
  */
 function drawSentence(parent) {
-  const NEAR = 0.1;  // half the width of a tyre; up to this, a car counts as on the path [m]
+  const NEAR = 0.1;  // half the width of a tyre; a car up to this far away counts as on the path
+                     // [m]
   const found = tracks.map((track) => ({ track, far: furthestFromPath(track) })).filter(({ far }) => far)
     .sort((a, b) => b.far.size - a.far.size);
   const broken = tracks.filter((track) => brokenAt(track) !== undefined).sort((a, b) => brokenAt(a) - brokenAt(b));
@@ -128,7 +132,7 @@ function drawSentence(parent) {
   }
   if (!found.length) return;
   const [{ track, far }, ...others] = found;
-  // After a collision, the distances refer to the time before it.
+  // After a collision, the distances refer to the time before the collision.
   if (broken.length) say('Before: ');
   else if (far.size < NEAR) say(tracks.length > 1 ? 'No car leaves the path: ' : 'The car keeps to the path: ');
   name(track);
@@ -140,11 +144,11 @@ function drawSentence(parent) {
   if (others.length) say(`${others.length > 1 ? 'The others stay' : ' stays'} within ${meters(others[0].far.size)} of it.`);
 }
 
-/** Draws the main quantities of a maneuver's standard, each against its limit. */
+/** Draws the main quantities of a maneuver's standard, each with its limit. */
 function drawManeuverRows(parent) {
   const rows = rowsOf(tracks.map((track) => track.numbers))
     .filter((row) => row.path.startsWith('maneuver.') && row.path !== 'maneuver.passed' && (row.limit || row.headline))
-    // If the standard has limits, quantities without a limit are omitted here.
+    // If the standard has limits, quantities without a limit are omitted.
     .filter((row, _, all) => row.limit || !all.some((other) => other.limit));
   if (!rows.length) return;
   const list = parent.append('ul').attr('class', 'rows');
@@ -200,14 +204,14 @@ function drawAnswerRows(parent) {
   }
 }
 
-/** Result of a check as text: "0.151 ≤ 0.155 rad/s", "rolled over", "no, not yes". */
+/** Text on the result of a check, such as "0.151 ≤ 0.155 rad/s", "rolled over" or "no, not yes". */
 function measuredText({ relation, bound, found, unit, met }) {
   const told = (value) => statusText(brief(value, unit));
   if (relation === 'equals') return met ? told(found) : `${told(found)}, not ${told(bound)}`;
   return `${told(found)} ${relation === 'at_most' ? '≤' : '≥'} ${told(bound)}${unit ? ` ${unit}` : ''}`;
 }
 
-/** Utilization of a check's bound: at most 1 if met, above 1 otherwise. */
+/** Utilization of a check's bound. It is at most 1 if the check is met, and above 1 otherwise. */
 function shareOfBound({ relation, bound, found }) {
   if (typeof bound !== 'number' || typeof found !== 'number' || relation === 'equals') return null;
   if (relation === 'at_most') return bound > 0 ? found / bound : null;
@@ -220,7 +224,7 @@ function drawExpectationBars(parent) {
   if (!all.length) return;
   const panel = parent.append('div').attr('class', 'panel limits');
   panel.append('h2').text('Expectations');
-  // Failed checks first, then those nearest to their limits.
+  // Failed checks are first, then those nearest to their limits.
   const order = [...all].sort((a, b) => a.check.met - b.check.met || (b.share || 0) - (a.share || 0));
   const list = panel.append('ul');
   for (const { run, check, share } of order.slice(0, MOST)) {
@@ -242,7 +246,7 @@ function drawExpectationBars(parent) {
   }
 }
 
-/** Draws the first screen. */
+/** Draws the first screen of the page. */
 function drawAnswer() {
   if (!tracks.length) return;
   const grid = section('answer').append('div').attr('class', 'answer');

@@ -1,10 +1,10 @@
-// Shared by all parts of the page: data, tracks, current moment, formatting of numbers.
+// Code that all parts of the page share: data, tracks, current moment, formatting of numbers.
 
 const data = JSON.parse(document.getElementById('data').textContent);
 const runs = data.runs || [];
 const root = d3.select('#report');
 
-/** Formats four digits; values that are not numbers are shown as they are. */
+/** Formats a number with four digits. Other values are shown unchanged. */
 function shown(value) {
   if (value === null || value === undefined || Number.isNaN(value)) return '–';
   if (value === true) return 'yes';
@@ -17,23 +17,23 @@ function shown(value) {
   return d3.format(format)(value).replace(/-/g, '−');
 }
 
-/** Formats at most three digits and four decimals, for summaries. */
+/** Formats a number for summaries, with at most three digits and four decimals. */
 function brief(value, unit) {
   if (typeof value !== 'number') return shown(value);
   const size = Math.abs(value);
   if (Number.isInteger(value) || size >= 1e6) return shown(value);
-  // Lengths, angles and times are no more accurate.
+  // Lengths, angles and times are not more accurate than four decimals.
   if (size < 5e-5 && ['m', 'rad', 's'].includes(unit)) return '0.0000';
   if (size < 5e-5) return d3.format('.1~e')(value).replace(/-/g, '−');
   return d3.format(size >= 100 ? '.1~f' : size < 0.01 ? '.4~f' : '.3~r')(value).replace('-', '−');
 }
 
-/** Formats a length with centimeters, below 10 cm with millimeters. */
+/** Formats a length to centimeters. Lengths below 10 cm are formatted to millimeters. */
 function meters(value) {
   return `${fixed(value, Math.abs(value) < 0.0995 ? 3 : 2)} m`;
 }
 
-/** Sets a label with its unit in a separate element: "Speed [m/s]". */
+/** Sets a label such as "Speed [m/s]", with the unit in a separate element. */
 function withUnit(selection, label, unit) {
   selection.text(label);
   if (unit) selection.append('span').attr('class', 'unit').text(` [${unit}]`);
@@ -47,7 +47,7 @@ function section(id, title) {
   return made;
 }
 
-/** All plants of all runs, each with a color: that of the film if possible. */
+/** All plants of all runs, each with a color. If possible, the color is that of the film. */
 const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
   run: r,
   plant: plant.name,
@@ -80,7 +80,7 @@ const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
 const lastMoment = () => d3.max(tracks, (track) => track.log.t[track.log.t.length - 1]) || 0;
 let duration = lastMoment();
 
-/** Position of a moment between two rows of a log, clamped to its ends. */
+/** Position of a moment between two rows of a log, clamped to the ends of the log. */
 function placeAt(log, time) {
   const next = Math.min(Math.max(d3.bisectRight(log.t, time), 1), log.t.length - 1);
   if (next < 1) return { row: 0, next: 0, part: 0 };
@@ -89,12 +89,12 @@ function placeAt(log, time) {
   return { row, next, part: Math.min(Math.max(part, 0), 1) };
 }
 
-/** Time of a collision or roll-over; undefined if there was none. */
+/** Time of a collision or roll-over; undefined if there was neither. */
 function brokenAt({ end }) {
   return ['collided', 'rolled_over'].includes(end.status) ? end.t : undefined;
 }
 
-/** Linear interpolation, constant beyond the ends. */
+/** Linear interpolation between rows, constant beyond the ends. */
 function interpolated(xs, ys, x) {
   if (xs.length < 2) return ys[0];
   const next = Math.min(Math.max(d3.bisectRight(xs, x), 1), xs.length - 1);
@@ -111,7 +111,7 @@ function valueAt(track, name, time) {
   return values[row] + part * (values[next] - values[row]);
 }
 
-/** The car's pose at a moment; the last pose after the end of the run. */
+/** The car's pose at a moment. After the end of the run, it is the last pose. */
 function poseAt(track, time) {
   const { x, y, yaw } = track.log;
   const { row, next, part } = placeAt(track.log, time);
@@ -123,7 +123,7 @@ function poseAt(track, time) {
   };
 }
 
-// The current moment of map, charts and films, and its listeners.
+// The current moment that map, charts and films show, and the listeners to its changes.
 const bus = d3.dispatch('time', 'visibility', 'scheme', 'play', 'rows');
 let now = 0;
 
@@ -132,7 +132,7 @@ function setTime(time, from) {
   bus.call('time', null, now, from);
 }
 
-/** Called when logs have grown while a run is in progress (live.js). */
+/** Called by live.js when logs have grown while a run is in progress. */
 function rowsAdded() {
   duration = lastMoment();
   bus.call('rows');
@@ -141,7 +141,7 @@ function rowsAdded() {
 window.matchMedia('(prefers-color-scheme: dark)')
   .addEventListener('change', () => bus.call('scheme'));
 
-/** A color of the style sheet, for use on a canvas. */
+/** Reads a color of the style sheet, for use on a canvas. */
 function cssColor(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }

@@ -1,7 +1,7 @@
-// Canvas of the replay. Created before the data and the libraries are loaded, because starting the
-// graphics can take a browser most of a second, which then overlaps with loading.
+// The canvas of the 3D replay. The canvas is created before the data and the libraries are loaded.
+// Starting the graphics can take a browser most of a second, which then overlaps with loading.
 
-/** The WebGL context of a canvas; null if the browser has none. */
+/** The WebGL context of a canvas; null if the browser has no WebGL. */
 function webGlOf(canvas) {
   const wanted = { alpha: false, antialias: true, stencil: false };
   try {

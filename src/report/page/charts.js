@@ -1,16 +1,16 @@
 // Charts in a column, with a common cursor at the current moment of the page.
 
-// Titles and readouts are elements of the page. The legend of dygraphs would set a style attribute,
-// which the Content-Security-Policy forbids.
+// Titles and readouts of the charts are elements of the page. The legend of dygraphs would set a
+// style attribute, which the Content-Security-Policy forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
-/** Round tick values about `pixels` apart. */
+/** Round values for ticks that are about `pixels` apart. */
 function ticksEvery(pixels, name) {
   return (from, to, length) => d3.ticks(from, to, Math.max(2, Math.round(length / pixels)))
     .map((value) => ({ v: value, label: name(value) }));
 }
 
-// The graph of each plot, used to place elements over it.
+// The graph of each plot, used to place elements over the graph.
 const graphs = new WeakMap();
 
 function fixed(number, digits) {
@@ -19,8 +19,9 @@ function fixed(number, digits) {
 }
 
 /**
- * Limits near the lines, and the range of values that shows both; range null if the default range
- * suffices. Values after a line's `until` are not results and do not affect the range.
+ * Limits near the lines, and the range of values that shows limits and lines. The range is null if
+ * the default range suffices. Values after a line's `until` are not results and do not affect the
+ * range.
  */
 function limitsToDraw(lines, limits, places) {
   const isCut = lines.some(({ until }) => until !== undefined);
@@ -58,7 +59,7 @@ function drawCharts(list, key, axis, charts) {
   let busy = false;
   const isShown = ({ tracks: own }) => own.every((track) => track.visible);
 
-  /** Runs `act` unless it was triggered by another chart's update. */
+  /** Runs `act`, unless another chart's update triggered the call. */
   const together = (act) => {
     if (busy) return;
     busy = true;
@@ -195,7 +196,8 @@ function drawCharts(list, key, axis, charts) {
     for (const { graph, lines } of drawn) together(() => graph.updateOptions(look(lines)));
     setTime(now);
   });
-  // The charts adjust their widths with a delay; then the cursor is placed again.
+  // The charts adjust their widths with a delay. After the charts have adjusted their widths, the
+  // cursor is placed again.
   new ResizeObserver(() => {
     for (const { graph } of drawn) graph.resize();
     placeCursors(now);

@@ -1,4 +1,4 @@
-// Differences between runs at equal station: table and curves.
+// Differences between runs at equal station, as a table and as curves.
 
 const DIFFERENCES = [
   { name: 'position', title: 'Distance', unit: 'm', digits: 4 },
@@ -16,7 +16,10 @@ function nameOfPair(first, second) {
   return `${runs.length > 1 ? `${one}: ` : ''}${first.plant} – ${second.plant}`;
 }
 
-/** A pair has the color of its second run; pairs with equal colors differ in their dashes. */
+/**
+ * Style of a pair's curve. Its color is that of the second run, and pairs with equal colors have
+ * different dashes.
+ */
 const pairs = (() => {
   const times = new Map();
   const patterns = [null, [6, 3], [2, 3], [9, 3, 2, 3]];
@@ -37,9 +40,9 @@ function signOfPair(parent, pair) {
     .attr('stroke-dasharray', pair.pattern && pair.pattern.join(' '));
 }
 
-/** Draws a row for each pair: size and place of the differences, and the tolerances. */
+/** Draws a row for each pair, with size and place of the differences, and the tolerances. */
 function drawDifferences() {
-  // For the plants of one run, the section `between` shows these numbers.
+  // For the plants of one run, the section `between` already shows these differences.
   if (!pairs.length || (runs.length === 1 && !pairs.some((pair) => pair.tolerances))) return;
   const made = section('differences', 'Differences at equal station');
   const table = made.append('div').attr('class', 'panel scroll').append('table');

@@ -29,7 +29,7 @@ function drawIdentificationHead(found) {
   ]);
 }
 
-/** Draws the estimate with two standard errors between its bounds. */
+/** Draws an estimate between its bounds, with two standard errors. */
 function drawRange(cell, { from, to, start, value, standard_error: error }) {
   const width = 150;
   const x = d3.scaleLinear().domain([from, to]).range([4, width - 4]).clamp(true);

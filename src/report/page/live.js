@@ -1,12 +1,13 @@
-// Page of a run in progress: receives rows from its server and controls the run.
+// Page of a run in progress. The live page receives rows from the server of the run and controls
+// the run.
 
 const SPEEDS = [0.1, 0.5, 1, 2, 5, 10, 'max'];
 const live = {
   socket: null,
-  state: null,       // last state from the server: {id, paused, speed}
+  state: null,       // last state received from the server: {id, paused, speed}
   connected: false,
   finished: false,
-  following: true,   // shows the newest moment
+  following: true,   // whether the page shows the newest moment
 };
 
 function ask(message) {
@@ -25,8 +26,8 @@ function putRows(columns, first, rows) {
 }
 
 /**
- * Appends rows to the logs; `first` is the number of earlier rows. After reconnecting, all rows are
- * sent again.
+ * Appends rows to the logs. `first` is the number of earlier rows. After reconnecting, the server
+ * sends all rows again.
  */
 function takeRows(plants) {
   plants.forEach(({ first, rows, poses, plans }, i) => {
@@ -38,7 +39,10 @@ function takeRows(plants) {
   });
 }
 
-/** Draws new rows, at most as often as leaves the browser three quarters of its time. */
+/**
+ * Draws new rows. The rate is limited so that the browser has three quarters of its time for other
+ * work.
+ */
 const drawSoon = (() => {
   let waiting = false;
   let free = 0;
@@ -63,10 +67,10 @@ function take(message) {
     drawSoon();
   } else if (message.type === 'finished') {
     live.finished = true;
-    window.history.scrollRestoration = 'manual';  // the verdict is at the top
-    window.location.reload();  // loads the report
+    window.history.scrollRestoration = 'manual';  // Scroll to the verdict, which is at the top.
+    window.location.reload();  // Reloading the page loads the report.
   } else if (message.type === 'state') {
-    // The server shows another run.
+    // The server now shows another run.
     if (message.id !== data.live.id) window.location.reload();
     live.state = message;
     showState();
@@ -74,7 +78,7 @@ function take(message) {
 }
 
 function connect() {
-  const AGAIN = 1000;  // [ms] until the next attempt
+  const AGAIN = 1000;  // time until the next attempt [ms]
   live.socket = new WebSocket(`ws://${window.location.host}/live`);
   live.socket.addEventListener('open', () => { live.connected = true; });
   live.socket.addEventListener('message', (event) => take(JSON.parse(event.data)));
@@ -124,7 +128,7 @@ function drawControls(parent) {
     speed.property('value', state.speed);
   };
 
-  // Selecting another moment stops following the newest one.
+  // Selecting another moment ends the display of the newest one.
   bus.on('time.live', (time, from) => {
     if (from !== 'live' && live.following && time < duration) setFollowing(false);
   });

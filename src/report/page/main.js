@@ -1,4 +1,4 @@
-// Assembles the page.
+// Assembles the parts of the page.
 
 function drawDrive() {
   const drive = section('drive', tracks.length ? 'Run' : 'Map');
@@ -49,4 +49,4 @@ if (data.study) {
   drawExpectations();
   drawScenarios();
 }
-if (!data.live) drawFoot();  // otherwise live.js draws the page
+if (!data.live) drawFoot();  // a live page is drawn by live.js

@@ -1,4 +1,5 @@
-// Map in meters, x to the right and y up. The scales are equal unless the path is long and narrow.
+// Map in meters, with x to the right and y up. The scales are equal unless the path is long and
+// narrow.
 
 function extentOfMap() {
   const xs = [];
@@ -36,12 +37,12 @@ function backwards(points) {
 }
 
 /**
- * Quantity that colors the path: {track, points: [{t, value}], most, name}. The distance of the
- * pair that is furthest apart, else the cross-track error of the track that is furthest from its
- * path.
+ * Quantity that colors the path: {track, points: [{t, value}], most, name}. With several cars, it
+ * is the distance of the pair that is furthest apart. Otherwise it is the cross-track error of the
+ * track that is furthest from its path.
  */
 function shadeOfMap() {
-  if (data.live) return null;  // the largest values are not known yet
+  if (data.live) return null;  // the largest values are not known while a run is in progress
   const pair = pairs.filter((one) => one.curve)
     .sort((a, b) => d3.max(b.curve.position) - d3.max(a.curve.position))[0];
   if (pair) {
@@ -60,9 +61,9 @@ function shadeOfMap() {
   };
 }
 
-const LATERAL = 10;  // enlargement of distances from the path by the button
+const LATERAL = 10;  // factor by which a button enlarges distances from the path
 
-/** Path and pose of a track with its distances from the planned path enlarged by `factor`. */
+/** Path and pose of a track, with distances from the planned path enlarged by `factor`. */
 function enlarged(track, factor) {
   const { log } = track;
   const shift = (pose, crossTrack, headingError) => {
@@ -173,7 +174,7 @@ function drawMap(parent) {
     shading.selectAll('*').remove();
     if (!shade || !(shade.most > 0)) return;
     const way = ways[shade.track.id];
-    // About 300 colored pieces; more would not be distinguishable.
+    // Draws about 300 colored pieces; more would not be distinguishable.
     const step = Math.max(1, Math.floor(shade.points.length / 300));
     for (let i = 0; i + 1 < shade.points.length; i += step) {
       const next = Math.min(i + step, shade.points.length - 1);
@@ -243,7 +244,8 @@ function drawMap(parent) {
       .domain([(margin.left - left) / k, (right - left) / k]);
     const y = d3.scaleLinear().range([bottom, margin.top])
       .domain([(base - bottom) / kY, (base - margin.top) / kY]);
-    // Ticks at equal distances on the screen along both axes; in meters where the scales are equal.
+    // Ticks at equal distances on the screen along both axes. The ticks are in meters if the scales
+    // are equal.
     const ticks = (scale, perMeter) => {
       const step = d3.tickStep(0, 60 / perMeter, 1);
       return d3.range(Math.ceil(scale.domain()[0] / step), Math.floor(scale.domain()[1] / step) + 1).map((i) => i * step);
@@ -260,7 +262,7 @@ function drawMap(parent) {
   }
 
   const zoom = d3.zoom().scaleExtent([0.5, 400])
-    // One finger or the wheel scrolls the page; two fingers, or Ctrl and the wheel, zoom.
+    // One finger or the wheel scrolls the page. Two fingers, or Ctrl and the wheel, zoom.
     .filter(() => {
       const event = d3.event;
       if (event.type === 'wheel') return event.ctrlKey || event.metaKey || document.activeElement === svg.node();
@@ -295,7 +297,7 @@ function drawMap(parent) {
 
   new ResizeObserver(() => {
     const width = frame.node().clientWidth;
-    // As high as the path needs, limited by the style sheet.
+    // The map is as high as the path needs, limited by the style sheet.
     const needed = (stretch * (width - margin.left - margin.right) * (extent.y[1] - extent.y[0]))
       / (extent.x[1] - extent.x[0]) + margin.top + margin.bottom;
     frame.style('height', `${Math.max(280, needed)}px`);
@@ -330,7 +332,7 @@ function drawMap(parent) {
   }));
 }
 
-// Playback: one clock for the whole page.
+// Playback with one clock for the whole page.
 const playback = { timer: null, speed: 1 };
 
 function stopPlaying() {

@@ -86,7 +86,7 @@ function drawPathCheckMap(panel, { demand, given, faults }) {
       .append('title').text(fault.text);
   }
   svg.append('circle').attr('class', 'start').attr('cx', x(given.x[0])).attr('cy', y(given.y[0])).attr('r', 9).append('title').text('start');
-  // Scale bar with a round length.
+  // Draws a scale bar with a round length.
   const bar = d3.ticks(0, 160 / scale, 2).filter((value) => value > 0)[0];
   svg.append('path').attr('class', 'bar').attr('d', `M${margin / 2} ${height - 14}h${bar * scale}`);
   svg.append('text').attr('x', margin / 2).attr('y', height - 20).text(`${shown(bar)} m`);
@@ -114,7 +114,7 @@ function drawPathCheckCharts(list, check) {
     })),
   });
   const wanted = demand.s.map(() => check.speed_mps);
-  // The speed on a straight is unlimited, so clip it.
+  // The speed on a straight is unlimited, so the axis is clipped.
   const most = 4 * check.speed_mps;
   const possible = demand.speed.map((speed) => Math.min(speed, most));
   const limits = [['friction', check.friction_limit_mps2], ['roll-over', check.rollover_limit_mps2]]

@@ -1,5 +1,5 @@
-// Phase planes: longitudinal over lateral acceleration, yaw rate over steering angle, yaw rate over
-// sideslip angle, with a mark at the current moment.
+// Phase planes with a mark at the current moment. The phase planes are longitudinal over lateral
+// acceleration, yaw rate over steering angle, and yaw rate over sideslip angle.
 
 const PHASE_PLANES = [
   {
@@ -16,7 +16,7 @@ const PHASE_PLANES = [
   },
 ];
 
-/** Radius of the lateral grip on the world's friction; null if the runs differ. */
+/** Radius of the lateral grip with the world's friction; null if the runs differ in it. */
 function gripRadius() {
   const radii = new Set(runs.map(({ car, world }) => world.friction * car.grip_acceleration));
   return radii.size === 1 ? Array.from(radii)[0] : null;
@@ -28,12 +28,13 @@ function drawPhasePlane(parent, plane) {
   const figure = parent.append('figure').attr('class', 'panel').attr('data-plane', plane.name);
   const caption = figure.append('figcaption').text(plane.title);
   const radius = plane.equal ? gripRadius() : null;
-  // Rows up to a collision or roll-over.
+  // Number of rows up to a collision or roll-over.
   const rowsOfTrack = (track) => (brokenAt(track) === undefined ? track.log.t.length : d3.bisectRight(track.log.t, brokenAt(track)));
   const all = (axis) => own.flatMap((track) => track.log[plane[axis]].slice(0, rowsOfTrack(track)));
   const reach = (axis) => Math.max(1e-6, d3.max(all(axis), Math.abs)) * 1.08;
   let [xMost, yMost] = [reach('x'), reach('y')];
-  // While a run is in progress its range is unknown, so the circle is always shown.
+  // While a run is in progress, the range of the accelerations is unknown. While a run is in
+  // progress, the circle is always shown.
   const isShown = radius && (data.live || radius < 3 * Math.max(xMost, yMost));
   const setReach = () => {
     [xMost, yMost] = [reach('x'), reach('y')];

@@ -1,6 +1,6 @@
 // 3D replay at the current moment of the page.
 
-const MOST_NAMED = 4;  // translucent cars
+const MOST_NAMED = 4;  // number of translucent cars that are named
 const CAMERAS = [['follow', 'Follow'], ['orbit', 'Orbit'], ['driver', 'Driver']];
 
 /** The color of a track for WebGL. */
@@ -48,8 +48,8 @@ function planMesh(line, height, color, level) {
 
 function makeReplay(canvas, context) {
   const renderer = new THREE.WebGLRenderer({ canvas, context });
-  // Checking a shader for errors waits for its compilation, so shaders would be compiled one at a
-  // time.
+  // Checking a shader for errors waits for the shader's compilation. If errors were checked,
+  // shaders would be compiled one at a time.
   renderer.debug.checkShaderErrors = false;
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
@@ -123,7 +123,7 @@ function makeReplay(canvas, context) {
   // The car shown first: preferably one with contact dynamics.
   const lead = cars.find(({ track }) => track.plant.startsWith('mujoco')) || cars[cars.length - 1];
 
-  /** Pose of a car, with its heading averaged over one second to steady the camera. */
+  /** Pose of a car. The heading is averaged over one second to steady the camera. */
   function framing(car, time) {
     const moments = [-0.5, -0.25, 0, 0.25, 0.5].map((dt) => poseAt(car.track, Math.min(Math.max(time + dt, 0), duration)));
     const x = d3.mean(moments, (pose) => Math.cos(pose.yaw));
@@ -163,9 +163,9 @@ function makeReplay(canvas, context) {
     return camera;
   }
 
-  let firstPicture = null;  // [ms] since the page was opened
+  let firstPicture = null;  // time of the first picture since the page was opened [ms]
   let shown = { kind: 'follow', apart: false, forces: Boolean(dials) };
-  let views = [];  // views drawn last: {car, camera, viewport}, for tests and labels
+  let views = [];  // views drawn last, as {car, camera, viewport}, for tests and labels
   const orbit = new THREE.Vector3(-8, -7, 5);
 
   /** Current distance between two cars [m]. */
@@ -249,7 +249,10 @@ function makeReplay(canvas, context) {
   };
 }
 
-/** Viewports of the views, in several rows if necessary: {x, y, width, height}, with y from below. */
+/**
+ * Viewports of the views, in several rows if necessary: {x, y, width, height}. y is measured from
+ * the bottom.
+ */
 function gridOf(count, width, height) {
   const GAP = 2;
   const most = Math.min(count, Math.max(1, Math.round(Math.sqrt((count * width) / height / 1.3))));
@@ -257,7 +260,7 @@ function gridOf(count, width, height) {
   const columns = Math.ceil(count / lines);
   return d3.range(count).map((i) => {
     const [column, line] = [i % columns, Math.floor(i / columns)];
-    // The last row may have fewer views, which are then wider.
+    // The last row of views may have fewer views, which are then wider.
     const inLine = line + 1 < lines ? columns : count - columns * (lines - 1);
     const [x0, x1] = [column, column + 1].map((k) => Math.round((k * width) / inLine));
     const [y0, y1] = [lines - 1 - line, lines - line].map((k) => Math.round((k * height) / lines));
@@ -268,7 +271,7 @@ function gridOf(count, width, height) {
   });
 }
 
-/** State of a track at a moment: "4.62 m/s, 1.31 m right of the path". */
+/** Text on the state of a track at a moment, such as "4.62 m/s, 1.31 m right of the path". */
 function stateText(track, time) {
   const moment = Math.min(time, track.log.t[track.log.t.length - 1]);
   const [speed, off] = [valueAt(track, 'speed', moment), valueAt(track, 'cross_track', moment)];
@@ -381,7 +384,7 @@ function drawReplay(parent) {
     setTime(now + step);
   });
 
-  /** Draws at most once per frame. */
+  /** Draws the scene at most once per frame. */
   let waiting = false;
   function update() {
     if (waiting) return;

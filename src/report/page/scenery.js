@@ -8,7 +8,7 @@ function scattered(n) {
   return x - Math.floor(x);
 }
 
-/** Elevation of the ground at a point, interpolated in the run's grid. */
+/** Elevation of the ground at a point, interpolated in the run's elevation grid. */
 function heightOf(ground) {
   if (!ground) return () => 0;
   const z = numbersOf(ground.z);
@@ -29,7 +29,7 @@ function grain(light, spread, repeat) {
   const size = 128;
   const pixels = new Uint8Array(3 * size * size);
   for (let i = 0; i < size * size; ++i) {
-    // Fine grain, plus patches of four texels that stay visible from a distance.
+    // The texture has fine grain, and patches of four texels that stay visible from a distance.
     const coarse = scattered(7919 + Math.floor((i % size) / 4) + 64 * Math.floor(i / size / 4));
     const shade = 1 + spread * (0.75 * scattered(i) + 0.35 * coarse - 0.55);
     for (let c = 0; c < 3; ++c) pixels[3 * i + c] = Math.min(255, 255 * light[c] * shade);
@@ -46,7 +46,7 @@ function grain(light, spread, repeat) {
   return texture;
 }
 
-/** Evenly spaced points along a line: {x, y, nx, ny}, with the unit normal to the left. */
+/** Evenly spaced points along a line: {x, y, nx, ny}. (nx, ny) is the unit normal to the left. */
 function evenly(line, step) {
   const points = [];
   let left = 0;
@@ -62,8 +62,8 @@ function evenly(line, step) {
 }
 
 /**
- * Strip on the ground between two offsets to the left of the points [m]. `shares` adds fractions of
- * each point's `width`; `keep` selects the pieces.
+ * A strip on the ground between two offsets to the left of the points [m]. `shares` adds fractions
+ * of each point's `width` to the offsets. `keep` selects the pieces.
  */
 function strip(points, from, to, height, lift, keep = () => true, shares = [0, 0]) {
   const positions = [];
@@ -134,8 +134,8 @@ function groundMesh(ground, extent) {
   }
   const mesh = new THREE.Mesh(geometry, material);
   mesh.receiveShadow = true;
-  // Level ground is drawn below everything without writing depths, which are too coarse for such a
-  // large plane.
+  // Level ground is drawn below all other objects. Level ground writes no depths, which are too
+  // coarse for such a large plane.
   material.depthWrite = Boolean(ground);
   mesh.renderOrder = -1;
   return mesh;
@@ -169,8 +169,8 @@ function roadMeshes(line, { width, lanes }, height) {
 }
 
 /**
- * Asphalt between the edges of a track, which have equal numbers of points, with edge lines and a
- * start line.
+ * Asphalt between the edges of a track, with edge lines and a start line. Both edges have equal
+ * numbers of points.
  */
 function trackMeshes({ left, right }, height) {
   const points = [...right.x.keys(), 0].map((i) => {
@@ -191,8 +191,8 @@ function trackMeshes({ left, right }, height) {
 }
 
 /**
- * Strips on the ground between pairs of lines with equal numbers of points x, y, x, y, ..., in one
- * geometry.
+ * Strips on the ground between pairs of lines, in one geometry. The lines of a pair have equal
+ * numbers of points x, y, x, y, ...
  */
 function bandsGeometry(bands, height, lift) {
   const positions = [];
@@ -295,7 +295,9 @@ function wallsMesh({ yaw, height, boxes }, extent) {
   return mesh;
 }
 
-/** An obstacle as a box, or as a car if it moves and has the size of one. */
+/**
+ * Draws an obstacle as a box. An obstacle that moves and has the size of a car is drawn as a car.
+ */
 function obstacleShape(box, make) {
   const [moves, isCar] = [box.vx !== 0 || box.vy !== 0, box.length > 3 && box.length < 6 && box.width > 1.4 && box.width < 2.3];
   const { car } = runs[0];
@@ -312,7 +314,7 @@ function obstacleShape(box, make) {
   const [along, across] = [box.length / car.length, box.width / car.width];
   vehicle.group.scale.set(along, across, 0.5 * (along + across));
   vehicle.group.position.x = -along * (car.length / 2 - car.rear_overhang);
-  // Models face along x, but the obstacle may move backwards.
+  // Models of vehicles face along x, but the obstacle may move backwards.
   const facing = Math.cos(Math.atan2(box.vy, box.vx) - box.yaw) < 0 ? Math.PI : 0;
   const holder = new THREE.Group();
   vehicle.group.position.applyAxisAngle(new THREE.Vector3(0, 0, 1), facing);
@@ -321,7 +323,7 @@ function obstacleShape(box, make) {
   return holder;
 }
 
-/** An obstacle. Until a car knows of it, only its edges are drawn. */
+/** An obstacle of the world. Until a car detects the obstacle, only its edges are drawn. */
 function makeObstacle(scene, box, height, make) {
   const node = new THREE.Group();
   node.rotation.z = box.yaw;
@@ -392,12 +394,13 @@ function drawScenery(scene, height, makers) {
       scene.add(mesh);
     }
   }
-  // No trees on a map. None while a run without a plan is in progress, because its path is unknown.
+  // The scene has no trees if the world has a map. It also has none while a run without a plan is
+  // in progress, because the path is unknown.
   const hasTrees = !runs.some((run) => run.world.walls) && (!data.live || runs.some((run) => run.plan && run.plan.line));
   if (hasTrees) for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
   return {
     update: (time) => obstacles.forEach(({ shape }) => shape.place(time)),
-    /** Draws obstacles that a car knows at a moment as solid. */
+    /** Draws those obstacles as solid that a car has detected at a moment. */
     know: (track, time) => {
       for (const { run, index, box, shape } of obstacles) {
         if (!box.known_later) continue;

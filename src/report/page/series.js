@@ -10,7 +10,10 @@ const QUANTITIES = [
   { name: 'clearance', title: 'Clearance from obstacles', unit: 'm', digits: 3 },
 ];
 
-/** The times of all logs, and each track's values at these times; null if it has no row there. */
+/**
+ * The times of all logs, and each track's values at these times. A value is null if the track has
+ * no row at that time.
+ */
 function commonTimes() {
   const times = Array.from(new Set(tracks.flatMap((track) => track.log.t))).sort(d3.ascending);
   const rows = tracks.map((track) => {
@@ -21,7 +24,10 @@ function commonTimes() {
   return { times, spread };
 }
 
-/** Limits of a quantity, with both signs if it is signed: those of the expectations and those of the car. */
+/**
+ * Limits of a quantity by the expectations and by the car. A signed quantity has limits of both
+ * signs.
+ */
 function limitsOf(name) {
   const metric = {
     cross_track: 'cross_track.max',
@@ -31,7 +37,7 @@ function limitsOf(name) {
   }[name];
   const limits = runs.flatMap((run) => run.expectations)
     .filter((check) => check.metric === metric && typeof check.bound === 'number').map((check) => check.bound);
-  // The car's limit is only shown if it is below twice the largest steering angle.
+  // The car's limit is shown only if it is below twice the largest steering angle.
   const steering = d3.max(tracks, (track) => d3.max(track.log.steering, Math.abs));
   if (name === 'steering') limits.push(...runs.map((run) => run.car.steering_limit).filter((limit) => limit > 0 && limit < 2 * steering));
   return Array.from(new Set(name === 'clearance' ? limits : limits.flatMap((limit) => [limit, -limit])));
@@ -71,5 +77,5 @@ function drawSeries(parent) {
       for (const one of lines) one.values = anew(one.tracks[0], one.quantity);
     }
   });
-  drawCharts(list, 'series', axis, charts);  // registers its listeners after the one above
+  drawCharts(list, 'series', axis, charts);  // drawn after the listener of new rows is registered
 }

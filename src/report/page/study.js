@@ -1,4 +1,4 @@
-// A study: outputs over parameters, and the table of all rows.
+// A study: its outputs over its parameters, and the table of all rows.
 
 function drawStudy(study) {
   const columns = study.columns.map((column, index) => ({ ...column, index }));
@@ -83,7 +83,10 @@ function drawStudy(study) {
   }
 }
 
-/** Tooltip with the settings and outputs of a row; also highlights the row in plots and table. */
+/**
+ * Shows a tooltip with the settings and outputs of a row. Also highlights the row in plots and
+ * table.
+ */
 function tooltipOfRows({ parameters, outputs, told, nameOf, bus }) {
   const tooltip = d3.select('body').append('div').attr('class', 'tooltip panel').attr('hidden', '');
   return {
@@ -138,7 +141,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
     const by = parameters.find((p) => p.index === color() && p !== x);
     const kinds = by ? Array.from(new Set(rows.map((row) => row.cells[by.index]))) : [null];
     if (by && isNumber(by)) kinds.sort(d3.ascending);
-    // Distinct colors for a few values, a color scale for many.
+    // A few values get distinct colors, many values a color scale.
     const colors = kinds.map((kind, i) => (kinds.length <= 8 || !isNumber(by)
       ? `var(--track-${i % 8})` : d3.interpolateViridis(0.9 * i / (kinds.length - 1))));
     const cssOf = (row) => colors[by ? kinds.indexOf(row.cells[by.index]) : 0];
@@ -157,7 +160,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
         .attr('r', 4.5).attr('fill', 'none').attr('stroke', 'currentColor').attr('stroke-width', 1.5);
       sign.append('span').text('hollow: failed');
     }
-    // Lines connect rows that only differ in this parameter.
+    // Lines connect rows that differ only in the parameter of the x axis.
     const others = parameters.filter((p) => p !== x);
     const groups = d3.nest()
       .key((row) => JSON.stringify(others.map((p) => row.cells[p.index]))).entries(rows);
@@ -181,10 +184,10 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
       : d3.scalePoint().domain(Array.from(new Set(values))).padding(0.5);
     scaleX.range([margin.left, width - margin.right]);
     const range = d3.extent(there, (row) => row.cells[output.index]);
-    // Includes zero if all values are positive and the smallest is near it.
+    // The range includes zero if all values are positive and the smallest is near zero.
     if (range[0] > 0 && range[0] < 0.5 * range[1]) range[0] = 0;
     if (range[0] === range[1]) { range[0] -= 1; range[1] += 1; }
-    // For searches, the axis is that of the history.
+    // For searches, the axis of the robustness is that of the history.
     const { scale: scaleY, ticks, note } = search && output.name === 'robustness' && there.length
       ? scaleOfRobustness(there.map((row) => row.cells[output.index])) : { scale: d3.scaleLinear().domain(range).nice(), note: '' };
     scaleY.range([height - margin.bottom - (ticks ? 6 : 0), margin.top]);
@@ -251,7 +254,7 @@ function drawStudyTable(parent, { columns, rows, isGood, isNumber, bus }) {
     const sign = sorted.down ? -1 : 1;
     lines.sort((a, b) => {
       const [left, right] = [a.cells[column.index], b.cells[column.index]];
-      // Empty cells are last in either order.
+      // Empty cells are last in both sort orders.
       if (left === null || right === null) return (left === null) - (right === null) || a.index - b.index;
       const order = column.numeric ? left - right : d3.ascending(String(left), String(right));
       return sign * order || a.index - b.index;

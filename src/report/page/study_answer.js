@@ -1,11 +1,13 @@
-// First part of a study's page: one sentence per output.
+// First part of a study's page, with one sentence per output.
 
-// Result of a bisection by the status of its row.
+// Texts on the result of a bisection, by the status of its row.
 const BISECTED = {
   found: 'passes up to', passes_at_to: 'passes in all of its range, up to', fails_at_from: 'fails in all of its range',
 };
 
-/** Varied parameters of a row: "control.distance = 2 m, mission.speed = 5 m/s". */
+/**
+ * Text on the varied parameters of a row, such as "control.distance = 2 m, mission.speed = 5 m/s".
+ */
 function pointText(row, varied) {
   return varied.map(({ name, unit, index }) => `${name} = ${shown(row.cells[index])}${unit ? ` ${unit}` : ''}`).join(', ');
 }

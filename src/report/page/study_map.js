@@ -1,8 +1,8 @@
-// An output, or the pass rate, over any two parameters of a study.
+// Map of an output, or of the pass rate, over two parameters of a study.
 
 /**
- * Cells of the map along a parameter: {names, find, place}; `place` converts a value to a position
- * in cells. One cell per value; equal intervals if there are many numbers; for a search, the
+ * Cells of the map along a parameter: {names, find, place}. `place` converts a value to a position
+ * in cells. There is one cell per value. Many numbers get equal intervals. A search gets the
  * intervals of the key's range.
  */
 function stepsOfMap(column, { rows, isNumber, key }) {
@@ -31,7 +31,10 @@ function stepsOfMap(column, { rows, isNumber, key }) {
   };
 }
 
-/** Draws the mean of an output, or the pass rate, in each cell; for a search, the lowest robustness. */
+/**
+ * Draws a value in each cell: the mean of an output or the pass rate. For a search, it is the
+ * lowest robustness.
+ */
 function drawStudyMap(parent, { parameters, outputs, rows, isGood, isNumber, nameOf, search }) {
   const choices = choicesIn(parent);
   const list = parameters.map((column) => [column.index, nameOf(column)]);
@@ -73,7 +76,9 @@ function drawStudyMap(parent, { parameters, outputs, rows, isGood, isNumber, nam
   }
 }
 
-/** Dark to bright color scale: {color, at}; `at` gives the value at a fraction of the scale. */
+/**
+ * Color scale from dark to bright: {color, at}. `at` gives the value at a fraction of the scale.
+ */
 function colorsFrom([least, most]) {
   return {
     color: (value) => d3.interpolateViridis(most > least ? (value - least) / (most - least) : 0.5),
@@ -113,7 +118,7 @@ function drawMapCells(place, { title, nameX, nameY, columns, lines, values, text
     svg.append('path').attr('class', `sign-of ${mark.kind} on-map`).attr('d', signOfPoint(mark.kind))
       .attr('transform', `translate(${margin.left + columns.place(mark.x) * wide} ${height - margin.bottom - lines.place(mark.y) * high})`);
   }
-  // The color scale.
+  // Draws the color scale of the map.
   const bar = svg.append('g').attr('transform', `translate(${margin.left} ${height - 30})`);
   const steps = 40;
   const length = Math.min(220, width - margin.left - 60);

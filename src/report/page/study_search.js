@@ -26,14 +26,14 @@ function factsOfSearch({ method, runs, shrink_runs: shrink, out_of_time: late },
   ];
 }
 
-/** Formats a value with the digits used by the search. */
+/** Formats a value with the number of digits that the search uses. */
 function keyValue(value) {
   return value === null || value === undefined ? '–' : d3.format('.5~r')(value).replace('-', '−');
 }
 
 /**
- * Position of a value in its range, from 0 to 1; logarithmic ranges use ratios, whole numbers get
- * equal widths.
+ * Position of a value in its range, from 0 to 1. In logarithmic ranges, equal ratios get equal
+ * widths. Whole numbers get equal widths.
  */
 function placeInRange({ kind, from, to }, value) {
   if (kind === 'log_uniform') return Math.log(value / from) / Math.log(to / from);
@@ -45,13 +45,13 @@ function valueInRange({ kind, from, to }, place) {
   return kind === 'integer' ? from - 0.5 + place * (to - from + 1) : from + place * (to - from);
 }
 
-/** Ticks at 1, 2 and 5 times powers of ten, or at powers of ten only if there are many. */
+/** Ticks at 1, 2 and 5 times powers of ten. If there are many, only powers of ten have ticks. */
 function ticksOfLogarithm(scale) {
   const digits = (list) => scale.ticks(100).filter((tick) => list.includes(Math.round(tick / 10 ** Math.floor(Math.log10(tick) + 1e-9))));
   return digits([1, 2, 5]).length > 10 ? digits([1]) : digits([1, 2, 5]);
 }
 
-/** Marked points of a search, each with its values by key. */
+/** The marked points of a search. Each has its values by key. */
 function marksOfSearch({ keys, counterexample }) {
   const nominal = { kind: 'point', at: Object.fromEntries(keys.map(({ name, nominal: value }) => [name, value])) };
   return counterexample ? [nominal, { kind: 'counterexample', at: counterexample.settings }] : [nominal];
@@ -147,8 +147,8 @@ function drawMargins(parent, { keys, counterexample }) {
 }
 
 /**
- * Linear scale, or symmetric logarithmic scale if the values differ by orders of magnitude: {scale,
- * ticks, note}.
+ * A scale for values: {scale, ticks, note}. It is linear, or symmetric logarithmic if the values
+ * differ by orders of magnitude.
  */
 function scaleOfRobustness(values) {
   const sizes = values.map(Math.abs).filter((size) => size > 0).sort(d3.ascending);
@@ -165,7 +165,10 @@ function scaleOfRobustness(values) {
   return { scale: d3.scaleSymlog().constant(unit).domain(extent), ticks, note: ` (logarithmic beyond ±${shown(unit)})` };
 }
 
-/** Color scale: red for failed and blue for passed runs, darker with the distance from 0, never white. */
+/**
+ * Color scale of the robustness. Failed runs are red and passed runs blue. Colors are darker with
+ * the distance from 0, and never white.
+ */
 function colorsOfRobustness(cells) {
   const values = cells.filter((value) => value !== null);
   const { scale } = scaleOfRobustness(values);
@@ -208,7 +211,7 @@ function drawHistory(parent, { search, rows, of, isGood, bus, tooltip }) {
       + `${there.filter((row) => !isGood(row)).length} failed, the lowest is ${brief(lowest)}`);
     const margin = { left: 56, right: 18, top: 30, bottom: 44 };
     const { scale: y, ticks, note } = scaleOfRobustness(values);
-    // Leaves room for marks at the ends.
+    // Leaves room for marks at the ends of the axis.
     y.range([height - margin.bottom - 12, margin.top + 8]);
     const x = d3.scaleLinear().domain([0, Math.max(1, d3.max(rows, (row) => row.number) || 1)]).range([margin.left + 8, width - margin.right - 8]);
     svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - margin.bottom})`)
@@ -279,7 +282,7 @@ function drawCoverage(parent, { search, rows, of, isGood, bus, tooltip }) {
       .attr('d', (row) => `M${at(row.cells[key.column])} ${isGood(row) ? top + 3 : middle + 2}v${middle - top - 5}`)
       .on('mouseenter click', tooltip.show).on('mouseleave', tooltip.hide);
     const axis = (key.kind === 'log_uniform' ? d3.scaleLog() : d3.scaleLinear()).domain([key.from, key.to]).range([at(key.from), at(key.to)]);
-    // Ticks at both ends of the range, and between them if there is room.
+    // The axis has ticks at both ends of the range, and between the ends if there is room.
     const inner = (key.kind === 'log_uniform' ? ticksOfLogarithm(axis)
       : axis.ticks(Math.max(2, Math.min(key.kind === 'integer' ? key.to - key.from : 8, width / 70))))
       .filter((tick) => axis(tick) > at(key.from) + 36 && axis(tick) < at(key.to) - 36);

@@ -1,6 +1,6 @@
 // Statistics over all rows of a study: distributions, influence of the parameters, worst rows.
 
-/** A row of selects. `add` returns a function that returns the selected value. */
+/** A row of drop-down lists. `add` returns a function that returns the selected value. */
 function choicesIn(parent) {
   const choices = parent.append('div').attr('class', 'choices');
   return {
@@ -75,7 +75,7 @@ function drawDistributions(parent, { outputs, statistics, nameOf }) {
   }
 }
 
-/** Draws bars from 0 with intervals, one below the other. */
+/** Draws bars that start at 0, with their intervals, one below the other. */
 function drawBars(parent, title, name, bars, { domain, format, formatTick }) {
   const row = 30;
   const { svg, width, height } = figureIn(parent, title, '', name, bars.length * row + 48);
@@ -128,7 +128,7 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
     const column = columns.find(({ name }) => name === of.name);
     return [i, column ? nameOf(column) : 'pass rate'];
   });
-  // Starts with the pass rate if it was analyzed.
+  // The list of outputs starts with the pass rate if the statistics contain it.
   const rate = statistics.outputs.findIndex(({ name }) => name === 'passed');
   const choices = choicesIn(parent);
   const chosen = choices.add('Of', 'influence-of', named, Math.max(rate, 0), draw);
@@ -193,7 +193,7 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
   }
 }
 
-/** Draws the worst rows. `lowest`: the worst values of the first output are its lowest ones. */
+/** Draws the worst rows. If `lowest`, the worst values of the first output are its lowest ones. */
 function drawWorst(parent, { study, outputs, parameters, rows, nameOf, lowest }) {
   const choices = choicesIn(parent);
   const chosen = choices.add('By', 'worst-by', outputs.map((column) => [column.index, nameOf(column)]), outputs[0].index, draw);
@@ -225,7 +225,9 @@ function shellWord(word) {
   return /^[\w./+-]+$/.test(word) ? word : `'${word.replace(/'/g, "'\\''")}'`;
 }
 
-/** Draws paired differences of two studies, after minus before, over rows with equal settings. */
+/**
+ * Draws the differences of two studies, after minus before. Rows with equal settings are paired.
+ */
 function drawDifference(parent, { study, columns }) {
   const { rows, only_before: before, only_after: after, outputs } = study.difference;
   parent.append('p').attr('class', 'hint').text(`${rows} rows that set the same in both`

@@ -8,7 +8,7 @@ function verdictOf(run) {
   if (!run.complete) return { good: false, text: 'interrupted' };
   if (run.verdict.passed === null) return { good: true, text: 'not judged' };
   if (!run.verdict.passed) return { good: false, text: 'failed' };
-  // The run passes although it did not arrive, because that end was expected.
+  // The run passes although it did not arrive, because its end was expected.
   const ends = Array.from(new Set(run.plants.map(({ end }) => end.status))).filter((status) => status !== 'arrived');
   return { good: true, text: ends.length ? `as expected: ${ends.map(statusText).join(', ')}` : 'passed' };
 }
@@ -80,7 +80,7 @@ function drawReasons(parent, failures, notes) {
   for (const note of notes) list.append('li').attr('class', 'note').text(written(note));
 }
 
-/** Union of the rows of several lists of numbers, each path once, in order. */
+/** Union of the rows of several lists of numbers, in order. Each path occurs once. */
 function rowsOf(lists) {
   const rows = new Map();
   for (const list of lists) {
@@ -90,7 +90,7 @@ function rowsOf(lists) {
       before = path;
     }
   }
-  // Rows that only a later list has keep their position in that list.
+  // Rows that only a later list has keep their position in the later list.
   const order = [];
   for (const row of rows.values()) {
     const at = order.findIndex((other) => other.path === row.before);
@@ -114,7 +114,7 @@ function keeps(value, { relation, bound }) {
   return relation === 'at_most' ? value <= bound : value >= bound;
 }
 
-/** A limit of a standard as text: "at most 0.35". */
+/** Text on a limit of a standard, such as "at most 0.35". */
 function limitText(limit, unit) {
   return limit ? `${limit.relation === 'at_most' ? 'at most' : 'at least'} ${brief(limit.bound)}${unit ? ` ${unit}` : ''} to pass` : '';
 }
@@ -134,7 +134,10 @@ function drawManeuver() {
   else drawCards(made, own.map((row) => ({ ...row, label: upperFirst(row.label.replace(/^Maneuver: /, '')) })));
 }
 
-/** Draws the headline numbers: one card each, or a table row per track if there are many. */
+/**
+ * Draws the headline numbers on one card each. If there are many, draws a table with a row per
+ * track.
+ */
 function drawHeadline() {
   if (!tracks.length) return;
   const all = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.headline);
@@ -149,7 +152,9 @@ function drawHeadline() {
   drawCards(made, rows);
 }
 
-/** The bound of a metric as text, such as "at most 0.5", if all runs expect the same; else null. */
+/**
+ * Text on the bound of a metric, such as "at most 0.5"; null unless all runs expect the same bound.
+ */
 function askedOf(path) {
   const asked = new Set(runs.flatMap((run) => run.expectations).filter((check) => check.metric === path
     && check.relation !== 'equals').map((check) => check.asked));
@@ -250,7 +255,7 @@ function drawLegend(parent) {
   }
 }
 
-/** Draws a table with a row per number and a column per list. */
+/** Draws a table with one row per number and one column per list. */
 function drawNumbers(parent, columns) {
   const table = parent.append('div').attr('class', 'panel scroll').append('table');
   const head = table.append('thead').append('tr');
@@ -289,7 +294,7 @@ function drawExpectations() {
   }
 }
 
-/** Draws the resolved scenarios; highlights lines that not all of them contain. */
+/** Draws the resolved scenarios. Highlights lines that are missing in some of them. */
 function drawScenarios() {
   const lines = runs.map((run) => run.resolved.replace(/\n$/, '').split('\n'));
   const common = new Set(lines[0].filter((line) => lines.every((other) => other.includes(line))));

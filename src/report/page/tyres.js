@@ -1,10 +1,14 @@
 // Tyres in the 3D scene: size and direction of the used grip, and skid marks.
 
 const WHEELS = ['fl', 'fr', 'rl', 'rr'];
-const DIAL = 0.62;  // radius of the circle of full grip [m]
-const SKID = { use: 0.9, width: 0.17 };  // skids from this fraction of the grip; tyre width [m]
+const DIAL = 0.62;  // Radius of the circle of full grip [m].
+const SKID = { use: 0.9, width: 0.17 };  // Fraction of the grip from which a tyre skids, and tyre
+                                         // width [m].
 
-/** Used fraction of the tyres' grip over time: {t, at(wheel, time), used(wheel, row)}; null if not logged. */
+/**
+ * Used fraction of the tyres' grip over time: {t, at(wheel, time), used(wheel, row)}; null if the
+ * log has no tyre forces.
+ */
 function tyreUse(track) {
   if (!track.tyres) return null;
   const t = numbersOf(track.tyres.t);
@@ -27,10 +31,11 @@ function wheelPlaces(vehicle, model, height) {
     const i = model.bodies.findIndex((body) => body.joints.some(({ channel }) => channel === `spin_${wheel}_rad`));
     if (i < 0) continue;
     const { elements } = vehicle.nodes[i].matrix;
-    // The wheel spins about its y axis, which keeps its direction; forward is to the right of it.
+    // The wheel spins about its y axis, which keeps its direction. The forward direction is to the
+    // right of the wheel's axis.
     const yaw = Math.atan2(-elements[4], elements[5]);
     const [x, y] = [elements[12], elements[13]];
-    if (elements[14] - height(x, y) > 0.5) continue;  // in the air
+    if (elements[14] - height(x, y) > 0.5) continue;  // skips a wheel in the air
     places[wheel] = { x, y, z: height(x, y), yaw };
   }
   return places;
@@ -51,7 +56,7 @@ function makeDials(scene) {
   const ring = new THREE.RingBufferGeometry(DIAL - 0.03, DIAL, 48);
   const disc = new THREE.CircleBufferGeometry(DIAL, 48);
   const arrow = arrowGeometry();
-  // Visible through the car.
+  // The material is visible through the car.
   const over = (color, opacity) => new THREE.MeshBasicMaterial({ color, transparent: true, opacity, depthTest: false, depthWrite: false, side: THREE.DoubleSide });
   const dials = WHEELS.map(() => {
     const group = new THREE.Group();
@@ -85,7 +90,7 @@ function makeDials(scene) {
   };
 }
 
-/** Skid marks of tyres that use nearly all their grip; they grow with time. */
+/** Skid marks of tyres that use nearly all their grip. The marks grow with time. */
 function makeSkidMarks(track, vehicle, motion, model, height) {
   const use = tyreUse(track);
   if (!use) return null;

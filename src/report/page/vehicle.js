@@ -1,7 +1,7 @@
-// The vehicle in the 3D scene: its shape from the run's model, and its pose from the state log by
-// the kinematics of its joints.
+// The vehicle in the 3D scene. The run's model gives the shape of the vehicle. The state log gives
+// the pose, by the kinematics of the joints.
 
-const GHOST = 0.42;  // opacity
+const GHOST = 0.42;  // opacity of a ghost
 
 /** Decodes a channel: base64 of float32, or of int16 with offset and scale. */
 function numbersOf(channel) {
@@ -36,7 +36,7 @@ function shapeOf(geom, meshes) {
   }
 }
 
-/** Body color of a vehicle: that of most meshes, else that of most shapes. */
+/** Body color of a vehicle. It is the color of most meshes or, without meshes, of most shapes. */
 function paintOf({ geoms }) {
   const meshes = geoms.filter(({ type }) => type === 'mesh');
   const counts = d3.nest().key(({ rgba }) => rgba.join()).rollup((list) => list.length).entries(meshes.length ? meshes : geoms);
@@ -44,9 +44,9 @@ function paintOf({ geoms }) {
 }
 
 /**
- * Returns a function that makes a vehicle: its shapes under `group`, the `nodes` of its bodies, and
- * `pose(motion, time)`, which moves it. All vehicles of a run share the shapes. The body gets the
- * given color; a ghost is translucent and has that color everywhere.
+ * Returns a function that makes a vehicle. A vehicle has its shapes under `group`, the `nodes` of
+ * its bodies, and `pose(motion, time)`, which moves it. All vehicles of a run share the shapes. The
+ * body gets the given color. A ghost is translucent and has that color everywhere.
  */
 function vehicleMaker(model) {
   const meshes = model.meshes.map(({ vertices, faces }) => {
@@ -74,7 +74,7 @@ function vehicleMaker(model) {
       const material = new THREE.MeshLambertMaterial({
         color: ghost || geom.rgba.join() === paint ? new THREE.Color(color) : new THREE.Color(r, g, b),
         transparent: ghost || a < 1, opacity: ghost ? GHOST : a, depthWrite: true,
-        // If both coincide, the solid car covers the ghost.
+        // If ghost and solid car coincide, the solid car covers the ghost.
         polygonOffset: ghost, polygonOffsetFactor: 4, polygonOffsetUnits: 40,
       });
       materials.push(material);
@@ -121,8 +121,8 @@ function vehicleMaker(model) {
       }
     }
     /**
-     * Fades a ghost out near the solid car, which it would only blur. Returns whether it is visible
-     * at this distance [m].
+     * Fades a ghost out near the solid car, because the ghost would only blur the car. Returns
+     * whether the ghost is visible at this distance [m].
      */
     function fade(apart) {
       const [from, to] = [0.05, 0.3];

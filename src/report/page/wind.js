@@ -1,9 +1,12 @@
-// Wind in the 3D scene: the velocity at the car as arrows on the ground around it, and the areas of
-// gusts.
+// Wind in the 3D scene: arrows on the ground around the car with the air's velocity at the car, and
+// the areas of gusts.
 
-const WIND = { spacing: 6, reach: 3, least: 0.5, perSpeed: 1 / 3, longest: 4.5 };  // [m], cells, [m/s], [s], [m]
+const WIND = { spacing: 6, reach: 3, least: 0.5, perSpeed: 1 / 3, longest: 4.5 };  // units of the
+                                                                                   // values: [m],
+                                                                                   // cells, [m/s],
+                                                                                   // [s], [m]
 
-/** Air velocity at a car: at(time) gives {x, y, speed}; null without wind. */
+/** Air velocity at a car, as a function at(time) that gives {x, y, speed}; null without wind. */
 function windAt(track) {
   const { motion } = runs[track.run].plants.find((plant) => plant.name === track.plant);
   if (!motion.wind) return null;

@@ -4,7 +4,8 @@ namespace trackbed {
 
 const char* PlaceOfData();
 
-/// Used by a program linked to static libraries without CMake: the package's folder is unknown.
+/// Used by a program linked to static libraries without CMake, for which the package's folder is
+/// unknown.
 const char* PlaceOfData() {
   throw InputError(Problem{
       .message = "the folder of models/ and scenarios/ is not known: set the environment variable "

@@ -14,10 +14,10 @@
 #include "trackbed/vehicle/params.h"
 
 /// The local planner's geometry: one Bezier curve of degree seven past an obstacle in a turn
-/// (Skackauskas, dissertation, listing F.2; below, "the listing").
+/// (Skackauskas, dissertation, listing F.2; called "the listing" below).
 ///
-/// Maneuver frame M: origin where the maneuver starts, x along the heading there, y to the left.
-/// The turn's arc begins the distance S ahead.
+/// The maneuver frame M has its origin at the start of the maneuver, x along the heading there, y
+/// to the left. The turn's arc begins at the distance S ahead of the origin.
 ///   r_1    radius of the turn [m];  sg = +1 for a left turn, -1 for a right one
 ///   S      = r_1 + v_a t_d: straight before the arc, and after it [m]
 ///   C      = (S, sg r_1): center of the arc;  A, E its first and last point
@@ -27,69 +27,71 @@ namespace trackbed {
 
 enum class TurnSide { kLeft, kRight };
 
-/// The problem. Defaults are those of the listing.
+/// The input of a maneuver. The defaults are those of the listing.
 struct TurnManeuver {
-  double radius = 20.0;                    ///< r_1 [m], > 0
-  double speed = 3.0;                      ///< v_a [m/s], > 0
-  double delay = 0.9;                      ///< t_d [s], >= 0
-  double turn_angle = 1.5707963267948966;  ///< theta_turn [rad]
-  double reduction = 0.2617993877991494;   ///< theta_turn_dec [rad]: the heading changes by
-                                           ///< theta_turn - theta_turn_dec
+  double radius = 20.0;                    ///< Radius r_1 of the turn [m], > 0.
+  double speed = 3.0;                      ///< Speed v_a [m/s], > 0.
+  double delay = 0.9;                      ///< System delay t_d [s], >= 0.
+  double turn_angle = 1.5707963267948966;  ///< Angle theta_turn of the turn [rad].
+  /// Reduction theta_turn_dec [rad]. The heading changes by theta_turn - theta_turn_dec.
+  double reduction = 0.2617993877991494;
   TurnSide side = TurnSide::kLeft;
-  int obstacle_sixth = 3;        ///< n: how many sixths of the arc lie before it, 1 to 5
-  double obstacle_length = 2.0;  ///< L_k: along the x axis of M [m], > 0
-  double obstacle_width = 2.0;   ///< w_k: along its y axis [m], > 0
-  double safe_distance = 1.5;    ///< SD [m], >= 0
-  double inner_width = 1.0;      ///< free toward the center [m], >= 0
-  double outer_width = 0.0;      ///< free on the other side [m], >= 0
+  int obstacle_sixth = 3;        ///< Number n of sixths of the arc before the obstacle, 1 to 5.
+  double obstacle_length = 2.0;  ///< Length L_k, along the x axis of M [m], > 0.
+  double obstacle_width = 2.0;   ///< Width w_k, along the y axis of M [m], > 0.
+  double safe_distance = 1.5;    ///< Safe distance SD [m], >= 0.
+  double inner_width = 1.0;      ///< Free width toward the center [m], >= 0.
+  double outer_width = 0.0;      ///< Free width on the other side [m], >= 0.
   LiteralTurn literal;
 
   /// The side with more room; the inner one if both are equal.
   [[nodiscard]] PassingSide passing_side() const {
     return inner_width >= outer_width ? PassingSide::kInner : PassingSide::kOuter;
   }
-  /// S [m].
+  /// The length S of the straight [m].
   [[nodiscard]] double straight() const { return radius + speed * delay; }
 };
 
 /// The result of laying out a maneuver.
 enum class TurnStatus {
   kOk,
-  kNoTurn,       ///< the reduction leaves no turn, or too little for the grid
-  kNoSafePoint,  ///< r_k <= 0: the turn is too tight to pass the obstacle on the inside
+  kNoTurn,       ///< The reduction leaves no turn, or too little for the grid.
+  kNoSafePoint,  ///< r_k <= 0: the turn is too tight to pass the obstacle on the inner side.
 };
 
 /// A point of the turn's arc.
 struct ArcPoint {
-  double angle = 0.0;  ///< sigma [rad]
+  double angle = 0.0;  ///< Swept angle sigma [rad].
   Vec2 position{0.0, 0.0};
 };
 
-/// The layout of a maneuver, in M. If the status is not kOk, only the reason is valid.
+/// The layout of a maneuver in the frame M. If the status is not kOk, only the reason is valid.
 struct TurnLayout {
   TurnStatus status = TurnStatus::kOk;
-  std::string reason;           ///< empty when ok
-  std::vector<ArcPoint> arc;    ///< from A to E; V_L points, at most 0.01 rad apart
-  std::size_t obstacle_at = 0;  ///< Padetis_k, as an index from 1: the arc's point nearest to it
-  OrientedBox obstacle;         ///< along the axes of M
-  double safe_radius = 0.0;     ///< r_k [m]
-  double safe_angle = 0.0;      ///< sigma of the safe point [rad]
-  Vec2 safe_point{0.0, 0.0};    ///< q_goal: C + r_k (sin sigma, -sg cos sigma)
+  std::string reason;         ///< Reason of a failure; empty if ok.
+  std::vector<ArcPoint> arc;  ///< V_L points from A to E, at most 0.01 rad apart.
+  /// Padetis_k: the arc's point nearest to the obstacle, as an index from 1.
+  std::size_t obstacle_at = 0;
+  OrientedBox obstacle;       ///< Obstacle, aligned with the axes of M.
+  double safe_radius = 0.0;   ///< Radius r_k [m].
+  double safe_angle = 0.0;    ///< Swept angle sigma of the safe point [rad].
+  Vec2 safe_point{0.0, 0.0};  ///< Safe point q_goal: C + r_k (sin sigma, -sg cos sigma).
 
   [[nodiscard]] bool ok() const { return status == TurnStatus::kOk; }
 };
 
-/// r_k on either side [m], of any sign: r_1 - need - inner_width on the inside, 1.5 (r_1 + need +
-/// outer_width) on the outside, with need = 2 SD + 2 IS_k + 2 w_a, IS_k being half the obstacle's
-/// diagonal and w_a the car's width. The factor 1.5 compensates for the curve not reaching its
-/// control point.
+/// The radius r_k on either side [m], of any sign. On the inner side, it is r_1 - need -
+/// inner_width, on the outer side 1.5 (r_1 + need + outer_width). The required width is need = 2 SD
+/// + 2 IS_k + 2 w_a, with IS_k half the obstacle's diagonal and w_a the car's width. The factor 1.5
+/// compensates for the curve not reaching its control point.
 double SafeRadius(const TurnManeuver& maneuver, double vehicle_width, PassingSide passing_side);
 
 /// Computes arc, obstacle and safe point. Errors: InternalError for a number that is not finite or
 /// outside the range stated in TurnManeuver.
 TurnLayout LayOutTurn(const TurnManeuver& maneuver, const VehicleParams& vehicle);
 
-/// P_0 to P_7 in M, for a layout that is ok. `final_y` [m] is q_final.y: the y coordinate of P_3.
+/// The control points P_0 to P_7 in M, for a layout that is ok. The argument `final_y` [m] is
+/// q_final.y, the y coordinate of P_3.
 ///
 /// P_0 to P_2 lie on the straight before the turn (P_2 at A if the obstacle is past the arc's
 /// middle, else at two thirds of the way), P_3 above A, P_4 at the safe point, and P_5 to P_7 on
@@ -99,60 +101,64 @@ std::array<Vec2, 8> ControlPoints(const TurnManeuver& maneuver, const TurnLayout
 
 /// The tree of the listing's search.
 struct LiteralTree {
-  std::vector<TreeNode> nodes;  ///< costs through the nearest node, not the parent (L10)
-  std::size_t final_node = 0;   ///< index of the node nearest to the safe point
-  double goal_distance = 0.0;   ///< from there to the safe point [m]
-  double final_y = 0.0;         ///< q_final.y [m]: the only value that the curve uses
+  /// Nodes; costs are through the nearest node, not the parent (L10).
+  std::vector<TreeNode> nodes;
+  std::size_t final_node = 0;  ///< Index of the node nearest to the safe point.
+  double goal_distance = 0.0;  ///< Distance from the final node to the safe point [m].
+  double final_y = 0.0;        ///< q_final.y [m], the only value that the curve uses.
 };
 
-/// The listing's search as printed, including its defects (L5-L13): floor(S/2) samples, rounded
-/// down to whole meters, in the box between the start and the obstacle's center (below the start
-/// for the other side); steps of 1 m; free if the whole line to the sample crosses no side of the
-/// obstacle; the cheapest parent within 10 m; no rewiring. It ignores the car's width and never
-/// reaches its goal, which lies outside the box and beyond its steps. It is a reference only: use
-/// PlanRrtStar.
+/// The listing's search as printed, including its defects (L5-L13). The search draws floor(S/2)
+/// samples, rounded down to whole meters, in the box between the start and the obstacle's center
+/// (below the start for the other side). Steps are 1 m long. A step is free if the whole line to
+/// the sample crosses no side of the obstacle. The parent is the cheapest node within 10 m, without
+/// rewiring. The search ignores the car's width and never reaches its goal, which lies outside the
+/// box and beyond its steps. The search is only a reference: use PlanRrtStar.
 LiteralTree LiteralRrtStar(const TurnManeuver& maneuver, const TurnLayout& layout,
                            std::uint64_t seed);
 
 /// The curve at one of the parameters u = 0, 0.002, ..., 1.
 struct ManeuverSample {
   double u = 0.0;
-  Pose2 pose;              ///< of the rear axle: on the curve, x along the tangent
-  double s = 0.0;          ///< along the chords [m]
-  double time = 0.0;       ///< s/v_a [s]
-  double curvature = 0.0;  ///< K [1/m], positive to the left
-  double steering = 0.0;   ///< delta = atan(L K) [rad]
+  Pose2 pose;              ///< Pose of the rear axle on the curve, x along the tangent.
+  double s = 0.0;          ///< Distance along the chords [m].
+  double time = 0.0;       ///< Time s/v_a [s].
+  double curvature = 0.0;  ///< Curvature K [1/m], positive to the left.
+  double steering = 0.0;   ///< Steering delta = atan(L K) [rad].
 };
 
 /// The result of driving along a curve. Largest and smallest values are those of the samples.
 struct ManeuverRun {
-  std::vector<ManeuverSample> samples;  ///< (time, steering) are the listing's steering signal
-  double length = 0.0;                  ///< ARC_L: total length of the chords [m]
-  double duration = 0.0;                ///< length/v_a [s]
-  double steering_max = 0.0;            ///< largest |delta| [rad]
-  double steering_rate_max = 0.0;       ///< largest |d delta/dt| [rad/s]
-  Vec2 test_point{0.0, 0.0};            ///< beside the obstacle, by the listing's rule
-  Vec2 test_corner{0.0, 0.0};           ///< the obstacle's corner used in the test
-  double test_distance = 0.0;  ///< the listing's safety check: from test point to corner [m]
-  double clearance = 0.0;      ///< smallest distance from footprint to obstacle [m]; 0 for
-                               ///< a collision
+  /// Samples; their (time, steering) are the listing's steering signal.
+  std::vector<ManeuverSample> samples;
+  double length = 0.0;             ///< Total length ARC_L of the chords [m].
+  double duration = 0.0;           ///< Duration length/v_a [s].
+  double steering_max = 0.0;       ///< Largest |delta| [rad].
+  double steering_rate_max = 0.0;  ///< Largest |d delta/dt| [rad/s].
+  Vec2 test_point{0.0, 0.0};       ///< Point beside the obstacle, by the listing's rule.
+  Vec2 test_corner{0.0, 0.0};      ///< Corner of the obstacle used in the test.
+  /// The listing's safety check: distance from the test point to the corner [m].
+  double test_distance = 0.0;
+  /// Smallest distance from footprint to obstacle [m]; 0 for a collision.
+  double clearance = 0.0;
 
-  bool test_passed = false;  ///< test_distance >= SD + w_a/2
-  bool keeps_clear = false;  ///< clearance >= SD
-  bool steerable = false;    ///< steering and its rate are within the car's limits
+  bool test_passed = false;  ///< Whether test_distance >= SD + w_a/2.
+  bool keeps_clear = false;  ///< Whether clearance >= SD.
+  bool steerable = false;    ///< Whether steering and its rate are within the car's limits.
   [[nodiscard]] bool ok() const { return test_passed && keeps_clear && steerable; }
 };
 
-/// Simulates driving along a curve at constant speed: 501 samples, some 0.15 ms. The test point is
-/// two samples before the first sample with s >= n/6 of the length minus 2 m. The listing tests
-/// this one point against one corner, which can pass although the car comes close elsewhere;
-/// `clearance` is therefore computed in addition. `steerable` covers the curve between its ends,
-/// but not how the wheels reach their initial angle. A curve without a direction at a sample is not
-/// steerable.
+/// Simulates driving along a curve at constant speed, with 501 samples. Cost: 0.15 ms. The test
+/// point is two samples before the first sample with s >= n/6 of the length minus 2 m. The listing
+/// tests this one point against one corner, and can pass although the car comes close elsewhere.
+/// Therefore `clearance` is computed in addition. The result `steerable` covers the curve between
+/// its ends, but not how the wheels reach their initial angle. A curve without a direction at a
+/// sample is not steerable.
 ManeuverRun SimulateManeuver(const TurnManeuver& maneuver, const TurnLayout& layout,
                              const VehicleParams& vehicle, const BezierCurve& curve);
 
-/// X_WM of a turn whose arc begins at X_WA: S behind that point, with the same heading.
+/// The pose X_WM of the maneuver frame for a turn whose arc begins at X_WA. The frame lies S behind
+/// that point, with the same heading.
 Pose2 ManeuverFrame(const TurnManeuver& maneuver, const Pose2& X_WA);
 
 }  // namespace trackbed

@@ -19,63 +19,65 @@ namespace trackbed {
 
 /// How to treat the corners of a polyline.
 enum class Corners {
-  kRound,   ///< rounded so that the car can drive them, if necessary below the planned speed
-  kRefuse,  ///< no plan: a car cannot drive a corner
+  /// Rounded so that the car can drive them, if necessary below the planned speed.
+  kRound,
+  kRefuse,  ///< Rejected: the planner returns no plan.
 };
 
 struct CornerLimits {
-  double speed = 3.0;          ///< upper limit of v [m/s]
-  double min_speed = 0.5;      ///< lower limit of v [m/s]
-  double max_curvature = 0.2;  ///< [1/m]
+  double speed = 3.0;          ///< Upper limit of v [m/s].
+  double min_speed = 0.5;      ///< Lower limit of v [m/s].
+  double max_curvature = 0.2;  ///< Upper limit of the curvature [1/m].
   /// Speed of the car at the first point [m/s]; 0: at rest. The braking distance to the first
   /// corner stays straight.
   double start_speed = 0.0;
-  double deceleration = 1.0;  ///< with which the car slows down for it [m/s^2], > 0
+  double deceleration = 1.0;  ///< Deceleration before the first corner [m/s^2], > 0.
 };
 
 /// A rounded corner.
 struct RoundCorner {
-  Vec2 at{0.0, 0.0};            ///< the polyline's corner
-  double heading_change = 0.0;  ///< h, signed
-  double speed = 0.0;           ///< v
-  double sharpness = 0.0;       ///< sigma
-  double curvature = 0.0;       ///< kappa, not signed
-  double tangent_length = 0.0;  ///< T
-  double from = 0.0;            ///< station of its start [m]
-  double to = 0.0;              ///< station of its end [m]
+  Vec2 at{0.0, 0.0};            ///< Corner of the polyline.
+  double heading_change = 0.0;  ///< Heading change h, signed.
+  double speed = 0.0;           ///< Speed v.
+  double sharpness = 0.0;       ///< Sharpness sigma.
+  double curvature = 0.0;       ///< Curvature kappa, unsigned.
+  double tangent_length = 0.0;  ///< Tangent length T.
+  double from = 0.0;            ///< Station of the curve's start [m].
+  double to = 0.0;              ///< Station of the curve's end [m].
 };
 void Visit(DiagnosticsVisitor& out, const RoundCorner& corner);
 
 struct RoundedCorners {
   PlanStatus status = PlanStatus::kOk;
-  std::string reason;  ///< empty when ok
+  std::string reason;  ///< Reason of a failure; empty if ok.
   Path path;
   std::vector<RoundCorner> corners;
-  std::vector<SpeedCap> caps;  ///< of the corners taken below the speed limit
+  std::vector<SpeedCap> caps;  ///< Caps of the corners that are driven below the speed limit.
 };
 
-/// The curve at v of a corner with heading change |h| in (0, pi): a peak curvature of sqrt(|h|
-/// sigma), or the maximum curvature with an arc between the clothoids. The tangent length grows
-/// with v.
+/// The curve at speed v for a corner with heading change |h| in (0, pi). The peak curvature of the
+/// curve is sqrt(|h| sigma), or the maximum curvature with an arc between the clothoids. The
+/// tangent length grows with v.
 RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double speed,
                      double max_curvature);
 
 /// Rounds a polyline of at least two points, without repeated neighbors. A corner may use half of
 /// each of its legs, and the whole leg at the ends of the polyline, minus the distance that a
-/// rolling car needs to slow down. Each corner is taken as fast as its legs allow, or more slowly,
-/// which brings the path closer to the corner, if the footprint is otherwise too near to a box.
-/// Guarantees when ok: the path starts at the first point along the first leg and ends at the last,
-/// with continuous curvature; no curvature above the limit; the steering rate within the car's at
-/// the caps; the footprint free (CollisionChecker). Otherwise the reason names the corner.
+/// rolling car needs to slow down. Each corner is driven as fast as its legs allow. If the
+/// footprint is then too near to a box, the corner is driven more slowly, which brings the path
+/// closer to the corner. Guarantees if ok: the path starts at the first point along the first leg
+/// and ends at the last point. The curvature is continuous and within the limit, and the steering
+/// rate at the caps is within the car's. The footprint is free (CollisionChecker). If not ok, the
+/// reason names the corner.
 RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
                             const CornerLimits& limits, const CollisionChecker& clear);
 
 /// Removes points at which the polyline continues straight.
 std::vector<Vec2> WithoutCollinearPoints(const std::vector<Vec2>& polyline);
 
-/// Shortens a polyline greedily from its start: removes points at which it continues straight, and
-/// points between two others whose connecting segment stays further than `inflation` [m] from every
-/// box.
+/// Shortens a polyline greedily from its start. Removes points at which the polyline continues
+/// straight. Removes points between two others if the segment that connects these is more than
+/// `inflation` [m] away from every box.
 std::vector<Vec2> Shortcut(const std::vector<Vec2>& polyline, const std::vector<OrientedBox>& boxes,
                            double inflation);
 

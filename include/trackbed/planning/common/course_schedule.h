@@ -12,10 +12,10 @@ namespace trackbed {
 /// The largest curvature of a segment that is linear in the distance [1/m].
 double SharpestCurvature(const Segment& segment);
 
-/// The steering over distance with which a kinematic car follows the segments: atan(L kappa). Steps
-/// of curvature become the ramps of RampsOfSteps (curvature_steps.h) for a car that drives at
-/// `speed` [m/s], slower within `caps`. At changes of direction and at `stops`, where the car
-/// stands, the step is placed in the last micrometer before the stop.
+/// The steering over distance, atan(L kappa), with which a kinematic car follows the segments.
+/// Steps of curvature become the ramps of RampsOfSteps (curvature_steps.h), for a car that drives
+/// at `speed` [m/s] and slower within `caps`. The car stands at changes of direction and at
+/// `stops`; there, the step lies in the last micrometer before the stop.
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed, const std::vector<SpeedCap>& caps = {},
                                 const std::vector<double>& stops = {});

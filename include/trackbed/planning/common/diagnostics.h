@@ -17,8 +17,8 @@
 
 /// Typed diagnostics of planners, independent of a file format.
 ///
-/// The diagnostics of a planner are any copyable struct. A function beside it, found by
-/// argument-dependent lookup, names its fields:
+/// The diagnostics of a planner are any copyable struct. A function found by argument-dependent
+/// lookup names the fields of the struct:
 ///
 ///     void Visit(DiagnosticsVisitor& out, const MyDiagnostics& own) {
 ///       out.Integer("expansions", own.expansions);
@@ -26,18 +26,19 @@
 ///     }
 ///
 /// The writer of plan.json and the printer of `trackbed plan` are visitors. Names include units, as
-/// columns do: "cost_m".
+/// those of columns: "cost_m".
 namespace trackbed {
 
 class DiagnosticsVisitor {
  public:
   virtual ~DiagnosticsVisitor() = default;
 
-  /// Whether to visit all fields, as for plan.json; otherwise only a summary, without points,
-  /// histories and values derived from other fields.
+  /// Whether to visit all fields, as for plan.json. Otherwise visits only a summary, without
+  /// points, histories and values derived from other fields.
   [[nodiscard]] virtual bool full() const = 0;
 
-  virtual void Number(const char* name, double value) = 0;  ///< not finite: null in plan.json
+  /// A number; plan.json has null if it is not finite.
+  virtual void Number(const char* name, double value) = 0;
   virtual void Integer(const char* name, std::int64_t value) = 0;
   virtual void Flag(const char* name, bool value) = 0;
   virtual void Text(const char* name, const std::string& value) = 0;
@@ -56,7 +57,7 @@ class DiagnosticsVisitor {
     VisitSection(name, [&](DiagnosticsVisitor& inner) { Visit(inner, value); });
   }
 
-  /// A list of structs; it may be empty.
+  /// Visits a list of structs, which may be empty.
   template <typename Struct>
   void List(const char* name, const std::vector<Struct>& values) {
     VisitList(name, values.size(),
@@ -77,8 +78,8 @@ class DiagnosticsVisitor {
 ///
 ///     void ReplaceStretch(MyDiagnostics& own, const Stations& replaced, double shift);
 ///
-/// which is called when the path between two stations is replaced: stations beyond are shifted by
-/// `shift` [m].
+/// The function is called when the path between two stations is replaced. Stations beyond are
+/// shifted by `shift` [m].
 class MethodDiagnostics {
  public:
   MethodDiagnostics() = default;
@@ -100,13 +101,13 @@ class MethodDiagnostics {
 
   [[nodiscard]] bool has_value() const { return value_.has_value(); }
 
-  /// The struct, if it is of this type; else null.
+  /// Returns the struct if it is of this type; else null.
   template <typename Struct>
   [[nodiscard]] const Struct* As() const {
     return std::any_cast<Struct>(&value_);
   }
 
-  /// The struct; InternalError if it is of another type.
+  /// Returns the struct. InternalError if it is of another type.
   template <typename Struct>
   [[nodiscard]] const Struct& Get() const {
     TRACKBED_CHECK(As<Struct>() != nullptr, "diagnostics of another method: {}",
@@ -114,7 +115,7 @@ class MethodDiagnostics {
     return *As<Struct>();
   }
 
-  /// Visits no field if there is no value.
+  /// Visits the fields of the struct; visits no field if there is no struct.
   friend void Visit(DiagnosticsVisitor& out, const MethodDiagnostics& own) {
     if (own.visit_ != nullptr) {
       own.visit_(out, own.value_);

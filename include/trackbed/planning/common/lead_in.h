@@ -4,19 +4,19 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// The first meters of a plan for a rolling car.
+/// The first meters of a plan for a car that is already rolling.
 namespace trackbed {
 
 /// A path that a rolling car can drive from any steering angle: it straightens the wheels, then
 /// continues straight.
 struct LeadIn {
-  std::vector<Segment> segments;  ///< from the car's start; empty for a car at rest
-  Pose2 end;                      ///< their end pose
-  double length = 0.0;            ///< [m]
+  std::vector<Segment> segments;  ///< Segments from the car's start; empty for a car at rest.
+  Pose2 end;                      ///< Pose at the end of the segments.
+  double length = 0.0;            ///< Length of the segments [m].
 };
 
-/// The wheels straighten at the start speed; then the car continues straight while it slows down
-/// comfortably to `speed` [m/s], and for another `beyond` [m].
+/// Computes a lead-in. The wheels straighten at the start speed. Then the car continues straight
+/// while it slows down comfortably to `speed` [m/s], and for another `beyond` [m].
 LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond);
 
 }  // namespace trackbed

@@ -10,27 +10,27 @@
 /// A grid of square cells, free or occupied, for searches in the plane.
 namespace trackbed {
 
-/// Cells in rows along the grid's x axis. Cells outside of the grid are not free.
+/// A grid of cells in rows along its x axis. Cells outside of the grid are not free.
 struct OccupancyGrid {
-  Pose2 X_WG;         ///< middle of cell 0; x along the columns, y along the rows
-  double cell = 1.0;  ///< side of a cell [m], > 0
+  Pose2 X_WG;         ///< Pose of the middle of cell 0; x along the columns, y along the rows.
+  double cell = 1.0;  ///< Side of a cell [m], > 0.
   int columns = 0;
   int rows = 0;
-  std::vector<std::uint8_t> occupied;  ///< row by row; 1: occupied
+  std::vector<std::uint8_t> occupied;  ///< State of the cells, row by row; 1: occupied.
 
   [[nodiscard]] std::size_t size() const { return occupied.size(); }
 
-  /// The middle of a cell, in the world.
+  /// The middle of a cell, in world coordinates.
   [[nodiscard]] Vec2 CellCenter(std::size_t index) const;
 
-  /// The cell that contains a point of the world, or -1 outside.
+  /// The cell that contains a point of the world; -1 if the point is outside.
   [[nodiscard]] int CellAt(const Vec2& point_W) const;
 };
 
 /// An axis-aligned rectangle in some frame.
 struct GridArea {
-  Vec2 low{0.0, 0.0};   ///< [m]
-  Vec2 high{0.0, 0.0};  ///< [m]
+  Vec2 low{0.0, 0.0};   ///< Lower corner [m].
+  Vec2 high{0.0, 0.0};  ///< Upper corner [m].
 };
 
 /// The smallest area, aligned with `X_WF`, that contains all points and boxes with a margin of
@@ -45,9 +45,9 @@ inline constexpr double kMaxCells = 2e7;
 double CellsIn(const GridArea& area, double cell);
 
 /// Makes a grid over an area of the frame X_WF, with the middle of a cell at the frame's origin. A
-/// cell is occupied when its middle is at most `inflation` [m] from a box. Cost: the cells of the
-/// inflated boxes. InternalError for more than kMaxCells, PreconditionError for boxes that are not
-/// finite.
+/// cell is occupied when its middle is at most `inflation` [m] from a box. The cost is proportional
+/// to the number of cells in the inflated boxes. InternalError for more than kMaxCells cells,
+/// PreconditionError for boxes that are not finite.
 OccupancyGrid Rasterize(const Pose2& X_WF, const GridArea& area, double cell,
                         const std::vector<OrientedBox>& boxes_W, double inflation);
 

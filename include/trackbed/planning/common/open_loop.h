@@ -8,18 +8,18 @@
 
 namespace trackbed {
 
-/// The result of driving a plan open loop to D_end, by the kinematic car with rate-limited
+/// The result of driving a plan open loop to D_end. The car is the kinematic car with rate-limited
 /// steering.
 struct OpenLoopRun {
-  double goal_distance = 0.0;  ///< [m]
-  double goal_heading = 0.0;   ///< heading minus that of the last leg [rad]
-  double deviation_max = 0.0;  ///< largest distance from the planned path [m]
+  double goal_distance = 0.0;  ///< Distance of the car from the goal [m].
+  double goal_heading = 0.0;   ///< Heading of the car minus that of the last leg [rad].
+  double deviation_max = 0.0;  ///< Largest distance of the car from the planned path [m].
 };
 
 /// Drives `schedule` from the start of `path` over `stop_distance` [m], with the reference point on
-/// the path, and compares the car with the path every 0.5 m and at its end. It changes direction
-/// where the path does. Assumes that the wheels follow the schedule, which holds if the plan's
-/// speeds allow it.
+/// the path, and compares the car with the path every 0.5 m and at the end. The car changes
+/// direction at the cusps of the path. The function assumes that the wheels follow the schedule,
+/// which holds for feasible speeds.
 OpenLoopRun SimulateOpenLoop(const VehicleParams& vehicle, const Path& path,
                              const SteeringSchedule& schedule, double stop_distance,
                              ReferencePoint reference = ReferencePoint::kRearAxle);

@@ -12,15 +12,15 @@ namespace trackbed {
 /// A short piece of a path, and its largest steering demands.
 struct PathPiece {
   Stations stations;
-  double curvature = 0.0;  ///< largest |kappa| [1/m]
-  double slope = 0.0;      ///< largest |d delta/ds| [rad/m] where the curvature is continuous
+  double curvature = 0.0;  ///< Largest |kappa| [1/m].
+  double slope = 0.0;      ///< Largest |d delta/ds| [rad/m] while the curvature is continuous.
 };
 
-/// |d delta/ds| [rad/m]: L |kappa'|/(1 + (L kappa)^2).
+/// The slope |d delta/ds| of the steering [rad/m]: L |kappa'|/(1 + (L kappa)^2).
 double SteeringSlope(const VehicleParams& vehicle, double curvature, double sharpness);
 
-/// Calls `call` for each segment divided into equal pieces of at most `spacing` [m], so that short
-/// segments are included.
+/// Calls `call` for equal pieces of at most `spacing` [m] of each segment. Short segments are thus
+/// included.
 template <typename Call>
 void ForEachPiece(const Path& path, const VehicleParams& vehicle, double spacing,
                   const Call& call) {

@@ -21,113 +21,114 @@
 #include "trackbed/world/road.h"
 #include "trackbed/world/wind.h"
 
-/// What a planner is asked, and what it answers.
+/// Input and output of planners.
 namespace trackbed {
 
 class Track;
 
-/// Laps on a closed track, to be planned.
+/// Laps to drive on a closed track.
 struct TrackLaps {
-  std::shared_ptr<const Track> track{};  ///< none: not on a track
-  int laps = 1;                          ///< >= 1
+  std::shared_ptr<const Track> track{};  ///< Track; none: not on a track.
+  int laps = 1;                          ///< Number of laps, >= 1.
 };
 
-/// Laps on a closed track as planned.
+/// Laps of a plan on a closed track.
 struct PlannedLaps {
-  std::shared_ptr<const Track> track{};  ///< none: not on a track
-  /// Stations of the plan where it crosses the start line [m]: one more than laps. The first one is
-  /// 0 when the plan begins on the line or after it. Those behind a car that has come back onto its
-  /// line are negative.
+  std::shared_ptr<const Track> track{};  ///< Track; none: not on a track.
+  /// Stations of the plan at which it crosses the start line [m]: one more than laps. The first
+  /// station is 0 if the plan begins on or after the line. Crossings behind a car that has returned
+  /// to its line are negative.
   std::vector<double> lines{};
 };
 
 /// A route over the lanes of a road network.
 struct LaneMission {
-  std::shared_ptr<const RoadNetwork> network{};  ///< none: not on roads
-  std::vector<LanePlace> route{};                ///< from its first place to its last
+  std::shared_ptr<const RoadNetwork> network{};  ///< Road network; none: not on roads.
+  std::vector<LanePlace> route{};  ///< Places of the route, from the first to the last.
 };
 
 /// A section of a course with cones on either side.
 struct Gate {
-  int section = 0;   ///< its number in the course
-  OrientedBox lane;  ///< its x axis along the course
+  int section = 0;   ///< Number of the section in the course.
+  OrientedBox lane;  ///< Lane between the cones, with the x axis along the course.
 };
 
-/// A node of a search tree; the first one is the start, its own parent.
+/// A node of a search tree. The first node is the start and its own parent.
 struct TreeNode {
-  Vec2 position{0.0, 0.0};  ///< [m]
-  std::size_t parent = 0;   ///< index in the tree
-  double cost = 0.0;        ///< length of the path from the start along the tree [m]
+  Vec2 position{0.0, 0.0};  ///< Position [m].
+  std::size_t parent = 0;   ///< Index of the parent in the tree.
+  double cost = 0.0;        ///< Length of the path from the start along the tree [m].
 };
 
 /// Default of PlanRequest::max_samples: about 24 s of RRT*.
 inline constexpr long kMaxSamples = 2'000'000;
 
-/// What is to be reached, by whatever method. Planners keep no state and have no clock of their
-/// own: the same values give the same plan. Only a planner with a time limit looks at the caller's
-/// clock, and with one its plan depends on how fast the machine is.
+/// The planning problem, independent of the method. Planners keep no state and read no clock: the
+/// same values give the same plan. Only a planner with a time limit reads the caller's clock; its
+/// plan then depends on the speed of the machine.
 struct PlanRequest {
   VehicleParams vehicle;
-  std::vector<Vec2> waypoints;  ///< [m]
-  /// Of the car at each waypoint [rad]; none: along the legs, see PlannedStops.
+  std::vector<Vec2> waypoints;  ///< Points of the route [m].
+  /// Heading of the car at each waypoint [rad]; empty: along the legs, see PlannedStops.
   std::vector<double> headings{};
-  std::vector<OrientedBox> obstacles{};  ///< that are known
-  Wind wind{};                           ///< as it blows when the run begins
-  Pose2 start;                           ///< where the car is
-  double start_speed = 0.0;              ///< [m/s]
-  double start_steering = 0.0;           ///< of wheels and actuator there [rad]
-  SpeedLimits speed;                     ///< the mission's speed and how to change it
-  std::uint64_t seed = 0;                ///< of every random choice
-  /// The time now [s], from any beginning; asked by planners with a time limit alone. Empty: time
-  /// limits are not kept.
+  std::vector<OrientedBox> obstacles{};  ///< Known obstacles.
+  Wind wind{};                           ///< Wind at the start of the run.
+  Pose2 start;                           ///< Pose of the car.
+  double start_speed = 0.0;              ///< Speed of the car [m/s].
+  double start_steering = 0.0;           ///< Angle of wheels and actuator at the start [rad].
+  SpeedLimits speed;                     ///< The mission's speed, acceleration and deceleration.
+  std::uint64_t seed = 0;                ///< Seed of all random choices.
+  /// Returns the current time [s] from an arbitrary origin. Only planners with a time limit call
+  /// `clock`. If empty, time limits are ignored.
   std::function<double()> clock{};
-  /// Random samples that the planner may draw in all its trees, whatever its options say: a bound
-  /// of its work, about 12 us each. See PlanDiagnostics::samples.
+  /// Maximum number of random samples that the planner may draw in all its trees, regardless of its
+  /// options. The maximum bounds the work, which is about 12 us per sample. See
+  /// PlanDiagnostics::samples.
   long max_samples = kMaxSamples;
-  double friction = 1.0;                          ///< of the road, a factor on the tyres' own
-  std::vector<FrictionPatch> friction_patches{};  ///< where it is another
-  Ground ground{};                                ///< whose slopes take of what the road holds
-  TrackLaps on_track{};                           ///< for planners that follow a track
-  LaneMission lanes{};                            ///< for planners that follow lanes
+  double friction = 1.0;  ///< Friction of the road, a factor on the tyres' friction.
+  std::vector<FrictionPatch> friction_patches{};  ///< Patches with another factor.
+  Ground ground{};                                ///< Ground, whose slopes reduce the grip.
+  TrackLaps on_track{};                           ///< Laps, for planners that follow a track.
+  LaneMission lanes{};  ///< Route over lanes, for planners that follow lanes.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
-  /// How speeds at the car's limit are found; none: they follow `speed`.
+  /// Speeds at the car's limit; nullopt: speeds follow `speed`.
   std::optional<SpeedAtLimit> limits{};
 };
 
-/// The road that a plan is held to, and what becomes of one that asks more of the car.
+/// The conditions of the road that limit a plan, and the policy for plans that exceed the limits.
 struct RoadConditions {
-  double friction = 1.0;                          ///< as PlanRequest::friction
-  std::vector<FrictionPatch> friction_patches{};  ///< likewise
-  Ground ground{};                                ///< likewise
+  double friction = 1.0;                          ///< Same as PlanRequest::friction.
+  std::vector<FrictionPatch> friction_patches{};  ///< Same as PlanRequest::friction_patches.
+  Ground ground{};                                ///< Same as PlanRequest::ground.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
-  std::optional<SpeedAtLimit> limits{};  ///< as PlanRequest::limits
+  std::optional<SpeedAtLimit> limits{};  ///< Same as PlanRequest::limits.
 };
 
-/// What a planner gives back. With any status but kOk there is a reason and no path.
+/// The output of a planner. If the status is not kOk, there is a reason and no path.
 struct Plan {
   PlanStatus status = PlanStatus::kOk;
-  std::string reason;           ///< for people; empty when ok
-  Reference reference;          ///< for closed-loop controllers
-  SteeringSchedule schedule;    ///< for the open loop, over the distance driven
-  SpeedProfile schedule_speed;  ///< likewise: ends where the open loop is to stop
-  std::vector<SpeedCap> caps;   ///< stretches of the path that it takes more slowly
-  std::vector<double> stops;    ///< where it stops on the way, besides its cusps, to turn the
-                                ///< wheels on the spot [m]
-  Pose2 goal;  ///< where the mission ends: the path too, unless it is blocked or partial
-  /// Why the path ends before the goal, for people; empty when it does not.
+  std::string reason;           ///< Reason of a failure; empty if ok.
+  Reference reference;          ///< Path and speed for closed-loop controllers.
+  SteeringSchedule schedule;    ///< Open-loop steering over the driven distance.
+  SpeedProfile schedule_speed;  ///< Open-loop speed; ends where the open loop is to stop.
+  std::vector<SpeedCap> caps;   ///< Sections driven at a lower speed.
+  std::vector<double> stops;    ///< Stops besides the cusps, to turn the wheels at rest [m].
+  Pose2 goal;  ///< End of the mission, and of the path unless it is blocked or partial.
+  /// Why the path ends before the goal; else empty.
   std::string blocked;
-  /// Why the path leads only part of the way, for people, when a search for more of it was ended;
-  /// empty when it leads to the goal. Whatever plans again on the way leads no further either.
+  /// Why the path ends early because a search was ended; empty if the path reaches the goal.
+  /// Replanning during the run does not extend a partial plan.
   std::string partial;
-  std::vector<Gate> gates;          ///< that it leads through
-  std::vector<IsolatedTurn> turns;  ///< whose cost to an open-loop run can be told
-  std::vector<std::string> notes;   ///< what to know of it, for people: that it was slowed down
-  PlanDiagnostics diagnostics;      ///< how it was found, for plan.json
-  /// Whether the path interpolates samples of a motion at most 0.1 m apart: `schedule` then has its
-  /// steering rate, between the samples the path may bend faster.
+  std::vector<Gate> gates;          ///< Gates that the path passes through.
+  std::vector<IsolatedTurn> turns;  ///< Turns whose open-loop error can be predicted.
+  /// Remarks for the user, for example that the plan was slowed down.
+  std::vector<std::string> notes;
+  PlanDiagnostics diagnostics;  ///< How the plan was found, for plan.json.
+  /// Whether the path interpolates samples of a motion at most 0.1 m apart. The schedule then has
+  /// the steering rate of the motion; between the samples, the path may need a higher rate.
   bool sampled = false;
-  PlannedLaps laps;            ///< of a plan on a track
-  std::vector<TreeNode> tree;  ///< of every RRT or RRT* that was used, one after the other
+  PlannedLaps laps;            ///< Laps of a plan on a track.
+  std::vector<TreeNode> tree;  ///< Nodes of all RRT and RRT* trees, one tree after the other.
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };

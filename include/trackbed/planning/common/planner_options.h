@@ -6,14 +6,14 @@ namespace trackbed {
 
 struct Plan;
 
-/// How to treat a plan that exceeds the car's limits; see feasibility.h.
+/// How to treat a plan that exceeds the car's limits (feasibility.h).
 enum class InfeasiblePolicy {
-  kSlowDown,  ///< driven more slowly if that helps, else rejected
-  kRefuse,    ///< no plan
-  kAllow,     ///< driven unchanged
+  kSlowDown,  ///< Slow the plan down if that helps, else reject it.
+  kRefuse,    ///< Reject the plan.
+  kAllow,     ///< Drive the plan unchanged.
 };
 
-/// The options of a planner. The type of the struct that it holds identifies the planner.
+/// The options of a planner. The type of the contained struct identifies the planner.
 using PlannerOptions = MethodOptions<Plan>;
 
 }  // namespace trackbed

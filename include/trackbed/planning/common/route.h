@@ -14,43 +14,43 @@
 namespace trackbed {
 
 /// The stops of a route with their headings: the car's start, then every waypoint except the first.
-/// Without given headings, the goal's is that of the last leg, and that of a waypoint in between
-/// points from the stop before to the stop after.
+/// Without given headings, the goal has the heading of the last leg. The heading of an intermediate
+/// waypoint points from the preceding stop to the next stop.
 std::vector<Pose2> PlannedStops(const PlanRequest& request);
 
 namespace route {
 
-/// A rejected plan, with its reason.
+/// Makes a rejected plan with a reason.
 Plan Refused(PlanStatus status, std::string reason);
 
-/// The problem with the route itself, if any.
+/// Checks the route. Returns a rejected plan if the route has a problem.
 Plan CheckRoute(const PlanRequest& request);
 
-/// Whether the car can turn on the requested radius, if one is given.
+/// Checks whether the car can turn on the requested radius, if one is given.
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
 
-/// Whether the car can stand at every stop.
+/// Checks whether the car can stand at every stop.
 Plan CheckStops(const std::vector<Pose2>& stops, const CollisionChecker& clear);
 
-/// The radius to plan with [m]: the requested one, or 1.1 times the car's smallest.
+/// The radius for planning [m]: the requested radius, or 1.1 times the car's smallest one.
 double RadiusFor(const VehicleParams& vehicle, const std::optional<double>& radius);
 
 /// Whether segments that begin at `pose` are clear.
 bool IsFree(const CollisionChecker& clear, const Pose2& pose, const std::vector<Segment>& segments);
 
-/// The lead-in of a rolling car: its curves begin after it has slowed down for the first step of
-/// curvature.
+/// The lead-in of a rolling car. The curves of the plan begin after the car has slowed down for the
+/// first step of curvature.
 LeadIn LeadInForCurves(const PlanRequest& request, double radius, double min_speed);
 
-/// Sets the members that follow from the path and the caps.
+/// Sets the members of a plan that follow from its path and caps.
 void Complete(Plan& plan, const PlanRequest& request);
 
 /// Completes a plan along arcs and straights.
 Plan AlongSegments(Plan plan, const PlanRequest& request, std::vector<Segment> segments,
                    double min_speed);
 
-/// Completes a plan along a polyline, with corners treated by `corners`. `plan` has the diagnostics
-/// of the search.
+/// Completes a plan along a polyline, whose corners are treated as `corners` specifies. The
+/// argument `plan` contains the diagnostics of the search.
 Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
                    Corners corners, double safe_distance, double min_speed);
 
@@ -64,11 +64,11 @@ inline constexpr Key kGridMargin{"margin", "m",
 inline constexpr Range kCellSize{.min = 0.05, .max = 10.0};
 inline constexpr Key kCornerSpeed{"min_speed", "m/s", "minimum speed in corners"};
 
-/// Of planners whose paths consist of arcs and straights.
+/// Visits the keys of planners whose paths consist of arcs and straights.
 void VisitCurves(KeyVisitor& keys, std::optional<double>& radius, double& safe_distance,
                  double& min_speed);
 
-/// Of planners that round the corners of a polyline.
+/// Visits the keys of planners that round the corners of a polyline.
 void VisitCorners(KeyVisitor& keys, Corners& corners, double& safe_distance, double& corner_room);
 
 }  // namespace route

@@ -9,15 +9,16 @@
 /// How to choose the speeds of a plan: the key mission.speed_profile.
 namespace trackbed {
 
-/// Accelerates to the mission's speed with control.speed.acceleration and brakes with its
-/// deceleration, and drives slower where the car could not follow (feasibility.h).
+/// Constant accelerations: accelerates to the mission's speed with the acceleration of
+/// control.speed, and brakes with its deceleration. Slower where the car could not follow
+/// (feasibility.h).
 struct ConstantAccelerationOptions {};
 void Visit(KeyVisitor& keys, ConstantAccelerationOptions& options);
 
-/// As fast as the car's g-g-v diagram allows (limit_profile.h), at most the mission's speed.
+/// Speeds as high as the car's g-g-v diagram allows (limit_profile.h), at most the mission's speed.
 struct LimitProfileOptions {
-  double share = 0.9;  ///< usable fraction of the forces of tyres, motor and brakes, in (0, 1]
-  std::optional<double> jerk{};  ///< largest |da/dt| [m/s^3], > 0; none: no limit
+  double share = 0.9;  ///< Usable fraction of the forces of tyres, motor and brakes, in (0, 1].
+  std::optional<double> jerk{};  ///< Largest |da/dt| [m/s^3], > 0; none: not limited.
 };
 void Visit(KeyVisitor& keys, LimitProfileOptions& options);
 
@@ -30,7 +31,7 @@ struct SpeedProfileEntry {
   SpeedProfileOptions defaults;
 };
 
-/// All methods.
+/// All methods for choosing the speeds.
 const std::vector<SpeedProfileEntry>& SpeedProfiles();
 
 }  // namespace trackbed

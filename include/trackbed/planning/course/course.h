@@ -11,42 +11,43 @@
 #include "trackbed/vehicle/steering_schedule.h"
 
 /// Exact courses of straights, arcs and curvature ramps, given piece by piece: proving grounds and
-/// steps of curvature for controllers. They do not avoid obstacles.
+/// steps of curvature for controllers. The planner does not avoid obstacles.
 ///
-/// Symbols: kappa curvature [1/m], positive to the left; a ramp is a clothoid, kappa linear in the
-/// distance.
+/// Symbols: kappa curvature [1/m], positive to the left. On a ramp (a clothoid), kappa is linear in
+/// the distance.
 namespace trackbed {
 
-/// One piece: a constant `curvature`, or a ramp from one to another.
+/// One piece of a course: a constant `curvature`, or a ramp from one curvature to another.
 struct CoursePiece {
-  double length = 0.0;                   ///< [m], > 0
-  std::optional<double> curvature;       ///< kappa of a straight (0) or an arc [1/m]
-  std::optional<double> curvature_from;  ///< of a ramp [1/m]; none: the end of the previous piece
-  std::optional<double> curvature_to;    ///< of a ramp [1/m]
+  double length = 0.0;              ///< Length [m], > 0.
+  std::optional<double> curvature;  ///< Curvature kappa of a straight (0) or an arc [1/m].
+  /// Initial curvature of a ramp [1/m]; none: that at the end of the previous piece.
+  std::optional<double> curvature_from;
+  std::optional<double> curvature_to;  ///< Final curvature of a ramp [1/m].
 };
 void Visit(KeyVisitor& keys, CoursePiece& piece);
 
 struct CourseOptions {
-  std::vector<CoursePiece> segments;  ///< from the car's start on, at least one
+  std::vector<CoursePiece> segments;  ///< Pieces from the car's start on, at least one.
 };
 void Visit(KeyVisitor& keys, CourseOptions& options);
 
-/// The pieces as segments of a path, forwards. InternalError unless every piece is either constant
-/// or a ramp.
+/// Converts the pieces to the segments of a forward path. InternalError unless every piece is
+/// either constant or a ramp.
 std::vector<Segment> CourseSegments(const CourseOptions& options);
 
-/// A piece of the course as planned.
+/// Findings on a piece of the planned course.
 struct CourseSegmentFindings {
-  double start = 0.0;                 ///< station [m]
-  double length = 0.0;                ///< [m]
-  double curvature_from = 0.0;        ///< [rad/m]
-  double curvature_to = 0.0;          ///< [rad/m]
-  double lateral_acceleration = 0.0;  ///< largest, at the mission's speed [m/s^2]
+  double start = 0.0;                 ///< Start station [m].
+  double length = 0.0;                ///< Length [m].
+  double curvature_from = 0.0;        ///< Initial curvature [rad/m].
+  double curvature_to = 0.0;          ///< Final curvature [rad/m].
+  double lateral_acceleration = 0.0;  ///< Largest value at the mission's speed [m/s^2].
 };
 void Visit(DiagnosticsVisitor& out, const CourseSegmentFindings& own);
 
 struct CourseDiagnostics {
-  std::optional<std::size_t> failed_segment;  ///< the first one that the car cannot steer
+  std::optional<std::size_t> failed_segment;  ///< First piece that the car cannot steer.
   std::vector<CourseSegmentFindings> segments;
 };
 void Visit(DiagnosticsVisitor& out, const CourseDiagnostics& own);

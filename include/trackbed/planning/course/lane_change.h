@@ -10,7 +10,8 @@
 
 /// The double lane changes of ISO 3888: three gates, and a path through them.
 ///
-/// Sections along the course, w the car's width without mirrors; sections 2 and 4 are free:
+/// Lengths and widths of the sections along the course, with w the car's width without mirrors.
+/// Sections 2 and 4 have no cones:
 ///
 ///   section       1             2     3             4     5
 ///   ISO 3888-1    15 m          30    25 m          25    30 m          (2018, table 1; its
@@ -19,9 +20,10 @@
 ///   ISO 3888-2    12 m          13.5  11 m          12.5  12 m          (2011, table 1)
 ///                 1.1 w + 0.25        w + 1               max(1.3 w + 0.25, 3)
 ///
-/// Lane offsets: in part 1 the right edge of section 3 lies 3.5 m to the left of that of section 1;
-/// in part 2 it lies 1 m to the left of section 1's left edge. Sections 1 and 5 share their right
-/// edge. (All mirrored when the first change is to the right.)
+/// Lane offsets: in part 1, the right edge of section 3 lies 3.5 m to the left of the right edge of
+/// section 1. In part 2, the right edge of section 3 lies 1 m to the left of the left edge of
+/// section 1. Sections 1 and 5 have the same right edge. The course is mirrored if the first change
+/// is to the right.
 namespace trackbed {
 
 enum class LaneChangeStandard { kIso3888_1, kIso3888_2 };
@@ -30,18 +32,19 @@ enum class Side { kLeft, kRight };
 
 struct LaneChangePlannerOptions {
   LaneChangeStandard standard = LaneChangeStandard::kIso3888_1;
-  Side first = Side::kLeft;  ///< where section 3 lies
-  double lead_in = 30.0;     ///< from the start to section 1 [m], > 0
-  double lead_out = 20.0;    ///< straight after section 5, before the car stops [m], > 0
-  /// The rear axle leaves the middle of a gate `leave` before its end, and is on the middle of the
-  /// next one `join` after its beginning [m]. Larger values lengthen the transition: it bends less,
-  /// and the car comes nearer to the cones.
+  Side first = Side::kLeft;  ///< Side on which section 3 lies.
+  double lead_in = 30.0;     ///< Distance from the start to section 1 [m], > 0.
+  double lead_out = 20.0;    ///< Straight after section 5, before the car stops [m], > 0.
+  /// The rear axle leaves the middle of a gate at the distance `leave` before the gate's end [m].
+  /// The rear axle reaches the middle of the next gate at the distance `join` after that gate's
+  /// start [m]. Larger values lengthen the transition, which then bends less; the car comes nearer
+  /// to the cones.
   double leave = 0.0;
   double join = 0.0;
 };
 void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options);
 
-/// The gates of a course that begins with section 1 at `start`, on the middle of its lane.
+/// The gates of a course whose section 1 begins at `start`, in the middle of its lane.
 std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, double vehicle_width,
                                   const Pose2& start);
 
@@ -49,25 +52,26 @@ std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, doubl
 /// edge.
 std::vector<Vec2> GateCones(const Gate& gate);
 
-/// The path from `start` along the middles of the gates, with transitions y = h (10 u^3 - 15 u^4 +
-/// 6 u^5), whose curvature is continuous, 0 at both ends and at most 5.77 h/length^2 (as arcs of at
-/// most 0.1 m, so that it has steps of less than 6 m h/length^3). Ends `lead_out` after the last
-/// gate plus `stop`.
+/// The path from `start` along the middles of the gates. The transitions are y = h (10 u^3 - 15 u^4
+/// + 6 u^5). The curvature of a transition is continuous, 0 at both ends and at most 5.77
+/// h/length^2. The transitions are approximated by arcs of at most 0.1 m, whose curvature has steps
+/// of less than 6 m h/length^3. The path ends at the distance `lead_out` plus `stop` after the last
+/// gate.
 std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
                                     const std::vector<Gate>& gates, const Pose2& start,
                                     double stop);
 
-/// The smallest distance [m] from a corner of the car's footprint to an edge, while the corner was
-/// between a gate's ends; one per gate, negative outside, infinite for a gate that no corner
-/// reached. The car moves straight between the poses of its rear axle.
+/// For each gate, the smallest distance [m] from a corner of the car's footprint to an edge, while
+/// the corner was between the gate's ends. Negative outside of the gate; infinite for a gate that
+/// no corner reached. The car moves straight between the poses of its rear axle.
 std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
                                 const std::vector<Pose2>& poses);
 
-/// A gate of the course and how the plan passes it.
+/// A gate of the course and the plan's margin to it.
 struct GateFindings {
   Gate gate;
-  std::vector<Vec2> cones;      ///< [m]
-  double planned_margin = 0.0;  ///< see GateMargins [m]
+  std::vector<Vec2> cones;      ///< Positions of the cones [m].
+  double planned_margin = 0.0;  ///< Planned margin of GateMargins [m].
 };
 void Visit(DiagnosticsVisitor& out, const GateFindings& own);
 

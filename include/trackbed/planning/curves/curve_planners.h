@@ -12,13 +12,13 @@ namespace trackbed {
 
 /// Options of `dubins`: Dubins curves between the stops of a route (dubins.h).
 struct DubinsOptions {
-  std::optional<double> radius;  ///< of every arc [m]; none: 1.1 times the car's smallest
-  double safe_distance = 0.3;    ///< of the footprint from obstacles [m], >= 0
-  double min_speed = 0.3;        ///< lowest speed at a step of curvature [m/s]
+  std::optional<double> radius;  ///< Radius of every arc [m]; none: 1.1 times the car's smallest.
+  double safe_distance = 0.3;    ///< Distance of the footprint from obstacles [m], >= 0.
+  double min_speed = 0.3;        ///< Lowest speed at a step of curvature [m/s].
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);
 
-/// Options of `reeds_shepp`, with the same meaning (reeds_shepp.h).
+/// Options of `reeds_shepp` (reeds_shepp.h), with the same meaning as those of `dubins`.
 struct ReedsSheppOptions {
   std::optional<double> radius;
   double safe_distance = 0.3;
@@ -28,15 +28,15 @@ void Visit(KeyVisitor& keys, ReedsSheppOptions& options);
 
 /// The curve from one stop to the next.
 struct CurveFindings {
-  std::string word;     ///< such as "LSR"
-  double length = 0.0;  ///< [m]
-  double radius = 0.0;  ///< of its arcs [m]
+  std::string word;     ///< Word of the curve, such as "LSR".
+  double length = 0.0;  ///< Length of the curve [m].
+  double radius = 0.0;  ///< Radius of the arcs [m].
   /// Number of shorter curves rejected because of obstacles or the car's initial motion.
   std::ptrdiff_t shorter_ones_blocked = 0;
 };
 void Visit(DiagnosticsVisitor& out, const CurveFindings& own);
 
-/// Diagnostics of both planners.
+/// Diagnostics of the planners `dubins` and `reeds_shepp`.
 struct CurveDiagnostics {
   std::vector<CurveFindings> curves;
 };

@@ -19,8 +19,8 @@
 #include "trackbed/vehicle/params.h"
 
 /// Optimal motions in the Frenet frame of a reference path (Werling et al. 2010; the weights are
-/// named as in the Frenet lecture): polynomials to many end states, ranked by cost. The first one
-/// that the car can drive is chosen.
+/// named as in the Frenet lecture): polynomials to many end states, ranked by cost. The cheapest
+/// motion that the car can drive is chosen.
 ///
 /// Symbols: those of path/frenet_frame.h; T duration [s]; S_1, V_1 desired station [m] and speed
 /// [m/s] at the end.
@@ -29,56 +29,56 @@
 ///   C = K_lat C_d + K_lon C_s
 namespace trackbed {
 
-/// Reach or keep a speed.
+/// A goal: reach or keep a speed.
 struct KeepSpeed {
-  double speed = 0.0;  ///< V_1 [m/s], >= 0
+  double speed = 0.0;  ///< Desired speed V_1 [m/s], >= 0.
 };
 
-/// Follow a leader with constant speed: S_1(t) = station + speed t - front - gap - time_gap speed,
-/// with `front` the distance from the car's rear axle to its front; V_1 = speed.
+/// A goal: follow a leader with constant speed. S_1(t) = station + speed t - front - gap - time_gap
+/// speed, with `front` the distance from the car's rear axle to its front; V_1 = speed.
 struct FollowLeader {
-  double station = 0.0;   ///< of the leader's rear end now [m]
-  double speed = 0.0;     ///< along the path [m/s], >= 0
-  double gap = 4.0;       ///< between the bumpers at rest [m]
-  double time_gap = 1.5;  ///< [s]
+  double station = 0.0;   ///< Present station of the leader's rear end [m].
+  double speed = 0.0;     ///< Speed of the leader along the path [m/s], >= 0.
+  double gap = 4.0;       ///< Distance between the bumpers at rest [m].
+  double time_gap = 1.5;  ///< Additional distance as a time [s].
 };
 
-/// Come to rest: S_1 = station, V_1 = 0.
+/// A goal: come to rest, with S_1 = station and V_1 = 0.
 struct StopAt {
-  double station = 0.0;  ///< of the rear axle [m]
+  double station = 0.0;  ///< Station of the rear axle at rest [m].
 };
 
 using FrenetGoal = std::variant<KeepSpeed, FollowLeader, StopAt>;
 
 struct FrenetRequest {
   VehicleParams vehicle;
-  SpeedLimits speed;  ///< upper limits on speed and accelerations
+  SpeedLimits speed;  ///< Upper limits on speed and accelerations.
   RoadWidths road;
-  FrenetState start;  ///< the car against the reference path
+  FrenetState start;  ///< State of the car in the frame of the reference path.
   FrenetGoal goal;
   std::vector<MovingBox> obstacles;
-  /// Edges of the road over the station, in addition to `road`; none: `road` alone.
+  /// Edges of the road over the station, in addition to `road`. Null: only `road`.
   std::shared_ptr<const RoadEdges> edges{};
 };
 
 struct FrenetCost {
-  double lateral = 0.0;       ///< C_d
-  double longitudinal = 0.0;  ///< C_s
-  double total = 0.0;         ///< C
+  double lateral = 0.0;       ///< Lateral cost C_d.
+  double longitudinal = 0.0;  ///< Longitudinal cost C_s.
+  double total = 0.0;         ///< Total cost C.
 };
 
 /// The desired end state of a motion.
 struct FrenetTarget {
-  std::optional<double> station;  ///< S_1 [m]; none: K_s has no effect
-  double speed = 0.0;             ///< V_1 [m/s]
+  std::optional<double> station;  ///< Station S_1 [m]; none: K_s has no effect.
+  double speed = 0.0;             ///< Speed V_1 [m/s].
 };
 
-/// S_1 and V_1 of a goal, `time` [s] after the start.
+/// The target S_1 and V_1 of a goal, `time` [s] after the start.
 FrenetTarget TargetAt(const FrenetGoal& goal, const VehicleParams& vehicle, double time);
 
-/// C of one piece. Over the station, the integral of d is that of a car that drives the piece at
-/// its mean speed v: v^5 int d'''^2 ds (of order 2: v^3 int d''^2 ds). Both forms are equal at
-/// constant speed.
+/// The cost C of one piece. For d over the station, the integral assumes the mean speed v of the
+/// piece: v^5 int d'''^2 ds (order 2: v^3 int d''^2 ds). At constant speed, this integral equals
+/// the integral over time.
 FrenetCost PieceCost(const FrenetPiece& piece, const FrenetTarget& target,
                      const FrenetWeights& weights);
 
@@ -87,23 +87,25 @@ struct FrenetCandidate {
   FrenetCost cost;
 };
 
-/// All candidates, cheapest first; equal costs keep the order of the options.
+/// All candidates, cheapest first. Candidates of equal cost keep the order of the options.
 std::vector<FrenetCandidate> FrenetCandidates(const FrenetRequest& request,
                                               const FrenetOptions& options);
 
 /// The reason why a candidate cannot be driven.
 enum class Rejection {
-  kSpeed,         ///< too fast, or backwards, or d(t) without motion
-  kAcceleration,  ///< longitudinal or lateral
-  kCurvature,     ///< tighter than the car can steer
-  kSteeringRate,  ///< exceeds the car's steering rate
-  kFrame,         ///< the path bends too much, or is driven backwards, for a frame
-  kRoad,          ///< the footprint leaves the road, or exceeds its edges
+  kSpeed,         ///< The motion is too fast, or backwards, or has d(t) without motion.
+  kAcceleration,  ///< The longitudinal or lateral acceleration is too large.
+  kCurvature,     ///< The curvature is tighter than the car can steer.
+  kSteeringRate,  ///< The steering rate exceeds the car's.
+  /// The frame is undefined: the path bends too much, or is driven backwards.
+  kFrame,
+  kRoad,  ///< The footprint leaves the road or crosses its edges.
   /// The footprint comes closer than the safe distance to an obstacle, now or later.
   kCollision,
 };
 
-/// "speed", "acceleration", "curvature", "steering_rate", "frame", "road", "collision".
+/// The name of a reason: "speed", "acceleration", "curvature", "steering_rate", "frame", "road",
+/// "collision".
 const char* ToString(Rejection rejection);
 
 struct RejectionCounts {
@@ -112,37 +114,38 @@ struct RejectionCounts {
   [[nodiscard]] int Of(Rejection rejection) const;
   void Add(Rejection rejection);
   [[nodiscard]] int total() const;
-  /// "3 collision, 1 speed"; empty if there are none.
+  /// Formats the counts: "3 collision, 1 speed"; empty if nothing was rejected.
   [[nodiscard]] std::string ToString() const;
 
   bool operator==(const RejectionCounts&) const = default;
 };
 
-/// The result of planning in the frame, here and in planning/lattice.h.
+/// The result of planning in the Frenet frame, with PlanFrenet or PlanLattice.
 struct FrenetPlan {
-  /// kStartBlocked: the start has no frame or overlaps an obstacle. kSearchFailed: there is no
-  /// candidate, or no drivable one within the budget.
+  /// Status of the result. kStartBlocked: the start has no frame or overlaps an obstacle.
+  /// kSearchFailed: there is no candidate, or no drivable candidate within the budget.
   PlanStatus status = PlanStatus::kSearchFailed;
-  std::string reason;                   ///< empty when ok
-  FrenetMotion motion;                  ///< empty unless ok, as are the points
-  std::vector<TrajectoryPoint> points;  ///< at most `spacing` apart; for ToReference
-  double cost = 0.0;                    ///< C, of all pieces together
-  int candidates = 0;                   ///< total number (edges of a lattice)
-  int checked = 0;                      ///< checked ones; a lattice may check an edge again
-  int passed = 0;                       ///< checked ones that passed
-  RejectionCounts rejected;             ///< checked ones that failed
+  std::string reason;                   ///< Reason of a failure; empty if ok.
+  FrenetMotion motion;                  ///< Motion; empty unless ok, as are the points.
+  std::vector<TrajectoryPoint> points;  ///< Points at most `spacing` apart, for ToReference.
+  double cost = 0.0;                    ///< Cost C of all pieces together.
+  int candidates = 0;                   ///< Total number of candidates (edges of a lattice).
+  /// Number of checks. A lattice may check an edge again.
+  int checked = 0;
+  int passed = 0;            ///< Number of checks that passed.
+  RejectionCounts rejected;  ///< Counts of checks that failed, by reason.
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };
 
-/// The cheapest candidate that can be driven.
+/// Plans the cheapest candidate that can be driven.
 ///
-/// Guarantees: the points meet every limit; between them, `spacing` apart, the clearance can be
-/// smaller by half the distance that car and obstacle approach each other from point to point.
-/// checked = passed + rejected.total(). The same input gives the same bytes. Beyond the end of the
-/// motion only collisions are checked, every `time_step`, up to the horizon. Errors: InternalError
-/// for options out of range or a start that is not finite. Cost: 0.3 ms for 525 candidates, 1 ms
-/// when all of them are rejected.
+/// Guarantees: the points, which are `spacing` apart, meet every limit. Between two points, the
+/// clearance can be smaller by half the distance by which car and obstacle approach each other. The
+/// counts satisfy checked = passed + rejected.total(). The same input gives the same bytes. Beyond
+/// the end of the motion, up to the horizon, only collisions are checked, every `time_step`.
+/// Errors: InternalError for options out of range or a start that is not finite. Cost: 0.3 ms for
+/// 525 candidates, 1 ms if all candidates are rejected.
 FrenetPlan PlanFrenet(const Path& reference, const FrenetRequest& request,
                       const FrenetOptions& options);
 

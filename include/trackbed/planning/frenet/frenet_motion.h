@@ -11,27 +11,27 @@
 /// controllers.
 namespace trackbed {
 
-/// s(t), and d over time or over the station.
+/// A piece of a motion: s(t), and d over the time or over the station.
 struct FrenetPiece {
-  double duration = 0.0;      ///< [s]
-  Polynomial s;               ///< over the time since the piece began
-  Polynomial d;               ///< over that time, or over s - s(0)
-  bool over_station = false;  ///< selects d over s - s(0)
+  double duration = 0.0;      ///< Duration [s].
+  Polynomial s;               ///< Station over the time since the start of the piece.
+  Polynomial d;               ///< Offset over the same time, or over s - s(0).
+  bool over_station = false;  ///< Whether d is a function of s - s(0).
 
-  /// The state `t` [s] after the start of the piece. If d is over time, d' = d_t/s_t and d'' are
-  /// not finite where s_t = 0.
+  /// The state `t` [s] after the start of the piece. If d is a function of time, d' = d_t/s_t and
+  /// d'' are not finite while s_t = 0.
   [[nodiscard]] FrenetState At(double t) const;
 
   bool operator==(const FrenetPiece&) const = default;
 };
 
-/// Consecutive pieces.
+/// A motion of consecutive pieces.
 struct FrenetMotion {
   std::vector<FrenetPiece> pieces;
 
   [[nodiscard]] double duration() const;
-  /// The state `t` [s] after the start; clamped to the start's and the end's. InternalError without
-  /// pieces.
+  /// The state `t` [s] after the start, clamped to the start and the end of the motion.
+  /// InternalError without pieces.
   [[nodiscard]] FrenetState At(double t) const;
 
   bool operator==(const FrenetMotion&) const = default;
@@ -39,8 +39,8 @@ struct FrenetMotion {
 
 /// A point of a motion along a path.
 struct TrajectoryPoint {
-  double t = 0.0;         ///< since the start [s]
-  double distance = 0.0;  ///< driven since the start [m]
+  double t = 0.0;         ///< Time since the start [s].
+  double distance = 0.0;  ///< Distance driven since the start [m].
   FrenetState frenet;
   MotionState motion;
 
@@ -48,17 +48,17 @@ struct TrajectoryPoint {
 };
 
 /// Samples the motion at the ends of its pieces and evenly between them, at most `time_step` [s]
-/// and about `spacing` [m] apart. The distance is integrated to fourth order. None if there is no
-/// frame (see FromFrenet) or d(t) has no forward motion.
+/// and about `spacing` [m] apart. The distance is integrated to fourth order. Nullopt if the frame
+/// is undefined (see FromFrenet), or if d(t) has no forward motion.
 std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
                                                          const FrenetMotion& motion,
                                                          double time_step, double spacing);
 
-/// Makes the reference of a controller: a path through the points, with their headings and
-/// curvatures, and the speed over its stations. Between points 0.1 m apart, the path stays within
-/// 1e-5 m and 1e-5 rad of a motion over a path with smooth curvature. Points closer than a
-/// millimeter to the previous one (when a car starts or stops) are left out. A car that does not
-/// move gets a path of length 0. InternalError without points.
+/// Makes the reference of a controller from points. The path passes through the points with their
+/// headings and curvatures; the speed profile is over its stations. Between points 0.1 m apart, the
+/// path stays within 1e-5 m and 1e-5 rad of a motion over a path with smooth curvature. Points
+/// closer than a millimeter to the previous point, as when a car starts or stops, are left out. A
+/// car that does not move gets a path of length 0. InternalError without points.
 Reference ToReference(const std::vector<TrajectoryPoint>& points);
 
 }  // namespace trackbed

@@ -5,11 +5,11 @@
 
 namespace trackbed {
 
-/// x(t) = sum c_i t^i, of degree 5 at most.
+/// A polynomial x(t) = sum c_i t^i of degree 5 at most.
 struct Polynomial {
   std::array<double, 6> coefficients{};
 
-  /// d^order x/dt^order at t; order 0 to 5. Cost: five multiplications at most.
+  /// The derivative d^order x/dt^order at t, order 0 to 5. Cost: five multiplications at most.
   [[nodiscard]] double At(double t, std::size_t order = 0) const;
   /// The integral of (d^order x/dt^order)^2 over [0, duration], in closed form.
   [[nodiscard]] double IntegralOfSquare(std::size_t order, double duration) const;
@@ -28,7 +28,7 @@ struct LineMotion {
 /// jerk.
 Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration);
 
-/// As QuinticBetween, with a free end position: ignores that of `to`.
+/// As QuinticBetween, with a free end position. The position of `to` is ignored.
 Polynomial QuarticBetween(const LineMotion& from, const LineMotion& to, double duration);
 
 }  // namespace trackbed

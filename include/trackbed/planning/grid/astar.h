@@ -6,39 +6,42 @@
 
 #include "trackbed/planning/common/occupancy_grid.h"
 
-/// A* (Hart et al. 1968) on a grid with eight neighbors, the baseline of the other planners: it
-/// ignores the heading and the turning circle of a car.
+/// A* (Hart et al. 1968) on a grid with eight neighbors: the baseline for comparing planners. The
+/// search ignores the heading and the turning circle of a car.
 ///
 /// Symbols: g(n) cost of the best known path to cell n, h(n) octile distance from n to the goal,
-/// both in cells: 1 straight, sqrt(2) diagonally. Diagonal moves need both adjacent cells free.
+/// both in cells. A straight move costs 1, a diagonal one sqrt(2). Diagonal moves need both
+/// adjacent cells free.
 namespace trackbed {
 
-/// max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|): the cost of a path without obstacles. Never
-/// above the true cost (admissible), and h(m) <= c(m, n) + h(n) for neighbors (consistent).
+/// The cost of a path without obstacles: max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|). The
+/// octile distance never exceeds the true cost (admissible), and h(m) <= c(m, n) + h(n) for
+/// neighbors m, n (consistent).
 double OctileDistance(int dx, int dy);
 
 enum class GridStatus {
   kFound,
   kStartOccupied,
   kGoalOccupied,
-  kUnreachable,   ///< all reachable cells have been expanded
-  kBudgetUsedUp,  ///< before the goal was reached
+  kUnreachable,   ///< All reachable cells have been expanded, without reaching the goal.
+  kBudgetUsedUp,  ///< The budget was used up before the goal was reached.
 };
 
-/// "found", "start_occupied", …: the spelling of plan.json.
+/// The spelling of a status in plan.json: "found", "start_occupied", ….
 const char* ToString(GridStatus status);
 
 struct GridPath {
   GridStatus status = GridStatus::kUnreachable;
-  std::vector<std::size_t> cells;  ///< start to goal, each adjacent to the next; empty unless found
-  double cost = std::numeric_limits<double>::infinity();  ///< [cells]
-  long expansions = 0;                                    ///< expanded cells
+  /// Adjacent cells from start to goal; empty unless found.
+  std::vector<std::size_t> cells;
+  double cost = std::numeric_limits<double>::infinity();  ///< Cost of the path [cells].
+  long expansions = 0;                                    ///< Number of expanded cells.
 
   [[nodiscard]] bool ok() const { return status == GridStatus::kFound; }
 };
 
-/// The cheapest path between two cells of the grid (InternalError for other cells), expanding at
-/// most `budget` cells. Cost: some 30 ns per expanded cell.
+/// Finds the cheapest path between two cells of the grid, expanding at most `budget` cells.
+/// InternalError for cells outside of the grid. Cost: 30 ns per expanded cell.
 GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t goal,
                     long budget = std::numeric_limits<long>::max());
 

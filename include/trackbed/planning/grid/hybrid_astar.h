@@ -12,31 +12,32 @@
 #include "trackbed/vehicle/params.h"
 
 /// Hybrid A* (Dolgov et al. 2008): a search over the poses that a car can drive through, forwards
-/// and backwards. Poses are continuous; among poses in the same cell of position and heading,
-/// reached in the same direction of travel, only the cheapest is kept.
+/// and backwards. Poses are continuous. Only the cheapest pose is kept for each cell of position
+/// and heading and each direction of travel.
 ///
 /// Symbols: r radius of the sharpest arcs [m]; a step is an arc of curvature 0, +-1/(2r) or +-1/r.
-/// The cost of a path is its length [m], with stretches backwards weighted by `reverse_cost`, plus
-/// `switch_cost` for every change of direction, plus `steering_cost` times the change of curvature
-/// relative to 1/r at every joint. The cost-to-go is estimated by the greater of the shortest
-/// Reeds-Shepp curve and the length of the path on a grid around the obstacles, divided by 1.0824,
-/// the largest factor by which steps between eight neighbors lengthen a straight line.
+/// The cost of a path is its length [m], with reverse stretches weighted by `reverse_cost`. Every
+/// change of direction adds `switch_cost`. Every joint adds `steering_cost` times the change of
+/// curvature relative to 1/r. The estimate of the cost-to-go is the larger of two lengths. One is
+/// the shortest Reeds-Shepp curve. The other is the path on a grid around the obstacles, divided by
+/// 1.0824, the largest factor by which a grid path exceeds a straight line.
 namespace trackbed {
 
 struct HybridAStarOptions {
-  std::optional<double> radius;  ///< r [m]; none: 1.1 times the car's smallest
-  double safe_distance = 0.3;    ///< of the footprint from obstacles [m], >= 0
-  bool reverse = true;           ///< allows reverse driving
-  double reverse_cost = 2.0;     ///< of a meter backwards, >= 1
-  double switch_cost = 5.0;      ///< of a change of direction [m], >= 0
-  double steering_cost = 2.0;    ///< of a step of curvature of 1/r [m], >= 0
-  double weight = 2.0;   ///< of the cost-to-go, >= 1: above 1 it expands less, and the result costs
-                         ///< at most this many times the optimum
-  double cell = 0.5;     ///< side of a cell [m], > 0
-  int headings = 72;     ///< cells per full turn, >= 8
-  double margin = 10.0;  ///< of the search area around start, goal and obstacles [m]
-  double min_speed = 0.3;  ///< lowest speed at a step of curvature [m/s]
-  int budget = 200000;     ///< expansions, >= 0
+  std::optional<double> radius;  ///< Radius r [m]; none: 1.1 times the car's smallest.
+  double safe_distance = 0.3;    ///< Distance of the footprint from obstacles [m], >= 0.
+  bool reverse = true;           ///< Whether reverse driving is allowed.
+  double reverse_cost = 2.0;     ///< Cost of a meter backwards, >= 1.
+  double switch_cost = 5.0;      ///< Cost of a change of direction [m], >= 0.
+  double steering_cost = 2.0;    ///< Cost of a step of curvature of 1/r [m], >= 0.
+  /// Weight of the cost-to-go, >= 1. Above 1, fewer poses are expanded, and the result costs at
+  /// most `weight` times the optimum.
+  double weight = 2.0;
+  double cell = 0.5;       ///< Side of a cell [m], > 0.
+  int headings = 72;       ///< Number of cells per full turn, >= 8.
+  double margin = 10.0;    ///< Margin of the search area around start, goal and obstacles [m].
+  double min_speed = 0.3;  ///< Lowest speed at a step of curvature [m/s].
+  int budget = 200000;     ///< Maximum number of expanded poses, >= 0.
 };
 void Visit(KeyVisitor& keys, HybridAStarOptions& options);
 
@@ -44,34 +45,36 @@ struct HybridAStarProblem {
   Pose2 start;
   Pose2 goal;
   std::vector<OrientedBox> obstacles{};
-  bool rolls = false;  ///< the car rolls forwards at the start, so that it cannot begin backwards
+  /// Whether the car rolls forwards at the start, so that it cannot begin backwards.
+  bool rolls = false;
 };
 
 struct HybridAStarResult {
   PlanStatus status = PlanStatus::kNoPath;
-  std::string reason;             ///< empty when ok
-  std::vector<Segment> segments;  ///< from the start; empty unless ok
+  std::string reason;             ///< Reason of a failure; empty if ok.
+  std::vector<Segment> segments;  ///< Segments from the start; empty unless ok.
   double cost = std::numeric_limits<double>::infinity();
   int expansions = 0;
-  int cells = 0;  ///< of the search area, without headings
+  int cells = 0;  ///< Number of cells of the search area, without headings.
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };
 
-/// Guarantees when ok: the path ends at the goal pose within 1e-9 m and rad (the last leg is a
-/// Reeds-Shepp curve, or a Dubins curve without reverse driving); no curvature above 1/r; the
-/// footprint is free (CollisionChecker); the same input gives the same result. The path is not
-/// globally optimal: it is the cheapest that the cells distinguish and that ends with a last curve.
-/// If the budget is used up, returns the best path found so far. kNoPath if all poses have been
-/// expanded. InternalError for options out of range. Cost: about 10 us per expansion.
+/// Guarantees if ok: the path ends at the goal pose within 1e-9 m and rad. The last leg is a
+/// Reeds-Shepp curve, or a Dubins curve if reverse driving is not allowed. No curvature exceeds
+/// 1/r. The footprint is free (CollisionChecker). The same input gives the same result. The path is
+/// not globally optimal: it is the cheapest path that the cells distinguish and that ends with such
+/// a curve. If the budget is used up, returns the best path found so far. The status is kNoPath if
+/// all poses have been expanded. InternalError for options out of range. Cost: about 10 us per
+/// expansion.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 
 /// The search from one stop to the next.
 struct HybridAStarLeg {
-  double cost = 0.0;   ///< [m]
-  int expansions = 0;  ///< expanded poses
-  int cells = 0;       ///< of the search area, without headings
+  double cost = 0.0;   ///< Cost of the path [m].
+  int expansions = 0;  ///< Number of expanded poses.
+  int cells = 0;       ///< Number of cells of the search area, without headings.
 };
 void Visit(DiagnosticsVisitor& out, const HybridAStarLeg& leg);
 

@@ -11,21 +11,21 @@
 namespace trackbed {
 
 struct LaneRouteOptions {
-  double min_speed = 0.3;  ///< lowest speed at a step of curvature [m/s], > 0
+  double min_speed = 0.3;  ///< Lowest speed at a step of curvature [m/s], > 0.
 };
 void Visit(KeyVisitor& keys, LaneRouteOptions& options);
 
-/// The route as found.
+/// Diagnostics of a route over lanes.
 struct LaneRouteDiagnostics {
   std::vector<LaneStretch> stretches;
-  double deviation = 0.0;  ///< largest distance of the path from the lanes' centers [m]
+  double deviation = 0.0;  ///< Largest distance of the path from the lanes' centers [m].
 };
 void Visit(DiagnosticsVisitor& out, const LaneStretch& stretch);
 void Visit(DiagnosticsVisitor& out, const LaneRouteDiagnostics& own);
 
-/// Plans PlanRequest::lanes in the plane: heights of roads are ground (route_ground.h), and only
-/// affect speeds at the limit. Rejects a car that starts more than 1 mm or 1 mrad from the start of
-/// the route. Ignores obstacles.
+/// The planner for PlanRequest::lanes. Planning is in the plane: heights of roads are part of the
+/// ground (route_ground.h), and only affect speeds at the limit. The planner rejects a car that
+/// starts more than 1 mm or 1 mrad from the start of the route. The planner ignores obstacles.
 PlannerEntry LaneRoutePlanner();
 
 }  // namespace trackbed

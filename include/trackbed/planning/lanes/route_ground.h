@@ -12,35 +12,37 @@ namespace trackbed {
 
 /// The ground under a route.
 struct RouteGround {
-  std::string failure;                     ///< why there is no ground; empty if ok
-  std::shared_ptr<const Terrain> terrain;  ///< null: the route's roads are level, at one height
+  std::string failure;  ///< Reason why there is no ground; empty if ok.
+  /// Terrain; null if the route's roads are level at one height.
+  std::shared_ptr<const Terrain> terrain;
   /// Largest distance found between the terrain and the route's lanes [m].
   double deviation = 0.0;
 
   [[nodiscard]] bool ok() const { return failure.empty(); }
 };
 
-/// Makes terrain of the elevation and superelevation of a route's roads.
+/// Makes terrain from the elevation and superelevation of a route's roads.
 ///
 /// On the drivable lanes of these roads, the ground is the road surface (PositionAt), interpolated
-/// from points every 0.5 m (Terrain): accurate to 1 mm where elevation and superelevation are
-/// smooth. Kinks and steps are rounded over half a meter; `deviation` is measured every 0.15 m
-/// along the centers and borders of the driven lanes, and at most 1 cm. The surface extends 1.5 m
-/// beyond the lanes, and blends over another 8 m into smooth ground between the roads, which
-/// becomes level a meter below the lowest road about 100 m from the route. Before its first and
-/// after its last place, the route's road continues for 15 m, or, where it ends, straight for 6 m.
+/// from points every 0.5 m (Terrain). The ground is accurate to 1 mm if elevation and
+/// superelevation are smooth. Kinks and steps are rounded over half a meter. `deviation` is
+/// measured every 0.15 m along the centers and borders of the driven lanes, and is at most 1 cm.
+/// The surface extends 1.5 m beyond the lanes, and blends over another 8 m into smooth ground
+/// between the roads. About 100 m from the route, the ground becomes level, a meter below the
+/// lowest road. Before its first and after its last place, the route's road continues for 15 m. If
+/// the road ends there, it continues straight for 6 m.
 ///
-/// Only roads of the route have heights, over the stations that it needs; the other roads lie on
-/// that ground, regardless of their heights. A route may pass above or below other roads, but not
-/// above or below itself.
+/// Only roads of the route have heights, over the stations that the route needs. The other roads
+/// lie on the smooth ground, regardless of their heights. A route may pass above or below other
+/// roads, but not above or below itself.
 ///
-/// `failure` states one of: heights in the file that are not supported; lanes of two roads more
-/// than 0.1 m above each other at one place; a deviation of more than 1 cm; roads steeper than 45
-/// degrees, more than 10 km high or 50 m wide on either side, longer than 20 km together, or over
-/// more than 8 km along x or y.
+/// `failure` states one of these reasons: heights in the file that are not supported; lanes of two
+/// roads more than 0.1 m above each other at one place; a deviation of more than 1 cm; roads
+/// steeper than 45 degrees, more than 10 km high, more than 50 m wide on either side, longer than
+/// 20 km together, or extending over more than 8 km along x or y.
 ///
-/// No terrain and no failure if FindLaneRoute finds no route. PreconditionError as there. Cost:
-/// about 1 s and 3 MB per kilometer.
+/// If FindLaneRoute finds no route, there is neither terrain nor a failure. Throws the
+/// PreconditionErrors of FindLaneRoute. Cost: about 1 s and 3 MB per kilometer.
 RouteGround MakeRouteGround(const RoadNetwork& network, const std::vector<LanePlace>& places);
 
 }  // namespace trackbed

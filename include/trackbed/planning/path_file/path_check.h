@@ -7,7 +7,7 @@
 #include "trackbed/path/fit_path.h"
 #include "trackbed/vehicle/params.h"
 
-/// Whether a car can drive a path at a speed, and how fast it could: without simulation.
+/// Checks, without simulation, whether a car can drive a path at a speed, and how fast it could.
 ///
 /// Symbols: v the speed, kappa(s) curvature, delta(s) = atan(L kappa) steering, omega_delta and
 /// delta_max the car's steering rate and angle, mu its lateral friction, a_r the lateral
@@ -16,83 +16,91 @@
 namespace trackbed {
 
 enum class PathFaultKind {
-  kReversal,       ///< the path turns back on itself, more than kMaxHeadingJump [rad]
-  kHeadingJump,    ///< of a polyline [rad]; a car can take none but standing still, and none at all
-  kSteeringAngle,  ///< |delta| > delta_max [rad]
-  kSteeringRate,   ///< v |d delta/ds| > omega_delta [rad/s]
-  kFriction,       ///< v^2 |kappa| > mu g [m/s^2]
-  kRollOver,       ///< v^2 |kappa| > a_r [m/s^2]
-  kTopSpeed,       ///< v above the car's [m/s]
+  kReversal,  ///< The path turns back on itself by more than kMaxHeadingJump [rad].
+  /// The heading of a polyline jumps [rad]. A car can only turn at a corner while it is at rest;
+  /// the planner rejects paths with corners.
+  kHeadingJump,
+  kSteeringAngle,  ///< |delta| > delta_max [rad].
+  kSteeringRate,   ///< v |d delta/ds| > omega_delta [rad/s].
+  kFriction,       ///< v^2 |kappa| > mu g [m/s^2].
+  kRollOver,       ///< v^2 |kappa| > a_r [m/s^2].
+  kTopSpeed,       ///< v above the car's top speed [m/s].
 };
 
-/// "steering_rate", ...: the spelling of files.
+/// The spelling of a kind in files: "steering_rate", ...
 const char* ToString(PathFaultKind kind);
-/// "rad/s", ...
+/// The unit of the values of a kind: "rad/s", ...
 const char* UnitOf(PathFaultKind kind);
 
-/// A stretch of the path on which the car cannot follow at the speed.
+/// A stretch of the path that the car cannot follow at the speed.
 struct PathFault {
   PathFaultKind kind = PathFaultKind::kReversal;
-  Stations stations{0.0, 0.0};  ///< the stretch [m]
-  double s = 0.0;               ///< where it is worst [m]
-  Vec2 position{0.0, 0.0};      ///< there [m]
-  double required = 0.0;        ///< there [UnitOf(kind)]
-  double limit = 0.0;           ///< likewise
+  Stations stations{0.0, 0.0};  ///< Stations of the stretch [m].
+  double s = 0.0;               ///< Station of the worst violation [m].
+  Vec2 position{0.0, 0.0};      ///< Position of the worst violation [m].
+  double required = 0.0;        ///< Value at the worst violation [UnitOf(kind)].
+  double limit = 0.0;           ///< Limit of that value [UnitOf(kind)].
 };
 
-/// "steering rate 0.95 rad/s exceeds 0.15 rad/s at s = 42 m, (12.5, 3), on 1.2 m"
+/// Formats a fault: "steering rate 0.95 rad/s exceeds 0.15 rad/s at s = 42 m, (12.5, 3), on 1.2 m".
 std::string ToString(const PathFault& fault);
 
 struct PathCheckOptions {
-  double speed = 0.0;                             ///< v [m/s], > 0
-  double friction = 1.0;                          ///< of the road, a factor on the tyres' own
-  std::optional<double> rollover_acceleration{};  ///< a_r [m/s^2]; none: the car does not tip over
+  double speed = 0.0;     ///< Speed v [m/s], > 0.
+  double friction = 1.0;  ///< Friction of the road, a factor on the tyres' friction.
+  /// Lateral acceleration a_r [m/s^2]; none: the car does not tip over.
+  std::optional<double> rollover_acceleration{};
 };
 
-/// g T/(2 h) [m/s^2], at which a rigid car of track T and height h of its center of gravity [m]
-/// lifts its inner wheels. A car on springs rolls and does so earlier, by a tenth or more.
+/// The lateral acceleration g T/(2 h) [m/s^2] at which a rigid car lifts its inner wheels. T is the
+/// track, h the height of the center of gravity [m]. A car on springs rolls, and lifts them
+/// earlier, by a tenth or more.
 double RollOverAcceleration(double track, double cg_height);
 
-/// Largest demand of a piece of the path, which is at most 0.05 m long, or 1/400 000 of a path of
-/// more than 20 km.
+/// Largest demands of a piece of the path. A piece is at most 0.05 m long; for a path of more than
+/// 20 km, at most 1/400 000 of the path.
 struct PathDemand {
-  double s = 0.0;                     ///< of its beginning [m]
-  Vec2 position{0.0, 0.0};            ///< there [m]
-  double curvature = 0.0;             ///< there, positive to the left [1/m]
-  double curvature_rate = 0.0;        ///< dkappa/ds there [1/m^2]
-  double steering = 0.0;              ///< |delta| [rad]
-  double steering_rate = 0.0;         ///< at v [rad/s]
-  double lateral_acceleration = 0.0;  ///< at v [m/s^2]
-  // Speeds up to which it can be driven; infinite where nothing limits it [m/s].
+  double s = 0.0;                     ///< Station of the start of the piece [m].
+  Vec2 position{0.0, 0.0};            ///< Position of the start [m].
+  double curvature = 0.0;             ///< Curvature at the start, positive to the left [1/m].
+  double curvature_rate = 0.0;        ///< Rate dkappa/ds at the start [1/m^2].
+  double steering = 0.0;              ///< Steering angle |delta| [rad].
+  double steering_rate = 0.0;         ///< Steering rate at v [rad/s].
+  double lateral_acceleration = 0.0;  ///< Lateral acceleration at v [m/s^2].
+  // Maximum speed by each limit [m/s]; infinite if the limit does not apply.
   double speed_by_steering_rate = 0.0;
   double speed_by_friction = 0.0;
   double speed_by_rollover = 0.0;
-  double speed = 0.0;  ///< the smallest of them and the top speed; 0 where the car cannot steer so
+  /// The smallest of these speeds and the top speed. 0 if the car cannot steer the path.
+  double speed = 0.0;
 };
 
 struct PathCheck {
-  std::vector<PathFault> faults;    ///< along the path; none: it can be driven
-  std::vector<PathDemand> demands;  ///< along the path; none where it turns back on itself
-  /// The largest speed at which all of it can be driven [m/s]; 0: at none.
+  std::vector<PathFault> faults;  ///< Faults along the path; none: the car can drive it.
+  /// Demands along the path; none if the path turns back on itself.
+  std::vector<PathDemand> demands;
+  /// The largest speed at which the whole path can be driven [m/s]; 0 if there is none.
   double max_speed = 0.0;
-  double max_speed_station = 0.0;                            ///< the place that limits it [m]
-  PathFaultKind max_speed_limit = PathFaultKind::kTopSpeed;  ///< and what does there
-  double steering_limit = 0.0;                               ///< delta_max [rad]
-  double steering_rate_limit = 0.0;                          ///< omega_delta [rad/s]
-  double friction_limit = 0.0;                               ///< mu g [m/s^2]; 0: not known
-  double rollover_limit = 0.0;                               ///< a_r [m/s^2]; 0: none
+  double max_speed_station = 0.0;  ///< Station that limits the speed [m].
+  /// Limit that applies at that station.
+  PathFaultKind max_speed_limit = PathFaultKind::kTopSpeed;
+  double steering_limit = 0.0;       ///< Steering angle delta_max [rad].
+  double steering_rate_limit = 0.0;  ///< Steering rate omega_delta [rad/s].
+  double friction_limit = 0.0;       ///< Limit mu g of v^2 |kappa| [m/s^2]; 0: unknown.
+  double rollover_limit = 0.0;       ///< Limit a_r of v^2 |kappa| [m/s^2]; 0: none.
 
   [[nodiscard]] bool drivable() const { return faults.empty(); }
 };
 
 /// Checks a path at a constant speed.
 ///
-/// Guarantees: every fault has its place; where there is none, the kinematic car of these limits
-/// follows the path exactly if it starts on it with the path's steering. Does not know obstacles,
-/// how tyres slip below their limit, braking and accelerating, nor how controllers cut corners.
+/// Guarantees: every fault has a place. A kinematic car with these limits follows a path without
+/// faults exactly if it starts on the path with the path's steering. The check ignores obstacles,
+/// tyre slip below the limit, braking and accelerating, and controllers that cut corners.
 ///
-/// Errors: PreconditionError unless speed and friction are finite and positive. Cost: 5 us a meter;
-/// 100 bytes a piece, of which a path has at most 400 000 more than segments.
+/// Errors: PreconditionError unless speed and friction are finite and positive. Cost: 5 us per
+/// meter and 100 bytes per piece. The number of pieces exceeds the number of segments by at most
+/// 400 000.
 PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
                     const PathCheckOptions& options);
 

@@ -2,7 +2,7 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// Laps along the surveyed middle of a track (PlanRequest::on_track); see FollowLine.
+/// Laps along the surveyed middle of a track (PlanRequest::on_track), planned by FollowLine.
 namespace trackbed {
 
 struct CenterLineOptions {};

@@ -11,35 +11,38 @@
 #include "trackbed/planning/sampling/comparator.h"
 
 /// Detours by any planner that avoids obstacles: the detour leaves the driven plan before the
-/// obstacle that blocks it, and rejoins the route behind it.
+/// obstacle that blocks it, and rejoins the route behind the obstacle.
 namespace trackbed {
 
 struct DetourRequest {
   VehicleParams vehicle;
-  SpeedLimits speed;                   ///< of the mission
-  Plan driven;                         ///< the current plan
-  double station = 0.0;                ///< of the car on `driven` [m]
-  double station_speed = 0.0;          ///< of the car there [m/s]
-  Plan route;                          ///< to the goal; `driven`, or the route that it follows
-  double route_station = 0.0;          ///< of the car on `route` [m]
-  std::vector<OrientedBox> obstacles;  ///< known obstacles that stand
-  double safe_distance = 0.3;          ///< closer obstacles block a path [m]
+  SpeedLimits speed;           ///< Limits of the mission.
+  Plan driven;                 ///< The current plan.
+  double station = 0.0;        ///< Station of the car on `driven` [m].
+  double station_speed = 0.0;  ///< Speed of the car at that station [m/s].
+  /// Plan to the goal: `driven`, or the route that it follows.
+  Plan route;
+  double route_station = 0.0;          ///< Station of the car on `route` [m].
+  std::vector<OrientedBox> obstacles;  ///< Known obstacles that stand.
+  double safe_distance = 0.3;          ///< Distance below which an obstacle blocks a path [m].
   Wind wind;
-  double time = 0.0;  ///< [s]
+  double time = 0.0;  ///< Time in the run [s].
   std::uint64_t seed = 0;
-  RoadConditions road{};  ///< that the new route is held to
+  RoadConditions road{};  ///< Road conditions that limit the new route.
 };
 
 /// The result of a search for a detour.
 struct Detour {
-  std::optional<FeasiblePlan> route;  ///< from the car's station to the goal; none: keep the plan
-  /// Where the new route leaves the driven path, and rejoins it, in stations of the new route [m].
+  /// New route from the car's station to the goal; none: keep the plan.
+  std::optional<FeasiblePlan> route;
+  /// Stations of the new route at which it leaves the driven path and rejoins it [m].
   Stations replaced;
-  PathScore current;  ///< of the current path
-  PathScore best;     ///< of the best alternative; its total is infinite without one
-  int tried = 0;      ///< number of calls of the planner
-  long samples = 0;   ///< random samples drawn in all of them
-  std::string why;    ///< why there is no detour
+  PathScore current;  ///< Score of the current path.
+  /// Score of the best alternative; its total is infinite without an alternative.
+  PathScore best;
+  int tried = 0;     ///< Number of calls of the planner.
+  long samples = 0;  ///< Number of random samples drawn in all of these calls.
+  std::string why;   ///< Reason why there is no detour.
 };
 
 /// Random samples that a detour may draw: about 2 s of RRT*.
@@ -47,29 +50,30 @@ inline constexpr long kMaxDetourSamples = 200'000;
 
 /// Diagnostics of a search for a detour, without the plan.
 struct DetourFindings {
-  std::string planner;                 ///< its name
-  int tried = 0;                       ///< number of calls of the planner
-  PathScore current;                   ///< of the current path
-  std::optional<PathScore> best;       ///< of the best alternative
-  std::optional<Stations> replaced{};  ///< of the new route [m]; none: there is no detour
-  std::string why;                     ///< why there is no detour
+  std::string planner;                 ///< Name of the planner.
+  int tried = 0;                       ///< Number of calls of the planner.
+  PathScore current;                   ///< Score of the current path.
+  std::optional<PathScore> best;       ///< Score of the best alternative.
+  std::optional<Stations> replaced{};  ///< Replaced stations of the new route [m]; none: no detour.
+  std::string why;                     ///< Reason why there is no detour.
 };
 void Visit(DiagnosticsVisitor& out, const DetourFindings& own);
 
-/// Searches only where a standing obstacle blocks the route. Candidates leave the driven path where
-/// it is straight, as early as the car can, and rejoin the route on straight stretches behind the
-/// last obstacle that blocks it, or at its end. The comparator chooses the best candidate, and
-/// keeps the current path unless the candidate is better.
+/// Searches only if a standing obstacle blocks the route. Candidates leave the driven path on a
+/// straight stretch, as early as the car can. Candidates rejoin the route on straight stretches
+/// behind the last obstacle that blocks it, or at its end. The comparator chooses the best
+/// candidate, and keeps the current path unless that candidate is better.
 ///
-/// Guarantees: the new route begins with the driven one, including its curvature, as long as the
-/// steering needs to follow; beyond that it keeps the planner's distance from every obstacle; it is
-/// slow enough for its corners without braking harder than the limits. Errors: InternalError for a
-/// planner that does not avoid obstacles or may go backwards. Cost: up to 18 plans per attempt; one
-/// attempt if that finds nothing; no further plan after kMaxDetourSamples, whose best is taken.
+/// Guarantees: the new route begins with the driven path, including its curvature, for as long as
+/// the steering needs to follow. Beyond that, it keeps the planner's distance from every obstacle.
+/// The new route is slow enough for its corners without braking harder than the limits. Errors:
+/// InternalError for a planner that does not avoid obstacles or may go backwards. Cost: up to 18
+/// plans per attempt. If the first attempt finds nothing, there is no other attempt. After
+/// kMaxDetourSamples samples, no further plan is made, and the best candidate so far is used.
 Detour PlanDetour(const DetourRequest& request, const PlannerOptions& planner,
                   const DetourChoice& choice);
 
-/// The stretches of a path, from `station` on, on which the car is closer to an obstacle than
+/// The stretches of a path beyond `station` on which the car is closer to an obstacle than
 /// `distance`, in order.
 std::vector<Stations> BlockedStretches(const VehicleParams& vehicle, const Path& path,
                                        double station, const std::vector<OrientedBox>& obstacles,

@@ -3,7 +3,8 @@
 namespace trackbed {
 
 struct ComparatorOptions {
-  double collision_penalty = 1000.0;  ///< [m], >= 0: added to a path that collides
+  /// Penalty added to the score of a path that collides [m], >= 0.
+  double collision_penalty = 1000.0;
 };
 
 }  // namespace trackbed

@@ -9,42 +9,46 @@
 
 /// RRT for a point in the plane (LaValle 1998; listing "RRT Path Planner" of the wind-aware RRT): a
 /// tree of straight edges that grows toward random points until it reaches the goal or uses up its
-/// budget. In the latter case the path ends at the node nearest to the goal.
+/// budget. If the budget is used up, the path ends at the node nearest to the goal.
 namespace trackbed {
 
 /// Start, goal and obstacles of a path.
 struct RrtProblem {
-  Vec2 start{0.0, 0.0};  ///< [m]
-  Vec2 goal{0.0, 0.0};   ///< [m]
-  Vec2 low{0.0, 0.0};    ///< corner of the box that is sampled, smallest x and y [m]
-  Vec2 high{0.0, 0.0};   ///< the opposite corner; start and goal lie within the box
+  Vec2 start{0.0, 0.0};  ///< Start of the path [m].
+  Vec2 goal{0.0, 0.0};   ///< Goal of the path [m].
+  Vec2 low{0.0, 0.0};    ///< Smallest x and y of the sampled box [m].
+  Vec2 high{0.0, 0.0};   ///< Largest x and y of the box, which contains start and goal.
   std::vector<OrientedBox> obstacles;
-  double inflation = 0.0;  ///< the path keeps further than this from every obstacle [m], >= 0
+  double inflation = 0.0;  ///< Smallest distance of the path from every obstacle [m], >= 0.
 };
 
 struct RrtOptions {
-  int iterations = 5000;  ///< maximum number of samples, >= 0
-  /// Maximum distance from the nearest node toward a sample; also the distance from which the goal
-  /// is tried [m], > 0.
+  int iterations = 5000;  ///< Maximum number of samples, >= 0.
+  /// Maximum distance from the nearest node toward a sample [m], > 0. Nodes within this distance of
+  /// the goal also try to reach the goal.
   double expand_distance = 2.0;
-  double goal_bias = 0.05;  ///< fraction of samples at the goal, 0 to 1; wind-aware RRT: 0
-  /// Called before every iteration (may be empty): true ends the search, for example at a time
-  /// limit. Planners read no clock themselves.
+  double goal_bias = 0.05;  ///< Fraction of samples at the goal, 0 to 1; 0 in wind-aware RRT.
+  /// Called before every iteration; may be empty. The result true ends the search, for example at a
+  /// time limit. Planners read no clock themselves.
   std::function<bool()> stop;
 };
 
 enum class RrtStatus {
-  kReached,       ///< the path ends at the goal
-  kIterations,    ///< all samples are drawn; the path ends at the node nearest to the goal
-  kStopped,       ///< the caller ended the search; the path ends at the node nearest to the goal
-  kStartBlocked,  ///< the start lies within the inflation of an obstacle; no path
-  kGoalBlocked,   ///< the goal lies within the inflation of an obstacle; no path
+  kReached,  ///< The path ends at the goal.
+  /// All samples are drawn. The path ends at the node nearest to the goal.
+  kIterations,
+  /// The caller ended the search. The path ends at the node nearest to the goal.
+  kStopped,
+  /// The start lies within the inflation of an obstacle. There is no path.
+  kStartBlocked,
+  /// The goal lies within the inflation of an obstacle. There is no path.
+  kGoalBlocked,
 };
 
-/// "reached", "iterations", …: the spelling of plan.json.
+/// The spelling of a status in plan.json: "reached", "iterations", ….
 const char* ToString(RrtStatus status);
 
-/// A node of the tree; the first one is the start, which is its own parent.
+/// A node of the tree. The first node is the start, which is its own parent.
 struct RrtNode {
   Vec2 position{0.0, 0.0};
   std::size_t parent = 0;
@@ -52,20 +56,21 @@ struct RrtNode {
 
 struct RrtResult {
   RrtStatus status = RrtStatus::kIterations;
-  std::vector<Vec2> path;  ///< from the start; empty if start or goal are blocked
-  double length = 0.0;     ///< of the path [m]
-  int iterations = 0;      ///< used
+  std::vector<Vec2> path;  ///< Path from the start; empty if start or goal are blocked.
+  double length = 0.0;     ///< Length of the path [m].
+  int iterations = 0;      ///< Number of iterations used.
   std::vector<RrtNode> nodes;
 
   [[nodiscard]] bool ok() const { return status == RrtStatus::kReached; }
 };
 
-/// Guarantees: every edge, including the last one to the goal, keeps further than the inflation
-/// from every obstacle over its whole length; edges are no longer than the expand distance; the
-/// same problem, options and seed give the same tree; a run with more iterations starts like one
-/// with fewer. Returns the first path found: it is not the shortest (RrtStar), has corners, and
-/// ignores headings. Errors: InternalError for a start or goal outside the box or options out of
-/// range. Cost: O(log n + obstacles) per iteration, about 1 us and 20 ns per obstacle.
+/// Plans a path. Guarantees: every edge, including the last one to the goal, is farther than the
+/// inflation from every obstacle over its whole length. Edges are no longer than the expand
+/// distance. The same problem, options and seed give the same tree. A run with more iterations
+/// starts like a run with fewer. The result is the first path found: it is not the shortest
+/// (RrtStar), has corners, and ignores headings. Errors: InternalError for a start or goal outside
+/// the box, or for options out of range. Cost: O(log n + obstacles) per iteration, about 1 us plus
+/// 20 ns per obstacle.
 RrtResult PlanRrt(const RrtProblem& problem, const RrtOptions& options, std::uint64_t seed);
 
 }  // namespace trackbed
