@@ -22,15 +22,16 @@ struct Outcome {
 };
 
 /// 20 m straight ahead, or backwards, from rest to rest at 2 m/s.
-Outcome Drive(const std::string& car_name, const std::string& plant, double grade, int direction) {
+Outcome Drive(const std::string& car_name, const std::string& plant, double grade, int direction,
+              const std::string& infeasible = "slow_down") {
   const Scenario scenario = ParseScenario(
       fmt::format("schema: 1\nname: slope\nvehicle: {{model: {}}}\n"
                   "mission: {{speed: 2, waypoints: [[0, 0], [{}, 0]], headings: [0, 0], "
                   "start: {{speed: 0}}}}\n"
                   "world: {{ground: {{grade: {{x: {}}}}}}}\n"
-                  "plan: {{method: reeds_shepp}}\n"
+                  "plan: {{method: reeds_shepp, infeasible: {}}}\n"
                   "drive: {{plants: ['{}'], time_limit: 40}}\n",
-                  car_name, 20 * direction, grade, plant),
+                  car_name, 20 * direction, grade, infeasible, plant),
       "slope.yaml", ".");
   const CarModel car = LoadCar(scenario);
   const FeasiblePlan plan = PlanMission(scenario, car.unladen());
@@ -74,8 +75,9 @@ TEST_P(Slopes, AreStartedDrivenAndStoppedOn) {
 }
 
 TEST(Slopes, HoldACarWhoseMotorIsTooWeak) {
-  // 50 % asks 0.447 g = 4.4 m/s^2 of a Prius whose motor gives 4.0: its brakes hold it.
-  const Outcome outcome = Drive("prius", "mujoco:magic_formula", 0.5, 1);
+  // 50 % asks 0.447 g = 4.4 m/s^2 of a Prius whose motor gives 4.0: its brakes hold it. Without
+  // `allow` there is no plan.
+  const Outcome outcome = Drive("prius", "mujoco:magic_formula", 0.5, 1, "allow");
   EXPECT_EQ(outcome.status, DriveStatus::kStuck);
   EXPECT_LE(outcome.rolled_back, Tolerance(0.05));
 }
