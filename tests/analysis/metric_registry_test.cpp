@@ -21,7 +21,7 @@ PlantMetrics All() {
   metrics.plant = "mujoco";
   metrics.time = 8.0;
   metrics.end_s = 20.0;
-  metrics.tracking.emplace();
+  metrics.tracking.emplace().overspeed_max = 0.1;
   metrics.clearance.emplace();
   metrics.recovery.emplace();
   metrics.yaw_rate_ratio = 1.0;
