@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -11,9 +12,17 @@
 
 namespace trackbed {
 
-/// Replaces the manifest by an empty one, so that a test may change files.
+/// Replaces the manifest by one that lists all files without hashes, so that a test may change
+/// them.
 inline void ForgetHashes(const std::filesystem::path& folder) {
-  WriteFileAtomically(folder / "manifest.json", R"({"results": {}})");
+  nlohmann::json names = nlohmann::json::array();
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.is_regular_file() && entry.path().filename() != "manifest.json") {
+      names.push_back(entry.path().filename().string());
+    }
+  }
+  const nlohmann::json manifest{{"results", nlohmann::json::object()}, {"others", names}};
+  WriteFileAtomically(folder / "manifest.json", manifest.dump());
 }
 
 /// Runs a scenario of a corner and writes its run folder. `keys`: YAML sections besides the
