@@ -170,9 +170,9 @@ TEST(ReportData, FindsUnmetWhatTheVerdictFinds) {
                   "mujoco: Collision = true", "mujoco: Distance to the goal ≤ 1e-09",
                   "mujoco: Distance traveled ≤ 2", "mujoco: Replans = 1", "mujoco: distanze ≥ 1",
                   "kinematic – mujoco: Maximum distance ≤ 1e-09"));
-  // Lists every bound, the arrival of plants without an expected end, and the steering rate limit:
-  // 6 and 1 of each plant, the arrival of one, 6 more of the other, 2 of both.
-  EXPECT_EQ(data["expectations"].size(), 23U);
+  // Lists every bound, the arrival of plants without an expected end, and the limits of steering
+  // rate and overspeed: 6 and 2 of each plant, the arrival of one, 6 more of the other, 2 of both.
+  EXPECT_EQ(data["expectations"].size(), 25U);
   EXPECT_FALSE(data["verdict"].contains("checks"));
 }
 
