@@ -139,6 +139,7 @@ TEST(Comparison, OfOneRunStandsWithThatRun) {
   const ordered_json alone = ReportData({a});
   EXPECT_THAT(PairsIn(alone), testing::ElementsAre("0 kinematic - 0 single_track"));
   EXPECT_TRUE(alone["comparison"]["verdicts"].empty());
+  RememberHashes(a);
   for (const fs::path& out : {folder.path() / "out", a}) {
     WriteComparison(CompareFolders({a}, {}, DifferenceBounds{.position_max = 100.0}), out);
     const ordered_json data = ReportData({out});
@@ -158,6 +159,7 @@ TEST(Comparison, OfOneRunStandsWithThatRun) {
                                    "0 single_track - 1 single_track"));
   EXPECT_EQ(both["comparison"]["verdicts"][0]["run"], 1);
   // A comparison of other runs does not belong to these two.
+  RememberHashes(b);
   WriteComparison(CompareFolders({a, b}, {}, std::nullopt), b);
   EXPECT_EQ(ReportData({b, a})["comparison"]["verdicts"].size(), 1U);
 }

@@ -8,20 +8,26 @@
 #include "tests/support/temp_folder.h"
 #include "trackbed/analysis/run.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/hash.h"
 #include "trackbed/core/table.h"
 
 namespace trackbed {
 
-/// Replaces the manifest by one that lists all files without hashes, so that a test may change
-/// them.
+/// Replaces the manifest by an empty one, so that a test may change files.
 inline void ForgetHashes(const std::filesystem::path& folder) {
-  nlohmann::json names = nlohmann::json::array();
+  WriteFileAtomically(folder / "manifest.json", R"({"results": {}})");
+}
+
+/// Makes the manifest of a run with the files as they are, so that a verb may replace them.
+inline void RememberHashes(const std::filesystem::path& folder) {
+  nlohmann::json manifest;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-    if (entry.is_regular_file() && entry.path().filename() != "manifest.json") {
-      names.push_back(entry.path().filename().string());
+    const std::string name = entry.path().filename().string();
+    if (name != "manifest.json") {
+      const std::string content = ReadFile(entry.path());
+      manifest["results"]["run"][name] = {{"bytes", content.size()}, {"sha256", Sha256(content)}};
     }
   }
-  const nlohmann::json manifest{{"results", nlohmann::json::object()}, {"others", names}};
   WriteFileAtomically(folder / "manifest.json", manifest.dump());
 }
 
