@@ -123,18 +123,18 @@ TEST_F(FullDisk, LeavesNoPieceOfASweep) {
                                  "vary: {mission.speed: [1, 2]}\n"
                                  "outputs: [metrics.kinematic.distance]\n");
   Trackbed(folder, "sweep -q study.yaml -o whole");
-  // Of the four pages that the sweep needs there is room for one, which holds its records; it can
-  // resume from them.
+  // The sweep needs six pages, one of them for the list of files that it has begun. There is room
+  // for one page, which holds its records; it can resume from them.
   const std::string sweep = TRACKBED_PROGRAM " sweep -q study.yaml -o disk/s";
   const Outcome part = WithDisk("4k", sweep);
   EXPECT_EQ(part.code, 2);
-  EXPECT_EQ(part.output, "cannot write disk/s/sweep.csv: No space left on device\n");
+  EXPECT_EQ(part.output, "cannot write disk/s/.written: No space left on device\n");
   EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.records"));
   fs::remove_all(folder.path() / "left");
   // Room for one sweep and its list of files to remove, but not for another sweep beside it: the
   // first result stays unchanged.
   const Outcome second =
-      WithDisk("20k", sweep + " && " + sweep + " --restart --set drive.time_limit=0.2");
+      WithDisk("24k", sweep + " && " + sweep + " --restart --set drive.time_limit=0.2");
   EXPECT_EQ(second.code, 2);
   EXPECT_EQ(second.output, "cannot write disk/s/sweep.json: No space left on device\n");
   EXPECT_THAT(NamesIn(folder.path() / "left/s"),
