@@ -385,6 +385,20 @@ class DriveCheck {
     return rate;
   }
 
+  /// A bound [m/s] on the planned speed, also between the rows of a plan: over a gap d between two
+  /// rows, a plan that accelerates by at most a gains at most 2 a d in v^2.
+  [[nodiscard]] double HighestPlanned(const Table& plan) const {
+    const std::vector<double> s = plan.Column("s_m");
+    const std::vector<double> v = plan.Column("speed_mps");
+    double highest = v.empty() ? 0.0 : v.front() * v.front();  // [m^2/s^2]
+    for (std::size_t i = 1; i < v.size(); ++i) {
+      const double gap = std::max(0.0, s[i] - s[i - 1]);  // 0 between two plans
+      highest = std::max(highest, std::max(v[i] * v[i], v[i - 1] * v[i - 1]) +
+                                      2.0 * record_.mission.acceleration * gap);
+    }
+    return std::sqrt(highest);
+  }
+
   /// No car that passed was faster than any of its plans by more than the bound on the overspeed.
   /// At its place it may have been planned to be slower still: the program's value is no smaller.
   void CheckOverspeed() {
@@ -394,15 +408,9 @@ class DriveCheck {
     if (!drive_.overspeed_bound || drive_.metrics.value("collision", false)) {
       return;
     }
-    double planned = 0.0;
-    for (const double v : record_.plan.Column("speed_mps")) {
-      planned = std::max(planned, std::abs(v));
-    }
-    if (drive_.changes.rows() > 0) {
-      for (const double v : drive_.changes.Column("speed_mps")) {
-        planned = std::max(planned, std::abs(v));
-      }
-    }
+    const double planned =
+        std::max(HighestPlanned(record_.plan),
+                 drive_.changes.rows() > 0 ? HighestPlanned(drive_.changes) : 0.0);
     for (std::size_t i = 0; i + 1 < speed.size(); ++i) {  // the last row has no command
       const double over = std::abs(speed[i]) - planned;
       if (over > told + 1e-6) {

@@ -296,7 +296,7 @@ TEST(Checker, FindsAPlanThatAGradeDoesNotHold) {
   record.mission.grade = {0.1, 0.0};
   EXPECT_THAT(Check(record), IsEmpty());
   record.mission.grade = {0.0, 0.3};  // across, by 2.82 m/s^2
-  EXPECT_THAT(KindsIn(record), ElementsAre("plan_hold", "plan_lateral"));
+  EXPECT_THAT(KindsIn(record), ElementsAre("plan_hold"));
 }
 
 TEST(Checker, FindsAPlanThatSpeedsUpTooMuch) {
