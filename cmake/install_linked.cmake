@@ -1,5 +1,5 @@
 # Installs into pages_folder the files and folders of `source` that the pages link and no other rule
-# installs: those of tests/, src/, render/, scripts/, packaging/, bench/ and .ci/.
+# installs: those of tests/, src/, render/, cmake/, scripts/, packaging/, bench/ and .ci/.
 file(GLOB_RECURSE pages ${source}/docs/*.md)
 list(APPEND pages ${source}/README.md ${source}/CHANGELOG.md ${source}/CONTRIBUTING.md)
 set(linked "")
@@ -12,7 +12,7 @@ foreach(page IN LISTS pages)
   foreach(link IN LISTS links)
     string(REPLACE "LINK:" "" link ${link})
     file(RELATIVE_PATH file ${source} ${folder}/${link})
-    if(file MATCHES "^(tests|src|render|scripts|packaging|bench|\\.ci)/" AND EXISTS ${source}/${file})
+    if(file MATCHES "^(tests|src|render|cmake|scripts|packaging|bench|\\.ci)/" AND EXISTS ${source}/${file})
       list(APPEND linked ${file})
     endif()
   endforeach()
