@@ -241,19 +241,20 @@ TEST(Tutorial, EndsAsItsPageSays) {
   const std::filesystem::path run = newcomer.corner() / "out/corner";
   const std::filesystem::path kinematic = run / "kinematic.csv";
   const std::filesystem::path tyres = run / "mujoco-magic_formula.csv";
-  EXPECT_THAT(text, testing::HasSubstr(fmt::format("the wheels need {:.2f} s from straight ahead",
-                                                   NumberIn(run / "plan.json", "ramp_time_s"))));
+  EXPECT_THAT(text, testing::HasSubstr(fmt::format(
+                        "The wheels, however, need {:.2f} s to turn from straight ahead",
+                        NumberIn(run / "plan.json", "ramp_time_s"))));
   EXPECT_THAT(
       text,
       testing::HasSubstr(fmt::format(
-          "at 5 s the wheels are at {:.3f} and {:.3f} rad, and the yaw rates are "
+          "At 5 s the wheels are at {:.3f} and {:.3f} rad, and the yaw rates are "
           "{:.3f} and {:.3f} rad/s",
           AtFiveSeconds(kinematic, "steering_rad"), AtFiveSeconds(tyres, "steering_rad"),
           AtFiveSeconds(kinematic, "yaw_rate_radps"), AtFiveSeconds(tyres, "yaw_rate_radps"))));
   EXPECT_THAT(
       text,
       testing::HasSubstr(fmt::format(
-          "this car's yaw rate is {:.2f} times what the kinematic model predicts",
+          "this car's yaw rate is {:.2f} times the value that the kinematic model predicts",
           NumberIn(newcomer.corner() / "out/longer_preview/metrics.json", "yaw_rate_ratio"))));
 }
 
