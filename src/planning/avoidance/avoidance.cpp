@@ -139,18 +139,26 @@ class AroundObstacles {
     plan_.reference.path = Path(start, std::move(segments));
 
     const std::size_t last = points.size() - 1;
-    const double step_in =
-        leave > kStep && Jumps(old.At(leave), points[0], points[1]) ? kStep : 0.0;
-    const double step_out = Jumps(old.At(after.from), points[last], points[last - 1]) ? kStep : 0.0;
+    const bool jumps_in = leave > kStep && Jumps(old.At(leave), points[0], points[1]);
+    const bool jumps_out = Jumps(old.At(after.from), points[last], points[last - 1]);
+    const double step_in = jumps_in ? kStep : 0.0;
+    const double step_out = jumps_out ? kStep : 0.0;
     std::vector<SteeringSchedule::Knot> knots = Moved(plan_.schedule, {-1.0, leave - step_in}, 0.0);
-    if (step_in > 0.0) {
+    if (jumps_in) {
       knots.push_back({leave - step_in, plan_.schedule.At(leave)});
     }
     for (const CurvePoint& point : points) {
       knots.push_back({leave + point.s, SteeringForCurvature(request_.vehicle, point.curvature)});
     }
-    if (step_out > 0.0) {
+    // Where nothing jumps, both ends of the curve have the plan's steering, so that the schedule
+    // outside the curve stays exactly as it was.
+    if (leave > kStep && !jumps_in) {
+      knots[knots.size() - points.size()].steering = plan_.schedule.At(leave);
+    }
+    if (jumps_out) {
       knots.push_back({back + step_out, plan_.schedule.At(after.from)});
+    } else {
+      knots.back().steering = plan_.schedule.At(after.from);
     }
     Append(knots, Moved(plan_.schedule, {after.from + step_out, after.to}, shift));
     plan_.schedule = SteeringSchedule::Through(std::move(knots));
