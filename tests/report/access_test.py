@@ -6,16 +6,10 @@ access_test.py PROGRAM PICTURES [I/N] [unittest's options]: writes pictures of t
 
 import base64
 import pathlib
-import subprocess
 import sys
-import tempfile
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser, run_tests  # noqa: E402
-
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
-PICTURES = pathlib.Path(sys.argv[2]).resolve()
+from pages import PICTURES, PageTest, run_tests  # noqa: E402
 
 # A patch of ice that makes the car leave the road, an obstacle that becomes known late, and a
 # failed expectation.
@@ -85,12 +79,9 @@ return found;
 """
 
 
-class Access(unittest.TestCase):
+class Access(PageTest):
     @classmethod
-    def setUpClass(cls):
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.root = pathlib.Path(cls.folder.name)
+    def make_inputs(cls):
         # Failed and passed runs have different colors.
         for name, speed, most, code in (("slow", 4, 0.01, 3), ("quick", 4.5, 0.01, 3), ("good", 2, 5, 0)):
             (cls.root / f"{name}.yaml").write_text(SCENARIO % (speed, most))
@@ -104,24 +95,6 @@ class Access(unittest.TestCase):
         cls.trackbed("report", "slow", "quick", "-o", "runs.html")
         cls.trackbed("report", "study", "-o", "study.html")
         cls.trackbed("report", "good", "-o", "good.html")
-        cls.browser = Browser()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-        cls.folder.cleanup()
-
-    @classmethod
-    def trackbed(cls, *arguments, code=0):
-        done = subprocess.run([PROGRAM, *arguments], cwd=cls.root, capture_output=True, text=True, check=False)
-        if code is not None and done.returncode != code:
-            raise RuntimeError(f"{arguments}: {done.stdout}{done.stderr}")
-
-    def open(self, page, **screen):
-        self.browser.open(self.root / page, **screen)
-
-    def tearDown(self):
-        self.assertEqual(self.browser.console_errors(), [])
 
     def check_contrast(self, *pages):
         for page in pages:
@@ -249,4 +222,4 @@ class Access(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    run_tests()
+    run_tests(Access)

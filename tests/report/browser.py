@@ -1,16 +1,14 @@
 """A headless Chromium for tests of reports, with no network except the loopback interface.
 
-Tests that use it end with run_tests(). As a script: browser.py PAGE PICTURE [WIDTH HEIGHT [JAVASCRIPT]] takes a picture of a page, after
+As a script: browser.py PAGE PICTURE [WIDTH HEIGHT [JAVASCRIPT]] takes a picture of a page, after
 running JavaScript in it.
 """
 
 import json
 import pathlib
-import re
 import sys
 import tempfile
 import time
-import unittest
 
 from selenium import webdriver
 from selenium.webdriver.chrome.options import Options
@@ -98,29 +96,6 @@ class Browser:
             elif message["method"] == "Network.loadingFailed" and params.get("blockedReason") == "csp":
                 urls.pop(params["requestId"], None)
         return list(urls.values())
-
-
-class PartLoader(unittest.TestLoader):
-    """Keeps every Nth test of each class, beginning with the Ith."""
-
-    def __init__(self, part):
-        super().__init__()
-        self.first, self.step = (int(number) for number in part.split("/"))
-
-    def getTestCaseNames(self, testCaseClass):
-        return super().getTestCaseNames(testCaseClass)[self.first - 1 :: self.step]
-
-
-def run_tests():
-    """Runs the tests of the file that was started as FILE PROGRAM PICTURES [I/N] [unittest's options]; with I/N
-    the Ith of N parts."""
-    options = sys.argv[3:]
-    is_part = bool(options) and re.fullmatch(r"\d+/\d+", options[0])
-    unittest.main(
-        argv=[sys.argv[0], *options[int(bool(is_part)) :]],
-        testLoader=PartLoader(options[0]) if is_part else unittest.defaultTestLoader,
-        verbosity=2,
-    )
 
 
 def main():

@@ -11,17 +11,11 @@ import math
 import pathlib
 import re
 import shutil
-import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser, run_tests  # noqa: E402
-
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
-PICTURES = pathlib.Path(sys.argv[2]).resolve()
+from pages import PICTURES, PageTest, has_video, run_tests  # noqa: E402
 
 SCENARIO = """schema: 1
 name: corner
@@ -73,19 +67,15 @@ def copy_of_a_result(source, target):
         os.remove(manifest)
 
 
-class Reports(unittest.TestCase):
+class Reports(PageTest):
     @classmethod
-    def setUpClass(cls):
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.root = pathlib.Path(cls.folder.name)
+    def make_inputs(cls):
         for name, speed in (("slow", 3), ("quick", 3.3)):
             (cls.root / f"{name}.yaml").write_text(SCENARIO % speed)
             cls.trackbed("run", "-q", f"{name}.yaml", "-o", name)
         (cls.root / "study.yaml").write_text(STUDY)
         cls.trackbed("sweep", "-q", "study.yaml", "-o", "study")
-        cls.has_video = "video off" not in cls.trackbed("--version")
-        if cls.has_video:
+        if has_video():
             cls.trackbed("render", "-q", "slow", "--size", "160x120", "--fps", "10")
         cls.trackbed("report", "slow")
         cls.trackbed("report", "slow", "--film", "beside", "-o", "beside.html")
@@ -101,24 +91,6 @@ class Reports(unittest.TestCase):
         metrics["verdict"]["failures"] = [EVIL]
         (evil / "metrics.json").write_text(json.dumps(metrics))
         cls.trackbed("report", "evil", "--film", "none", "-o", "evil.html")
-        cls.browser = Browser()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-        cls.folder.cleanup()
-
-    @classmethod
-    def trackbed(cls, *arguments, code=0):
-        done = subprocess.run(
-            [PROGRAM, *arguments], cwd=cls.root, capture_output=True, text=True, check=False
-        )
-        if done.returncode != code:
-            raise RuntimeError(f"{arguments}: {done.stdout}{done.stderr}")
-        return done.stdout
-
-    def open(self, page, **screen):
-        self.browser.open(self.root / page, **screen)
 
     def tearDown(self):
         self.assertEqual(self.browser.console_errors(), [])
@@ -502,7 +474,7 @@ class Reports(unittest.TestCase):
         self.assertEqual(self.moment(), still)
 
     def test_film_follows_and_leads(self):
-        if not self.has_video:
+        if not has_video():
             self.skipTest("built without video")
         end = float(rows_of(self.root / "slow/mujoco.csv")[-1]["t_s"])
         for page in ("slow/report.html", "beside.html"):
@@ -592,7 +564,7 @@ class Reports(unittest.TestCase):
             self.browser.picture(PICTURES / f"phone-tables-{page.split('/')[0].split('.')[0]}.png")
 
     def test_nothing_lies_upon_the_film(self):
-        if not self.has_video:
+        if not has_video():
             self.skipTest("built without video")
         self.open("slow/report.html")
         has_controls = "return document.querySelector('video').controls"
@@ -858,4 +830,4 @@ class Reports(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    run_tests()
+    run_tests(Reports)

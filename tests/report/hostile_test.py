@@ -13,14 +13,9 @@ import re
 import shutil
 import subprocess
 import sys
-import tempfile
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser, run_tests  # noqa: E402
-
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
-PICTURES = pathlib.Path(sys.argv[2]).resolve()
+from pages import PICTURES, PROGRAM, PageTest, has_video, run_tests  # noqa: E402
 
 SCENARIO = """schema: 1
 name: corner
@@ -83,33 +78,14 @@ def copy_of_a_result(source, target):
         os.remove(manifest)
 
 
-class HostileReports(unittest.TestCase):
+class HostileReports(PageTest):
     @classmethod
-    def setUpClass(cls):
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.root = pathlib.Path(cls.folder.name)
+    def make_inputs(cls):
         (cls.root / "corner.yaml").write_text(SCENARIO)
         cls.trackbed("run", "-q", "corner.yaml", "-o", "plain")
         cls.trackbed("compare", "-q", "plain", "plain", "-o", "compared", "--tolerance", "position=1")
         (cls.root / "study.yaml").write_text(STUDY)
         cls.trackbed("sweep", "-q", "study.yaml", "-o", "study")
-        cls.has_video = "video off" not in cls.trackbed("--version")
-        cls.browser = Browser()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-        cls.folder.cleanup()
-
-    @classmethod
-    def trackbed(cls, *arguments):
-        done = subprocess.run(
-            [PROGRAM, *arguments], cwd=cls.root, capture_output=True, text=True, check=False
-        )
-        if done.returncode != 0:
-            raise RuntimeError(f"{arguments}: {done.stdout}{done.stderr}")
-        return done.stdout
 
     def change(self, file, **entries):
         content = json.loads(file.read_text())
@@ -290,7 +266,7 @@ class HostileReports(unittest.TestCase):
         self.check("bytes.html", {"folder": "latin \ufffd \ufffd\ufffd<b>"}, "bytes")
 
     def test_film_beside_a_hostile_name(self):
-        if not self.has_video:
+        if not has_video():
             self.skipTest("built without video")
         run, _ = self.hostile_run(file_name(8))
         shutil.rmtree(run)
@@ -405,4 +381,4 @@ class HostileReports(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    run_tests()
+    run_tests(HostileReports)

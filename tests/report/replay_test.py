@@ -8,16 +8,11 @@ import json
 import math
 import pathlib
 import re
-import subprocess
 import sys
-import tempfile
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser, run_tests  # noqa: E402
-
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
-PICTURES = pathlib.Path(sys.argv[2]).resolve()
+from browser import Browser  # noqa: E402
+from pages import PICTURES, PageTest, run_tests  # noqa: E402
 
 SCENARIO = """schema: 1
 name: minute
@@ -118,36 +113,18 @@ def area_of(hull):
     return 0.5 * sum(x0 * y1 - x1 * y0 for (x0, y0), (x1, y1) in zip(hull, hull[1:] + hull[:1]))
 
 
-class Replay(unittest.TestCase):
+class Replay(PageTest):
     @classmethod
-    def setUpClass(cls):
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.root = pathlib.Path(cls.folder.name)
+    def make_inputs(cls):
         for name, text in (("minute", SCENARIO), ("long", LONG)):
             (cls.root / f"{name}.yaml").write_text(text)
             cls.trackbed("run", "-q", f"{name}.yaml", "-o", name)
             cls.trackbed("report", name, "--film", "none")
-        cls.browser = Browser()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-        cls.folder.cleanup()
-
-    @classmethod
-    def trackbed(cls, *arguments):
-        done = subprocess.run([PROGRAM, *arguments], cwd=cls.root, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise RuntimeError(f"{arguments}: {done.stdout}{done.stderr}")
 
     def open(self, page, **screen):
         self.browser.open(self.root / page, **screen)
         self.browser.run("document.querySelector('.replay').scrollIntoView()")
         self.browser.settle()
-
-    def tearDown(self):
-        self.assertEqual(self.browser.console_errors(), [])
 
     def data(self, page):
         text = (self.root / page).read_text()
@@ -318,4 +295,4 @@ class Replay(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    run_tests()
+    run_tests(Replay)

@@ -7,16 +7,10 @@ import csv
 import json
 import pathlib
 import re
-import subprocess
 import sys
-import tempfile
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent))
-from browser import Browser, run_tests  # noqa: E402
-
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
-PICTURES = pathlib.Path(sys.argv[2]).resolve()
+from pages import PICTURES, PageTest, run_tests  # noqa: E402
 
 SCENARIO = """schema: 1
 name: corner
@@ -41,39 +35,19 @@ outputs: [metrics.kinematic.time]
 HOSTILE = "<b>&\"'</script><script>document.title = 'hacked'</script>"
 
 
-class Searches(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.root = pathlib.Path(cls.folder.name)
-        (cls.root / "corner.yaml").write_text(SCENARIO)
-        cls.printed = cls.search("broken", 0.2, "uniform", 40, code=3)
-        cls.search("kept", 30, "log_uniform", 7, code=0)
-        cls.browser = Browser(webgl=False)
+class Searches(PageTest):
+    webgl = False
 
     @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-        cls.folder.cleanup()
+    def make_inputs(cls):
+        (cls.root / "corner.yaml").write_text(SCENARIO)
+        (cls.root / "printed").write_text(cls.search("broken", 0.2, "uniform", 40, code=3))
+        cls.search("kept", 30, "log_uniform", 7, code=0)
 
     @classmethod
     def search(cls, name, most, distribution, runs, code):
         (cls.root / f"{name}.yaml").write_text(SEARCH % (most, distribution, runs))
         return cls.trackbed("falsify", f"{name}.yaml", "-o", name, "--report", code=code)
-
-    @classmethod
-    def trackbed(cls, *arguments, code=0):
-        done = subprocess.run([PROGRAM, *arguments], cwd=cls.root, capture_output=True, text=True, check=False)
-        if done.returncode != code:
-            raise RuntimeError(f"{arguments}: {done.stdout}{done.stderr}")
-        return done.stdout
-
-    def open(self, page, **screen):
-        self.browser.open(self.root / page, **screen)
-
-    def tearDown(self):
-        self.assertEqual(self.browser.console_errors(), [])
 
     def run_in_page(self, script, *arguments):
         return self.browser.run(script, *arguments)
@@ -101,13 +75,14 @@ class Searches(unittest.TestCase):
 
     def test_says_what_the_terminal_says(self):
         self.open("broken/report.html")
+        printed = (self.root / "printed").read_text()
         found = self.outcome("broken")
         verdict = f"broken: {found['violations']} of {found['runs']} runs failed"
-        self.assertIn(verdict, self.printed)
+        self.assertIn(verdict, printed)
         self.assertEqual(self.text("#verdict"), verdict)
         self.assertIn("bad", self.attributes("#verdict", "class")[0])
         reason = found["counterexample"]["reason"]
-        self.assertIn(reason, self.printed)
+        self.assertIn(reason, printed)
         self.assertEqual(self.text("#answer .reason"), reason)
         answer = self.text("#answer")
         self.assertIn(f"Runs to make it smaller{found['shrink_runs']}", answer)
@@ -116,7 +91,7 @@ class Searches(unittest.TestCase):
         # For each key, the page shows the values of its line in the terminal, and its range.
         for key in ("control.distance", "mission.speed"):
             line = rf"^ *{re.escape(key)} +(\S+) +(\S+) +(\S+) +(\S+ to \S+|-) +(\S+)$"
-            nominal, fails, holds, alone, sensitivity = re.search(line, self.printed, re.M).groups()
+            nominal, fails, holds, alone, sensitivity = re.search(line, printed, re.M).groups()
             cells = [text.replace("−", "-").replace("–", "-") for text in self.texts(f"#margins [data-key='{key}'] td")]
             self.assertEqual(cells[:4], [nominal, fails, holds, alone], key)
             if sensitivity == "-":
@@ -252,4 +227,4 @@ class Searches(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    run_tests()
+    run_tests(Searches)

@@ -11,15 +11,10 @@ import re
 import signal
 import subprocess
 import sys
-import tempfile
 import time
-import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).parent.parent / "report"))
-from browser import Browser, run_tests  # noqa: E402
-
-PROGRAM = pathlib.Path(sys.argv[1]).resolve()
-PICTURES = pathlib.Path(sys.argv[2]).resolve()
+from pages import PICTURES, PROGRAM, PageTest, run_tests  # noqa: E402
 
 SCENARIO = """schema: 1
 name: corner
@@ -32,19 +27,10 @@ expect: {reach_goal: 0.5}
 """
 
 
-class Watch(unittest.TestCase):
+class Watch(PageTest):
     @classmethod
-    def setUpClass(cls):
-        PICTURES.mkdir(parents=True, exist_ok=True)
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.root = pathlib.Path(cls.folder.name)
+    def make_inputs(cls):
         (cls.root / "corner.yaml").write_text(SCENARIO)
-        cls.browser = Browser()
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.browser.close()
-        cls.folder.cleanup()
 
     def setUp(self):
         self.process = None
@@ -233,4 +219,4 @@ class Watch(unittest.TestCase):
 
 if __name__ == "__main__":
     os.environ.pop("DISPLAY", None)
-    run_tests()
+    run_tests(Watch)
