@@ -8,7 +8,8 @@
 ///     const trackbed::RunLog log = trackbed::DrivePlant(scenario, car, plan, "mujoco");
 ///
 /// SimulateClosedLoop runs user-defined plants and controllers. RunMission also measures and judges
-/// a run, as the program does. Main is the program. The modules have further headers.
+/// a run, as the program does. Main is the command-line program. Further headers are in the folders
+/// of the modules.
 
 #include "trackbed/analysis/run.h"                // IWYU pragma: export
 #include "trackbed/cli/main.h"                    // IWYU pragma: export

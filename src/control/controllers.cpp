@@ -18,7 +18,7 @@
 namespace trackbed {
 namespace {
 
-/// The registry of controllers, with one line per controller.
+/// Returns the registry of controllers. Its table has one line per controller.
 Registry<ControllerEntry>& ControllerRegistry() {
   static Registry<ControllerEntry> table("controller", {
                                                            ScheduleController(),

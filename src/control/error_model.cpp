@@ -13,7 +13,8 @@ namespace {
 
 enum State { kOffset, kHeading, kActuator, kWheels, kLateral, kYawRate };
 
-/// Slowest speed of the model [m/s]. At rest, the terms of the tyres are unbounded.
+/// Slowest speed of the model [m/s]. The tyre terms of the model grow without bound as the speed
+/// approaches 0.
 constexpr double kMinModelSpeed = 1.0;
 /// Shortest steering lag of the model [s].
 constexpr double kMinLag = 1e-3;
@@ -57,8 +58,8 @@ ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, d
   model.speed = direction * std::max(direction * input.state.speed, SlowestSpeed(vehicle));
   const double u = model.speed;
 
-  // Derivatives of (x, w, kappa, c), of which the last three are constant. The exponential of the
-  // augmented matrix gives the exact step.
+  // The augmented matrix gives the derivatives of (x, w, kappa, c), where w, kappa and c are
+  // constant over a step. The exponential of this matrix gives the exact step.
   using Augmented = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                   ErrorModel::kMaxStates + 3, ErrorModel::kMaxStates + 3>;
   Augmented rates = Augmented::Zero(n + 3, n + 3);
@@ -184,14 +185,15 @@ Vector Ahead::Next() {
   const double stride = std::abs(from.speed) * model_.period;
   station_ += stride;
   const PathPoint next = input_.reference.path.At(station_);
-  // The mean curvature over the step, including curvature jumps.
+  // Mean curvature over the step, computed from the heading change so that it includes curvature
+  // jumps.
   const double mean = AngleDifference(next.pose.yaw, yaw_) / (direction_ * stride);
   const auto steering = [&](double curvature) {
     Motion motion = from;
     motion.curvature = curvature;
     return OperateOn(input_.vehicle, model_.tyres, motion).turn.steering;
   };
-  // In a steady turn, only a change of the curvature moves the car away from x_0.
+  // A car in the steady turn x_0 leaves this turn only if the curvature changes.
   const Vector after =
       steady_ + model_.d * (mean - curvature_) +
       model_.c * (TangentExcess(steering(mean)) - TangentExcess(steering(curvature_)));

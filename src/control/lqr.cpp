@@ -23,7 +23,7 @@ class Lqr final : public SteeringController {
     const Regulator regulator = ScheduledRegulator(model, vehicle.steering_rate, weights, z);
 
     double rate = -regulator.gain.dot(z);
-    // Computes B^T (A_c^T)^k P by way of A_c^k B.
+    // Computes B^T (A_c^T)^k P from A_c^k B.
     const ErrorModel::Matrix closed = model.a - model.b * regulator.gain;
     ErrorModel::Vector reach = model.b;
     const auto steps = static_cast<long>(std::ceil(options_.preview / input.period));

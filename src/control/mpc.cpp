@@ -12,7 +12,7 @@ namespace {
 
 static_assert(MpcOptions::kMaxHorizon <= QuadraticProgram::kMaxVariables);
 
-/// z after a step as a linear function of all rates: free + reach w.
+/// The deviation z after a step as a linear function free + reach w of all steering rates w.
 struct Prediction {
   ErrorModel::Vector free;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMaxStates,
@@ -53,7 +53,8 @@ class Mpc final : public SteeringController {
   }
 
  private:
-  /// Constrains the rates, and the angles, which are sums of rates, on both sides.
+  /// Adds lower and upper bounds of the steering rates and of the steering angles. The angles are
+  /// sums of the rates.
   static void Limit(const VehicleParams& vehicle, double start, double step,
                     QuadraticProgram& program) {
     const auto n = program.linear.size();

@@ -11,25 +11,25 @@
 namespace trackbed {
 namespace {
 
-/// Bounds and start of a one-dimensional search.
+/// Bounds and initial value of a one-dimensional search.
 struct SteeringInterval {
   double lower = 0.0;
   double upper = 0.0;
   double start = 0.0;
 };
 
-/// Largest change of the wheel angle over the problem's distance [rad].
+/// Returns the angle by which the wheels can turn over the problem's distance [rad].
 double Reach(const VehicleParams& vehicle, const SteeringProblem& problem) {
   return vehicle.steering_rate * std::abs(problem.distance) / problem.speed;
 }
 
-/// The difference is computed in the axes of the given poses, since cost (1) is the same in any
-/// axes.
+/// Subtracts the poses component by component, without rotation, since the cost (1) does not depend
+/// on the axes.
 Deviation Difference(const Pose2& actual, const Pose2& wanted) {
   return {actual.x - wanted.x, actual.y - wanted.y, actual.yaw - wanted.yaw};
 }
 
-/// Returns the angle that minimizes the cost, in the field `steering`.
+/// Finds the value that minimizes `cost`. Returns this value in the field `steering`.
 template <typename Cost>
 SteeringMatch Minimize(const Cost& cost, const SteeringInterval& range, const SearchOptions& search,
                        std::uint64_t seed) {
@@ -68,7 +68,7 @@ Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, 
   const double ramp = std::min(speed * move.ramp_time, std::abs(distance));
   Pose2 pose;
   if (ramp > 0.0) {
-    // With delta = delta_0 + slope s, integrates tan(delta)/L over s.
+    // The heading is the integral of tan(delta)/L over s, with delta = delta_0 + slope s.
     const double slope = move.rate / speed;
     const double cosine = std::cos(steering);
     const auto heading = [&](double s) {
@@ -111,8 +111,8 @@ double TurnShare(const VehicleParams& vehicle, const SteeringProblem& problem, d
 
 SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem& problem,
                              const DeviationWeights& weights, const SearchOptions& search) {
-  // Mirrors the problem so that the wanted pose is on the left. The search therefore takes equal
-  // steps for mirrored problems.
+  // Mirrors the problem if the wanted pose is on the right. Mirrored problems then have exactly
+  // mirrored solutions.
   const Pose2& wanted = problem.wanted;
   const bool ahead = wanted.y == 0.0 && wanted.yaw == 0.0;
   const bool mirrored =
@@ -125,7 +125,8 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
   const double limit = problem.max_steering;
   const double lower = TurnShare(vehicle, own, -limit);
   const double upper = TurnShare(vehicle, own, limit);
-  // A simplex that starts on a bound would stop there if the next point is worse.
+  // Start inside the bounds: a simplex that starts on a bound would get stuck if the second point
+  // is worse.
   const double margin = 0.05 * (upper - lower);
   const double start =
       std::clamp(TurnShare(vehicle, own, side * problem.start), lower + margin, upper - margin);
@@ -141,7 +142,7 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
 
 SteeringMatch MatchSteering(const VehicleParams& vehicle, const CircleExperiment& experiment,
                             const SearchOptions& search, std::uint64_t seed) {
-  // Final pose after a time of constant steering.
+  // Returns the final pose of a car that drives for `time` with constant steering and speed.
   const auto drive = [&](double steering, double speed, double time) {
     KinematicCar car(vehicle, experiment.reference, {.speed = speed, .steering = steering});
     car.Step({.steering = steering}, time);

@@ -61,7 +61,7 @@ class OptimalSteeringController final : public SteeringController {
   }
 
  private:
-  /// Position of the primary car, and its speed if the matching needs it.
+  /// Station of the primary, and the primary's speed if the matching method needs the speed.
   struct Primary {
     double station = 0.0;
     std::optional<double> speed;
@@ -79,8 +79,8 @@ class OptimalSteeringController final : public SteeringController {
     return {station, std::max(input.reference.speed.SpeedAt(station), kCrawl)};
   }
 
-  /// The path's pose at `station` relative to the car. The yaw of the path's pose includes full
-  /// turns between car and station.
+  /// Returns the path's pose at `station` with an unwrapped yaw. Relative to the car's yaw, this
+  /// yaw includes the full turns of the path between car and station.
   static Pose2 RelativePathPose(const ControlInput& input, double station) {
     const Path& path = input.reference.path;
     const double here = path.At(input.station).pose.yaw;

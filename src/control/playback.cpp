@@ -30,8 +30,8 @@ class PlaybackController final : public SteeringController {
   }
 
  private:
-  /// A replan must not restart the recording, so the axis is the car's odometer and not the plan's
-  /// station.
+  /// The distance is that of the car's odometer and not the plan's station, because a new plan must
+  /// not restart the recording.
   [[nodiscard]] double Axis(const ControlInput& input) const {
     return options_.by == PlaybackAxis::kTime ? input.state.time : input.state.distance;
   }
@@ -39,12 +39,12 @@ class PlaybackController final : public SteeringController {
   PlaybackOptions options_;
 };
 
-/// Advance of the recording's axis within the control period.
+/// Returns how far the car advances along the recording's axis in a control period.
 double AxisAdvance(const PlaybackOptions& options, double speed, double period) {
   return options.by == PlaybackAxis::kTime ? period : std::abs(speed) * period;
 }
 
-/// End of a recording over time [s]; none for a recording over distance.
+/// Returns the last time of a recording over time [s]; none for a recording over distance.
 std::optional<double> DurationOf(const PlaybackOptions& options) {
   const Signal& steering = options.recording.steering;
   if (options.by != PlaybackAxis::kTime || steering.empty() || steering.knots.back().x() <= 0.0) {

@@ -11,7 +11,8 @@
 namespace trackbed {
 namespace {
 
-/// Angle from the rear axle's heading to its velocity [rad], left positive; 0 at very low speed.
+/// Returns the angle from the car's heading to the velocity of the rear axle [rad], positive to the
+/// left; 0 at very low speed.
 double RearSlip(const ControlInput& input) {
   const VehicleState& state = input.state;
   const double across = state.lateral_speed - input.vehicle.cg_to_rear * state.yaw_rate;
@@ -29,7 +30,7 @@ class Preview final : public SteeringController {
     const int direction = input.reference.path.BendAt(input.station).direction;
     const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
                      (options_.slip ? RearSlip(input) : 0.0);
-    // In reverse, steering right turns the motion to the left.
+    // In reverse, steering to the right turns the direction of motion to the left.
     const double bend =
         direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
     return std::clamp(SteeringOn(input, bend, direction), -input.vehicle.steering_limit,
@@ -37,7 +38,7 @@ class Preview final : public SteeringController {
   }
 
  private:
-  /// Steering angle delta for a curvature [rad].
+  /// Returns the steering angle delta for a curvature [rad].
   [[nodiscard]] double SteeringOn(const ControlInput& input, double curvature,
                                   int direction) const {
     if (options_.slip) {
@@ -51,14 +52,16 @@ class Preview final : public SteeringController {
   PreviewOptions options_;
 };
 
-/// Station of the first point after `station` that is `distance` away from `p`.
+/// Returns the station of the first path point after `station` that is `distance` away from the
+/// point `p`.
 double PreviewStation(const Path& path, const Vec2& p, double station, double distance) {
   const auto beyond = [&](double s) { return (path.At(s).pose.position() - p).norm() - distance; };
   if (beyond(station) >= 0.0) {
     return station + distance;
   }
-  // The path leaves the circle around the car no sooner than a straight line would. Steps of an
-  // eighth of the distance find the first crossing of any path with larger radii of curvature.
+  // A path leaves the circle with radius `distance` around `p` no sooner than a straight line
+  // would. Steps of an eighth of the distance find the first crossing if the path's radii of
+  // curvature are larger than a step.
   const double stride = distance / 8.0;
   double inside = station;
   while (beyond(inside + stride) < 0.0) {

@@ -9,11 +9,12 @@
 namespace trackbed {
 namespace {
 
-constexpr double kWheelbases = 0.75;  ///< Minimum preview distance R over the wheelbase L.
-constexpr double kResponses = 3.0;    ///< Minimum preview distance R over v T.
-constexpr double kRampShare = 0.65;   ///< Ratio of the preview distance R to the ramp S.
-/// Ratio of the distances of successive sampled stations from the car. A curvature step between two
-/// stations is attributed to the closer station.
+constexpr double kWheelbases = 0.75;  ///< Minimum ratio of the preview distance R to the wheelbase
+                                      ///< L.
+constexpr double kResponses = 3.0;    ///< Minimum ratio of the preview distance R to v T.
+constexpr double kRampShare = 0.65;   ///< Factor on the ramp S in the preview distance R.
+/// Ratio between the distances from the car to successive sampled stations. A curvature step
+/// between two sampled stations is assumed at the station closer to the car.
 constexpr double kSpacingRatio = 1.3;
 
 /// Computes the ramp S [m] over a range of stations that can be extended at both ends.
@@ -22,8 +23,8 @@ class RampScan {
   explicit RampScan(double turned)
       : min_minus_(turned), max_minus_(turned), min_plus_(turned), max_plus_(turned) {}
 
-  /// `turned` is v delta/omega [m] at the distance `s` [m] from the car. The `gap` before `s` may
-  /// contain a curvature step.
+  /// Adds a station at the signed distance `s` [m] from the car, at which v delta/omega is `turned`
+  /// [m]. A curvature step may lie anywhere in the `gap` [m] between this station and the car.
   void Extend(double turned, double s, double gap) {
     if (s > 0.0) {
       ramp_ = std::max({ramp_, turned - s - min_minus_ + gap, max_plus_ - turned - s + gap});
@@ -40,19 +41,22 @@ class RampScan {
 
  private:
   double ramp_ = 0.0;
-  // Extremes of turned - s and turned + s over all stations.
+  // Extreme values of turned - s and turned + s over all stations added so far.
   double min_minus_;
   double max_minus_;
   double min_plus_;
   double max_plus_;
 };
 
-/// Preview distance 0.65 S + v T for ramps at `speed`, at least `shortest`; `response` is v T [m].
+/// Returns the preview distance 0.65 S + v T for ramps at `speed`, but at least `shortest`;
+/// `response` is v T [m].
 double RampPreview(const ControlInput& input, double speed, double response, double shortest) {
   const Path& path = input.reference.path;
   const VehicleParams& vehicle = input.vehicle;
-  const double way = speed / vehicle.steering_rate;  // Distance per steering angle [m/rad].
-  // Reuses the last steering, since most stations have the curvature of the previous one.
+  const double way = speed / vehicle.steering_rate;  // Distance driven per radian of steering
+                                                     // [m/rad].
+  // Reuses the last steering angle, since most stations have the same curvature as the previous
+  // station.
   std::optional<double> last_curvature;
   double last_turned = 0.0;
   const auto turned = [&](const PathBend& bend) {
@@ -99,10 +103,10 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
   return preview;
 }
 
-/// The lowest planned speed [m/s] within `distance` of the car, which drives at `speed`. The plan
-/// slows down before curvature steps, so the car passes them at the lowest planned speed.
-/// SlowestWithin returns at least a quarter of `speed`, so that a planned stop does not shrink the
-/// preview distance to zero.
+/// Returns the lowest planned speed [m/s] within `distance` of the car, which drives at `speed`.
+/// The plan slows down before curvature steps, so the car passes a curvature step at the lowest
+/// planned speed. SlowestWithin returns at least a quarter of `speed`, so that a planned stop does
+/// not shrink the preview distance to zero.
 double SlowestWithin(const ControlInput& input, double speed, double distance) {
   constexpr int kSamples = 6;
   constexpr double kMinSpeedFraction = 0.25;  // smallest result as a fraction of the speed
@@ -141,11 +145,12 @@ double PreviewDistance(const ControlInput& input, double delay) {
 }
 
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset) {
-  // The factor was determined by trial, with offsets of 0.2 to 4 m and previews of 2 to 4 m. With a
-  // factor of 1.5, all cars converge to the path. With a factor of 1, some cars oscillate forever;
-  // with 2, they converge more slowly.
+  // The factor was determined by trial, with offsets of 0.2 to 4 m and preview distances of 2 to 4
+  // m. With a factor of 1.5, all cars converge to the path. With a factor of 1, some cars oscillate
+  // forever; with 2, they converge more slowly.
   constexpr double kShare = 1.5;
-  // Below this speed, the steering angle limits the car, not the steering rate.
+  // Below this multiple of L omega, the limit of the steering angle restricts the car, not the
+  // limit of the steering rate.
   constexpr double kMinSpeed = 1.25;
   const double slowest = kMinSpeed * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =

@@ -2,7 +2,7 @@
 
 #include "trackbed/control/steering_controller.h"
 
-/// Default preview distance R [m] of controllers that aim at a point of the path.
+/// Default preview distance R [m] of controllers that steer toward a point of the path.
 ///
 /// The symbols are:
 ///   L      wheelbase [m]
@@ -17,9 +17,10 @@
 ///   S = max over s_1 < s_2 of  v abs(delta(s_2) - delta(s_1))/omega - (s_2 - s_1),
 ///       both stations within R of the car
 ///
-/// Term 3/4 L: pure pursuit responds to an offset e with 2 L e/R^2 and to a heading error psi with
-/// 2 L psi/R. A car that enters a circle of radius r cuts in by R^2/(8 r). At a steering angle of
-/// 26 degrees, a car cuts in by 3.5 % of L.
+/// Term 3/4 L: pure pursuit responds to an offset e with the steering angle 2 L e/R^2, and to a
+/// heading error psi with 2 L psi/R. A car that enters a circle of radius r cuts the corner by
+/// R^2/(8 r). With R = 3/4 L and a steering angle of 26 degrees, the car cuts the corner by 3.5 %
+/// of L.
 ///
 /// Term 3 v T: consider a kinematic car with a first-order lag T along a straight path. The car's
 /// characteristic polynomial is T s^3 + s^2 + (2 v/R) s + 2 v^2/R^2. The motion is stable for R > v
@@ -27,36 +28,37 @@
 /// 2007 treat pure delays. Distances proportional to the speed are common (Snider 2009). The time m
 /// v/(C_f + C_r) is the time constant of the tyres' lateral response.
 ///
-/// Term 0.65 S + v T: at a curvature step, wheels with a limited rate need the distance S. Half of
-/// the turning is best before the step, and half behind it. With a preview below S/2, the wheels
-/// begin too late for the whole maneuver, and the car swings out. The factor 0.65 leaves a margin
-/// for model errors. The car then passes a step of curvature kappa within about kappa S^2/24, the
-/// deviation of a ramp of length S from the step. S is 0 if the wheels can follow the path's
-/// curvature.
+/// Term 0.65 S + v T: at a curvature step, wheels with a limited rate need the distance S. Ideally,
+/// half of the distance S lies before the curvature step, and half behind the step. With a preview
+/// distance below S/2, the wheels begin to turn too late, and the car swings out. The factor 0.65
+/// leaves a margin for model errors. The car then passes a step of curvature kappa within about
+/// kappa S^2/24, the deviation of a ramp of length S from the step. The distance S is 0 if the
+/// wheels can follow the path's curvature.
 namespace trackbed {
 
-/// Smallest speed used as a divisor [m/s].
+/// Lower bound for speeds that are used as divisors [m/s].
 inline constexpr double kCrawl = 0.5;
 
-/// Offset relative to the wheelbase from which default distances return a car to the path.
+/// Offset, as a fraction of the wheelbase, for which the default look-ahead distances are designed.
 inline constexpr double kReturnOffset = 0.125;
 
-/// Response time T [s] of a car at `speed` with the control period `period`. The tyres' term of T
-/// is 0 without tyre coefficients.
+/// Returns the response time T [s] of a car at `speed` with the control period `period`. The tyre
+/// term of T is 0 for a car without tyre coefficients.
 double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 
-/// Preview distance R [m] for the car's present state, with `delay` [s] added to its response time.
-/// Samples the path's steering at stations whose spacing grows with their distance from the car.
-/// For a single curvature step, S is exact. The sampling stops at the ends and cusps of the path.
+/// Returns the preview distance R [m] for the car's present state, with `delay` [s] added to the
+/// response time. Samples the path's steering at stations whose spacing grows with their distance
+/// from the car. For a path with a single curvature step, the ramp S is exact. The sampling stops
+/// at the ends and cusps of the path.
 double PreviewDistance(const ControlInput& input, double delay = 0.0);
 
-/// The shortest preview [m] that suits the steering rate, for a car at `speed` that is `offset` [m]
-/// off its path. At the full steering rate, the curvature changes by c = omega/(L v) per meter.
-/// Returning from an offset e takes a distance proportional to cbrt(e/c). Speeds below 5/4 L omega
-/// are replaced by 5/4 L omega.
+/// Returns the shortest preview distance [m] with which a rate-limited car at `speed` returns from
+/// `offset` [m] to its path without oscillation. At the full steering rate, the curvature changes
+/// by c = omega/(L v) per meter. Returning from an offset e takes a distance proportional to
+/// cbrt(e/c). A `speed` below 5/4 L omega is replaced by 5/4 L omega.
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 
-/// Same as ReturnDistance, for the present state of a car.
+/// Returns ReturnDistance for the car's present speed and offset.
 double ReturnDistance(const ControlInput& input);
 
 }  // namespace trackbed

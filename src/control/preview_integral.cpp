@@ -16,22 +16,22 @@ namespace trackbed {
 namespace {
 
 /// Cars slower than this speed are modeled as kinematic [m/s]. At 1 m/s, the kinematic and the
-/// dynamic model differ by less than 1e-2.
+/// dynamic model differ by less than 1 %.
 constexpr double kMinDynamicSpeed = 1.0;
 
-/// Lateral displacement of the car, `time` from now.
+/// Lateral displacement of the car at a future time.
 struct Responses {
   double free = 0.0;  ///< Displacement y_0 without steering [m].
   double step = 0.0;  ///< Response A to a unit step of steering [m].
 };
 
-/// Response of the rear axle of a kinematic car, which has no slip.
+/// Returns the responses of the rear axle of a kinematic car after the distance `way` [m].
 Responses KinematicResponses(const ControlInput& input, double way) {
   return {.free = 0.0, .step = way * way / (2.0 * input.vehicle.wheelbase)};
 }
 
-/// Response of the linear single-track car driving forward. The states (y, psi, v, r) of the model
-/// are in the car's present frame.
+/// Returns the responses of the linear single-track car after `time` [s] of driving forward. The
+/// model's states (y, psi, v, r) are relative to the car's present frame.
 Responses SingleTrackResponses(const ControlInput& input, double time) {
   const VehicleParams& vehicle = input.vehicle;
   const VehicleState& state = input.state;
@@ -82,21 +82,21 @@ class PreviewIntegral final : public SteeringController {
         square += importance * responses.step * responses.step;
       }
     }
-    // In reverse, steering right turns the motion to the left.
+    // In reverse, steering to the right turns the direction of motion to the left.
     const double wanted = direction * std::atan(moved / square);
     return Delayed(std::clamp(wanted, -vehicle.steering_limit, vehicle.steering_limit), input);
   }
 
  private:
-  /// Gain for an offset, relative to the single-point law at the same distance. For the kinematic
-  /// car, the gain is R^2/2 times the integral of A W over that of A^2 W. For equal damping, the
-  /// preview distance must grow with the square root of the offset gain.
+  /// Returns the gain on an offset, relative to the single-point law at the same preview distance.
+  /// For the kinematic car, the gain is R^2/2 times the ratio of the integrals of A W and A^2 W.
+  /// For equal damping, the preview distance must grow with the square root of this gain.
   [[nodiscard]] double OffsetGain() const {
     return options_.weight == PreviewWeight::kNear ? 5.0 / 2.0 : 5.0 / 3.0;
   }
 
-  /// The angle that was wanted one delay ago. Until one delay after the start, the wanted angle is
-  /// the initial wheel angle.
+  /// Returns the angle that was wanted one delay ago. During the first delay after the start,
+  /// returns the initial wheel angle.
   double Delayed(double wanted, const ControlInput& input) {
     const double periods = options_.delay / input.period;
     const auto whole = static_cast<std::size_t>(periods);
@@ -110,7 +110,7 @@ class PreviewIntegral final : public SteeringController {
   }
 
   PreviewIntegralOptions options_;
-  std::vector<double> past_commands_;  // newest first
+  std::vector<double> past_commands_;  // the newest command first
 };
 
 }  // namespace

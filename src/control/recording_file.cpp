@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// Converts the columns of an excerpt into signals and collects all problems.
+/// Converts the columns of a table excerpt to signals and collects the problems of all columns.
 class RecordingExcerpt {
  public:
   RecordingExcerpt(const std::filesystem::path& file, CsvExcerpt excerpt, std::string axis)
@@ -33,8 +33,8 @@ class RecordingExcerpt {
     return excerpt_.table.Find(column) >= 0;
   }
 
-  /// The signal is empty if the column does not exist. The last row must be in the range `last`,
-  /// other rows in `range`.
+  /// Converts one column to a signal, which is empty if the column does not exist. The value in the
+  /// last row must be in the range `last`, all other values in `range`.
   Signal Column(const std::string& column, const Range& range, const Range& last) {
     Signal signal;
     if (!Has(column)) {
@@ -56,7 +56,7 @@ class RecordingExcerpt {
     return Column(column, range, range);
   }
 
-  /// Throws InputError with all problems, in the order of the file.
+  /// Throws one InputError that lists all problems, in the order of the file.
   void Finish() const { problems_.ThrowIfAny(); }
 
  private:

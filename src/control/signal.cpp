@@ -8,7 +8,7 @@
 namespace trackbed {
 namespace {
 
-/// Iterator to the first knot beyond x.
+/// Returns an iterator to the first knot beyond x.
 auto Beyond(const std::vector<Vec2>& knots, double x) {
   return std::upper_bound(knots.begin(), knots.end(), x,
                           [](double value, const Vec2& knot) { return value < knot.x(); });

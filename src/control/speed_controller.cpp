@@ -8,13 +8,14 @@
 namespace trackbed {
 namespace {
 
-/// The mean acceleration [m/s^2] over the next period along the profile. With the mean
-/// acceleration, the car has the profile's speed at the end of the period, even with a knot in
+/// Returns the mean acceleration [m/s^2] of the profile over the next control period. A car that
+/// accelerates by the mean has the profile's speed at the end of the period, even if a knot lies in
 /// between.
 double MeanAcceleration(const SpeedProfile& profile, double s, double speed, double period,
                         double at_middle) {
   double acceleration = at_middle;
-  constexpr int kIterations = 3;  // each iteration reduces the error by a factor of a period/speed
+  // Each iteration divides the error by about speed/(acceleration period).
+  constexpr int kIterations = 3;
   for (int i = 0; i < kIterations; ++i) {
     const double next = s + period * (speed + 0.5 * period * acceleration);
     acceleration = (profile.SpeedAt(next) - profile.SpeedAt(s)) / period;
@@ -22,14 +23,16 @@ double MeanAcceleration(const SpeedProfile& profile, double s, double speed, dou
   return acceleration;
 }
 
-/// A profile that brakes or accelerates harder than the options by this factor does so on purpose.
+/// A profile that exceeds the acceleration or deceleration of the options by more than this factor
+/// is meant to exceed them.
 constexpr double kOnPurpose = 1.1;
-/// Factor on the profile's acceleration that lets the controller catch up. For a plan at 0.9 of the
-/// limit, the factor uses half of the remaining margin. A locked or spinning wheel regains grip
-/// only when the command eases.
+/// Limit of the commanded acceleration, relative to the profile's acceleration; the excess lets the
+/// car catch up with the profile. For a plan at 0.9 of the tyres' limit, this factor uses half of
+/// the remaining margin. More is not used, because a locked or spinning wheel regains grip only
+/// when the command eases.
 constexpr double kCatchUp = 1.05;
 
-/// The deceleration at the end of a profile that ends at rest [m/s^2], >= 0.
+/// Returns the deceleration at the end of a profile that ends at rest [m/s^2], >= 0.
 double LastDeceleration(const SpeedProfile& profile) {
   const auto& knots = profile.knots();
   return knots.size() < 2 ? 0.0 : -profile.AccelerationAt(knots[knots.size() - 2].s);
@@ -50,12 +53,12 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
     const double last = LastDeceleration(profile);
     return -std::min(on_purpose(last) ? last : options.deceleration, limit);
   }
-  // Before the start of the profile, the acceleration at the start is used.
+  // A car before the start of the profile uses the acceleration at the start.
   const double from = profile.knots().empty() ? s : std::max(s, profile.knots().front().s);
   // A car that rolls backward follows the profile from its present station.
   const double ahead = std::max(speed, 0.0);
-  // The acceleration is that at the middle of the period, but before the profile's end, since the
-  // profile has no acceleration beyond its end.
+  // The acceleration is taken at the middle of the period, but before the profile's end, because
+  // the profile has no acceleration beyond its end.
   double middle = from + 0.5 * ahead * period;
   if (stops) {
     middle = std::min(middle, 0.5 * (from + end));
@@ -67,7 +70,8 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   const double error = profile.SpeedAt(s) - speed;
   const double hard = on_purpose(-feed_forward) ? -kCatchUp * feed_forward : 0.0;
   const double hardest = std::min(std::max(2.0 * options.deceleration, hard), limit);
-  // Compares the profile's acceleration: on leaving rest, the mean over a period may be larger.
+  // Compare the profile's acceleration at the middle of the period and not the mean, because the
+  // mean may be larger when the car leaves rest.
   const double strongest =
       at_middle > kOnPurpose * options.acceleration ? kCatchUp * at_middle : options.acceleration;
   return std::clamp(feed_forward + options.gain * error, -hardest, strongest);

@@ -12,7 +12,7 @@ namespace {
 constexpr Range kFrequency{.max = 100.0, .above = 0.0};  // [Hz]
 constexpr Key kAmplitude{"amplitude", "rad", "amplitude of the sine; positive: first to the left"};
 
-/// Steers by a profile over time, which the type `Options` describes.
+/// Controller that steers by a profile over time. The type `Options` describes the profile.
 template <typename Options>
 class ProfileController final : public SteeringController {
  public:
@@ -38,7 +38,8 @@ double Phase(const SweptSineOptions& options, double tau) {
   return 2.0 * kPi * f0 * tau * (k == 0.0 ? 1.0 : std::expm1(k) / k);
 }
 
-/// Ramp from 0 toward `end` at `rate`; tau is the time since the start of the ramp.
+/// Returns the angle on a ramp from 0 to `end` at `rate`, at the time tau since the start of the
+/// ramp.
 double Ramp(double end, double rate, double tau) {
   return std::copysign(std::clamp(rate * tau, 0.0, std::abs(end)), end);
 }

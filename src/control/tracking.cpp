@@ -47,8 +47,8 @@ Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
 
 namespace {
 
-/// Steady turn with these slip angles of the axles [rad], which are positive for a left turn at
-/// |u|.
+/// Returns the steady turn with the given slip angles of the axles [rad]. The slip angle of an axle
+/// is its lateral velocity over |u|, positive to the left.
 SteadyTurn TurnWithSlip(const VehicleParams& vehicle, double curvature, double speed,
                         double front_slip, double rear_slip) {
   const double direction = std::copysign(1.0, speed);
@@ -60,7 +60,7 @@ SteadyTurn TurnWithSlip(const VehicleParams& vehicle, double curvature, double s
   return turn;
 }
 
-/// Slip angles and stiffness of the front and rear axle by the brush model.
+/// Computes the slip angles and the stiffness of the front and rear axle by the brush model.
 std::array<AxleOperation, 2> BrushAxles(const VehicleParams& vehicle, const Motion& motion) {
   const bool brakes = motion.acceleration < 0.0;
   const AccelerationLimit& limit = brakes ? vehicle.braking : vehicle.driving;
@@ -71,12 +71,12 @@ std::array<AxleOperation, 2> BrushAxles(const VehicleParams& vehicle, const Moti
                                         vehicle.cornering_stiffness_rear};
   std::array<AxleOperation, 2> axles;
   for (std::size_t i = 0; i < axles.size(); ++i) {
-    constexpr double kMinLoad = 0.05;  // fraction of the load at rest
+    constexpr double kMinLoad = 0.05;  // smallest load as a fraction of the load at rest
     const AxleGrip& axle = limit.axles[i];
     const double load =
         std::max(kMinLoad, 1.0 + direction * axle.transfer * hard / (kGravity * axle.weight));
     const double weight = vehicle.mass * kGravity * axle.weight;
-    // Each axle carries a share of the lateral force proportional to its share of the weight.
+    // Each axle's fraction of the lateral force equals the axle's fraction of the weight.
     axles[i] = BrushAxleAt(
         load * stiffness[i], vehicle.friction_lateral * load * weight,
         {.longitudinal = vehicle.mass * axle.force * hard, .lateral = lateral * axle.weight});
@@ -95,7 +95,8 @@ SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double s
   if (!HasTyres(vehicle)) {
     return TurnWithSlip(vehicle, curvature, speed, 0.0, 0.0);
   }
-  // Each axle carries a share of m u r that is proportional to the distance of the other axle.
+  // Each axle's share of the force m u r is proportional to the distance of the other axle from the
+  // center of gravity.
   const double force = vehicle.mass * speed * speed * curvature / vehicle.wheelbase;
   return TurnWithSlip(vehicle, curvature, speed,
                       -vehicle.cg_to_rear * force / vehicle.cornering_stiffness_front,

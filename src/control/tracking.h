@@ -14,16 +14,18 @@ struct Tracking {
 
 Tracking ProjectOntoPath(const ControlInput& input);
 
-/// Scales of a car relative to the Prius, for which gains and weights were chosen. In units of
-/// these scales, cars of any wheelbase and steering rate behave alike.
+/// Scales of a car relative to the Prius, for which the default gains and weights were chosen. If
+/// lengths and times are measured in these scales, cars of any wheelbase and steering rate behave
+/// alike.
 struct CarScale {
   double length = 1.0;  ///< Scale of lengths: the wheelbase L over 2.7 m.
-  double time = 1.0;    ///< Scale of times, in which the wheels turn: 0.1506 rad/s over omega.
+  double time = 1.0;    ///< Scale of times: 0.1506 rad/s over the maximum steering rate omega.
 };
 
 CarScale ComputeCarScale(const VehicleParams& vehicle);
 
-/// Whether the tyres are known, so that dynamic models of the car apply.
+/// Returns whether mass, inertia and tyre coefficients are known, so that dynamic models of the car
+/// apply.
 bool HasTyres(const VehicleParams& vehicle);
 
 /// Cornering stiffness of both tyres of each axle [N/rad].
@@ -32,12 +34,13 @@ struct CorneringStiffness {
   double rear = 0.0;
 };
 
-/// SingleTrackCar's equations at the signed speed u: (v', r') = rates (v, r, tan(delta)).
+/// Returns the matrix of SingleTrackCar's lateral equations at the signed speed u: (v', r') =
+/// matrix (v, r, tan(delta)).
 Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
                                          const CorneringStiffness& stiffness, double speed);
 
-/// Steady circular motion with the rear axle on the circle. The turn is the steady state of
-/// SingleTrackCar, or of KinematicCar for a car without tyre coefficients.
+/// Steady circular motion of a car whose rear axle is on the circle. The turn is the steady state
+/// of SingleTrackCar, or of KinematicCar for a car without tyre coefficients.
 struct SteadyTurn {
   double steering = 0.0;       ///< Steering angle delta_0 [rad], with tan(delta_0) = kappa (L + K u
                                ///< |u|).
@@ -47,7 +50,7 @@ struct SteadyTurn {
   double yaw_rate = 0.0;       ///< Yaw rate r = u kappa [rad/s].
 };
 
-/// The `speed` u is signed.
+/// Computes the steady turn at `curvature` [1/m] and the signed `speed` u [m/s].
 SteadyTurn SteadyTurnOn(const VehicleParams& vehicle, double curvature, double speed);
 
 /// The intended motion of a car.
@@ -57,7 +60,7 @@ struct Motion {
   double acceleration = 0.0;  ///< Rate of change of abs(u) [m/s^2].
 };
 
-/// A turn that is steady except for the speed, and the stiffness of the axles in the turn.
+/// A turn in which only the speed may change, and the stiffness of the axles in the turn.
 struct TurnOperation {
   SteadyTurn turn;
   CorneringStiffness stiffness;  ///< stiffness of the axles; 0 without tyre coefficients

@@ -26,20 +26,22 @@ CarModel LoadBareCar(const Scenario& scenario, const fs::path& file) {
   return {ComposeScene(file, OptionsOf(scenario)), file.string()};
 }
 
-/// The car's scene with its payload; none if the scenario has no payload.
+/// Returns the car's scene with the scenario's payload on the car; none if the scenario has no
+/// payload.
 std::optional<Scene> LadenScene(const Scenario& scenario, const CarModel& car) {
   const std::optional<Payload>& payload = scenario.disturb.payload;
   return payload ? std::optional(WithPayload(car, *payload)) : std::nullopt;
 }
 
-/// The car's scene in the scenario's world; none for flat ground without obstacles.
+/// Returns the car's scene with the ground and obstacles of the scenario's world; none if the
+/// ground is flat and has no obstacles.
 std::optional<Scene> SceneInWorld(const Scenario& scenario, const CarModel& car) {
   const World& world = scenario.world;
   const bool empty = !HasObstacles(world) && IsFlat(world.ground);
   return empty ? std::nullopt : std::optional(WithWorld(car.scene(), car.params(), world));
 }
 
-/// Cache key: all data from which a model is compiled.
+/// Returns the cache key of a model: a text of all data from which the model is compiled.
 std::string KeyOf(const Scene& scene, const fs::path& file) {
   std::string key = fmt::format("{}\n{}", file.string(), scene.xml);
   for (const SceneAsset& asset : scene.assets) {

@@ -23,8 +23,8 @@
 //   2. End the run if the termination criteria are met (termination.h).
 //   3. Compute steering and acceleration from the controller, the speed options or the plan's speed
 //      profile. Apply the disturbances and log the row.
-//   4. Step the plant until the next period. Prescribed angles and steering schedules change with
-//      every step; other commands are held.
+//   4. Step the plant until the next period. Prescribed angles and steering schedules change at
+//      every physics step; other commands are held constant.
 namespace trackbed {
 namespace {
 
@@ -46,7 +46,8 @@ class Progress {
   int last_ = 0;
 };
 
-/// Simulates one run. ClosedLoop keeps references to its arguments, which must outlive it.
+/// Simulates one run. The arguments of the constructor must outlive the ClosedLoop, which refers to
+/// them.
 class ClosedLoop {
  public:
   ClosedLoop(Plant& plant, SteeringController& controller, const FeasiblePlan& plan,
@@ -55,37 +56,39 @@ class ClosedLoop {
   RunLog Run();
 
  private:
-  /// The state at the beginning of a control period.
+  /// Returns the plant's state at the beginning of a control period.
   [[nodiscard]] VehicleState Observe(long tick) const;
 
   /// Switches to a new plan or to the next segment if one is due. Returns the car's projection onto
   /// the plan, or none without a path.
   std::optional<Projection> FollowPlan(const VehicleState& state, bool at_rest);
 
-  /// The status of the run if it has ended. Whether the car is at rest to stay. A car rests if it
-  /// has no command to move. It also rests at the end of its segment if it cannot move despite a
+  /// Returns whether the car is at rest and will stay at rest. A car at standstill rests if it has
+  /// no command to move. A car at the end of its segment also rests if it cannot move despite a
   /// command, as on a grade.
   bool Rests(const VehicleState& state);
 
+  /// Returns the final status of the run if the run has ended.
   std::optional<DriveStatus> Ending(const VehicleState& state, bool at_rest);
 
-  /// Computes the command for the coming period and logs it in `row`. Control() returns the
-  /// controller's input.
+  /// Computes the command for the coming period and stores the command in `row`. Returns the input
+  /// of the controller.
   ControlInput Control(const VehicleState& state, LogRow& row);
   double Steer(const ControlInput& input);
-  /// Commanded acceleration along x [m/s^2] over `input.period`, in the control period of `row`.
+  /// Returns the commanded acceleration along the car's x axis [m/s^2] over the control period of
+  /// `row`.
   double Accelerate(const ControlInput& input, const LogRow& row);
-  /// The wanted acceleration. Options over time precede the controller, and the controller precedes
-  /// the plan's profile.
+  /// Returns the wanted acceleration. Options that prescribe the speed over time override the
+  /// controller, and the controller overrides the plan's speed profile.
   double WantedAcceleration(const ControlInput& input, const Vec2& position);
-  /// Planned speed of the car for LogRow::planned_speed.
+  /// Returns the planned speed for LogRow::planned_speed.
   [[nodiscard]] std::optional<double> PlannedSpeed(const VehicleState& state) const;
 
   /// Steps the plant for the control period of `row`.
   void StepPlant(long tick, const ControlInput& input, const LogRow& row);
   [[nodiscard]] Command CommandAt(int step, const ControlInput& input, const LogRow& row);
-  /// Command of a steering schedule, which is a function of the distance and is evaluated in every
-  /// physics step.
+  /// Returns the command of the steering schedule in a physics step. The schedule is a function of
+  /// the driven distance.
   [[nodiscard]] Command ScheduledCommand(int step, const ControlInput& input, const LogRow& row);
 
   void ReportProgress(const VehicleState& state);
@@ -94,7 +97,7 @@ class ClosedLoop {
   SteeringController& controller_;
   const LoopConfig& config_;
   VehicleState start_;
-  VehicleParams controlled_;  // The nominal vehicle, known to the controller.
+  VehicleParams controlled_;  // The nominal vehicle, which the controller assumes.
   int steps_;                 // Plant steps per control period.
   SegmentSequencer sequencer_;
   std::optional<ReplanningMonitor> monitor_;
@@ -105,10 +108,10 @@ class ClosedLoop {
   Progress progress_;
   bool plan_sets_speed_ = false;
   Command command_;         // The last command.
-  double steering_before_;  // Start of the ramp of a prescribed steering angle [rad].
-  // Whether a plan that does not stop at an obstacle was adopted in this control period. When the
-  // plan changes, the last command, possibly to stop, belongs to the previous plan and must not end
-  // the run.
+  double steering_before_;  // Prescribed steering angle at the start of the period [rad].
+  // Whether the loop has adopted, in this control period, a plan that does not stop at an obstacle.
+  // After such a change, the last command may still stop the car for the previous plan, which must
+  // not end the run.
   bool continues_past_obstacle_ = false;
 };
 
@@ -155,7 +158,7 @@ RunLog ClosedLoop::Run() {
     row.tracking = FollowPlan(state, at_rest);
     if (const std::optional<DriveStatus> status = Ending(state, at_rest)) {
       if (*status != DriveStatus::kDiverged || tick == 0) {
-        recorder_.AddRow(row);  // the row is logged with the last command
+        recorder_.AddRow(row);  // the final row repeats the last command
       }
       progress_.Report(1.0);
       return recorder_.Finish(*status, termination_.cause());
@@ -180,7 +183,7 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
     return std::nullopt;
   }
   continues_past_obstacle_ = false;
-  // There is no replanning after a collision, since the car no longer follows its plan.
+  // Do not replan after a collision, since the car no longer follows its plan.
   if (monitor_ && !recorder_.contact_time()) {
     const Projection at{sequencer_.station(), tracking->cross_track, tracking->heading_error};
     if (std::optional<FeasiblePlan> next = monitor_->Update(state, sequencer_.plan(), at)) {
@@ -201,8 +204,8 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
 }
 
 bool ClosedLoop::Rests(const VehicleState& state) {
-  // Within this duration, a car that leaves rest at 0.02 m/s^2 moves by more than the centimeter of
-  // Standstill.
+  // Within this duration, a car that starts from rest at more than 0.02 m/s^2 moves farther than
+  // the centimeter that Standstill tolerates.
   constexpr double kMinRestDuration = 1.0;  // Duration of rest [s].
   const bool steers = sequencer_.stationary_steer().InProgress();
   const std::optional<double> since = standstill_.Update(state, !steers);
@@ -278,8 +281,9 @@ double ClosedLoop::Accelerate(const ControlInput& input, const LogRow& row) {
 }
 
 double ClosedLoop::WantedAcceleration(const ControlInput& input, const Vec2& position) {
-  const double speed = command_.gear * input.state.speed;  // speed along the gear; negative if the
-                                                           // car rolls backward
+  const double speed = command_.gear * input.state.speed;  // speed in the direction of the gear;
+                                                           // negative if the car rolls the other
+                                                           // way
   std::optional<double> own =
       TimedSpeedControl(config_.speed, input.state.time, speed, input.period);
   if (!own) {
@@ -301,7 +305,8 @@ std::optional<double> ClosedLoop::PlannedSpeed(const VehicleState& state) const 
   if (!sequencer_.has_path() || !plan_sets_speed_) {
     return std::nullopt;
   }
-  // The stop at the goal is judged to the goal tolerance, and so are the speeds before the stop.
+  // The car may stop within the goal tolerance of the goal. Therefore the planned speeds are also
+  // compared with this tolerance along the path.
   const double to = sequencer_.StationFor(state);
   const double from = to - config_.goal_tolerance * config_.vehicle.length -
                       std::abs(state.speed) * config_.control_period;
@@ -332,8 +337,8 @@ Command ClosedLoop::CommandAt(int step, const ControlInput& input, const LogRow&
   }
   Command now = command_;
   if (config_.steering_input == SteeringInput::kPrescribed) {
-    // The commanded angle holds at the end of the period; the physics steps before the end
-    // interpolate.
+    // The wheels reach the commanded angle at the end of the period; earlier physics steps
+    // interpolate the angle.
     now.steering =
         std::lerp(steering_before_, command_.steering, static_cast<double>(step + 1) / steps_);
   }

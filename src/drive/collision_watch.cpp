@@ -22,7 +22,7 @@ void CollisionWatch::Update(const Plant& plant, double time) {
   const double force = plant.obstacle_force();
   period_.force = std::max(period_.force, force);
   if (force > 0.0) {
-    Note(0.0, time);  // a body that rolls or pitches may touch outside its footprint
+    Note(0.0, time);  // a car that rolls or pitches may touch an obstacle outside its footprint
   }
   pose_ = pose;
   time_ = time;

@@ -7,26 +7,27 @@
 
 namespace trackbed {
 
-/// Detects collisions of one run at every physics step. Motion between steps is also checked, since
-/// a step may cross a thin obstacle.
+/// Detects the collisions of one run at every physics step. The watch also checks the motion
+/// between two steps, since the car may pass through a thin obstacle within one step.
 class CollisionWatch {
  public:
-  /// The watch keeps references to world and vehicle, which must outlive it.
+  /// World and vehicle must outlive the CollisionWatch, which refers to them.
   CollisionWatch(const World& world, const VehicleParams& vehicle);
 
-  /// Update() must be called at the start and after every step, with the plant's state at `time`
-  /// [s].
+  /// Checks the plant's state at `time` [s]. Call Update at the start of the run and after every
+  /// physics step.
   void Update(const Plant& plant, double time);
 
-  /// Clearance and contact force since the last call of Take.
+  /// Extremes of clearance and contact force since the last call of Take.
   struct Period {
-    std::optional<double> clearance;  ///< Minimum clearance [m]; 0 in a collision; none without
-                                      ///< obstacles.
+    std::optional<double> clearance;  ///< Minimum clearance to the obstacles [m]; 0 in a collision;
+                                      ///< none without obstacles.
     double force = 0.0;               ///< Largest contact force with obstacles [N].
   };
   Period Take();
 
-  /// Time of the first contact with an obstacle [s]; none if there is no contact.
+  /// Returns the time of the first contact with an obstacle [s]; none if the car touched no
+  /// obstacle.
   [[nodiscard]] const std::optional<double>& contact_time() const { return contact_time_; }
 
  private:

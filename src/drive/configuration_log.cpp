@@ -31,7 +31,8 @@ void ConfigurationLog::Record(const Plant& plant, double time) {
   if (table_.columns().size() == 1) {
     return;
   }
-  // The tolerance is half a microsecond: by rounding, sums of timesteps may be below the multiple.
+  // The tolerance is half a microsecond, because rounding may make the sum of the timesteps smaller
+  // than the multiple of the period.
   if (time + 5e-7 < period_ * static_cast<double>(next_)) {
     return;
   }

@@ -13,14 +13,14 @@ namespace trackbed {
 /// Logs the plant's configuration at the first physics step at or after every multiple of a period.
 class ConfigurationLog {
  public:
-  /// `columns` name the numbers of the plant's configuration. If `columns` is empty, nothing is
-  /// logged. Columns of moving obstacles contain their planned positions, even if the plant does
-  /// not simulate them.
+  /// `columns` are the names of the values in the plant's configuration. If `columns` is empty,
+  /// nothing is logged. The columns of moving obstacles contain the planned positions of the
+  /// obstacles, even if the plant does not simulate the obstacles.
   ConfigurationLog(const std::vector<std::string>& columns, const World& world, double period);
 
   void Record(const Plant& plant, double time);
 
-  /// The table of configurations logged so far.
+  /// Returns the table of configurations logged so far.
   [[nodiscard]] const Table& table() const { return table_; }
 
   Table Take() { return std::move(table_); }

@@ -11,30 +11,33 @@
 
 namespace trackbed {
 
-/// The vehicle as known to its controller.
+/// Returns the vehicle parameters that the controller assumes, including the disturbance of the
+/// wheelbase.
 VehicleParams NominalVehicle(const Disturbances& disturbances, VehicleParams vehicle);
 
-/// Injects the disturbances of one run. Random numbers depend only on the seed and are the same for
-/// every plant.
+/// Injects the disturbances of one run. The random numbers depend only on the seed, so all plants
+/// get the same disturbances.
 class FaultInjector {
  public:
   struct Options {
     double timestep = 0.0;        ///< Timestep of the physics [s].
     double start_steering = 0.0;  ///< Initial angle of wheels and actuator [rad].
-    SpeedControlOptions speed{};  ///< Options that define the deceleration for a speed loss.
+    SpeedControlOptions speed{};  ///< Speed control options; their gain and deceleration shape a
+                                  ///< speed loss.
     std::uint64_t seed = 0;
   };
 
   FaultInjector(const Disturbances& disturbances, const Options& options);
 
-  /// The noisy measurement of a pose in this control period; none without noise.
+  /// Returns a noisy measurement of a pose for this control period; none without noise.
   std::optional<Pose2> Measure(const Pose2& pose);
 
   /// Applies a speed loss to a commanded acceleration [m/s^2]. Acceleration and `speed` [m/s] are
-  /// along the gear; `station` is that of the log.
+  /// positive in the direction of the gear; `station` is a station of the log.
   double LimitSpeed(double acceleration, double speed, double time, double station);
 
-  /// Steering angle at the actuator in the coming physics step, with steering faults [rad].
+  /// Applies the steering faults to a commanded angle. Returns the angle for the actuator in the
+  /// coming physics step [rad].
   double Steer(double wanted) { return steering_.Pass(wanted); }
 
   /// Applies the lateral kicks due in the physics step `step`, counted from 0.

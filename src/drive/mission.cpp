@@ -18,7 +18,8 @@
 namespace trackbed {
 namespace {
 
-/// Adds a note about turns driven below the mission's speed, unless the plan has notes.
+/// Adds a note to the plan if a turn is slower than the mission's speed and the plan has no other
+/// notes.
 void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   const auto slowest =
       std::min_element(plan->caps.begin(), plan->caps.end(),
@@ -31,7 +32,8 @@ void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   }
 }
 
-/// Adds a note about an obstacle on the path, for planners that ignore obstacles.
+/// Adds a note to the plan if the path hits an obstacle, which may happen with planners that ignore
+/// obstacles.
 void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
                   const std::vector<OrientedBox>& known) {
   const CollisionChecker touching(vehicle, known, 0.0);
@@ -40,7 +42,7 @@ void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
   }
 }
 
-/// The distinct friction factors in a world.
+/// Returns the distinct friction factors in a world.
 std::vector<double> Roads(const World& world) {
   std::vector<double> roads{world.friction};
   for (const FrictionPatch& patch : world.friction_patches) {
@@ -51,7 +53,7 @@ std::vector<double> Roads(const World& world) {
   return roads;
 }
 
-/// The mission's route on the world's road network; empty without a route.
+/// Returns the mission's route on the world's road network; empty if the mission has no route.
 LaneMission MakeLaneMission(const Scenario& scenario) {
   const auto& roads = scenario.world.road_network;
   return roads && roads->data
@@ -59,8 +61,8 @@ LaneMission MakeLaneMission(const Scenario& scenario) {
              : LaneMission{};
 }
 
-/// Limits for a speed profile at the limit, if the mission has such a profile. `diagram` returns
-/// the g-g-v diagram for given friction factors.
+/// Returns the data for planning speeds at the limit; none if the mission does not ask for such
+/// speeds. `diagram` returns the g-g-v diagram for given friction factors.
 template <typename Diagram>
 std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const Diagram& diagram) {
   const auto& profile = scenario.mission.speed_profile;
@@ -82,7 +84,7 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
   }
   std::vector<OrientedBox> known;
   for (const Obstacle& obstacle : scenario.world.obstacles) {
-    // Skip moving obstacles if the run replans: the replanner handles them.
+    // Skip moving obstacles in a run with replanning: the replanner handles them.
     const bool for_later = obstacle.moves() && scenario.plan->replan;
     if (!for_later && IsKnown(obstacle, 0.0, FootprintAt(vehicle, start.pose))) {
       known.push_back(obstacle.footprint);

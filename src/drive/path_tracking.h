@@ -10,20 +10,21 @@
 /// Position of a car relative to its path, for controller and log.
 namespace trackbed {
 
-/// Range of stations for a car that moved by `moved` [m] since it was at `station`. The margin on
-/// both sides exceeds the lateral kicks of a control period. The margin is shorter than any turn of
-/// the car, so that the projection stays on the same branch of the path.
+/// Returns the range of stations in which to search for the projection of a car that moved by
+/// `moved` [m] since it was at `station`. On both sides, the range has a margin that is larger than
+/// the displacement by lateral kicks in a control period. The margin is shorter than any turn of
+/// the car, so that the projection stays on the same branch of a path that crosses itself.
 inline Stations StationsAround(const VehicleParams& vehicle, double station, double moved) {
-  constexpr double kMargin = 0.75;  // of the wheelbase
+  constexpr double kMargin = 0.75;  // fraction of the wheelbase
   const double margin = kMargin * vehicle.wheelbase;
   return {station - margin, station + moved + margin};
 }
 
-/// Signed distance of a car from the path without its extensions, positive to the left. `extended`
-/// is the projection onto the path with straight extensions at both ends, which controllers use. Up
-/// to `overrun` [m] beyond the path's end, the distance is measured from the extension. The
-/// `overrun` allows for a car that stops slightly too late. Further beyond either end of the path,
-/// the distance is measured from the end point.
+/// Computes the signed distance and the heading error of a car relative to the path without
+/// extensions; left is positive. `extended` is the car's projection onto the path with straight
+/// extensions at both ends, which controllers use. Up to `overrun` [m] beyond the path's end, the
+/// distance is measured from the extension, because a car may stop slightly too late. Farther
+/// beyond the end, and before the start, the distance is measured from the end point of the path.
 inline Projection DistanceFromPath(const Path& path, const Projection& extended, const Pose2& pose,
                                    double overrun) {
   Projection at = extended;

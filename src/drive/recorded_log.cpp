@@ -10,7 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// Wraps a recorded drive as a plant, so that the drive's configurations can be logged.
+/// Presents a recorded drive as a plant, so that ConfigurationLog can log the recorded car's
+/// configurations.
 class RecordedCar final : public Plant {
  public:
   RecordedCar(const CarModel& model, const RecordedDrive& drive) : model_(model), drive_(drive) {
@@ -71,7 +72,7 @@ RunLog RecordedLog(const Scenario& scenario, const CarModel& car) {
   const long periods = static_cast<long>(std::floor(end / spec.control_period + 1e-6));
   const long steps = std::lround(spec.control_period / spec.timestep);
   for (long tick = 0; tick <= periods; ++tick) {
-    // Rounds times to nanoseconds, as the closed loop does.
+    // Round the times to nanoseconds, as ClosedLoop does.
     const auto time = [&](long step) {
       const double exact = static_cast<double>(tick) * spec.control_period +
                            static_cast<double>(step) * spec.timestep;

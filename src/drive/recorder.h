@@ -13,28 +13,28 @@ namespace trackbed {
 /// Records the log of one run: rows, plan changes, configurations and the first contact.
 class Recorder {
  public:
-  /// The recorder keeps references to world, vehicle and hooks of the configuration, which must
-  /// outlive it.
+  /// World, vehicle and hooks of `config` must outlive the Recorder, which refers to them.
   Recorder(const LoopConfig& config, std::vector<std::string> controller_columns);
 
-  /// Sample() must be called at the start and after every physics step, with the plant's state at
-  /// `time` [s].
+  /// Records the plant's state at `time` [s]. Call Sample at the start of the run and after every
+  /// physics step.
   void Sample(const Plant& plant, double time);
 
-  /// Begins a row with `state`, the extremes since the last row, the last command, and the
-  /// controller's values for that command.
+  /// Makes a row from `state`, the last command, the controller's diagnostic values for this
+  /// command, and the extremes of clearance and contact force since the last row.
   LogRow BeginRow(const VehicleState& state, const Command& command,
                   std::vector<double> controller_values);
-  /// Adds a row and, if set, calls the hook `logged` (DriveHooks).
+  /// Adds a row to the log and calls the hook DriveHooks::logged if the hook is set.
   void AddRow(const LogRow& row);
   void AddPlanChange(PlanChange change) { log_.changes.push_back(std::move(change)); }
 
-  /// Time of the first contact with an obstacle [s]; none if there is no contact.
+  /// Returns the time of the first contact with an obstacle [s]; none if the car touched no
+  /// obstacle.
   [[nodiscard]] const std::optional<double>& contact_time() const {
     return collisions_.contact_time();
   }
 
-  /// Moves the log out of this recorder.
+  /// Completes the log and moves it out of this recorder.
   RunLog Finish(DriveStatus status, std::string cause = "");
 
  private:

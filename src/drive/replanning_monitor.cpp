@@ -8,17 +8,17 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
-// Decides in every control period whether to plan again:
+// ReplanningMonitor decides in every control period whether to plan again:
 //   1. Note the obstacles that become known.
-//   2. On the route, call the avoider, if configured, for obstacles in turns that block the plan.
-//      The avoider is called once its delay has passed.
+//   2. While the car is on the route, call the avoider, if configured, for obstacles in turns that
+//      block the plan. The call waits until the avoider's delay has passed.
 //   3. If the avoider is not called, replan, if configured, at multiples of the replanning period.
 //      Replan at once if a new obstacle is within stopping distance.
 namespace trackbed {
 namespace {
 
-constexpr double kSameTime = 1e-9;  // Tolerance of times [s].
-/// Deviations from the plan above which a car counts as having strayed.
+constexpr double kSameTime = 1e-9;  // Tolerance for comparing times [s].
+/// Deviations from the plan beyond which replanning treats the car as strayed.
 constexpr double kStrayed = 0.5;         // Distance from the plan [m].
 constexpr double kStrayedHeading = 0.2;  // Difference of the heading [rad].
 constexpr double kStrayedSpeed = 1.0;    // Difference of the speed [m/s].
@@ -63,7 +63,7 @@ void ReplanningMonitor::UpdateKnowledge(const VehicleState& state) {
     Knowledge& known = knowledge_[i];
     if (!known.since && IsKnown(options_.world.obstacles[i], state.time, footprint)) {
       known.since = state.time;
-      known.avoided = state.time == 0.0;  // the mission's planner already knew the obstacle
+      known.avoided = state.time == 0.0;  // the initial plan already accounts for this obstacle
     }
   }
 }
@@ -183,7 +183,8 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
   constexpr double kSpacing = 1.0;          // [m]
   constexpr double kMinDeceleration = 0.1;  // [m/s^2]
   double hardest = MaxDeceleration(options_.vehicle, 1.0);
-  // Low friction extends the range of the search, since the car then needs longer to stop.
+  // Low friction extends the range of the search, since the car then needs a longer distance to
+  // stop.
   for (double ahead = 0.0; hardest > kMinDeceleration && 2.0 * hardest * ahead <= speed * speed;
        ahead += kSpacing) {
     const PathPoint at = path.At(station + ahead);
@@ -192,8 +193,8 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
       road = std::min(road, RoadFactor(options_.world, corner));
     }
     const double grip = MaxDeceleration(options_.vehicle, road);
-    // Friction ellipse: in a bend, the lateral force reduces the braking force. At least about a
-    // third of the braking force (sqrt 0.1) remains, since a car too fast for the bend slides
+    // Friction ellipse: in a bend, the lateral force reduces the braking force. The reduction stops
+    // at about a third of the braking force (sqrt 0.1), since a car too fast for the bend slides
     // anyway.
     const double across = (speed * speed - 2.0 * hardest * ahead) * std::abs(at.curvature);
     const double most = MaxLateralAcceleration(options_.vehicle, road);

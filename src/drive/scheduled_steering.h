@@ -14,14 +14,14 @@ struct MotionAlong {
   double acceleration = 0.0;  ///< Acceleration along the path [m/s^2].
 };
 
-/// The command for a steering actuator in one physics step, with which its angle follows a schedule
-/// over distance [rad]. `rate` is the maximum rate of the actuator [rad/s]. A rate of 0 is an
-/// actuator without delay, which follows the schedule at the end of each step.
+/// Returns the command [rad] with which a steering actuator follows a steering schedule over
+/// distance in one physics step. `rate` is the maximum rate of the actuator [rad/s]. With a rate of
+/// 0, the actuator has no rate limit: the command is the schedule's angle at the end of the step.
 ///
-/// An actuator turns at its full rate and then waits for the next step. On a ramp slower than its
-/// rate, the actuator is ahead by half of the waiting time on average. The commanded angle is
-/// therefore that of the schedule, half the waiting time earlier. On a ramp at full rate, the
-/// actuator never waits.
+/// An actuator turns at its full rate and then waits for the next step. On a ramp slower than this
+/// rate, the actuator is therefore ahead of the schedule by half of the waiting time on average. To
+/// compensate, the schedule is evaluated half of the waiting time before the end of the step. On a
+/// ramp at full rate, the actuator never waits.
 inline double ScheduledSteering(const SteeringSchedule& schedule, const MotionAlong& motion,
                                 double timestep, double rate) {
   const auto after = [&](double time) {

@@ -99,8 +99,9 @@ bool SegmentSequencer::IsAtEnd(const VehicleState& state) const {
     const double reach = std::min(options_.goal_tolerance, 0.5 * path.length());
     return StationFor(state) >= path.length() - reach;
   }
-  // The station distinguishes the end of a loop from the start of the loop. An arc of at most half
-  // a turn is at most pi/2 times as long as its chord.
+  // On a closed path, the start and the end are at the same place, so the station must also be near
+  // the end. The factor pi/2 allows for curved paths: an arc of at most half a turn is at most pi/2
+  // times as long as its chord.
   const Vec2 place = state.pose.position();
   const double away = std::min((path.At(path.length()).pose.position() - place).norm(),
                                (plan_.goal.position() - place).norm());

@@ -6,11 +6,12 @@
 
 namespace trackbed {
 
-/// Measures how long a car has stood, which means moved by no more than a centimeter.
+/// Measures how long a car has stood still. A car stands still while it moves by no more than a
+/// centimeter.
 class Standstill {
  public:
-  /// The time since which the car stands [s]; none if it moves, or if `counts` is false. Update()
-  /// is called once per control period.
+  /// Returns the time since which the car has stood still [s]. Returns none, and restarts the
+  /// measurement, if `counts` is false. Call Update once per control period.
   std::optional<double> Update(const VehicleState& state, bool counts) {
     constexpr double kNoMotion = 0.01;  // [m]
     const Vec2 place = state.pose.position();

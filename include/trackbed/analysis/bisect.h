@@ -8,13 +8,13 @@ namespace trackbed {
 
 /// How a bisection ended.
 enum class BisectStatus {
-  kFound,        ///< Answer found: between a value that passes and one that fails.
-  kFailsAtFrom,  ///< Even the lowest value fails: there is no answer.
-  kPassesAtTo,   ///< Even the highest value passes: the answer lies above.
+  kFound,        ///< Found the boundary between passing and failing values.
+  kFailsAtFrom,  ///< Even the lowest value fails, so no boundary was found.
+  kPassesAtTo,   ///< Even the highest value passes, so the boundary lies above the range.
   kInterrupted,  ///< The caller stopped the bisection.
 };
 
-/// The spelling of a bisection's status in sweep.csv: "found", "fails_at_from", ….
+/// Returns the name of a bisection's status as written in sweep.csv: "found", "fails_at_from", ….
 const char* ToString(BisectStatus status);
 
 /// One value that a bisection evaluated.
@@ -27,17 +27,18 @@ struct Trial {
 
 struct Bisection {
   BisectStatus status = BisectStatus::kInterrupted;
-  double value = 0.0;         ///< Highest value that passed; set with kFound or kPassesAtTo.
+  double value = 0.0;  ///< Highest value that passed, if the status is kFound or kPassesAtTo.
   std::vector<Trial> trials;  ///< Values in order of evaluation.
 };
 
 /// Bisects for the highest value that passes. The value `from` should pass and `to` should fail.
-/// The values `from` and `to` are evaluated first.
+/// Evaluates `from` and `to` first.
 ///
-/// Guarantees: with kFound, `value` passed and a value at most `tolerance` above it failed (or the
-/// next double, if that is further). If passing is not monotonic, the bisection finds one of the
-/// boundaries. Cost: at most 2 + ceil(log2((to - from)/tolerance)) trials. The function `passes`
-/// returns nothing when interrupted. InternalError unless from < to and tolerance > 0.
+/// Guarantees: if the status is kFound, `value` passed, and a value at most `tolerance` above
+/// `value` failed (or the next larger double failed, if that is further away). If several
+/// boundaries exist between passing and failing values, the bisection finds one of them. Cost: at
+/// most 2 + ceil(log2((to - from)/tolerance)) trials. The function `passes` returns nullopt to
+/// interrupt the bisection. InternalError unless from < to and tolerance > 0.
 Bisection Bisect(double from, double to, double tolerance,
                  const std::function<std::optional<bool>(double value)>& passes);
 

@@ -11,47 +11,50 @@
 #include "trackbed/drive/run_log.h"
 #include "trackbed/scenario/scenario.h"
 
-/// Comparison of two runs over arc length.
+/// Compares two runs at equal arc length.
 ///
 /// Symbols: s station [m] of the nearest point of the path, or the distance traveled if there is no
 /// path; p position of the rear axle [m]; psi yaw [rad]; psi' yaw rate [rad/s]; delta steering of
-/// the road wheels as measured [rad]. Indices 1 and 2 are the first and second run, compared at
-/// equal s, not at equal times. Signed differences are second minus first: positive when the second
-/// run is further to the left.
+/// the road wheels as measured [rad]. The indices 1 and 2 denote the first and the second run. Runs
+/// are compared at equal station, not at equal time. A signed difference is the value of the second
+/// run minus that of the first run: it is positive when the second run is further to the left.
 namespace trackbed {
 
-/// The log of a run over increasing station. Omits rows without progress, so that a standing car
-/// stays at its stopping point, and rows after the first contact with an obstacle. All vectors have
-/// equal length.
+/// The log of a run, reduced to rows of increasing station. Rows in which the car does not advance
+/// are omitted, and so are rows after the first contact with an obstacle. All vectors have equal
+/// length.
 struct Trace {
   std::string name;  ///< Name of the plant, or a label of the run.
   std::vector<double> station;
   std::vector<double> time;
-  std::vector<Pose2> pose;  ///< Poses; the yaw is not wrapped.
+  std::vector<Pose2> pose;  ///< Pose of each row; the yaw is not wrapped to (-pi, pi].
   std::vector<double> yaw_rate;
   std::vector<double> steering;
-  std::vector<bool> valid{};  ///< False for rows within a gap of a record; empty: no gaps.
+  /// False for rows in a gap of the record; empty if the record has no gaps.
+  std::vector<bool> valid{};
 
-  /// The pose at a station, linear between rows. Needs at least two rows.
+  /// Returns the pose at a station, interpolated linearly between rows. The trace must have at
+  /// least two rows.
   [[nodiscard]] Pose2 PoseAt(double at) const;
-  /// The time at a station [s], linear between rows. Needs at least two rows.
+  /// Returns the time at a station [s], interpolated linearly between rows. The trace must have at
+  /// least two rows.
   [[nodiscard]] double TimeAt(double at) const;
 };
 
-/// `source` selects the station of a run with a path.
+/// Makes the trace of a log. For a run with a path, `source` selects how the station is measured.
 Trace MakeTrace(const RunLog& log, StationSource source = StationSource::kProjection);
 
 /// Reads the log `<plant>.csv` of a run. Throws the InputErrors of ReadCsvExcerpt, and InputError
-/// if the file has fewer than two rows. Rows after `contact_time` [s] are left out.
+/// if the file has fewer than two rows. Omits rows after `contact_time` [s].
 Trace ReadTrace(const std::filesystem::path& file, const std::string& name,
                 std::optional<double> contact_time = std::nullopt);
 
 /// The difference in one quantity over the stations common to both runs.
 struct Difference {
-  double rms = 0.0;    ///< Root mean square over arc length.
-  double max = 0.0;    ///< Largest magnitude over arc length.
+  double rms = 0.0;    ///< Root mean square of the difference over arc length.
+  double max = 0.0;    ///< Largest magnitude of the difference over arc length.
   double max_s = 0.0;  ///< Station of the largest magnitude [m].
-  double max_t = 0.0;  ///< Time of the first run at that station [s].
+  double max_t = 0.0;  ///< Time at which the first run reaches `max_s` [s].
 };
 
 /// The differences between two runs at equal station.
@@ -71,13 +74,14 @@ struct PlantComparison {
 
 /// A compared quantity: its names in compare.json, tolerances, messages and reports.
 struct ComparedQuantity {
-  const char* key;   ///< Key in metrics.json and of tolerances: "yaw_rate".
+  const char* key;   ///< Key in metrics.json and in tolerances: "yaw_rate".
   const char* name;  ///< Name in messages: "yaw rate".
   const char* unit;
   const char* max_label;  ///< Label of the largest difference in a report.
   const char* rms_label;
   Difference PlantComparison::*difference;
-  std::optional<double> DifferenceBounds::*bound;  ///< Tolerance; its key in a scenario is KEY_max.
+  /// Tolerance; the scenario's key for the tolerance is `key` with the suffix "_max".
+  std::optional<double> DifferenceBounds::*bound;
 };
 
 /// The compared quantities: position, heading, yaw rate, steering.
@@ -85,19 +89,19 @@ const std::vector<ComparedQuantity>& ComparedQuantities();
 
 /// Compares two runs. Values between rows are interpolated linearly.
 ///
-/// Guarantees: the result is exact for runs that are linear between rows. The largest differences
-/// occur at rows of either run. Exchanging the runs changes only `max_t`. Cost: linear in the
+/// Guarantees: the result is exact for runs that are linear between rows. Each largest difference
+/// occurs at a row of one of the runs. Swapping the runs changes only `max_t`. Cost: linear in the
 /// number of rows.
 PlantComparison CompareTraces(const Trace& first, const Trace& second);
 
 PlantComparison ComparePlants(const RunLog& first, const RunLog& second);
 
-/// The signed differences over arc length, one row for each station in either log: `s_m`,
+/// Returns a table of the signed differences, with one row for each station of either log: `s_m`,
 /// `first_t_s`, `second_t_s`, `x_m`, `y_m`, `position_m` (unsigned), `yaw_rad`, `yaw_rate_radps`,
 /// `steering_rad`.
 Table DifferencesOverArcLength(const Trace& first, const Trace& second);
 
-/// One plant of a finished run, read from its folder.
+/// One plant of a finished run, read from the run folder.
 struct FinishedDrive {
   std::string status;  ///< Status in metrics.json: "arrived", …
   Trace trace;         ///< Trajectory, named after the plant.

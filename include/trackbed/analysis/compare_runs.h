@@ -16,7 +16,7 @@ namespace trackbed {
 struct ComparedPair {
   PlantComparison comparison;
   DifferenceBounds bounds;     ///< Tolerances of the differences.
-  Table differences{{"s_m"}};  ///< Result of DifferencesOverArcLength.
+  Table differences{{"s_m"}};  ///< Table returned by DifferencesOverArcLength.
 };
 
 struct RunComparison {
@@ -25,31 +25,33 @@ struct RunComparison {
   std::vector<ComparedPair> pairs;
   Verdict verdict;
 
-  /// Whether there were tolerances. Without tolerances, a verdict that has not failed is
-  /// inconclusive.
+  /// Whether the comparison has tolerances. Without tolerances, the comparison can fail but not
+  /// pass.
   [[nodiscard]] bool judged() const;
 
-  /// The status "failed", "passed", or "compared" if there were no tolerances.
+  /// Returns "failed", "passed", or, if nothing failed and there were no tolerances, "compared".
   [[nodiscard]] const char* status() const;
 };
 
-/// Compares every pair of the plants of a run. The differences are judged by `tolerances`, by
-/// default by the scenario's expect.between. Every plant must also end as the scenario expects, by
-/// default by arriving. A run without a plan fails.
+/// Compares every pair of the plants of a run. Judges the differences by `tolerances`; the default
+/// is the scenario's section `expect.between`. Every plant must also end with the status that the
+/// scenario expects, by default "arrived". If the run has no plan, the comparison fails.
 RunComparison CompareRun(const RunResult& run, const std::optional<DifferenceBounds>& tolerances);
 
 /// Compares finished runs, using only the files in their folders.
 ///
-/// With one folder, compares every pair of `plants` (default: all plants of the run). The
-/// differences are judged by `tolerances`, by default by the scenario's expect.between.
+/// With one folder, compares every pair of `plants` (default: all plants of the run) and judges the
+/// differences by `tolerances`. The default tolerances are those of the scenario's section
+/// `expect.between`.
 ///
 /// With two folders, compares each of `plants` in the first run with the same plant in the second
 /// (default: the plants that both runs have). If `plants` has two names, compares the first plant
-/// of the first run with the second plant of the second run. The differences are judged only by
-/// `tolerances`; a note states whether the plans differ.
+/// of the first run with the second plant of the second run. Judges the differences only by
+/// `tolerances`; a note states whether the plans of the two runs differ.
 ///
-/// With tolerances, plants that ended with different statuses fail. InputError if a folder is not a
-/// complete run, if a plant is missing or listed twice, or if there is nothing to compare.
+/// With tolerances, the comparison of two plants fails if they ended with different statuses.
+/// InputError if a folder is not a complete run, if a plant is missing or listed twice, or if there
+/// is nothing to compare.
 RunComparison CompareFolders(const std::vector<std::filesystem::path>& folders,
                              const std::vector<std::string>& plants,
                              const std::optional<DifferenceBounds>& tolerances);
@@ -59,13 +61,15 @@ RunComparison CompareFolders(const std::vector<std::filesystem::path>& folders,
 DifferenceBounds ParseTolerances(const std::vector<std::string>& texts);
 
 /// Writes compare.csv, compare.json and manifest.json in one step (ResultWriter). The first column
-/// of compare.csv is the number of the `pair`; the others are the differences over arc length.
-/// Removes the report.html of an earlier comparison. Without tolerances, the verdict is neither
-/// passed nor failed. Relative paths of run folders are stored relative to the output folder. If a
-/// RunError occurs, the earlier comparison remains.
+/// of compare.csv, `pair`, is the number of the compared pair; the other columns are those of
+/// DifferencesOverArcLength. Removes the report.html of an earlier comparison. Without tolerances,
+/// the written verdict is neither passed nor failed. Relative paths of run folders are stored
+/// relative to the output folder. If writing fails with a RunError, the files of an earlier
+/// comparison remain.
 void WriteComparison(const RunComparison& comparison, const OutputFolder& folder);
 
-/// Adds the files of WriteComparison as a result of `writer`, which writes to `folder`.
+/// Adds the files that WriteComparison writes to `writer`, as one result. `folder` is the output
+/// folder of `writer`.
 void AddComparison(const RunComparison& comparison, const std::filesystem::path& folder,
                    ResultWriter& writer);
 

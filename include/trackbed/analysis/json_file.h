@@ -18,57 +18,60 @@
 namespace trackbed {
 
 /// Parses a JSON file. InputError with file, line and column if the text is not JSON or is nested
-/// deeper than 64 levels. RunError as for ReadFile, or if the file is larger than 16 MiB.
+/// deeper than 64 levels. Throws the RunErrors of ReadFile, and RunError if the file is larger than
+/// 16 MiB.
 nlohmann::ordered_json ParseJson(const std::filesystem::path& file);
 
 /// Parses `text`, which is the content of `file` or a part of it. Throws the same errors as
 /// ParseJson.
 nlohmann::ordered_json ParseJsonOf(const std::string& file, std::string_view text);
 
-/// The content of a JSON file: indented, with a line feed at the end. Bytes that are not UTF-8 are
-/// replaced by U+FFFD.
+/// Formats JSON as the content of a file: indented, with a line feed at the end. Bytes that are not
+/// UTF-8 are replaced by U+FFFD.
 std::string JsonText(const nlohmann::ordered_json& json);
 
-/// A value in a JSON file that Trackbed writes, with its place. Code that reads result files uses
-/// only these getters, because a file may have been edited or truncated.
+/// A value in a JSON file that Trackbed wrote, with its file and key for error messages. Code that
+/// reads result files uses only the checked getters of JsonValue, because a file may have been
+/// edited or truncated.
 ///
 /// Errors: every getter throws InputError with file, key ("pairs[0].tolerances"), what was found
 /// and what is allowed.
 class JsonValue {
  public:
-  /// The root of a document. Error messages name `file` and `key`.
+  /// Makes the root value of a document. Error messages name `file` and `key`.
   JsonValue(nlohmann::ordered_json json, std::string file, std::string key = "");
 
-  /// A member of a section.
+  /// Returns a member of a section (JSON object).
   [[nodiscard]] JsonValue At(const std::string& name) const;
-  /// A member of a section; nullopt if the member is absent.
+  /// Returns a member of a section; nullopt if the member is absent.
   [[nodiscard]] std::optional<JsonValue> Find(const std::string& name) const;
-  /// All members of a section, in the order of the file.
+  /// Returns all members of a section, in the order of the file.
   [[nodiscard]] std::vector<std::pair<std::string, JsonValue>> Members() const;
-  /// The elements of a list.
+  /// Returns the elements of a list.
   [[nodiscard]] std::vector<JsonValue> Elements() const;
-  /// The elements of a list that must have exactly `count` elements.
+  /// Returns the elements of a list that must have exactly `count` elements.
   [[nodiscard]] std::vector<JsonValue> Elements(std::size_t count) const;
 
   [[nodiscard]] std::string Text() const;
-  /// A text that must be one of the given texts.
+  /// Returns the value as text, which must be one of the texts in `allowed`.
   [[nodiscard]] std::string OneOf(const std::vector<std::string>& allowed) const;
   [[nodiscard]] double Number() const;
-  /// A number; nullopt for null, which represents a number that was not finite.
+  /// Returns the value as a number; nullopt for null, which represents a number that was not
+  /// finite.
   [[nodiscard]] std::optional<double> NumberOrNull() const;
-  /// A whole number from 0 to `max`.
+  /// Returns the value as a whole number, which must be from 0 to `max`.
   [[nodiscard]] std::uint64_t Count(std::uint64_t max = kMaxCount) const;
   [[nodiscard]] bool Flag() const;
   [[nodiscard]] std::vector<std::string> Texts() const;
   [[nodiscard]] bool IsNull() const;
   [[nodiscard]] bool IsSection() const;
-  /// Any scalar value, unchanged: text, number, true, false or null.
+  /// Returns the value unchanged; it must be a scalar: text, number, true, false or null.
   [[nodiscard]] const nlohmann::ordered_json& Scalar() const;
-  /// A section whose members are all scalars, unchanged.
+  /// Returns the value unchanged; it must be a section whose members are all scalars.
   [[nodiscard]] const nlohmann::ordered_json& Scalars() const;
-  /// The file that contains the value, for messages.
+  /// The name of the file that contains the value, for messages.
   [[nodiscard]] const std::string& file() const { return *file_; }
-  /// The value as JSON, unchanged. Use it only to copy or compare.
+  /// The unchecked JSON value, to be used only for copying and comparing.
   [[nodiscard]] const nlohmann::ordered_json& json() const { return *json_; }
 
   /// Rejects the value with the message "expected `allowed`, found …".
@@ -90,7 +93,7 @@ class JsonValue {
 /// ParseJson.
 JsonValue ReadJson(const std::filesystem::path& file);
 
-/// The positions of the cones of each gate in plan.json; empty without gates.
+/// Returns the positions of the cones of each gate in plan.json; empty if the plan has no gates.
 std::vector<std::vector<Vec2>> GateCones(const JsonValue& plan);
 
 }  // namespace trackbed

@@ -13,13 +13,14 @@ namespace trackbed {
 ///
 /// | topic | schema | |
 /// |---|---|---|
-/// | `/<plant>/tf` | foxglove.FrameTransform | `world` to `<plant>`, the rear axle on the ground |
-/// | `/<plant>/log` | trackbed.Log | a row of `<plant>.csv`: its columns by name |
-/// | `/<plant>/plan` | foxglove.PosesInFrame | each plan, when adopted |
-/// | `/<plant>/footprint` | foxglove.SceneUpdate | a box as large as the car, once |
-/// | `/obstacles` | foxglove.SceneUpdate | boxes, where they are; again every 0.1 s if any moves |
+/// | `/<plant>/tf` | foxglove.FrameTransform | `world` to `<plant>` (rear axle on the ground) |
+/// | `/<plant>/log` | trackbed.Log | a row of `<plant>.csv`, with the columns by name |
+/// | `/<plant>/plan` | foxglove.PosesInFrame | each plan, at the time of its adoption |
+/// | `/<plant>/footprint` | foxglove.SceneUpdate | a box of the size of the car, sent once |
+/// | `/obstacles` | foxglove.SceneUpdate | boxes at their positions; every 0.1 s if one moves |
 ///
-/// Poses are planar: they omit ground height, roll and pitch. The same run gives the same bytes.
+/// Poses are planar: they omit ground height, roll and pitch. The same run always gives an
+/// identical file.
 std::string ToMcap(const RunResult& result);
 
 }  // namespace trackbed

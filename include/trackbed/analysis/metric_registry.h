@@ -22,8 +22,8 @@ struct MetricInput {
   const VehicleParams& vehicle;
 };
 
-/// A metric of every plant's run. Exactly one of `read` and `measure` is set. The function returns
-/// nothing if the run has no such value; metrics.json then lacks the key.
+/// A metric of every plant's run. Exactly one of `read` and `measure` is set. If a run has no value
+/// of the metric, `read` or `measure` returns nullopt, and metrics.json lacks the metric's key.
 struct MetricEntry {
   std::string path;   ///< Path in metrics.json: words of a-z, 0-9 and '_', sections joined by '.'.
   std::string label;  ///< Label in a report: "Maximum cross-track error".
@@ -31,31 +31,32 @@ struct MetricEntry {
   std::function<std::optional<MetricReading>(const PlantMetrics&)> read = {};
   std::function<std::optional<MetricReading>(const MetricInput&)> measure = {};
   bool headline = false;  ///< Whether reports show the metric first.
-  /// Whether the value belongs to one moment (MetricSpan::kMoment). The file metrics.json then has
-  /// the station PATH_s [m] and the time PATH_t [s].
+  /// Whether the value belongs to one moment (MetricSpan::kMoment). If `located` is true,
+  /// metrics.json also has the station, PATH_s [m], and the time, PATH_t [s].
   bool located = false;
 };
 
 /// Returns all metrics, in the order of metrics.json.
 const std::vector<MetricEntry>& Metrics();
 
-/// Adds a user-defined metric to metrics.json, `expect.metrics`, studies and reports. Call it
-/// before any run, from one thread, such as at the start of main. InputError if the path is
-/// malformed or taken, or if the label is empty. Also InputError unless exactly one of `read` and
-/// `measure` is set.
+/// Adds a user-defined metric to metrics.json, `expect.metrics`, studies and reports. Call
+/// RegisterMetric before any run, from one thread, such as at the start of main. InputError if the
+/// path is malformed or taken, if the label is empty, or if `read` and `measure` are both set or
+/// both missing.
 void RegisterMetric(MetricEntry entry);
 
 /// Lists every value of a plant's entry in metrics.json, in file order.
 std::vector<Metric> ListMetrics(const PlantMetrics& metrics);
 
-/// Lists every value of an entry of `between`, except the plants' names.
+/// Lists every value of an entry of `between` in metrics.json, except the plants' names.
 std::vector<Metric> ListMetrics(const PlantComparison& comparison);
 
-/// Returns label and unit of a path in a plant's entry; nullopt for an unknown path.
+/// Returns the label and unit of the metric at a path in a plant's entry of metrics.json; nullopt
+/// for an unknown path.
 std::optional<MetricInfo> DescribeMetric(std::string_view path);
 
-/// Returns label and unit of a path in an entry of `between`, such as "position.max"; nullopt if
-/// unknown.
+/// Returns the label and unit of the metric at a path in an entry of `between`, such as
+/// "position.max"; nullopt for an unknown path.
 std::optional<MetricInfo> DescribeComparisonMetric(std::string_view path);
 
 }  // namespace trackbed

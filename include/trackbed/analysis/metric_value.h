@@ -8,15 +8,15 @@
 /// The value of a metric and the part of the run that it refers to.
 namespace trackbed {
 
-/// The value of a metric. Monostate means undefined, written as null to metrics.json; for example
-/// the recovery time of a car that never recovered.
+/// The value of a metric. Monostate means that the value is undefined, such as the recovery time of
+/// a car that never recovered; metrics.json then contains null.
 using MetricValue = std::variant<std::monostate, bool, int, double, std::string>;
 
 /// The part of a run that a value refers to.
 enum class MetricSpan {
   kRun,       ///< The whole run.
   kEnd,       ///< The end of the run.
-  kMoment,    ///< One moment, such as that of the largest value.
+  kMoment,    ///< One moment, such as the time of the largest value.
   kSince,     ///< The part of the run from `from_t` on.
   kInterval,  ///< The interval from `from_t` to `t`.
 };
@@ -26,10 +26,11 @@ struct MetricPlace {
   /// Station of the moment [m]; with kRun, kEnd and kSince, the station of the run's end.
   double s = 0.0;
   double t = 0.0;       ///< Time of the moment, or of the interval's end [s].
-  double from_t = 0.0;  ///< Start of the part [s].
+  double from_t = 0.0;  ///< Start of the part of the run, for kSince and kInterval [s].
 };
 
-/// A value with the place where it was measured. The caller fills in the end of the run.
+/// A value with the place where it was measured. If the place includes the end of the run, the
+/// caller fills in the station and time of the end.
 struct MetricReading {
   MetricValue value;
   MetricPlace at;

@@ -16,10 +16,11 @@
 
 namespace trackbed {
 
-/// Path tracking of a run, up to the first contact with an obstacle. Errors are sampled once per
-/// control period.
+/// Path tracking errors of a run, up to the first contact with an obstacle. Errors are sampled once
+/// per control period.
 struct TrackingMetrics {
-  /// Default bound on the cross-track error: the car's width [m]; 0: unknown, no bound.
+  /// Default bound on the cross-track error: the car's width [m]. If the width is unknown, the
+  /// value is 0, and there is no bound.
   double corridor = 0.0;
   double cross_track_rms = 0.0;    ///< Root mean square of the cross-track error [m].
   double cross_track_max = 0.0;    ///< Largest magnitude of the cross-track error [m].
@@ -39,7 +40,7 @@ struct TrackingMetrics {
   double overspeed_max_s = 0.0;  ///< Station of overspeed_max [m].
   double overspeed_max_t = 0.0;  ///< Time of overspeed_max [s].
   /// Default bound on overspeed_max [m/s]: the excess that the speed control can still correct
-  /// (docs/verdict.md). Nullopt: no bound.
+  /// (docs/verdict.md). If nullopt, there is no default bound.
   std::optional<double> overspeed_limit;
 };
 
@@ -54,7 +55,8 @@ struct ClearanceMetrics {
   double force_max_t = 0.0;
 };
 
-/// The effect of the limited steering rate in one turn: measured, and predicted for open loop.
+/// The path error that the limited steering rate causes in one turn, as measured, and as predicted
+/// for open-loop steering.
 struct TurnMetrics {
   int waypoint = 0;
   TurnError predicted;
@@ -65,7 +67,7 @@ struct TurnMetrics {
 
 /// A lap on a closed track.
 struct LapMetrics {
-  double time_planned = 0.0;  ///< Lap time by the plan's speed profile [s].
+  double time_planned = 0.0;  ///< Lap time according to the plan's speed profile [s].
   double time = 0.0;          ///< Driven lap time, between crossings of the start line [s].
   double s = 0.0;             ///< Station of the plan at the lap's end [m].
   double t = 0.0;             ///< Time of the lap's end [s].
@@ -75,13 +77,13 @@ struct LapMetrics {
 struct RequirementMetrics {
   std::string name;
   std::string formula;
-  /// Robustness in the unit of the decisive comparison. Nullopt if no sample decides, or if the
-  /// formula could not be evaluated.
+  /// Robustness in the unit of the decisive comparison. Nullopt if no sample of the log is
+  /// decisive, or if the formula could not be evaluated.
   std::optional<double> robustness;
   bool satisfied = false;  ///< Whether the requirement is satisfied; false without robustness.
   double s = 0.0;          ///< Station of the decisive sample [m].
   double t = 0.0;          ///< Time of the decisive sample [s].
-  std::string problem;     ///< Why there is no robustness.
+  std::string problem;     ///< Why the robustness is missing; else empty.
 };
 
 struct PlantMetrics {
@@ -89,12 +91,13 @@ struct PlantMetrics {
   DriveStatus status = DriveStatus::kArrived;
   double contact_s = 0.0;  ///< Station at which the car first touched an obstacle [m].
   double contact_t = 0.0;  ///< Time of the first contact, from the start of the run [s].
-  std::string cause;       ///< Cause of a status that the physics determined, from RunLog::cause.
-  double distance = 0.0;   ///< Driven distance [m].
-  double time = 0.0;       ///< Simulated time [s].
-  double end_s = 0.0;      ///< Station of the run's end [m].
+  /// Cause of the end if the physics ended the run (RunLog::cause); else empty.
+  std::string cause;
+  double distance = 0.0;  ///< Driven distance [m].
+  double time = 0.0;      ///< Simulated time [s].
+  double end_s = 0.0;     ///< Station of the run's end [m].
   /// Largest lateral acceleration of the center of gravity [m/s^2]: magnitude of the mean over any
-  /// 0.1 s. The mean includes the log rows of the 0.1 s, up to the first contact with an obstacle.
+  /// 0.1 s. Log rows after the first contact with an obstacle are ignored.
   double lateral_acceleration_max = 0.0;
   double lateral_acceleration_max_s = 0.0;  ///< Station at the middle of the averaging window [m].
   double lateral_acceleration_max_t = 0.0;  ///< Time at the middle of the averaging window [s].
@@ -108,29 +111,30 @@ struct PlantMetrics {
   double steering_limit = 0.0;       ///< The car's limit of the steering angle [rad]; 0: unknown.
   /// Whether steering is prescribed. A prescribed angle is not checked against the limits.
   bool steering_is_prescribed = false;
-  /// Root mean square of the mean rate per control period [rad/s].
+  /// Root mean square of the steering rate, averaged over each control period [rad/s].
   double steering_rate_rms = 0.0;
   /// Fraction of control periods in which the actuator, at its rate or angle limit, misses the
   /// command.
   double steering_saturated_fraction = 0.0;
-  /// Measured yaw rate divided by v tan(delta)/L, by least squares over the run. The quotient is
-  /// the kinematic model's yaw rate at the measured speed and steering. A car of understeer
-  /// gradient K that turns steadily has the ratio 1 / (1 + K v^2/L). Nullopt for a car whose
-  /// root-mean-square yaw rate is at most 1 mrad/s.
+  /// Measured yaw rate divided by v tan(delta)/L, by least squares over the run. The divisor v
+  /// tan(delta)/L is the kinematic model's yaw rate at the measured speed and steering. In a steady
+  /// turn, a car with understeer gradient K has the ratio 1 / (1 + K v^2/L). The ratio is nullopt
+  /// if the car's root-mean-square yaw rate is at most 1 mrad/s.
   std::optional<double> yaw_rate_ratio;
-  std::optional<TrackingMetrics> tracking;    ///< Path tracking; none without a path.
-  std::optional<ClearanceMetrics> clearance;  ///< Clearance; none without obstacles.
-  std::optional<RecoveryMetrics> recovery;    ///< Recovery; none without a disturbance that ends.
-  int plan_changes = 0;                       ///< Number of plans adopted during the run.
-  std::string blocked;  ///< Reason why the plan ended before the goal; else empty.
-  std::string partial;  ///< Reason why the plan is partial; else empty.
+  std::optional<TrackingMetrics> tracking;    ///< Path tracking; nullopt without a path.
+  std::optional<ClearanceMetrics> clearance;  ///< Clearance; nullopt without obstacles.
+  /// Recovery; nullopt if no disturbance of the run ends.
+  std::optional<RecoveryMetrics> recovery;
+  int plan_changes = 0;  ///< Number of plans adopted during the run.
+  std::string blocked;   ///< Reason why the plan ended before the goal; else empty.
+  std::string partial;   ///< Reason why the plan is partial; else empty.
   /// Maneuver metrics; none if the scenario has no maneuver.
   std::optional<ManeuverMetrics> maneuver;
-  std::vector<TurnMetrics> turns;  ///< Isolated turns that the car drove.
+  std::vector<TurnMetrics> turns;  ///< Isolated turns (IsolatedTurn) that the car drove.
   std::vector<LapMetrics> laps;    ///< Completed laps on a track.
   /// Comparison with the record; none for the record itself.
   std::optional<RecordMetrics> recorded;
-  /// Errors per horizon of record.windows; empty for the record itself.
+  /// Prediction errors for each horizon of `record.windows`; empty for the record itself.
   std::vector<WindowErrors> windows;
   /// Requirements on all plants, followed by this plant's requirements.
   std::vector<RequirementMetrics> requirements;

@@ -18,13 +18,13 @@ namespace trackbed {
 
 struct Manifest;
 
-/// An output folder that this process locks as long as the object lives.
+/// An output folder, which is locked for this process while the object exists.
 ///
-/// The lock is flock's: it leaves no file and ends with the process. A second process that opens a
-/// locked folder gets an error at once. Leftovers of a killed process are removed, or moved into
-/// place if its result was complete. On file systems without locks, and between machines that share
-/// a folder over NFS, several processes may write. The hashes in the manifest then reveal a
-/// mixture.
+/// The lock uses flock, which leaves no lock file and is released when the process ends. A second
+/// process that opens a locked folder gets an error at once. If a killed process left a complete
+/// result, the result is moved into place; incomplete results are removed. On file systems without
+/// locks, and between machines that share a folder over NFS, several processes may write to a
+/// folder at the same time. The hashes in the manifest then reveal a mixture of results.
 class OutputFolder {
  public:
   enum class For {
@@ -32,15 +32,15 @@ class OutputFolder {
     /// Adds a page or film to an existing result; other processes may add at the same time.
     kAddition,
   };
-  /// Creates and locks the folder; for an addition, the folder must exist. RunError if that fails.
-  /// RunError if another process holds the lock ("... is being written by another trackbed (process
-  /// 123)"). For a result, throws the errors of RequireNoForeignFiles with the names of a run
-  /// folder (run_folder::AllNames). The constructor is not explicit, so that callers can pass a
-  /// path.
+  /// Creates and locks the folder; for an addition, the folder must exist. RunError if the folder
+  /// cannot be created or locked, or if another process holds the lock ("... is being written by
+  /// another trackbed (process 123)"). For a result, throws the errors of RequireNoForeignFiles
+  /// with the names of a run folder (run_folder::AllNames). The constructor is not explicit, so
+  /// that callers can pass a path.
   // NOLINTNEXTLINE(google-explicit-constructor)
   OutputFolder(std::filesystem::path path, For use = For::kResult);
-  /// Opens a folder for a result whose files may have these names, such as those of
-  /// FileNamesOfVerb. Throws the same RunErrors as the constructor above.
+  /// Creates and locks the folder for a result whose files may have the given names, such as those
+  /// of FileNamesOfVerb. Throws the same RunErrors as the constructor above.
   OutputFolder(std::filesystem::path path, const std::vector<std::string>& names);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -56,33 +56,34 @@ class OutputFolder {
 };
 
 /// Locks a folder to write `file`, a page or a film of the result in the folder `result`. If `file`
-/// lies in that folder, returns the folder, opened for an addition. Otherwise returns nothing and
-/// removes leftovers of killed processes beside `file`.
+/// lies in that folder, returns the folder, opened for an addition. Otherwise returns nullopt and
+/// removes temporary files that killed processes left next to `file`.
 std::optional<OutputFolder> LockFolderOf(const std::filesystem::path& file,
                                          const std::filesystem::path& result);
 
 /// Returns the elements of `names` that exist in the folder but were not written by Trackbed, in
 /// their order. Trackbed's files are listed in manifest.json, carry a mark (HasMark), or contain
-/// records. Links and folders count as foreign. InputError naming an invalid manifest.
+/// records. Links and folders count as foreign. InputError if manifest.json is invalid.
 std::vector<std::string> ForeignNames(const std::filesystem::path& folder,
                                       const std::vector<std::string>& names);
 
-/// RunError listing the ForeignNames, if there are any: Trackbed must not replace foreign files.
+/// Throws RunError listing the ForeignNames, if there are any: Trackbed must not replace files that
+/// it did not write.
 void RequireNoForeignFiles(const std::filesystem::path& folder,
                            const std::vector<std::string>& names);
 
-/// RunError unless `file` is absent, or a page, picture or video that Trackbed wrote.
+/// Throws RunError unless `file` is absent, or is a page, picture or video that Trackbed wrote.
 void RequireNoForeignFile(const std::filesystem::path& file);
 
-/// The subfolder `below` of an output folder, such as rows/3. RunError if a part of `below` is a
-/// link or a file: Trackbed does not write or remove through links.
+/// Returns the subfolder `below` of an output folder, such as rows/3. RunError if a part of `below`
+/// is a link or a file: Trackbed does not write or remove through links.
 std::filesystem::path FolderBelow(const std::filesystem::path& folder,
                                   const std::filesystem::path& below);
 
 /// Removes all results of a folder: the files listed in its manifest, and the pages, pictures and
-/// videos that Trackbed made of them. Also removes the folder if it becomes empty. Foreign files
-/// stay, and a folder without a manifest stays unchanged. RunError for a link, and if a file cannot
-/// be removed.
+/// videos that Trackbed made of them. Also removes the folder if it becomes empty. Files that
+/// Trackbed did not write stay, and a folder without a manifest stays unchanged. RunError if the
+/// folder is a link, or if a file cannot be removed.
 void RemoveResults(const std::filesystem::path& folder);
 
 /// The entry of a file in manifest.json.
@@ -101,25 +102,26 @@ struct ManifestEntry {
 /// whose files were overwritten by another result. Files that belong to no result are not touched.
 class ResultWriter {
  public:
-  /// Creates the folder again if it was removed. Throws the same RunErrors as OutputFolder.
+  /// Recreates the output folder if it was removed. Throws the same RunErrors as OutputFolder.
   explicit ResultWriter(const OutputFolder& folder);
   ResultWriter(const ResultWriter&) = delete;
   ResultWriter& operator=(const ResultWriter&) = delete;
   ~ResultWriter();
 
   /// Adds a file. RunError naming the file if it cannot be written, or if `name` is not a plain
-  /// file name (IsFileName). RunError if a file of that name exists in the folder that Trackbed has
-  /// not written.
+  /// file name (IsFileName). RunError if the output folder has a file of that name that Trackbed
+  /// did not write.
   void Add(const std::string& name, std::string_view content);
   /// Adds a file in parts: `next` returns one part after another, and an empty part at the end.
   void Add(const std::string& name, const std::function<std::string()>& next);
 
-  /// Makes the files added since the last call the result of this name (run_folder::kRun, ...). The
-  /// list AllResultNames must contain the result and its file names. Commit then removes the files
-  /// of an earlier result of that name, and Trackbed's files of `obsolete`, except the added files.
+  /// Makes a result named `result` (run_folder::kRun, ...) of the files added since the last call.
+  /// The list AllResultNames must contain the result and its file names. Commit then removes the
+  /// files of an earlier result of the same name, and the files in `obsolete` that Trackbed wrote.
+  /// Commit keeps files that were added again.
   void EndResult(const std::string& result, std::vector<std::string> obsolete);
-  /// Moves all ended results into place at once. RunError if something that is not a file has one
-  /// of the names, or if the disk is full. The earlier results remain after an error.
+  /// Moves all ended results into place at once. RunError if a folder or link has the name of a new
+  /// file, or if the disk is full. After an error, the earlier results remain.
   void Commit();
   /// Calls EndResult, then Commit.
   void Commit(const std::string& result, std::vector<std::string> obsolete);
@@ -135,10 +137,10 @@ class ResultWriter {
 
   std::optional<OutputFolder> new_folder_;
   std::filesystem::path folder_;
-  std::shared_ptr<const Manifest> before_;      // The manifest before; null if there was none.
-  std::optional<NewFile> written_;              // The file that lists `names_`.
+  std::shared_ptr<const Manifest> before_;      // Manifest of the earlier results; null if none.
+  std::optional<NewFile> written_;              // File that stores `names_`.
   std::vector<std::string> names_;              // Names of all files.
-  std::map<std::string, ManifestEntry> files_;  // Files of the result that has not ended.
+  std::map<std::string, ManifestEntry> files_;  // Files added since the last EndResult.
   std::vector<CompletedResult> ended_;
 };
 

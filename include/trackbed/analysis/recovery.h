@@ -11,12 +11,14 @@ namespace trackbed {
 /// Recovery of a run after a disturbance.
 struct RecoveryMetrics {
   double from = 0.0;  ///< End of the last temporary disturbance [s].
-  /// Time from `from` until the car stays near its path [s]; nullopt if it never does.
+  /// Time from `from` until the car stays near its path [s]; nullopt if the car never stays near
+  /// the path.
   std::optional<double> time;
 };
 
 /// Measures when the car stays near its path, within `disturb.recovered_within`, checked once per
-/// control period. Nullopt without a path, or if no temporary disturbance ended during the run.
+/// control period. Returns nullopt if the run has no path, or if no temporary disturbance ended
+/// during the run.
 std::optional<RecoveryMetrics> MeasureRecovery(const RunLog& log, const Disturbances& disturb,
                                                const Wind& wind);
 

@@ -12,7 +12,7 @@ namespace trackbed {
 /// the formula or the log are reported in RequirementMetrics::problem.
 RequirementMetrics MeasureRequirement(const RequirementExpectation& requirement, const RunLog& log);
 
-/// Evaluates the requirements on all plants, then those on the log's plant.
+/// Evaluates the requirements on all plants, then the requirements on the plant of the log.
 std::vector<RequirementMetrics> MeasureRequirements(const Expectations& expect, const RunLog& log);
 
 /// The path of the robustness in the plant's entry in metrics.json: "requirements.NAME.robustness".

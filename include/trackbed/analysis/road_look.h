@@ -7,11 +7,11 @@
 
 namespace trackbed {
 
-/// The road that pictures show along a plan of the named planner: the world's road if it has one.
-/// Without one, a default road, but only for planners that neither avoid obstacles nor meet
-/// headings. Planners of that kind are made for roads and courses, not for parking lots and fields.
-/// Nullopt if the width is 0. By default also nullopt in a world with a road network, which draws
-/// its own roads.
+/// Returns the road that pictures show along a plan of the named planner: the world's road if the
+/// world has a road. In a world without a road, planners that neither avoid obstacles nor meet
+/// headings get a default road, because these planners are made for roads and courses, not for
+/// parking lots and fields. Returns nullopt if the road's width is 0. Also returns nullopt in a
+/// world with a road network but without a road, because the roads of the network are drawn.
 std::optional<RoadLook> RoadToDraw(const World& world, const std::string& planner);
 
 }  // namespace trackbed

@@ -16,8 +16,8 @@ struct RunRobustness {
 /// The smallest margin of all checks of the verdict. The margin of a check is
 ///
 ///   * for an upper limit (limit - value) / |limit|, for a lower limit (value - limit) / |limit|.
-///     Fractions make limits of different units comparable. If the limit is 0, the margin is the
-///     difference, in the unit of the metric;
+///     The division by |limit| makes limits of different units comparable. If the limit is 0, the
+///     margin is the difference, in the unit of the metric;
 ///   * for a requirement over time, its robustness, in the unit of the decisive comparison;
 ///   * for a check without a numeric margin (arrived, no collision, an unmeasured metric), -1 if it
 ///     is not met, and undefined if it is met. A run without a plan has the margin -1;
@@ -26,8 +26,8 @@ struct RunRobustness {
 ///
 /// The robustness is 1 if all checks are met and none has a margin.
 ///
-/// Guarantees: the robustness is finite. For a judged run, it is negative if and only if the
-/// verdict is not passed. The robustness is not continuous: a collision is a step.
+/// Guarantees: the robustness is finite. For a judged run, the robustness is negative if and only
+/// if the verdict is not passed. A collision makes the robustness jump.
 RunRobustness RobustnessOf(const RunResult& result);
 
 }  // namespace trackbed

@@ -43,13 +43,14 @@ struct RunHooks {
   /// Called when a plant's simulation has ended, even by an exception.
   std::function<void(const std::string& plant)> ended{};
   /// Whether to simulate all plants at the same time, each in a separate thread that calls its
-  /// hooks. If false, plants run one after another in the caller's thread. The results are the
-  /// same.
+  /// hooks. If false, plants run one after another in the caller's thread. The results do not
+  /// depend on `together`.
   bool together = false;
 };
 
-/// Plans, simulates, measures and judges a scenario. If the mission cannot be planned, the verdict
-/// has failed with a reason, and there are no logs. Throws the InputErrors of the scenario's model.
+/// Plans, simulates, measures and judges a scenario. If no plan is found, the verdict is failed
+/// with a reason, and the result has no logs. Throws the InputErrors of loading the scenario's
+/// vehicle model.
 RunResult RunMission(const Scenario& scenario, const RunHooks& hooks = {});
 
 /// As RunMission above, with a car from the cache.
@@ -58,8 +59,8 @@ RunResult RunMission(const Scenario& scenario, CarCache& cars, const RunHooks& h
 /// As RunMission above, for a validated scenario and a car loaded by LoadCar.
 RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks = {});
 
-/// The two parts of RunMission: planning, then simulation with evaluation. PlanRun and the
-/// simulation throw the errors of RunMission, and exceptions of the hooks.
+/// The two parts of RunMission: planning, then simulation with evaluation. Both functions throw the
+/// errors of RunMission. DriveRun also throws the exceptions of its hooks.
 RunResult PlanRun(const Scenario& scenario, const CarModel& car);
 RunResult DriveRun(RunResult planned, const CarModel& car, const RunHooks& hooks = {});
 
@@ -73,13 +74,14 @@ struct RunFolderOptions {
 
 /// Writes the run folder (plan.csv, plan.json, <plant>.csv, <plant>.state.csv, model.xml,
 /// timing.json, scenario.resolved.yaml, metrics.json, manifest.json) in one step (ResultWriter).
-/// Also removes files of an earlier run that this run does not have, so that the folder never mixes
-/// two runs. RunError if the folder cannot be written; the earlier run then remains.
+/// Also removes files of an earlier run that the new run does not replace, so that the folder never
+/// mixes two runs. RunError if the folder cannot be written; the files of the earlier run then
+/// remain.
 void WriteRunFolder(const RunResult& result, const OutputFolder& folder,
                     const RunFolderOptions& options = {});
 
-/// Adds the files of WriteRunFolder as a result of `writer`, which may get more results before it
-/// commits.
+/// Adds the files that WriteRunFolder writes to `writer`, as one result. The caller may add more
+/// results before the commit.
 void AddRunFolder(const RunResult& result, ResultWriter& writer,
                   const RunFolderOptions& options = {});
 

@@ -40,7 +40,7 @@ inline constexpr const char* kMcap = "run.mcap";
 // Files made from a finished run.
 inline constexpr const char* kVideo = "video.mp4";
 inline constexpr const char* kPicture = "picture.png";
-inline constexpr const char* kReport = "report.html";  ///< Also made from a comparison or a study.
+inline constexpr const char* kReport = "report.html";  ///< Report of a run, comparison or study.
 
 // Files of a comparison. The plants of one run are compared in the folder of that run.
 inline constexpr const char* kCompareCsv = "compare.csv";
@@ -97,17 +97,18 @@ std::optional<std::string> PlantOfStateCsv(const std::string& file_name);
 /// Returns every file name that a run folder may have, for all plants in the registry.
 std::vector<std::string> AllNames();
 
-/// Checks a file of a run folder and returns it. InputError naming the file if it does not exist,
-/// is a folder, or is a link out of the run folder, whose content must not enter a report.
-/// InputError if the content differs from the folder's manifest; this check reads the file. Folders
-/// of older versions have no manifest and skip that check.
+/// Checks a file of a run folder and returns its path. InputError naming the file if it does not
+/// exist, is a folder, or is a link to a place outside the run folder: content from outside must
+/// not enter a report. InputError if the hash of the file differs from that in the folder's
+/// manifest. Run folders of older versions have no manifest, so their files are not compared with
+/// hashes.
 std::filesystem::path RequireFile(const std::filesystem::path& file);
 
 /// Identifies the results in a folder by the SHA-256 of its manifest.json; "" without a manifest.
 std::string ResultHash(const std::filesystem::path& folder);
 
-/// InputError naming the folder if it is between two results, or if its ResultHash differs from
-/// `hash`. The message names `source`, the file that states `hash`.
+/// InputError naming the folder if the replacement of its result was not finished, or if its
+/// ResultHash differs from `hash`. The message names `source`, the file that states `hash`.
 void RequireResult(const std::filesystem::path& folder, const std::string& hash,
                    const std::filesystem::path& source);
 

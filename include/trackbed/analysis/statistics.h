@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-/// Statistics of the rows of a study, as a sample of a distribution.
+/// Statistics of the rows of a study, which are treated as a sample of a distribution.
 namespace trackbed {
 
 struct Interval {
@@ -13,21 +13,21 @@ struct Interval {
   double high = 0.0;
 };
 
-/// The score interval of the probability of success, without continuity correction (Wilson 1927).
-/// There were `passed` successes in `count` independent trials. Without trials, the interval is [0,
-/// 1].
+/// Computes the score interval (Wilson 1927) of a probability of success, without continuity
+/// correction, from `passed` successes in `count` independent trials. Without trials, the interval
+/// is [0, 1].
 ///
 /// PreconditionError unless passed <= count and confidence is in (0, 1).
 Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence);
 
-/// The quantiles of a sample for the given shares, interpolated linearly between its members (type
-/// 7 of Hyndman and Fan 1996, the default of R and NumPy).
+/// Computes the quantiles of a sample at the fractions `shares`, interpolated linearly between the
+/// values of the sample (type 7 of Hyndman and Fan 1996, the default of R and NumPy).
 ///
 /// PreconditionError unless there are values, all finite, and the shares are in [0, 1].
 std::vector<double> Quantiles(std::vector<double> values, const std::vector<double>& shares);
 
-/// The mean of a sample, with Student's t interval of the distribution's mean; a single value has
-/// no interval.
+/// The mean of a sample, with Student's t interval for the mean of the distribution; a sample of
+/// one value has no interval.
 struct MeanEstimate {
   std::size_t count = 0;
   double mean = 0.0;
@@ -42,7 +42,7 @@ MeanEstimate EstimateMean(const std::vector<double>& values, double confidence);
 /// classes.
 struct Classes {
   std::vector<std::size_t> of_row;
-  /// Names of the classes: the value, or the median of its values.
+  /// Names of the classes: the value that all rows of a class share, or the median of their values.
   std::vector<std::string> names;
 };
 
@@ -54,9 +54,10 @@ struct Classes {
 /// PreconditionError unless max_classes is at least 2.
 Classes Classify(const std::vector<std::string>& values, std::size_t max_classes);
 
-/// The share of the variance of an output that a parameter explains alone.
+/// The fraction of an output's variance that one parameter explains alone.
 struct FirstOrderIndex {
-  /// The index, at most 1. About 0, possibly negative, for a parameter without influence.
+  /// The index, at most 1. The index of a parameter without influence is about 0 and may be
+  /// negative.
   double index = 0.0;
   Interval interval{};
 };
@@ -69,12 +70,12 @@ struct IndexOptions {
 /// First-order Sobol' indices Var(E[Y | X]) / Var(Y), one per parameter, from a given sample of any
 /// design. The estimate is the correlation ratio of the classes (Pearson 1905; Plischke, Borgonovo
 /// and Smith 2013), minus its expectation by chance for classes of this size (Kelley 1935, epsilon
-/// squared). A parameter without influence therefore has the expectation 0. The parameters of the
-/// sample must be independent. If a numeric parameter is divided into B classes, its index is too
-/// small by a fraction of about 1 / B^2.
+/// squared). The expected index of a parameter without influence is therefore 0. The parameters of
+/// the sample must be independent. If a numeric parameter is divided into B classes, its index is
+/// too small by a fraction of about 1 / B^2.
 ///
-/// The intervals are those of a normal distribution with the standard deviation of bootstrap
-/// resamples (Efron and Tibshirani 1993), the same on every machine.
+/// The confidence intervals assume a normal distribution with the standard deviation of the indices
+/// of bootstrap resamples (Efron and Tibshirani 1993). The resamples are the same on every machine.
 ///
 /// An index is nullopt if the output does not vary or the parameter has as many classes as rows.
 /// PreconditionError unless the output and all parameters have the same number of rows. Cost: 2 ns
@@ -92,7 +93,7 @@ struct RankCorrelation {
   Interval interval{};
 };
 
-/// Correlates two lists. Nullopt for fewer than 4 pairs, or if one list does not vary.
+/// Correlates two lists. Nullopt for fewer than 4 pairs, or if all values of one list are equal.
 /// PreconditionError unless both lists have the same number of values, all finite, and confidence
 /// is in (0, 1). Cost: that of sorting both lists.
 std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
@@ -107,7 +108,7 @@ struct PairedDifference {
   std::size_t equal = 0;
   /// p-value of the exact two-sided sign test (Arbuthnott 1710), without equal pairs: the
   /// probability of a split at least as uneven as `higher` and `lower`, if both are equally likely.
-  /// 1 if all pairs are equal.
+  /// The p-value is 1 if all pairs are equal.
   double sign_test = 1.0;
 };
 

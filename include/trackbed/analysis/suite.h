@@ -17,7 +17,7 @@ enum class CaseStatus {
   kNotJudged,  ///< The scenario ran, but has no expectations.
   /// The scenario, its car or the environment is invalid. Nothing was simulated.
   kBadInput,
-  kInternalError,  ///< The run met a bug in Trackbed.
+  kInternalError,  ///< The run revealed a bug in Trackbed.
   kInterrupted,    ///< The caller stopped the case, before or during its run.
 };
 
@@ -33,16 +33,16 @@ struct SuiteCase {
 
 struct SuiteOptions {
   int jobs = 1;  ///< Number of scenarios at the same time, at least 1.
-  /// Called with each finished case, in the order of the files for any number of jobs. Only one
-  /// thread calls `finished` at a time.
+  /// Called with each finished case, in the order of the files, whatever the number of jobs. Only
+  /// one thread calls `finished` at a time.
   std::function<void(const SuiteCase&)> finished;
-  /// Whether to stop; called once per control period, by any thread.
+  /// Returns whether to stop; called once per control period, by any thread.
   std::function<bool()> interrupted;
 };
 
-/// Reads, plans, simulates and judges every file. The function `read` makes a scenario of a file,
-/// on any thread. Exceptions of `read` or of the run become the reasons of their case and do not
-/// affect others.
+/// Reads, plans, simulates and judges every file. The function `read` reads a scenario from a file
+/// and is called by any thread. An exception of `read` or of a run becomes the reason of its case
+/// and does not affect other cases.
 ///
 /// Guarantees: the cases are in the order of the files. Only `wall_time` depends on `jobs`.
 /// InternalError unless jobs is positive.
@@ -53,8 +53,9 @@ std::vector<SuiteCase> RunSuite(const std::vector<std::filesystem::path>& files,
 /// Formats the cases as JUnit XML for Jenkins and GitLab: one `testsuite` in `testsuites`, and a
 /// `testcase` for each file. A `testcase` has `name`, `classname` (the folder, with dots), `file`
 /// and `time` [s]. A case that did not pass has one `failure`, `error` or `skipped` (interrupted).
-/// The message of that element is the first reason, its text all reasons. Notes are in
-/// `system-out`. Characters that XML cannot hold become '?'.
+/// The message of the `failure`, `error` or `skipped` element is the first reason; the text of the
+/// element contains all reasons. The notes of a case are in `system-out`. Characters that XML does
+/// not allow become '?'.
 std::string ToJUnit(const std::vector<SuiteCase>& cases);
 
 }  // namespace trackbed

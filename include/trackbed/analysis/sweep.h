@@ -21,9 +21,9 @@ namespace trackbed {
 /// Results of a run for a table, by dotted path: `metrics.<plant>.…`, `between.<plant>.<plant>.…`,
 /// `verdict.passed`, `verdict.failures`, `verdict.robustness` (RobustnessOf), `plan.status`,
 /// `plan.length_m` and the other PathProperties(), `timing.planning_s` (which differs between
-/// runs). The names are those of metrics.json. Elements of lists are `[0]`, `[1]`, …. Results of a
-/// run on a single plant are also listed as `metrics.*.…`, so that a study of plants needs one
-/// column for each result.
+/// runs). The names are the same as in metrics.json. List elements are written `[0]`, `[1]`, ….
+/// Results of a run on a single plant are also listed as `metrics.*.…`, so that a study that varies
+/// the plant needs only one column for each result.
 using Outputs = std::map<std::string, std::string>;
 
 Outputs CollectOutputs(const RunResult& result);
@@ -40,11 +40,11 @@ struct RunOutcome {
   std::optional<RunResult> result{};  ///< Complete result, if DriveOnce ran the scenario.
 };
 
-/// Runs a scenario, on any thread; returns nothing when interrupted.
+/// Function that runs a scenario, on any thread, and returns nullopt if interrupted.
 using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& scenario)>;
 
-/// A study that has been validated as far as possible before its runs. Immutable; threads can share
-/// it.
+/// A study that has been validated as far as possible before its runs. A CheckedStudy is immutable,
+/// so threads can share it.
 struct CheckedStudy {
   StudyPoints points;
   std::unique_ptr<CarCache> cars;             ///< Cache of the compiled cars, never null.
@@ -53,8 +53,8 @@ struct CheckedStudy {
 
 /// Reads the points of the study (CheckPoints), compiles the cars, makes the plants and checks the
 /// outputs. InputError listing the problems of the points or their cars. InputError listing all
-/// unknown outputs, each with the most similar path. If `all` is true, one invalid point is an
-/// error. If `all` is false, it is only an error if no point is valid.
+/// unknown outputs, each with the most similar path. If `all` is true, every point must be valid;
+/// otherwise, one valid point is enough.
 CheckedStudy CheckStudy(Study study, bool all = true);
 
 /// Plans, simulates, measures and judges a scenario of the study.
@@ -76,17 +76,18 @@ struct SweepOptions {
   int jobs = 1;  ///< Number of runs at the same time, at least 1.
   /// Called after each row, by one thread at a time.
   std::function<void(double fraction)> progress;
-  std::function<bool()> interrupted;  ///< Whether to stop; called before each run, by any thread.
-  Shard shard{};                      ///< Rows outside of the shard are skipped.
-  /// Statuses of rows to run again, instead of the missing rows; ignored if empty.
+  /// Returns whether to stop; called before each run, by any thread.
+  std::function<bool()> interrupted;
+  Shard shard{};  ///< Rows outside of the shard are skipped.
+  /// If not empty: runs the rows with these statuses again, instead of the missing rows.
   std::vector<std::string> again{};
-  /// Called after each run, by any thread, before its row is appended. The callback is not called
-  /// for bisections.
+  /// Called after each run, by any thread, before its row is appended. The callback `finished` is
+  /// not called for bisections.
   std::function<void(std::size_t row, const RunOutcome& outcome)> finished{};
-  /// Stops as soon as the pass rate's interval, at each point of the grid, has at most this
-  /// half-width, which is from 0.001 to 0.5. The option `until_pass_rate` needs a study with a
-  /// sample and without bisection. Checked after every kUntilBatch points of the sample, so that
-  /// the result does not depend on `jobs`.
+  /// Half-width of the pass rate's confidence interval, from 0.001 to 0.5. The sweep stops as soon
+  /// as the interval at each point of the grid has at most this half-width. The option
+  /// `until_pass_rate` needs a study with a sample and without bisection. The interval is checked
+  /// after every kUntilBatch points of the sample, so that the result does not depend on `jobs`.
   std::optional<double> until_pass_rate{};
 };
 
@@ -101,28 +102,28 @@ nlohmann::ordered_json SweepHeader(const StudyPoints& points,
                                    const std::map<std::string, std::string>& inputs = {});
 
 /// Runs the rows of a study that are missing in `records`, and appends each row as soon as it is
-/// finished. Each point gives `repeat` rows with consecutive seeds, or a bisection. An interruption
-/// leaves unfinished rows out.
+/// finished. Each point gives `repeat` rows with consecutive seeds, or a bisection. After an
+/// interruption, unfinished rows are missing.
 ///
-/// A rejected point gives a row with the status `refused` and the first problem as the reason. A
-/// run that throws an InputError gives such a row, too. An exception that indicates a bug gives a
-/// row with the status `error`. The other runs are not affected.
+/// An invalid point gives a row with the status `refused` and the first problem as the reason. A
+/// run that throws an InputError also gives a row with the status `refused`. An exception that
+/// indicates a bug gives a row with the status `error`. Other runs of the sweep are not affected.
 ///
 /// Guarantees: the content of a row does not depend on `jobs`, shards, or the order in which rows
 /// are finished. A RunError of `run` (out of memory) or of `records` (full disk) stops the sweep
-/// and is rethrown. InternalError unless jobs is positive. Apart from SweepRecords, memory does not
-/// grow with the rows.
+/// and is rethrown. InternalError unless jobs is positive. Apart from SweepRecords, the memory does
+/// not grow with the number of rows.
 void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords& records,
              const SweepOptions& options);
 
-/// Counts of the rows in some records.
+/// Counts of the rows in the records of a study.
 struct SweepSummary {
   std::size_t rows = 0;
   std::size_t rows_expected = 0;  ///< Number of rows of the complete study.
   std::size_t runs = 0;           ///< Number of runs in these rows.
   std::size_t passed = 0;         ///< Number of rows that passed, or whose bisection found a value.
   std::size_t refused = 0;        ///< Number of rows whose scenario is invalid.
-  std::size_t errors = 0;         ///< Number of rows whose run met a bug of the program.
+  std::size_t errors = 0;         ///< Number of rows whose run revealed a bug in the program.
 
   [[nodiscard]] bool complete() const { return rows == rows_expected; }
 };
@@ -132,13 +133,15 @@ SweepSummary Summarize(const SweepRecords& records, const Shard& shard = {});
 
 /// Writes sweep.csv (parameters, seed, status, runs, outputs, reason; rows in grid order),
 /// sweep.json (the study as it was run, and bisections) and manifest.json in one step
-/// (ResultWriter), and removes the report.html of an earlier sweep. `stopped` is the reason for
-/// rows that are missing on purpose. On a RunError, the earlier sweep remains.
+/// (ResultWriter), and removes the report.html of an earlier sweep. If rows are missing on purpose,
+/// `stopped` is the reason. If writing fails with a RunError, the files of the earlier sweep
+/// remain.
 SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const OutputFolder& folder,
                         const std::string& stopped = "");
 
-/// Adds the files of WriteSweep as a result of `writer`, which may get further files before it
-/// commits, such as falsify.json. Removes the files of an earlier search or verification.
+/// Adds the files that WriteSweep writes to `writer`. The caller may add further files to the
+/// result before the commit, such as falsify.json. Removes the files of an earlier search or
+/// verification.
 SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWriter& writer,
                       const std::string& stopped = "");
 
@@ -148,15 +151,15 @@ SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWri
 /// two files disagree on a row.
 void MergeRecords(const std::vector<std::filesystem::path>& files, SweepRecords& records);
 
-/// The numbers of the rows whose run folders the study keeps: those with the highest or lowest
-/// values of an output. The worst row is first; among equal values, the earlier row.
+/// Returns the numbers of the rows whose run folders the study keeps: the rows with the highest or
+/// lowest values of an output. The worst row is first; rows with equal values keep their order.
 std::vector<std::size_t> WorstRows(const SweepRecords& records);
 
-/// The overrides of a row, in their order of application. A run of the scenario in the header with
-/// these overrides reproduces the row. InputError if there is no such row.
+/// Returns the overrides of a row, in their order of application. A run of the scenario in the
+/// header with these overrides reproduces the row. InputError if there is no such row.
 std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t row);
 
-/// The missing rows, counted from 0: "3, 17 to 20".
+/// Lists the numbers of the missing rows as text, counted from 0: "3, 17 to 20".
 std::string MissingRows(const SweepRecords& records);
 
 /// The result of a study with few rows, in memory.
@@ -166,7 +169,7 @@ struct SweepResult {
   SweepSummary summary;
 };
 
-/// Runs all rows in memory, as RunRows.
+/// Runs all rows as RunRows does, but keeps them in memory.
 SweepResult RunSweep(const StudyPoints& points, const RunScenarioOnce& run,
                      const SweepOptions& options);
 

@@ -15,13 +15,14 @@
 
 namespace trackbed {
 
-/// The finished rows of a study in a file that only grows, so that a study that was killed at any
-/// moment can resume. The first line identifies the study, each further line is a row "CRC-32
-/// JSON". The checksum of the JSON has eight hexadecimal digits.
+/// Stores the finished rows of a study in an append-only file, so that a study that was killed at
+/// any moment can resume. The first line of the file identifies the study. Each further line is one
+/// row: the CRC-32 of the JSON as eight hexadecimal digits, a space, and the JSON.
 ///
 /// Each row is appended by a single write. An incomplete last line, left by a killed process, a
-/// full disk or a power failure, is cut off when the file is opened. If several lines have the same
-/// row, the last one counts. Rows are forced to the disk at most once a second.
+/// full disk or a power failure, is cut off when the file is opened. If several lines contain the
+/// same row, the last of these lines applies. Rows are synchronized to the disk at most once a
+/// second.
 ///
 /// Memory: 8 bytes for each row of the study.
 class SweepRecords {
@@ -44,19 +45,19 @@ class SweepRecords {
   /// Makes records that are kept in memory, without a file.
   static SweepRecords InMemory(nlohmann::ordered_json header);
 
-  /// The header unchanged. Use it only to copy or compare.
+  /// The unchecked header, to be used only for copying and comparing.
   [[nodiscard]] const nlohmann::ordered_json& header() const { return header_->json(); }
-  /// The header for reading. Throws the InputErrors of JsonValue.
+  /// The header, for reading its values. The getters throw the InputErrors of JsonValue.
   [[nodiscard]] const JsonValue& Header() const { return *header_; }
-  /// The columns of the table, including `status`. InputError if the header has none.
+  /// The columns of the table, including `status`. InputError if the header has no columns.
   [[nodiscard]] const std::vector<std::string>& Columns() const;
   [[nodiscard]] std::size_t rows() const { return offsets_.size(); }
   [[nodiscard]] bool Has(std::size_t row) const { return offsets_[row] >= 0; }
   /// Number of rows that are present.
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  /// Appends a row. Several threads may append at the same time. RunError if the disk is full: the
-  /// file then keeps the earlier rows and no part of this row.
+  /// Appends a row. Several threads may append at the same time. RunError if the disk is full; the
+  /// file then contains the earlier rows and no part of the new row.
   void Append(std::size_t row, const nlohmann::ordered_json& content);
 
   /// Reads a row, which must be present. Use the result only to copy or compare. InputError if the
@@ -75,7 +76,7 @@ class SweepRecords {
 
   std::filesystem::path file_;
   Descriptor descriptor_;
-  std::optional<JsonValue> header_;  // Header, known when a constructor has returned.
+  std::optional<JsonValue> header_;  // Header; every constructor sets it.
   std::vector<std::string> columns_;
   std::vector<std::int64_t> offsets_;  // Offsets of the lines in the file; -1: row missing.
   std::size_t count_ = 0;

@@ -22,15 +22,16 @@ struct SweepRow {
   nlohmann::ordered_json bisection;
 };
 
-/// The form in which records store a row.
+/// Converts a row to the form in which records store it.
 nlohmann::ordered_json ToJson(const SweepRow& row);
 
 /// Reads a row of records, which must be present. Throws the InputErrors of JsonValue. InputError
 /// unless the row has a cell for each column.
 SweepRow ReadRow(const SweepRecords& records, std::size_t row);
 
-/// Makes the row of a point's `repetition`; returns nothing when interrupted. An exception of a run
-/// becomes the row's reason. A RunError is rethrown.
+/// Runs the scenario of a point, in the given repetition, and returns the table row; nullopt if
+/// interrupted. A RunError is rethrown; any other exception of the run becomes the reason of the
+/// row.
 std::optional<SweepRow> MakeRow(const Study& study, const RunScenarioOnce& run,
                                 const StudyPoint& point, std::uint64_t repetition);
 

@@ -9,13 +9,13 @@
 #include "trackbed/analysis/metrics.h"
 #include "trackbed/scenario/scenario.h"
 
-/// Verdict on a run: the list of checks.
+/// The verdict on a run, with its list of checks.
 namespace trackbed {
 
 /// The required relation of a value to its bound.
 enum class Relation { kAtMost, kAtLeast, kEquals };
 
-/// The spelling of a relation in metrics.json: "at_most", "at_least", "equals".
+/// Returns the name of a relation as written in metrics.json: "at_most", "at_least", "equals".
 const char* ToString(Relation relation);
 
 /// The reason for a check.
@@ -23,8 +23,9 @@ enum class CheckReason {
   kExpected,   ///< The scenario's `expect` contains the check.
   kArrival,    ///< Every run must arrive.
   kNoContact,  ///< Every run must touch no obstacle.
-  kCorridor,   ///< On a path, the car must stay within one car width of it.
-  /// On a path, the car must not be faster than its speed control can correct.
+  kCorridor,   ///< On a path, the car must stay within one car width of the path.
+  /// On a path, the car must not exceed the planned speed by more than its speed control can
+  /// correct.
   kOverspeed,
   kSteeringRate,  ///< The steering rate must be within the actuator's limit.
   kCollision,     ///< `expect.collision` contains the check.
@@ -41,16 +42,18 @@ struct Check {
   Relation relation = Relation::kAtMost;
   /// Bound of the value; with kEquals, the text in the scenario: "true", "arrived", "3".
   MetricValue bound;
-  /// Measured value. Monostate means that it was not measured; the check is then not met.
+  /// Measured value. Monostate means that the value was not measured; the check is then not met.
   MetricValue value;
-  MetricPlace at;  ///< Place of the value in the run.
+  MetricPlace at;  ///< Place in the run where the value was measured.
   bool met = false;
 
   CheckReason reason = CheckReason::kExpected;
-  std::string name;    ///< Name of the metric in messages.
-  std::string unit;    ///< Unit of bound and value; empty if dimensionless.
-  std::string detail;  ///< Added to the message: why there is no value, why the car stopped.
-  /// Formula of a requirement. The value of the check is the robustness, the bound is 0.
+  std::string name;  ///< Name of the metric in messages.
+  std::string unit;  ///< Unit of bound and value; empty if dimensionless.
+  /// Text added to the message, such as why the value is missing or why the car stopped.
+  std::string detail;
+  /// Formula of a requirement; empty for other checks. With a formula, the value is the robustness,
+  /// and the bound is 0.
   std::string formula;
 };
 
@@ -59,11 +62,12 @@ std::string PlantsOf(const Check& check);
 
 /// The verdict on a run.
 struct Verdict {
-  bool judged = true;                 ///< Whether there was anything to check.
-  bool passed = true;                 ///< Whether the run was judged and no check failed.
-  std::vector<std::string> failures;  ///< One line each, with value, bound, station and time.
-  std::vector<std::string> notes;     ///< Additional remarks.
-  std::vector<Check> checks;          ///< All checks, met or not.
+  bool judged = true;  ///< Whether the run had anything to check.
+  bool passed = true;  ///< Whether the run was judged and no check failed.
+  /// Failed checks, one line each, with value, bound, station and time.
+  std::vector<std::string> failures;
+  std::vector<std::string> notes;  ///< Additional remarks.
+  std::vector<Check> checks;       ///< All checks, met or not.
 };
 
 /// Checks any metric of a plant by its path.
@@ -74,12 +78,13 @@ Check CheckMetric(const PlantMetrics& plant, const std::string& path, Relation r
 /// requirement without robustness is not met.
 Check CheckRequirement(const std::string& plant, const RequirementMetrics& requirement);
 
-/// Makes one check per given bound. Plants without common stations give a single check, which is
-/// not met.
+/// Makes one check per given bound. For two plants without common stations, makes a single check,
+/// which is not met.
 std::vector<Check> CheckBounds(const DifferenceBounds& bounds, const PlantComparison& comparison);
 
-/// The message of a check that is not met: metric, value, bound, station and time. The message is
-/// empty if another check reports the same fault; for example, a contact also sets the end status.
+/// Returns the message of a check that is not met: metric, value, bound, station and time. The
+/// message is empty if another check reports the same fault; for example, a contact also sets the
+/// end status.
 std::string FailureMessage(const Check& check);
 
 /// Returns the messages of the checks of CheckBounds that are not met.
@@ -93,15 +98,15 @@ void AddCheck(Check check, Verdict& verdict);
 ///
 ///   * that the car arrives; an expected `status` or `collision: true` replaces this check,
 ///   * that the car touches no obstacle,
-///   * on a path, that the car stays within one car width of it (`max_cross_track` replaces this
-///     check),
+///   * on a path, that the car stays within one car width of the path (`max_cross_track` replaces
+///     this check),
 ///   * on a path, that the car exceeds the planned speed by no more than its speed control can
 ///     correct (an expectation on `overspeed_max` replaces this check),
-///   * that the wheels are steered no faster than the actuator allows, plus 3 % for their
-///     compliance; faster wheels mean that the timestep is too long for the car.
+///   * that the steering rate of the wheels exceeds the actuator's limit by at most 3 %, which
+///     allows for compliance; a higher rate means that the timestep is too long for the car.
 ///
-/// A run without a path, obstacles and expectations is not judged, and has not passed. Adds a note
-/// if the steering did not reach its command for more than 2 % of a maneuver.
+/// A run that has no path, no obstacles and no expectations is not judged, and therefore has not
+/// passed. Adds a note if the steering did not reach its command for more than 2 % of a maneuver.
 Verdict Judge(const Expectations& expect, const std::vector<PlantMetrics>& plants,
               const std::vector<PlantComparison>& comparisons);
 

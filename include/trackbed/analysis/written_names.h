@@ -25,7 +25,7 @@ const std::vector<ResultNames>& AllResultNames();
 struct VerbNames {
   std::string verb;                  ///< Name of the verb, such as "sweep submit".
   std::vector<std::string> results;  ///< Results in the verb's output folder, see AllResultNames.
-  /// Further names in that folder: pages and films, records, folders.
+  /// Further names in the verb's output folder: pages and films, records, folders.
   std::vector<std::string> others{};
   /// Options whose argument names a file to write. An existing file is replaced.
   std::vector<std::string> explicit_files{};
@@ -34,14 +34,14 @@ struct VerbNames {
 /// All verbs that write files.
 const std::vector<VerbNames>& AllVerbNames();
 
-/// All names in a verb's output folder, each once. The names of its results come first.
+/// All names in a verb's output folder, each once. The names of the verb's results come first.
 std::vector<std::string> NamesOfVerb(std::string_view verb);
 
-/// The texts that replace the parts in angle brackets.
+/// For each part in angle brackets, the texts that may replace it in a file name.
 using NameParts = std::map<std::string, std::vector<std::string>>;
 
-/// The file names in the verb's output folder, with these parts and the plants of the registry
-/// inserted. Omits folders, and names that contain other parts.
+/// Returns the file names in the verb's output folder, with `parts` and the registered plants
+/// inserted. Omits folders, and names with parts in angle brackets that `parts` does not contain.
 std::vector<std::string> FileNamesOfVerb(std::string_view verb, const NameParts& parts = {});
 
 /// Whether a file of the result may have this name.
@@ -49,14 +49,15 @@ bool IsNameOf(std::string_view result, const std::string& name);
 
 /// The text in the head of a page by which WriteReport recognizes Trackbed's pages.
 inline constexpr std::string_view kPageMark = "<meta name=\"generator\" content=\"Trackbed\">";
-/// The chunk that follows the header of a picture (W3C, Portable Network Graphics, section 11.3.4:
-/// tEXt).
+/// The PNG chunk that marks a picture as Trackbed's; the chunk follows the header (W3C, Portable
+/// Network Graphics, section 11.3.4: tEXt).
 const std::string& PictureMark();
-/// The last bytes of a video: a box that players skip (ISO/IEC 14496-12, section 8.1.2: free).
+/// The last bytes of a video, which mark it as Trackbed's: a box that players skip (ISO/IEC
+/// 14496-12, section 8.1.2: free).
 const std::string& VideoMark();
 
-/// Whether the file carries Trackbed's mark: a page (.html), picture (.png) or video (.mp4). False
-/// for links.
+/// Whether the file carries Trackbed's mark: a page (.html), picture (.png) or video (.mp4).
+/// Returns false for links.
 bool HasMark(const std::filesystem::path& file);
 
 }  // namespace trackbed

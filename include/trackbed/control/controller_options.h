@@ -6,7 +6,7 @@ namespace trackbed {
 
 class SteeringController;
 
-/// The options of a controller. The type of the contained struct identifies the controller.
+/// The options of any registered controller. The type of the stored struct selects the controller.
 using ControllerOptions = MethodOptions<SteeringController>;
 
 }  // namespace trackbed

@@ -15,8 +15,9 @@ enum class PlaybackAxis {
   kDistance,  ///< Distance that the car has driven [m].
 };
 
-/// The inputs of a run, all over the same axis. Only one of speed and acceleration may be given.
-/// Empty signals have no effect.
+/// Recorded inputs of a run: steering, speed and acceleration over the same axis (time or
+/// distance). At most one of speed and acceleration may be given. If both are empty, the recording
+/// does not set the speed.
 struct Recording {
   /// Steering angle of the bicycle model [rad], positive to the left; not empty.
   Signal steering{{{0.0, 0.0}}};
@@ -24,7 +25,7 @@ struct Recording {
   Signal acceleration;  ///< Rate of the speed, dv/dt [m/s^2].
 };
 
-/// The names of a recording's columns in its file. Defaults: `t_s`, `s_m`, `steering_rad`,
+/// Column names of a recording in its CSV file. Defaults: `t_s`, `s_m`, `steering_rad`,
 /// `speed_mps`, `acceleration_mps2`.
 struct RecordingColumns {
   std::optional<std::string> time;
@@ -35,16 +36,18 @@ struct RecordingColumns {
 };
 void Visit(KeyVisitor& keys, RecordingColumns& columns);
 
-/// Replays a recording in open loop. In each period, the inputs are as follows (x the axis, T the
-/// period):
-///   steering      the recorded angle where the period ends, at t + T or D + abs(v) T
-///   speed         its change over the period by T, plus gain times the speed error (SpeedAlong)
-///   acceleration  its mean over the period
+/// Replays a recording in open loop. In each control period of length T, the inputs are as follows:
+///   steering      recorded angle at the end of the period: at the time t + T, or at the distance
+///                 D + abs(v) T
+///   speed         acceleration command: change of the recorded speed over the period, divided by
+///                 T, plus gain times the speed error (SpeedAlong)
+///   acceleration  acceleration command: mean of the recorded acceleration over the period
 /// A car that follows commands exactly reproduces the recording at every control period. Values are
-/// constant before the first row and after the last row. By distance, the car stays where the
-/// recorded speed is zero.
+/// constant before the first row and after the last row. If the axis is the distance, the car never
+/// leaves a place where the recorded speed is zero.
 struct PlaybackOptions {
-  /// The file that was read. Empty for a recording made in code, or taken from a scenario's record.
+  /// Path of the file from which the recording was read. Empty for a recording made in code, or
+  /// taken from a scenario's record.
   std::string file;
   PlaybackAxis by = PlaybackAxis::kTime;
   RecordingColumns columns;
@@ -52,15 +55,16 @@ struct PlaybackOptions {
 };
 void Visit(KeyVisitor& keys, PlaybackOptions& options);
 
-/// The commanded angle [rad] after `period` [s], for a car with `speed` [m/s] at `x` on the axis.
+/// Returns the commanded steering angle [rad] at the end of the control period, for a car with
+/// `speed` [m/s] at the value `x` of the recording's axis. The control period is `period` [s] long.
 double PlaybackSteering(const PlaybackOptions& options, double x, double speed, double period);
 
-/// The commanded acceleration [m/s^2] over the period; nullopt if the recording has neither speed
-/// nor acceleration.
+/// Returns the commanded acceleration [m/s^2] over the control period; nullopt if the recording has
+/// neither speed nor acceleration.
 std::optional<double> PlaybackAcceleration(const PlaybackOptions& options, double x, double speed,
                                            double gain, double period);
 
-/// The controller `playback`.
+/// Returns the registry entry of the controller `playback`.
 ControllerEntry Playback();
 
 }  // namespace trackbed

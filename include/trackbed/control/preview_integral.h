@@ -16,28 +16,31 @@ enum class PreviewWeight {
 /// lateral deviation over the whole previewed path, with a driver delay.
 ///
 /// Symbols: T = R/|v| preview time; R = max(distance, time |v|), lengthened for a car off its path
-/// as in PreviewOptions. By default, `distance` is that of PreviewOptions with `delay` added to the
-/// response time, times sqrt(g). The factor g = 5/3 (5/2 with kNear) is the gain on an offset
-/// relative to that of a single preview point. eta in [0, T] is the time ahead. Offsets across the
-/// direction of motion [m]: f(eta) offset of the path; y_0(eta) offset of the car with straight
-/// wheels; A(eta) displacement of the car per unit of tan(delta). W(eta) weight.
+/// as in PreviewOptions. By default, `distance` is sqrt(g) times the default distance of
+/// PreviewOptions, computed with `delay` added to the response time. The factor g = 5/3 (5/2 with
+/// kNear) is the gain on an offset relative to that of a single preview point. eta in [0, T] is the
+/// time ahead. Offsets across the direction of motion [m]: f(eta) offset of the path; y_0(eta)
+/// offset of the car with straight wheels; A(eta) displacement of the car per unit of tan(delta).
+/// W(eta) is the weight of the time eta.
 ///   tan(delta) = int (f - y_0) A W d(eta) / int A^2 W d(eta)
-/// A car without tyre coefficients is kinematic: y_0 = 0, A = (v eta)^2/(2 L). A car with tyre
-/// coefficients is the linear single-track car with its present lateral speed and yaw rate. f(eta)
-/// is evaluated at the path's first point at the distance v eta from the rear axle, as in
-/// PreviewAngle. On a circle of radius r, the law therefore gives atan(L/r), exactly for a
-/// kinematic car. For a car with tyres, understeer is added, to the order of (R/r)^2. With all
-/// weight at the end of the preview, the law is pure pursuit.
+/// A car without tyre coefficients is modeled as kinematic: y_0 = 0, A = (v eta)^2/(2 L). A car
+/// with tyre coefficients is modeled as the linear single-track car with its present lateral speed
+/// and yaw rate. f(eta) is evaluated at the path's first point at the distance v eta from the rear
+/// axle, as in PreviewAngle. On a circle of radius r, the law therefore gives atan(L/r), exactly
+/// for a kinematic car. For a car with tyre coefficients, the angle includes the understeer, with
+/// an error of the order of (R/r)^2. If only the end of the preview had weight, the law would be
+/// pure pursuit.
 ///
-/// The integrals use Gauss quadrature with ten points, exact for the kinematic car. The steering
-/// angle is delayed by `delay` [s], interpolated linearly between control periods. The delay models
-/// a driver's reaction time of about 0.2 s. The loop is only stable if the preview time is several
-/// times as long.
+/// The integrals use Gauss quadrature with ten points, which is exact for the kinematic car. The
+/// steering angle is delayed by `delay` [s], interpolated linearly between control periods. The
+/// delay models a driver's reaction time of about 0.2 s. The loop is only stable if the preview
+/// time is several times as long as the delay.
 ///
-/// Reverse paths are previewed backwards, with the kinematic car.
+/// On reverse paths, the law looks backwards along the path and models the car as kinematic.
 struct PreviewIntegralOptions {
-  std::optional<double> distance;  ///< Shortest R [m], > 0; by default the distance given above.
-  double time = 0.0;               ///< Lower bound on R as a time [s], >= 0.
+  std::optional<double> distance;  ///< Shortest preview distance R [m], > 0; computed from car,
+                                   ///< speed and path by default.
+  double time = 0.0;               ///< Lower bound on the preview distance R as a time [s], >= 0.
   PreviewWeight weight = PreviewWeight::kUniform;
   double delay = 0.0;  ///< Driver delay tau [s], >= 0.
 };

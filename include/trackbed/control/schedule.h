@@ -4,8 +4,9 @@
 
 namespace trackbed {
 
-/// Open loop: steers the plan's schedule, evaluated at the distance that the car will have driven
-/// by the end of the period. A rate-limited actuator then reproduces the schedule for any period.
+/// Open-loop controller: commands the steering angle of the plan's steering schedule at the
+/// distance that the car will have driven by the end of the control period. A rate-limited actuator
+/// then reproduces the schedule for any period.
 struct ScheduleOptions {};
 void Visit(KeyVisitor& keys, ScheduleOptions& options);
 

@@ -6,22 +6,22 @@
 
 namespace trackbed {
 
-/// A quantity given at knots (x, value): linear between the knots, constant before the first and
-/// after the last knot. The x of the knots are strictly increasing. Evaluating a signal without
-/// knots is an InternalError.
+/// A piecewise linear function of x, given by knots (x, value). The function is constant before the
+/// first knot and after the last knot. The x values of the knots are strictly increasing.
+/// Evaluating a signal without knots throws InternalError.
 struct Signal {
   std::vector<Vec2> knots;
 
   [[nodiscard]] bool empty() const { return knots.empty(); }
 
-  /// The value at x, exact at the knots. Cost O(log knots).
+  /// Returns the signal's value at x, which is exact at the knots. Cost: O(log n) for n knots.
   [[nodiscard]] double At(double x) const;
 
-  /// The mean over [from, to], exact to rounding; the value at `from` if to <= from. Cost O(log
-  /// knots + knots between).
+  /// Returns the signal's mean over the interval [from, to], exact to rounding. Returns the value
+  /// at `from` if to <= from. Cost: O(log n + m) for n knots, of which m lie in the interval.
   [[nodiscard]] double Mean(double from, double to) const;
 
-  /// Whether x is strictly increasing and all values are finite.
+  /// Returns whether the x values of the knots are strictly increasing and all values are finite.
   [[nodiscard]] bool IsStrictlyIncreasing() const;
 };
 

@@ -20,15 +20,17 @@ namespace trackbed {
 /// |v|. Backwards, the rear axle leads but does not steer, so e oscillates with the damping ratio
 /// sqrt((k_s + |v|)/(k L))/2, 0.6 at 3 m/s and 0.4 at 1 m/s for the Prius.
 ///
-/// The default gains, with omega the steering rate [rad/s], are 1/s and 1 m/s for the Prius.
+/// For the Prius, the default gain k is 1/s and the default softening speed k_s is 1 m/s.
 ///
-/// The law has no preview: at a step of curvature, it lags by the steering ramp time. The law has
-/// no damping: above 10 m/s with the default k, the yaw response lags and the car oscillates, more
-/// so with a larger k. The law ignores the steering rate limit: the Prius at 3 m/s returns from an
-/// offset of 1.5 m, but is unstable from an offset of 4 m.
+/// The law has no preview: at a curvature step, the steering lags by the time that the wheels need
+/// to turn. The law has no damping: above 10 m/s with the default gain k, the yaw response lags and
+/// the car oscillates; a larger k makes the oscillation worse. The law ignores the steering rate
+/// limit: the Prius at 3 m/s returns from an offset of 1.5 m, but is unstable from an offset of 4
+/// m.
 struct StanleyOptions {
-  std::optional<double> gain;       ///< Gain k [1/s], > 0; none: 6.64 omega.
-  std::optional<double> softening;  ///< Softening speed k_s [m/s], >= 0; none: 2.46 L omega.
+  std::optional<double> gain;       ///< Gain k [1/s], > 0; default: 6.64 omega, with the maximum
+                                    ///< steering rate omega [rad/s].
+  std::optional<double> softening;  ///< Softening speed k_s [m/s], >= 0; default: 2.46 L omega.
 };
 void Visit(KeyVisitor& keys, StanleyOptions& options);
 

@@ -32,31 +32,32 @@ struct ControlInput {
   double speed_gain = SpeedControlOptions{}.gain;
 };
 
-/// A steering controller. Steer returns the commanded bicycle angle [rad] at the end of the coming
-/// period; the vehicle's actuator limits angle and rate. A controller does no input or output,
-/// reads no clock, and draws random numbers only from a fixed seed.
+/// Interface of a steering controller. Steer returns the commanded angle of the bicycle model [rad]
+/// at the end of the coming control period; the vehicle's actuator limits angle and rate. A
+/// controller does no input or output, reads no clock, and draws random numbers only from a fixed
+/// seed.
 class SteeringController {
  public:
   virtual ~SteeringController() = default;
   virtual double Steer(const ControlInput& input) = 0;
 
-  /// The commanded acceleration [m/s^2] over the coming period; only the car limits it. Nullopt if
-  /// SpeedControl sets the speed.
+  /// Returns the commanded acceleration [m/s^2] over the coming control period, which only the
+  /// car's own limits restrict. Returns nullopt if the controller leaves the speed to SpeedControl.
   virtual std::optional<double> Accelerate(const ControlInput& input);
 
-  /// Diagnostics of the last update, for the log: constant column names, and one value per column.
-  /// The list is empty by default.
+  /// Diagnostics of the last update, for the log. Columns returns the column names, which never
+  /// change; Values returns one value per column. Both are empty by default.
   [[nodiscard]] virtual std::vector<std::string> Columns() const;
   [[nodiscard]] virtual std::vector<double> Values() const;
 };
 
-/// The source of a controller's station.
+/// Source of the station on the path that a controller receives.
 enum class StationSource {
-  kProjection,  ///< Nearest point of the path: closed loop.
-  kOdometer,    ///< Distance driven: open loop.
+  kProjection,  ///< Station of the path point nearest to the car (closed loop).
+  kOdometer,    ///< Distance that the car has driven (open loop).
 };
 
-/// A controller in the registry (controllers.h). The functions may be null, except `make`.
+/// A controller in the registry (controllers.h). All function pointers except `make` may be null.
 struct ControllerEntry {
   const char* name;
   const char* summary;  ///< One-line summary for users.
@@ -65,31 +66,34 @@ struct ControllerEntry {
   bool needs_plan = true;
   std::unique_ptr<SteeringController> (*make)(const ControllerOptions& options);
 
-  // Rules of the options. OnOptions adapts functions that take the options struct.
+  // The following members check the options or derive data from them. The template OnOptions adapts
+  // a function that takes the controller's own options struct.
 
-  /// Checks rules that relate several keys of the controller.
+  /// Checks rules that relate several option keys of the controller.
   std::vector<OptionProblem> (*check)(const ControllerOptions& options,
                                       const CouldReadKey& could_read) = nullptr;
-  /// Returns the end of a run without a plan [s]. Null or nullopt: the controller does not set it.
+  /// Returns the time at which a run without a plan ends [s]. If the pointer is null or the
+  /// function returns nullopt, the controller does not end the run.
   std::optional<double> (*duration)(const ControllerOptions& options) = nullptr;
 
-  // Recorded inputs of controllers that replay them.
+  // The following members belong to controllers that replay recorded inputs.
 
-  /// Returns the recording that is replayed.
+  /// Returns the recording that the controller replays.
   const Recording& (*recording)(const ControllerOptions& options) = nullptr;
   /// Whether the controller replays the scenario's recorded drive instead of a file.
   bool (*replays_record)(const ControllerOptions& options) = nullptr;
   void (*set_recording)(ControllerOptions& options, const Recording& recording) = nullptr;
 
-  // Input files of the options.
+  // The following members handle the input files that the options name.
 
-  /// Reads the files that the options name into the options.
+  /// Reads the files that the options name, and stores their contents in the options.
   void (*read_inputs)(ControllerOptions& options, InputReader& reader) = nullptr;
-  /// Returns the files of the options in the form that the run folder stores.
+  /// Returns the input files of the options, as copies that are written to the run folder.
   std::vector<InputFile> (*input_files)(const ControllerOptions& options) = nullptr;
   std::vector<std::string> input_names{};  ///< All names that `input_files` may return.
-  /// Changes the options to name the files of `input_files`. If the scenario's recorded drive is
-  /// replayed, the options then name no file.
+  /// Changes the file names in the options to the names of the files from `input_files`. If the
+  /// controller replays the scenario's recorded drive (`from_record`), clears the file names
+  /// instead.
   void (*resolve)(ControllerOptions& options, bool from_record) = nullptr;
 };
 

@@ -4,21 +4,22 @@
 
 #include "trackbed/control/steering_controller.h"
 
-/// Steering over time: the open-loop maneuvers of handling tests.
+/// Steering profiles over time for the open-loop maneuvers of handling tests.
 ///
-/// Symbols: t time since the start of the run [s]; t0 `at`, when the maneuver begins; tau = t - t0;
-/// A `amplitude`; f frequency [Hz]; delta the commanded bicycle angle [rad], positive to the left,
-/// 0 before t0. A negative amplitude mirrors the maneuver.
+/// Symbols: t time since the start of the run [s]; t0 the option `at`, at which the maneuver
+/// begins; tau = t - t0; A the option `amplitude`; f frequency [Hz]; delta the commanded bicycle
+/// angle [rad], positive to the left, 0 before t0. A negative amplitude mirrors the maneuver.
 namespace trackbed {
 
-/// A constant angle from the start of the run.
+/// Commands a constant steering angle from the start of the run.
 struct ConstantSteeringOptions {
   double steering = 0.0;  ///< Commanded angle [rad].
 };
 void Visit(KeyVisitor& keys, ConstantSteeringOptions& options);
 
-/// A step to A (ISO 7401, step input). With a rate r, delta = A min(1, r tau/abs(A)). Without a
-/// rate, the command jumps after t0, and the car's actuator limits it.
+/// Commands a steering step to the angle A (ISO 7401, step input). With a rate r, delta = A min(1,
+/// r tau/abs(A)). Without a rate, the command jumps after t0, and only the car's actuator limits
+/// the steering rate.
 struct StepSteeringOptions {
   double amplitude = 0.0;      ///< Step A [rad].
   double at = 1.0;             ///< Start time t0 [s].
@@ -26,8 +27,8 @@ struct StepSteeringOptions {
 };
 void Visit(KeyVisitor& keys, StepSteeringOptions& options);
 
-/// Slowly increasing steer (SAE J266, ISO 4138): a ramp toward `end` at a constant rate r, then a
-/// constant angle.
+/// Slowly increasing steer (SAE J266, ISO 4138): the angle rises to `end` at a constant rate r and
+/// then stays constant.
 struct RampSteeringOptions {
   double end = 0.0;    ///< Final angle [rad].
   double rate = 0.01;  ///< Rate r [rad/s], > 0.
@@ -35,7 +36,8 @@ struct RampSteeringOptions {
 };
 void Visit(KeyVisitor& keys, RampSteeringOptions& options);
 
-/// A sine, delta = A sin(2 pi f tau), for a number of cycles, then 0. Half cycles also end at 0.
+/// Sine steering: delta = A sin(2 pi f tau) for a number of cycles, then 0. The number of cycles
+/// may be a multiple of 1/2, since the sine also returns to 0 after half a cycle.
 struct SineSteeringOptions {
   double amplitude = 0.0;  ///< Amplitude A [rad].
   double frequency = 0.4;  ///< Frequency f [Hz], > 0.
@@ -54,10 +56,10 @@ struct SineWithDwellOptions {
 };
 void Visit(KeyVisitor& keys, SineWithDwellOptions& options);
 
-/// The course of the frequency from f0 to f1 over the duration T.
+/// Defines how the frequency changes from f0 to f1 over the duration T.
 enum class Sweep {
   kLinear,       ///< f(tau) = f0 + (f1 - f0) tau/T.
-  kExponential,  ///< f(tau) = f0 (f1/f0)^(tau/T): the same time for each octave.
+  kExponential,  ///< f(tau) = f0 (f1/f0)^(tau/T), which takes equally long for each octave.
 };
 
 /// A swept sine: delta = A sin(phi(tau)) for 0 <= tau < T, then 0. The phase has phi' = 2 pi f(tau)
@@ -68,13 +70,13 @@ struct SweptSineOptions {
   double amplitude = 0.0;        ///< Amplitude A [rad].
   double start_frequency = 0.2;  ///< Initial frequency f0 [Hz], > 0.
   double end_frequency = 2.0;    ///< Final frequency f1 [Hz], > 0.
-  double duration = 20.0;        ///< T [s], > 0.
+  double duration = 20.0;        ///< Duration T [s], > 0.
   Sweep sweep = Sweep::kLinear;
   double at = 1.0;  ///< Start time t0 [s].
 };
 void Visit(KeyVisitor& keys, SweptSineOptions& options);
 
-/// The commanded angle delta(t) [rad].
+/// Returns the commanded angle delta(t) at `time` t [rad].
 double SteeringAt(const ConstantSteeringOptions& options, double time);
 double SteeringAt(const StepSteeringOptions& options, double time);
 double SteeringAt(const RampSteeringOptions& options, double time);
@@ -82,7 +84,7 @@ double SteeringAt(const SineSteeringOptions& options, double time);
 double SteeringAt(const SineWithDwellOptions& options, double time);
 double SteeringAt(const SweptSineOptions& options, double time);
 
-/// The controllers of these steering profiles.
+/// Registry entries of the controllers that steer by these profiles.
 ControllerEntry ConstantSteering();
 ControllerEntry StepSteering();
 ControllerEntry RampSteering();

@@ -4,18 +4,20 @@
 
 namespace trackbed {
 
-/// The lateral forces of the axles in the model of LqrOptions and MpcOptions.
+/// Selects how the vehicle model of LQR and MPC (LqrOptions, MpcOptions) computes the lateral
+/// forces of the axles.
 enum class TyreForces {
-  /// No slip: the model is the kinematic car, even if the car has tyre coefficients.
+  /// The tyres do not slip: the model is the kinematic car, even if the car has tyre coefficients.
   kNone,
-  /// Lateral forces proportional to the slip angle, with the stiffness at the static loads and the
-  /// present speed.
+  /// The lateral forces are proportional to the slip angles, with the cornering stiffness at the
+  /// static loads. The model is linearized at the car's present speed.
   kLinear,
   /// Brush model (Pacejka 2012, ch. 3), linearized at the planned lateral and longitudinal
-  /// acceleration. Stiffness and friction are proportional to the axle's load, which braking and
-  /// driving shift. The braking or driving force reduces stiffness and friction. Turns ahead are
-  /// evaluated at their planned speeds. The model assumes a friction factor of 1 and no drag. The
-  /// brush model equals kLinear for a car with unknown friction or axle loads.
+  /// acceleration. Stiffness and friction force are proportional to the axle's load, which shifts
+  /// during braking and driving. The braking or driving force reduces the lateral stiffness and the
+  /// available lateral friction. Turns ahead of the car are evaluated at their planned speeds. The
+  /// model assumes a friction factor of 1 and no drag. The brush model equals kLinear for a car
+  /// with unknown friction or axle loads.
   kBrush,
 };
 void Visit(KeyVisitor& keys, TyreForces& forces);

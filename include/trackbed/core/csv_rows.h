@@ -26,8 +26,8 @@ struct CsvLimits {
 /// around cells and a byte order mark are skipped. The file is read as a stream.
 ///
 /// Adds a problem and stops reading if the file is not CSV. The limits are 4096 cells per row, 64
-/// KiB per cell and `max_cells` in all rows, so that memory is bounded for a file of any length. A
-/// file without a row is also a problem. Throws the RunErrors of ReadBlocks.
+/// KiB per cell and `max_cells` cells in all rows, so that memory is bounded for a file of any
+/// length. A file without a row is also a problem. Throws the RunErrors of ReadBlocks.
 void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
                  const TakeCsvRow& take);
 

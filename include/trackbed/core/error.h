@@ -25,7 +25,7 @@ struct Problem {
   int line = 0;           ///< Line number from 1; 0 if unknown.
   int column = 0;         ///< Column number from 1; 0 if unknown.
   std::string key{};      ///< Dotted key, such as "mission.waypoints[2]"; may be empty.
-  std::string message{};  ///< What was found and what is allowed.
+  std::string message{};  ///< The value found and the allowed values.
 
   /// Formats the problem as "file:line:column: key: message", on one line, without unknown parts
   /// and control characters (WithoutControls). Truncates a key or message after 4000 bytes.

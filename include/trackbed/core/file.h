@@ -10,8 +10,8 @@
 
 namespace trackbed {
 
-/// The default limit on the size of an input file [bytes]. The log of an hour at 100 rows per
-/// second has about half that size.
+/// The default limit on the size of an input file [bytes]. A log of one hour at 100 rows per second
+/// has about half the size of this limit.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{512} << 20U;
 
 /// Reads a whole file as bytes. RunError naming the file if it is missing, is not a regular file
@@ -28,11 +28,11 @@ void ReadBlocks(const std::filesystem::path& file,
 /// unchanged or complete, even if the process is killed. If any step fails, for example on a full
 /// disk, removes the temporary file and throws RunError. The content is not forced to the disk
 /// (fsync), which would take up to tens of milliseconds per file. After a power failure a file may
-/// therefore be empty; the hashes of manifest.json (analysis/output_folder.h) reveal that.
+/// therefore be empty; the hashes in manifest.json (analysis/output_folder.h) reveal the loss.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
 
-/// Checks, before long work, that WriteFileAtomically can write the file. RunError if the name is
-/// that of a folder, or if its folder is missing or unwritable. Creates no file.
+/// Checks, before long work, that WriteFileAtomically can write the file. RunError if a folder has
+/// the name of the file, or if the file's folder is missing or unwritable. Creates no file.
 void CheckCanWrite(const std::filesystem::path& file);
 
 /// Creates the folder and its parents. RunError if they cannot be created.
@@ -127,15 +127,15 @@ class TemporaryFolder {
 /// of running processes stay. On file systems without locks, all temporaries stay. Never fails.
 void RemoveAbandonedTemporaries(const std::filesystem::path& folder);
 
-/// Prepares for long work that ends with writing `file`. Makes its folder, removes the leftovers of
-/// killed processes in it, and checks that the file can be written. Throws the RunErrors of
-/// MakeFolder and CheckCanWrite.
+/// Prepares for long work that ends with writing `file`. Creates the file's folder, removes
+/// temporary files of killed processes from the folder, and checks that the file can be written.
+/// Throws the RunErrors of MakeFolder and CheckCanWrite.
 void PrepareToWrite(const std::filesystem::path& file);
 
 /// Checks whether an input file in the folder `own` may refer to the file `name`, given relative to
-/// `own`. Returns an empty text if it may: after following links, the file lies in or below `own`
-/// or one of `others`. An absolute name must lie in one of `others`. If the file may not be read,
-/// returns the end of an error message ("lies outside of ...").
+/// `own`. Returns an empty text if the file may be read: after following links, it lies in or below
+/// `own` or one of `others`. A file with an absolute name must lie in one of `others`. If the file
+/// may not be read, returns the end of an error message ("lies outside of ...").
 std::string ReadAccessError(const std::filesystem::path& name, const std::filesystem::path& own,
                             const std::vector<std::filesystem::path>& others);
 

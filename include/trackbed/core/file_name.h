@@ -12,9 +12,10 @@ namespace trackbed {
 inline constexpr std::size_t kMaxFileNameLength = 100;
 
 /// Converts `name` to a plain file name. Letters, digits, '.', '_' and '-' stay, ':' becomes '-',
-/// and every other byte becomes '_'. A leading dot becomes '_', so that no name is hidden, "." or
-/// "..". Of a longer name, the last kMaxFileNameLength bytes stay, because they include the
-/// extension. An empty name becomes "unnamed". Several names may give the same file name.
+/// and every other byte becomes '_'. A leading dot becomes '_', so that the result is never a
+/// hidden file, "." or "..". A longer name is shortened to its last kMaxFileNameLength bytes, which
+/// include the extension. An empty name becomes "unnamed". Several names may give the same file
+/// name.
 std::string FileNameOf(std::string_view name);
 
 /// Whether `name` is a plain file name: 1 to 255 letters, digits, '.', '_' and '-', not beginning

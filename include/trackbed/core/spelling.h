@@ -6,9 +6,10 @@
 
 namespace trackbed {
 
-/// The word of `known` with the smallest edit distance to `word`; the first of several equal ones.
-/// Empty if the distance is more than a third of the word's length (two edits are always allowed).
-/// Empty if the edits would change every letter. Cost O(|word| x total length of known).
+/// Returns the word of `known` with the smallest edit distance to `word`; of several equally near
+/// words, the first. The result is empty if the distance is more than a third of the word's length
+/// (two edits are always allowed), or if the edits would change every letter. Cost O(|word| x total
+/// length of known).
 std::string NearestSpelling(std::string_view word, const std::vector<std::string>& known);
 
 /// Formats a message about an unknown name: "'word'; did you mean 'near'?" or "'word'; allowed: a,

@@ -32,7 +32,7 @@ class Table {
 
   /// The index of a column; -1 if the table has no such column.
   [[nodiscard]] int Find(std::string_view column) const;
-  /// A whole column by name. InputError naming the column if it is missing.
+  /// Returns a whole column by its name. InputError naming the column if it is missing.
   [[nodiscard]] std::vector<double> Column(std::string_view column) const;
 
   [[nodiscard]] std::string ToCsv() const;
@@ -81,8 +81,8 @@ CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::st
 /// Reads columns of a CSV file of any length as a stream. Calls `take` for each row with the
 /// numbers of `columns`, in that order, and the line on which the row begins. `columns` must not
 /// repeat a name. Empty cells are NaN. Values that are not finite are passed on, and there is no
-/// limit on the number of cells. Otherwise throws the InputErrors of ReadCsvExcerpt, after the last
-/// row. Throws the RunErrors of ReadFile.
+/// limit on the number of cells. For other problems, throws the InputErrors of ReadCsvExcerpt,
+/// after the last row. Throws the RunErrors of ReadFile.
 void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::string>& columns,
                     char delimiter,
                     const std::function<void(const std::vector<double>& numbers, int line)>& take);

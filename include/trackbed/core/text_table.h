@@ -11,13 +11,14 @@ namespace trackbed {
 /// The shortest text that reads back to the same number. A negative zero gives "0".
 std::string ShortestText(double number);
 
-/// Two numbers as text with four digits, or with as many digits as are needed to distinguish them.
+/// Formats two numbers with four digits, or with as many digits as are needed to distinguish them.
 std::pair<std::string, std::string> FormatDistinct(double first, double second);
 
 /// The finite number that a cell contains; nullopt if the cell contains anything else.
 std::optional<double> CellNumber(const std::string& cell);
 
-/// A line of a CSV file. Cells with a comma, a quote or a line end are quoted by RFC 4180.
+/// Formats cells as a line of a CSV file. Cells with a comma, a quote or a line end are quoted by
+/// RFC 4180.
 std::string CsvLine(const std::vector<std::string>& cells);
 
 /// A table of texts with named columns, for results that are not all numbers. An empty cell

@@ -13,20 +13,22 @@
 
 namespace trackbed {
 
-/// Compiled cars that scenarios share, because compiling a car takes as long as simulating it for
-/// some seconds. Two scenarios share a car if they have the same physics model, including payload,
-/// ground and obstacles. The cache is thread-safe.
+/// Cache of compiled car models that scenarios share. The cache saves time, because compiling a car
+/// takes as long as simulating the car for some seconds. Two scenarios share a car if they have the
+/// same physics model, including payload, ground and obstacles. The cache is thread-safe.
 class CarCache {
  public:
-  /// Keeps the `capacity` most recently used models, and all models that are still referenced.
+  /// The cache keeps the `capacity` most recently used models. A model that the cache has dropped
+  /// stays alive while a caller refers to it.
   explicit CarCache(std::size_t capacity = 64);
 
-  /// Returns the car of LoadCar. Reads a car's file only the first time. Throws the InputErrors of
-  /// LoadCar; the next call then tries again.
+  /// Returns the car model that LoadCar returns. Reads a car's file only if the car is not in the
+  /// cache. If loading fails, throws the InputError of LoadCar; the next call then tries again.
   std::shared_ptr<const CarModel> Load(const Scenario& scenario);
 
-  /// Number of models compiled so far, including models that are no longer kept. A car with a
-  /// payload or in a world counts as a separate model from the bare car.
+  /// Returns the number of models compiled so far, including models that the cache has dropped. A
+  /// car with a payload, or in a world with ground or obstacles, counts as a separate model from
+  /// the bare car.
   [[nodiscard]] std::size_t compiled() const;
 
  private:
@@ -36,7 +38,8 @@ class CarCache {
     std::size_t last_use = 0;
   };
 
-  /// Returns the car with that key, which the first thread that requests it compiles.
+  /// Returns the car with the cache key `key`. If the cache has no such car, the first thread that
+  /// requests the car compiles it.
   Car Find(const std::string& key, const std::function<CarModel()>& compile);
   void ForgetOldest();
 

@@ -9,8 +9,8 @@
 
 namespace trackbed {
 
-/// Compiles the car of a scenario for the scenario's timestep. InputError if the model cannot be
-/// used.
+/// Compiles the car of a scenario for the scenario's timestep. Throws InputError if the car model
+/// cannot be used.
 CarModel LoadCar(const Scenario& scenario);
 
 /// Plans the scenario's mission around the obstacles that are known at its start. Without a `plan`
@@ -20,22 +20,24 @@ CarModel LoadCar(const Scenario& scenario);
 /// world (sim/car_grip.h).
 FeasiblePlan PlanMission(const Scenario& scenario, const CarModel& car);
 
-/// As PlanMission above, from parameters only: speeds at the limit are those of FrictionGgv.
+/// Plans the mission from vehicle parameters, without a car model. FrictionGgv gives the g-g-v
+/// diagram for speeds at the limit.
 FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle);
 
-/// The LoopConfig of a scenario, for SimulateClosedLoop with a user-defined plant or controller.
-/// `follow_schedule` and the station source are those of the scenario's controller.
+/// Makes the LoopConfig of a scenario, for calls of SimulateClosedLoop with a user-defined plant or
+/// controller. The scenario's controller determines `follow_schedule` and the station source.
 LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car);
 
 /// Runs SimulateClosedLoop with the scenario's controller and the named plant; for kRecordedPlant,
-/// returns the record itself. A car that replays a record starts with the steady-state steering
-/// angle of the recorded command, unless the mission sets the angle. An obstacle that becomes known
-/// and blocks the path triggers a replan. The car follows the current plan until the delay of the
-/// local planner has passed; the new plan starts at the car's state at that time.
+/// returns the scenario's recorded drive as a log. A car that replays a record starts with the
+/// steady-state steering angle of the recorded command, unless the mission sets the angle. An
+/// obstacle that becomes known and blocks the path triggers replanning. The car follows the current
+/// plan until the delay of the local planner has passed. The new plan starts at the state that the
+/// car then has.
 ///
-/// Guarantees: the same scenario, plan and build give the same log bit for bit. Errors:
-/// PreconditionError for a plan that is not ok, and for kRecordedPlant without a record; InputError
-/// for an unknown plant, or for a plant that does not support the car.
+/// Guarantees: the same scenario, plan and build give the same log, bit for bit. Errors: throws
+/// PreconditionError for a plan that is not ok, and for kRecordedPlant without a record. Throws
+/// InputError for an unknown plant, and for a plant that does not support the car.
 RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const FeasiblePlan& plan,
                   const std::string& plant_name, const DriveHooks& hooks = {});
 

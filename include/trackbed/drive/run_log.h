@@ -13,45 +13,46 @@ namespace trackbed {
 
 /// How a run ended.
 enum class DriveStatus {
-  /// At rest at the goal, within drive.goal_tolerance. Without a path: the mission's duration is
-  /// over.
+  /// The car is at rest at the goal, within drive.goal_tolerance. Without a path, the mission's
+  /// duration is over.
   kArrived,
-  kStopped,    ///< At rest elsewhere than at the goal.
-  kBlocked,    ///< At rest before an obstacle, with no path around it.
-  kPartial,    ///< At rest at the end of a partial plan (Plan::partial).
-  kTimeLimit,  ///< The limit drive.time_limit has been reached.
-  kDiverged,   ///< The simulation diverged (MuJoCo warning); the log ends before that.
+  kStopped,    ///< The car is at rest, but not at the goal.
+  kBlocked,    ///< The car is at rest before an obstacle and found no path around the obstacle.
+  kPartial,    ///< The car is at rest at the end of a partial plan (Plan::partial).
+  kTimeLimit,  ///< The simulated time reached drive.time_limit.
+  kDiverged,   ///< The simulation diverged (MuJoCo warning); the log ends before the divergence.
   kSunk,       ///< A wheel is below the road by more than its radius.
   kAirborne,   ///< All wheels are above the road by more than their radius, for a second.
-  /// The car should drive, but moved less than a centimeter in ten seconds.
+  /// The car was commanded to drive, but moved less than a centimeter in ten seconds.
   kStuck,
   kCollided,     ///< The car touched an obstacle; the log continues for one second.
   kRolledOver,   ///< The car leans by more than 60 degrees.
   kInterrupted,  ///< The caller stopped the run.
 };
 
-/// The spelling of a status in metrics.json: "arrived", "stopped", ….
+/// Returns the name of a status in metrics.json: "arrived", "stopped", ….
 const char* ToString(DriveStatus status);
 
-/// One control period: the state and the command at its start. Clearance and `state.obstacle_force`
-/// are the extremes over all physics steps of the preceding period.
+/// One row of the log: the state and the command at the start of a control period. Clearance and
+/// `state.obstacle_force` are the extremes over all physics steps of the preceding period.
 struct LogRow {
   VehicleState state;
   Command command;
-  /// Cross-track and heading error relative to the path, without its straight extensions unless the
-  /// car stops slightly beyond the end. Nullopt without a path.
+  /// Cross-track and heading error relative to the path. The straight extension of the path counts
+  /// only for a car that stops slightly beyond the end. Nullopt without a path.
   std::optional<Projection> tracking;
-  /// Smallest clearance of the footprint [m], 0 on contact; nullopt without obstacles.
+  /// Smallest distance between the car's footprint and the obstacles [m], 0 on contact; nullopt
+  /// without obstacles.
   std::optional<double> clearance;
-  /// Highest planned speed between the car and a point behind it, by the goal tolerance and one
-  /// control period [m/s]. Nullopt without a path, at the end of the run, and while the controller
-  /// or control.speed sets the speed.
+  /// Highest planned speed between the car and a point behind the car [m/s]. The point is behind
+  /// the car by the goal tolerance plus the distance driven in a control period. Nullopt without a
+  /// path, at the end of the run, and while the controller or control.speed sets the speed.
   std::optional<double> planned_speed{};
-  /// Pose that the controller received; none without measurement noise.
+  /// Noisy pose that the controller received; none without measurement noise.
   std::optional<Pose2> measured;
-  /// Diagnostics of the last update; columns as RunLog::controller_columns.
+  /// Controller diagnostics of the last update, in the columns of RunLog::controller_columns.
   std::vector<double> controller;
-  bool valid = true;  ///< Whether the row is valid; false in a gap of a recorded drive.
+  bool valid = true;  ///< False if the row lies in a gap of a recorded drive.
 };
 
 /// A plan adopted during the run.
@@ -61,17 +62,17 @@ struct PlanChange {
   Plan plan;
 };
 
-/// The log of one plant. The last row is the final state, with the command that led to it.
+/// The log of one run of one plant. The last row contains the final state and the last command.
 struct RunLog {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
-  std::string cause;  ///< Cause if the physics ended the run; else empty.
-  /// Time of the first contact with an obstacle [s]; none: never.
+  std::string cause;  ///< Cause of the end if the physics ended the run; otherwise empty.
+  /// Time of the first contact with an obstacle [s]; none if the car touched no obstacle.
   std::optional<double> contact_time;
   std::vector<std::string> controller_columns;  ///< Names from SteeringController::Columns.
   std::vector<LogRow> rows;  ///< Rows of the log; stations continue across plan changes.
   std::vector<PlanChange> changes;
-  /// The time `t_s` and the car's configuration (CarModel::configuration_columns).
+  /// Table of the car's configurations over the time `t_s` (CarModel::configuration_columns).
   Table configurations;
 };
 

@@ -9,12 +9,12 @@
 
 namespace trackbed {
 
-/// Finds the nearest of many rectangles: an R-tree (Guttman 1984) of the rectangles' axis-aligned
-/// bounds. The index is immutable.
+/// Finds the nearest of many rectangles, by an R-tree (Guttman 1984) of the rectangles'
+/// axis-aligned bounds. The index is immutable.
 ///
-/// All distances are those of oriented_box.h between the rectangles, exact to rounding; the tree
-/// only selects candidates. Cost: building O(n log n), 2 ms for 5000 rectangles. A query examines
-/// only nearby rectangles and takes a few microseconds in a tree of 5000.
+/// All distances are computed by Distance() of oriented_box.h, exact to rounding; the tree only
+/// selects candidates. Cost: O(n log n) to build the tree, 2 ms for 5000 rectangles. A query
+/// examines only nearby rectangles and takes a few microseconds in a tree of 5000 rectangles.
 class BoxIndex {
  public:
   BoxIndex() : BoxIndex(std::vector<OrientedBox>{}) {}
@@ -26,8 +26,8 @@ class BoxIndex {
 
   [[nodiscard]] const std::vector<OrientedBox>& boxes() const { return boxes_; }
 
-  /// The smallest Distance() from a rectangle to any of the boxes [m], at most `at_most`. NaN if
-  /// `box` is not finite.
+  /// Returns the smallest distance from `box` to any rectangle of the index [m], but at most
+  /// `at_most`. NaN if `box` is not finite.
   [[nodiscard]] double DistanceTo(const OrientedBox& box,
                                   double at_most = std::numeric_limits<double>::infinity()) const;
 
@@ -37,7 +37,7 @@ class BoxIndex {
  private:
   struct Tree;
   std::vector<OrientedBox> boxes_;
-  std::unique_ptr<Tree> tree_;  // Null for few boxes: testing all of them is faster.
+  std::unique_ptr<Tree> tree_;  // Null for few boxes, because testing all boxes is then faster.
 };
 
 }  // namespace trackbed

@@ -8,9 +8,9 @@ namespace trackbed {
 
 /// A rectangle in the plane, rotated by the yaw of its pose.
 struct OrientedBox {
-  Pose2 center;         ///< Middle of the rectangle; its x axis runs along the length.
-  double length = 0.0;  ///< Extent along the x axis of its frame [m], > 0.
-  double width = 0.0;   ///< Extent along the y axis of its frame [m], > 0.
+  Pose2 center;         ///< Pose of the middle; the x axis runs along the length.
+  double length = 0.0;  ///< Extent along the x axis of the rectangle [m], > 0.
+  double width = 0.0;   ///< Extent along the y axis of the rectangle [m], > 0.
 
   /// The corners in counter-clockwise order, starting with the front left one.
   [[nodiscard]] std::array<Vec2, 4> Corners() const;
@@ -28,8 +28,9 @@ struct MovingBox {
 /// Whether a point lies within a rectangle or on its border.
 bool Contains(const OrientedBox& box, const Vec2& point);
 
-/// Shortest distance between two rectangles [m]. For rectangles that overlap, minus the shortest
-/// translation that separates them. The result is exact to rounding; NaN if a coordinate is NaN.
+/// Shortest distance between two rectangles [m]. For overlapping rectangles, the result is minus
+/// the length of the shortest translation that separates them. The result is exact to rounding; NaN
+/// if a coordinate is NaN.
 double Separation(const OrientedBox& a, const OrientedBox& b);
 
 /// Shortest distance between two rectangles [m]; 0 if they touch or overlap.

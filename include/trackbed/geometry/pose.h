@@ -35,16 +35,16 @@ inline double Cross(const Vec2& a, const Vec2& b) {
 /// The yaws are added without wrapping, so that a heading can be followed over several turns.
 Pose2 Compose(const Pose2& X_WA, const Pose2& X_AB);
 
-/// World coordinates p_WQ of a point whose coordinates in the frame A are p_AQ.
+/// Returns the world coordinates p_WQ of a point whose coordinates in the frame A are p_AQ.
 Vec2 ToWorld(const Pose2& X_WA, const Vec2& p_AQ);
 
-/// Coordinates p_AQ in the frame A of a point whose world coordinates are p_WQ.
+/// Returns the coordinates p_AQ in the frame A of a point whose world coordinates are p_WQ.
 Vec2 ToLocal(const Pose2& X_WA, const Vec2& p_WQ);
 
-/// The pose of a frame that has moved by `distance` [m, negative backwards] along its x axis while
-/// turning by `turn` [rad] at a constant rate. The result is exact for lines and arcs. `slip` [rad]
-/// is the constant angle from the x axis to the direction of motion (the sideslip angle at the
-/// moving point).
+/// Returns the pose of a frame that has moved by `distance` [m, negative backwards] along its x
+/// axis while turning by `turn` [rad] at a constant rate. The result is exact for lines and arcs.
+/// `slip` [rad] is the constant angle from the x axis to the direction of motion (the sideslip
+/// angle at the moving point).
 Pose2 MoveOnArc(const Pose2& start, double distance, double turn, double slip = 0.0);
 
 }  // namespace trackbed

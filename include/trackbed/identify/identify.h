@@ -35,11 +35,11 @@ enum class ParameterStatus {
   kAtUpperBound,  ///< The estimate is the upper bound; it has no standard error.
   /// The records do not determine the parameter. The parameter is held at its start value.
   kNotIdentified,
-  /// The search was interrupted. The value is the best so far.
+  /// The search was interrupted. The value is the best one found before the interruption.
   kUnfinished,
 };
 
-/// The spelling of a status in identify.json: "identified", "at_lower_bound", ….
+/// Returns the name of a status as written in identify.json: "identified", "at_lower_bound", ….
 const char* ToString(ParameterStatus status);
 
 struct ParameterEstimate {
@@ -80,10 +80,11 @@ struct IdentificationResult {
 };
 
 struct IdentificationHooks {
-  std::function<void(double fraction)> progress{};  ///< Upper estimate of the finished fraction.
-  /// Whether to end the search early. The result is then the best so far, without replays of the
-  /// records. Before the first evaluation, an interruption throws RunError. Called by several
-  /// threads.
+  /// Called with an upper estimate of the finished fraction.
+  std::function<void(double fraction)> progress{};
+  /// Returns whether to end the search early; called by several threads. After an interruption, the
+  /// result is the best one found so far, without replays of the records. If the search is
+  /// interrupted before its first evaluation, Identify throws RunError.
   std::function<bool()> interrupted{};
   int threads = 1;
 };
@@ -92,25 +93,25 @@ struct IdentificationHooks {
 ///
 /// Guarantees: the same study gives the same estimates, bit for bit, with any number of threads.
 /// Estimates lie within their bounds, and the cost is never above that of the start values. The
-/// search does not prove that there is no better minimum. Errors: InputError, placed in the study's
-/// file, for parameters that the model does not have and for start values with which it cannot be
-/// compiled. InputError if no window of the records can be used. Cost: 2 p + 2 evaluations per step
-/// of the search, each the simulation of all windows and one compilation of the model; about ten
-/// steps per start.
+/// search does not prove that there is no better minimum. Errors: InputError with a place in the
+/// study's file, for parameters that the model does not have and for start values with which the
+/// model cannot be compiled. InputError if no window of the records can be used. Cost: about ten
+/// steps of the search per start, each with 2 p + 2 evaluations for p parameters. An evaluation
+/// simulates all windows and compiles the model once.
 IdentificationResult Identify(const Identification& study, const IdentificationHooks& hooks = {});
 
 /// Checks that the model has the parameters of a study and compiles with their start values. Throws
 /// the InputErrors of Identify.
 void CheckIdentification(const Identification& study);
 
-/// The content of identify.json.
+/// Returns the content of identify.json.
 nlohmann::ordered_json ToJson(const IdentificationResult& result);
 
-/// The names of the files that WriteIdentification writes to its folder, which depend only on the
-/// study.
+/// Returns the names of the files that WriteIdentification writes to its folder. The names depend
+/// only on the study.
 std::vector<std::string> IdentificationFiles(const Identification& study);
 
-/// The run folder of a record in the output folder. Throws the RunErrors of FolderBelow.
+/// Returns the run folder of a record in the output folder. Throws the RunErrors of FolderBelow.
 std::filesystem::path RecordFolder(const std::filesystem::path& folder, const std::string& record);
 
 /// Writes identify.json, the fitted model `<vehicle>.xml` with its assets, and timing.json. For

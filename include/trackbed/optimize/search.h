@@ -14,13 +14,14 @@
 ///   minimize f(x)  subject to  c_j(x) <= 0  and  lower <= x <= upper
 namespace trackbed {
 
-/// A search problem. The functions `objective` and `constraints` are pure functions of x. A value
-/// that is not finite is infeasible. An exception of either function ends the search and is
-/// rethrown.
+/// A search problem. The functions `objective` and `constraints` are pure functions of x. A point
+/// at which a value is not finite is infeasible. An exception of either function ends the search
+/// and is rethrown.
 struct SearchProblem {
   std::vector<double> lower;  ///< Lower bounds, finite, one per variable.
   std::vector<double> upper;  ///< Upper bounds, finite, >= lower.
-  std::vector<double> start;  ///< Initial point, clamped to the bounds; empty: the middle.
+  /// Initial point, clamped to the bounds; empty: middle of the bounds.
+  std::vector<double> start;
   std::function<double(std::span<const double> x)> objective;
   std::size_t constraint_count = 0;
   /// Computes `values`, one per constraint, scaled to suit the tolerance `SearchOptions::feasible`.
@@ -45,13 +46,13 @@ const SearchEntry& SearchFor(SearchMethod method);
 
 struct SearchOptions {
   SearchMethod method = SearchMethod::kIsres;
-  /// Population of isres, esch and crs2, > the number of variables + 1.
+  /// Population of isres, esch and crs2; must exceed the number of variables + 1.
   int population = 100;
   /// Maximum number of evaluations of the objective; 0: the method's default (SearchEntry). A point
   /// requested twice in a row is evaluated once.
   int evaluations = 0;
-  /// Tolerance of x, as a fraction of the bounds; 0: none. The methods isres and esch ignore the
-  /// tolerance and use all their evaluations.
+  /// Tolerance of x, as a fraction of the distance between the bounds; 0: none. The methods isres
+  /// and esch ignore the tolerance and use all their evaluations.
   double tolerance = 1e-9;
   double feasible = 1e-9;  ///< Largest value of a constraint at a feasible point.
 };
@@ -60,15 +61,15 @@ void Visit(KeyVisitor& keys, SearchOptions& options);
 enum class SearchStatus {
   /// A point within bounds and constraints, with a finite objective, was found.
   kFound,
-  /// No feasible point was found; x violates the constraints least.
+  /// No feasible point was found; x is the point that violates the constraints least.
   kInfeasible,
   kNotFinite,  ///< No evaluation gave a finite objective and finite constraints.
 };
 
-/// The spelling of a status in plan.json: "found", "infeasible", ….
+/// Returns the name of a status as written in plan.json: "found", "infeasible", ….
 const char* ToString(SearchStatus status);
 
-/// The best point so far, after a number of evaluations.
+/// The best point found after a number of evaluations.
 struct SearchProgress {
   int evaluations = 0;
   double value = 0.0;      ///< Objective of the best point; may rise if the point is infeasible.
@@ -89,14 +90,14 @@ struct SearchResult {
 };
 
 /// Runs a search. Guarantees: the result is the best evaluated point, by feasibility first and
-/// objective second, and lies within the bounds. NLopt's own verdict is ignored. The same problem,
-/// options and seed give the same result bit for bit, in any thread. For esch, crs2 and
+/// objective second, and lies within the bounds. NLopt's own return status is ignored. The same
+/// problem, options and seed give the same result bit for bit, in any thread. For esch, crs2 and
 /// nelder_mead, which do not support constraints, every infeasible point ranks below every feasible
-/// one. For direct, infeasible points have no value, so that it may miss a feasible set narrower
-/// than its cells. The gradients of slsqp are central differences, which count as evaluations. The
-/// search does not prove that there is no feasible point, nor that the minimum is global. Errors:
-/// InternalError for invalid bounds or options. Cost: that of NLopt (isres with its defaults about
-/// 24 ms) and of the evaluations.
+/// one. For direct, infeasible points have no value, so direct may miss a feasible set that is
+/// narrower than its cells. The gradients of slsqp are central differences, which count as
+/// evaluations. The search does not prove that there is no feasible point, nor that the minimum is
+/// global. Errors: InternalError for invalid bounds or options. Cost: that of NLopt (isres with its
+/// defaults about 24 ms) and of the evaluations.
 SearchResult Search(const SearchProblem& problem, const SearchOptions& options, std::uint64_t seed);
 
 /// The version of the optimizer, such as "NLopt 2.7.1".

@@ -44,7 +44,7 @@ struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   double above = -std::numeric_limits<double>::infinity();
-  /// Whether it is a direction [rad], read modulo whole turns, into (-pi, pi].
+  /// Whether the number is a direction [rad], which readers wrap to (-pi, pi].
   bool is_direction = false;
 };
 
@@ -56,7 +56,8 @@ inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< Map position
 inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  ///< Speed [m/s].
 inline constexpr Range kSteering{.min = -1.5, .max = 1.5};     ///< Steering angle [rad].
 
-/// A list of pairs of numbers: names of a single pair and of several, and the allowed values.
+/// Describes a list of pairs of numbers: the names of one pair and of several pairs, and the
+/// allowed values.
 struct PairShape {
   const char* one;
   const char* many;
@@ -66,11 +67,12 @@ struct PairShape {
 
 inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
 
-/// The range with bounds on both sides. The key's unit determines a missing bound, beyond any
-/// realistic value: 1e5 m, 1e6 s or 1e3 m/s, for example, and 1e12 for other units.
+/// Returns the range with its missing bounds filled in. A missing bound depends on the key's unit
+/// and lies beyond any realistic value: 1e5 m, 1e6 s or 1e3 m/s, for example, and 1e12 for other
+/// units.
 Range WithinReason(const Key& key, Range range);
 
-/// The allowed values as text: "above 0 and at most 10"; empty if all values are allowed.
+/// Formats the allowed values as text: "above 0 and at most 10"; empty if all values are allowed.
 std::string AllowedBy(Range range);
 
 using Names = std::vector<std::string>;
@@ -132,7 +134,7 @@ class KeyVisitor {
   void Method(const Key& key, std::optional<Options>& value, const std::vector<Entry>& table,
               Need need, const Inside& rest = {});
 
-  /// Lists a key that is described only by its text; does nothing in other modes.
+  /// Lists a key that is described only by its text; does nothing in modes other than kList.
   virtual void Mention(const Key&, const char* /*type*/) {}
 
   /// In mode kRead, whether `key` is a section that has a key of `inner` but no key `method`.
@@ -156,8 +158,8 @@ class KeyVisitor {
     Inside rest;
   };
 
-  /// Visits the keys of a section if the section exists, and returns whether it exists. The writer
-  /// decides by `present`, the reader by its file.
+  /// Visits the keys of a section if the section exists, and returns whether it exists. For the
+  /// writer, the section exists if `present` is true; for the reader, if the file has the section.
   virtual bool VisitSection(const Key& key, Need need, bool present, const Inside& inside) = 0;
   /// Visits each element of a list. The reader first resizes the list. The lister visits the
   /// element at index `size`, which represents a new element.
@@ -167,16 +169,18 @@ class KeyVisitor {
   virtual void VisitMethod(const Key& key, Need need, const Methods& methods) = 0;
 };
 
-/// The number at `key` among the keys that `visit` declares; nullopt if there is no such key.
+/// Returns the number at `key` among the keys that `visit` declares; nullopt if there is no such
+/// key.
 std::optional<double> FindNumber(const std::string& key, const KeyVisitor::Inside& visit);
 
 /// PreconditionError unless every number among the keys is finite and within its key's range; the
-/// message names `owner`, the called function, and the key. Use it for options that a program set;
-/// options read from files have already been checked.
+/// message names `owner`, the called function, and the key. Use RequireInRange for options that a
+/// program set; options read from files have already been checked.
 void RequireInRange(const std::string& owner, const KeyVisitor::Inside& visit);
 
-/// For variants of options: whether two options belong to the same method, and their keys. Types
-/// that hold the options of registered methods have functions of the same names (method_options.h).
+/// For variants of options, AreOfOneMethod tells whether two options belong to the same method, and
+/// Visit visits the keys of the options. The class MethodOptions has functions of the same names
+/// (method_options.h).
 template <typename... Options>
 bool AreOfOneMethod(const std::variant<Options...>& a, const std::variant<Options...>& b) {
   return a.index() == b.index();

@@ -11,14 +11,14 @@
 namespace trackbed {
 
 /// The options of a registered method, such as a planner: a value of any copyable struct that
-/// declares its keys (key_visitor.h). The type of the struct identifies the method. `Kind`
+/// declares its keys (key_visitor.h). The method is identified by the type of the struct. `Kind`
 /// separates the options of planners from those of controllers.
 template <typename Kind>
 class MethodOptions {
  public:
   template <typename Options>
   requires(!std::is_same_v<std::decay_t<Options>, MethodOptions>)
-      MethodOptions(Options options)  // NOLINT(google-explicit-constructor): stands for its options
+      MethodOptions(Options options)  // NOLINT(google-explicit-constructor): converts options
       : value_(std::move(options)), visit_([](KeyVisitor& keys, std::any& value) {
           Visit(keys, *std::any_cast<Options>(&value));
         }) {}

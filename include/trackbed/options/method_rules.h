@@ -12,14 +12,14 @@ namespace trackbed {
 /// A problem of the options, reported at the key that the user should change.
 struct OptionProblem {
   std::string key;
-  std::string message;  ///< What was found and what is allowed.
+  std::string message;  ///< The value found and the allowed values.
 };
 
 /// Whether the value of a key was read. An unreadable key has already been reported, so its checks
 /// are skipped.
 using CouldReadKey = std::function<bool(const std::string& key)>;
 
-/// A file that the options name, in the form that a run folder stores.
+/// A file named in the options, with the content that a run folder stores.
 struct InputFile {
   std::string name;     ///< Name in the run folder: "path.csv".
   std::string content;  ///< Content of the file in the run folder.
@@ -38,14 +38,15 @@ class InputReader {
   /// Whether the scenario has a recorded drive.
   [[nodiscard]] virtual bool has_record() const = 0;
   virtual void AddError(const std::string& key, std::string message) = 0;
-  /// Calls `read` with the location of the file `name`, which is the value of `key`. If the
-  /// file may not or cannot be read, reports an error of the key. Keeps the place of a Problem in
-  /// the file, and reports a Problem of another key under that key.
+  /// Calls `read` with the location of the file `name`, which is the value of `key`. If the file
+  /// may not or cannot be read, reports an error of the key. A Problem that `read` reports for a
+  /// file keeps its place in the file; a Problem that `read` reports for another key is reported
+  /// under that key.
   virtual void ReadFile(const std::string& key, const std::string& name, const Read& read) = 0;
 };
 
-/// Adapts a function that takes an options struct to a function that takes the options of any
-/// method and passes on further arguments, which are references.
+/// Converts a function that takes an options struct to a function that takes the options of any
+/// method. Further arguments, which are references, are passed on.
 template <typename Options, auto Function>
 inline constexpr auto OnOptions = [](auto& options, auto&... arguments) {
   return Function(options.template Get<Options>(), arguments...);

@@ -37,7 +37,8 @@ class Registry {
     entries_.push_back(std::move(entry));
   }
 
-  /// The entry with the given name. InputError with the nearest spelling if there is no such entry.
+  /// Returns the entry with the given name. InputError with the nearest spelling if there is no
+  /// such entry.
   [[nodiscard]] const Entry& Find(const std::string& name) const {
     std::vector<std::string> names;
     for (const Entry& entry : entries_) {
@@ -49,7 +50,8 @@ class Registry {
     throw InputError(Problem{.message = "unknown " + (kind_ + (" " + UnknownName(name, names)))});
   }
 
-  /// The entry that has these options. InternalError for unregistered options.
+  /// Returns the entry of the method to which the options belong. InternalError for unregistered
+  /// options.
   template <typename Options>
   [[nodiscard]] const Entry& For(const Options& options) const {
     const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {

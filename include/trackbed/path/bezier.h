@@ -29,13 +29,13 @@ class BezierCurve {
   /// The sharpness dkappa/ds at u [1/m^2].
   [[nodiscard]] double Sharpness(double u) const;
   /// The arc length between two parameters [m]. The relative error is 1e-10 for curves that a car
-  /// drives.
+  /// can drive.
   [[nodiscard]] double Length(double from = 0.0, double to = 1.0) const;
 
-  /// Points at most `spacing` [m] apart along the curve, including both ends. Headings are
-  /// continuous, starting at `start_yaw`, which must be that of the first tangent up to full turns.
-  /// InternalError if a point has no direction; a cusp between two points is not detected.
-  /// PreconditionError for more than 10^6 points.
+  /// Returns points at most `spacing` [m] apart along the curve, including both ends. Headings are
+  /// continuous, starting at `start_yaw`, which must equal the heading of the first tangent up to
+  /// full turns. InternalError if a point has no direction; a cusp between two points is not
+  /// detected. PreconditionError for more than 10^6 points.
   [[nodiscard]] std::vector<CurvePoint> Points(double spacing, double start_yaw) const;
 
  private:

@@ -19,7 +19,7 @@ struct PathPoints {
   std::vector<int> lines{};       ///< Line numbers in the file, from 1, for messages.
 };
 
-/// How the points become a path.
+/// How a path is fitted to the points.
 enum class PathFit {
   kPolyline,  ///< Straight lines between the points, with corners.
   kSpline,    ///< The smoothest spline that stays within max_deviation of every point.
@@ -42,27 +42,29 @@ struct HeadingJump {
   Stations rounded{0.0, 0.0};  ///< Stations of the arc that replaces the corner [m].
 };
 
-/// A path, and how it was fitted to the points.
+/// A path that was fitted to points, with the result of the fit.
 struct FittedPath {
   PathPoints given;
   PathFitOptions options;
   Path path;
-  std::vector<double> stations;     ///< Station of each point [m].
-  double deviation = 0.0;           ///< Largest distance of a point from its station [m].
-  std::size_t deviation_point = 0;  ///< Index of that point.
+  std::vector<double> stations;  ///< Station of each point [m].
+  /// Largest distance of a point from the path's point at its station [m].
+  double deviation = 0.0;
+  std::size_t deviation_point = 0;  ///< Index of the point with the largest deviation.
   double bulge = 0.0;          ///< Largest distance of a spline from the lines between points [m].
-  double bulge_station = 0.0;  ///< Start of the line at which the bulge is largest [m].
+  double bulge_station = 0.0;  ///< Station at the start of the line with the largest bulge [m].
   std::size_t repeated = 0;    ///< Number of points dropped because they equal the preceding point.
   std::vector<HeadingJump> jumps;  ///< Corners of a polyline, larger than 1e-9 rad.
-  /// Points at which the direction of travel changes by more than kMaxHeadingJump. If there are
-  /// any, there is no path.
+  /// Points at which the direction of travel changes by more than kMaxHeadingJump. If there are any
+  /// reversals, no path is fitted.
   std::vector<HeadingJump> reversals;
   double smoothing_length = 0.0;  ///< Smoothing length l of a spline [m]; 0 for a polyline.
   /// Largest difference between a given heading and the path's [rad].
   double heading_difference = 0.0;
 };
 
-/// Longest path, measured along the straight lines between its points [m].
+/// Largest length of a path that can be fitted, measured along the straight lines between its
+/// points [m].
 inline constexpr double kMaxPathLength = 200e3;
 
 /// Largest change of the direction of travel at a point [rad]. A path with a larger change cannot
@@ -72,8 +74,8 @@ inline constexpr double kMaxHeadingJump = 2.8;
 /// Converts a path of a reference point to that of the rear-axle center. The reference point, such
 /// as the center of gravity, lies on the car's axis, `ahead` [m] of the rear axle. The result is
 /// exact if headings are given. Otherwise the rear axle follows the reference point without slip (a
-/// tractrix), starting on the circle through the first three points. Keeps speeds, and drops
-/// curvatures, because they belong to the original curve.
+/// tractrix), starting on the circle through the first three points. Keeps the speeds, but drops
+/// the curvatures, because they belong to the curve of the reference point.
 PathPoints AtRearAxle(PathPoints given, double ahead);
 
 /// Fits a path through or along the points.
@@ -84,17 +86,18 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// A spline has degree 5 over the chord length u, with a knot at every point, and minimizes
 ///     sum over i of w_i |P(u_i) - p_i|^2 + l^6 integral of |P'''(u)|^2 du,
 /// where w_i [m] is the length of path that point i represents, and l [m] the smoothing length.
-/// Details shorter than l are smoothed out (Reinsch 1967). Unlike Reinsch's, this integral has the
-/// third derivative, which favors slow steering. Bisection finds the largest l, to 10 %, for which
-/// the deviation is at most max_deviation. Curvature and curvature rate are continuous. At the
-/// ends, P''' is 0: the curvature rate falls to 0 over about two points or l, whichever is longer.
-/// Next to that, it is up to a tenth too large.
+/// Details shorter than l are smoothed out (Reinsch 1967). Unlike in Reinsch's method, the integral
+/// penalizes the third derivative, which favors slow steering. Bisection finds the largest l, to 10
+/// %, for which the deviation is at most max_deviation. Curvature and curvature rate are
+/// continuous. At the ends of the path, P''' is 0: the curvature rate falls to 0 over about two
+/// points or l, whichever is longer. Next to these ends, the curvature rate is up to a tenth too
+/// large.
 ///
 /// Guarantees: no point lies further than max_deviation from the path's point at its station, as
 /// measured on the path. With `resample`, the guarantee holds for the resampled points on the
-/// straight lines. Between distant points a spline bulges, next to corners by a tenth of the
-/// points' distance and more (see `bulge`). The bulge is at most a fifth of the points' distance,
-/// or within the arc that turns with the points. The fit does not account for obstacles or the
+/// straight lines. Between widely spaced points a spline bulges, next to corners by a tenth of the
+/// spacing or more (see `bulge`). The bulge is at most a fifth of the spacing, or the height of an
+/// arc that turns with the points if that is larger. The fit does not account for obstacles or the
 /// limits of a car.
 ///
 /// Errors: InputError for fewer than two different points, for more than 200 000 points to be

@@ -16,8 +16,8 @@
 ///         + (1 - kappa_r d)/cos^2 Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
 ///   a = s_tt (1 - kappa_r d)/cos Dtheta + s_t^2/cos Dtheta
 ///       [(1 - kappa_r d) tan Dtheta (kappa (1 - kappa_r d)/cos Dtheta - kappa_r)
-/// (Werling et al. 2010). As functions of s, d' and d'' also hold at standstill; over time, d_t =
-/// d' s_t and d_tt = d'' s_t^2 + d' s_tt.
+/// (Werling et al. 2010). The derivatives d' and d'' by s are also defined at standstill. The
+/// derivatives by time are d_t = d' s_t and d_tt = d'' s_t^2 + d' s_tt.
 namespace trackbed {
 
 /// The state of a car in path coordinates.
@@ -48,20 +48,21 @@ struct MotionState {
   bool operator==(const MotionState&) const = default;
 };
 
-/// Path coordinates of a car, relative to the nearest point of the path within the stations.
-/// Nullopt if the frame is undefined. The frame is undefined if the car is at or beyond the path's
-/// center of curvature (1 - kappa_r d <= 0), or faces across or against the path (|Dtheta| >= 90
-/// degrees). The frame is also undefined if the path is driven backwards at the nearest point.
-/// Cost: that of a projection.
+/// Returns the path coordinates of a car, relative to the nearest point of the path within the
+/// stations; nullopt if the frame is undefined. The frame is undefined if the car is at or beyond
+/// the path's center of curvature (1 - kappa_r d <= 0), or faces across or against the path
+/// (|Dtheta| >= 90 degrees). The frame is also undefined if the path is driven backwards at the
+/// nearest point. Cost: that of Path::Project.
 std::optional<FrenetState> ToFrenet(const Path& path, const MotionState& motion,
                                     Stations within = {});
 
-/// The inverse of ToFrenet. Nullopt if 1 - kappa_r d <= 0 or the path is driven backwards. The yaw
-/// continues that of the path and is not wrapped. Conversion to path coordinates and back is exact
-/// to 1e-9 if the path's curvature is continuous, and to rounding for lines and arcs.
+/// Computes the inverse of ToFrenet. Returns nullopt if 1 - kappa_r d <= 0 or the path is driven
+/// backwards. The yaw of the result is continuous with the path's yaw and is not wrapped.
+/// Conversion to path coordinates and back is exact to 1e-9 if the path's curvature is continuous,
+/// and to rounding for lines and arcs.
 ///
-/// Use a path of continuous curvature for motions: a jump of the path's curvature makes the heading
-/// jump unless d d' is 0, and a jump of its sharpness makes the curvature jump.
+/// For motions, use a path with continuous curvature: a jump of the path's curvature makes the
+/// heading jump unless d or d' is 0, and a jump of the path's sharpness makes the curvature jump.
 std::optional<MotionState> FromFrenet(const Path& path, const FrenetState& state);
 
 /// As FromFrenet above, with the path's point at `state.s` already evaluated.

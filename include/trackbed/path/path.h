@@ -80,28 +80,31 @@ class Path {
   [[nodiscard]] double length() const { return length_; }
   [[nodiscard]] const std::vector<Segment>& segments() const { return segments_; }
 
-  /// The point at station s. At a joint, the curvature and direction are those of the segment that
-  /// begins at the joint. On the straight continuations, the curvature is 0. Cost O(log n).
+  /// Returns the point at station s. At a joint, the curvature and direction are those of the
+  /// segment that begins at the joint. On the straight continuations, the curvature is 0. Cost
+  /// O(log n).
   [[nodiscard]] PathPoint At(double s) const;
 
   /// The curvature and direction of At(s), without the cost of computing the pose.
   [[nodiscard]] PathBend BendAt(double s) const;
 
-  /// The nearest point to `pose` among the stations of `within`, which may extend beyond the ends.
-  /// The result is exact for lines and arcs, and to 1e-9 m along the path for other segments. The
-  /// result may not be the nearest point for a pose within a tenth of the radius from a center of
-  /// curvature of such a segment. Limit the search to stations near the last known one, so that the
-  /// result does not jump to a later crossing or over a cusp. Among equally near points, the one
-  /// with the smallest station is returned. Cost O(segments within the stations). InternalError
-  /// when `within` is empty, PreconditionError for a pose that is not finite.
+  /// Finds the point of the path nearest to `pose`, among the stations of `within`, which may
+  /// extend beyond the ends of the path. The result is exact for lines and arcs, and to 1e-9 m
+  /// along the path for other segments. On segments other than lines and arcs, the result may not
+  /// be the nearest point if the pose is within a tenth of the radius from a center of curvature.
+  /// Limit the search to stations near the last known station, so that the result does not jump to
+  /// a later crossing of the path or over a cusp. Among equally near points, the one with the
+  /// smallest station is returned. Cost O(segments within the stations). InternalError when
+  /// `within` is empty, PreconditionError for a pose that is not finite.
   [[nodiscard]] Projection Project(const Pose2& pose, Stations within = {}) const;
 
   /// Evenly spaced points, at most `spacing` [m] apart, over the whole path including both ends.
   /// PreconditionError for more than 2e7 points.
   [[nodiscard]] std::vector<PathPoint> Sample(double spacing) const;
 
-  /// The segments between two stations. The segments start at At(from).pose and follow this path up
-  /// to `to`. Stations are clamped to the ends of the path. Empty if nothing remains.
+  /// Returns the segments between two stations: they start at At(from).pose and follow this path up
+  /// to `to`. Stations are clamped to the ends of the path. The result is empty if no length
+  /// remains.
   [[nodiscard]] std::vector<Segment> Cut(Stations within) const;
 
  private:
@@ -109,7 +112,7 @@ class Path {
 
   std::vector<Segment> segments_;
   std::vector<Pose2> starts_;     // Start pose of each segment, and the end pose.
-  std::vector<double> stations_;  // Station of each start, and the length.
+  std::vector<double> stations_;  // Start station of each segment, and the path length.
   double length_ = 0.0;
 };
 
@@ -124,11 +127,12 @@ struct CurvePoint {
   double curvature = 0.0;  ///< Curvature [1/m].
 };
 
-/// Segments that follow a smooth curve forwards. Each segment connects two neighboring points and
-/// matches the curve's heading and curvature at both. Let h be the distance of the points and k the
-/// largest third derivative of the curvature. The error of the heading between points is at most
-/// h^4 k/384, the error of the end point h^4 k/720 times the length. The latter is about 1e-7 m for
-/// points 0.1 m apart on bends that a car drives. InternalError unless the distances increase.
+/// Returns segments that follow a smooth curve in the forward direction. Each segment connects two
+/// neighboring points and matches the curve's heading and curvature at both. With h the distance of
+/// the points and k the largest third derivative of the curvature, the heading error between points
+/// is at most h^4 k/384. The error of the end point is at most h^4 k/720 times the length: about
+/// 1e-7 m for points 0.1 m apart on bends that a car can drive. InternalError unless the distances
+/// increase.
 std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points);
 
 }  // namespace trackbed

@@ -13,8 +13,8 @@ struct SpeedLimits {
   double deceleration = 0.0;  ///< Deceleration [m/s^2], > 0.
 };
 
-/// Speed over station. Between knots, v^2 is linear: the acceleration is piecewise constant. Speeds
-/// are >= 0; the path determines the direction of motion.
+/// Speed as a function of station. Between knots, v^2 is linear, so the acceleration is piecewise
+/// constant. Speeds are >= 0; the path determines the direction of motion.
 class SpeedProfile {
  public:
   struct Knot {
@@ -32,8 +32,8 @@ class SpeedProfile {
 
   /// The speed [m/s] at a station; constant before the first knot and after the last one.
   [[nodiscard]] double SpeedAt(double s) const;
-  /// The acceleration dv/dt [m/s^2] of a car that follows the profile, in the interval after s. 0
-  /// outside the knots.
+  /// The acceleration dv/dt [m/s^2] of a car that follows the profile, in the interval after s. The
+  /// acceleration is 0 outside the range of the knots.
   [[nodiscard]] double AccelerationAt(double s) const;
   /// The time [s] from the first knot to s for a car that follows the profile; infinite past a
   /// standstill.
@@ -55,12 +55,12 @@ struct SpeedCap {
   double speed = 0.0;  ///< Speed limit [m/s], > 0.
 };
 
-/// A profile that leaves s = 0 at `start_speed`, drives as fast as limits and caps allow, and stops
-/// at s = length. If the length is too short to reach the limit, the profile peaks below it. If it
-/// is too short to brake from the start speed at the limit's deceleration, the profile brakes
-/// harder, at a constant deceleration. If the start is above the limit or a cap, the profile slows
-/// down at the limit's deceleration. PreconditionError for numbers that are not finite; the numbers
-/// of a cap may be infinite.
+/// Makes a profile that leaves s = 0 at `start_speed`, drives as fast as limits and caps allow, and
+/// stops at s = length. If the length is too short to reach the speed limit, the profile peaks
+/// below the limit. If the length is too short to brake from the start speed at the limit's
+/// deceleration, the profile brakes harder, at a constant deceleration. If the start speed is above
+/// the limit or a cap, the profile slows down at the limit's deceleration. PreconditionError for
+/// numbers that are not finite; the numbers of a cap may be infinite.
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps = {});
 
@@ -76,11 +76,11 @@ struct Reference {
   SpeedProfile speed;
 };
 
-/// The speeds between two stations, shifted so that the first station becomes 0. Knots in between
-/// keep their speeds.
+/// Returns the part of a profile between two stations, shifted so that the first station becomes 0.
+/// Knots in between keep their speeds.
 SpeedProfile Excerpt(const SpeedProfile& profile, Stations within);
 
-/// A section of a path and its speeds; stations count from the start of the section.
+/// Returns a section of a path and its speeds; stations count from the start of the section.
 Reference Excerpt(const Reference& reference, Stations within);
 
 }  // namespace trackbed

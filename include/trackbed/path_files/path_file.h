@@ -16,7 +16,7 @@ struct PathFile {
   std::vector<std::string> notes;
 };
 
-/// The maximum number of points of a file.
+/// The maximum number of points in a path file.
 inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 
 /// Reads the path in a file; docs/how-to/check-a-path.md describes the formats.
@@ -24,7 +24,7 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// If the file has times but no speeds, the speed of a point is the mean over the step to the next
 /// point. The speed of the last point is the mean over the step before it.
 ///
-/// Does not fit a curve, and does not check whether a car can follow the path.
+/// ReadPathFile does not fit a curve, and does not check whether a car can follow the path.
 ///
 /// Errors: InputError with file, line and column or key for every cell that is not a finite number
 /// or is out of range (positions to 1e7 m, speeds from 0 to 100 m/s). InputError for missing

@@ -24,8 +24,8 @@ enum class PathFormat {
 std::string PathFormatList();
 
 /// The columns of a CSV file. Columns without a given name are found by their usual names
-/// (PathColumnNames), ignoring case. By default, the suffix of the column's name determines the
-/// unit; without a suffix, it is the SI unit.
+/// (PathColumnNames), ignoring case. By default, the suffix of a column's name determines its unit;
+/// a column without a suffix has the SI unit.
 struct PathColumns {
   std::optional<std::string> x;
   std::optional<std::string> y;
@@ -43,16 +43,16 @@ void Visit(KeyVisitor& keys, PathColumns& columns);
 enum class PathCoordinates {
   kAuto,    ///< WGS 84, or meters if the member `crs` names another reference system.
   kWgs84,   ///< Longitude and latitude in degrees.
-  kMeters,  ///< x and y of any projection.
+  kMeters,  ///< x and y in meters, in any map projection.
 };
 
 struct PathMap {
   PathFormat format = PathFormat::kAuto;
   PathColumns columns;
   PathCoordinates coordinates = PathCoordinates::kAuto;
-  /// Latitude of the origin in WGS 84 [deg]; none: the first point's.
+  /// Latitude of the origin in WGS 84 [deg]; default: the latitude of the first point.
   std::optional<double> origin_latitude;
-  /// Longitude of the origin in WGS 84 [deg]; none: the first point's.
+  /// Longitude of the origin in WGS 84 [deg]; default: the longitude of the first point.
   std::optional<double> origin_longitude;
 };
 void Visit(KeyVisitor& keys, PathMap& map);
@@ -66,7 +66,8 @@ struct PathColumnName {
   const char* unit;
 };
 
-/// The usual names of "x", "y", "yaw", "curvature", "speed" or "time", in order of preference.
+/// Returns the usual column names of a quantity ("x", "y", "yaw", "curvature", "speed" or "time"),
+/// in order of preference.
 const std::vector<PathColumnName>& PathColumnNames(std::string_view quantity);
 
 }  // namespace trackbed

@@ -9,7 +9,7 @@
 #include "trackbed/options/key_visitor.h"
 
 /// How to read the log of a real vehicle: names of columns, units, frames, filters. The strict
-/// reader of YAML files is ReadLogMap (scenario/log_map_file.h).
+/// reader of YAML files is ReadLogMap (scenario/record.h).
 namespace trackbed {
 
 /// The kinds of quantities in a log, each with its set of units.
@@ -25,16 +25,16 @@ double UnitInSi(const std::string& unit);
 /// measured `delay` before it was logged.
 struct LogColumn {
   std::string column;
-  /// File of the column, in the same folder as the log; none: the log.
+  /// File that contains the column, in the same folder as the log; nullopt: the log itself.
   std::optional<std::string> file{};
   std::string unit;
   double scale = 1.0;
   double offset = 0.0;  ///< Offset in the SI unit.
-  /// Calibration curve, linear between points and constant beyond; empty: none.
+  /// Calibration curve, linear between its points and constant beyond them; empty: no calibration.
   std::vector<Vec2> curve{};
   double delay = 0.0;  ///< Time between measurement and logging [s].
-  /// Period of the slower loop whose values the rows repeat [s]. The value is interpolated linearly
-  /// between updates of that loop. Nullopt: interpolated linearly between rows.
+  /// Update period of a slower control loop, whose values are repeated in several rows [s]. The
+  /// value is interpolated linearly between the updates; without a period, between rows.
   std::optional<double> period{};
 };
 
@@ -44,11 +44,12 @@ struct LogColumnOf : LogColumn {
   LogColumnOf() { unit = UnitsOf(quantity).front(); }
 };
 
-/// The columns of the rows' times.
+/// The columns that contain the time of each row.
 struct LogTime {
   std::string column;
   std::string unit = "s";
-  std::optional<std::string> nanoseconds{};  ///< Column to add to the time, for ROS stamps.
+  /// Column of nanoseconds to add to the time, for ROS time stamps.
+  std::optional<std::string> nanoseconds{};
 };
 
 struct LogPosition {
@@ -81,9 +82,9 @@ struct LogSensor {
   double yaw = 0.0;  ///< Yaw of the axes [rad].
 };
 
-/// An accelerometer along the axes of the vehicle. The accelerometer's readings are transferred to
-/// the rear axle by the yaw rate and its derivative; the influence of gravity through roll and
-/// pitch is not removed.
+/// An accelerometer whose axes are parallel to those of the vehicle. The accelerometer's readings
+/// are transferred to the rear axle by the yaw rate and its derivative; the influence of gravity
+/// through roll and pitch is not removed.
 struct LogAccelerometer {
   std::string x;
   std::string y;
@@ -114,15 +115,16 @@ struct LogMap {
   LogDelimiter delimiter = LogDelimiter::kComma;
   LogTime time;
   LogPosition position;
-  std::optional<LogColumnOf<LogQuantity::kAngle>> yaw{};  ///< Yaw; excludes `orientation`.
+  /// Yaw; cannot be combined with `orientation`.
+  std::optional<LogColumnOf<LogQuantity::kAngle>> yaw{};
   std::optional<LogOrientation> orientation{};
   LogFrame frame = LogFrame::kEnu;
   LogSensor sensor{};
-  /// Replaces the speed from the position.
+  /// Measured speed, which replaces the speed computed from the position.
   std::optional<LogColumnOf<LogQuantity::kSpeed>> speed{};
-  /// Replaces the yaw rate from the yaw.
+  /// Measured yaw rate, which replaces the yaw rate computed from the yaw.
   std::optional<LogColumnOf<LogQuantity::kYawRate>> yaw_rate{};
-  /// Replaces the accelerations from the position.
+  /// Measured accelerations, which replace the accelerations computed from the position.
   std::optional<LogAccelerometer> accelerometer{};
   std::optional<LogColumnOf<LogQuantity::kSteeringAngle>> steering{};
   std::optional<LogColumnOf<LogQuantity::kSteeringAngle>> steering_command{};
@@ -130,8 +132,8 @@ struct LogMap {
   std::vector<LogCondition> valid{};
   LogResample resample{};
   double gap = 0.2;            ///< Longest time between rows that is interpolated [s].
-  double from = 0.0;           ///< Start, from the log's first row [s].
-  std::optional<double> to{};  ///< End, from the log's first row [s].
+  double from = 0.0;           ///< Start time since the log's first row [s].
+  std::optional<double> to{};  ///< End time since the log's first row [s].
   double trim = 0.0;           ///< Time removed at both ends [s].
   bool check = true;           ///< Whether to reject columns that contradict each other.
 };

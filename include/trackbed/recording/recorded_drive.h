@@ -26,7 +26,7 @@ struct RecordedSample {
   double steering = 0.0;  ///< Measured angle of the road wheels [rad], positive to the left.
   double steering_command = 0.0;  ///< Command received by the car's steering actuator [rad].
   double throttle = 0.0;          ///< Drive command, as an acceleration [m/s^2].
-  bool valid = true;  ///< Whether the sample is valid; in a gap, samples are interpolated.
+  bool valid = true;  ///< Whether the sample is valid; samples in gaps of the log are not.
 };
 
 /// A recorded drive. The drive has at least two uniform samples, the first one at time 0.
@@ -42,8 +42,8 @@ struct RecordedDrive {
   [[nodiscard]] double duration() const { return samples.back().time; }
   /// The fraction of valid samples.
   [[nodiscard]] double valid_fraction() const;
-  /// The sample at a time, linear between samples and constant beyond the ends. The result is valid
-  /// if both neighboring samples are valid. Cost O(1).
+  /// Returns the sample at a time, interpolated linearly between samples and constant beyond the
+  /// ends. The result is valid if both neighboring samples are valid. Cost O(1).
   [[nodiscard]] RecordedSample At(double time) const;
 };
 
@@ -55,9 +55,10 @@ struct RecordedDrive {
 /// kAtRestSpeed.
 VehicleState StateOf(const RecordedSample& sample, const VehicleParams& vehicle, bool measured);
 
-/// The start of a plant at the sample, with its wheels at `steering` [rad], and the recorded yaw
-/// rate and lateral speed. Below 0.2 m/s, noise dominates the recorded direction of motion, so the
-/// car starts without slip. If the recorded car goes backwards, the start is at rest.
+/// Returns the state in which a plant starts at the sample, with its wheels at `steering` [rad] and
+/// with the recorded yaw rate and lateral speed. Below 0.2 m/s, noise dominates the recorded
+/// direction of motion, so the car starts without slip. If the recorded car goes backwards, the
+/// start is at rest.
 StartState StartFrom(const RecordedSample& sample, double steering);
 
 /// The steering input of a replay.
@@ -69,14 +70,15 @@ enum class ReplaySteering {
 
 /// The longitudinal input of a replay.
 enum class ReplayDrive {
-  /// Recorded speed: its rate of change, plus a gain on the speed error.
+  /// Recorded speed: the acceleration command is the rate of change of the recorded speed, plus a
+  /// gain times the speed error.
   kSpeed,
   kThrottle,  ///< Recorded drive command, as an acceleration.
 };
 
 /// The inputs of a replay over time, for the controller `playback`. InputError if the drive lacks
-/// the signal. With kSpeed, InputError if the car goes backwards faster than 0.05 m/s in a valid
-/// sample, because a replay only drives forward.
+/// the selected signal. With kSpeed, InputError if the car goes backwards faster than 0.05 m/s in a
+/// valid sample, because a replay only drives forward.
 Recording ReplayInputs(const RecordedDrive& drive, ReplaySteering steering, ReplayDrive source);
 
 }  // namespace trackbed

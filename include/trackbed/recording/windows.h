@@ -25,13 +25,13 @@ struct ReplayOptions {
   TyreLaw tyre = TyreLaw::kAuto;  ///< Tyre law of the plant `mujoco`.
   SteeringInput input = SteeringInput::kActuator;
   World world{};
-  std::function<bool()> interrupted{};  ///< Whether to end the work early; called once per window.
+  std::function<bool()> interrupted{};  ///< Returns whether to stop; called once per window.
 };
 
 /// The predicted states of one window.
 struct WindowPrediction {
   double start = 0.0;  ///< Start time in the drive [s].
-  /// States at start, start + control_period, … to the window's end; The member `time` counts from
+  /// States at start, start + control_period, … to the window's end. The member `time` counts from
   /// the drive's start. There are fewer states if the plant diverged.
   std::vector<VehicleState> states{};
   bool diverged = false;
@@ -41,25 +41,25 @@ struct WindowPrediction {
 /// same order.
 ///
 /// Restart times are rounded to whole control periods. At a restart, the plant has the recorded
-/// pose, speed, lateral speed and yaw rate (StartFrom; the kinematic car only pose and speed;
-/// MuJoCo's car stands on its springs as at rest). The steering actuator has the state that results
-/// from the recorded commands since the start of the drive, including dead time and backlash.
-/// Commands are those of the controller `playback`, as in a scenario with `record`, which replays
-/// the whole drive.
+/// pose, speed, lateral speed and yaw rate (StartFrom). The kinematic car only has the recorded
+/// pose and speed. In MuJoCo, the car stands on its springs as at rest. The steering actuator has
+/// the state that results from the recorded commands since the start of the drive, including dead
+/// time and backlash. Commands are those of the controller `playback`, as in a scenario with
+/// `record`, which replays the whole drive.
 ///
 /// Guarantees: the same arguments give the same states, bit for bit; windows are independent of
 /// each other. The car is not changed, and several threads may share it. Errors: the InputErrors of
 /// ReplayInputs and MakePlant; PreconditionError for a control period that is not a whole number of
-/// timesteps, or a restart or horizon outside of the drive. Cost: one plant for each window
-/// (MuJoCo's: 0.1 ms), the steps of all windows, and 0.1 us per timestep of the drive.
+/// timesteps, or a restart or horizon outside of the drive. Cost: the construction of one plant for
+/// each window (0.1 ms for MuJoCo), the steps of all windows, and 0.1 us per timestep of the drive.
 std::vector<WindowPrediction> PredictWindows(const CarModel& car, const std::string& plant,
                                              const RecordedDrive& drive,
                                              const std::vector<double>& restarts, double horizon,
                                              const ReplayOptions& options = {});
 
-/// Starts of windows of `horizon` [s], at multiples of `spacing` [s] from the start of the drive.
-/// Includes only windows that fit into the drive, have only valid samples, and have a mean speed of
-/// at least `min_speed` [m/s].
+/// Returns the start times of windows of the length `horizon` [s], at multiples of `spacing` [s]
+/// from the start of the drive. Includes only windows that fit into the drive, have only valid
+/// samples, and have a mean speed of at least `min_speed` [m/s].
 std::vector<double> WindowStarts(const RecordedDrive& drive, double horizon, double spacing,
                                  double min_speed);
 

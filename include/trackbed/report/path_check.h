@@ -7,21 +7,21 @@
 
 namespace trackbed {
 
-/// Texts in the title of a path check.
+/// Texts in the title of a page on a path check.
 struct PathCheckTitle {
   std::string name;     ///< Name of the file.
   std::string vehicle;  ///< Name of the vehicle model.
-  std::string notes;    ///< Remarks on the file, one per line.
+  std::string notes;    ///< Remarks on the path's file, one per line.
 };
 
-/// A check as JSON, without values over the station: verdict, largest speed, limits, fit and
-/// faults. Speeds without a limit are null.
+/// Returns the result of a path check as JSON: verdict, largest speed, limits, fit and faults, but
+/// no values along the path. Unlimited speeds are null.
 nlohmann::ordered_json PathCheckJson(const PathCheckTitle& title, const FittedPath& fitted,
                                      const PathCheck& check, const PathCheckOptions& options);
 
-/// Formats a check like PathCheckJson, with the path's demands over its stations. ReportPage makes
-/// a page of it with a map, the faults, and charts of curvature, steering, lateral acceleration and
-/// possible speed.
+/// Returns the result of a path check as JSON, including the demands on the vehicle at each station
+/// of the path. ReportPage makes a page from this JSON, with a map, the faults, and charts of
+/// curvature, steering, lateral acceleration and possible speed.
 nlohmann::ordered_json PathCheckReport(const PathCheckTitle& title, const FittedPath& fitted,
                                        const PathCheck& check, const PathCheckOptions& options);
 

@@ -37,9 +37,9 @@
 ///     eventually[a, b] phi  maximum of phi over these samples
 ///     phi until[a, b] psi   maximum over these j of min(psi_j, phi_i, …, phi_{j-1})
 ///
-/// Samples are not interpolated, and bounds hold to 1 ns. A window that extends beyond the end of
-/// the log is clipped at the end. Without samples in the window, `always` is +infinity,
-/// `eventually` and `until` are -infinity, as in RTAMT (Nickovic and Yamaguchi 2020).
+/// Samples are not interpolated, and the bounds of windows have a tolerance of 1 ns. A window that
+/// extends beyond the end of the log is clipped at the end. Without samples in the window, `always`
+/// is +infinity, `eventually` and `until` are -infinity, as in RTAMT (Nickovic and Yamaguchi 2020).
 namespace trackbed {
 
 /// A bound of a window: a time, or a time before the end of the log.
@@ -78,10 +78,10 @@ enum class FormulaOperation {
 struct FormulaStep {
   FormulaOperation operation = FormulaOperation::kNumber;
   double number = 0.0;     ///< Value of kNumber.
-  std::size_t signal = 0;  ///< Index of the signal of kSignal in Formula::signals.
-  WindowBound from{};      ///< Bound of kAlways, kEventually and kUntil.
+  std::size_t signal = 0;  ///< For kSignal: index in Formula::signals.
+  WindowBound from{};      ///< Start of the window of kAlways, kEventually and kUntil.
   WindowBound to{};
-  /// Range [begin, end) of the text of the step and its operands.
+  /// Range [begin, end) of the characters of the step and its operands in the formula's text.
   std::size_t begin = 0;
   std::size_t end = 0;
 };
@@ -94,9 +94,10 @@ class Formula {
 
   /// Parses a formula. InputErrors name the column of the text (from 1), the found text and the
   /// alternatives. InputError for a syntax error, and for a signal that is not among `signals`
-  /// (with the nearest spelling). InputError for a number instead of a condition, or the reverse,
-  /// and for bounds out of order or above 1e6 s. InputError for a formula without signals, and for
-  /// a text that exceeds kMaxLength or kMaxDepth. Cost O(length).
+  /// (with the nearest spelling). InputError for a number where a condition is needed, for a
+  /// condition where a number is needed, and for bounds out of order or above 1e6 s. InputError for
+  /// a formula without signals, and for a text that exceeds kMaxLength or kMaxDepth. Cost
+  /// O(length).
   static Formula Parse(std::string_view text, const std::vector<std::string>& signals);
 
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -132,12 +133,12 @@ struct FormulaResult {
 /// any length (Lemire 2006), and O(depth x rows) in memory.
 FormulaResult Evaluate(const Formula& formula, const Table& log);
 
-/// The robustness at the first sample: > 0 satisfied, < 0 violated. Throws the InputErrors of
-/// Evaluate.
+/// Returns the robustness at the first sample: > 0 if the formula is satisfied, < 0 if it is
+/// violated. Throws the InputErrors of Evaluate.
 double Robustness(const Formula& formula, const Table& log);
 
-/// The robustness at each sample, as if the log began at that sample. Throws the InputErrors of
-/// Evaluate.
+/// Returns the robustness at each sample, as if the log began with this sample. Throws the
+/// InputErrors of Evaluate.
 std::vector<double> RobustnessOverTime(const Formula& formula, const Table& log);
 
 }  // namespace trackbed

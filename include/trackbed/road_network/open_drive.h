@@ -20,9 +20,9 @@ inline constexpr std::size_t kMaxOpenDriveBytes = std::size_t{32} << 20U;
 ///
 /// Errors: InputError with line and place of each of the first twenty problems. Problems are
 /// invalid XML, a wrong root element, a document type declaration, and a missing or repeated id. A
-/// number that is missing, not finite or out of range is a problem. Decreasing stations are
-/// problems, and gaps of more than 0.1 m in the stations of a reference line. Lanes that are not
-/// numbered consecutively or have no width, and links to missing elements, are problems, too.
+/// number that is missing, not finite or out of range is a problem. Other problems are decreasing
+/// stations, and gaps of more than 0.1 m in the stations of a reference line. Lanes that are not
+/// numbered consecutively or have no width, and links to missing elements, are also problems.
 /// RunError if the file cannot be read or is larger than kMaxOpenDriveBytes. Cost: about 20 ms per
 /// megabyte, and 25 times the file's size in memory during reading.
 RoadNetwork ReadOpenDrive(const std::filesystem::path& file);

@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// A function of the station and its derivatives.
+/// The value of a function of the station, with its derivatives.
 struct CubicValue {
   double value = 0.0;
   double slope = 0.0;   ///< First derivative [1/m].
@@ -32,8 +32,8 @@ class PiecewiseCubic {
 
   [[nodiscard]] const std::vector<Piece>& pieces() const { return pieces_; }
 
-  /// The value at s; 0 before the first piece, and without pieces. If several pieces begin at the
-  /// same station, the last one applies. Cost O(log n).
+  /// Returns the value at s; 0 before the first piece, and without pieces. If several pieces begin
+  /// at the same station, the last one applies. Cost O(log n).
   [[nodiscard]] CubicValue At(double s) const { return At(s, s); }
   /// The value at s of the piece that applies at station `piece_of`.
   [[nodiscard]] CubicValue At(double s, double piece_of) const;
@@ -42,7 +42,7 @@ class PiecewiseCubic {
   std::vector<Piece> pieces_;
 };
 
-/// A curve (u(p), v(p)) of two cubic polynomials over arc length.
+/// A curve (u(p), v(p)) of two cubic polynomials, evaluated at its arc length.
 ///
 /// Arc lengths and their inverse are exact to 1e-9 of the curve's length.
 class ParametricCubic {
@@ -52,8 +52,8 @@ class ParametricCubic {
   ParametricCubic(const std::array<double, 4>& u, const std::array<double, 4>& v, double p_end,
                   double length);
 
-  /// Makes the curve v(u) over u, up to the arc length `length`. Throws the InternalErrors of the
-  /// constructor.
+  /// Makes the curve (u, v(u)) from u = 0 up to the arc length `length`. Throws the InternalErrors
+  /// of the constructor.
   static ParametricCubic OverU(const std::array<double, 4>& v, double length);
 
   /// Arc length of the curve before scaling [m].
@@ -87,8 +87,8 @@ struct ReferenceLinePoint {
   double stretch = 1.0;
 };
 
-/// The planar curve along which a road's stations are counted. Each piece begins at the place in
-/// the file, even if the previous piece ends elsewhere.
+/// The planar curve along which a road's stations are counted. Each piece begins at the position
+/// stated in the file, even if the previous piece ends elsewhere.
 class ReferenceLine {
  public:
   struct Piece {

@@ -13,8 +13,8 @@
 ///
 /// Symbols: s station along a road's reference line in the plane [m], from 0 to its length; t
 /// lateral coordinate [m], positive to the left in the direction of growing s. The center lane has
-/// no width and the number 0. Lanes to its left are numbered 1, 2, ..., lanes to its right -1, -2,
-/// ....
+/// no width and the number 0. Lanes to the left of the center lane are numbered 1, 2, ..., lanes to
+/// the right -1, -2, ....
 namespace trackbed {
 
 /// The painted line at the outer border of a lane, or on the center lane.
@@ -32,7 +32,8 @@ struct Lane {
   /// is a function of the distance from the start of the lane section [m].
   PiecewiseCubic extent;
   bool has_border = false;
-  /// Linked lanes at the start and end of the section, in growing s.
+  /// Numbers of the lanes linked at the start (predecessors) and end (successors) of the section,
+  /// in the direction of growing s.
   std::vector<int> predecessors;
   std::vector<int> successors;
   std::vector<RoadMark> marks;
@@ -43,17 +44,17 @@ struct LaneSection {
   double s = 0.0;           ///< Station of the start [m].
   std::vector<Lane> lanes;  ///< Lanes from left to right, with numbers that decrease by one.
 
-  /// The lane of that number; null if there is none.
+  /// Returns the lane with the number `lane`; null if the section has no such lane.
   [[nodiscard]] const Lane* Find(int lane) const;
 };
 
 enum class RoadEnd { kStart, kEnd };
 
-/// The road or junction beyond an end of a road.
+/// The road or junction to which an end of a road is linked.
 struct RoadLink {
   bool is_junction = false;
-  std::string id;  ///< Id of that road or junction.
-  /// End of that road at which the link arrives; unused for junctions.
+  std::string id;  ///< Id of the linked road or junction.
+  /// End of the linked road at which the two roads meet; unused for junctions.
   RoadEnd contact = RoadEnd::kStart;
   int line = 0;  ///< Line in the file.
 };
@@ -65,11 +66,12 @@ struct Road {
   std::optional<std::string> junction;  ///< Id of the junction that contains the road.
   bool left_hand_traffic = false;
   ReferenceLine reference;
-  PiecewiseCubic elevation;  ///< Height z of the reference line [m] over s.
+  PiecewiseCubic elevation;  ///< Height z of the reference line [m] as a function of s.
   /// Roll about the reference line [rad]; positive if the left side is higher.
   PiecewiseCubic superelevation;
-  PiecewiseCubic lane_offset;         ///< Coordinate t of the center lane [m] over s.
-  std::vector<LaneSection> sections;  ///< At least one section, in growing s, the first at 0.
+  PiecewiseCubic lane_offset;  ///< Coordinate t of the center lane [m] as a function of s.
+  /// Sections in the order of s, at least one; the first starts at 0.
+  std::vector<LaneSection> sections;
   std::optional<RoadLink> predecessor;
   std::optional<RoadLink> successor;
   /// Kinds of additional heights in the file that are not supported: "shape", "crossfall", "lane
@@ -77,19 +79,19 @@ struct Road {
   std::vector<std::string> unread_heights;
   int line = 0;  ///< Line in the file.
 
-  /// The index of the section at s. At a border of two sections, the index is that of the section
-  /// that begins there.
+  /// Returns the index of the section at s. At the border of two sections, the index is that of the
+  /// section that begins at s.
   [[nodiscard]] std::size_t SectionAt(double s) const;
-  /// The station of a section's end [m].
+  /// Returns the station of a section's end [m].
   [[nodiscard]] double SectionEnd(std::size_t section) const;
 };
 
-/// A connection from an incoming road to a road of the junction.
+/// A connection from an incoming road to a connecting road of the junction.
 struct JunctionConnection {
   std::string incoming;
   std::string connecting;
-  RoadEnd contact = RoadEnd::kStart;  ///< End of the connecting road at which it is connected.
-  /// Pairs of a lane of the incoming road and one of the connecting road.
+  RoadEnd contact = RoadEnd::kStart;  ///< End of the connecting road at the incoming road.
+  /// Pairs of linked lanes: a lane of the incoming road and a lane of the connecting road.
   std::vector<std::pair<int, int>> lane_links;
   int line = 0;  ///< Line in the file.
 };
@@ -115,16 +117,17 @@ struct LaneBorders {
   [[nodiscard]] double Width() const;
 };
 
-/// The borders of a lane. PreconditionError for a lane that the section does not have. At the
-/// border of two pieces of the file's functions, `piece_of` [m] selects the applicable pieces. Cost
-/// O(lanes log pieces).
+/// Computes the borders of a lane. PreconditionError for a lane that the section does not have. The
+/// polynomial pieces of the file's functions are those that apply at the station `piece_of` [m],
+/// which matters where two pieces meet. Cost O(lanes log pieces).
 LaneBorders LaneBordersAt(const Road& road, std::size_t section, int lane, double s,
                           double piece_of);
 LaneBorders LaneBordersAt(const Road& road, int lane, double s);
 
-/// The unit vector across a road's surface to the left of its reference line: the level normal of
-/// the line, rotated by `roll` about its tangent in space. `tangent` is the derivative of the line
-/// over the station, as seen from above; `slope` is the derivative of the line's elevation.
+/// Returns the unit vector that points to the left across a road's surface: the horizontal normal
+/// of the reference line, rotated by `roll` about the line's tangent in space. `tangent` is the
+/// derivative of the line over the station, as seen from above; `slope` is the derivative of the
+/// line's elevation.
 Eigen::Vector3d AcrossSurface(const Vec2& tangent, double slope, double roll);
 
 /// A point on the surface of a road.
@@ -136,10 +139,10 @@ struct RoadPosition {
   double heading = 0.0;
 };
 
-/// The point of the surface at the distance t [m] from the reference line. The distance is measured
-/// along the left normal of the line, rotated by the superelevation about the line's tangent in
-/// space. The heights of Road::unread_heights are ignored. PreconditionError for a station outside
-/// of the road by more than 1 mm, or numbers that are not finite.
+/// Returns the point of the road's surface at the distance t [m] from the reference line. The
+/// distance is measured along the left normal of the line, rotated by the superelevation about the
+/// line's tangent in space. The heights of Road::unread_heights are ignored. PreconditionError for
+/// a station outside of the road by more than 1 mm, or numbers that are not finite.
 RoadPosition PositionAt(const Road& road, double s, double t);
 
 /// As PositionAt, at the distance `offset` [m] from the center of a lane, positive to the left in

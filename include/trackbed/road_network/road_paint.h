@@ -26,12 +26,13 @@ struct RoadPaint {
   std::vector<PaintedLine> lines;
 };
 
-/// The lanes' surface and road marks of a network, for pictures. Points are at most `spacing` [m]
-/// apart, in large networks further, so that there are at most about 10^5 points. Neighboring paved
-/// lanes of each section (all types except sidewalks, borders, curbs and "none") form one band.
-/// Broken lines are dashes of 3 m every 9 m; double lines are two lines, 0.1 m apart; marks of
-/// other types ("grass", "curb", "edge", "custom", "botts dots") are solid lines; "none" is not
-/// drawn. Heights and superelevation are ignored. InternalError unless the spacing is positive.
+/// Returns the paved surface and the road marks of a network, for pictures. Points are at most
+/// `spacing` [m] apart; in large networks, the spacing is increased so that there are at most about
+/// 10^5 points. Neighboring paved lanes of each section (all types except sidewalks, borders, curbs
+/// and "none") form one band. Broken lines are dashes of 3 m every 9 m; double lines are two lines,
+/// 0.1 m apart; marks of other types ("grass", "curb", "edge", "custom", "botts dots") are solid
+/// lines; "none" is not drawn. Heights and superelevation are ignored. InternalError unless the
+/// spacing is positive.
 RoadPaint PaintRoads(const RoadNetwork& network, double spacing);
 
 }  // namespace trackbed

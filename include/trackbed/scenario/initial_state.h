@@ -4,9 +4,9 @@
 
 namespace trackbed {
 
-/// As InitialState without vehicle, except on a path from a file. On a path from a file, the wheels
-/// start at the angle of the path's first point, within the car's limit, unless the mission sets
-/// the steering.
+/// Returns the initial state as InitialState(scenario) does, except for the steering on a path from
+/// a file. On such a path, the wheels start at the steering angle for the curvature of the first
+/// point, clamped to the car's limit, unless the mission sets the steering.
 StartState InitialState(const Scenario& scenario, const VehicleParams& vehicle);
 
 }  // namespace trackbed

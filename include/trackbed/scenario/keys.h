@@ -10,7 +10,7 @@ struct KeyInfo {
   std::string name;      ///< Name within the section.
   std::string type;      ///< Type: "number", "list of names", "section", …
   std::string unit;      ///< Unit such as "m/s"; empty for keys that are not quantities.
-  std::string fallback;  ///< Default value; empty if there is none.
+  std::string fallback;  ///< Default value; empty if the key has no default.
   /// Allowed values, "above 0 and at most 10"; empty if all values of the type are allowed.
   std::string allowed;
   std::string text;  ///< One-line description.
@@ -18,15 +18,15 @@ struct KeyInfo {
 };
 
 struct KeySection {
-  /// Dotted key, with N for the elements of a list; empty for the whole file.
+  /// Dotted key, in which N stands for the index of a list element; empty for the whole file.
   std::string key;
   std::string method;  ///< Method that has these keys; empty if all methods have them.
   std::string text;    ///< One-line description.
   std::vector<KeyInfo> keys;
 };
 
-/// The sections of a scenario in the order of the file. Each section precedes the sections inside
-/// it.
+/// Returns the sections of a scenario in the order of the file. Each section precedes the sections
+/// inside it.
 std::vector<KeySection> ScenarioKeys();
 
 /// The sections of a study.

@@ -16,8 +16,8 @@ struct SteadyStateCircleOptions {
   double fit_to = 4.0;    ///< Largest |a_y| of the fit [m/s^2].
 };
 
-/// SAE J266, method 2: slowly increasing steer at constant speed. The metrics are those of
-/// SteadyStateCircleOptions, and the steering angle at 0.3 g.
+/// SAE J266, method 2: slowly increasing steer at constant speed. The metrics are those of the
+/// steady-state circle, and the steering angle at 0.3 g.
 struct SlowlyIncreasingSteerOptions {
   double settle = 2.0;    ///< Settling time [s].
   double fit_from = 0.5;  ///< Smallest |a_y| of the fit [m/s^2].
@@ -26,7 +26,7 @@ struct SlowlyIncreasingSteerOptions {
 
 /// ISO 7401: step input of the steering from straight-ahead driving.
 struct StepSteerOptions {
-  /// Averaging window of the steady state, at the end of the run [s], > 0.
+  /// Length of the window at the end of the run over which the steady state is averaged [s], > 0.
   double steady = 1.0;
 };
 
@@ -38,13 +38,14 @@ struct LaneChangeOptions {};
 
 /// ISO 21994 (braking straight ahead) and ISO 7975 (braking in a turn).
 struct BrakingTestOptions {
-  double to_speed = 0.0;  ///< Final speed of the braking distance [m/s], >= 0.
+  double to_speed = 0.0;  ///< Speed at which the braking distance ends [m/s], >= 0.
 };
 
-/// The response to an ice patch, split friction or a gust.
+/// Evaluates the response to an ice patch, split friction or a gust.
 struct DisturbanceOptions {
-  double at = 1.0;  ///< Time of the disturbance, to which deviations refer [s].
-  /// The car has recovered when the yaw rate stays below this [rad/s], > 0.
+  double at = 1.0;  ///< Time of the disturbance [s].
+  /// Bound on the yaw rate deviation [rad/s], > 0. The car has recovered when the deviation stays
+  /// below the bound.
   double yaw_rate_bound = 0.02;
 };
 

@@ -7,13 +7,13 @@
 /// Problem instances of the Moving AI benchmarks (Sturtevant 2012).
 namespace trackbed {
 
-/// A path search between two cells. Columns and rows are those of a GridMap: the first row is at
-/// the bottom, while the file counts rows from the top.
+/// A path search between two cells. Columns and rows count as in a GridMap: the first row is at the
+/// bottom, whereas the file counts rows from the top.
 struct MovingAiInstance {
   int line = 0;     ///< Line in the file.
-  int bucket = 0;   ///< The file's group of instances of similar length.
+  int bucket = 0;   ///< Number of the group of instances with paths of similar length.
   std::string map;  ///< Name of the map file.
-  int columns = 0;  ///< Columns of the map.
+  int columns = 0;  ///< Number of columns of the map.
   int rows = 0;
   int start_column = 0;
   int start_row = 0;

@@ -18,24 +18,25 @@ struct RecordSpec {
   std::string file;  ///< A log, or the `record.csv` of a run.
   /// Log map that describes the log; none: the file is a `record.csv`.
   std::optional<std::string> map;
-  std::optional<double> from{};  ///< Replaces the map's `from` [s].
-  std::optional<double> to{};    ///< Replaces the map's `to` [s].
+  std::optional<double> from{};  ///< Start time that replaces `from` of the log map [s].
+  std::optional<double> to{};    ///< End time that replaces `to` of the log map [s].
   ReplaySteering steering = ReplaySteering::kCommand;
   ReplayDrive drive = ReplayDrive::kSpeed;
-  std::vector<double> windows{};  ///< Horizons after which plants restart at the record [s].
-  double min_speed = 0.3;         ///< Speed below which moments and windows are ignored [m/s].
-  /// RecordedDrive::notes, one per line; nullopt: the notes of the import.
+  std::vector<double> windows{};  ///< Lengths of prediction windows [s].
+  double min_speed = 0.3;  ///< Recorded speed below which samples and windows are ignored [m/s].
+  /// Notes on the recorded drive (RecordedDrive::notes), one per line; nullopt: the notes of the
+  /// import.
   std::optional<std::string> notes{};
 
-  // The recorded drive, which is not a key. Copies of the scenario share it.
+  // The recorded drive, shared by copies of the scenario. The member is not a key of the file.
   std::shared_ptr<const RecordedDrive> data{};
 };
 
-/// The names allowed in drive.plants: those of Plants(), and kRecordedPlant. The run of
-/// kRecordedPlant is the record.
+/// Returns the names allowed in drive.plants: those of Plants(), and kRecordedPlant. The plant
+/// kRecordedPlant reproduces the record itself.
 std::vector<std::string> DrivenPlantNames();
 
-/// Names and one-line summaries of the allowed plants, for users.
+/// Returns the names and one-line summaries of the plants allowed in drive.plants, for users.
 std::vector<std::pair<std::string, std::string>> DrivenPlantSummaries();
 
 /// Reads a log map strictly. InputError lists every problem of the file, each with file, line,

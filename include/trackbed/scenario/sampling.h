@@ -12,12 +12,12 @@ namespace trackbed {
 
 enum class SampleMethod {
   kRandom,  ///< Independent points.
-  /// In each coordinate, one point in each of `count` equal intervals.
+  /// Each of `count` equal intervals of a coordinate contains one point.
   kLatinHypercube,
   kSobol,  ///< A low-discrepancy sequence, shifted at random.
 };
 
-/// The spelling of a method in files: "latin_hypercube".
+/// Returns the name of a method as written in files: "latin_hypercube".
 const char* ToString(SampleMethod method);
 
 struct SampleSpec {
@@ -29,16 +29,16 @@ struct SampleSpec {
 /// Makes a sample with one point per row and one coordinate per column. All coordinates are in (0,
 /// 1).
 ///
-/// Guarantees: the same arguments give the same bits on every machine. The coordinates of a column
-/// do not depend on the number of columns, so that adding a parameter leaves the others unchanged.
-/// For kRandom and kSobol, the coordinates also do not depend on `count`. Each column is uniformly
-/// distributed for any seed.
+/// Guarantees: the same arguments give bit-identical samples on every machine. The coordinates of a
+/// column do not depend on the number of columns, so that adding a parameter leaves the values of
+/// the others unchanged. For kRandom and kSobol, the coordinates also do not depend on `count`.
+/// Each column is uniformly distributed for any seed.
 ///
 /// kLatinHypercube is the method of McKay, Beckman and Conover (1979): a random permutation of the
 /// intervals and a random place in each interval. kSobol is the sequence of Sobol' (1967) with the
 /// direction numbers of Joe and Kuo (2008), from Boost.Random. The sequence includes the zero
-/// point, which stratifies counts that are powers of two. Each coordinate gets a random digital
-/// shift (Cranley and Patterson 1976, in base 2).
+/// point, so that samples whose count is a power of two are stratified. Each coordinate gets a
+/// random digital shift (Cranley and Patterson 1976, in base 2).
 ///
 /// PreconditionError unless count is positive and dimensions is 0 to 1000.
 /// Cost: 8 bytes and about 20 ns per coordinate.
@@ -46,14 +46,14 @@ Eigen::MatrixXd UnitSample(const SampleSpec& spec, int dimensions);
 
 enum class DistributionKind {
   kUniform,     ///< Uniform from `from` to `to`.
-  kLogUniform,  ///< Logarithm uniform from that of `from` to that of `to`.
+  kLogUniform,  ///< The logarithm is uniform from log(`from`) to log(`to`).
   kInteger,     ///< Whole number from `from` to `to`, including both.
   /// Normal with `mean` and `deviation`, truncated at `min` or `max` if given.
   kNormal,
   kChoice,  ///< One of `values`, with `weights` if given.
 };
 
-/// The spelling of a kind in files: "log_uniform".
+/// Returns the name of a distribution as written in files: "log_uniform".
 const char* ToString(DistributionKind kind);
 
 /// The distribution of a parameter.
@@ -61,7 +61,8 @@ struct Distribution {
   DistributionKind kind = DistributionKind::kUniform;
   double from = 0.0;
   double to = 1.0;
-  /// Step of kUniform: the values `from` + k `step` are equally likely. 0: any value.
+  /// Step of kUniform: the values `from` + k `step` are equally likely. With 0, the values are
+  /// continuous.
   double step = 0.0;
   double mean = 0.0;
   double deviation = 1.0;  ///< Standard deviation before truncation.
@@ -71,11 +72,11 @@ struct Distribution {
   std::vector<double> weights;      ///< Weights of the values; empty: equal weights.
 };
 
-/// The value `from` + k `step`, rounded to 15 digits, so that 12 + 7 * 0.2 is 13.4.
+/// Returns `from` + k `step`, rounded to 15 digits, so that 12 + 7 * 0.2 is 13.4.
 double SteppedValue(double from, double step, double k);
 
-/// The quantile of the distribution for `u` in (0, 1), as YAML. Numbers have the shortest form that
-/// reads back to the same double.
+/// Returns the quantile of the distribution at the probability `u` in (0, 1), as YAML. Numbers have
+/// the shortest form that reads back to the same double.
 std::string Quantile(const Distribution& distribution, double u);
 
 }  // namespace trackbed

@@ -23,7 +23,8 @@
 #include "trackbed/sim/plant_options.h"
 #include "trackbed/world/world.h"
 
-/// A scenario: one file, one reproducible experiment. All quantities are in SI units and radians.
+/// A scenario file describes one reproducible experiment. All quantities are in SI units and
+/// radians.
 namespace trackbed {
 
 struct Recording;
@@ -35,30 +36,33 @@ ControllerOptions DefaultController();
 struct VehicleSpec {
   std::string model = "prius";    ///< Name under models/, or path relative to the scenario file.
   TyreLaw tyre = TyreLaw::kAuto;  ///< Tyre law of the plant `mujoco`.
-  std::optional<double> steering_rate;  ///< Rate at the road wheels [rad/s]; overrides the car's.
+  /// Steering rate limit at the road wheels [rad/s]; overrides the limit of the model.
+  std::optional<double> steering_rate;
 };
 
 /// The initial state of the car. Defaults follow from the mission.
 struct StartSpec {
-  std::optional<double> x;    ///< Coordinate x [m]; default: the first waypoint, or 0.
-  std::optional<double> y;    ///< Coordinate y [m]; default: the first waypoint, or 0.
-  std::optional<double> yaw;  ///< Yaw [rad]; default: the first heading, along the first leg, or 0.
-  /// Speed [m/s]; default: that of the recording or of the speed over time, else the mission's
-  /// speed.
+  std::optional<double> x;  ///< Coordinate x [m]; default: the first waypoint, or 0.
+  std::optional<double> y;  ///< Coordinate y [m]; default: the first waypoint, or 0.
+  /// Yaw [rad]; default: the mission's first heading, else the direction of the first leg, else 0.
+  std::optional<double> yaw;
+  /// Speed [m/s]; default: the initial speed of the recording, recorded drive, path file or speed
+  /// signal, else the mission's speed.
   std::optional<double> speed;
-  /// Steering angle of wheels and actuator in the bicycle model [rad]. Default: the recorded angle
-  /// with prescribed steering, else 0.
+  /// Steering angle of wheels and actuator in the bicycle model [rad]. Default: the initial angle
+  /// of the recorded drive, or of a recording with prescribed steering, else the planner's neutral
+  /// angle.
   std::optional<double> steering;
 };
 
 struct MissionSpec {
-  double speed = 0.0;           ///< Speed [m/s]; 0: not set, for missions without a plan.
+  double speed = 0.0;           ///< Speed [m/s]; 0 if a mission without a plan sets no speed.
   std::vector<Vec2> waypoints;  ///< Points of the route [m].
   /// Heading of the car at each waypoint [rad]; empty: along the legs.
   std::vector<double> headings;
-  std::vector<LanePlace> route;    ///< Places on the world's road network, instead of waypoints.
+  std::vector<LanePlace> route;    ///< Places on the road network, instead of waypoints.
   std::optional<double> duration;  ///< End of the run [s], for missions without a goal.
-  /// Speeds of the plan; nullopt: ConstantAccelerationOptions.
+  /// Options of the plan's speed profile; default: ConstantAccelerationOptions.
   std::optional<SpeedProfileOptions> speed_profile;
   std::optional<TrackSpec> track;  ///< Laps to drive, instead of waypoints.
   StartSpec start;
@@ -67,7 +71,8 @@ struct MissionSpec {
 /// The planner and its options.
 struct PlanSpec {
   PlannerOptions global = DefaultPlanner();
-  std::optional<AvoiderOptions> avoid;  ///< Local planner around obstacles; none: no rerouting.
+  /// Local planner that avoids obstacles; none: no rerouting.
+  std::optional<AvoiderOptions> avoid;
   std::optional<ReplanOptions> replan;  ///< Replanning during the run; none: no replanning.
   /// Handling of infeasible plans.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
@@ -83,9 +88,10 @@ struct DriveSpec {
   SteeringInput steering = SteeringInput::kActuator;
   double timestep = 0.002;           ///< Timestep of the physics [s].
   double control_period = 0.02;      ///< Control period, a whole number of timesteps [s].
-  double state_period = 1.0 / 60.0;  ///< Time between configurations logged for the film [s].
+  double state_period = 1.0 / 60.0;  ///< Time between the states logged for films [s].
   double time_limit = 600.0;         ///< Limit on the simulated time [s].
-  /// Distance to the goal within which a car at rest has arrived, as a fraction of its length.
+  /// Distance to the goal within which a car at rest has arrived, as a fraction of the car's
+  /// length.
   double goal_tolerance = 0.1;
   /// Heading tolerance at the goal [rad], if the mission gives headings.
   double goal_heading_tolerance = 0.2;
@@ -105,7 +111,7 @@ struct RequirementExpectation {
   std::string formula;
 };
 
-/// Bounds on the metrics of one plant. A bound is checked if it is given.
+/// Bounds on the metrics of one plant. Only the given bounds are checked.
 struct PlantExpectation {
   std::optional<double> reach_goal;         ///< Maximum distance to the goal at the end [m].
   std::optional<double> max_cross_track;    ///< Largest cross-track error [m].
@@ -117,7 +123,7 @@ struct PlantExpectation {
   std::vector<RequirementExpectation> requirements;
 };
 
-/// Bounds on the differences between two runs at equal station. A bound is checked if it is given.
+/// Bounds on the differences between two runs at equal station. Only the given bounds are checked.
 struct DifferenceBounds {
   std::optional<double> position_max;  ///< Largest difference in position [m].
   std::optional<double> heading_max;   ///< Largest difference in heading [rad].
@@ -164,14 +170,14 @@ struct Scenario {
   RenderSpec render;
 
   // The members below are not keys.
-  std::filesystem::path folder;  ///< Base of relative paths.
-  /// Further folders that may contain recordings and the assets of models, in addition to `folder`
-  /// for recordings and the model's folder for assets.
+  std::filesystem::path folder;  ///< Folder to which file names in the scenario are relative.
+  /// Further folders that may contain recordings and model assets. By default, recordings are in
+  /// `folder`, and assets are in the model's folder.
   std::vector<std::filesystem::path> asset_folders{};
 };
 
-/// An override `key=value` replaces a key of the file before the file is read. The value is YAML.
-/// An override of drive.plants drops the file's expectations on other plants.
+/// An override `key=value` replaces the value of a key in the file; the new value is YAML. If
+/// drive.plants is overridden, the file's expectations on other plants are dropped.
 using Override = std::string;
 
 /// Function that returns the paths that a plant's entry in metrics.json may have for the scenario.
@@ -179,10 +185,10 @@ using MetricPaths = std::function<std::vector<std::string>(const Scenario& scena
 
 /// Reads a scenario file strictly. InputError lists **every** problem of the file, each with file,
 /// line, column and dotted key: unknown key (with the most similar known key), missing or repeated
-/// key, wrong type, NaN or infinity, value out of range, unknown name. Problems of an override name
-/// the override. `cameras` are the allowed values of render.camera, `metrics` gives those of
-/// `expect.metrics`. An empty argument is not checked. `asset_folders` become those of the
-/// scenario.
+/// key, wrong type, NaN or infinity, value out of range, unknown name. A problem of an override is
+/// reported with the override's text. The allowed values of render.camera are `cameras`, and those
+/// of `expect.metrics` are returned by `metrics`; if one of these arguments is empty, the key is
+/// not checked. `asset_folders` becomes Scenario::asset_folders.
 Scenario ReadScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {},
                       const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {},
@@ -210,41 +216,44 @@ World ReadWorld(const std::filesystem::path& file);
 /// Reads only the `expect` section of a scenario file, for reports. Throws InputError.
 Expectations ReadExpectations(const std::filesystem::path& file);
 
-/// Checks combinations of keys; throws InputError. ReadScenario calls it. Programs that fill the
-/// struct must call it themselves.
+/// Checks combinations of keys; throws InputError. ReadScenario calls CheckScenario; programs that
+/// fill a Scenario in code must call CheckScenario themselves.
 void CheckScenario(const Scenario& scenario);
 
 /// Formats the scenario with every default filled in, as YAML. ReadScenario restores an equal
-/// scenario from it, in any folder. A model given by its path is written with its absolute path.
-/// Data from other files must lie in the folder of the YAML: a recording as `recording.csv`
+/// scenario from this YAML, in any folder. A model given by its path is written with its absolute
+/// path. Data from other files must lie in the folder of the YAML: a recording as `recording.csv`
 /// (RecordingCsv), a recorded drive as `record.csv` (RecordCsv), a track as `track.csv` (TrackCsv),
 /// a map as `map.yaml` and `map.pgm` (map_file.h), and a road network as `road_network.xodr`.
 std::string ResolvedYaml(const Scenario& scenario);
 
-/// The keys of a method's options with their values, on one line: "distance: 2.5, law: exact_arc".
+/// Formats the keys of a method's options with their values, on one line: "distance: 2.5, law:
+/// exact_arc".
 std::string OptionDefaults(const PlannerOptions& options);
 std::string OptionDefaults(const AvoiderOptions& options);
 std::string OptionDefaults(const ControllerOptions& options);
 std::string OptionDefaults(const ManeuverOptions& options);
 
-/// Makes a scenario of a record. The only plant is the record; overriding drive.plants replays the
-/// record on other plants instead. The scenario has the drive's name and a speed control gain of
-/// 20/s. The record's windows are those of 1, 2 and 5 s that fit into the drive. The control period
-/// is the record's period if that is a whole number of timesteps. `model` has the meaning of
-/// VehicleSpec::model.
+/// Makes a scenario from a record. The only plant is the record; overriding drive.plants replays
+/// the record on other plants instead. The scenario has the drive's name and a speed control gain
+/// of 20/s. The prediction windows are 1, 2 and 5 s long, as far as they fit into the drive. The
+/// control period is the record's period if that is a whole number of timesteps. `model` has the
+/// meaning of VehicleSpec::model.
 Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::string& model);
 
-/// The recording that is replayed; null if there is none. The scenario owns the recording.
+/// Returns the recording that the scenario replays; null if the scenario replays none. The scenario
+/// owns the recording.
 const Recording* FindRecording(const Scenario& scenario);
 
-/// The initial state of the car, with the mission's defaults filled in.
+/// Returns the initial state of the car, with the defaults of StartSpec filled in.
 StartState InitialState(const Scenario& scenario);
 
-/// End of the run [s]: the mission's duration, or without a plan the end of a recording over time.
-/// Nullopt: the run ends at the goal.
+/// Returns the end of the run [s]: the mission's duration, or, without a plan, the end of a
+/// recording over time. Nullopt if the run ends at the goal.
 std::optional<double> RunDuration(const Scenario& scenario);
 
-/// The speed to keep [m/s]: the mission's speed, or the start speed if the mission has none.
+/// Returns the speed that the car must keep [m/s]: the mission's speed, or the start speed if the
+/// mission has no speed.
 double MissionSpeed(const Scenario& scenario);
 
 }  // namespace trackbed

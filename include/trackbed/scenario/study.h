@@ -29,14 +29,14 @@ struct BisectSpec {
   int column = 0;
 };
 
-/// An output of every run.
+/// An output that the study's table lists for every run.
 struct OutputSpec {
   std::string path;  ///< Dotted path, such as "metrics.mujoco.cross_track.max".
   int line = 0;
   int column = 0;
 };
 
-/// The rows whose run folders are kept.
+/// Selects the rows of a study whose run folders are kept.
 struct KeepSpec {
   enum class Rows {
     kNone,
@@ -50,10 +50,10 @@ struct KeepSpec {
   std::string by{};
 };
 
-/// The spelling in files: "worst 10 by metrics.mujoco.cross_track.max".
+/// Formats the selection as in files: "worst 10 by metrics.mujoco.cross_track.max".
 std::string ToString(const KeepSpec& keep);
 
-/// A condition, which holds at points at which a key of the study has one of the given values.
+/// A condition that holds if a key of the study has one of the given values.
 struct Condition {
   std::string key;
   std::vector<std::string> values;  ///< Values, each as YAML on one line.
@@ -66,7 +66,8 @@ struct Variation {
   int column = 0;
   std::vector<Setting> alternatives{};         ///< Values in the grid; empty if the key is sampled.
   std::optional<Distribution> distribution{};  ///< Distribution of a sampled key.
-  /// The CSV file of the key's values. Keys of the same file have the values of the same row.
+  /// The CSV file with the key's values. All keys of the same file take their values from the same
+  /// row.
   std::string rows_of{};
   /// The key is only set if all of these conditions hold.
   std::vector<Condition> when{};
@@ -84,9 +85,10 @@ struct DerivedKey {
 struct SearchSpec {
   std::string method = "surrogate";  ///< One of StudySearches().
   int runs = 200;                    ///< Maximum number of runs of the search.
-  /// Number of parallel NLopt searches, which share the runs; 0: two, or one for `direct`.
+  /// Number of parallel NLopt searches, which share the runs. With 0, there are two, or one for
+  /// `direct`.
   int restarts = 0;
-  /// Population of crs2, esch and isres. 0: 4 n + 4 for n keys.
+  /// Population of the methods crs2, esch and isres. With 0, the population is 4 n + 4 for n keys.
   int population = 0;
   /// Method for the last quarter of the runs: "none", "nelder_mead" or "cobyla".
   std::string finish = "none";
@@ -106,22 +108,22 @@ const std::vector<std::string>& StudySearches();
 struct Study {
   std::string name;
   std::string file;                ///< File name as the user gave it.
-  std::filesystem::path scenario;  ///< Path of the scenario, resolved from the study's folder.
+  std::filesystem::path scenario;  ///< Scenario file, resolved from the study's folder.
   std::string scenario_text;       ///< Content of the scenario when the study was read.
   /// Overrides from the command line, which take precedence over `set`.
   std::vector<Override> overrides;
-  std::vector<std::string> cameras;                  ///< Same as for ReadScenario.
-  MetricPaths metrics;                               ///< Same as for ReadScenario.
-  std::vector<std::filesystem::path> asset_folders;  ///< Same as for ReadScenario.
-  std::vector<Setting> set;                          ///< Settings of every run.
+  std::vector<std::string> cameras;                  ///< Argument of ReadScenario.
+  MetricPaths metrics;                               ///< Argument of ReadScenario.
+  std::vector<std::filesystem::path> asset_folders;  ///< Argument of ReadScenario.
+  std::vector<Setting> set;                          ///< Settings that apply to every run.
   std::vector<Variation> vary;                       ///< Varied keys, in the file's order.
-  std::vector<std::vector<Setting>> list;            ///< Points that set several keys; empty: none.
-  std::optional<SampleSpec> sample;  ///< Sample for the keys of `vary` with distributions.
-  std::optional<SearchSpec> search;  ///< Search over the keys of `vary` with distributions.
-  std::vector<Setting> nominal;      ///< Point toward which a counterexample is shrunk.
-  std::vector<DerivedKey> derive;    ///< Computed keys, in the file's order.
-  int repeat = 1;                    ///< Number of runs per point, with consecutive seeds.
-  std::optional<BisectSpec> bisect;  ///< Bisection at every point of the grid.
+  std::vector<std::vector<Setting>> list;  ///< Points that each set several keys; may be empty.
+  std::optional<SampleSpec> sample;        ///< Sample for the keys of `vary` with distributions.
+  std::optional<SearchSpec> search;        ///< Search over the keys of `vary` with distributions.
+  std::vector<Setting> nominal;            ///< Point toward which a counterexample is shrunk.
+  std::vector<DerivedKey> derive;          ///< Computed keys, in the file's order.
+  int repeat = 1;                          ///< Number of runs per point, with consecutive seeds.
+  std::optional<BisectSpec> bisect;        ///< Bisection at every point of the grid.
   std::vector<OutputSpec> outputs;
   KeepSpec keep{};
 };
@@ -137,23 +139,24 @@ struct StudyPoint {
 /// file cannot be read.
 bool IsStudy(const std::filesystem::path& file);
 
-/// Reads a study as strictly as ReadScenario reads a scenario, and the text of its scenario.
-/// InputError lists **every** problem of the study's keys, including keys that overwrite each
-/// other.
+/// Reads a study and the text of its scenario, as strictly as ReadScenario. InputError lists
+/// **every** problem of the study's keys, including keys that overwrite each other.
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
                 const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {},
                 const std::vector<std::filesystem::path>& asset_folders = {});
 
-/// The scenario at a point, with the bisected key at `bisected`. Throws the InputErrors of
-/// ReadScenario. Problems of the study's settings have their place in the study's file.
+/// Reads the scenario at a point, with the bisected key set to `bisected`. Throws the InputErrors
+/// of ReadScenario. Problems of the study's settings are reported at their place in the study's
+/// file.
 Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
                    std::optional<double> bisected = {});
 
-/// Makes the point with these settings and the derived keys. If the scenario is invalid, the point
-/// has the first problem in StudyPoint::refused.
+/// Makes the point with the given settings and the derived keys. If the scenario is invalid,
+/// StudyPoint::refused is the first problem.
 StudyPoint PointWith(const Study& study, std::vector<Setting> settings);
 
-/// The number at a key of a scenario with all defaults filled in; nullopt if there is no such key.
+/// Returns the number at a key of a scenario with all defaults filled in; nullopt if there is no
+/// such key.
 std::optional<double> NumberAt(const Scenario& scenario, const std::string& key);
 
 /// The points of a study, computed on demand and not stored. In the grid, the last key changes
@@ -170,10 +173,11 @@ class StudyPoints {
 
   [[nodiscard]] const Study& study() const { return study_; }
   [[nodiscard]] std::size_t size() const { return combinations_ * samples(); }
-  /// The settings of the point `i` of `size()`. InputError if a formula has no value at that point.
+  /// Returns the settings of the point with index `i`. InputError if a formula has no value at this
+  /// point.
   [[nodiscard]] std::vector<Setting> Settings(std::size_t i) const;
-  /// The point `i`. If its scenario is invalid, the point has the first problem in
-  /// StudyPoint::refused.
+  /// Returns the point with index `i`. If the scenario is invalid, StudyPoint::refused is the first
+  /// problem.
   [[nodiscard]] StudyPoint Read(std::size_t i) const;
 
  private:
@@ -183,21 +187,21 @@ class StudyPoints {
 
   Study study_;
   std::size_t combinations_ = 1;         // Number of combinations in the grid.
-  std::vector<std::size_t> distinct_{};  // Indices among all combinations; empty: all are distinct.
+  std::vector<std::size_t> distinct_{};  // Indices of the distinct combinations; empty: all.
   Eigen::MatrixXd unit_sample_;          // One row per point of the sample.
   std::vector<int> dimensions_;          // Column of each key of `vary`; -1: not sampled.
 };
 
-/// The points that are checked before a study runs: all, or 1000 evenly spaced points, including
-/// the first and the last.
+/// Returns the points that are checked before a study runs: all, or 1000 evenly spaced points,
+/// including the first and the last.
 std::vector<std::size_t> PointsToCheck(const StudyPoints& points);
 
-/// Checks PointsToCheck. InputError lists the problems, each once, with one of the points that have
-/// it unless all points have it. Bisections are checked at both ends and at a value in between. If
-/// `all` is true, every point must be valid; otherwise one valid point is enough.
+/// Checks the points of PointsToCheck. InputError lists each problem once, with one of the affected
+/// points unless all points are affected. Bisections are checked at both ends and at a value in
+/// between. If `all` is true, every point must be valid; otherwise one valid point is enough.
 void CheckPoints(const StudyPoints& points, bool all);
 
-/// A value as text in a table: numbers in their shortest form, other values as YAML.
+/// Formats a value for a table: numbers in their shortest form, other values as YAML.
 std::string CellText(const std::string& value);
 
 }  // namespace trackbed

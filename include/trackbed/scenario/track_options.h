@@ -12,10 +12,10 @@ class Track;
 struct TrackSpec {
   std::string file;  ///< File in a format of ReadTrack (track/track_file.h).
   int laps = 1;      ///< Number of timed laps, >= 1.
-  /// Wavelength below which the center line is smoothed [m]; none: Track's default.
+  /// Wavelength below which the center line is smoothed [m]; nullopt: the default of Track.
   std::optional<double> smoothing;
 
-  // The track, which is not a key. Copies of the scenario share it.
+  // The track, shared by copies of the scenario. The member is not a key of the file.
   std::shared_ptr<const Track> data{};
 };
 

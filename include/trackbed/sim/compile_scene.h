@@ -7,24 +7,24 @@
 
 namespace trackbed {
 
-/// Whether a model will be drawn or only stepped.
+/// Whether a model is compiled for drawing or only for simulation.
 enum class Looks {
   kKept,
-  kDiscarded,  ///< Omits geoms and meshes without contacts and mass.
+  kDiscarded,  ///< Geoms and meshes without contacts and mass are omitted.
 };
 
-/// Compiles a scene with MuJoCo. `name` is the scene's name in messages.
+/// Compiles a scene with MuJoCo. Messages call the scene `name`.
 ///
-/// A scene that is not `trusted` is compiled, and stepped once, in a separate process, because
-/// MuJoCo's readers of meshes, textures and composites do not validate their input and may crash.
-/// That process can open no files and has a minute of processor time and 2 GB of memory (no limit
-/// under the address sanitizer). The compiled model that it returns is byte for byte the same as
-/// one compiled in this process.
+/// A scene that is not `trusted` is compiled, and stepped once, in a separate process. The reason
+/// is that MuJoCo's readers of meshes, textures and composites do not validate their input and may
+/// crash. The separate process cannot open files, and is limited to a minute of processor time and
+/// 2 GB of memory (unlimited under the address sanitizer). Its compiled model is byte for byte the
+/// same as a model compiled in this process.
 ///
-/// Errors: InputError with the line in the car's file if the scene does not compile, if MuJoCo
-/// crashes or does not finish, and if the model would need more than 1 GB. RunError if no process
-/// can be started. Threads: only one thread compiles at a time; other threads wait. Cost: 5 to 200
-/// ms for MuJoCo's compiler, and 5 to 20 ms for a separate process.
+/// Errors: InputError, with the line in the car's file, if the scene does not compile, if MuJoCo
+/// crashes or does not finish, or if the model would need more than 1 GB. RunError if no process
+/// can be started. Threads: only one thread compiles at a time, and other threads wait. Cost: 5 to
+/// 200 ms for MuJoCo's compiler, plus 5 to 20 ms for a separate process.
 MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks looks);
 
 }  // namespace trackbed

@@ -15,10 +15,11 @@ struct MujocoDeleter {
 using MujocoModel = std::unique_ptr<mjModel_, MujocoDeleter>;
 using MujocoData = std::unique_ptr<mjData_, MujocoDeleter>;
 
-/// Copies a model. RunError if there is not enough memory.
+/// Copies a model. Throws RunError if there is not enough memory.
 MujocoModel CopyMujocoModel(const mjModel_& model);
 
-/// Makes data for the model, in its initial configuration. RunError if there is not enough memory.
+/// Makes an mjData for the model, in the initial configuration. Throws RunError if there is not
+/// enough memory.
 MujocoData MakeMujocoData(const mjModel_& model);
 
 }  // namespace trackbed

@@ -7,10 +7,11 @@
 
 namespace trackbed {
 
-/// Adds the payload to the car: a body `payload` fixed to `chassis`, and a keyframe `laden` with
-/// the equilibrium pose. `car` must have no payload. The car's scene must have flat ground and no
-/// obstacles. InputError naming the car's file if the car does not come to rest on its four wheels.
-/// Cost: at most a second of simulated time in MuJoCo.
+/// Returns the car's scene with the payload added: a body `payload` fixed to `chassis`, and a
+/// keyframe `laden` with the equilibrium pose. `car` must not have a payload yet, and its scene
+/// must have flat ground and no obstacles. Throws InputError naming the car's file if the car does
+/// not come to rest on its four wheels. The cost is that of a simulation in MuJoCo of at most a
+/// second.
 Scene WithPayload(const CarModel& car, const Payload& payload);
 
 }  // namespace trackbed

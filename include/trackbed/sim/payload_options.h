@@ -4,14 +4,14 @@
 
 namespace trackbed {
 
-/// A payload: a point mass on the chassis, in addition to the model. The axes are those of the car:
+/// A payload, which is a point mass fixed to the chassis. Its position is given in the car's frame:
 /// x forward from the rear axle, y to the left, z up from the ground.
 struct Payload {
-  std::optional<double> mass;   ///< Mass [kg], > 0; excludes `share`.
+  std::optional<double> mass;   ///< Mass [kg], > 0; only one of `mass` and `share` may be given.
   std::optional<double> share;  ///< Mass as a fraction of the car's mass, > 0.
-  double x = 0.0;               ///< Coordinate x [m]; 0: over the rear axle.
-  double y = 0.0;               ///< Coordinate y [m].
-  std::optional<double> z;      ///< z [m]; none: at the height of the car's center of gravity.
+  double x = 0.0;               ///< Position along x [m]; 0: above the rear axle.
+  double y = 0.0;               ///< Position along y [m].
+  std::optional<double> z;      ///< Height [m]; nullopt: that of the car's center of gravity.
 };
 
 }  // namespace trackbed

@@ -13,122 +13,128 @@
 #include "trackbed/vehicle/steering_response.h"
 #include "trackbed/world/world.h"
 
-/// The interface of plants and their registry.
+/// The interface of plants (simulated vehicles), and the registry of plants.
 namespace trackbed {
 
 /// A simulated vehicle, advanced one physics step at a time. The built-in plants throw
-/// PreconditionError for commands, displacements and forces that are not finite, and then stay
+/// PreconditionError for commands, displacements and forces that are not finite; the plant is then
 /// unchanged.
 class Plant {
  public:
   virtual ~Plant() = default;
 
-  /// Advances by one timestep of the model.
+  /// Advances the simulation by one timestep of the model.
   virtual void Step(const Command& command) = 0;
 
-  /// Displaces the car instantaneously by `left` [m] to its left, onto the ground there. The motion
-  /// of the car is unchanged.
+  /// Displaces the car instantaneously by `left` [m] to its left, and puts it on the ground at the
+  /// new position. The velocities of the car are unchanged.
   virtual void ApplyLateralOffset(double left) = 0;
 
-  /// Applies a horizontal force to the left [N] at the center of gravity during the next step. The
-  /// force has no effect on plants without forces.
+  /// Applies a horizontal force to the left [N] at the center of gravity during the next step. In
+  /// plants that do not simulate forces, ApplyLateralForce has no effect.
   virtual void ApplyLateralForce(double force) = 0;
 
-  /// The present state. For plants with forces, accelerations and wheel forces are those of the
-  /// last step.
+  /// Returns the present state of the vehicle. In plants that simulate forces, the accelerations
+  /// and wheel forces are those of the last step.
   [[nodiscard]] virtual VehicleState Observe() const = 0;
 
-  /// Two values of Observe(), for use at every physics step.
+  /// Pose and obstacle force of Observe(), which are cheap enough for every physics step.
   [[nodiscard]] virtual Pose2 pose() const = 0;
   [[nodiscard]] virtual double obstacle_force() const { return 0.0; }
 
-  /// The present configuration, with the names of CarModel::configuration_columns.
+  /// Returns the present configuration. CarModel::configuration_columns has the names of the
+  /// values.
   [[nodiscard]] virtual std::vector<double> Configuration() const = 0;
 
   /// Whether the simulation has diverged. A diverged plant must not be stepped.
   [[nodiscard]] virtual bool diverged() const = 0;
 
-  /// Why the simulation diverged; empty if unknown.
+  /// Returns the reason for the divergence of the simulation; empty if unknown.
   [[nodiscard]] virtual std::string divergence() const { return ""; }
 
-  /// Height of the lowest wheel's lowest point over the road under it [m], for an undeformed tyre.
-  /// While the tyre carries the car, this is minus its deflection. 0 for plants that cannot leave
-  /// the road.
+  /// Returns the smallest distance between an undeformed tyre and the road below it [m]. The
+  /// distance is negative while a tyre is deflected by its load. Plants that cannot leave the road
+  /// return 0.
   [[nodiscard]] virtual double wheel_gap() const { return 0.0; }
 };
 
-/// The arguments for making a plant. The setup holds references to car and world, which must
-/// outlive the plant.
+/// The arguments for making a plant. PlantSetup keeps references to the car and the world, which
+/// must outlive the plant.
 struct PlantSetup {
   const CarModel& car;
   const World& world;
   StartState start;
   TyreLaw tyre = TyreLaw::kAuto;
   SteeringInput steering = SteeringInput::kActuator;
-  /// State of the car's steering response after earlier commands, made for the car's timestep.
-  /// Nullopt: the state in which a constant command has held the initial wheel angle.
+  /// State of the car's steering response after earlier commands; its timestep must be that of the
+  /// car. Nullopt: the steady state at the initial wheel angle.
   std::optional<SteeringFilter> filter{};
 };
 
-/// Resolves `tyre` for a car; never returns kAuto.
+/// Returns the tyre law that `tyre` means for a car: replaces kAuto, and returns other laws
+/// unchanged.
 TyreLaw SelectTyreLaw(const CarModel& car, TyreLaw tyre);
 
-/// A plant in the registry.
+/// An entry of the plant registry.
 struct PlantEntry {
   const char* name;
   const char* summary;  ///< One-line summary for users.
   std::unique_ptr<Plant> (*make)(const PlantSetup& setup);
 };
 
-/// The name of the record of a real vehicle among the plants of a run (scenario/record.h). No plant
-/// of the registry may have this name.
+/// Name under which the record of a real vehicle appears among the plants of a run
+/// (scenario/record.h). No plant in the registry may have this name.
 inline constexpr const char* kRecordedPlant = "recorded";
 
-/// All plants, the built-in ones first: `kinematic` (KinematicCar, rear-axle reference),
-/// `single_track` (SingleTrackCar) and `mujoco` (the MJCF car on its contacts, with the tyre law of
-/// the setup). The plants `mujoco:contact` and `mujoco:magic_formula` use the named tyre law
-/// instead of the setup's.
+/// Returns all plants, beginning with the built-in plants: `kinematic` (KinematicCar with the rear
+/// axle as reference point), `single_track` (SingleTrackCar) and `mujoco` (the MJCF car, with the
+/// tyre law of the setup). The plants `mujoco:contact` and `mujoco:magic_formula` use the named
+/// tyre law instead of that of the setup.
 ///
 /// The plants `kinematic` and `single_track` follow the commanded acceleration exactly and ignore
-/// the world: obstacles, friction, grades and wind. A linear tyre only has a stiffness, which does
-/// not depend on the road's friction. `single_track` needs a car with tyre coefficients; otherwise
-/// InputError names the car's file and the missing coefficients. If `single_track` is unstable, it
-/// diverges and ends at 1e10 m or rad.
+/// the world: obstacles, friction, grades and wind. In `single_track`, a tyre has a constant
+/// cornering stiffness, which does not depend on the road's friction. `single_track` needs a car
+/// with tyre coefficients; otherwise InputError names the car's file and the missing coefficients.
+/// An unstable car on `single_track` spins ever faster; it counts as diverged when a coordinate
+/// exceeds 1e10 m or rad.
 ///
-/// Plants begin without slip, unless the start has a lateral speed or a yaw rate, which `kinematic`
-/// ignores. MuJoCo's plants stand on their springs as at rest.
+/// A run starts without slip, unless the start state has a lateral speed or a yaw rate, which
+/// `kinematic` ignores. In MuJoCo, the springs start with the deflection of a car at rest.
 ///
 /// The steering response of a car (VehicleParams::steering_response) applies to every plant,
-/// including user-defined plants: the plant receives the output of the SteeringFilter. Prescribed
-/// steering bypasses the response.
+/// including user-defined plants, because the plant receives the output of a SteeringFilter.
+/// Prescribed steering bypasses the steering response.
 ///
-/// ApplyLateralForce has no effect on `kinematic`, nor on `single_track` at rest.
+/// ApplyLateralForce has no effect on `kinematic`, or on `single_track` at rest.
 ///
-/// The MuJoCo plant converts a commanded acceleration to drive torque on its differential, or,
-/// against the gear, to dry friction of the brakes. The brakes are distributed between front and
-/// rear like the model's brake torques. Both torques are clamped to the model's limits. The
-/// conversion uses the car's unladen mass. The steering actuator has the rate limit of the model,
-/// updated at every physics step.
+/// The MuJoCo plant converts a commanded acceleration in the direction of the gear to a drive
+/// torque on the differential. A deceleration becomes dry friction of the brakes. The braking
+/// torque is distributed between front and rear in proportion to the model's brake torques. Drive
+/// and brake torques are clamped to the model's limits. The conversion uses the car's mass without
+/// payload. The angle of the steering actuator changes at every physics step, at most at the
+/// model's rate limit.
 ///
-/// With differential drive, only `kinematic` and `mujoco` with the tyre law kContact are available.
-/// InputError for other plants, and for prescribed steering in MuJoCo. With differential drive,
-/// MuJoCo integrates the commanded acceleration to a speed command, and torque-limited servos
-/// control each wheel's speed. The measured steering angle is atan((v_R - v_L)/v) of the wheels'
-/// speeds. Below 0.1 m/s, its difference from the actuator's angle is weighted by (v/0.1 m/s)^2, so
-/// that at rest it equals the actuator's angle.
+/// A vehicle with differential drive can only run on `kinematic`, and on `mujoco` with the tyre law
+/// kContact. MakePlant throws InputError for other plants, and for prescribed steering in MuJoCo.
+/// For differential drive, the MuJoCo plant integrates the commanded acceleration to a speed
+/// command, and a torque-limited servo controls the speed of each wheel. The measured steering
+/// angle is atan((v_R - v_L)/v), where v_L and v_R are the speeds of the wheels and v is their
+/// mean. Below 0.1 m/s, the measured angle blends into the actuator's angle: the difference of
+/// their tangents is weighted by (v/0.1 m/s)^2.
 const std::vector<PlantEntry>& Plants();
 
-/// Adds a plant to the registry, for scenarios, `trackbed list`, messages and reports. Call
-/// RegisterPlant at the start of main: it invalidates references to entries and is not thread-safe.
-/// PreconditionError if the name is taken, or is kRecordedPlant.
+/// Adds a plant to the registry, so that scenarios, `trackbed list`, messages and reports can use
+/// its name. Call RegisterPlant at the start of main, because it invalidates references to entries
+/// and is not thread-safe. Throws PreconditionError if the name is already in use or is
+/// kRecordedPlant.
 void RegisterPlant(PlantEntry entry);
 
-/// Makes the named plant. InputError with the nearest spelling if there is no such plant.
-/// PreconditionError for a start that is not finite.
+/// Makes the named plant. Throws InputError, which suggests the most similar name, if there is no
+/// such plant. Throws PreconditionError if the start state is not finite.
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup);
 
 /// Makes a kinematic plant with the given reference point. With kCenterOfGravity, `start.speed` and
-/// the commanded acceleration are those of the center of gravity.
+/// the commanded acceleration refer to the center of gravity.
 std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
 
 }  // namespace trackbed

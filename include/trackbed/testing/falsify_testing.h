@@ -15,8 +15,8 @@
 /// A failing matcher prints the smallest counterexample and the failed check.
 namespace trackbed {
 
-/// Searches a study on all threads of the machine, in memory. `overrides` are those of the command
-/// line. InputError lists every problem of the file.
+/// Searches a study on all threads of the machine, in memory. `overrides` have the form key=value,
+/// as on the command line. InputError lists every problem of the file.
 FalsifyResult FalsifyStudy(const std::filesystem::path& file,
                            const std::vector<Override>& overrides = {});
 
@@ -24,7 +24,7 @@ FalsifyResult FalsifyStudy(const std::filesystem::path& file,
 /// in 61 runs".
 void PrintTo(const FalsifyResult& result, std::ostream* out);
 
-/// Matches if no run of the search failed or met a bug of the program. A match is not a proof.
+/// Matches if no run of the search failed or revealed a bug in the program. A match is not a proof.
 testing::Matcher<const FalsifyResult&> IsNotFalsified();
 
 }  // namespace trackbed

@@ -25,19 +25,19 @@
 /// quantity because there is no path or no obstacle.
 namespace trackbed {
 
-/// Plans and simulates the scenario on all its plants. `overrides` are those of the command line.
-/// InputError lists every problem of the file.
+/// Plans and simulates the scenario on all its plants. `overrides` have the form key=value, as on
+/// the command line. InputError lists every problem of the file.
 RunResult RunScenario(const std::filesystem::path& file,
                       const std::vector<Override>& overrides = {});
 
 /// As RunScenario above, for a scenario made or changed in code.
 RunResult RunScenario(const Scenario& scenario);
 
-/// The differences between two plants of a run. InputError unless the run has both plants.
+/// Returns the differences between two plants of a run. InputError unless the run has both plants.
 PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second);
 
-/// The differences of a plant between two runs, for example with different controllers. The traces
-/// are named "<run>/<plant>". InputError unless both runs have the plant.
+/// Returns the differences of a plant between two runs, for example with different controllers. The
+/// compared plants are named "<run>/<plant>". InputError unless both runs have the plant.
 PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant);
 
 /// Prints a comparison in GoogleTest: "kinematic and mujoco from 0 m to 138.2 m: maximum difference
@@ -54,7 +54,8 @@ void PrintTo(const RunResult& run, std::ostream* out);
 /// Matches if the largest cross-track error of every plant is at most `limit` [m].
 testing::Matcher<const RunResult&> TracksWithin(double limit);
 
-/// Matches if `first` and `second` are never further apart than `limit` [m] at equal station.
+/// Matches if the plants `first` and `second` are never further apart than `limit` [m] at equal
+/// station.
 testing::Matcher<const RunResult&> StaysWithin(const std::string& first, const std::string& second,
                                                double limit);
 

@@ -10,7 +10,7 @@
 /// four times continuously differentiable.
 namespace trackbed {
 
-/// The basis: one function for each knot, over one period.
+/// The basis functions of a closed spline: one for each knot, over one period.
 class ClosedSplineBasis {
  public:
   static constexpr std::size_t kSupport = 6;  ///< Number of functions that are nonzero at a point.
@@ -31,7 +31,7 @@ class ClosedSplineBasis {
   [[nodiscard]] std::size_t count() const { return count_; }
 
   /// Evaluates the basis at any finite parameter, which is wrapped. With `order`, evaluates only
-  /// that derivative.
+  /// the derivative of that order.
   [[nodiscard]] Local At(double t, std::optional<std::size_t> order = {}) const;
 
  private:
@@ -39,8 +39,8 @@ class ClosedSplineBasis {
   std::size_t count_;
 };
 
-/// Evaluates the sum of c_j B_j^(order)(t), order 0 to 2. The rows of the matrix are the
-/// coefficients.
+/// Evaluates the sum of c_j B_j^(order)(t), order 0 to 2. Row j of the matrix `coefficients` is
+/// c_j.
 Eigen::RowVectorXd Evaluate(const ClosedSplineBasis::Local& at, const Eigen::MatrixXd& coefficients,
                             std::size_t order);
 

@@ -46,10 +46,11 @@ struct TrackFold;
 /// The center line is a closed B-spline of degree 5 fitted to the points (closed_spline.h): bends
 /// shorter than the wavelength are smoothed out, because the second derivative of surveyed points
 /// is mostly noise. `deviation_max` is the largest displacement of a point by the smoothing. The
-/// edges are not smoothed: widths count from the surveyed points.
+/// edges are not smoothed: widths are measured from the surveyed points.
 ///
-/// Guarantees: curvature and its rate are continuous, also across the start line; the center line
-/// closes to 1e-4 of the distance between the points. A track has no heights and no friction.
+/// Guarantees: curvature and its rate are continuous, also across the start line; the gap between
+/// the end and the start of the center line is at most 1e-4 of the distance between the points. A
+/// track has no heights and no friction.
 class Track {
  public:
   static constexpr std::size_t kMinPoints = 8;
@@ -63,27 +64,27 @@ class Track {
 
   [[nodiscard]] const std::vector<TrackPoint>& points() const { return points_; }
   [[nodiscard]] double smoothing() const { return smoothing_; }  ///< Wavelength [m].
-  /// Largest displacement [m].
+  /// Largest displacement of a point by the smoothing [m].
   [[nodiscard]] double deviation_max() const { return deviation_max_; }
-  /// Root mean square displacement of the points [m].
+  /// Root mean square displacement of the points by the smoothing [m].
   [[nodiscard]] double deviation_rms() const { return deviation_rms_; }
 
   /// Length of the center line [m].
   [[nodiscard]] double length() const { return length_; }
-  /// The center line at any station, which is wrapped. The yaw is that of the first lap.
+  /// The center line at any station, which is wrapped. The yaw is the same in every lap.
   [[nodiscard]] PathPoint At(double s) const;
   /// The edges at a station, linear between the points of the track.
   [[nodiscard]] TrackEdges EdgesAt(double s) const;
   /// The station of a point of the track.
   [[nodiscard]] double StationOf(std::size_t point) const { return stations_[point]; }
 
-  /// Track coordinates of a point, from the nearest part of the center line. With `near` [m],
-  /// searches only within 30 m of that station, or a tenth of the lap if that is less. The station
-  /// is within [0, length). Cost: that of Path::Project over the searched part.
+  /// Returns the track coordinates of a point, relative to the nearest part of the center line.
+  /// With `near` [m], searches only within 30 m of that station, or a tenth of the lap if that is
+  /// less. The station is within [0, length). Cost: that of Path::Project over the searched part.
   [[nodiscard]] TrackPlace Locate(const Vec2& point, std::optional<double> near = {}) const;
 
-  /// A car's state in the frame of the center line; nullopt if the frame is undefined, as in
-  /// trackbed::ToFrenet.
+  /// Returns a car's state in the Frenet frame of the center line; nullopt if the frame is
+  /// undefined, as in trackbed::ToFrenet.
   [[nodiscard]] std::optional<FrenetState> ToFrenet(const MotionState& motion) const;
 
   /// The edges, with points at most kEdgeSpacing apart.
@@ -109,7 +110,7 @@ class Track {
   double extra_ = 0.0;  // Length of path_ before the start line, and after a lap [m].
   Path path_;           // Center line, slightly more than a lap.
   std::vector<double> stations_;
-  std::vector<TrackEdges> edges_;  // Edges at the points.
+  std::vector<TrackEdges> edges_;  // Edges at the surveyed points.
   TrackEdgeLine left_;
   TrackEdgeLine right_;
 };
@@ -118,20 +119,22 @@ class Track {
 struct TrackFold {
   std::size_t point = 0;  ///< Point of the track before the tightest place of the bend.
   double radius = 0.0;    ///< Radius of the center line [m].
-  /// Width to the inner edge [m]. The width exceeds 95 % of the radius unless `turn` is set.
+  /// Distance from the center line to the inner edge [m]. The distance exceeds 95 % of the radius
+  /// unless `turn` is set.
   double width = 0.0;
-  /// Lower bound on the turn of the line within a quarter of the mean distance of the points [rad].
-  /// Only the search before the track is made sets it.
+  /// Lower bound on the angle by which the center line turns within a quarter of the mean distance
+  /// of the points [rad]. Set only by the FindFold that searches points.
   double turn = 0.0;
 };
 
 /// Finds the first fold; nullopt for a usable track.
 std::optional<TrackFold> FindFold(const Track& track);
 
-/// Finds the first clear fold of the track that these points would make. The inner edge of such a
-/// fold is beyond the radius, or the line turns by more than half a circle within a quarter of the
-/// mean distance of the points. One wrong number can cause such a line, which would take long to
-/// make and to follow. Throws the errors of Track. Cost: 5 us per point.
+/// Finds the first clear fold of a track before the track is made from its points. In a clear fold,
+/// the inner edge is beyond the center of curvature, or the center line turns by more than half a
+/// circle within a quarter of the mean distance of the points. One wrong number in a file can cause
+/// such a fold, and the track would take a long time to compute. Throws the errors of Track. Cost:
+/// 5 us per point.
 std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
                                   std::optional<double> smoothing);
 

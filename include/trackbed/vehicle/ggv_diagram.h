@@ -7,25 +7,27 @@
 /// The g-g-v diagram of a car: the accelerations that its tyres, motor and brakes allow at each
 /// speed.
 ///
-/// Symbols, along the road's surface, per mass of the car [m/s^2], including gravity:
+/// Symbols. The forces are divided by the car's mass [m/s^2], act along the axes of the road's
+/// surface, and include gravity:
 ///   f_x  force of all tyres along the car, positive when driving
 ///   f_y  force of all tyres across the car; only its magnitude matters
 ///   f_n  load on the road; g on a level road
 ///   v    speed [m/s];  f the road's factor on the tyres' friction [1]
 /// On a level road the car's acceleration is a_x = f_x - D/m and a_y = f_y, D being the drag.
 ///
-/// Tyre forces are computed at f_n = g and scaled with f_n. The scaling is exact if the friction
-/// does not depend on the load.
+/// Tyre forces are computed at the load of a level road, f_n = g, and scaled in proportion to f_n.
+/// The scaling is exact if the friction does not depend on the load.
 namespace trackbed {
 
-/// The boundary of f_x over f_y at one speed on one road.
+/// The limits of the longitudinal force f_x as a function of the lateral force f_y, at one speed on
+/// one road.
 struct GgvSection {
   double speed = 0.0;    ///< Speed v [m/s], >= 0.
   double road = 1.0;     ///< Road factor f [1], > 0.
   double lateral = 0.0;  ///< Largest f_y [m/s^2], > 0.
-  /// The largest and the smallest f_x [m/s^2] at f_y = lateral cos(q). q is from 0 to pi/2 in equal
-  /// steps, that is, from the largest f_y to straight ahead. Between the steps, f_x is linear in
-  /// sin(q), as for an ellipse.
+  /// The largest and the smallest longitudinal force f_x [m/s^2] at the lateral force f_y = lateral
+  /// cos(q). The angle q runs in equal steps from 0 (largest f_y) to pi/2 (straight ahead). Between
+  /// two steps, f_x is linear in sin(q), as for an ellipse.
   std::vector<double> driving;
   std::vector<double> braking;
 };
@@ -42,7 +44,7 @@ struct LongitudinalForces {
   double top_speed = 0.0;           ///< Top speed [m/s]; 0: no limit.
 };
 
-/// A point of a car in the diagram.
+/// An operating point of a car in the g-g-v diagram.
 struct GgvPoint {
   double speed = 0.0;    ///< Speed v [m/s].
   double road = 1.0;     ///< Road factor f [1].
@@ -50,7 +52,7 @@ struct GgvPoint {
   double lateral = 0.0;  ///< Lateral force f_y [m/s^2].
 };
 
-/// A range of f_x [m/s^2].
+/// A range of the longitudinal tyre force f_x, divided by the car's mass [m/s^2].
 struct TyreRange {
   double braking = 0.0;
   double driving = 0.0;
@@ -63,33 +65,36 @@ struct AccelerationRange {
 };
 
 /// A g-g-v diagram. Immutable. Between sections, values are linear in v^2 and in the road's factor.
-/// Beyond the speeds of the sections, values are those of the nearest section. Beyond the roads of
-/// the sections, values are proportional to the factor.
+/// Beyond the range of the sections' speeds, values are those of the nearest section. Beyond the
+/// range of the sections' road factors, values are proportional to the road factor.
 class GgvDiagram {
  public:
-  /// InternalError unless there is a section for every pair of the occurring speeds and roads. All
-  /// sections must have the same number of values, at least two, which are finite and have braking
-  /// <= driving. InternalError unless masses are positive and forces are nonnegative.
+  /// InternalError unless there is a section for every pair of a speed and a road factor that occur
+  /// in `sections`. All sections must have the same number of values, at least two, which are
+  /// finite and have braking <= driving. InternalError unless masses are positive and forces are
+  /// nonnegative.
   GgvDiagram(const LongitudinalForces& forces, std::vector<GgvSection> sections);
 
   [[nodiscard]] const LongitudinalForces& forces() const { return forces_; }
-  /// The sections by road, then by speed, both increasing.
+  /// The sections, sorted by increasing road factor, then by increasing speed.
   [[nodiscard]] const std::vector<GgvSection>& sections() const { return sections_; }
 
-  /// The largest f_y [m/s^2] for the point's speed, road and load. Cost: below 0.1 us.
+  /// Returns the largest lateral force f_y [m/s^2] at the point's speed, road factor and load.
+  /// Cost: below 0.1 us.
   [[nodiscard]] double MaxLateral(const GgvPoint& point) const;
 
-  /// The range of f_x that the tyres allow at f_y, which is clamped to the largest f_y. The limits
-  /// of motor and brakes are ignored. Cost: below 0.1 us.
+  /// Returns the range of the longitudinal force f_x that the tyres allow at the point's lateral
+  /// force f_y, which is clamped to the largest one. The limits of motor and brakes are ignored.
+  /// Cost: below 0.1 us.
   [[nodiscard]] TyreRange TyresAt(const GgvPoint& point) const;
 
-  /// The range of the acceleration along the road [m/s^2] at f_y. The range uses the fraction
-  /// `share` of the forces of tyres, motor and brakes, minus the drag and `slope`. The latter is
-  /// gravity along the road, positive uphill [m/s^2].
+  /// Returns the range of the acceleration along the road [m/s^2] at the point's lateral force. The
+  /// tyres, motor and brakes contribute the fraction `share` of their forces; the drag and `slope`
+  /// are subtracted. `slope` is the component of gravity along the road [m/s^2], positive uphill.
   [[nodiscard]] AccelerationRange AccelerationsAt(const GgvPoint& point, double share = 1.0,
                                                   double slope = 0.0) const;
 
-  /// Largest force of the motor at the wheels [N] at a speed; infinite without a limit.
+  /// Returns the largest force of the motor at the wheels [N] at a speed; infinite without a limit.
   [[nodiscard]] double DriveForce(double speed) const;
 
  private:
@@ -108,8 +113,8 @@ class GgvDiagram {
 };
 
 /// Makes an elliptic section with the half axes `driving` ahead, `braking` behind and `lateral` to
-/// the sides [m/s^2], all > 0. The speed is 0 and the road's factor 1. Two values represent the
-/// ellipse exactly.
+/// the sides [m/s^2], all > 0. The speed is 0 and the road's factor 1. The section has two values
+/// each for driving and braking, which represent the ellipse exactly.
 GgvSection EllipticSection(double driving, double braking, double lateral);
 
 }  // namespace trackbed

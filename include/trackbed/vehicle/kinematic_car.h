@@ -14,7 +14,7 @@ namespace trackbed {
 
 struct MotionPiece;
 
-/// The reference point of a car: the state's pose and speed are those of this point.
+/// The reference point of a car, to which the pose and speed of its state refer.
 enum class ReferencePoint { kRearAxle, kCenterOfGravity };
 
 struct KinematicState {
@@ -25,11 +25,10 @@ struct KinematicState {
 };
 
 /// The kinematic car. Guarantees: a step at a constant steering angle is exact to rounding, for any
-/// length and acceleration. While the angle moves, the error is that of a fourth-order method on a
-/// smooth right-hand side: below 1e-10 m for steps up to 20 ms at 3 m/s. A step is split when the
-/// steering reaches its target and when the car comes to rest, so that the result does not depend
-/// on the step size. The car has no slip, roll or forces; its acceleration follows the command
-/// exactly.
+/// length and acceleration. While the steering angle moves, the error is that of a fourth-order
+/// integrator: below 1e-10 m for steps up to 20 ms at 3 m/s. A step is split when the steering
+/// reaches its target and when the car comes to rest, so that the result does not depend on the
+/// step size. The car has no slip, roll or forces; its acceleration follows the command exactly.
 class KinematicCar {
  public:
   KinematicCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start);
@@ -43,8 +42,9 @@ class KinematicCar {
 
   [[nodiscard]] const KinematicState& state() const { return state_; }
 
-  /// The full state, with pose and speed of the rear axle for both reference points. Accelerations
-  /// are those at the end of the last step. The member `time` is the sum of the steps.
+  /// Returns the full state. Pose and speed are those of the rear axle, for either reference point.
+  /// Accelerations are those at the end of the last step. The member `time` is the total duration
+  /// of the steps.
   [[nodiscard]] VehicleState FullState() const;
 
  private:

@@ -25,9 +25,9 @@ struct MagicFormula {
   double p_dx2 = 0.0;  ///< Change of mu_x with load.
   double p_dx3 = 0.0;  ///< Change of mu_x with camber.
   double p_ex1 = 0.0;  ///< Curvature factor, <= 1.
-  double p_kx1 = 0.0;  ///< Slip stiffness over load, > 0.
+  double p_kx1 = 0.0;  ///< Slip stiffness divided by load, > 0.
   double p_hx1 = 0.0;  ///< Horizontal shift.
-  double p_vx1 = 0.0;  ///< Vertical shift over load.
+  double p_vx1 = 0.0;  ///< Vertical shift divided by load.
   double r_bx1 = 0.0;  ///< Combined slip: influence of alpha on F_x.
   double r_bx2 = 0.0;
   double r_cx1 = 0.0;
@@ -38,12 +38,13 @@ struct MagicFormula {
   double p_dy2 = 0.0;  ///< Change of mu_y with load.
   double p_dy3 = 0.0;  ///< Change of mu_y with camber.
   double p_ey1 = 0.0;  ///< Curvature factor, <= 1.
-  double p_ky1 = 0.0;  ///< Cornering stiffness over load, < 0.
-  /// Load of the largest cornering stiffness over F_z0. 0: linear in the load.
+  double p_ky1 = 0.0;  ///< Cornering stiffness divided by load, < 0.
+  /// Load at which the cornering stiffness is largest, divided by F_z0. With 0, the stiffness is
+  /// proportional to the load.
   double p_ky2 = 0.0;
   double p_hy1 = 0.0;  ///< Horizontal shift, with the sign of the camber.
   double p_hy3 = 0.0;
-  double p_vy1 = 0.0;  ///< Vertical shift over load, with the sign of the camber.
+  double p_vy1 = 0.0;  ///< Vertical shift divided by load, with the sign of the camber.
   double p_vy3 = 0.0;
   double r_by1 = 0.0;  ///< Combined slip: influence of kappa on F_y.
   double r_by2 = 0.0;
@@ -57,9 +58,9 @@ struct MagicFormula {
   double r_vy5 = 0.0;
   double r_vy6 = 0.0;
   double f_z0 = 0.0;  ///< Nominal load F_z0 [N], needed by p_dx2, p_dy2 and p_ky2.
-  /// Relaxation length sigma: rolling distance to 63 % of a slip change [m], > 0.
+  /// Relaxation length sigma: distance over which the slip reaches 63 % of a change [m], > 0.
   double relaxation_length = 0.3;
-  double rolling_resistance = 0.0;  ///< Rolling resistance moment over load and radius.
+  double rolling_resistance = 0.0;  ///< Rolling resistance moment divided by load and radius.
 };
 
 /// A coefficient with its name in a car's file.
@@ -76,8 +77,8 @@ struct TyreSlip {
   double ratio = 0.0;   ///< Slip ratio kappa.
   double angle = 0.0;   ///< Slip angle alpha [rad].
   double camber = 0.0;  ///< Camber gamma [rad], clamped to +-0.1.
-  /// Factor of the shifts, -1 to 1. The shifts change sign with the rolling direction and vanish at
-  /// standstill.
+  /// Factor on the horizontal and vertical shifts, from -1 to 1. The shifts change sign with the
+  /// rolling direction and vanish at standstill.
   double shift = 1.0;
 };
 
@@ -86,15 +87,16 @@ struct TyreForce {
   double lateral = 0.0;       ///< Force F_y on the car [N].
 };
 
-/// The force at steady slip. The argument `road` > 0 is the factor of the road on both friction
-/// coefficients. The factor does not affect stiffness.
+/// Computes the tyre force at constant slip. The argument `road` > 0 is the road's factor on both
+/// friction coefficients; the factor does not affect the stiffness.
 ///
-/// Guarantees: there is no force without load (F_z <= 0). F_y is odd in (alpha, gamma), except for
-/// the r_* shifts, which represent the asymmetry of a tyre. With r_* coefficients, the combined
-/// force may exceed the friction ellipse, by 12 % for CommonRoad's BMW. The excess is a property of
-/// the model. Without r_* coefficients, the force is scaled onto the ellipse. The sign of gamma in
-/// the shifts is smoothed over half a mrad, because a jump would be unphysical. Aligning moment and
-/// turn slip are not included. Cost: about 0.2 us.
+/// Guarantees: there is no force without load (F_z <= 0). The lateral force F_y is an odd function
+/// of (alpha, gamma), except for the r_* shifts, which represent the asymmetry of a tyre. With r_*
+/// coefficients, the combined force may exceed the friction ellipse, by 12 % for CommonRoad's BMW.
+/// The excess is a property of the model. Without r_* coefficients, a force outside the friction
+/// ellipse is scaled back onto the ellipse. The sign of gamma in the shifts is smoothed over half a
+/// mrad, because a jump would be unphysical. Aligning moment and turn slip are not included. Cost:
+/// about 0.2 us.
 TyreForce EvaluateTyreForce(const MagicFormula& tyre, double load, double road,
                             const TyreSlip& slip);
 
@@ -104,14 +106,14 @@ struct TyreFriction {
   double lateral = 0.0;
 };
 
-/// The peaks D/F_z of pure slip at `load`, without camber and shifts. With a shape factor C below
-/// 1, the peak is D sin(C pi/2) instead of D.
+/// Returns the peak friction D/F_z for pure slip at `load`, without camber and shifts. With a shape
+/// factor C below 1, the peak force is D sin(C pi/2) instead of D.
 TyreFriction PeakFriction(const MagicFormula& tyre, double load);
 
-/// The cornering stiffness C_alpha = -dF_y/dalpha at zero slip [N/rad], > 0.
+/// Returns the cornering stiffness C_alpha = -dF_y/dalpha at zero slip [N/rad], > 0.
 double CorneringStiffness(const MagicFormula& tyre, double load);
 
-/// The slip stiffness C_kappa = dF_x/dkappa at zero slip [N], > 0.
+/// Returns the slip stiffness C_kappa = dF_x/dkappa at zero slip [N], > 0.
 double SlipStiffness(const MagicFormula& tyre, double load);
 
 }  // namespace trackbed

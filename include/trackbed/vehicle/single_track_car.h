@@ -13,13 +13,14 @@
 /// their lateral forces [N], left positive.
 ///   m (v' + u r) = F_f + F_r         F_f = C_f (u tan(delta) - v - l_f r)/|u|
 ///   I r' = l_f F_f - l_r F_r         F_r = -C_r (v - l_r r)/|u|
-/// Slip angles are small: tan(alpha) is alpha, and all of F_f is along y. Steering angle and pose
-/// need not be small: with tan(delta), the car without slip is the kinematic car. The forces oppose
-/// the axles' lateral motion in both directions of rolling.
+/// Slip angles are assumed to be small: tan(alpha) is replaced by alpha, and the front force F_f
+/// acts entirely along y. The steering angle need not be small: with tan(delta), a car without slip
+/// is the kinematic car. The forces oppose the axles' lateral motion, whether the car rolls
+/// forwards or backwards.
 ///
 /// Steady state: r = u tan(delta)/(L + K u |u|) with K = m (l_r/C_f - l_f/C_r)/L [s^2/m]. Like the
-/// linear car, it is unstable above the speed sqrt(L/|K|) for K < 0 driving forwards, and for K > 0
-/// driving backwards.
+/// linear car, this car is unstable above the speed sqrt(L/|K|), for K < 0 when driving forwards,
+/// and for K > 0 when driving backwards.
 namespace trackbed {
 
 struct SingleTrackState {
@@ -31,19 +32,19 @@ struct SingleTrackState {
   double distance = 0.0;       ///< Driven distance, the integral of |u| [m].
 };
 
-/// The state of a car that rolls without slip, from that of a KinematicCar with the rear axle as
-/// its reference point.
+/// Returns the state of a car that rolls without slip. The argument `state` is that of a
+/// KinematicCar with the rear axle as its reference point.
 SingleTrackState RollingWithoutSlip(const VehicleParams& params, const KinematicState& state);
 
-/// The single-track car. Guarantees: steering and speed are exactly those of KinematicCar,
-/// including its rules of standstill and gears. The ratios v/u and r/u are integrated by Radau IIA
-/// of fifth order, over at most 2 ms at a time. When u passes through zero, v and r decay
-/// infinitely fast, but their ratios to u have a finite limit. Therefore no blending or switching
-/// is needed, and a slow car equals the kinematic car to O(u^2) and O(u'). A step is split when the
-/// steering reaches its target and when the car comes to rest. The step size changes the result by
-/// less than 1e-9 m and rad over seconds of driving. Braking harder than tyres allow (some 50
-/// m/s^2) is outside the model. The model has linear tyres without a friction limit, and no wheel
-/// loads, roll, wind or grades.
+/// A single-track car with prescribed speed. Guarantees: steering and speed are exactly those of
+/// KinematicCar, including its rules of standstill and gears. The ratios v/u and r/u are integrated
+/// by Radau IIA of fifth order, over at most 2 ms at a time. When the speed u passes through zero,
+/// v and r decay infinitely fast, but the ratios v/u and r/u have a finite limit. Therefore the
+/// model needs no blending or switching at low speed, and a slow car equals the kinematic car
+/// except for terms of O(u^2) and O(u'). A step is split when the steering reaches its target and
+/// when the car comes to rest. The step size changes the result by less than 1e-9 m and rad over
+/// seconds of driving. Braking harder than tyres allow (some 50 m/s^2) is outside the model. The
+/// model has linear tyres without a friction limit, and no wheel loads, roll, wind or grades.
 ///
 /// InternalError unless mass, yaw inertia and both cornering stiffnesses are above zero. Cost:
 /// about 2 us per 2 ms.
@@ -64,8 +65,9 @@ class SingleTrackCar {
 
   [[nodiscard]] const SingleTrackState& state() const { return state_; }
 
-  /// The full state. Accelerations are those at the end of the last step, and `time` is the sum of
-  /// the steps. There are no wheel forces, because the model only has axle forces.
+  /// Returns the full state. Accelerations are those at the end of the last step, and `time` is the
+  /// total duration of the steps. The state has no wheel forces, because the model only has axle
+  /// forces.
   [[nodiscard]] VehicleState FullState() const;
 
  private:

@@ -8,8 +8,8 @@ struct SteeringLimits {
   double rate = 0.0;   ///< Largest rate in both directions [rad/s], > 0.
 };
 
-/// A move of the angle from `start` toward `wanted`, which is clipped to the limits. The angle
-/// moves at the full rate for `ramp_time`, then stays constant at `end`.
+/// A move of the steering angle from `start` toward a commanded angle, which is clipped to the
+/// limits. The angle moves at the full rate for `ramp_time`, then stays constant at `end`.
 struct SteeringMove {
   double start = 0.0;      ///< Initial angle [rad].
   double end = 0.0;        ///< Final angle [rad].

@@ -23,8 +23,8 @@ struct SteeringFaults {
 /// O(1). PreconditionError for numbers that are not finite, or a delay of more than 10^7 timesteps.
 class FaultySteering {
  public:
-  /// Wheels and actuator start at `start` [rad], in the middle of the play. The state is that after
-  /// a long constant command. `timestep` [s] > 0 is the time between calls of Pass.
+  /// Wheels and actuator start at `start` [rad], in the middle of the play. The initial state is
+  /// that after a long constant command. `timestep` [s] > 0 is the time between calls of Pass.
   FaultySteering(const SteeringFaults& faults, double timestep, double start);
 
   /// The angle [rad] that the actuator receives now if `wanted` is commanded now.

@@ -29,15 +29,16 @@ class MonotoneCurve {
   std::function<double(double)> interpolant_;
 };
 
-/// The response of the actuator. For a commanded angle c(t), the actuator moves toward u_4(t),
-/// within its limits:
+/// The parameters of an actuator's response. For a commanded angle c(t), the actuator moves toward
+/// u_4(t), within its limits:
 ///   u_1(t) = curve(c(t))                    the linkage and its calibration
 ///   u_2(t) = u_1(t - dead_time)             bus, computer and servo
 ///   time_constant u_3'(t) + u_3(t) = u_2(t) first order
 ///   u_4(t), with |u_4 - u_3| <= backlash/2  backlash: changes only at the edges of the play
 /// All angles are bicycle angles at the road wheels [rad], positive to the left.
 struct SteeringResponse {
-  /// Points (command, angle) [rad] of a MonotoneCurve. Empty: angle = command.
+  /// Points (command, angle) [rad] of a MonotoneCurve. Without points, the angle equals the
+  /// command.
   std::vector<Vec2> curve{};
   double dead_time = 0.0;      ///< Dead time [s], >= 0.
   double time_constant = 0.0;  ///< Time constant [s], >= 0.
@@ -45,7 +46,7 @@ struct SteeringResponse {
 
   /// Whether commands pass unchanged and without delay.
   [[nodiscard]] bool ideal() const;
-  /// Lag of the actuator behind a ramp of commands [s].
+  /// Lag of the actuator behind a command that changes at a constant rate [s].
   [[nodiscard]] double delay() const { return dead_time + time_constant; }
 };
 
@@ -56,8 +57,9 @@ struct SteeringResponse {
 /// of more than 10^7 timesteps.
 class SteeringFilter {
  public:
-  /// The actuator starts at `start` [rad], in the middle of the play. The state is that after a
-  /// constant command has held that angle. `timestep` [s] > 0 is the time between calls of Pass.
+  /// The actuator starts at `start` [rad], in the middle of the play. The initial state is that
+  /// after a long constant command that holds the angle `start`. `timestep` [s] > 0 is the time
+  /// between calls of Pass.
   SteeringFilter(const SteeringResponse& response, double timestep, double start);
 
   /// The angle [rad] toward which the actuator moves during the coming timestep, if `command` [rad]
@@ -70,7 +72,7 @@ class SteeringFilter {
   double half_backlash_;            // Half the backlash [rad].
   std::vector<double> delay_line_;  // Ring buffer.
   std::size_t oldest_ = 0;
-  // Fraction of a timestep in which the command before still applies.
+  // Fraction of a timestep in which the previous command still applies.
   double dead_time_fraction_ = 0.0;
   double arrived_;  // Command of the previous timestep.
   double lagged_;

@@ -44,10 +44,10 @@ struct CellRectangle {
   bool operator==(const CellRectangle&) const = default;
 };
 
-/// Covers the blocked cells exactly by rectangles without overlap. The method is greedy. Of the
-/// rectangles at the first remaining blocked cell, in row order, the function uses the larger of
-/// two: the widest possible rectangle and the highest possible one. The number of rectangles is
-/// small but not minimal. Cost: O(cells).
+/// Covers the blocked cells exactly by rectangles without overlap. The method is greedy. At the
+/// first remaining blocked cell in row order, the function places the larger of two rectangles: the
+/// widest possible one and the highest possible one. The number of rectangles is small but not
+/// minimal. Cost: O(cells).
 std::vector<CellRectangle> MergeCells(const GridMap& map, UnknownCells unknown);
 
 }  // namespace trackbed

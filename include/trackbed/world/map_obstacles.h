@@ -30,21 +30,21 @@ class MapObstacles {
   BoxIndex index_;
 };
 
-/// A map of a world, and the file that it comes from.
+/// A map of a world, and the file from which the map was read.
 struct MapSpec {
   /// File of the map: a YAML file of ROS's map_server, or a .map of Moving AI.
   std::string file;
   /// Side of a cell [m], > 0; only for a .map file, which has no scale.
   std::optional<double> cell{};
-  /// Position and direction of the outer corner of the cell at the bottom left. Default: those in
-  /// the file, or 0.
+  /// Position and direction of the outer corner of the cell at the bottom left. The default is the
+  /// pose in the file, or 0.
   std::optional<double> x{};    ///< x of the corner [m].
   std::optional<double> y{};    ///< y of the corner [m].
   std::optional<double> yaw{};  ///< Direction of the rows [rad].
   UnknownCells unknown = UnknownCells::kFree;
   double height = 1.0;  ///< Height of the walls [m], > 0.
 
-  // The map, which is not a key. Copies of the world share it.
+  // The map, shared by copies of the world. The member is not a key of the file.
   std::shared_ptr<const MapObstacles> data{};
 };
 

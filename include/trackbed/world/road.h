@@ -34,7 +34,7 @@ struct Bump {
 ///   |slope| C((|u| - L/2 + r) / r) W C((w - W)/W)  beyond.
 struct Superelevation {
   OrientedBox area;                 ///< Area of the section, without the embankment.
-  double slope = 0.0;               ///< Slope toward the left; negative: toward the right.
+  double slope = 0.0;               ///< Slope, positive if the section rises to the left.
   double transition_length = 10.0;  ///< Transition length at both ends [m], > 0.
 };
 
@@ -54,11 +54,13 @@ bool IsFlat(const Ground& ground);
 /// Whether the ground is a plane, level or sloped.
 bool IsPlane(const Ground& ground);
 
-/// Height above the plane at a point of the world [m]; 0 outside of the feature.
+/// Returns the height of a feature above the plane at a point of the world [m]; 0 outside of the
+/// feature.
 double Rise(const Bump& bump, const Vec2& point_W);
 double Rise(const Superelevation& side_slope, const Vec2& point_W);
 
-/// The bounding rectangle of a feature. For a superelevated section, it includes the embankment.
+/// Returns the bounding rectangle of a feature. For a superelevated section, the rectangle includes
+/// the embankment.
 OrientedBox Extent(const Bump& bump);
 OrientedBox Extent(const Superelevation& side_slope);
 
@@ -66,8 +68,8 @@ OrientedBox Extent(const Superelevation& side_slope);
 double GroundHeight(const Ground& ground, const Vec2& point_W);
 
 /// The slopes dz/dx and dz/dy of the ground. At the long sides of a superelevated section, and at
-/// the border of two features, the slope of one of the two sides. PreconditionError for a point
-/// that is not finite.
+/// the border of two features, the result is the slope of one of the two sides. PreconditionError
+/// for a point that is not finite.
 Vec2 GroundSlope(const Ground& ground, const Vec2& point_W);
 
 /// The upward unit normal of the ground.

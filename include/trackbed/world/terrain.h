@@ -21,7 +21,8 @@ class Terrain {
  public:
   static constexpr double kBlock = 32.0;      ///< Side of a block [m].
   static constexpr double kCoarseCell = 8.0;  ///< Distance between control heights [m].
-  static constexpr double kCell = 0.5;        ///< Distance between differences [m].
+  /// Distance between the points of the fine differences [m].
+  static constexpr double kCell = 0.5;
 
   /// Number of coarse cells, and of fine cells, along the side of a block.
   static constexpr int kCoarseCells = static_cast<int>(kBlock / kCoarseCell);
@@ -33,7 +34,7 @@ class Terrain {
     int rows = 1;        ///< Number of blocks along y, > 0.
     double base = 0.0;   ///< Height outside of the rectangle [m].
 
-    /// Number of control heights along x and y. There is one at each corner of a coarse cell.
+    /// Number of control heights along x and y. Each corner of a coarse cell has a control height.
     [[nodiscard]] int CoarseColumns() const { return columns * kCoarseCells + 1; }
     [[nodiscard]] int CoarseRows() const { return rows * kCoarseCells + 1; }
   };

@@ -17,7 +17,7 @@ enum class GustShape {
 struct Gust {
   Vec2 velocity = Vec2::Zero();    ///< Peak velocity, added to all other wind [m/s].
   double from = 0.0;               ///< Start time [s].
-  std::optional<double> duration;  ///< Duration [s]; none: unlimited, for a step only.
+  std::optional<double> duration;  ///< Duration [s]; nullopt: unlimited, which only a step may be.
   GustShape shape = GustShape::kOneMinusCosine;
   std::optional<OrientedBox> area;  ///< Area of the gust, with sharp edges; none: everywhere.
 };

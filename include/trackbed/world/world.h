@@ -19,8 +19,8 @@ struct OpenDriveFile;
 struct Obstacle {
   OrientedBox footprint;  ///< Footprint at time 0.
   double height = 1.0;    ///< Height [m], > 0.
-  /// Time or range at which planners learn of the obstacle, which exists before that. If both are
-  /// empty, planners know the obstacle from the start.
+  /// Time or range at which planners learn of the obstacle, although the obstacle exists from the
+  /// start. If both are empty, planners know the obstacle from the start.
   std::optional<double> known_from_time;   ///< Time [s].
   std::optional<double> known_from_range;  ///< Distance from the car's footprint [m].
   Vec2 velocity = Vec2::Zero();            ///< Constant velocity in the world [m/s].
@@ -62,12 +62,12 @@ bool HasObstacles(const World& world);
 /// The walls of the world's map; empty without a map.
 const std::vector<OrientedBox>& MapWalls(const World& world);
 
-/// The road's factor on the tyres' friction coefficient at a point. The result is the factor of the
-/// last patch in the list that contains the point, else `friction`. Cost O(patches).
-/// PreconditionError for a point that is not finite.
+/// Returns the road's factor on the tyres' friction coefficient at a point: the factor of the last
+/// patch in the list that contains the point, else `friction`. Cost O(patches). PreconditionError
+/// for a point that is not finite.
 double RoadFactor(const World& world, const Vec2& point_W);
 
-/// The road's factor as in RoadFactor above, from friction and patches.
+/// As RoadFactor above, for a given friction and given patches.
 double RoadFactor(double friction, const std::vector<FrictionPatch>& patches, const Vec2& point_W);
 
 /// Height, normal and wind of the world at a point (road.h, wind.h).
@@ -81,12 +81,13 @@ OrientedBox FootprintAt(const VehicleParams& vehicle, const Pose2& pose);
 /// The footprint of an obstacle at `time` [s].
 OrientedBox FootprintAt(const Obstacle& obstacle, double time);
 
-/// Whether planners learn of the obstacle now, if they did not know it before.
+/// Whether planners learn of the obstacle at `time` [s], when the car has the given footprint, if
+/// they did not know the obstacle before.
 bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& footprint);
 
 /// Shortest distance from the car's footprint to any obstacle or wall at `time` [m]; 0 if they
-/// touch or overlap, which is a collision on every plant. Nullopt without obstacles. Cost
-/// O(obstacles), and that of nearby walls.
+/// touch or overlap, which is a collision on every plant. Returns nullopt if the world has no
+/// obstacles. Cost O(obstacles), and that of nearby walls.
 std::optional<double> Clearance(const World& world, const VehicleParams& vehicle, const Pose2& pose,
                                 double time);
 
@@ -94,7 +95,7 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
 struct ClearanceSample {
   Pose2 pose;
   double time = 0.0;       ///< Time [s].
-  double clearance = 0.0;  ///< Value of Clearance() at that time [m].
+  double clearance = 0.0;  ///< Value of Clearance() at `time` [m].
 };
 
 /// The minimum clearance between two moments and its time.
@@ -104,13 +105,15 @@ struct ClosestApproach {
 };
 
 /// The minimum clearance of the footprint between two samples. The car moves on a straight line and
-/// turns at a constant rate, by far less than a full turn. Moving obstacles move during that time.
+/// turns at a constant rate, by far less than a full turn. Moving obstacles move between the
+/// samples.
 ///
-/// Guarantees: every contact deeper than 1 mm is detected. The clearance exceeds the smallest one
-/// by at most 5 mm, or a hundredth of the clearance. Cost: none if car and obstacles are further
-/// apart than they move between the samples. If they may come closer, the cost is some Clearance()
-/// calls, at most 10^5. A motion over kilometers may need more calls, and is then only searched in
-/// part. InternalError without obstacles, PreconditionError for samples that are not finite.
+/// Guarantees: every contact deeper than 1 mm is detected. The returned clearance exceeds the true
+/// minimum by at most 5 mm, or a hundredth of the clearance. Cost: none if car and obstacles are
+/// further apart than they move between the samples. Otherwise, the cost is some calls of
+/// Clearance(), at most 10^5. A motion over kilometers may need more calls; only a part of this
+/// motion is then searched. InternalError without obstacles, PreconditionError for samples that are
+/// not finite.
 ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
                                 const ClearanceSample& from, const ClearanceSample& to);
 

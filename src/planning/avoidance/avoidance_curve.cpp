@@ -10,13 +10,14 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
-// Repairs a degree-7 Bezier curve past obstacles until the curve is feasible. The end conditions
-// are position, heading and curvature. These conditions fix the control points P_0 and P_7, the
-// directions of P_1 and P_6, and the offsets of P_2 and P_5. Fit places the control points P_3 and
-// P_4 by least squares along a polyline. RepairCurve then minimizes the integral of (dkappa/ds)^2
-// over the eight remaining variables. Clearance, steering angle and rate, lateral acceleration and
-// passing side are inequality constraints, evaluated at 193 samples. The curve past an obstacle
-// follows Skackauskas (dissertation, listing F.2). The dissertation does not contain the repair.
+// Repairs a degree-7 Bezier curve past obstacles until the curve is feasible. Position, heading and
+// curvature are given at both ends of the curve. These end conditions fix the control points P_0
+// and P_7, the directions from P_0 to P_1 and from P_7 to P_6, and the lateral offsets of P_2 and
+// P_5. Fit makes an initial curve by placing the control points P_3 and P_4 by least squares along
+// a polyline. RepairCurve then minimizes the integral of (dkappa/ds)^2 over the eight remaining
+// variables. Clearance, steering angle and rate, lateral acceleration and passing side are
+// inequality constraints, evaluated at 193 samples. The curve past an obstacle follows Skackauskas
+// (dissertation, listing F.2). The repair is not part of the dissertation.
 
 namespace trackbed::avoidance {
 namespace {
@@ -34,12 +35,12 @@ constexpr double kMaxRepairableViolation = 0.5;
 /// constraints.
 constexpr SearchOptions kRescueOptions{
     .method = SearchMethod::kCobyla, .evaluations = 300, .tolerance = 1e-5};
-/// Largest excess of a distance over the required clearance that is computed exactly [m].
+/// Distances to obstacles are computed exactly up to the required clearance plus this value [m].
 constexpr double kMaxExcessDistance = 3.0;
 
-/// Variables of the search: the degrees of freedom that the end conditions leave. The variables
-/// refer to the mirror frame of the start. The unit of the variables is the distance between the
-/// curve's ends.
+/// Variables of the search: the coordinates of the control points that the end conditions do not
+/// fix. The variables are lengths in the mirror frame of the start, divided by the distance between
+/// the curve's ends.
 enum Variable : std::size_t {
   kStartFirst,
   kStartSecond,
@@ -57,8 +58,8 @@ using Points = std::array<Vec2, kDegree + 1>;
 
 /// Maps variables to the control points P_0 to P_7, in the mirror frame of the start. The control
 /// point P_1 lies on the tangent at the start of the curve. The offset h of P_2 from the tangent
-/// follows from the curvature at the start: kappa = (6/7) h/|P_0 P_1|^2. At the end of the curve,
-/// P_5 follows from the curvature in the same way.
+/// follows from the curvature at the start: kappa = (6/7) h/|P_0 P_1|^2. The offset of P_5 follows
+/// in the same way from the curvature at the end.
 class EndConditions {
  public:
   explicit EndConditions(const CurveProblem& problem)
@@ -106,12 +107,14 @@ class EndConditions {
   Vec2 forward_;
 };
 
-/// Intersection of the y axis with the line between two points on either side of the axis.
+/// Returns the y coordinate at which the line between two points on either side of the y axis
+/// crosses the axis.
 double CrossingY(const Vec2& a, const Vec2& b) {
   return a.y() + (b.y() - a.y()) * a.x() / (a.x() - b.x());
 }
 
-/// Bernstein polynomials of degree 7 and their first three derivatives at evenly spaced parameters.
+/// Values of the Bernstein polynomials of degree 7 and of their first three derivatives at evenly
+/// spaced parameters.
 struct BasisSamples {
   static constexpr Eigen::Index kSamples = 193;
   using Matrix = Eigen::Matrix<double, kSamples, kDegree + 1>;
@@ -140,9 +143,9 @@ const BasisSamples& BernsteinBasis() {
 /// Objective and constraints of the curve repair, evaluated at the samples of the basis.
 class Evaluation {
  public:
-  /// Each constraint is the worst value over sixteen samples. The worst value of sixteen samples
-  /// varies more smoothly with the variables than the worst value of the whole curve. The smoother
-  /// constraints let the search converge better.
+  /// Number of samples per constraint. Each constraint is the worst value over sixteen samples.
+  /// This value varies more smoothly with the variables than the worst value of the whole curve, so
+  /// the search converges better.
   static constexpr Eigen::Index kStretch = 16;
   static constexpr std::size_t kStretches = (BasisSamples::kSamples - 1) / kStretch;
   static constexpr std::size_t kConstraints = 2 * kStretches + 4;
@@ -197,7 +200,8 @@ class Evaluation {
     double steering = 0.0;
     double acceleration = 0.0;
     double slowest = std::numeric_limits<double>::infinity();
-    // Smallest offset toward the passing side where the curve passes the obstacle.
+    // Smallest offset of the curve from the obstacle, toward the passing side, where the curve is
+    // beside the obstacle.
     double on_side = std::numeric_limits<double>::infinity();
     Vec2 last_at_passage{0.0, 0.0};
     constraints_.fill(-1.0);
@@ -208,8 +212,8 @@ class Evaluation {
       const double parameter_speed = first.norm();
       const double curvature = CurvatureFromDerivatives(first, second);
       const double sharpness = SharpnessFromDerivatives(first, second, third);
-      // Apply the trapezoidal rule with the same samples to every curve, so that rounding errors do
-      // not jump.
+      // Use the trapezoidal rule with the same samples for every curve, so that the integration
+      // error varies smoothly with the variables.
       length += k == 0 ? 0.0 : 0.5 * (parameter_speed + last_speed) / (BasisSamples::kSamples - 1);
       last_speed = parameter_speed;
       slowest = std::min(slowest, parameter_speed);
@@ -238,17 +242,17 @@ class Evaluation {
     constraints_[2 * kStretches] = steering / (kLimitMargin * vehicle.steering_limit) - 1.0;
     constraints_[2 * kStretches + 1] =
         acceleration / (kLimitMargin * problem_.lateral_acceleration) - 1.0;
-    // Prevents cusps: the parameter speed must be at least a tenth of the mean parameter speed of a
-    // straight curve.
+    // Prevents cusps: the norm of the curve's derivative with respect to the parameter must be at
+    // least a tenth of the distance between the curve's ends.
     const double scale = ends_.scale();
     constraints_[2 * kStretches + 2] = 1.0 - slowest / (0.1 * scale);
     constraints_[2 * kStretches + 3] = std::isfinite(on_side) ? -on_side / scale : 1.0;
     objective_ = variation * scale * scale * scale;
   }
 
-  /// Separation of the footprint at a point of the curve from the nearest obstacle. Caps the result
-  /// at the required clearance plus kMaxExcessDistance. The circumscribed circles of the boxes
-  /// suffice to show that the separation exceeds the cap.
+  /// Returns the distance between the nearest obstacle and the footprint at a point of the curve.
+  /// The result is at most the required clearance plus kMaxExcessDistance. For farther obstacles, a
+  /// check of circumscribed circles replaces the exact distance.
   [[nodiscard]] double NearestObstacle(const Vec2& rear_axle, const Vec2& forward) const {
     const VehicleParams& vehicle = problem_.vehicle;
     const Vec2 middle = rear_axle + (0.5 * vehicle.length - vehicle.rear_overhang) * forward;
@@ -272,8 +276,8 @@ class Evaluation {
   Vec2 passage_{0.0, 0.0};  // Position of the passed obstacle in the frame of the start.
   Vec2 along_passage_{1.0, 0.0};
   double wanted_;  // Required clearance [m].
-  /// An obstacle in the frame of the start. The struct also holds the largest distance between the
-  /// centers of car and obstacle at which car and obstacle can touch.
+  /// An obstacle in the frame of the start, with the largest distance between the centers of car
+  /// and obstacle at which the two can touch.
   struct Near {
     OrientedBox box;
     double radius;
@@ -293,7 +297,7 @@ BezierCurve InWorld(const CurveProblem& problem, const Points& points) {
   return BezierCurve(control);
 }
 
-/// Returns evenly spaced points along a polyline, both ends included.
+/// Returns evenly spaced points along a polyline, including both ends.
 std::vector<Vec2> Evenly(const std::vector<Vec2>& polyline, std::size_t count) {
   std::vector<double> along{0.0};
   for (std::size_t i = 1; i < polyline.size(); ++i) {
@@ -375,8 +379,8 @@ BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline) 
   const double seventh = PolylineLength(polyline) / kDegree / ends.scale();
   std::array<double, kVariables> x{seventh, seventh, 0.0, 0.0, 0.0, 0.0, seventh, seventh};
   Points points = ends.ToPoints(x);
-  // The control points P_3 and P_4 fit the part of the polyline that remains after subtracting the
-  // known control points.
+  // Subtract the contribution of the known control points from the polyline, then fit the control
+  // points P_3 and P_4 to the rest.
   constexpr Eigen::Index kSamples = BasisSamples::kSamples;
   const auto& bernstein = BernsteinBasis().of_order[0];
   Eigen::Matrix<double, kSamples, 2> rest;
@@ -403,8 +407,8 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
     points[i] = problem.Frame().In(guess.control_points()[i]);
   }
   const std::array<double, kVariables> start = evaluation.ends().ToVariables(points);
-  // Each end length is 0.02 to 1 times the distance between the ends. The positions of P_3 and P_4
-  // have wide bounds.
+  // Each end length is 0.02 to 1 times the distance between the ends. The bounds of the positions
+  // of P_3 and P_4 are wide.
   SearchProblem moved{
       .lower = {0.02, 0.02, -1.0, -1.5, -1.0, -1.5, 0.02, 0.02},
       .upper = {1.0, 1.0, 2.0, 1.5, 2.0, 1.5, 1.0, 1.0},

@@ -10,15 +10,15 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/vehicle/params.h"
 
-/// Curves past obstacles: the initial guess of a curve, its check and its repair.
+/// Functions that fit, check and repair a curve past obstacles.
 namespace trackbed::avoidance {
 
-/// Frame of the tree search and of the curve. The origin of the frame is the curve's start, and
-/// right turns are mirrored. Problems that differ only by a motion or a mirroring have the same
-/// coordinates in the MirrorFrame.
+/// Coordinate frame of the tree search and of the curve. The origin is the curve's start, and right
+/// turns are mirrored to left turns. Problems that differ only by a translation, rotation or
+/// reflection therefore have the same coordinates in the MirrorFrame.
 struct MirrorFrame {
   Pose2 pose;
-  double side = 1.0;  ///< Side factor; with -1, the y axis points to the right.
+  double side = 1.0;  ///< Factor of the y axis: with -1, the y axis points to the right.
 
   [[nodiscard]] Vec2 In(const Vec2& p) const {
     const Vec2 local = ToLocal(pose, p);
@@ -40,8 +40,8 @@ struct CurveEnd {
 
 /// The side on which an obstacle is to be passed.
 struct PassageConstraint {
-  Pose2 frame;        ///< Frame at the obstacle, along the path past the obstacle.
-  double side = 1.0;  ///< Passing side: +1 is left of the frame's origin, -1 is right.
+  Pose2 frame;        ///< Frame at the obstacle, whose x axis points along the path.
+  double side = 1.0;  ///< Passing side: +1 to the left of the frame's origin, -1 to the right.
 };
 
 struct CurveProblem {
@@ -49,21 +49,24 @@ struct CurveProblem {
   CurveEnd start;
   CurveEnd end;
   PassageConstraint passage;
-  double mirror = 1.0;  ///< Mirror factor; -1 means mirrored (see MirrorFrame).
+  double mirror = 1.0;  ///< Factor of the y axis; with -1, the problem is mirrored (see
+                        ///< MirrorFrame).
   std::vector<OrientedBox> obstacles;
   double safe_distance = 0.0;         ///< Safe distance SD [m].
   double steering_rate = 0.0;         ///< Steering rate available to the curve [rad/s].
   double lateral_acceleration = 0.0;  ///< Limit of the lateral acceleration [m/s^2].
   double start_speed = 0.0;           ///< Speed at the start [m/s].
-  double speed = 0.0;                 ///< Speed to brake to, or to accelerate to immediately [m/s].
+  double speed = 0.0;                 ///< Speed to which the car brakes, or to which it accelerates
+                                      ///< immediately [m/s].
   double deceleration = 0.0;  ///< Deceleration with which the car brakes to `speed` [m/s^2].
 
   [[nodiscard]] MirrorFrame Frame() const { return {start.pose, mirror}; }
-  /// Largest speed of the car after `distance` [m/s].
+  /// Returns the largest possible speed of the car after `distance` on the curve [m/s].
   [[nodiscard]] double SpeedAt(double distance) const;
 };
 
-/// Largest demands of a curve on the car, and the curve's clearance.
+/// Length and clearance of a curve, and the largest steering and acceleration that the curve
+/// requires.
 struct CurveCheck {
   double length = 0.0;         ///< Length of the curve [m].
   double clearance = 0.0;      ///< Clearance of the footprint; infinite without obstacles [m].
@@ -74,12 +77,13 @@ struct CurveCheck {
   [[nodiscard]] bool Keeps(const CurveProblem& problem) const;
 };
 
-/// Checks the curve at points every 0.05 m.
+/// Evaluates the curve at points every 0.05 m.
 CurveCheck Check(const CurveProblem& problem, const BezierCurve& curve);
 
-/// Least-squares fit of a degree-7 curve to a polyline from start to end. The curve has the
-/// problem's end conditions. The fit determines the control points P_3 and P_4. The end lengths
-/// |P_0 P_1|, |P_1 P_2|, |P_5 P_6| and |P_6 P_7| are a seventh of the polyline's length.
+/// Fits a degree-7 curve by least squares to a polyline from the start to the end. The curve
+/// satisfies the problem's end conditions, and the fit determines the control points P_3 and P_4.
+/// The end lengths |P_0 P_1|, |P_1 P_2|, |P_5 P_6| and |P_6 P_7| are a seventh of the polyline's
+/// length.
 BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline);
 
 struct Repair {
@@ -88,14 +92,14 @@ struct Repair {
   SearchResult search;
 };
 
-/// Whether a polyline crosses the required side of the obstacle an odd number of times, and thus
-/// passes on the required side.
+/// Returns whether a polyline passes an obstacle on the required side. A polyline that passes there
+/// crosses this side of the obstacle an odd number of times.
 bool GoesThrough(const PassageConstraint& passage, const std::vector<Vec2>& polyline);
 
-/// Minimizes the curvature variation of a curve, the integral of (dkappa/ds)^2 ds. Moves the
-/// control points P_3 and P_4 and changes the end lengths, starting at `guess`. The repaired curve
-/// passes on the required side and keeps the safe distance and the limits. Returns none if the
-/// search finds no feasible curve.
+/// Minimizes the integral of (dkappa/ds)^2 ds along a curve by moving the control points P_3 and
+/// P_4 and changing the end lengths, starting at `guess`. The repaired curve passes on the required
+/// side and keeps the safe distance and the limits. Returns none if the search finds no feasible
+/// curve.
 std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve& guess,
                                   const SearchOptions& search, std::uint64_t seed);
 

@@ -3,7 +3,7 @@
 namespace trackbed {
 namespace {
 
-/// Record of the tree search for the path past the obstacle.
+/// Part of plan.json about the tree search for the path past the obstacle.
 struct TreeRecord {
   const BezierAvoidanceDiagnostics& own;
 };
@@ -18,7 +18,7 @@ void Visit(DiagnosticsVisitor& out, const TreeRecord& tree) {
   }
 }
 
-/// Record of the search that moved the control points of the curve.
+/// Part of plan.json about the search that moved the control points of the curve.
 struct RepairRecord {
   const BezierAvoidanceDiagnostics& own;
 };

@@ -15,11 +15,11 @@
 namespace trackbed::avoidance {
 namespace {
 
-/// Tolerance of stations that are sums of lengths [m], and of angles that are length over radius
-/// [rad].
+/// Tolerance for rounding errors: of stations, which are sums of lengths [m], and of angles, which
+/// are lengths over radii [rad].
 constexpr double kRounding = 1e-9;
 
-/// An arc of the plan with the adjacent straights.
+/// An arc of the plan together with the adjacent straights.
 struct Turn {
   Stations arc;            ///< Stations of the turn's arc [m].
   double curvature = 0.0;  ///< Signed curvature of the arc [1/m].
@@ -29,7 +29,7 @@ struct Turn {
   [[nodiscard]] double sweep() const { return std::abs(curvature) * (arc.to - arc.from); }
 };
 
-/// The turn whose arc contains a station. Returns none for a station on a straight or on a
+/// Returns the turn whose arc contains a station. Returns none for a station on a straight or on a
 /// clothoid.
 std::optional<Turn> TurnAt(const Path& path, double s) {
   const std::vector<Segment>& segments = path.segments();
@@ -57,8 +57,8 @@ std::optional<Turn> TurnAt(const Path& path, double s) {
   return turn;
 }
 
-/// Sets up the problem of listing F.2 (Skackauskas). Listing F.2 measures its arc from a right
-/// angle, whatever the turn's heading change.
+/// Sets up the problem of listing F.2 (Skackauskas). Listing F.2 measures its arc back from a right
+/// angle, even if the turn's heading change is not a right angle.
 TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceOptions& options,
                         const Turn& turn, const OrientedBox& obstacle, double beside) {
   TurnManeuver problem;
@@ -68,7 +68,8 @@ TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceO
   problem.turn_angle = 0.5 * kPi;
   problem.reduction = problem.turn_angle - turn.sweep();
   if (std::abs(problem.reduction) < kRounding) {
-    // The reduction is zero, because listing F.2 has special rules for a right angle.
+    // For a right angle the reduction must be exactly zero, because listing F.2 then has special
+    // rules.
     problem.reduction = 0.0;
   }
   problem.side = turn.curvature > 0.0 ? TurnSide::kLeft : TurnSide::kRight;
@@ -83,7 +84,8 @@ TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceO
   return problem;
 }
 
-/// Reports a clearance below the safe distance. MakeFeasible reports all other limits.
+/// Returns a note if the clearance is below the safe distance. MakeFeasible reports violations of
+/// all other limits.
 std::vector<std::string> ClearanceNotes(const CurveCheck& check, double safe_distance,
                                         const OrientedBox& obstacle) {
   if (check.clearance >= safe_distance) {
@@ -154,7 +156,8 @@ ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
                                   .start_speed = problem.speed,
                                   .speed = problem.speed},
                                  curve);
-  // Listing F.2 has one speed and no limit on the tyre forces, so the road's grip limits the speed.
+  // Listing F.2 assumes a constant speed and ignores the limit of the tyre forces, so lower the
+  // speed to what the road's grip allows.
   const RoadHoldLimits hold = MinRoadHold(path, {turn->arc.from - before, turn->arc.to + after},
                                           RequestOn(request.road, vehicle, request.speed));
   const double held = hold.lateral > 0.0 && check.lateral_acceleration > hold.lateral

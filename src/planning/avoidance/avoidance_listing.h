@@ -3,13 +3,14 @@
 #include "src/planning/avoidance/avoidance_stretch.h"
 #include "trackbed/planning/common/plan.h"
 
-/// The curve past an obstacle in a turn, as printed in Skackauskas (dissertation, listing F.2).
+/// Avoidance by the curve past an obstacle in a turn that is printed in Skackauskas (dissertation,
+/// listing F.2).
 namespace trackbed::avoidance {
 
 /// Replaces the plan's turn by the curve of listing F.2, which begins at a distance S before the
-/// arc. The car can leave the plan at `from` or later. Returns a reason instead of a curve if the
-/// obstacle does not stand in a turn between two straights. Also returns a reason if the curve
-/// would start before `from`, or if listing F.2 itself fails (TurnStatus).
+/// arc. The curve may leave the plan only at the station `from` or later. Returns a reason instead
+/// of a curve if the obstacle does not stand in a turn between two straights, if the curve would
+/// start before `from`, or if listing F.2 itself fails (TurnStatus).
 ReplacementSearch FindListingCurve(const AvoidanceRequest& request,
                                    const ListingAvoidanceOptions& options, const Plan& plan,
                                    const Conflict& conflict, double from);

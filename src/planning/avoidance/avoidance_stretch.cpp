@@ -12,21 +12,21 @@
 
 // Finds the stretch of a plan that a curve past an obstacle replaces. RRT* (Karaman and Frazzoli
 // 2011) finds a path on each side of the obstacle. The search loops over demands (comfortable, then
-// slower), sides and stations of departure. For each demand, side and station of departure, the
-// search tries the stations of return in order. Fit guesses a curve along the path of RRT*, and
-// RepairCurve makes the curve feasible. After the first feasible curve, the search tries earlier
-// stations of return until one fails.
+// slower), sides of the obstacle and stations at which the curve may leave the plan. For each
+// combination, the search tries in order the stations at which the curve may return to the plan.
+// Fit makes an initial curve along the path of RRT*, and RepairCurve makes the curve feasible.
+// After the first feasible curve, the search tries earlier stations of return until one fails.
 
 namespace trackbed::avoidance {
 namespace {
 
 /// Spacing of the stations at which a curve may return to the path [m]. After a bend, the spacing
-/// of these stations is twice as large.
+/// is doubled.
 constexpr double kReturnStep = 2.0;
-/// Ratio of successive speeds that the search tries.
+/// Ratio between successive speeds that the search tries.
 constexpr double kSpeedRatio = 0.6;
-/// Tolerance for the rounding of a curve to path pieces [m]. With this tolerance, a curve that
-/// keeps the safe distance SD is not in conflict.
+/// Tolerance for approximating a curve by path pieces [m]. Without the tolerance, a curve that
+/// keeps exactly the safe distance SD could count as a conflict.
 constexpr double kRoundingTolerance = 5e-4;
 
 double HalfDiagonal(const OrientedBox& box) {
@@ -42,8 +42,8 @@ std::vector<PathPoint> SamplePoints(const Path& path, double from, double to) {
   return points;
 }
 
-/// The bend around a station, in which the curvature has one sign and at least a tenth of its peak
-/// value.
+/// A bend of the path: a stretch on which the curvature keeps its sign and is at least a tenth of
+/// its peak value.
 struct Bend {
   double from = 0.0;       ///< [m]
   double to = 0.0;         ///< [m]
@@ -86,10 +86,10 @@ class StretchFinder {
     for (const Demand& demand : Demands()) {
       for (const SidePath& side_path : side_paths) {
         if (demand.speed < full && side_path.tree.status == RrtStarStatus::kNotReached) {
-          continue;  // RRT* found no path on this side; a lower speed does not help.
+          continue;  // RRT* found no path on this side, and a lower speed does not help.
         }
         for (const double leave : leaves) {
-          // The problem of a curve from `leave` to `back` at this speed.
+          // Sets up the problem of a curve from `leave` to `back` with this demand.
           const auto problem_to = [&](double back) {
             CurveProblem problem = ProblemFor(leave, back, demand, from);
             problem.passage = {SideFrame(conflict), LateralSign(bend, side_path.passing_side)};
@@ -114,7 +114,7 @@ class StretchFinder {
             if (!attempt(*back, Fit(problem, Guide(side_path, conflict, bend, problem)))) {
               continue;
             }
-            // A feasible curve is a better initial guess than the fit.
+            // Start at the feasible curve, which is a better initial guess than the fit.
             for (auto earlier = back; earlier != backs.begin();) {
               --earlier;
               if (!attempt(*earlier, stretch->repair.curve)) {
@@ -141,8 +141,8 @@ class StretchFinder {
  private:
   [[nodiscard]] const Path& path() const { return plan_.reference.path; }
 
-  /// The bend that contains a conflict. For a conflict on a straight, the bend is the conflict's
-  /// own stretch.
+  /// Returns the bend that contains a conflict. For a conflict on a straight, returns the stretch
+  /// of the conflict.
   [[nodiscard]] Bend BendAt(const Conflict& conflict) const {
     Bend bend{conflict.from, conflict.to, 0.0};
     for (const PathPoint& point : SamplePoints(path(), conflict.from, conflict.to)) {
@@ -166,8 +166,9 @@ class StretchFinder {
     return bend;
   }
 
-  /// Distance that a lateral shift past the obstacle needs. The largest dkappa/ds of a fifth-order
-  /// shift by D over length l is 60 D/l^3, at its ends. The steering rate limits dkappa/ds.
+  /// Returns the distance that the car needs for a lateral shift past the obstacle. A quintic shift
+  /// by D over the length l has its largest dkappa/ds, 60 D/l^3, at both ends. The steering rate
+  /// limits dkappa/ds.
   [[nodiscard]] double ShiftLength(const OrientedBox& obstacle) const {
     const double aside =
         HalfDiagonal(obstacle) + options_.safe_distance + 0.5 * request_.vehicle.width;
@@ -176,24 +177,24 @@ class StretchFinder {
     return std::cbrt(60.0 * aside / sharpness);
   }
 
-  /// The distance S before and after a bend, which the curve also replaces. On a straight, S is the
-  /// length of the lateral shift.
+  /// Returns the distance S by which the curve extends beyond the bend at both ends. On a straight,
+  /// S is the length of the lateral shift.
   [[nodiscard]] double LeadDistance(const Bend& bend, const OrientedBox& obstacle) const {
     const double delay = request_.speed.speed * options_.delay;
     return bend.curvature != 0.0 ? 1.0 / std::abs(bend.curvature) + delay
                                  : ShiftLength(obstacle) + delay;
   }
 
-  /// Whether the scheduled steering angle matches the path's curvature, as it does outside steering
-  /// ramps.
+  /// Returns whether the scheduled steering angle matches the path's curvature. The two differ only
+  /// on steering ramps.
   [[nodiscard]] bool IsSteeringSettled(double s) const {
     const double planned = SteeringForCurvature(request_.vehicle, path().At(s).curvature);
     constexpr double kSteeringTolerance = 1e-3;  // [rad]
     return std::abs(plan_.schedule.At(s) - planned) < kSteeringTolerance;
   }
 
-  /// The station nearest to s in [from, to] at which the steering is settled. If the steering is
-  /// not settled in [from, to], returns s clamped to [from, to].
+  /// Returns the station in [from, to] nearest to s at which the steering is settled. If the
+  /// steering is settled nowhere in [from, to], returns s clamped to [from, to].
   [[nodiscard]] double SettledNear(double s, double from, double to) const {
     for (double away = 0.0; s - away >= from || s + away <= to; away += kPathCheckSpacing) {
       for (const double candidate : {s - away, s + away}) {
@@ -205,14 +206,14 @@ class StretchFinder {
     return std::clamp(s, from, to);
   }
 
-  /// Stations at which the car may leave the plan, the preferred station first.
+  /// Returns the stations at which the car may leave the plan, the preferred station first.
   [[nodiscard]] std::vector<double> DepartureStations(const Conflict& conflict, const Bend& bend,
                                                       double from) const {
     std::vector<double> leaves;
     const double lead = LeadDistance(bend, conflict.obstacle);
     for (const double share : {1.0, 1.5, 2.25}) {
       const double wanted = bend.from - share * lead;
-      // At the car itself, the wheels need not be settled.
+      // A curve that begins at the car's present position may begin on a steering ramp.
       const double s = request_.car && wanted <= 0.0 ? 0.0
                                                      : SettledNear(std::max(wanted, from), from,
                                                                    std::max(from, conflict.from));
@@ -223,7 +224,7 @@ class StretchFinder {
     return leaves;
   }
 
-  /// Stations at which the car may return to the plan, in ascending order.
+  /// Returns the stations at which the car may return to the plan, in ascending order.
   [[nodiscard]] std::vector<double> ReturnStations(const Conflict& conflict,
                                                    const Bend& bend) const {
     const double lead = LeadDistance(bend, conflict.obstacle);
@@ -255,7 +256,7 @@ class StretchFinder {
                          .start_speed = plan_.reference.speed.SpeedAt(leave),
                          .speed = demand.speed,
                          .deceleration = request_.speed.deceleration};
-    // The car can already brake before the start of the curve.
+    // The car may brake before the start of the curve.
     const double before = plan_.reference.speed.SpeedAt(from);
     LowerToRoad(problem, {std::min(from, leave), back});
     const double square = before * before - 2.0 * problem.deceleration * (leave - from);
@@ -268,8 +269,9 @@ class StretchFinder {
     return problem;
   }
 
-  /// Lowers the limits of the curve to the limits of the road under the replaced path. MakeFeasible
-  /// later checks the road beside the replaced path, for example a patch.
+  /// Lowers the limits of the curve to the limits of the road under the replaced part of the path.
+  /// The curve itself may cross a patch of other friction beside the path, which MakeFeasible
+  /// checks later.
   void LowerToRoad(CurveProblem& problem, const Stations& within) const {
     const RoadHoldLimits hold = MinRoadHold(path(), within, road_);
     if (hold.lateral > 0.0) {
@@ -287,16 +289,16 @@ class StretchFinder {
     return passing_side == PassingSide::kInner ? inner : -inner;
   }
 
-  /// Frame that defines the two sides of the obstacle. The frame lies at the obstacle, along the
-  /// adjacent path.
+  /// Returns the frame that defines the two sides of the obstacle. The frame's origin is the
+  /// obstacle's center, and its x axis points along the adjacent path.
   [[nodiscard]] Pose2 SideFrame(const Conflict& conflict) const {
     return {conflict.obstacle.center.x, conflict.obstacle.center.y,
             path().At(StationBeside(path(), request_.vehicle, conflict)).pose.yaw};
   }
 
-  /// Demands in the order in which the search tries them. The first demand is comfortable, at the
-  /// mission's speed. The next demands use the full steering rate at falling speeds, down to the
-  /// slowest allowed speed.
+  /// Returns the demands in the order in which the search tries them. The first demand is
+  /// comfortable: the mission's speed with a fraction of the steering rate. The following demands
+  /// use the full steering rate at falling speeds, down to the slowest allowed speed.
   [[nodiscard]] std::vector<Demand> Demands() const {
     const double most = options_.max_steering_rate_fraction;
     std::vector<Demand> demands;
@@ -310,7 +312,7 @@ class StretchFinder {
     return demands;
   }
 
-  /// The RRT* problem from the start of the curve to its end.
+  /// Sets up the RRT* problem of a path from the start of the curve to its end.
   [[nodiscard]] RrtStarProblem TreeProblem(const MirrorFrame& frame, const CurveProblem& problem,
                                            const Conflict& conflict) const {
     RrtStarProblem tree{.start = {0.0, 0.0},
@@ -327,15 +329,15 @@ class StretchFinder {
     return tree;
   }
 
-  /// A thin wall from the obstacle outward, which closes one side of a passage.
+  /// Returns a thin wall from the obstacle outward, which blocks one side of the obstacle for RRT*.
   [[nodiscard]] static OrientedBox WallOn(const PassageConstraint& passage, double length) {
     constexpr double kWallThickness = 1e-3;  // [m]
     const Vec2 middle = ToWorld(passage.frame, {0.0, passage.side * 0.5 * length});
     return {{middle.x(), middle.y(), passage.frame.yaw}, kWallThickness, length};
   }
 
-  /// The sides to try, each with the path that RRT* found on it; the side with the shorter path
-  /// comes first.
+  /// Returns the sides of the obstacle that the search tries, each with the path that RRT* found on
+  /// this side. The side with the shorter path comes first.
   [[nodiscard]] std::vector<SidePath> FindSidePaths(const Conflict& conflict, const Bend& bend,
                                                     const CurveProblem& problem) const {
     const Pose2 beside = SideFrame(conflict);
@@ -376,8 +378,9 @@ class StretchFinder {
     return {first, {other, grow(other)}};
   }
 
-  /// Polyline for the initial guess of a curve: the path of RRT* up to its point closest to the
-  /// end. If RRT* found no path, the polyline passes over a point beside the obstacle.
+  /// Returns the polyline to which Fit fits the initial curve: the path of RRT* up to its point
+  /// closest to the end of the curve. If RRT* found no path, the polyline passes through a point
+  /// beside the obstacle.
   [[nodiscard]] std::vector<Vec2> Guide(const SidePath& side_path, const Conflict& conflict,
                                         const Bend& bend, const CurveProblem& problem) const {
     const Vec2 end = problem.end.pose.position();

@@ -21,11 +21,12 @@ struct Conflict {
   OrientedBox obstacle;
 };
 
-/// The first conflict beyond `from`, where an obstacle is closer than `safe_distance` [m].
+/// Returns the first stretch after the station `from` on which an obstacle is closer to the car
+/// than `safe_distance` [m].
 std::optional<Conflict> FirstConflict(const AvoidanceRequest& request, double safe_distance,
                                       const Path& path, double from);
 
-/// The station at which the path runs beside the obstacle.
+/// Returns the station at which the path runs beside the obstacle of a conflict.
 double StationBeside(const Path& path, const VehicleParams& vehicle, const Conflict& conflict);
 
 /// A curve, found by any method, that replaces the plan between two stations.
@@ -36,15 +37,16 @@ struct Replacement {
   CurveCheck check;
   double speed = 0.0;  ///< Speed limit on the curve [m/s].
   PassingSide passing_side = PassingSide::kInner;
-  std::vector<TreeNode> tree;  ///< Tree of the search for the curve.
+  std::vector<TreeNode> tree;  ///< Nodes of the search tree that led to the curve.
   std::vector<std::string> notes;
-  /// Makes the method's diagnostics from the new plan and the curve's stations on this plan.
+  /// Makes the diagnostics of the method from the new plan and from the stations of the curve on
+  /// the new plan.
   std::function<MethodDiagnostics(const Plan& plan, const Stations& curve)> diagnostics;
 };
 
 struct ReplacementSearch {
   std::optional<Replacement> replacement;
-  std::string why;  ///< reason why no curve was found, for people
+  std::string why;  ///< why no curve was found, as a text for users
 };
 
 /// A feasible curve that replaces the plan between two stations.
@@ -62,12 +64,12 @@ struct Stretch {
 
 struct StretchSearch {
   std::optional<Stretch> stretch;
-  std::string why;  ///< reason why no stretch was found, for people
+  std::string why;  ///< why no stretch was found, as a text for users
 };
 
 /// Finds the stretch of the plan that a curve replaces. The search prefers, in this order, a high
-/// speed, the side with the shorter RRT* path, and an early return. The car can leave the plan at
-/// `from` or later. The plan may already contain curves around other obstacles.
+/// speed, the side with the shorter RRT* path, and an early return. The curve may leave the plan
+/// only at the station `from` or later. The plan may already contain curves around other obstacles.
 StretchSearch FindStretch(const AvoidanceRequest& request, const BezierAvoidanceOptions& options,
                           const Plan& plan, const Conflict& conflict, double from);
 

@@ -13,12 +13,12 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
-// The curve past an obstacle in a turn as printed in Skackauskas (dissertation, listing F.2).
-// Listing F.2 samples the turn's arc; `literal.grid` selects a 0.01 rad grid. The obstacle stands
-// at n sixths of the arc, and the safe point lies beside the obstacle at the radius r_k. An RRT* of
-// floor(S/2) samples gives the height of the control point P_3. Explicit formulas give the rest of
-// the eight control points of the Bezier curve. Listing F.2 does not repair the curve.
-// SimulateManeuver only measures the curve, at 501 parameters.
+// Computes the curve past an obstacle in a turn as printed in Skackauskas (dissertation, listing
+// F.2). Listing F.2 samples the turn's arc; with `literal.grid`, on the printed grid of 0.01 rad.
+// The obstacle stands at n sixths of the arc, and the safe point lies beside the obstacle at the
+// radius r_k. An RRT* with floor(S/2) samples gives the y coordinate of the control point P_3.
+// Explicit formulas give the rest of the eight control points of the Bezier curve. Listing F.2 does
+// not repair the curve. SimulateManeuver only evaluates the curve, at 501 parameters.
 
 namespace trackbed {
 namespace {
@@ -34,8 +34,8 @@ double Sign(const TurnManeuver& maneuver) {
   return maneuver.side == TurnSide::kLeft ? 1.0 : -1.0;
 }
 
-/// Point of a circle around the turn's center C. Left and right turns use the same numbers, so that
-/// the points of both turns are exact mirror images.
+/// Returns a point on a circle around the turn's center C. Left and right turns differ only in the
+/// sign of y, so that their points are exact mirror images.
 Vec2 PointAt(const TurnManeuver& maneuver, double radius, double angle) {
   return {maneuver.straight() + radius * std::sin(angle),
           Sign(maneuver) * (maneuver.radius - radius * std::cos(angle))};
@@ -61,20 +61,22 @@ void CheckRanges(const TurnManeuver& m, const VehicleParams& vehicle) {
   TRACKBED_CHECK(vehicle.width > 0.0 && std::isfinite(vehicle.width), "width {}", vehicle.width);
 }
 
-/// Required width 2 (SD + IS_k + w_a) [m]. IS_k is half the obstacle's diagonal.
+/// Returns the required width 2 (SD + IS_k + w_a) [m], with the safe distance SD, half the
+/// obstacle's diagonal IS_k and the car's width w_a.
 double RequiredWidth(const TurnManeuver& maneuver, double vehicle_width) {
   const double half_diagonal = 0.5 * std::hypot(maneuver.obstacle_width, maneuver.obstacle_length);
   return 2.0 * maneuver.safe_distance + 2.0 * half_diagonal + 2.0 * vehicle_width;
 }
 
-/// Angles sigma of the points of the arc from A to E, in ascending order.
+/// Returns the angles sigma of the arc's sample points from A to E, in ascending order.
 std::vector<double> ArcAngles(const TurnManeuver& maneuver) {
   const double sweep = maneuver.turn_angle - maneuver.reduction;
   std::vector<double> angles;
   if (!(sweep > 0.0)) {
     return angles;
   }
-  // Keeps the last point of a range that is a whole number of steps up to rounding.
+  // The factor 1 + 1e-12 keeps the last point if the sweep is a whole number of steps up to
+  // rounding.
   const double steps = sweep / kGrid;
   if (maneuver.literal.grid) {
     const double last = std::floor(steps * (1.0 + 1e-12));
@@ -90,8 +92,8 @@ std::vector<double> ArcAngles(const TurnManeuver& maneuver) {
   return angles;
 }
 
-/// Whether two line segments cross: the ends of each segment lie on different sides of the other
-/// segment. The test treats a point on a line as not left of the line.
+/// Returns whether two line segments cross, which means that the ends of each segment lie on
+/// different sides of the other segment. A point on a line counts as right of the line.
 bool LinesCross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const auto left = [](const Vec2& p, const Vec2& q, const Vec2& r) {
     return Cross(q - p, r - p) > 0.0;
@@ -99,8 +101,8 @@ bool LinesCross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   return left(a, c, d) != left(b, c, d) && left(a, b, c) != left(a, b, d);
 }
 
-/// Whether a segment crosses no side of the box. A segment entirely within the box crosses no side
-/// and counts as free (L13).
+/// Returns whether a segment crosses no side of the box. A segment entirely within the box crosses
+/// no side and counts as free, as in listing F.2 (deviation L13).
 bool CrossesNoSide(const Vec2& from, const Vec2& to, const OrientedBox& box) {
   const std::array<Vec2, 4> corners = box.Corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -111,7 +113,8 @@ bool CrossesNoSide(const Vec2& from, const Vec2& to, const OrientedBox& box) {
   return true;
 }
 
-/// Index of the node nearest to a point. If several nodes are equally near, returns the first node.
+/// Returns the index of the node nearest to a point, or the first such node if several nodes are
+/// equally near.
 std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < nodes.size(); ++i) {
@@ -122,9 +125,9 @@ std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
   return nearest;
 }
 
-/// The obstacle's corner to which listing F.2 measures distances. If the car passes the obstacle on
-/// the inside of the turn, the test corner is the rear inner corner. If the car passes on the
-/// outside, the test corner is the front outer corner.
+/// Returns the corner of the obstacle to which listing F.2 measures distances: the rear inner
+/// corner if the car passes on the inside of the turn, the front outer corner if the car passes on
+/// the outside.
 Vec2 TestCorner(const TurnManeuver& maneuver, const OrientedBox& obstacle) {
   const double inward = maneuver.passing_side() == PassingSide::kInner ? 1.0 : -1.0;
   return ToWorld(obstacle.center,
@@ -170,9 +173,8 @@ TurnLayout LayOutTurn(const TurnManeuver& maneuver, const VehicleParams& vehicle
   double obstacle_angle = sixths * (maneuver.turn_angle - maneuver.reduction);
   layout.safe_angle = obstacle_angle;
   if (maneuver.literal.grid) {
-    // Listing F.2 reverses the points of the arc but not their angles, so it counts the angles from
-    // the other end. The reversed count changes the result by the remainder of the sweep over the
-    // grid step.
+    // Listing F.2 reverses the points of the arc but not their angles. The angle of the safe point
+    // therefore deviates by the remainder of the sweep divided by the grid step.
     obstacle_angle = angles[layout.obstacle_at - 1];
     layout.safe_angle = kGrid * static_cast<double>(layout.obstacle_at - 1);
   }
@@ -202,8 +204,8 @@ std::array<Vec2, 8> ControlPoints(const TurnManeuver& maneuver, const TurnLayout
   Vec2 exit{std::cos(end_angle), sign * std::sin(end_angle)};
   points[5] = arc_end;
   if (maneuver.literal.right_angle_rule && maneuver.reduction == 0.0) {
-    // Place the point at the height y of the safe point. If the car passes on the outside, use the
-    // height y that the safe point would have on the inside.
+    // Place P_5 at the y coordinate of the safe point, or, if the car passes on the outside, at the
+    // y coordinate that the safe point would have on the inside.
     const double radius = SafeRadius(maneuver, vehicle.width, PassingSide::kInner);
     const double y = maneuver.passing_side() == PassingSide::kInner
                          ? layout.safe_point.y()
@@ -288,7 +290,8 @@ ManeuverRun SimulateManeuver(const TurnManeuver& maneuver, const TurnLayout& lay
     const double slope = vehicle.wheelbase * sample.curvature;
     const double rate =
         std::abs(maneuver.speed * vehicle.wheelbase * curve.Sharpness(u) / (1.0 + slope * slope));
-    // The angle is NaN where the tangent vanishes; treat NaN as exceeding every limit.
+    // The steering angle is NaN where the derivative of the curve vanishes; treat NaN as exceeding
+    // every limit.
     const double angle = std::abs(sample.steering);
     drive.steering_max = std::max(drive.steering_max, std::isnan(angle) ? kInfinity : angle);
     drive.steering_rate_max =

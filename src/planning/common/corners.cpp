@@ -13,19 +13,18 @@
 #include "trackbed/planning/common/route_start.h"
 
 // Rounds each corner of a polyline by a clothoid, an arc and a second clothoid. The steering rate
-// at a corner's speed determines the sharpness of its clothoids, so a slower corner is shorter.
-// Each corner may use half of each of its two legs. Bisection finds the fastest speed at which the
-// tangents of a corner fit on its legs. After rounding, the algorithm lays out the path. While the
-// path is too close to an obstacle, the algorithm slows the corner nearest to the collision by a
-// fifth.
+// and the corner's speed determine the sharpness of the clothoids, so a slower corner is shorter.
+// Each corner may use half of each of its two legs. Bisection finds the highest speed at which the
+// tangents of a corner fit on its legs. While the resulting path is too close to an obstacle, the
+// algorithm slows the corner nearest to the collision by a fifth.
 
 namespace trackbed {
 namespace {
 
-/// Largest heading change that counts as straight [rad].
+/// Heading changes up to this value count as straight [rad].
 constexpr double kStraight = 1e-9;
 
-/// The segments of the corner, curving to its side.
+/// Returns the segments of a rounded corner, with the sign of curvature of the corner's turn.
 std::vector<Segment> ToSegments(const RoundCorner& corner) {
   const double side = std::copysign(1.0, corner.heading_change);
   const double ramp = corner.curvature / corner.sharpness;
@@ -42,7 +41,7 @@ std::vector<Segment> ToSegments(const RoundCorner& corner) {
   return segments;
 }
 
-/// Joins the straights and the rounded corners to a path, and fills in the stations of the corners.
+/// Joins the straights and the rounded corners to a path, and sets the stations of the corners.
 Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners) {
   std::vector<Segment> segments;
   double station = 0.0;
@@ -71,8 +70,9 @@ Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners
   return {StartOfRoute(polyline), std::move(segments)};
 }
 
-/// The highest speed, up to `highest`, at the first corner. The corner's tangent and the braking
-/// distance must both fit on the first leg, which is `leg` [m] long. Returns none if no speed fits.
+/// Returns the highest possible speed at the first corner, up to `highest`. The corner's tangent
+/// and the braking distance must both fit on the first leg, which is `leg` [m] long. Returns none
+/// if no speed fits.
 template <typename Tangent>
 std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highest, double leg,
                                         const Tangent& tangent) {
@@ -84,8 +84,8 @@ std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highe
   if (lacks(highest) <= 0.0) {
     return highest;
   }
-  // A slower corner is shorter but needs a longer braking distance, so the condition is not
-  // monotonic in the speed.
+  // Try speeds one by one: a slower corner is shorter but needs a longer braking distance, so the
+  // condition is not monotonic in the speed.
   constexpr int kSteps = 100;
   for (int i = kSteps - 1; i >= 0; --i) {
     const double v = std::lerp(limits.min_speed, highest, static_cast<double>(i) / kSteps);
@@ -101,7 +101,7 @@ std::string DescribePlace(const RoundCorner& corner) {
                      corner.at.x(), corner.at.y());
 }
 
-/// The corner nearest to a station. Returns null if there are no corners, or if the nearest corner
+/// Returns the corner nearest to a station, or null if the path has no corner or the nearest corner
 /// already has the minimum speed.
 RoundCorner* CornerToSlow(std::vector<RoundCorner>& corners, double station, double min_speed) {
   RoundCorner* nearest = nullptr;
@@ -151,8 +151,8 @@ RoundCorner AtSpeed(const VehicleParams& vehicle, const CornerLimits& limits,
   return slower;
 }
 
-/// Lays out the path and slows down corners until the path is clear of obstacles. Returns the
-/// reason for a failure as a text for people, and an empty text on success.
+/// Lays out the path and slows down corners until the path is clear of obstacles. Returns an error
+/// message on failure, otherwise an empty text.
 std::string SlowUntilClear(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
                            const CornerLimits& limits, const CollisionChecker& clear,
                            RoundedCorners& result) {
@@ -249,7 +249,8 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
 
 namespace {
 
-/// Drops the points that lie on a straight, or that `sees` can bypass.
+/// Returns the polyline without points that lie on a straight, and without points whose neighbors
+/// see each other according to `sees`.
 template <typename Sees>
 std::vector<Vec2> Without(const std::vector<Vec2>& polyline, const Sees& sees) {
   if (polyline.size() < 3) {

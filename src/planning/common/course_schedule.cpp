@@ -15,17 +15,18 @@ double SharpestCurvature(const Segment& segment) {
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed, const std::vector<SpeedCap>& caps,
                                 const std::vector<double>& stops) {
-  // Minimum length [m] of a ramp on which the wheels turn at standstill, because the schedule is a
+  // Length [m] of a ramp for wheels that turn at standstill; not zero, because the schedule is a
   // function of distance.
   constexpr double kMinRampLength = 1e-6;
-  // Spacing [m] over which the arctangent is within 1e-5 rad of linear.
+  // Spacing of knots [m] with which the schedule, linear between knots, follows the arctangent of
+  // the curvature within 1e-5 rad.
   constexpr double kSpacing = 0.5;
   const auto steering = [&](double curvature) { return SteeringForCurvature(vehicle, curvature); };
   const std::vector<SteeringRamp> ramps = RampsOfSteps(vehicle, segments, speed, caps, stops);
   auto ramp = ramps.begin();
   std::vector<SteeringSchedule::Knot> knots;
   double begin = 0.0;
-  double taken = 0.0;  // length of the piece's beginning that a ramp covers
+  double taken = 0.0;  // length of the ramp at the piece's beginning
   bool is_joined = false;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& segment = segments[i];
@@ -45,7 +46,7 @@ SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<
         to = segment.length - std::min(kMinRampLength, 0.5 * segment.length);
       }
     }
-    // Two ramps may meet in the middle of a piece, up to rounding.
+    // If two ramps meet in the middle of a piece, rounding may make `from` larger than `to`.
     from = std::min(from, to);
     const double parts = segment.sharpness == 0.0 && segment.sharpness_rate == 0.0
                              ? 1.0

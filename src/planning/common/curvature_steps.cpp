@@ -7,14 +7,14 @@
 namespace trackbed {
 namespace {
 
-/// A joint between two path pieces with a step in steering angle.
+/// A joint between two path pieces at which the steering angle changes by a step.
 struct Step {
   double joint;     // Station of the joint [m].
   double before;    // Curvature before the joint [1/m].
   double after;     // Curvature after the joint [1/m].
   double steering;  // Magnitude of the step [rad].
-  double room;      // Room for the ramp: length of the shorter adjacent piece [m].
-  bool cusp;        // Whether the direction of motion changes.
+  double room;      // Room for the steering ramp: length of the shorter adjacent piece [m].
+  bool cusp;        // Whether the direction of motion changes at the joint.
 };
 
 std::vector<Step> CurvatureSteps(const VehicleParams& vehicle,
@@ -36,8 +36,8 @@ std::vector<Step> CurvatureSteps(const VehicleParams& vehicle,
   return steps;
 }
 
-/// The speed at which the ramp is as long as the shorter adjacent piece. The ramp is centered on
-/// the joint, so each half covers half of that length.
+/// Returns the speed at which the steering ramp is as long as the shorter of the adjacent pieces.
+/// The ramp is centered on the joint, so it covers at most half of each piece.
 double RampSpeedLimit(const VehicleParams& vehicle, const Step& step) {
   return vehicle.steering_rate * step.room / step.steering;
 }

@@ -7,7 +7,7 @@
 namespace trackbed {
 namespace {
 
-/// The function G at each station, with its slopes on both sides.
+/// The function G of LimitJerk at each station, with its slopes before and after the station.
 struct Bound {
   std::vector<double> value;
   std::vector<double> left;
@@ -15,8 +15,8 @@ struct Bound {
 };
 
 /// Integrates the equation G'' = K. At each station, the slope rises by 2 jerk/v times half the
-/// length of the two adjacent intervals. The largest speed around the station is v, so that the
-/// limit holds exactly for second differences.
+/// length of the two adjacent intervals. The speed v is the largest of the speeds at the station
+/// and at its two neighbors, so that the limit holds exactly for second differences.
 Bound Integrate(const std::vector<double>& stations, double jerk,
                 const std::vector<double>& squares) {
   const std::size_t count = stations.size();
@@ -25,8 +25,8 @@ Bound Integrate(const std::vector<double>& stations, double jerk,
     const std::size_t before = i > 0 ? i - 1 : 0;
     const std::size_t after = std::min(i + 1, count - 1);
     const double fastest = std::max({squares[before], squares[i], squares[after]});
-    // Avoids a division by zero where the car stands throughout. Any positive speed avoids the
-    // division by zero.
+    // Where the car stands at all three stations, use a small positive speed to avoid a division by
+    // zero.
     const double speed = std::sqrt(std::max(fastest, 1e-12));
     const double length = (stations[after] - stations[before]) * (after - before == 1 ? 2.0 : 1.0);
     if (i > 0) {
@@ -38,7 +38,7 @@ Bound Integrate(const std::vector<double>& stations, double jerk,
   return bound;
 }
 
-/// Computes the squared speeds w1 of LimitJerk, step 1.
+/// Replaces the squared speeds by w1, step 1 of LimitJerk.
 void LowerValleys(const std::vector<double>& stations, const Bound& bound,
                   std::vector<double>& squares) {
   const std::vector<double> given = squares;
@@ -64,7 +64,7 @@ void LowerValleys(const std::vector<double>& stations, const Bound& bound,
   }
 }
 
-/// Computes the squared speeds w2 of LimitJerk, step 2.
+/// Replaces the squared speeds by w2, step 2 of LimitJerk.
 void LowerToHull(const std::vector<double>& stations, const Bound& bound,
                  std::vector<double>& squares) {
   std::vector<std::size_t> hull;
@@ -104,7 +104,7 @@ void LimitJerk(const std::vector<double>& stations, double jerk, std::vector<dou
 
 void LimitJerkAround(const std::vector<double>& stations, double jerk,
                      std::vector<double>& squares) {
-  // Place the lap between two copies of itself.
+  // Place the lap between two copies of itself, so that the result is periodic.
   const double length = stations.back() - stations.front();
   const std::size_t count = stations.size() - 1;
   std::vector<double> long_stations;

@@ -8,18 +8,20 @@ namespace trackbed {
 /// adjacent intervals. The acceleration in an interval is a = dw/ds/2.
 ///
 /// With da/dt = v d^2w/ds^2/2 the limit is |w''| <= K(s) = 2 jerk/v. The speed v is the speed
-/// before lowering, because lower speeds only allow a larger K. With G'' = K, the limit holds where
-/// w + G is convex and w - G is concave. LimitJerk makes w + G convex and w - G concave in two
-/// steps. Step 1 computes w1, the minimum of w and of curves with w'' = K. For every station t with
-/// w'' > K, a curve passes through w(t). The slope of the curve at t is the slope of w nearest to
-/// 0. The curve through w(t) ends where it meets w. Step 2 computes w2, for which w2 + G is the
-/// convex hull of w1 + G. The convex hull keeps the curvature of w1 where w1 is convex.
+/// before lowering; a lower speed would only allow a larger K. With a function G that satisfies G''
+/// = K, the limit holds where w + G is convex and w - G is concave. LimitJerk makes w + G convex
+/// and w - G concave in two steps. Step 1 computes w1, the minimum of w and of curves with the
+/// second derivative K. Such a curve passes through w(t) at every station t with w'' > K. The slope
+/// of the curve at t is the value closest to 0 between the slopes of w before and after t. On both
+/// sides, the curve ends where it meets w. Step 2 computes w2, for which w2 + G is the lower convex
+/// hull of w1 + G. The hull does not raise the second derivative, so the limit of step 1 stays
+/// satisfied.
 ///
-/// Speeds that keep the limit stay as they are. Only step 1 lowers the first and the last squared
-/// speed. Cost: O(n) plus the lengths of the curves of step 1, about 50 ns per station.
+/// Speeds that satisfy the limit stay unchanged. Step 2 never changes the first and the last
+/// squared speed. Cost: O(n) plus the lengths of the curves of step 1, about 50 ns per station.
 void LimitJerk(const std::vector<double>& stations, double jerk, std::vector<double>& squares);
 
-/// Same as LimitJerk, for a lap whose last station is the first station.
+/// As LimitJerk, for a closed lap whose last station is the same place as its first station.
 void LimitJerkAround(const std::vector<double>& stations, double jerk,
                      std::vector<double>& squares);
 

@@ -6,12 +6,12 @@
 namespace trackbed {
 namespace {
 
-/// Largest steering angle that counts as straight [rad].
+/// Steering angles up to this value count as straight [rad].
 constexpr double kStraightSteering = 1e-9;
 
-/// The path of a car whose wheels turn from the start steering to straight ahead at their full
-/// rate. The steering angle is delta(s) = delta_0 (1 - s/S). The heading is psi(s) = S/(L delta_0)
-/// ln(cos delta(s)/cos delta_0).
+/// Returns the path of a car whose wheels turn at their full rate from the start steering delta_0
+/// to straight ahead, over the distance S. The steering angle is delta(s) = delta_0 (1 - s/S). The
+/// heading is psi(s) = S/(L delta_0) ln(cos delta(s)/cos delta_0).
 std::vector<Segment> Straightening(const PlanRequest& request) {
   const VehicleParams& vehicle = request.vehicle;
   const double steering = request.start_steering;

@@ -9,26 +9,27 @@
 #include "trackbed/core/error.h"
 #include "trackbed/vehicle/params.h"
 
-// Speed profile at the limit of a g-g-v diagram, by forward and backward passes (Heilmeier et al.
-// 2020). MaxSquares computes the largest v^2 at each station that the tyres' lateral limit and the
-// cap allow. The forward pass accelerates as hard as possible. The backward pass brakes as late as
-// possible. With a jerk limit, LimitJerk and the passes alternate until the passes hardly lower the
-// result. A start that is too fast brakes as hard as possible, and the first excess is reported.
-// For a lap, the passes start at the slowest station and repeat until the speeds at start and end
-// agree.
+// Computes the speed profile at the limit of a g-g-v diagram by forward and backward passes
+// (Heilmeier et al. 2020). MaxSquares computes the largest v^2 at each station that the tyres'
+// lateral limit and the cap allow. The forward pass accelerates as hard as possible. The backward
+// pass brakes as late as possible. With a jerk limit, LimitJerk and the passes alternate until the
+// passes hardly change the result. A car that starts too fast brakes as hard as possible, and the
+// first station at which it exceeds the limit is reported. For a lap, the passes start at the
+// slowest station and repeat until the speeds at start and end agree.
 
 namespace trackbed {
 namespace {
 
 using Squares = std::vector<double>;  // Squared speeds [m^2/s^2], one per station.
 
-/// Accelerations available to a car at a station, as a function of the squared speed.
+/// Computes the accelerations that are available to a car at a station, as functions of the squared
+/// speed.
 class Capability {
  public:
   Capability(const GgvDiagram& diagram, const LimitOptions& options)
       : diagram_(diagram), options_(options) {}
 
-  /// Largest acceleration dv/dt of the car [m/s^2].
+  /// Returns the largest acceleration dv/dt of the car [m/s^2].
   [[nodiscard]] double MaxAcceleration(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
     return Accelerations(demand).largest / demand.stretch;
@@ -39,8 +40,9 @@ class Capability {
     return Accelerations(demand).smallest / demand.stretch;
   }
 
-  /// Distance of the tyres from their limit [m/s^2]; negative beyond the limit. Within the limit,
-  /// the car may have to slow down for lack of drive force, but never has to speed up.
+  /// Returns the margin of the tyres to their limit [m/s^2], which is negative beyond the limit.
+  /// Within the limit, braking can always keep the car from speeding up, although a lack of drive
+  /// force may slow the car down.
   [[nodiscard]] double Margin(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
     const double across = options_.share * diagram_.MaxLateral(demand.point) - demand.point.lateral;
@@ -56,18 +58,20 @@ class Capability {
     return std::min({across, weight, resistance - options_.share * tyres.braking});
   }
 
-  /// The largest squared speed up to `most` within the tyres' limit; 0 if no speed is within it.
+  /// Returns the largest squared speed up to `most` within the tyres' limit, or 0 if no speed is
+  /// within the limit.
   [[nodiscard]] double MaxSquared(const LimitStation& at, double most) const;
 
  private:
-  // Fraction of the weight; a smaller load counts as airborne.
+  // Smallest load of the car, as a fraction of its weight; with a smaller load, the car counts as
+  // airborne.
   static constexpr double kMinLoad = 0.05;
 
   struct Demand {
     GgvPoint point;
-    double load = 1.0;     // Load f_n/g as a fraction of the weight, may be negative [1].
-    double stretch = 1.0;  // Stretch factor A of the road's length.
-    double slope = 0.0;    // Component of gravity along the road [m/s^2].
+    double load = 1.0;     // Load f_n/g as a fraction of the weight; may be negative.
+    double stretch = 1.0;  // Ratio A of the road's length to its horizontal length.
+    double slope = 0.0;    // Component of gravity against the motion along the road [m/s^2].
   };
 
   [[nodiscard]] static Demand DemandAt(const LimitStation& at, double squared) {
@@ -102,7 +106,8 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
   }
   double low = 0.0;
   double at_low = Margin(at, low);
-  // On a bank too steep to stand on, the car also needs a minimum speed.
+  // Search for a permitted speed: on a bank too steep to stand on, low speeds are beyond the limit
+  // too.
   constexpr int kMaxAttempts = 64;
   for (int i = kMaxAttempts - 1; at_low < 0.0 && i > 0; --i) {
     low = most * i / kMaxAttempts;
@@ -118,9 +123,9 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
   return Margin(at, above) >= 0.0 ? above : below;
 }
 
-/// The largest squared speed up to `most` that the car can reach over an interval of `length`. At
+/// Returns the largest squared speed, up to `most`, at one end of an interval of `length` [m]. At
 /// the other end of the interval, the squared speed is `from`. The function `can` returns the
-/// acceleration available to the car at a squared speed.
+/// available acceleration, or deceleration, at a squared speed.
 template <typename Can>
 double Reach(double from, double length, double most, const Can& can) {
   const auto spare = [&](double squared) {
@@ -137,7 +142,7 @@ double Reach(double from, double length, double most, const Can& can) {
     at_low = spare(low);
   }
   if (at_low <= 0.0 || low >= most) {
-    return low;  // even the lowest speed is too high, because the slope is too steep
+    return low;  // even the lowest speed is too high, because the road slopes too steeply
   }
   std::uintmax_t iterations = 12;
   const auto [below, above] = boost::math::tools::toms748_solve(
@@ -178,7 +183,7 @@ class Passes {
   }
 
   /// Raises the first squared speeds for a car that starts too fast, with the squared speed
-  /// `start`. The car brakes as hard as it can until it meets the profile.
+  /// `start`. The car brakes as hard as it can until its speed is that of the profile.
   void BrakeFrom(double start, Squares& squares) const {
     squares[0] = start;
     for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
@@ -217,7 +222,7 @@ void Check(const std::vector<LimitStation>& stations, const LimitOptions& option
   }
 }
 
-/// The largest squared speed at each station, regardless of the other stations.
+/// Returns the largest permitted squared speed at each station, regardless of the other stations.
 Squares MaxSquares(const std::vector<LimitStation>& stations, const GgvDiagram& diagram,
                    const LimitOptions& options, const Capability& can) {
   double fastest = std::numeric_limits<double>::infinity();
@@ -256,7 +261,7 @@ LimitSpeeds Result(const std::vector<LimitStation>& stations, const Squares& squ
   return result;
 }
 
-/// Alternates smoothing and passes until the passes hardly lower the smoothed squared speeds.
+/// Alternates smoothing and passes until a pass hardly lowers the smoothed squared speeds.
 template <typename Smooth, typename Pass>
 void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
   constexpr int kMaxIterations = 100;
@@ -277,8 +282,8 @@ void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
   smooth(squares);
 }
 
-/// Repeats forward and backward passes over a lap until its start and end agree. The last squared
-/// speed stands for the first station.
+/// Repeats forward and backward passes over a lap until the speeds at its start and end agree. The
+/// last element of `squares` belongs to the first station, one lap later.
 void PassAroundLap(const Passes& passes, Squares& squares) {
   constexpr int kLaps = 50;
   constexpr double kEqualityTolerance = 1e-12;
@@ -345,7 +350,8 @@ LimitSpeeds LimitSpeedsAround(const std::vector<LimitStation>& stations, double 
                    stations.front().s, stations.back().s);
   const Capability can(diagram, options);
   const Squares allowed = MaxSquares(stations, diagram, options, can);
-  // Start at the slowest station: except on slopes, no pass lowers the speed at this station.
+  // Start the lap at the slowest station, because, except on slopes, no pass lowers the speed at
+  // this station.
   const auto slowest = std::min_element(allowed.begin(), allowed.end()) - allowed.begin();
   std::vector<LimitStation> lap(stations.begin() + slowest, stations.end());
   Squares squares(allowed.begin() + slowest, allowed.end());

@@ -8,12 +8,12 @@
 namespace trackbed {
 namespace {
 
-/// Column and row of an area's first cell, counted from the frame's origin.
+/// Returns column and row of an area's first cell, counted from the frame's origin.
 Vec2 FirstCell(const GridArea& area, double cell) {
   return {std::floor(area.low.x() / cell), std::floor(area.low.y() / cell)};
 }
 
-/// Number of columns and rows.
+/// Returns the numbers of columns and rows of an area's grid.
 Vec2 CellCounts(const GridArea& area, double cell) {
   const Vec2 last{std::ceil(area.high.x() / cell), std::ceil(area.high.y() / cell)};
   return last - FirstCell(area, cell) + Vec2::Ones();

@@ -56,7 +56,7 @@ class JsonWriter : public DiagnosticsVisitor {
   json& object_;
 };
 
-/// Deviation at the end of an open-loop run along a stretch.
+/// Distance and heading error between car and path at the end of an open-loop run along a stretch.
 struct StretchEnd {
   double distance = 0.0;
   double heading_error = 0.0;

@@ -8,8 +8,9 @@
 namespace trackbed {
 namespace {
 
-/// The part of the profile after `ahead.from`, for a car that starts at `ahead.from` with `speed`.
-/// A car slower than the profile accelerates with `acceleration` until it meets the profile.
+/// Returns the part of a speed profile after the station `ahead.from`, for a car that starts there
+/// with `speed`. A car slower than the profile accelerates with `acceleration` until it reaches the
+/// profile's speed.
 SpeedProfile JoinedBy(const SpeedProfile& profile, Stations ahead, double speed,
                       double acceleration) {
   std::vector<SpeedProfile::Knot> knots = Excerpt(profile, ahead).knots();
@@ -27,7 +28,8 @@ SpeedProfile JoinedBy(const SpeedProfile& profile, Stations ahead, double speed,
 
 std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
                                           double shift) {
-  // A knot at the cut belongs to the part of the profile that is inserted at the cut.
+  // Leave out knots at the ends of the stretch, where another piece of schedule is joined with its
+  // own knot.
   constexpr double kCutTolerance = 1e-9;  // [m]
   std::vector<SteeringSchedule::Knot> knots;
   for (const SteeringSchedule::Knot& knot : schedule.knots()) {
@@ -91,7 +93,8 @@ std::vector<SpeedCap> CapsOf(const Plan& plan) {
   std::vector<SpeedCap> caps;
   const std::vector<SpeedProfile::Knot>& knots = plan.reference.speed.knots();
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    // Use the larger speed: at an end of the plan the other speed is 0.
+    // Use the larger of the two speeds, because the other speed is 0 at the start and end of a
+    // plan.
     caps.push_back({knots[i].s, knots[i + 1].s, std::max(knots[i].speed, knots[i + 1].speed)});
   }
   return caps;

@@ -15,14 +15,14 @@ namespace {
 
 constexpr double kSamePlace = 1e-9;         // [m]
 const std::string kAtLimit = "speeds at ";  // First words of the note with the predicted time.
-/// Stations closer than the fraction kMerged of the spacing are merged.
+/// Stations closer than this fraction of the spacing are merged.
 constexpr double kMerged = 0.002;
 
 double LargerOf(double a, double b) {
   return std::abs(a) > std::abs(b) ? a : b;
 }
 
-/// Stations with curvature along segments; the first station is at `from`.
+/// Returns stations with their curvature along segments. The first station is at `from`.
 std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double from, double spacing) {
   std::vector<LimitStation> nodes;
   double start = from;
@@ -40,12 +40,12 @@ std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double fro
     start += segment.length;
   }
   if (nodes.size() > 1 && start - nodes.back().s > 0.0) {
-    nodes.back().s = start;  // the exact end
+    nodes.back().s = start;  // avoid the rounding error at the end
   }
   return nodes;
 }
 
-/// Ground height and friction along a path.
+/// Determines ground height and friction along a path.
 class Surface {
  public:
   Surface(const Path& path, const PlanRequest& request) : path_(path), request_(request) {
@@ -83,7 +83,7 @@ class Surface {
   }
 
  private:
-  /// Ground height under the center of gravity, interpolated between the axles.
+  /// Returns the ground height under the center of gravity, interpolated between the axles.
   [[nodiscard]] double Height(const Pose2& pose) const {
     const Ground& ground = request_.limits->ground;
     return std::lerp(GroundHeight(ground, pose.position()),
@@ -92,7 +92,7 @@ class Surface {
 
   const Path& path_;
   const PlanRequest& request_;
-  double front_ = 0.0;  // Position of the front axle [m].
+  double front_ = 0.0;  // Distance of the front axle from the rear axle [m].
   double share_ = 0.0;  // Fraction of the load on the front axle.
   bool flat_ = true;
 };
@@ -104,7 +104,8 @@ void ApplyCaps(const std::vector<SpeedCap>& caps, std::vector<LimitStation>& sta
         cap.from > stations.back().s + kSamePlace) {
       continue;
     }
-    // Between two stations, the speed does not exceed the larger speed of the two.
+    // Apply the cap also to the station before and to the station after it: between two stations,
+    // the speed may be as high as the larger of their speeds.
     auto first = std::lower_bound(stations.begin(), stations.end(), cap.from + kSamePlace, before);
     auto last = std::lower_bound(stations.begin(), stations.end(), cap.to - kSamePlace, before);
     first = first == stations.begin() ? first : first - 1;
@@ -120,7 +121,7 @@ struct Timed {
   std::optional<LimitExcess> excess;
 };
 
-/// Speeds over the legs of a path, each of which ends at rest.
+/// Computes the speeds over the legs of a path. Each leg ends at rest.
 Timed SpeedsOver(const std::vector<Stations>& legs, const Path& path, const PlanRequest& request,
                  const std::vector<SpeedCap>& caps) {
   const SpeedAtLimit& limits = *request.limits;
@@ -183,7 +184,7 @@ std::vector<LimitStation> StationsAlong(const Path& path, const Stations& part,
   if (beyond > kSamePlace) {
     segments.push_back({.length = beyond});
   }
-  // A short leg that begins and ends at rest needs stations in between.
+  // Divide short legs too: a leg that begins and ends at rest needs stations in between.
   constexpr double kPieces = 16.0;
   const double spacing =
       std::min({0.5, 0.2 * request.vehicle.wheelbase, (part.to - part.from) / kPieces});
@@ -213,7 +214,7 @@ std::optional<LimitExcess> SetSpeedsAtLimit(Plan& plan, const PlanRequest& reque
                                   ? fmt::format(", slowest {:.3g} m/s at s = {:.4g} m",
                                                 findings.slowest, findings.slowest_s)
                                   : "";
-  // A rerouted plan still has the note of the time predicted for the previous plan.
+  // Remove the predicted time of the previous plan, which a rerouted plan still has in its notes.
   std::erase_if(plan.notes, [](const std::string& note) { return note.starts_with(kAtLimit); });
   if (std::isfinite(findings.predicted_time)) {
     plan.notes.push_back(kAtLimit + fmt::format("{:.3g} of the limit: predicted time {:.4g} s{}",

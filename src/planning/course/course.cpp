@@ -69,7 +69,8 @@ Plan PlanWith(const CourseOptions& options, const PlanRequest& request) {
   return plan;
 }
 
-/// Requires at least one segment, and either a constant curvature or a ramp in each segment.
+/// Reports a problem unless the course has at least one segment, and each segment has either a
+/// constant curvature or a curvature ramp.
 std::vector<OptionProblem> CheckSegments(const CourseOptions& options,
                                          const CouldReadKey& could_read) {
   std::vector<OptionProblem> problems;

@@ -13,8 +13,9 @@
 namespace trackbed {
 namespace {
 
-/// Course of the lane change: lengths of the five sections and widths of the three gates. The
-/// lateral offsets of the second and third gates' centers count from the first gate's center.
+/// Dimensions of the lane-change course: the lengths of its five sections, the widths of its three
+/// gates, and the lateral offsets of the second and third gate's center from the first gate's
+/// center.
 struct Course {
   std::array<double, 5> lengths;
   std::array<double, 3> widths;
@@ -43,7 +44,8 @@ void AddStraight(double length, std::vector<Segment>& path) {
   }
 }
 
-/// A lateral shift by `offset` to the left over `length`, straight at both ends.
+/// Appends to `path` a lateral shift by `offset` to the left over `length`, which begins and ends
+/// straight.
 void AddChange(double length, double offset, std::vector<Segment>& path) {
   constexpr double kSpacing = 0.1;  // [m]
   std::vector<Vec2> control;
@@ -130,7 +132,8 @@ std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehiclePar
         if (std::abs(corner.x()) <= 0.5 * lane.length) {
           take(corner);
         }
-        // Between two sampled poses, the car may pass the cones at the ends of the lane.
+        // Check also the moments, between two sampled poses, at which a corner of the car passes
+        // the cones at the ends of the lane.
         for (const double end : {-0.5 * lane.length, 0.5 * lane.length}) {
           if (i > 0 && (before[c].x() - end) * (corner.x() - end) < 0.0) {
             take(before[c] +

@@ -7,8 +7,8 @@
 
 namespace trackbed {
 
-/// Goal pose relative to the start, in units of the radius. Sine and cosine of the goal's heading
-/// are computed once for all Dubins or Reeds-Shepp words.
+/// Goal pose relative to the start pose, with lengths in units of the turning radius. Sine and
+/// cosine of the goal's heading are computed once for all Dubins or Reeds-Shepp words.
 struct CurveGoal {
   double x = 0.0;
   double y = 0.0;
@@ -20,7 +20,7 @@ struct CurveGoal {
   CurveGoal(const Pose2& from, const Pose2& to, double radius) {
     TRACKBED_CHECK(radius > 0.0 && std::isfinite(radius), "radius {}", radius);
     const Vec2 local = ToLocal(from, to.position()) / radius;
-    constexpr double kMaxDistance = 1e100;  // [radii]; its square is finite
+    constexpr double kMaxDistance = 1e100;  // [radii]; so small that its square is finite
     TRACKBED_REQUIRE(local.norm() <= kMaxDistance && std::isfinite(to.yaw - from.yaw),
                      "a curve from {}, {}, yaw {} to {}, {}, yaw {}; must be finite", from.x,
                      from.y, from.yaw, to.x, to.y, to.yaw);
@@ -31,7 +31,7 @@ struct CurveGoal {
     cos = std::cos(yaw);
   }
 
-  /// Mirrors the goal at the x axis, which exchanges left and right.
+  /// Returns the goal mirrored at the x axis, which exchanges left and right.
   [[nodiscard]] CurveGoal Mirrored() const {
     CurveGoal goal = *this;
     goal.y = -y;
@@ -40,8 +40,8 @@ struct CurveGoal {
     return goal;
   }
 
-  /// Reflects the goal at the y axis, for a car that drives a Dubins or Reeds-Shepp word in the
-  /// opposite direction.
+  /// Returns the goal mirrored at the y axis. A word to the mirrored goal is, with forward and
+  /// reverse exchanged, a word to this goal.
   [[nodiscard]] CurveGoal Reversed() const {
     CurveGoal goal = *this;
     goal.x = -x;
@@ -50,7 +50,8 @@ struct CurveGoal {
     return goal;
   }
 
-  /// The start relative to the goal, for Reeds-Shepp words that the car drives from their end.
+  /// Returns the goal that a Reeds-Shepp word to this goal reaches if its pieces are driven in the
+  /// opposite order.
   [[nodiscard]] CurveGoal FromGoal() const {
     CurveGoal goal = *this;
     goal.x = x * cos + y * sin;

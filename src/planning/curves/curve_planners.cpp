@@ -21,7 +21,7 @@ using route::LeadInForCurves;
 using route::RadiusFor;
 using route::Refused;
 
-/// A curve between two stops, and the cost of the curve.
+/// A candidate curve between two stops, with its cost.
 struct FoundCurve {
   std::vector<Segment> segments;
   ShortestCurve curve;
@@ -29,13 +29,13 @@ struct FoundCurve {
   double cost = 0.0;  // [m]
 };
 
-/// The cheapest of `words` that is free of collisions and whose beginning `may_begin` accepts. Each
-/// stop costs kStopPenalty.
+/// Returns the cheapest of `words` that is free of collisions and whose first segments `may_begin`
+/// accepts. The cost is the length plus kStopPenalty per stop.
 template <typename MayBegin>
 std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionChecker& clear,
                                     const Pose2& from, const std::vector<ShortestCurve>& words,
                                     double min_speed, const MayBegin& may_begin) {
-  constexpr double kStopPenalty = 5.0;  // [m]; the same as a change of direction in hybrid A*
+  constexpr double kStopPenalty = 5.0;  // [m]; as for a change of direction in hybrid A*
   std::vector<FoundCurve> candidates;
   for (std::size_t i = 0; i < words.size(); ++i) {
     std::vector<Segment> own = ToSegments(words[i]);
@@ -54,7 +54,7 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
   return free == candidates.end() ? std::nullopt : std::optional(std::move(*free));
 }
 
-/// Plans from stop to stop; each leg uses the first collision-free curve of `words`.
+/// Plans a path from stop to stop. Each leg is the cheapest collision-free curve of `words`.
 template <typename Options, typename Words>
 Plan PlanCurves(const Options& options, const PlanRequest& request, const Words& words) {
   for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius)}) {
@@ -77,8 +77,8 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
     std::vector<ShortestCurve> all = words(stops[i - 1], stops[i], radius);
     std::optional<FoundCurve> found;
     if (rolls) {
-      // Start at once if the wheels already have the right angle, or start after a lead-in. Take
-      // the shorter curve, with or without a lead-in.
+      // The curve may start at the car if the wheels already have the right angle. Otherwise a
+      // lead-in turns the wheels first. Take the cheaper of the two curves.
       const double bend = CurvatureForSteering(request.vehicle, request.start_steering);
       found = FirstFree(request, clear, stops[0], all, options.min_speed, [&](const auto& own) {
         constexpr double kEqualityTolerance = 1e-6;  // [1/m]
@@ -124,8 +124,8 @@ Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
-  // All Reeds-Shepp words to a pose may begin backwards, which a rolling car cannot do. Dubins
-  // words begin forwards.
+  // All Reeds-Shepp words to a pose may begin in reverse, which a rolling car cannot drive.
+  // Therefore the Dubins words, which begin forwards, are candidates too.
   return PlanCurves(options, request, [](const Pose2& from, const Pose2& to, double radius) {
     std::vector<ShortestCurve> words = ReedsSheppWords(from, to, radius);
     const std::vector<ShortestCurve> forwards = DubinsWords(from, to, radius);

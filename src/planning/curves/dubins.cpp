@@ -21,7 +21,8 @@ double Positive(double angle) {
   return turned > kTurn - kRounding ? 0.0 : turned;
 }
 
-/// The sweeps [rad] of the arcs of a Dubins word; the length of a straight is in radii.
+/// Arc angles of a Dubins word [rad]. If the middle piece is a straight, `middle` is its length in
+/// radii.
 struct Sweeps {
   double first = 0.0;
   double middle = 0.0;
@@ -31,9 +32,9 @@ struct Sweeps {
 };
 
 /// The following functions solve the Dubins words that begin with a left arc and are shorter than
-/// `limit`. A function returns kNone as the middle piece if it finds no word. The center of the
-/// first arc is at (0, 1). The center of a last left arc is at (x - sin, y + cos). The center of a
-/// last right arc is at (x + sin, y - cos).
+/// `limit`. If no such word exists, the functions return kNone as the middle piece. The center of
+/// the first arc is at (0, 1). The center of the last arc is at (x - sin, y + cos) if this arc is
+/// to the left, and at (x + sin, y - cos) if it is to the right.
 Sweeps LeftStraightLeft(const CurveGoal& goal, double limit) {
   const double dx = goal.x - goal.sin;
   const double dy = goal.y - 1.0 + goal.cos;
@@ -56,7 +57,7 @@ Sweeps LeftStraightRight(const CurveGoal& goal, double limit) {
   if (straight >= limit) {
     return {.middle = kNone};
   }
-  // Add the angle atan(2/straight) to the direction between the centers, by one arctangent.
+  // A single arctangent gives the sum of the direction between the centers and atan(2/straight).
   const double first = Positive(std::atan2(dy * straight + 2.0 * dx, dx * straight - 2.0 * dy));
   return {first, straight, Positive(first - goal.yaw)};
 }
@@ -68,8 +69,8 @@ Sweeps LeftRightLeft(const CurveGoal& goal, double limit) {
   if (square > 16.0 + kRounding || limit <= kPi) {
     return {.middle = kNone};  // the outer circles are too far apart for a circle that touches both
   }
-  // Seen from the first center, the center of the middle arc lies `tilt` to the left of the line of
-  // the centers.
+  // Seen from the first center, the center of the middle arc lies the angle `tilt` to the left of
+  // the line between the outer centers.
   const double tilt = std::acos(std::min(0.25 * std::sqrt(square), 1.0));
   const double middle = kPi + 2.0 * tilt;
   const double first = Positive(std::atan2(dy, dx) + 0.5 * kPi + tilt);

@@ -9,43 +9,43 @@
 
 // Shortest paths of a car that drives forwards and backwards (Reeds and Shepp 1990, section 8). A
 // word is a sequence of arcs and straights. Eight functions solve the base words, whose first arc
-// is to the left and forwards. Three symmetries give the other words of a family from its base
-// word. The symmetries reverse the direction, mirror left and right, and read a Reeds-Shepp word
-// from its end. The planner takes the shortest Reeds-Shepp word. A function may stop as soon as its
-// word exceeds the best length known.
+// is to the left and forwards. Three symmetries turn a base word into the other words of its
+// family: exchanging forward and reverse, exchanging left and right, and driving the pieces in the
+// opposite order. The result is the shortest word. A function may stop as soon as its word exceeds
+// the shortest length known.
 
 namespace trackbed {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kRight = 0.5 * kPi;  // Right angle [rad].
-/// Tolerance for the sign of a sweep.
+/// Sweeps within this tolerance of zero count as zero [rad].
 constexpr double kRounding = 1e-12;
 
-/// Wraps an angle of at most a few turns to [-pi, pi].
+/// Wraps an angle to [-pi, pi].
 double WrapToPi(double angle) {
   return angle - 2.0 * kPi * std::nearbyint(angle * (0.5 / kPi));
 }
 
-/// Same as WrapToPi, for a sweep that must not be negative: returns pi instead of -pi.
+/// As WrapToPi, but returns pi instead of -pi, for sweeps that must not be negative.
 double WrapNonNegative(double angle) {
   const double near = WrapToPi(angle);
   return near < kRounding - kPi ? near + 2.0 * kPi : near;
 }
 
-/// Same as WrapToPi, for a sweep that must not be positive: returns -pi instead of pi.
+/// As WrapToPi, but returns -pi instead of pi, for sweeps that must not be positive.
 double WrapNonPositive(double angle) {
   return -WrapNonNegative(-angle);
 }
 
-/// Square root of an argument that rounding may have made negative.
+/// Returns the square root of a value that is nonnegative up to rounding.
 double Root(double square) {
   return std::sqrt(std::max(square, 0.0));
 }
 
-/// The free sweeps of a Reeds-Shepp word of three to five pieces. The member `sum` adds the
-/// magnitudes of all sweeps, the fixed sweeps included. If the Reeds-Shepp word does not exist,
-/// `sum` is kNone.
+/// The unknown sweeps t, u and v of a Reeds-Shepp word of three to five pieces. The member `sum` is
+/// the sum of the magnitudes of all sweeps, including fixed right angles. If the word does not
+/// exist, `sum` is kNone.
 struct Sweeps {
   double t = 0.0;
   double u = 0.0;
@@ -57,12 +57,13 @@ Sweeps With(double t, double u, double v, double others = 0.0) {
   return {t, u, v, std::abs(t) + std::abs(u) + std::abs(v) + others};
 }
 
-// Each of the following functions solves an equation of Reeds and Shepp 1990, section 8. The
-// function finds the Reeds-Shepp word whose first arc is to the left and forwards. A function may
-// skip Reeds-Shepp words longer than `limit`.
+// Each of the following functions solves an equation of Reeds and Shepp 1990, section 8, for the
+// word whose first arc is to the left and forwards. The functions may skip words longer than
+// `limit`. In the names of words, L and R are arcs to the left and right and S is a straight; + is
+// forwards and - is in reverse.
 
-/// Vector from the center of the first arc to the center of the last arc. ToLeftCenter is for a
-/// last arc to the left, ToRightCenter for a last arc to the right.
+/// Returns the vector from the center of the first arc to the center of the last arc. ToLeftCenter
+/// assumes a last arc to the left, ToRightCenter a last arc to the right.
 Vec2 ToLeftCenter(const CurveGoal& goal) {
   return {goal.x - goal.sin, goal.y - 1.0 + goal.cos};
 }
@@ -107,7 +108,7 @@ Sweeps LRL(const CurveGoal& goal, double /*limit*/) {
   return t >= -kRounding ? With(t, u, WrapToPi(goal.yaw - t + u)) : Sweeps{};
 }
 
-/// Solves the outer arcs of a word of four arcs whose inner arcs sweep u and v.
+/// Computes the outer arcs of a word of four arcs whose inner arcs sweep u and v.
 template <typename Last>
 Sweeps OuterOfFour(const Vec2& d, double u, double v, double yaw, const Last& last) {
   const double delta = WrapToPi(u - v);
@@ -152,7 +153,7 @@ Sweeps LRSL(const CurveGoal& goal, double limit) {
   if (square < -kRounding || u > kRounding || kRight - u >= limit) {
     return {};
   }
-  // Add the angle of the vector (-2, r) to the direction of d, by one arctangent.
+  // A single arctangent gives the sum of the angles of the vectors d and (-2, r).
   const double t = WrapNonNegative(std::atan2(d.x() * r - 2.0 * d.y(), -2.0 * d.x() - d.y() * r));
   const double v = WrapNonPositive(goal.yaw - kRight - t);
   const bool fits = t >= -kRounding && v <= kRounding;
@@ -185,7 +186,7 @@ Sweeps LRSLR(const CurveGoal& goal, double limit) {
   return t >= -kRounding && v >= -kRounding ? With(t, u, v, 2.0 * kRight) : Sweeps{};
 }
 
-/// Sweep of a piece, expressed by the free sweeps of the piece's family.
+/// Sweep of a piece in terms of the unknown sweeps t, u and v of its word.
 enum class Part : signed char { kT, kU, kMinusU, kV, kMinusRight };
 
 struct Family {
@@ -193,7 +194,7 @@ struct Family {
   int count;
   std::array<Bend, 5> bends;
   std::array<Part, 5> parts;
-  bool is_asymmetric;  ///< whether reading the Reeds-Shepp word from its end gives a different word
+  bool is_asymmetric;  ///< whether the opposite order of the pieces gives a different word
 };
 
 constexpr Bend kL = Bend::kLeft;
@@ -215,7 +216,7 @@ constexpr std::array<Family, 8> kFamilies{{
      false},
 }};
 
-/// A Reeds-Shepp word of a family, with the symmetries that were applied to the word.
+/// A Reeds-Shepp word: its family, its sweeps, and the symmetries applied to the base word.
 struct Word {
   const Family* family = nullptr;
   bool mirrored = false;
@@ -255,8 +256,7 @@ ShortestCurve MakeCurve(const Word& word, double radius) {
   return curve;
 }
 
-/// Calls `take` with every Reeds-Shepp word that is shorter than `limit()`. The value of `limit()`
-/// may fall during the loop.
+/// Calls `take` with every Reeds-Shepp word that is shorter than `limit()`, which `take` may lower.
 template <typename Limit, typename Take>
 void ForEachWord(const CurveGoal& goal, const Limit& limit, const Take& take) {
   const std::array<CurveGoal, 4> seen{goal, goal.Reversed(), goal.Mirrored(),

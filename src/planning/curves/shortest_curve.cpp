@@ -5,8 +5,7 @@
 namespace trackbed {
 namespace {
 
-/// Pieces up to kMinPieceLength (in radii) are dropped, because they come from rounding of a zero
-/// angle.
+/// Pieces up to this length (in radii) are dropped, because they result from rounding a zero angle.
 constexpr double kMinPieceLength = 1e-12;
 
 bool IsThere(const CurvePiece& piece) {

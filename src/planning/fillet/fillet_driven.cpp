@@ -11,9 +11,9 @@
 namespace trackbed::fillet {
 namespace {
 
-/// Spacing of the stations at which the driven car is compared with its path, and step of the
-/// roll-out [m]. Ramps are meters long, so the relative error of the integrals is about a
-/// thousandth.
+/// Spacing of the stations at which the simulated car is compared with its path, and step of the
+/// simulation [m]. Steering ramps are meters long, so the relative error of the integrals is about
+/// a thousandth.
 constexpr double kSpacing = 0.5;
 
 class DrivenProblem {
@@ -26,7 +26,8 @@ class DrivenProblem {
     }
   }
 
-  /// The fillet plan for the variables x. Throws Refusal if the turns of the plan are out of order.
+  /// Makes the fillet plan for the search variables x. Throws Refusal if the turns of the plan
+  /// overlap or steer before the start.
   [[nodiscard]] FilletPlan PlanAt(std::span<const double> x) const {
     std::vector<FilletTurn> turns = start_.turns;
     for (std::size_t k = 0; k < turns.size(); ++k) {
@@ -48,7 +49,7 @@ class DrivenProblem {
     return plan;
   }
 
-  /// Cost J of the open-loop run of a plan.
+  /// Returns the cost J of driving a plan in open loop.
   [[nodiscard]] double Cost(const FilletPlan& plan) const {
     const double end = plan.stop_distance;
     const auto intervals = static_cast<std::size_t>(std::ceil(end / kSpacing));
@@ -58,7 +59,8 @@ class DrivenProblem {
       stations[i] = static_cast<double>(i) * spacing;
     }
     const KinematicState start{.pose = StartOfRoute(route_.waypoints),
-                               // Any speed works, because schedule and stations are distances.
+                               // Any speed gives the same result, because the schedule is over
+                               // distance.
                                .speed = 1.0};
     const auto states =
         RollOut(vehicle_, start, plan.schedule, stations, kSpacing, options_.reference);
@@ -84,7 +86,7 @@ class DrivenProblem {
       problem.upper.insert(problem.upper.end(), {radii.high, 0.5, 0.5});
       problem.start.insert(problem.start.end(), {start_.turns[k].radius, 0.0, 0.0});
     }
-    // The ramps shorten the driven path by a fraction of their length.
+    // The steering ramps change the length of the driven path by a fraction of the ramps' length.
     problem.lower.push_back(-0.25);
     problem.upper.push_back(0.25);
     problem.start.push_back(0.0);
@@ -104,7 +106,7 @@ class DrivenProblem {
   const FilletOptions& options_;
   const std::vector<RadiusLimits>& limits_;
   const FilletPlan& start_;
-  double ramps_ = 0.0;  // Sum of the ramp distances [m].
+  double ramps_ = 0.0;  // Sum of the ramp lengths of all turns [m].
 };
 
 }  // namespace
@@ -123,8 +125,8 @@ FilletPlan SearchDriven(const VehicleParams& vehicle, const Route& route,
                               SearchFor(options.search.method).name, result.evaluations,
                               ToString(result.status))};
   }
-  // A global search finds the valley of the cost. A gradient method then converges along the floor
-  // of the valley.
+  // After the global search has found a valley of the cost function, a gradient method converges
+  // along the floor of the valley.
   problem.start = result.x;
   SearchOptions polish = global;
   polish.method = SearchMethod::kSlsqp;

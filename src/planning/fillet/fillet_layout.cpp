@@ -27,13 +27,13 @@ void PlaceArc(const Route& route, FilletTurn& turn) {
   turn.arc_length = turn.radius * std::abs(turn.heading_change);
 }
 
-/// Straights and arcs from waypoint to waypoint. Fills in the stations of the turns.
+/// Makes the path of straights and arcs from waypoint to waypoint. Sets the stations of the turns.
 Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
   std::vector<Segment> segments;
   double s = 0.0;
   const auto straight = [&](double length, int waypoint) {
-    // If the tangent points of two turns coincide, the straight between the two turns has length
-    // zero, up to rounding.
+    // The straight between two turns has length zero, up to rounding, if the end of the first arc
+    // is the start of the second.
     constexpr double negligible = 1e-10;  // [m]
     if (length < -negligible) {
       throw Refusal{PlanStatus::kTurnsOverlap, waypoint,
@@ -45,7 +45,7 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
       s += length;
     }
   };
-  // Straight length since the last arc; the lengths of collinear legs add up.
+  // Length of straight since the last arc; a straight may extend over several collinear legs.
   double pending = 0.0;
   auto turn = turns.begin();
   for (std::size_t i = 0; i < route.legs.size(); ++i) {

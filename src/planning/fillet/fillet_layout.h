@@ -5,8 +5,8 @@
 
 #include "trackbed/planning/fillet/fillet.h"
 
-/// Layout of a fillet plan with known radii, and the limits of the radii. The functions in this
-/// file are the steps of PlanFillets, in order.
+/// Steps of PlanFillets, in order: find the turns, limit and choose their radii, lay out path and
+/// steering schedule.
 namespace trackbed::fillet {
 
 /// Thrown at the first failure of a fillet plan; PlanFillets turns the exception into a status.
@@ -28,48 +28,54 @@ struct Route {
 
 Route MakeRoute(const std::vector<Vec2>& waypoints);
 
-/// The corners of the route: waypoint, angles and shorter leg of every turn.
+/// Returns the turns of the route, each with its waypoint, its angles and the length of its shorter
+/// leg.
 std::vector<FilletTurn> FindTurns(const Route& route);
 
-/// Limits of a turn's radius, and the constraint that is active at either end of the interval.
+/// Limits of a turn's radius, and the constraints that are active at both ends of the interval of
+/// radii.
 struct RadiusLimits {
   RadiusInterval radii;
   ActiveConstraint at_low;
   ActiveConstraint at_high;
-  RadiusConstraint constraint;  ///< constraint that the turn satisfies
+  RadiusConstraint constraint;  ///< constraint that limits the turn's radius
 };
 
-/// Sets the speed of a turn and the limits of its radius. If the turn's speed is not `speed`, sets
-/// the reason for the turn's speed.
+/// Sets the speed of a turn and returns the limits of its radius. If the turn is slower than
+/// `speed`, also sets the note with the reason.
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                          FilletTurn& turn);
 
-/// The constraint that is active at a radius, with a relative tolerance of 1e-3. Returns kNone if
-/// the radius lies inside the limits.
+/// Returns the constraint that is active at a radius, with a relative tolerance of 1e-3. Returns
+/// kNone if the radius lies inside the limits.
 ActiveConstraint ActiveAt(const RadiusLimits& limits, double radius);
 
-/// The function g(r) [m] of equation C.34 or C.40, which has the form g(r) <= 0.
+/// Returns the function g(r) [m] of the constraint g(r) <= 0, which is equation C.34 or C.40.
 double ConstraintAt(const VehicleParams& vehicle, RadiusConstraint constraint,
                     const FilletTurn& turn, double radius);
 
-/// Arcs, path and steering of turns with known radii and speeds. The ramps are centered on the
-/// tangent points. Leaves out the steering schedule, because its order is checked last.
+/// Lays out the arcs, the path and the steering ramps of turns with known radii and speeds. The
+/// ramps are centered on the tangent points. MakeSchedule adds the steering schedule later, because
+/// it throws if ramps overlap.
 FilletPlan LayOut(const VehicleParams& vehicle, const Route& route, std::vector<FilletTurn> turns);
 
-/// The steering schedule of a plan's turns. Throws Refusal if the turns are out of order.
+/// Makes the steering schedule of a plan's turns. Throws Refusal if the turns overlap or steer
+/// before the start.
 SteeringSchedule MakeSchedule(const VehicleParams& vehicle, const std::vector<FilletTurn>& turns);
 
-/// Runs the two-pass search (kLiteral, kTurnLocal) over all turns. Fills in radii and findings.
+/// Searches the radii of all turns in two passes (objectives kLiteral and kTurnLocal). Sets the
+/// radii and the findings of the search.
 void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,
                  const FilletOptions& options, std::uint64_t seed,
                  const std::vector<RadiusLimits>& limits, std::vector<FilletTurn>& turns);
 
-/// Number of variables of a turn in the joint search. The variables are the radius [m], the shift
-/// of D_{2k-1} and the shift of the hold length D_2k - D_{2k-1}. The shifts are fractions of the
-/// ramp distance.
+/// Number of variables of a turn in the joint search. The variables of turn k are the radius [m],
+/// the shift of the start of steering D_{2k-1}, and the change of the hold length D_2k - D_{2k-1}.
+/// Shift and change are fractions of the ramp length.
 inline constexpr std::size_t kDrivenVariables = 3;
 
-/// Runs the joint search (kDriven), starting at a plan with the largest radii.
+/// Searches all variables of all turns jointly (objective kDriven), starting at a plan with the
+/// largest radii.
 FilletPlan SearchDriven(const VehicleParams& vehicle, const Route& route,
                         const FilletOptions& options, std::uint64_t seed,
                         const std::vector<RadiusLimits>& limits, const FilletPlan& start);

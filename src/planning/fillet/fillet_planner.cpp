@@ -5,15 +5,16 @@
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/planning/fillet/fillet.h"
 
-// Turns a fillet plan (Skackauskas, dissertation, appendix C and listing F.1) into a plan. The plan
-// has the path, its steering schedule, and speed caps over the turns that are slower than the
-// mission. The plan also lists isolated turns, whose heading error can be predicted. The rest of
-// this file defines the diagnostics of plan.json and the keys of the options.
+// Converts a fillet plan (Skackauskas, dissertation, appendix C and listing F.1) to a Plan. The
+// Plan contains the path, its steering schedule, and speed caps over the turns that are slower than
+// the mission's speed. The Plan also lists isolated turns, whose heading error can be predicted.
+// The rest of this file writes the diagnostics to plan.json and defines the option keys.
 
 namespace trackbed {
 namespace {
 
-/// Progress of a search for plan.json. The variables of the search include the radii.
+/// Part of plan.json about a search, with its progress. The function `radii` extracts the radii
+/// from the variables of the search.
 struct SearchRecord {
   const std::string& method;
   const SearchResult& result;
@@ -48,7 +49,7 @@ void Visit(DiagnosticsVisitor& out, const SearchRecord& own) {
   }
 }
 
-/// Search for a single turn, with the initial values of the search.
+/// Part of plan.json about the search for the radius of a single turn.
 struct TurnSearchRecord {
   const std::string& method;
   const TurnSearch& search;
@@ -76,7 +77,7 @@ void Visit(DiagnosticsVisitor& out, const PredictedRecord& own) {
   }
 }
 
-/// Station at which the wheels are straight again after a turn.
+/// Returns the station at which the wheels are straight again after a turn.
 double ReturnEnd(const FilletTurn& turn) {
   return turn.steer_return + turn.ramp_distance;
 }
@@ -95,7 +96,8 @@ std::vector<IsolatedTurn> FindIsolatedTurns(const FilletPlan& plan) {
   return lone;
 }
 
-/// The speed cap of a turn extends from the start of its first ramp to the end of its second ramp.
+/// Returns the speed caps of turns slower than `speed`. A cap extends from the start of the turn's
+/// first ramp to the end of its second ramp.
 std::vector<SpeedCap> MakeSpeedCaps(const FilletPlan& plan, double speed) {
   std::vector<SpeedCap> caps;
   for (const FilletTurn& turn : plan.turns) {
@@ -159,7 +161,7 @@ double NeutralSteering(const FilletOptions& options) {
   return options.neutral_steering;
 }
 
-/// Convergence histories: the best radii after each generation of a search.
+/// Returns the table of convergence histories: the best radii after each generation of a search.
 Table ConvergenceTable(const PlanDiagnostics& diagnostics) {
   Table table({"waypoint", "evaluations", "objective", "radius_m"});
   const auto* all_turns = diagnostics.planner.As<FilletDiagnostics>();

@@ -7,19 +7,21 @@
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/core/angle.h"
 
-// Limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)). Equation C.34
-// bounds the tangent length by half of the shorter leg. Equation C.40 also reserves the distance
-// over which the wheels turn. The function g(r) of equation C.40 has a single minimum, so the
-// permitted radii are an interval between two roots. If no radius is permitted at the mission's
-// speed, the turn is slowed down, refused, or limited by equation C.34 alone.
+// Computes the limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)).
+// Equation C.34 limits the tangent length to half of the shorter leg. Equation C.40 also reserves
+// the distance that the car drives while its wheels turn. The function g(r) of equation C.40 has a
+// single minimum, so the permitted radii are an interval between two roots. If no radius is
+// permitted at the mission's speed, the turn is slowed down, refused, or limited by equation C.34
+// alone.
 
 namespace trackbed {
 namespace {
 
-/// Relative tolerance, so that a radius exactly on a limit is accepted.
+/// Relative tolerance of a limit, so that a radius exactly on the limit is accepted.
 constexpr double kRounding = 1e-12;
 
-/// The root of f in [a, b], where f changes sign. Returns the side of the root with f <= 0.
+/// Finds the root of f in [a, b]; f must have different signs at a and b. Returns a point with f <=
+/// 0 next to the root.
 template <typename Function>
 double Root(const Function& f, double a, double b) {
   std::uintmax_t iterations = 200;
@@ -28,7 +30,7 @@ double Root(const Function& f, double a, double b) {
   return f(high) <= 0.0 ? high : low;
 }
 
-/// The function g(r) of equation C.40 [m].
+/// Returns the function g(r) of equation C.40 [m].
 double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_angle,
                     double shorter_leg, double neutral, double radius) {
   const double travel = std::abs(std::atan(vehicle.wheelbase / radius) - neutral);
@@ -36,16 +38,16 @@ double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_
          0.5 * shorter_leg;
 }
 
-/// The radius r with the smallest value of g(r) in equation C.40. The function g falls up to this
-/// radius and rises beyond this radius.
+/// Returns the radius r that minimizes g(r) of equation C.40. Below this radius, g falls; above
+/// this radius, g rises.
 double RoomiestRadius(const VehicleParams& vehicle, double speed, double interior_angle,
                       double neutral, RadiusInterval bounds) {
   const double L = vehicle.wheelbase;
   const double squared = speed / vehicle.steering_rate * L * std::tan(interior_angle / 2.0) - L * L;
   double roomiest = std::sqrt(std::max(0.0, squared));
   if (neutral > 0.0) {
-    // Beyond the radius of the neutral steering angle d_0, a larger radius needs more steering
-    // travel.
+    // Above the radius that belongs to the neutral steering angle d_0, a larger radius needs more
+    // steering travel from d_0.
     roomiest = std::min(roomiest, L / std::tan(neutral));
   }
   return std::clamp(roomiest, bounds.low, bounds.high);
@@ -99,7 +101,8 @@ std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double int
 namespace fillet {
 namespace {
 
-/// Neutral steering angle toward the turn: n of SteeringRoomRadii.
+/// Returns the neutral steering angle, positive toward the inside of the turn: the argument
+/// `neutral` of SteeringRoomRadii.
 double NeutralTowardTurn(const FilletTurn& turn) {
   return turn.heading_change < 0.0 ? -turn.neutral : turn.neutral;
 }
@@ -110,8 +113,8 @@ Refusal RefuseTurn(const FilletTurn& turn, PlanStatus status, const std::string&
                       turn.waypoint, why)};
 }
 
-/// The radii that equation C.40 permits. If equation C.40 permits no radius at the mission's speed,
-/// slows the turn down. Returns none if equation C.34 replaces equation C.40.
+/// Returns the radii that equation C.40 permits. If equation C.40 permits no radius at the
+/// mission's speed, slows the turn down. Returns none if equation C.34 is to be used instead.
 std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle, double speed,
                                                     const FilletOptions& options,
                                                     const RadiusInterval& bounds,
@@ -159,9 +162,9 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
   return room;
 }
 
-/// Amount by which the ramp length S of a radius exceeds the longest permitted length [m]. A ramp
-/// centered on the tangent point displaces the car by S^2/(24 r). The permitted displacement is a
-/// quarter of the car's width.
+/// Returns the amount by which the length S of the steering ramp to a radius exceeds the longest
+/// permitted length [m]. A ramp centered on the tangent point displaces the car by S^2/(24 r). The
+/// permitted displacement is a quarter of the car's width.
 double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double speed,
                   double radius) {
   constexpr double kShareOfWidth = 0.25;
@@ -201,8 +204,7 @@ RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                          FilletTurn& turn) {
   const double r_min = vehicle.min_turning_radius();
-  // The minimum radius is computed from the steering limit, an angle, so tolerate the rounding of
-  // this radius.
+  // Tolerance for rounding: the minimum radius is computed from the limit of the steering angle.
   const double tolerance = 1e-9 * r_min;
   const auto refuse = [&](PlanStatus status, const std::string& why) {
     return RefuseTurn(turn, status, why);

@@ -9,23 +9,24 @@
 namespace trackbed::fillet {
 namespace {
 
-/// Step of the roll-outs on ramps [m]. The error of a roll-out is of fourth order, 1e-9 rad at a
-/// step of 0.1 m.
+/// Step of the simulation on steering ramps [m]. The integration is of fourth order, with an error
+/// of 1e-9 rad at a step of 0.1 m.
 constexpr double kStep = 0.1;
 
-/// Heading changes below kNoHeading within a window are rounding errors [rad].
+/// A smaller heading change in a window counts as zero [rad].
 constexpr double kNoHeading = 1e-9;
 
-/// Distance and heading change of a turn in the first run.
+/// Stretch of a turn in the first simulated run: driven distance and heading change.
 struct Window {
   double distance;
   double heading;
 };
 
-/// Yaw [rad] of the rate-limited car at the events D_1, D_2, … of a plan, driven at `speed`.
+/// Simulates the car with its limited steering rate on a plan at `speed`. Returns the yaw [rad] at
+/// the steering events D_1, D_2, ….
 std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan& plan, double speed,
                                  ReferencePoint reference) {
-  // If the first ramp begins before the start, let the car roll in.
+  // If the first ramp begins before the start of the path, start the car earlier.
   const double lead = plan.turns.empty() ? 0.0 : std::max(0.0, -plan.turns.front().steer_start);
   std::vector<FilletTurn> turns = plan.turns;
   std::vector<double> distances;
@@ -37,7 +38,7 @@ std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan&
     distances.push_back(turn.steer_return);
   }
   const SteeringSchedule schedule = MakeSchedule(vehicle, turns);
-  // Events need not be in order: an event may lie before the end of the previous turn.
+  // Sort the events, because a turn may begin to steer before the previous turn ends.
   std::vector<double> rising = distances;
   std::sort(rising.begin(), rising.end());
   const KinematicState start{.pose = {0.0, 0.0, 0.0}, .speed = speed, .steering = schedule.At(0.0)};
@@ -50,7 +51,7 @@ std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan&
   return yaws;
 }
 
-/// The window of each turn's objective, from the first run.
+/// Simulates the first run and returns each turn's window for the objective.
 std::vector<Window> FirstDrive(const VehicleParams& vehicle, const Route& route, double speed,
                                const FilletOptions& options, std::vector<FilletTurn> turns) {
   for (FilletTurn& turn : turns) {
@@ -89,8 +90,8 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   SearchProblem problem;
   problem.lower = {vehicle.min_turning_radius()};
   problem.upper = {std::max(problem.lower[0], options.max_radius)};
-  // Initial radius for local methods. The radius of the first run would be a bad initial value: on
-  // the bound, a simplex is degenerate.
+  // Initial radius for local methods, inside the bounds. The radius of the first run lies on a
+  // bound, where an initial simplex would be degenerate.
   problem.start = {0.5 * (limits.radii.low + limits.radii.high)};
   problem.objective = [&](std::span<const double> r) {
     const double yaw_rate = sign * speed / std::hypot(r[0], l_g);  // C.25
@@ -103,8 +104,8 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   };
   search.result = Search(problem, options.search, seed);
   if (!search.result.ok()) {
-    // The feasible set is too narrow for the search, but the ends of this set are known in closed
-    // form.
+    // The feasible set is too narrow for the constrained search. The ends of this set are known, so
+    // search between the ends without the constraint.
     problem.lower = {limits.radii.low};
     problem.upper = {limits.radii.high};
     search.result = Search(problem, options.search, seed);
@@ -127,7 +128,7 @@ void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,
     }
     FilletTurn& turn = turns[k];
     if (turn.speed < speed) {
-      // the turn was slowed down until only a single radius was permitted
+      // the turn was slowed down so far that only a single radius is permitted
       turn.radius = limits[k].radii.high;
       continue;
     }

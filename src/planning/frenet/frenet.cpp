@@ -12,19 +12,19 @@
 #include "src/planning/frenet/trajectory_check.h"
 #include "trackbed/core/error.h"
 
-// Optimal motions in the Frenet frame (Werling et al. 2010; weights as in the Frenet lecture). For
-// every duration, the planner computes polynomials s(t) to the target. To every end offset, the
-// planner computes polynomials d(t) or, at low speed, d(s). The planner sorts the candidate motions
-// by their cost C. The plan is the first candidate that passes the coarse check and then the fine
-// check of the full motion.
+// Plans optimal motions in the Frenet frame (Werling et al. 2010; weights as in the Frenet
+// lecture). For every duration, the planner computes polynomials s(t) to the longitudinal targets.
+// For every end offset, the planner adds a polynomial d(t) or, at low speed, d(s). The planner
+// sorts the candidate motions by their cost C. The plan is the first candidate that passes the
+// coarse check and then the fine check of the full motion.
 
 namespace trackbed {
 namespace {
 
-// Station intervals shorter than kShort [m] get no lateral polynomial over the station.
+// Motions over a shorter distance [m] get no lateral polynomial d(s).
 constexpr double kShort = 0.05;
 
-/// The polynomials s(t) to every longitudinal target at the end of one duration.
+/// Returns the polynomials s(t) that reach the longitudinal targets at the end of one duration.
 std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOptions& options,
                                    double duration) {
   const LineMotion from = LongitudinalMotion(request.start);
@@ -46,8 +46,8 @@ std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOpt
   return pieces;
 }
 
-/// Continues from the end of a piece to the horizon at constant speed and offset. Returns none if
-/// the piece itself lasts until the horizon.
+/// Returns a motion at constant speed and offset from the end of a piece to the horizon. Returns
+/// none if the piece itself lasts until the horizon.
 std::optional<FrenetPiece> Extrapolate(const FrenetPiece& piece, double horizon) {
   if (!(horizon > piece.duration)) {
     return std::nullopt;

@@ -8,10 +8,11 @@
 namespace trackbed {
 namespace {
 
-/// Points closer than kMinSegmentLength [m] do not form a segment.
+/// Points closer together than this distance [m] do not form a segment.
 constexpr double kMinSegmentLength = 1e-3;
 
-/// Number of equal time intervals of a piece. Returns none where the Frenet frame does not exist.
+/// Returns the number of equal time intervals into which a piece is divided. Returns none where the
+/// Frenet frame does not exist.
 std::optional<int> CountIntervals(const Path& path, const FrenetPiece& piece, double time_step,
                                   double spacing) {
   constexpr int kProbes = 16;

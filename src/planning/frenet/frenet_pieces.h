@@ -6,18 +6,20 @@
 
 namespace trackbed {
 
-/// Initial motion, along the path, of a car with the given Frenet state.
+/// Returns the longitudinal part of a Frenet state: station, speed and acceleration along the path.
 LineMotion LongitudinalMotion(const FrenetState& state);
 
-/// Adds the lateral motion d(s) from `start` to rest at `offset` to the longitudinal motion s(t) of
-/// a piece. If the piece is shorter than 5 cm, extrapolates the offset instead. Returns false if
-/// the piece moves backward by 5 cm or more.
+/// Adds to a piece, which has a longitudinal motion s(t), the lateral motion d(s) from `start` to a
+/// constant `offset`. If the piece is shorter than 5 cm, extrapolates the offset from `start`
+/// instead. Returns false if the piece moves backward by 5 cm or more.
 bool AddOverStation(const FrenetState& start, double offset, FrenetPiece& piece);
 
-/// Adds the lateral motion d(t) to the longitudinal motion s(t) of a piece.
+/// Adds to a piece, which has a longitudinal motion s(t), the lateral motion d(t) from `start` to a
+/// constant `offset`.
 void AddOverTime(const FrenetState& start, double offset, FrenetPiece& piece);
 
-/// Describes a failure, for example "none of 525 candidates is feasible: 500 collision, 25 speed".
+/// Returns the description of a failure, for example "none of 525 candidates is feasible: 500
+/// collision, 25 speed".
 std::string ExplainFailure(const FrenetPlan& plan, const char* of_what, int budget);
 
 }  // namespace trackbed

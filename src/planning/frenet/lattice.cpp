@@ -13,23 +13,24 @@
 #include "src/planning/frenet/trajectory_check.h"
 #include "trackbed/core/error.h"
 
-// Motions through a lattice of stations, offsets and speeds (the Frenet lecture's third variant).
-// By dynamic programming, Label finds the cheapest path to each node over all edges from earlier
-// nodes, layer by layer. Label checks edges coarsely, the cheapest edge first. Finish checks the
-// cheapest path to the last layer in full. If an edge of the cheapest path fails, Finish bans the
-// edge, and labeling resumes at the layer of the edge.
+// Plans motions through a lattice of stations, offsets and speeds (the third variant of the Frenet
+// lecture). By dynamic programming, Label finds the cheapest path to each node over all edges from
+// earlier nodes, layer by layer. Label checks the edges coarsely, in order of cost. Finish checks
+// the cheapest path to the last layer in full. If an edge of the cheapest path fails, Finish bans
+// the edge, and labeling resumes at the layer of the edge.
 
 namespace trackbed {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// Distance from the stop within which the car has arrived [m].
+// Distance from the stopping place within which the car has arrived [m].
 constexpr double kArrived = 0.05;
 
-/// A node of the lattice, with the cheapest path known to the node.
+/// A node of the lattice, with the cheapest known path from the start to the node.
 struct Node {
   FrenetState state;
-  // Target of the edges that end at this node; the station of a leader is added per edge.
+  // Target of the edges that end at this node. For following a leader, each edge sets the target's
+  // station.
   FrenetTarget target;
   double cost = kInfinite;
   double time = 0.0;
@@ -64,7 +65,8 @@ class Lattice {
       plan_.reason = *check.blocked();
       return plan_;
     }
-    // An edge that passed the coarse check may fail the fine check; then search without this edge.
+    // An edge that passed the coarse check may fail the fine check. Then search again without this
+    // edge.
     std::size_t layer = 1;
     while (!plan_.ok() && Label(check, layer)) {
       layer = Finish(check);
@@ -115,7 +117,7 @@ class Lattice {
     node.target.speed = wanted_speed;
   }
 
-  /// The motion between two nodes; none if the car would stand still or move backward.
+  /// Returns the motion between two nodes; none if the car would stand still or move backward.
   [[nodiscard]] std::optional<FrenetPiece> Between(const FrenetState& from,
                                                    const FrenetState& to) const {
     const double way = to.s - from.s;
@@ -131,8 +133,8 @@ class Lattice {
     return piece;
   }
 
-  /// All edges to a node that start at nodes with a known path. The edges are ranked by the cost of
-  /// the path.
+  /// Collects all edges to a node from earlier nodes with a known path. Ranks the edges by the cost
+  /// of the whole path.
   void EdgesTo(const Node& node, std::size_t before) {
     edges_.clear();
     for (std::size_t i = 0; i < before; ++i) {

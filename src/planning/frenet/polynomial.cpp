@@ -7,7 +7,8 @@ namespace {
 
 constexpr std::size_t kTerms = std::tuple_size_v<decltype(Polynomial::coefficients)>;
 
-/// Factor of t^i in the derivative of the given order: i (i - 1) ... (i - order + 1).
+/// Factor of the coefficient of t^i in the derivative of the given order: i (i - 1) ... (i - order
+/// + 1).
 using Factors = std::array<std::array<double, kTerms>, kTerms>;
 constexpr Factors kFactors = [] {
   Factors factors{};
@@ -48,8 +49,8 @@ double Polynomial::IntegralOfSquare(std::size_t order, double duration) const {
 
 Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration) {
   const double t = duration;
-  // Differences, at the end, from a motion with constant acceleration. The differences are scaled
-  // by powers of t.
+  // Differences, at the end, between the target and a motion with constant acceleration, scaled by
+  // powers of t.
   const double p = to.position - from.position - t * (from.velocity + 0.5 * t * from.acceleration);
   const double v = t * (to.velocity - from.velocity - t * from.acceleration);
   const double a = t * t * (to.acceleration - from.acceleration);

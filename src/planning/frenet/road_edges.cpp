@@ -21,8 +21,8 @@ struct SidePoint {
 constexpr int kPointsPerSide = 5;  // number of points on each long side
 using SidePoints = std::array<SidePoint, 2 * kPointsPerSide>;
 
-/// The points of both sides of the footprint. Returns none if a point lies at or beyond the center
-/// of curvature.
+/// Returns points on both long sides of the footprint. Returns none if a point lies at or beyond
+/// the path's center of curvature.
 std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
                                   const FrenetState& frenet) {
   const double k = at.curvature;
@@ -40,9 +40,9 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
     if (to_center <= 0.0) {
       return std::nullopt;
     }
-    // Coordinates of the point: d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k and s = atan(k
-    // ahead/(1 - k aside))/k. The code uses a form of the equations for d and s that also holds for
-    // k = 0.
+    // On a path of curvature k, a point has the offset d = (1 - sqrt((k ahead)^2 + (1 - k
+    // aside)^2))/k and the station s = atan(k ahead/(1 - k aside))/k relative to the rear axle. The
+    // code uses forms of these equations that also hold for k = 0.
     const double turned = k * ahead / to_center;
     constexpr double kSmall = 1e-6;
     const double along = std::abs(turned) < kSmall ? ahead / to_center : std::atan(turned) / k;
@@ -53,15 +53,15 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
   return points;
 }
 
-/// Lateral offset of an edge from a pose, and the direction of the edge at this offset.
+/// Lateral offset of a track edge from a pose, and the direction of the edge at this offset.
 struct EdgeAbeam {
   double offset = 0.0;  // [m]
-  double cosine = 1.0;  // Cosine of the angle between edge and pose.
+  double cosine = 1.0;  // Cosine of the angle between the edge and the pose's heading.
 };
 
-/// Finds the intersection of the pose's normal with the edge, near a fraction of the lap. If the
-/// normal crosses the edge several times, returns the crossing closest to the `expected` offset. If
-/// the normal does not cross the edge, returns `expected`.
+/// Finds where the lateral axis of a pose crosses a track edge, near the fraction `share` of the
+/// lap. If the axis crosses the edge several times, returns the crossing closest to the offset
+/// `expected`. If the axis does not cross the edge, returns `expected`.
 EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, double expected) {
   constexpr double kSearchDistance = 20.0;  // [m]
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
@@ -94,7 +94,7 @@ EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, 
 void WidenToFootprint(const Path& path, const VehicleParams& car, double spacing,
                       std::vector<RoadWidths>& widths) {
   constexpr double kSampleSpacing = 0.2;     // [m]
-  constexpr double kSampleTolerance = 2e-3;  // [m], allowance between the samples
+  constexpr double kSampleTolerance = 2e-3;  // [m], allowance for the motion between samples
   const auto last = static_cast<double>(widths.size() - 1);
   const double count = std::ceil(path.length() / kSampleSpacing);
   for (double i = 0.0; i <= count; i += 1.0) {
@@ -157,7 +157,8 @@ RoadEdges EdgesBeside(const Path& path, const Track& track, const VehicleParams&
     const double share = place.s / track.length();
     const EdgeAbeam left = FindAbeam(track.left_edge(), pose, share, edges.left - place.offset);
     const EdgeAbeam right = FindAbeam(track.right_edge(), pose, share, edges.right - place.offset);
-    // `distance` is perpendicular to the edge. Along the pose's normal, the distance is larger.
+    // The required distance is perpendicular to the edge, so the distance along the pose's lateral
+    // axis is larger.
     widths.push_back({.left = left.offset - distance / std::max(left.cosine, 0.5),
                       .right = -right.offset - distance / std::max(right.cosine, 0.5)});
   }

@@ -11,9 +11,9 @@ namespace trackbed {
 namespace {
 
 constexpr double kNodeSpacing = 0.25;  // [m]
-// Tolerance of a limit that is met exactly.
+// Relative tolerance of limits, for motions that reach a limit exactly.
 constexpr double kRounding = 1e-9;
-// Smallest speed at which d(t) determines the heading [m/s].
+// Smallest speed at which the heading is computed from d(t) [m/s].
 constexpr double kMinHeadingSpeed = 0.1;
 
 double HalfDiagonal(const OrientedBox& box) {
@@ -105,8 +105,8 @@ TrajectoryCheck::Reach TrajectoryCheck::ComputeReach(const PathPoint& at,
     for (const double y : {-0.5 * car.width, 0.5 * car.width}) {
       const double ahead = x * cosine - y * sine;
       const double aside = frenet.d + x * sine + y * cosine;
-      // The code uses a form of d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k that also holds for
-      // k = 0.
+      // The offset is d = (1 - sqrt((k ahead)^2 + (1 - k aside)^2))/k; the code uses a form that
+      // also holds for k = 0.
       const double to_center = 1.0 - k * aside;
       const double d = (2.0 * aside - k * (aside * aside + ahead * ahead)) /
                        (1.0 + std::sqrt(k * ahead * k * ahead + to_center * to_center));
@@ -178,8 +178,8 @@ std::optional<Rejection> TrajectoryCheck::CheckCoarsely(const FrenetPiece& piece
   };
   const double duration = piece.duration;
   const int intervals = std::max(1, static_cast<int>(std::ceil(duration / limits_.time_step)));
-  // Quintic polynomials have their highest steering rates at their ends, so check the ends with the
-  // final spacing.
+  // Quintic polynomials have their highest steering rates at their ends, so also check points at
+  // the fine spacing from both ends.
   const double first = std::min(duration / intervals, limits_.spacing / piece.s.At(0.0, 1));
   const double last = std::min(duration / intervals, limits_.spacing / piece.s.At(duration, 1));
   auto rejection = check(0.0);

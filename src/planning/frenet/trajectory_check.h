@@ -9,8 +9,8 @@
 namespace trackbed {
 
 /// Table for fast lookup of path points, with nodes every quarter meter. Around each node, a series
-/// continues the curvature of the path linearly. Within clothoids, the lookup is accurate to 1e-8
-/// m. Near joints, the lookup is accurate enough for the coarse check.
+/// expansion assumes that the curvature is linear. The lookup is accurate to 1e-8 m within
+/// clothoids; near joints, it is accurate enough for the coarse check.
 class PathTable {
  public:
   PathTable(const Path& path, Stations within);
@@ -29,23 +29,23 @@ class PathTable {
 /// Checks motions against a request and the limits of the request.
 class TrajectoryCheck {
  public:
-  /// Tabulates the path up to the station `to`, for CheckCoarsely. Keeps references to all
-  /// arguments except `to`.
+  /// Tabulates the path up to the station `to`, for CheckCoarsely. All arguments except `to` must
+  /// outlive this object.
   TrajectoryCheck(const Path& path, const FrenetRequest& request, const FrenetLimits& limits,
                   double to);
 
-  /// Reason why no motion is possible from the start; none if a motion may be possible.
+  /// Returns the reason why no motion is possible from the start; none if a motion may be possible.
   [[nodiscard]] const std::optional<std::string>& blocked() const { return blocked_; }
 
-  /// Checks a piece that begins `time` after the start. The check samples the piece every
-  /// `time_step`, and more closely near the ends of the piece.
+  /// Checks a piece that begins `time` [s] after the start, at samples every `time_step` and at
+  /// additional samples near the ends of the piece.
   [[nodiscard]] std::optional<Rejection> CheckCoarsely(const FrenetPiece& piece, double time) const;
 
   struct Flaw {
     Rejection rejection;
     double time;  ///< [s]
   };
-  /// The first point of a motion that violates a limit.
+  /// Returns the first violation of a limit in a motion; none if all points satisfy the limits.
   [[nodiscard]] std::optional<Flaw> CheckFinely(const std::vector<TrajectoryPoint>& points) const;
 
  private:
@@ -57,7 +57,7 @@ class TrajectoryCheck {
                                                     const FrenetState& frenet,
                                                     const MotionState& motion,
                                                     std::optional<PreviousPoint>& before) const;
-  /// Extent of the footprint to either side of the path, measured from the path's circle of
+  /// Largest offset of the footprint to each side of the path, measured from the path's circle of
   /// curvature.
   struct Reach {
     double left;
@@ -71,7 +71,7 @@ class TrajectoryCheck {
   const FrenetLimits& limits_;
   PathTable table_;
   std::optional<std::string> blocked_;
-  // Limits, relaxed so that the start does not violate the limits.
+  // Limits of motions, relaxed so far that the start does not violate them.
   double speed_ = 0.0;
   double slowest_ = 0.0;
   double acceleration_ = 0.0;
@@ -81,16 +81,18 @@ class TrajectoryCheck {
   double steering_rate_ = 0.0;
   double left_ = 0.0;
   double right_ = 0.0;
-  double start_excess_ = 0.0;  // Distance of the start beyond the edges [m].
+  double start_excess_ = 0.0;  // Distance by which the footprint at the start is beyond the edges
+                               // [m].
   struct Obstacle {
     MovingBox box;
-    double margin;  // Required clearance.
-    double reach;   // Distance between the centers beyond which no collision is possible.
+    double margin;  // Required clearance [m].
+    double reach;   // Distance between the centers of car and obstacle beyond which no collision is
+                    // possible [m].
   };
   std::vector<Obstacle> obstacles_;
 };
 
-/// Throws InternalError for limits out of range or a start that is not finite.
+/// Throws InternalError if a limit or a weight is out of range or the start state is not finite.
 void CheckRequest(const FrenetRequest& request, const FrenetLimits& limits,
                   const FrenetWeights& weights);
 

@@ -10,9 +10,9 @@
 #include "trackbed/core/error.h"
 
 // A* (Hart et al. 1968) on a grid with eight neighbors per cell. The grid has a border of occupied
-// cells, so that steps need no bounds check. Open cells are kept in buckets that are half a
-// straight step wide. Buckets are sorted by the excess of g + h over h(start). The search ends when
-// no remaining bucket can improve the goal's cost. Before the search, PocketSize detects a start or
+// cells, so that steps need no bounds check. Open cells are kept in a bucket queue, whose key is
+// the excess of g + h over h(start); a bucket is half a straight step wide. The search ends when no
+// remaining bucket can improve the goal's cost. Before the search, PocketSize detects a start or
 // goal in a pocket of at most 64 cells. The function DistancesTo runs Dijkstra's algorithm with the
 // same kind of buckets.
 
@@ -20,8 +20,8 @@ namespace trackbed {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Cost of an occupied cell. The cost of an occupied cell is lower than the cost of any path, so no
-/// path improves it.
+/// Cost stored for occupied cells. This cost is lower than the cost of any path, so the search
+/// never enters an occupied cell.
 constexpr double kOccupied = -kNever;
 
 struct Step {
@@ -32,8 +32,8 @@ struct Step {
 constexpr std::array<Step, 8> kSteps{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
-/// Cost of the best known path to each cell, on a grid with a border of occupied cells. The border
-/// makes a bounds check of steps unnecessary.
+/// Cost of the best known path to each cell, on a grid with a border of occupied cells. Because of
+/// the border, steps need no bounds check.
 struct Costs {
   explicit Costs(const OccupancyGrid& grid)
       : width(grid.columns + 2),
@@ -67,8 +67,8 @@ struct Costs {
   int columns;
 };
 
-/// Bucket queue: buckets in ascending order of key, last in, first out within a bucket. A new key
-/// is never below the current bucket, except by rounding.
+/// Priority queue of buckets in ascending order of their keys. Within a bucket, the last entry
+/// comes out first. A new key is never below the current bucket, except by rounding.
 class Buckets {
  public:
   struct Entry {
@@ -77,7 +77,7 @@ class Buckets {
     double cost;
   };
 
-  /// Bucket width of half a straight step, with which few cells are expanded twice.
+  /// Width of a bucket, in units of a straight step. With this width, few cells are expanded twice.
   static constexpr double kWidth = 0.5;
 
   void Push(double key, const Entry& entry) {
@@ -88,8 +88,8 @@ class Buckets {
     buckets_[bucket].push_back(entry);
   }
 
-  /// Takes the next entry from the queue. Returns false if the queue is empty. After each bucket,
-  /// calls `done` with the lower bound of the remaining keys; `done` may end the search.
+  /// Removes the next entry from the queue. After each bucket, calls `done` with the lower bound of
+  /// the remaining keys. Returns false if the queue is empty or `done` returns true.
   template <typename Done>
   bool Pop(Entry& entry, const Done& done) {
     while (now_ < buckets_.size() && buckets_[now_].empty()) {
@@ -115,10 +115,10 @@ class Buckets {
 /// Largest number of cells in a pocket.
 constexpr std::size_t kPocket = 64;
 
-/// Counts the cells reachable from `cell` if these cells are a pocket that does not contain
-/// `other`. Otherwise returns 0. The count takes microseconds, less than the setup of the search.
-/// Without PocketSize, the search would expand all other cells before it reports that the goal is
-/// unreachable.
+/// Returns the number of cells that are reachable from `cell`, or 0 if `other` is reachable or more
+/// than kPocket cells are reachable. PocketSize takes only microseconds and detects an enclosed
+/// start or goal. Without PocketSize, the search could expand all other cells before it finds that
+/// the goal is unreachable.
 std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t other) {
   const auto free = [&](int x, int y) {
     return x >= 0 && y >= 0 && x < grid.columns && y < grid.rows &&
@@ -130,7 +130,8 @@ std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t 
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const auto x = static_cast<int>(reached[i] % columns);
     const auto y = static_cast<int>(reached[i] / columns);
-    // Diagonal moves need free orthogonal neighbors, so orthogonal moves reach all cells.
+    // Orthogonal moves reach all reachable cells, because diagonal moves need free orthogonal
+    // neighbors.
     for (const auto& [dx, dy] : {kSteps[0], kSteps[1], kSteps[2], kSteps[3]}) {
       if (!free(x + dx, y + dy)) {
         continue;
@@ -151,8 +152,9 @@ std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t 
   return reached.size();
 }
 
-/// Updates every neighbor whose best known path now leads through `cell`, at `cost`. For each
-/// updated neighbor, calls `take` with the neighbor, the number of the step and the new cost.
+/// Updates the cost of every neighbor that a path through `cell` reaches at a lower cost. The cost
+/// of `cell` is `cost`. For each updated neighbor, calls `take` with the neighbor, the number of
+/// the step and the new cost.
 template <typename Take>
 void ForEachBetter(Costs& costs, int cell, double cost, const Take& take) {
   const auto offer = [&](std::size_t i, double through) {

@@ -32,14 +32,14 @@ PlanStatus ToPlanStatus(GridStatus status) {
   return PlanStatus::kNoPath;
 }
 
-/// Half a cell's diagonal [m], by which obstacles are additionally inflated. With the additional
-/// inflation, free cells and the lines between their centers keep the required distance from
-/// obstacles.
+/// Returns half the diagonal of a cell [m], by which obstacles are additionally inflated. With this
+/// additional inflation, free cells and the lines between their centers keep the required distance
+/// from obstacles.
 double CellInflation(const AStarOptions& options) {
   return 0.5 * std::sqrt(2.0) * options.cell;
 }
 
-/// The centers of the cells. At the ends of the path, the stops replace the cell centers.
+/// Returns the centers of the path's cells, followed by the exact goal.
 std::vector<Vec2> WaypointsOnGrid(const OccupancyGrid& grid, const GridPath& way,
                                   const Vec2& goal) {
   std::vector<Vec2> points;
@@ -54,8 +54,8 @@ std::vector<Vec2> WaypointsOnGrid(const OccupancyGrid& grid, const GridPath& way
   return points;
 }
 
-/// Plans along `points`, then by A* from the last of these points to each waypoint after the first
-/// waypoint.
+/// Plans a path that begins with the polyline `points` and continues by A* from the last of these
+/// points through all waypoints after the first.
 Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const OccupancyGrid& grid,
               double inflation, std::vector<Vec2> points) {
   const bool round = options.corners == Corners::kRound;
@@ -93,9 +93,9 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
                               options.safe_distance, options.min_speed);
 }
 
-/// Polylines that begin at the car's heading, each with the start as its first point. Each polyline
-/// first goes straight on. The next leg goes ahead or to either side, as a goal behind the car
-/// requires. The nearest polyline comes first.
+/// Returns polylines that leave the start in the direction of the car's heading, the shortest
+/// first. Some of the polylines then turn left or right, once or twice, because the goal may be
+/// behind the car.
 std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request) {
   const double radius = request.vehicle.min_turning_radius();
   const double braking =
@@ -108,7 +108,7 @@ std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request) {
   }
   for (const double radii : {1.5, 2.5}) {
     for (const double side : {1.0, -1.0}) {
-      // Make a quarter turn, or a half turn by two quarter turns.
+      // Add polylines with one quarter turn and with two quarter turns.
       const Vec2 corner = from + (braking + radii * radius) * ahead;
       const Vec2 beside = corner + 2.0 * side * radii * radius * LeftNormal(ahead);
       ways.push_back({from, corner, beside});
@@ -150,7 +150,7 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
   Plan direct = PlanGrid(options, request, grid, inflation, {request.start.position()});
   const std::vector<Excess> excesses =
       direct.ok() ? FindExcesses(direct, request) : std::vector<Excess>{};
-  // Ignore violations that slowing down repairs, because these violations do not depend on the
+  // Ignore violations that a lower speed repairs, because these violations do not depend on the
   // initial heading.
   const bool begins_right = std::all_of(excesses.begin(), excesses.end(), [](const Excess& excess) {
     return excess.remedy != Remedy::kNone;

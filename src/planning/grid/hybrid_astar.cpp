@@ -16,7 +16,7 @@
 #include "trackbed/planning/curves/reeds_shepp.h"
 #include "trackbed/planning/grid/astar.h"
 
-// Hybrid A* (Dolgov et al. 2008) over poses that a car can drive through, forwards and backwards.
+// Hybrid A* (Dolgov et al. 2008) searches over poses that a car can reach, forwards and in reverse.
 // The heuristic is the larger of the Reeds-Shepp (or Dubins) length and the grid distance.
 // Dijkstra's algorithm computes the grid distance around the obstacles. Expanding a node drives
 // arcs of curvature 0, +-1/(2r) and +-1/r in both directions. The search keeps only the cheapest
@@ -27,7 +27,8 @@
 namespace trackbed {
 namespace {
 
-/// Largest ratio of the length of an eight-neighbor path to the straight line: 1/cos(pi/8).
+/// Largest ratio of the length of a path on the eight-neighbor grid to the length of the straight
+/// line: 1/cos(pi/8).
 constexpr double kOctileOverStraight = 1.0823922002923940;
 
 /// A pose that the search has reached.
@@ -36,14 +37,16 @@ struct Node {
   double cost = 0.0;
   int parent = -1;
   Segment step;         ///< Segment that ends at this pose; empty for the start.
-  int last_curve = -1;  ///< For a node at the goal, index of the last curve of its path.
+  int last_curve = -1;  ///< For a node at the goal, index of the curve that ends the node's path;
+                        ///< otherwise -1.
 };
 
 struct Open {
   double estimate;
   int node;
 
-  /// Puts the cheapest node first; among nodes with equal estimates, the newest node first.
+  /// Orders the open nodes: the node with the lowest estimate comes first, and among nodes with
+  /// equal estimates the newest node.
   bool operator<(const Open& other) const {
     return estimate != other.estimate ? estimate > other.estimate : node < other.node;
   }
@@ -106,9 +109,10 @@ class HybridAStar {
     return result;
   }
 
-  /// A grid on which a cell is occupied if the rear axle's center cannot be anywhere in the cell.
-  /// In an occupied cell, all points are closer to an obstacle than the footprint's nearest side is
-  /// to the axle's center. Returns an empty grid if the area has too many cells.
+  /// Makes a grid whose cells are occupied if the rear-axle center cannot be anywhere in the cell.
+  /// All points of such a cell are closer to an obstacle than the rear-axle center may be: the
+  /// distance to the footprint's nearest side plus the safe distance. Returns an empty grid if the
+  /// area has too many cells.
   [[nodiscard]] OccupancyGrid MakeGrid(const VehicleParams& vehicle) const {
     const GridArea area =
         AreaAround(problem_.start, {problem_.start.position(), problem_.goal.position()},
@@ -124,14 +128,15 @@ class HybridAStar {
                      std::max(inflation, 0.0));
   }
 
-  /// Remaining distance to the goal on the grid [m], as a lower bound.
+  /// Returns a lower bound of the remaining distance to the goal [m], from the distance on the
+  /// grid.
   [[nodiscard]] double LeftOnGrid(const Pose2& pose) const {
     const int cell = grid_.CellAt(pose.position());
     if (cell < 0) {
       return std::numeric_limits<double>::infinity();
     }
-    // The distance between points of two cells may be up to a diagonal shorter than the distance
-    // between the centers.
+    // Points of two cells may be closer together than the cells' centers, by up to the diagonal of
+    // a cell.
     const double steps = distances_[static_cast<std::size_t>(cell)] / kOctileOverStraight;
     return options_.cell * std::max(steps - std::sqrt(2.0), 0.0);
   }
@@ -142,7 +147,7 @@ class HybridAStar {
     return std::max(LeftOnGrid(pose), curve);
   }
 
-  /// Key of the cell that contains a node's position, heading and direction.
+  /// Returns the key of the cell of position, heading and direction of motion that contains a node.
   [[nodiscard]] std::int64_t NodeKey(const Node& node) const {
     const std::int64_t cell = grid_.CellAt(node.pose.position());
     const double turn = WrapAngle(node.pose.yaw - problem_.start.yaw) / (2.0 * kPi);
@@ -151,7 +156,8 @@ class HybridAStar {
     return (cell * options_.headings + heading) * 2 + (node.step.direction > 0 ? 1 : 0);
   }
 
-  /// Cost of a segment, including the transition from the previous segment.
+  /// Returns the cost of a segment, including the changes of direction and steering after the
+  /// previous segment.
   [[nodiscard]] double StepCost(const Segment& before, const Segment& segment) const {
     double cost = segment.length * (segment.direction > 0 ? 1.0 : options_.reverse_cost);
     if (before.length > 0.0) {
@@ -166,8 +172,8 @@ class HybridAStar {
   }
 
   void Expand(int index, const Node& node, int expansions) {
-    // Try a curve to the goal more often near the goal: each radius of remaining distance skips one
-    // more attempt.
+    // Try a curve to the goal more often near the goal: for each turning radius of remaining
+    // distance, skip one more expansion between two tries.
     const double left = Left(node.pose);
     if (expansions % (1 + static_cast<int>(left / radius_)) == 0 || expansions == 1) {
       TryToEnd(index, node);
@@ -205,7 +211,7 @@ class HybridAStar {
     nodes_.push_back(node);
   }
 
-  /// Tries to reach the goal by the first collision-free curve among the few cheapest curves.
+  /// Tries to reach the goal by the cheapest collision-free curve among the few cheapest curves.
   void TryToEnd(int index, const Node& node) {
     constexpr std::size_t kMaxAttempts = 4;
     struct Curve {

@@ -11,7 +11,8 @@ std::size_t Index(const HeightGrid& grid, int column, int row) {
          static_cast<std::size_t>(column);
 }
 
-/// Halves the resolution of a grid. Each new height is the mean of up to four known heights.
+/// Returns a grid of half the resolution. Each height is the mean of up to four known heights of
+/// the original grid.
 HeightGrid Halved(const HeightGrid& grid) {
   HeightGrid half{.columns = (grid.columns + 1) / 2, .rows = (grid.rows + 1) / 2, .heights = {}};
   for (int row = 0; row < half.rows; ++row) {
@@ -32,7 +33,8 @@ HeightGrid Halved(const HeightGrid& grid) {
   return half;
 }
 
-/// Performs one relaxation step of the unknown heights.
+/// Performs one relaxation step, which replaces each unknown height by the mean of its four
+/// neighbors.
 void Relax(const HeightGrid& known, std::vector<double>& heights) {
   const std::vector<double> last = heights;
   for (int row = 0; row < known.rows; ++row) {
@@ -73,7 +75,8 @@ std::vector<double> FillHeights(const HeightGrid& known) {
       }
     }
   }
-  // Relaxation steps per grid; coarser grids have already settled the large scales.
+  // Relaxation steps per grid. Few steps are enough, because the coarser grids have already
+  // smoothed the large scales.
   constexpr int kSteps = 12;
   for (int i = 0; i < kSteps && !complete; ++i) {
     Relax(known, heights);

@@ -16,8 +16,8 @@
 namespace trackbed {
 namespace {
 
-/// Reason, for people, why the car's pose differs from the start of the path; empty if it does not
-/// differ.
+/// Returns an error message if the car's pose differs from the start of the path; otherwise an
+/// empty text.
 std::string StartPoseError(const Pose2& car, const Pose2& path) {
   constexpr double kPlace = 1e-3;    // [m]
   constexpr double kHeading = 1e-3;  // [rad]
@@ -32,8 +32,8 @@ std::string StartPoseError(const Pose2& car, const Pose2& path) {
       distance, turn, path.x, path.y, path.yaw);
 }
 
-/// Description, for people, of the first place that the car cannot steer through. Returns an empty
-/// text if the car can steer through all places.
+/// Returns an error message about the first place of the path where the car would need more than
+/// its steering limit. Returns an empty text if the car can steer through the whole path.
 std::string SteeringLimitError(const VehicleParams& vehicle, const std::vector<Segment>& segments) {
   double station = 0.0;
   for (const Segment& segment : segments) {

@@ -12,7 +12,8 @@ namespace {
 
 constexpr double kNodeSpacing = 1.0;  // [m]
 
-/// Outermost drivable lanes of a section. Returns lane 0, the center lane, if no lane is drivable.
+/// Returns the numbers of the outermost drivable lanes of a section, or 0, the center lane, if no
+/// lane is drivable.
 std::pair<int, int> OutermostLanes(const LaneSection& section) {
   std::pair<int, int> found{0, 0};
   for (const Lane& lane : section.lanes) {  // the lanes are ordered from left to right
@@ -23,13 +24,13 @@ std::pair<int, int> OutermostLanes(const LaneSection& section) {
   return found;
 }
 
-/// Smooth step from 0 at u = 0 to 1 at u = 1.
+/// Smooth step function, which rises from 0 at u = 0 to 1 at u = 1.
 double SmoothStep(double u) {
   const double v = std::clamp(u, 0.0, 1.0);
   return v * v * (3.0 - 2.0 * v);
 }
 
-/// Whether a piece of a road is short enough and straight enough for one strip.
+/// Returns whether a piece of a road is short enough and straight enough to form one strip.
 bool IsShort(const Road& road, double from, double to) {
   constexpr double kMaxLength = 16.0;  // [m]
   constexpr double kMaxTurn = 0.5;     // [rad]
@@ -87,7 +88,7 @@ RoadStrip::RoadStrip(const Road& road, double from, double to, double before, do
 }
 
 RoadStrip::Node RoadStrip::ReferenceAt(double s) const {
-  // Cubic interpolation between nodes. On an arc of 5 m radius, the error of the interpolation is
+  // Interpolates cubically between the nodes. On an arc of 5 m radius, the interpolation error is
   // 0.02 mm.
   const double parts = static_cast<double>(nodes_.size() - 1);
   const double place = parts * (s - from_) / (to_ - from_);

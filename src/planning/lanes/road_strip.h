@@ -8,42 +8,46 @@
 
 namespace trackbed {
 
-/// A short piece of a road with its drivable lanes. The function Locate finds the place on the road
-/// that lies below a point.
+/// A short piece of a road with its drivable lanes. Locate finds the place on the road surface that
+/// lies below a point.
 class RoadStrip {
  public:
-  /// Place on the road surface below a point. The surface extends beyond the lanes. Beyond the ends
-  /// of the strip, the surface extends straight.
+  /// Place on the road surface below a point. For this purpose, the surface extends to both sides
+  /// beyond the lanes, and straight beyond the ends of the strip.
   struct Place {
     double s = 0.0;            ///< Station within the strip [m].
     double z = 0.0;            ///< Height of the surface [m].
     double beside = 0.0;       ///< Distance beyond the lanes [m].
     double beyond = 0.0;       ///< Distance beyond the ends of the strip [m].
-    double straight_on = 0.0;  ///< Part of `beyond` that the extended road covers [m].
-    double share = 1.0;        ///< Weight; falls to 0 toward the center of curvature.
+    double straight_on = 0.0;  ///< Part of `beyond` that lies on the straight extension of the road
+                               ///< [m].
+    double share = 1.0;        ///< Weight of the place, which falls to 0 toward the road's center
+                               ///< of curvature.
   };
 
-  /// A strip between two stations within one lane section and one piece of the reference line. The
-  /// road is extended straight by `before` and `after` meters. The strip keeps a reference to the
-  /// road.
+  /// Makes a strip between two stations, which must lie within one lane section and one piece of
+  /// the reference line. The road extends straight by `before` [m] before the strip and by `after`
+  /// [m] after the strip. The road must outlive the strip.
   RoadStrip(const Road& road, double from, double to, double before, double after);
 
-  /// Returns none for a point at, near or beyond the center of curvature.
+  /// Finds the place on the surface below a point. Returns none for a point near or beyond the
+  /// road's center of curvature.
   [[nodiscard]] std::optional<Place> Locate(const Vec2& point_W) const;
 
   [[nodiscard]] const Road& road() const { return *road_; }
   [[nodiscard]] double from() const { return from_; }
   [[nodiscard]] double to() const { return to_; }
-  /// Coordinates t of the outermost borders of the drivable lanes [m], the right border first.
+  /// Returns the lateral coordinates t of the outermost borders of the drivable lanes [m], the
+  /// right border first.
   [[nodiscard]] std::pair<double, double> Borders(double s) const;
-  /// Center of a circle around the lanes.
+  /// Center and radius of a circle that contains the lanes.
   [[nodiscard]] const Vec2& middle() const { return middle_; }
   [[nodiscard]] double radius() const { return radius_; }
 
  private:
   struct Node {
     Vec2 position;
-    Vec2 tangent;  // Derivative of the position by station.
+    Vec2 tangent;  // Derivative of the position with respect to the station.
   };
   [[nodiscard]] Node ReferenceAt(double s) const;
 
@@ -61,7 +65,7 @@ class RoadStrip {
   double radius_ = 0.0;
 };
 
-/// Cuts a road between two stations into strips. Leaves out stretches without drivable lanes.
+/// Cuts a road between two stations into strips, without stretches that have no drivable lane.
 std::vector<RoadStrip> CutIntoStrips(const Road& road, double from, double to, double before,
                                      double after);
 

@@ -14,28 +14,30 @@
 #include "src/planning/lanes/road_strip.h"
 #include "trackbed/core/error.h"
 
-// Makes smooth ground from the road surfaces along a route. First, the algorithm cuts the required
-// stretches of road, extended at both ends, into short strips. A coarse terrain interpolates the
-// heights of points on the lanes. Away from the lanes, the terrain slopes to a level border. Blocks
-// near the roads are refined. On a lane, the ground has the height of this lane. Beside lanes, the
-// ground has a mean height weighted by proximity, blended into the coarse terrain within 9.5 m. The
-// algorithm refuses routes whose lanes pass over each other, and routes that deviate from the
-// ground by over 1 cm.
+// Makes a smooth terrain from the road surfaces along a route. First, the algorithm cuts the
+// required stretches of road, extended at both ends, into short strips. Then a coarse terrain
+// interpolates the heights of points on the lanes. Away from the lanes, the terrain slopes to a
+// level border. Blocks of the terrain near the roads are refined: on a lane, the terrain has the
+// height of this lane. Beside lanes, the terrain has the mean height of the lanes, weighted by
+// proximity, and blends into the coarse terrain within 9.5 m. The algorithm refuses routes whose
+// lanes cross at different heights, and routes that deviate from the terrain by over 1 cm.
 
 namespace trackbed {
 namespace {
 
 constexpr double kRoadExtension = 15.0;     // Extension of a road before and after the route [m].
 constexpr double kStraightExtension = 6.0;  // Straight extension beyond the end of a road [m].
-constexpr double kLaneSurfaceMargin = 1.5;  // Width of the lanes' surface beside the lanes [m].
-constexpr double kBlendWidth = 8.0;  // Width of the transition to the ground between roads [m].
+constexpr double kLaneSurfaceMargin = 1.5;  // Width by which a road surface extends beyond its
+                                            // lanes [m].
+constexpr double kBlendWidth = 8.0;  // Width of the transition from a road surface to the coarse
+                                     // terrain [m].
 constexpr double kInfluenceDistance = kLaneSurfaceMargin + kBlendWidth;
 constexpr double kMargin = 128.0;        // Margin around the route [m].
 constexpr double kLevelBorder = 24.0;    // Width of the level border [m].
 constexpr double kSlopeToBorder = 72.0;  // [m]
 constexpr double kBorderDepth = 1.0;     // Height of the border below the lowest road [m].
 
-/// Stations of a road that the route needs.
+/// Stretch of a road along the route.
 struct Stretch {
   double from = 0.0;
   double to = 0.0;
@@ -79,7 +81,7 @@ Stretches NeededStretches(const RoadNetwork& network, const std::vector<LaneStre
   return all;
 }
 
-/// A place at which two lanes lie above each other.
+/// A place at which a lane lies above another lane.
 struct Crossing {
   std::string road;
   double s = 0.0;
@@ -96,7 +98,7 @@ class Surfaces {
 
   [[nodiscard]] const std::vector<RoadStrip>& strips() const { return strips_; }
 
-  /// The strips that affect the ground within a circle.
+  /// Returns the strips that affect the ground within a circle.
   [[nodiscard]] std::vector<const RoadStrip*> Near(const Vec2& middle, double radius) const {
     std::vector<const RoadStrip*> near;
     for (const RoadStrip& strip : strips_) {
@@ -109,10 +111,12 @@ class Surfaces {
 
   struct Blend {
     double z = 0.0;
-    double share = 0.0;  // Weight in the ground: 1 on the lanes, falling to 0 beside the lanes.
+    double share = 0.0;  // Weight of z relative to the coarse terrain: 1 on the lanes, falling to 0
+                         // beside the lanes.
   };
 
-  /// Mean height weighted by proximity; on a lane, the height of this lane.
+  /// Returns the mean height of the strips, weighted by proximity to `point`. On a lane, this is
+  /// the height of the lane.
   Blend At(const std::vector<const RoadStrip*>& near, const Vec2& point) {
     Blend blend;
     double sum = 0.0;
@@ -136,7 +140,8 @@ class Surfaces {
           place->share / ((square + kMinSquaredDistance) * (square + kMinSquaredDistance));
       sum += weight;
       blend.z += weight * place->z;
-      // Adjacent strips meet at their ends, where a step in height is no bridge.
+      // Ignore the ends of strips: a small step in height between adjacent strips is not a crossing
+      // of lanes.
       if (square == 0.0 && place->s > strip->from() && place->s < strip->to()) {
         if (on != nullptr) {
           Compare(*on, there, *strip, *place, point);
@@ -149,8 +154,8 @@ class Surfaces {
     return blend;
   }
 
-  /// The place with the largest height difference between two lanes. Returns none if all
-  /// differences are small enough to be mere mismatches of heights.
+  /// Returns the place with the largest height difference between two lanes. Returns none if all
+  /// differences are at most 0.1 m, which may be inaccuracies of the map.
   [[nodiscard]] const std::optional<Crossing>& crossing() const { return crossing_; }
 
  private:
@@ -173,7 +178,7 @@ class Surfaces {
   std::optional<Crossing> crossing_;
 };
 
-/// Points across the lanes of a strip, at most 2 m apart along the strip.
+/// Returns points across the lanes of a strip, at most 2 m apart along the strip.
 std::vector<RoadPosition> PointsOn(const RoadStrip& strip) {
   constexpr double kSpacing = 2.0;  // [m]
   std::vector<RoadPosition> points;
@@ -188,7 +193,8 @@ std::vector<RoadPosition> PointsOn(const RoadStrip& strip) {
   return points;
 }
 
-/// Weight of a control height: 0 at the border of the terrain, 1 well inside the terrain.
+/// Returns the weight of a terrain height: 0 at the border of the terrain, 1 well inside the
+/// terrain.
 double ShareInside(const Terrain::Size& size, int column, int row) {
   const int cells =
       std::min({column, row, size.CoarseColumns() - 1 - column, size.CoarseRows() - 1 - row});
@@ -197,7 +203,7 @@ double ShareInside(const Terrain::Size& size, int column, int row) {
   return u * u * (3.0 - 2.0 * u);
 }
 
-/// The terrain before refinement. Returns none if the terrain would be too large.
+/// Makes the terrain before refinement. Returns none if the terrain would be too large.
 std::optional<Terrain> CoarseTerrain(const std::vector<RoadStrip>& strips) {
   std::vector<RoadPosition> points;
   for (const RoadStrip& strip : strips) {
@@ -266,7 +272,7 @@ void RefineAlong(Surfaces& surfaces, Terrain& terrain) {
   }
 }
 
-/// Deviation of the ground from the route's lanes at a place.
+/// Height difference between the ground and a lane of the route at a place.
 struct Deviation {
   std::string road;
   double s = 0.0;
@@ -286,7 +292,8 @@ Deviation LargestDeviation(const RoadNetwork& network, const std::vector<LaneStr
     const double parts = std::max(1.0, std::ceil((to - from) / kSpacing));
     for (double i = 0.0; i <= parts; i += 1.0) {
       const double s = std::lerp(from, to, i / parts);
-      // At the end of a stretch, evaluate the piece of road before the end.
+      // At the end of a stretch, evaluate the road just before the end, where the next piece may
+      // begin.
       const double piece_of = s < to ? s : std::nextafter(to, from);
       for (const int lane : {stretch.lane, stretch.to_lane}) {
         const LaneBorders borders = LaneBordersAt(road, section, lane, s, piece_of);
@@ -303,7 +310,7 @@ Deviation LargestDeviation(const RoadNetwork& network, const std::vector<LaneStr
   return largest;
 }
 
-/// Whether all roads of a route are level and have the same height.
+/// Returns whether all roads of a route are level and have the same height.
 bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& route) {
   const auto height = [&](const LaneStretch& stretch) {
     return network.roads.find(stretch.road)->second.elevation.At(0.0).value;
@@ -314,8 +321,8 @@ bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& ro
   });
 }
 
-/// Reason, for people, why no ground can be made from the road at this station; empty if the road
-/// is suitable.
+/// Returns an error message if no ground can be made from the road at this station; otherwise an
+/// empty text.
 std::string GroundError(const Road& road, double s) {
   const CubicValue height = road.elevation.At(s);
   const double roll = road.superelevation.At(s).value;
@@ -347,7 +354,7 @@ std::string GroundError(const Road& road, double s) {
   return "";
 }
 
-/// Reason, for people, why no ground can be made from the roads; empty if the roads are suitable.
+/// Returns an error message if no ground can be made from the roads; otherwise an empty text.
 std::string GroundError(const RoadNetwork& network, const Stretches& needed) {
   double length = 0.0;
   for (const auto& [id, stretches] : needed) {

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-6;  // Relative tolerance of a limit.
-// Spacing of the checks [m]; larger on a path of more than 20 km.
+// Spacing of the checked points [m]; larger on a path of more than 20 km.
 constexpr double kSpacing = 0.05;
 constexpr double kMaxPieces = 4e5;
 
@@ -25,7 +25,7 @@ double OrInfinite(double limit) {
   return limit > 0.0 ? limit : kInfinity;
 }
 
-/// Merges adjacent pieces that exceed a limit into one fault.
+/// Merges adjacent path pieces that exceed the same limit into one fault.
 class FaultFinder {
  public:
   FaultFinder(PathFaultKind kind, double limit) : kind_(kind), limit_(OrInfinite(limit)) {}
@@ -71,8 +71,8 @@ PathCheck Reversed(const FittedPath& fitted, PathCheck check) {
   return check;
 }
 
-/// The demand of a piece of path on the car, and the limit that restricts the speed on this piece
-/// most.
+/// Returns the steering and acceleration that a path piece requires of the car, and the limit that
+/// allows the lowest speed on this piece.
 std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const PathPoint& begin,
                                               const VehicleParams& vehicle, double speed,
                                               const PathCheck& limits) {
@@ -144,8 +144,9 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
   };
   const double spacing = std::max(kSpacing, path.length() / kMaxPieces);
   ForEachPiece(path, vehicle, spacing, [&](const PathPiece& piece) {
-    // Report a heading jump instead of the curvature of the arc that replaces the jump. The arc
-    // depends on the spacing of the points, not on the intended path.
+    // Report a heading jump instead of the curvature of the arc that replaces the jump. The
+    // curvature of this arc depends on the spacing of the points in the file, not on the intended
+    // path.
     while (jump != jumps.end() && jump->rounded.to <= piece.stations.from + 1e-9) {
       ++jump;
     }

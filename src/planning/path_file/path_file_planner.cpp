@@ -15,9 +15,11 @@
 namespace trackbed {
 namespace {
 
-/// Between two points, the speed is at most the mean of the speeds at these points.
+/// Returns the speed caps of the file's speeds. Between two points, the cap is the mean of the
+/// speeds at these points.
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
-  constexpr double kMinSpeed = 0.1;  // [m/s]; a trajectory starts and ends at standstill
+  constexpr double kMinSpeed = 0.1;  // [m/s]; lower bound, since a trajectory starts and ends at
+                                     // standstill
   const std::vector<double>& speed = fitted.given.speed;
   std::vector<SpeedCap> caps;
   for (std::size_t i = 0; i + 1 < speed.size(); ++i) {
@@ -36,7 +38,8 @@ std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
   return caps;
 }
 
-/// Steering over distance. Without heading jumps, the path's curvature is continuous.
+/// Makes the steering schedule. For a path without heading jumps, whose curvature is continuous,
+/// the schedule follows the curvature.
 SteeringSchedule ScheduleOf(const FittedPath& fitted, const PlanRequest& request,
                             const std::vector<SpeedCap>& caps) {
   const Path& path = fitted.path;
@@ -101,7 +104,8 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
   return plan;
 }
 
-/// Fits the path. Throws InputError with the name of the file, unless a key causes the problem.
+/// Fits a path to the points. Throws InputError with the name of the file, or with the name of an
+/// option key if the option causes the problem.
 std::shared_ptr<const FittedPath> Fit(PathPoints points, const PathFileOptions& options,
                                       const std::string& file) {
   try {

@@ -8,7 +8,7 @@
 namespace trackbed {
 
 GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide side) {
-  constexpr double kStep = 1e-3;  // step of the sine of the angle
+  constexpr double kStep = 1e-3;  // step of the finite difference, in the sine of the angle
   const GgvDiagram& diagram = limits.diagram;
   GgvPoint point{.speed = std::sqrt(squared), .road = limits.road};
   const double lateral = diagram.MaxLateral(point);
@@ -21,13 +21,14 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
   const double sine = std::sin(angle);
   const double below = std::max(0.0, sine - kStep);
   const double above = std::min(1.0, sine + kStep);
-  // The boundary (f_y, f_x) = (lateral cos q, F(sin q)) has the normal (F' cos q, lateral sin q).
+  // At the angle q, the boundary (f_y, f_x) = (lateral cos q, F(sin q)) has the normal vector (F'
+  // cos q, lateral sin q).
   const double rise = std::max(0.0, (force_at(above) - force_at(below)) / (above - below));
   double across = rise * std::cos(angle);
   double along = lateral * sine;
   const double size = std::hypot(across, along);
   if (size <= 1e-9 * lateral) {
-    across = 1.0;  // at a corner of the boundary: limit f_y to its maximum
+    across = 1.0;  // at a corner of the boundary, the cut limits f_y to its maximum
     along = 0.0;
   } else {
     across /= size;
@@ -35,7 +36,7 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
   }
   const LongitudinalForces& car = diagram.forces();
   const double resistance = car.drag * squared / car.mass;
-  // Substitute f_x = a + resistance.
+  // Express the cut in the acceleration a, with f_x = a + resistance.
   return {.across = across,
           .along = sign * along,
           .bound =
@@ -49,7 +50,8 @@ double TyreCurvature(const LapLimits& limits, double squared, double angle, GgvS
   const double to = std::min(0.5 * std::numbers::pi, angle + kAngleStep);
   const GgvCut a = TyreCut(limits, squared, from, side);
   const GgvCut b = TyreCut(limits, squared, to, side);
-  // Length of the boundary between the two tangent points.
+  // The turning rate is the angle between the two tangents divided by the length of the boundary
+  // between the tangent points.
   const double sign = side == GgvSide::kDriving ? 1.0 : -1.0;
   GgvPoint point{.speed = std::sqrt(squared), .road = limits.road};
   const double lateral = limits.diagram.MaxLateral(point);

@@ -9,10 +9,11 @@
 #include "trackbed/planning/racing/minimum_time.h"
 #include "trackbed/track/closed_spline.h"
 
-/// Laps along lines on a track, at stations evenly spaced along the track's center line.
+/// Model of laps along lines on a track, at stations that are evenly spaced along the track's
+/// center line.
 namespace trackbed {
 
-/// A lap along one line.
+/// Shape, speeds and time of a lap along one line.
 struct Lap {
   std::vector<LineShape> shapes;  // Shapes of the line at the stations.
   std::vector<double> curvature;  // Curvature kappa at the stations [1/m].
@@ -25,7 +26,7 @@ struct Lap {
 
 class LapModel {
  public:
-  /// The argument `count` is the number of stations.
+  /// Makes a model with `count` stations.
   LapModel(const Track& track, const LapLimits& limits, std::size_t count);
 
   [[nodiscard]] const LapLimits& limits() const { return limits_; }
@@ -35,11 +36,13 @@ class LapModel {
   [[nodiscard]] std::size_t After(std::size_t i) const { return i + 1 == count() ? 0 : i + 1; }
   [[nodiscard]] const PathPoint& center(std::size_t i) const { return centers_[i]; }
 
-  /// The lap along a line, driven at the limit. The line must not fold over.
+  /// Computes a lap along a line, driven at the limit. The line must not reach the center of
+  /// curvature of the track's center line.
   [[nodiscard]] Lap Drive(const TrackLine& line) const;
 
-  /// Change of curvature between adjacent stations that the steering rate allows at 1 m/s [m/s
-  /// 1/m]. Returns infinity if the steering rate is not limited.
+  /// Returns the change of curvature between the stations i and i + 1 that the steering rate allows
+  /// at a speed of 1 m/s, times this speed [1/s]. Returns infinity if the steering rate is not
+  /// limited.
   [[nodiscard]] double SteeringReach(const Lap& lap, std::size_t i) const;
 
  private:

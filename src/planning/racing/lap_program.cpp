@@ -6,36 +6,37 @@
 #include <numbers>
 #include <utility>
 
-// Quadratic programs of the trust-region method in minimum_time.h (problem of Casanova 2000 and
-// Christ et al. 2021). Variables are the changes of the line's spline coefficients and the relative
-// changes of the squared speeds. The objective is the lap time, to second order in speeds and
-// lengths. Rows of the program bound offsets and steps, curvature, steering rate and lateral force.
-// Further rows bound the forces of motor and brakes, and contain the tangents to the tyres' g-g-v
-// boundary. The boundary's curvature along active tangents enters the Hessian, weighted by the
-// multipliers of the previous program.
+// Builds the quadratic programs of the trust-region method in minimum_time.h (problem of Casanova
+// 2000 and Christ et al. 2021). The variables are the changes of the line's spline coefficients and
+// the relative changes of the squared speeds. The objective is the lap time, to second order in
+// speeds and lengths. The constraints (rows) of the program are bounds on offsets, steps,
+// curvature, steering rate, lateral force, and the forces of motor and brakes. Further constraints
+// are tangents to the tyres' g-g-v boundary. The boundary's curvature at active tangents enters the
+// Hessian, weighted by the multipliers of the previous program.
 
 namespace trackbed {
 namespace {
 
-/// Stands for infinity, because bounds of rows must be finite. Actual bounds of rows are far
-/// smaller.
+/// Bound of rows that are not bounded, since bounds must be finite. Actual bounds are far smaller.
 constexpr double kUnbounded = 50.0;
-/// Keeps a cut at any distance from the lap, because no step may violate the cut. When a braking
-/// point moves along a straight, intervals change from driving to braking.
+/// As the argument `keep` of AddCut, keeps a cut however far it is from the lap. Such cuts are
+/// needed because a braking point may move along a straight, so that intervals change from driving
+/// to braking.
 constexpr double kKeepAlways = kUnbounded;
-constexpr double kMinRange = 1e-9;  // Least distance between the two bounds of a row.
+constexpr double kMinRange = 1e-9;  // Least difference between the two bounds of a row.
 
 double Squared(double x) {
   return x * x;
 }
 
-/// Left side of a cut minus the cut's bound.
+/// Returns by how much a cut is violated; negative if the cut is satisfied.
 double Excess(const GgvCut& cut, double across, double along) {
   return cut.across * across + cut.along * along - cut.bound;
 }
 
-/// Angles, near `angle`, at which the program lays tangents to a quarter of the diagram. Even small
-/// steps change accelerations considerably, so the tangents must follow the boundary closely.
+/// Returns the angles near `angle` at which the program adds tangents to the g-g-v boundary. Even
+/// small steps change accelerations considerably, so the tangents must approximate the boundary
+/// closely.
 std::vector<double> CutAngles(double angle) {
   constexpr std::array<double, 5> kAngleOffsets{-0.3, -0.1, 0.0, 0.1, 0.3};
   std::vector<double> angles;
@@ -63,7 +64,8 @@ void LapProgram::Form::Add(const Form& other, double factor) {
   }
 }
 
-/// Linear change of a function of d, d' and d'' that has the derivatives `by`.
+/// Returns the linearized change of a function of d, d' and d'' at the station i. The derivatives
+/// of the function are `by`.
 LapProgram::Form LapProgram::OffsetForm(std::size_t i, const Eigen::Vector3d& by) const {
   Form form;
   for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
@@ -90,7 +92,7 @@ void LapProgram::Linearize(const Lap& lap) {
   acceleration_.assign(count, {});
   accelerations_.assign(count, 0.0);
   for (std::size_t i = 0; i < count; ++i) {
-    // The acceleration is a = (w_j - w_i)/(2 l).
+    // In an interval of length l from station i to j, the acceleration is a = (w_j - w_i)/(2 l).
     const std::size_t next = model_.After(i);
     const double length = lap.lengths[i];
     const double from = Squared(lap.speeds[i]);
@@ -113,10 +115,12 @@ void LapProgram::AddRow(const Form& form, double lower, double upper) {
   upper_.push_back(std::max(upper, lower + kMinRange));
 }
 
-/// Adds the lap time, the sum of 2 l/(v_i + v_j), to second order in speeds and lengths.
+/// Adds the lap time to the objective: the sum of 2 l/(v_i + v_j), to second order in speeds and
+/// lengths.
 void LapProgram::AddTime(const Lap& lap) {
   const std::size_t count = model_.count();
-  std::vector<double> pace(count);  // time per unit stretch at the stations [s]
+  std::vector<double> pace(count);  // derivative of the lap time with respect to the stretch at
+                                    // each station [s]
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t next = model_.After(i);
     const double p = lap.speeds[i];
@@ -138,8 +142,8 @@ void LapProgram::AddTime(const Lap& lap) {
     for (const auto& [variable, value] : stretch_[i].terms) {
       linear_[variable] += pace[i] * value;
     }
-    // The function |r'| is the norm of a vector linear in d and d', so its second derivative is u
-    // u^T/|r'|^3.
+    // The stretch |r'| is the norm of a vector that is linear in d and d', so the Hessian of |r'|
+    // has the form u u^T/|r'|^3.
     const PathPoint& center = model_.center(i);
     const double slope = lap.shapes[i].square.derivatives()[1] / 2.0;  // d'
     const double along = std::sqrt(std::max(0.0, Squared(lap.stretch[i]) - Squared(slope)));
@@ -171,7 +175,8 @@ void LapProgram::AddBounds(const TrackLine& line, const Lap& lap, const LapTrust
   }
 }
 
-/// Adds rows for the car's smallest radius and for its steering rate between adjacent stations.
+/// Adds rows that limit the curvature of the line, and rows that limit the steering rate between
+/// adjacent stations.
 void LapProgram::AddCurvatures(const Lap& lap, double share) {
   const double most = model_.limits().curvature_max;
   for (std::size_t i = 0; i < model_.count(); ++i) {
@@ -185,8 +190,8 @@ void LapProgram::AddCurvatures(const Lap& lap, double share) {
   }
 }
 
-/// Adds rows for v |turned| <= reach at both ends of an interval, in units of the reach. For
-/// steering in the direction opposite to the lap's, a single row suffices.
+/// Adds rows that require v |turned| <= reach at both ends of an interval, divided by the reach.
+/// For steering in the direction opposite to that of the lap, a row at one end suffices.
 void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   const std::size_t next = model_.After(i);
   const double reach = model_.SteeringReach(lap, i);
@@ -195,7 +200,8 @@ void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   }
   const double turned = lap.curvature[next] - lap.curvature[i];
   const double side = turned < 0.0 ? -1.0 : 1.0;
-  // The reach is proportional to the length and to 1 + (L kappa)^2 of the smaller curvature.
+  // The reach is proportional to the interval's length and to 1 + (L kappa)^2 at the end with the
+  // smaller curvature.
   const std::size_t flat = std::abs(lap.curvature[i]) < std::abs(lap.curvature[next]) ? i : next;
   const double wheelbase = model_.limits().wheelbase;
   const double tangent = wheelbase * lap.curvature[flat];
@@ -215,7 +221,7 @@ void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   }
 }
 
-/// Adds rows for the largest lateral force to the left and to the right.
+/// Adds a row that limits the lateral force to the left and to the right.
 void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
   const LapLimits& limits = model_.limits();
   const double squared = Squared(lap.speeds[i]);
@@ -233,10 +239,10 @@ void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
   AddRow(form, -largest - std::abs(force), std::max(0.0, largest - std::abs(force)));
 }
 
-/// Adds a cut of the interval `interval` by the limits at the interval's end `at`. The argument
-/// `bound_rate` is a derivative by the relative change of w: that of the cut's bound and
-/// directions. Leaves out a cut that is farther away than `keep`. Returns whether the cut was
-/// added.
+/// Adds a row for a cut of the acceleration in the interval `interval`, by the limits at the
+/// interval's end `at`. The argument `bound_rate` is the derivative of the cut, with respect to the
+/// relative change of w, due to its bound and directions. Skips a cut that is satisfied by more
+/// than `keep`. Returns whether the row was added.
 bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                         double bound_rate, double keep) {
   const double squared = Squared(lap.speeds[at]);
@@ -250,14 +256,14 @@ bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, co
   const double side = lap.curvature[at] < 0.0 ? -1.0 : 1.0;
   form.Add(curvature_[at], cut.across * side * squared);
   form.Add(SpeedVariable(at), cut.across * across - bound_rate);
-  // Where the diagram is not convex, a tangent may cut off the lap itself, so keep the lap
-  // feasible.
+  // Where the diagram is not convex, a tangent may exclude the lap itself. Then move the bound so
+  // that the lap is feasible.
   AddRow(form, -kUnbounded, std::max(0.0, -excess));
   return true;
 }
 
-/// Adds the cost of the boundary's curvature, which the tangent neglects. The cost is weight/2
-/// times the squared displacement along the tangent.
+/// Adds a cost to the objective for the curvature of the boundary, which a tangent neglects. The
+/// cost is weight/2 times the squared displacement along the tangent.
 void LapProgram::AddBend(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                          double weight) {
   const double squared = Squared(lap.speeds[at]);

@@ -14,19 +14,19 @@
 /// Quadratic programs whose solutions shorten the time of a lap.
 namespace trackbed {
 
-/// Trust region of a quadratic program: bounds of a step.
+/// Trust region of a quadratic program: largest changes in a step.
 struct LapTrust {
   double offset = 1.0;   ///< Change of d at a station [m].
   double squared = 0.3;  ///< Relative change of the squared speed at a station.
 };
 
-/// Builds the quadratic program about each lap of the search.
+/// Builds the quadratic program linearized about each lap of the search.
 ///
 /// The first variables are the changes of the line's coefficients [m]. The remaining variables are
 /// the relative changes of the squared speeds. The tyres' lateral limit is kappa <= a/w, with the
-/// squared speed w. Where the lateral limit is active, the program uses kappa <= a/w_0 (1 - (w -
-/// w_0)/w_0). The program's bound never exceeds a/w, so a step keeps the lateral limit if the
-/// curvatures are exact.
+/// lateral acceleration a and the squared speed w. Where this limit is active, the program uses the
+/// linearized limit kappa <= a/w_0 (1 - (w - w_0)/w_0), which never exceeds a/w. Therefore a step
+/// satisfies the lateral limit, except for the linearization error of the curvature.
 class LapProgram {
  public:
   LapProgram(const LapModel& model, const ClosedSplineBasis& basis,
@@ -36,8 +36,8 @@ class LapProgram {
     return static_cast<Eigen::Index>(basis_.count());
   }
 
-  /// The program about a lap along `line`. Where the curvature exceeds LapLimits::curvature_max,
-  /// the excess must fall by the fraction `share`.
+  /// Builds the program linearized about a lap along `line`. Where the curvature exceeds
+  /// LapLimits::curvature_max, the program requires that the excess falls by the fraction `share`.
   SparseQuadraticProgram About(const TrackLine& line, const Lap& lap, const LapTrust& trust,
                                double share);
 
@@ -53,11 +53,10 @@ class LapProgram {
     void Add(const Form& other, double factor);
   };
 
-  /// Decrease of the lap time per unit of tyre force in an interval. The first index of Prices
-  /// selects the end of the interval whose limits apply. The second index selects driving or
-  /// braking.
+  /// Prices: decreases of the lap time per unit of tyre force in an interval. The first index
+  /// selects the end of the interval whose limits apply, the second index driving or braking.
   using Prices = std::array<std::array<double, 2>, 2>;
-  /// A row of a program that stands for a tangent.
+  /// A row of a program that represents a tangent.
   struct TangentRow {
     Eigen::Index row = 0;
     std::size_t interval = 0;
@@ -88,12 +87,12 @@ class LapProgram {
   std::vector<OffsetBounds> bounds_;
   std::vector<ClosedSplineBasis::Local> locals_;
 
-  std::vector<Prices> prices_;  // multipliers of the previous program, as prices
+  std::vector<Prices> prices_;  // Multipliers of the previous program.
 
   // The following members are the linearization about one lap.
   std::vector<Form> curvature_;     // Change of the curvature at the stations.
   std::vector<Form> stretch_;       // Change of dl/ds at the stations.
-  std::vector<Form> acceleration_;  // Change of the acceleration of each interval.
+  std::vector<Form> acceleration_;  // Change of the acceleration in each interval.
   std::vector<double> accelerations_;
   std::vector<Eigen::Triplet<double>> rows_;
   std::vector<TangentRow> tangents_;

@@ -5,19 +5,21 @@
 
 #include "trackbed/planning/racing/track_line.h"
 
-/// Shape of a line on a track with the shape's derivatives, and the bounds of the line's offset;
-/// for optimizers.
+/// For optimizers: the shape of a line on a track with its derivatives, and the bounds of the
+/// line's offset.
 namespace trackbed {
 
-/// Splines for the offset of lines, with two knots per point of the track. In a hairpin, a line's
-/// radius is a fraction of the center line's radius, over a correspondingly shorter distance. With
-/// only one knot per point, the curvature of a line in a hairpin would ripple.
+/// Returns the spline basis for the offsets of lines, with two knots per point of the track. On the
+/// inside of a hairpin, a line has a smaller radius and is shorter than the center line. With only
+/// one knot per point, the line's curvature would ripple there.
 ClosedSplineBasis OffsetBasis(const Track& track);
 
-/// A value and the derivatives of this value with respect to d, d' and d''.
+/// A value with its derivatives with respect to the offset d and the offset's derivatives d' and
+/// d''.
 using OffsetDerivatives = Eigen::AutoDiffScalar<Eigen::Vector3d>;
 
-/// Shape of a line at one station. The derivative of the line's points r by the station is r' = (1
+/// Shape of a line at one station. With the tangent t, the normal n and the curvature kappa_c of
+/// the center line, the derivative of the line's position r with respect to the station is r' = (1
 /// - kappa_c d) t + d' n.
 struct LineShape {
   OffsetDerivatives cross;  ///< Cross product r' x r''.
@@ -32,11 +34,11 @@ struct OffsetBounds {
   double upper = 0.0;
 };
 
-/// The bounds of a line that keeps a distance of `beside` [m] from the edges. The bounds also keep
-/// the line from crossing the center of curvature of the center line.
+/// Returns the offset bounds of a line that keeps a distance of `beside` [m] from the track's
+/// edges. The bounds also keep the line away from the center line's center of curvature.
 OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, double beside);
 
-/// Reason, for people, why no line satisfies the bounds at a station where the bounds are empty.
+/// Returns an error message about a station at which no offset satisfies the bounds.
 std::string TooNarrow(const Track& track, double s, double beside);
 
 }  // namespace trackbed

@@ -14,8 +14,8 @@ namespace trackbed {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-/// The residual kappa sqrt(dl/ds). The integral of the squared residual over the station equals the
-/// integral of kappa^2 over the line.
+/// Returns the residual kappa sqrt(dl/ds) at a station. The integral of its square over the station
+/// equals the integral of kappa^2 along the line.
 OffsetDerivatives Residual(const PathPoint& center, const LineOffset& at) {
   const LineShape shape = ShapeAt(center, at);
   return shape.cross / pow(shape.square, 1.25);
@@ -50,7 +50,7 @@ class CurvatureProblem {
   [[nodiscard]] const ClosedSplineBasis& basis() const { return basis_; }
   [[nodiscard]] Eigen::Index Variables() const { return static_cast<Eigen::Index>(basis_.count()); }
 
-  /// The integral of kappa^2 along the line with the given coefficients.
+  /// Returns the integral of kappa^2 along the line with the given coefficients.
   [[nodiscard]] double Integral(const Eigen::MatrixXd& coefficients) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < centers_.size(); ++i) {
@@ -60,7 +60,7 @@ class CurvatureProblem {
     return sum;
   }
 
-  /// The quadratic program about a line (Gauss-Newton).
+  /// Builds the Gauss-Newton quadratic program about a line.
   const SparseQuadraticProgram& Linearize(const Eigen::VectorXd& coefficients) {
     std::vector<Eigen::Triplet<double>> entries;
     Eigen::VectorXd residuals(Samples());
@@ -79,8 +79,8 @@ class CurvatureProblem {
     }
     Sparse jacobian(Samples(), Variables());
     jacobian.setFromTriplets(entries.begin(), entries.end());
-    // Where no edge is active, shifting the whole line leaves its curvature unchanged, so
-    // regularize toward the last line.
+    // If no edge is active, shifting the whole line hardly changes its curvature, so regularize
+    // toward the last line.
     const Sparse squares = jacobian.transpose() * jacobian;
     const double hold = 1e-10 * squares.diagonal().mean();
     Sparse identity(Variables(), Variables());
@@ -144,8 +144,8 @@ MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
       found.refused = "the quadratic program for the line was not solved";
       return found;
     }
-    // The initial line may violate the bounds. From the second iteration on, the integral must not
-    // rise.
+    // In the first iteration, the integral may rise, because the initial line may violate the
+    // bounds. In later iterations, the integral must not rise.
     Eigen::VectorXd next = solution.x;
     double next_integral = problem.Integral(next);
     for (int half = 0; found.iterations > 1 && next_integral > integral && half < 10; ++half) {

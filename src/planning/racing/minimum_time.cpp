@@ -15,19 +15,21 @@
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/racing/minimum_curvature.h"
 
-// Line of least lap time (problem of Casanova 2000 and Christ et al. 2021) by a trust-region
-// method. The search starts at the line of least curvature. Each step solves a quadratic program
-// (LapProgram) for changes of the line and of the speeds. The new line gets its own limit profile.
-// The search tries the whole step, then a half to a tenth of the step. The search keeps a step only
-// if the lap gets faster, or if an excess of curvature falls. If no step is kept, the trust region
-// shrinks. A model with twice as many stations judges the resulting line.
+// Finds the line of least lap time (problem of Casanova 2000 and Christ et al. 2021) by a
+// trust-region method. The search starts at the line of least curvature. Each step solves a
+// quadratic program (LapProgram) for changes of the line and of the speeds. The search tries the
+// whole step, then a half, a quarter and a tenth of the step. Each new line is evaluated with its
+// own limit speed profile. The search accepts a step only if the lap gets faster, or if an excess
+// of curvature falls. If no step is accepted, the trust region shrinks. The lap times of the result
+// come from a finer model with twice as many stations.
 
 namespace trackbed {
 namespace {
 
 constexpr double kSameCurvature = 1e-6;  // relative tolerance of the largest curvature
 
-/// Number of stations of the programs: at least two per knot, and at most 2.6 m apart.
+/// Returns the number of stations of the programs: at least two per knot of the spline, and at most
+/// 2.6 m apart.
 std::size_t ProgramStations(const Track& track) {
   constexpr double kMaxSpacing = 2.6;  // [m]
   const double knots = static_cast<double>(OffsetBasis(track).count());
@@ -35,7 +37,8 @@ std::size_t ProgramStations(const Track& track) {
                                   std::max(2.0, std::ceil(track.length() / (knots * kMaxSpacing))));
 }
 
-/// State of the search: the best lap so far, and the reason why the search ended.
+/// Searches for the line of least lap time. The object holds the best line and lap so far, and the
+/// reason why the search ended.
 class LapSearch {
  public:
   LapSearch(const Track& track, double beside, const LapLimits& limits, const TrackLine& start)
@@ -55,7 +58,8 @@ class LapSearch {
   }
 
   [[nodiscard]] const TrackLine& line() const { return line_; }
-  /// Iterations, gain and end of the search. The caller fills in line and times of the result.
+  /// Returns the number of iterations, the last gain and the reason for the end of the search. The
+  /// caller sets the line and the times of the result.
   [[nodiscard]] const MinimumTimeLine& found() const { return found_; }
 
  private:
@@ -67,7 +71,7 @@ class LapSearch {
     return bounds;
   }
 
-  /// Excess of the line's curvature over the largest allowed curvature [1/m].
+  /// Returns the excess of the line's curvature over the largest permitted curvature [1/m].
   [[nodiscard]] double Beyond(const Lap& lap) const {
     const double most = model_.limits().curvature_max;
     const double beyond = most > 0.0 ? lap.sharpest - most * (1.0 + kSameCurvature) : 0.0;
@@ -107,8 +111,8 @@ class LapSearch {
     return scale_ < kMinScale;
   }
 
-  /// Takes the step, or the largest fraction of the step that improves the lap. Returns false if no
-  /// fraction improves the lap.
+  /// Applies the step, or the largest fraction of the step that improves the lap. Returns false if
+  /// no fraction improves the lap.
   bool Take(const Eigen::VectorXd& step, double promised) {
     const double beyond = Beyond(lap_);
     for (const double part : {1.0, 0.5, 0.25, 0.1}) {
@@ -128,8 +132,7 @@ class LapSearch {
         return true;
       }
     }
-    // Shrink the trust region to below this step's size, even if the step was inside the trust
-    // region.
+    // Shrink the trust region to a tenth of its size or of the step's size, whichever is smaller.
     const double squared =
         step.tail(step.size() - program_.coefficients()).lpNorm<Eigen::Infinity>();
     scale_ = 0.1 * std::min(scale_, squared / kTrustSquared);
@@ -147,11 +150,11 @@ class LapSearch {
   TrackLine line_;
   Lap lap_;
   double scale_ = 1.0;  // Scale of the trust region.
-  double share_ = 1.0;  // Fraction `share` of LapProgram::About.
+  double share_ = 1.0;  // Argument `share` of LapProgram::About.
   MinimumTimeLine found_;
 };
 
-/// Model with twice as many stations as the programs, to compare lines.
+/// Returns a model with twice as many stations as the programs, to compare lines.
 LapModel FineModel(const Track& track, const LapLimits& limits) {
   return {track, limits, 2 * ProgramStations(track)};
 }

@@ -14,22 +14,24 @@
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/frenet/polynomial.h"
 
-// Turns a line on a track into a plan of laps. The line is the offset d(s) from the center line. A
-// quintic polynomial of the offset difference joins the car's offset to the line over the unrolled
-// station. Points along the line, with exact curvatures, become segments of quadratic curvature.
-// After the last lap, the line continues for the braking distance.
+// Converts a line on a track to a plan of laps. The line is given by the offset d(s) from the
+// center line. The station s is unrolled: it keeps increasing over all laps. A quintic polynomial
+// for the offset's difference leads from the car's initial offset onto the line. Points along the
+// line, with exact curvatures, become segments of quadratic curvature. After the last lap, the line
+// continues for the braking distance.
 
 namespace trackbed {
 namespace {
 
 /// Transition from the car's offset to the offset of the line.
 struct Join {
-  double from = 0.0;    // Station where the transition begins [m].
+  double from = 0.0;    // Station at which the transition begins [m].
   double length = 0.0;  // Length of the transition [m].
   Polynomial difference;
 };
 
-/// A line over the unrolled station, including the transition from the car onto the line.
+/// A line as a function of the unrolled station, including the transition from the car's offset
+/// onto the line.
 class Unrolled {
  public:
   Unrolled(const Track& track, const TrackLine& line, const Join& join)
@@ -46,7 +48,8 @@ class Unrolled {
     return offset;
   }
 
-  /// Position and shape of the line at s. Returns none where the Frenet frame does not exist.
+  /// Returns pose and curvature of the line at the unrolled station s. Returns none where the
+  /// Frenet frame does not exist.
   [[nodiscard]] std::optional<MotionState> At(double s) const {
     const LineOffset offset = OffsetAt(s);
     return FromFrenet(
@@ -69,19 +72,19 @@ class Unrolled {
   const Join& join_;
 };
 
-/// Spacing of the points of a path [m].
+/// Returns the spacing of the path's points [m].
 double Spacing(const Track& track) {
   return std::min(1.0, 0.25 * track.length() / static_cast<double>(track.points().size()));
 }
 
-/// A path through points of the line, with the stations of the path at the given track stations.
+/// Points of a path along the line, and the path's stations at given stations of the track.
 struct LinePath {
   std::vector<CurvePoint> points;
   std::vector<double> passed;  // stations of the path [m]
 };
 
-/// The line through at least two ascending stations of the track. Returns none where the Frenet
-/// frame does not exist.
+/// Computes the path along a line over at least two ascending stations of the track. Returns none
+/// if the Frenet frame does not exist at a station.
 std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
                                   const std::vector<double>& stations) {
   LinePath path;
@@ -103,8 +106,8 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
     const double parts = std::ceil(span / spacing);
     for (double k = 0.0; k < parts; k += 1.0) {
       const double s = stations[i] + span * k / parts;
-      // Leave some points out inside a hairpin. In hairpins, points get close, and the finest
-      // ripples of the line would limit the speed.
+      // Skip points that are too close together, as on the inside of a hairpin. Otherwise the
+      // finest ripples of the line would limit the speed.
       const bool close = k > 0.0 && length - path.points.back().s < kMinSpacing * spacing;
       if (!close && !add(s)) {
         return std::nullopt;
@@ -116,7 +119,7 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
   return add(stations.back()) ? std::optional(path) : std::nullopt;
 }
 
-/// The car's state on the track, with a station at most half a lap from the start line.
+/// The car's initial state on the track, with a station within half a lap of the start line.
 struct Start {
   std::optional<FrenetState> at;
   std::string refused;  // reason why the car cannot start at its pose
@@ -191,7 +194,7 @@ LineFindings MeasureLine(const Track& track, const TrackLine& line) {
   LineFindings findings;
   double sharpest = 0.0;
   for (double k = 0.0; k < parts; k += 1.0) {
-    // Kappa^2 is periodic over a lap, so the midpoint sum converges as fast as any quadrature.
+    // Since kappa^2 is periodic over a lap, the midpoint rule converges as fast as any quadrature.
     const double from = track.length() * k / parts;
     const double length = unrolled.Length(from, track.length() * (k + 1.0) / parts);
     const std::optional<MotionState> at = unrolled.At(track.length() * (k + 0.5) / parts);

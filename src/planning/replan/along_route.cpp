@@ -11,28 +11,28 @@
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
-// Motions along a route among obstacles, by polynomials in the Frenet frame or by a lattice. The
-// planner first tries to stop at the goal, to proceed at the wanted speed, and to follow a leader.
-// If these maneuvers fail, the planner tries to proceed more slowly and then to stop behind an
-// obstacle. The planner accepts a motion only if the car can brake after the motion. While braking,
-// the car must stay clear of obstacles, within the steering limits and the track's edges, and
-// before the goal. Moving obstacles are extrapolated at constant velocity.
+// Plans motions along a route among obstacles, by polynomials in the Frenet frame or by a lattice.
+// The planner first tries to stop at the goal, to proceed at the wanted speed, and to follow a
+// leading obstacle. If these maneuvers fail, the planner tries to proceed more slowly and then to
+// stop behind an obstacle. The planner accepts a motion only if the car can brake after the motion.
+// While braking, the car must keep clear of obstacles, stay within the steering limits and the
+// track's edges, and stop before the goal. Moving obstacles are extrapolated at constant velocity.
 
 namespace trackbed {
 namespace {
 
-/// A smooth stop is possible within the fraction kStopShare of speed times duration.
+/// Largest distance of a smooth stop, as a fraction of speed times duration.
 constexpr double kStopShare = 0.55;
 
-/// Tolerance of a stop at the goal [m], the same as the tolerance of the lattice.
+/// Tolerance of a stop at the goal [m]; the lattice planner has the same tolerance.
 constexpr double kGoalTolerance = 0.05;
 
 double Front(const VehicleParams& vehicle) {
   return vehicle.length - vehicle.rear_overhang;
 }
 
-/// The method's options, with the safe distance and horizon of the settings. The speed factors are
-/// `factors`.
+/// Returns the options of the method, with safe distance and horizon from the settings and the
+/// speed factors `factors`.
 FrenetOptions AdaptOptions(FrenetOptions options, const AlongSettings& settings,
                            const std::vector<double>& factors) {
   options.limits.safe_distance = settings.safe_distance;
@@ -56,7 +56,7 @@ FrenetPlan Find(const Path& path, const FrenetRequest& request, const LatticeOpt
   return PlanLattice(path, request, options);
 }
 
-/// Distance before the end of the route within which the method can stop at the end.
+/// Returns the distance over which the method can plan a stop [m].
 double StopReach(const FrenetOptions& options, double speed) {
   const auto longest = std::max_element(options.end_times.begin(), options.end_times.end());
   return longest == options.end_times.end() ? 0.0 : kStopShare * speed * *longest;
@@ -91,7 +91,7 @@ class AlongRoute {
       plan.to_goal = true;
       return plan;
     }
-    // Look beyond the reach of the motions, to see the obstacles that the motions approach.
+    // Look farther ahead than the motions reach, to find the obstacles that the motions approach.
     const auto leader = LeaderIn(
         frame_.path, request_, settings_,
         request_.start.s + Front(request_.vehicle) + std::max(reach, speed * settings_.look_ahead));
@@ -162,15 +162,16 @@ class AlongRoute {
     return BrakesAfter(end, end.d) || (frame_.edges && end.d != 0.0 && BrakesAfter(end, 0.0));
   }
 
-  /// Whether the car can brake after the motion while it moves over to an offset.
+  /// Returns whether the car can brake to a stop after the motion while moving laterally to
+  /// `offset`.
   bool BrakesAfter(const FrenetState& end, double offset) {
     points_ = WithBraking(end, offset);
     return EndsBeforeGoal(points_.back().frenet) && BrakingIsClear() && BrakingIsDrivable() &&
            BrakingIsOnTrack();
   }
 
-  /// Whether two opposite turns at full lock lead from a stop back to the route, at the latest at
-  /// its goal.
+  /// Returns whether a car that stands at `stop` could return to the route before its goal, by two
+  /// opposite turns at full lock.
   [[nodiscard]] bool EndsBeforeGoal(const FrenetState& stop) const {
     const VehicleParams& car = request_.vehicle;
     const double radius = car.wheelbase / std::tan(car.steering_limit);
@@ -193,14 +194,16 @@ class AlongRoute {
     }
     const FrenetLimits& limits = MotionLimits(options_);
     auto points = SampleMotion(frame_.path, motion, limits.time_step, limits.spacing);
-    // If the Frenet frame ends before the stop, return the motion without braking.
+    // If the Frenet frame does not exist at all points until the stop, return the motion without
+    // braking.
     return points ? std::move(*points) : found_.points;
   }
 
   [[nodiscard]] bool BrakingIsClear() const {
-    constexpr double kClearanceTolerance = 1e-2;  // [m], tolerance for clearance between samples
+    constexpr double kClearanceTolerance = 1e-2;  // [m], tolerance, because the clearance between
+                                                  // samples may be smaller
     const double began = found_.motion.duration();
-    // A car that starts closer than the safe distance may keep its distance.
+    // A car that starts closer to an obstacle than the safe distance may keep its present distance.
     const OrientedBox footprint = FootprintAt(request_.vehicle, points_.front().motion.pose);
     std::vector<double> margins;
     for (const MovingBox& obstacle : request_.obstacles) {
@@ -221,7 +224,8 @@ class AlongRoute {
     });
   }
 
-  /// Checks the steering while braking, because a motion may end too fast for a bend after its end.
+  /// Checks the steering limits while the car brakes, because the car may be too fast for a bend
+  /// after the end of the motion.
   [[nodiscard]] bool BrakingIsDrivable() const {
     constexpr double kRounding = 1.0 + 1e-9;
     const VehicleParams& car = request_.vehicle;
@@ -247,7 +251,7 @@ class AlongRoute {
   }
 
   /// Checks that the footprint stays within the track's edges while braking. A footprint that
-  /// starts beyond the edges may stay at that distance beyond the edges.
+  /// starts beyond the edges may stay beyond the edges by the same distance.
   [[nodiscard]] bool BrakingIsOnTrack() const {
     if (!frame_.edges) {
       return true;
@@ -263,7 +267,8 @@ class AlongRoute {
     });
   }
 
-  /// Whether the motion ends beside the obstacle, laterally clear of it, or beyond the obstacle.
+  /// Returns whether the motion ends beyond the obstacle, or beside the obstacle and laterally
+  /// clear of it.
   [[nodiscard]] bool PassesObstacle(const Leader& leader) const {
     const FrenetState end = found_.motion.At(found_.motion.duration());
     const double room = 0.5 * request_.vehicle.width + settings_.safe_distance;
@@ -281,7 +286,7 @@ class AlongRoute {
   const AlongSettings& settings_;
   const AlongOptions& options_;
   FrenetPlan found_;  // Result of the last attempt.
-  // Points of the motion and of the braking after the motion.
+  // Points of the last motion and of the braking after the motion.
   std::vector<TrajectoryPoint> points_;
 };
 
@@ -323,9 +328,10 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
             .edges = std::make_shared<const RoadEdges>(
                 EdgesBeside(path, *route.laps.track, vehicle, edge_distance))};
   }
-  // A step of curvature k from straight to a bend needs the longest window. While the curvature
-  // rises by k over the window w, |d(steering)/dt| <= v L k/w. The steering angle atan(L curvature)
-  // rises fastest at the beginning of the window. Smoothing tightens the bend itself by (k w)^2/24.
+  // The smoothing window w [m] must be so long that the wheels can follow the curvature. A step
+  // from a straight to a bend of curvature k needs the longest window: while the curvature rises by
+  // k over the window, the steering rate is at most v L k/w. Smoothing increases the bend's own
+  // curvature by the fraction (k w)^2/24.
   constexpr double kSampleSpacing = 0.5;  // [m]
   double window = 0.1;                    // [m]
   for (const PathPoint& point : path.Sample(kSampleSpacing)) {

@@ -17,28 +17,30 @@
 #include "trackbed/world/world.h"
 
 // Searches for a detour around static obstacles by any planner that keeps clear of obstacles. The
-// detour leaves the driven path on a straight, at once or where the car could have stopped. The
-// detour returns to the route on one of up to three straights behind the last blocked stretch. For
-// planners without headings, the detour has straight first and last legs of 10, 6 or 3 m. The
-// comparator chooses the best path. The car takes the best path only if it is better than the
-// current path.
+// detour leaves the driven path on a straight, either at once or after the car's braking distance.
+// The detour returns to the route on one of up to three straights behind the last blocked stretch.
+// For planners without headings, the detour has straight first and last legs of 10, 6 or 3 m. The
+// comparator selects the best path. The car takes this path only if it is better than the current
+// path.
 
 namespace trackbed {
 namespace {
 
 /// Spacing of collision checks along paths [m].
 constexpr double kPathCheckSpacing = 0.1;
-/// Largest curvature that counts as straight [1/m].
+/// Curvatures up to this value count as straight [1/m].
 constexpr double kStraight = 1e-4;
-/// Lengths of the first and last straight of a path with corners [m]. Long straights leave room for
-/// gentle corners; short straights fit before nearby obstacles.
+/// Lengths that are tried for the first and last straight of a path with corners [m]. Long
+/// straights leave room for gentle corners; short straights fit before nearby obstacles.
 constexpr std::array<double, 3> kStraightLengths{10.0, 6.0, 3.0};
-/// Spacing of the places to return to the route [m], and the number of these places.
+/// Spacing of the places at which the detour may return to the route [m], and the largest number of
+/// these places.
 constexpr double kReturnSpacing = 5.0;
 constexpr int kReturnPoints = 3;
-/// Straight driving required after the return to the route, as time at the mission's speed [s].
+/// Duration of straight driving required after the return to the route, at the mission's speed [s].
 constexpr double kSettlingTime = 2.0;
-/// Minimum part of the driven path that a route keeps, in [m] and [s].
+/// The detour begins at least this far ahead of the car on the driven path: kMinLead [m] plus
+/// kLeadTime [s] at the car's speed.
 constexpr double kMinLead = 0.5;
 constexpr double kLeadTime = 0.5;
 
@@ -47,7 +49,8 @@ bool IsStraight(const Path& path, double s) {
   return std::abs(at.curvature) < kStraight && std::abs(at.sharpness) < kStraight;
 }
 
-/// The first station at or after `from` where the path is straight for `length` or to its end.
+/// Returns the first station at or after `from` from which the path is straight over `length` [m]
+/// or up to its end.
 std::optional<double> StraightFrom(const Path& path, double from, double length) {
   double straight = 0.0;
   for (double s = from; s <= path.length(); s += kPathCheckSpacing) {
@@ -60,7 +63,7 @@ std::optional<double> StraightFrom(const Path& path, double from, double length)
   return straight > 0.0 ? std::optional(std::max(from, left)) : std::nullopt;
 }
 
-/// Speed cap at a joint between two pieces of path, computed as in CapsOfSteps.
+/// Returns the speed cap at a joint between two path pieces, computed as in CapsOfSteps.
 std::vector<SpeedCap> CapOfJoint(const VehicleParams& vehicle, const Path& path, double s,
                                  double speed) {
   const double before = path.At(s - kPathCheckSpacing).curvature;
@@ -84,7 +87,7 @@ std::vector<Vec2> SamplePoints(const Path& path) {
   return points;
 }
 
-/// Whether a car at `speed` can slow down to every cap in time.
+/// Returns whether a car at `speed` can slow down to every speed cap in time.
 bool CanSlowDown(const std::vector<SpeedCap>& caps, double speed, const SpeedLimits& limits) {
   return std::all_of(caps.begin(), caps.end(), [&](const SpeedCap& cap) {
     const double slower = speed * speed - 2.0 * limits.deceleration * std::max(cap.from, 0.0);
@@ -108,7 +111,7 @@ class DetourSearch {
     }
     const Path& path = request_.driven.reference.path;
     const double lead = request_.station + kMinLead + kLeadTime * request_.station_speed;
-    // Leave the driven path at once, or where the car could have stopped.
+    // Leave the driven path at once, or after the braking distance.
     const double braking =
         0.5 * request_.station_speed * request_.station_speed / request_.speed.deceleration;
     std::vector<double> leaves;
@@ -146,14 +149,15 @@ class DetourSearch {
   }
 
  private:
-  /// A plan that begins at the car, and the stations between which the planner's path replaces the
-  /// route.
+  /// A plan from the car to the end of the route, and the stations of the route that the detour
+  /// replaces.
   struct JoinedPlan {
     FeasiblePlan plan;
     Stations replaced;  ///< [m]
   };
 
-  /// Asks the planner for a path between two stations. Keeps the best path found so far.
+  /// Plans a detour from the station `leave` of the driven path to the station `back` of the route.
+  /// Stores the detour if it is the best so far.
   void Try(double leave, double back, std::uint64_t attempt, Detour& detour) const {
     for (const double straight_on : kStraightLengths) {
       if (IsBudgetUsed(detour)) {
@@ -184,9 +188,8 @@ class DetourSearch {
                              path.Cut({request_.route_station, path.length()})));
   }
 
-  /// Scores a path that begins at the car. The path's center line must keep a distance from
-  /// obstacles. The required distance is the distance to the footprint's nearest side or rear, plus
-  /// 0.9 of the safe distance.
+  /// Scores a path that begins at the car. The path must keep a distance from obstacles: half the
+  /// car's width or its rear overhang, whichever is smaller, plus 0.9 of the safe distance.
   [[nodiscard]] PathScore Score(const std::vector<Vec2>& way) const {
     const VehicleParams& car = request_.vehicle;
     const double inflation =
@@ -199,8 +202,7 @@ class DetourSearch {
                      choice_.comparator);
   }
 
-  /// Stations of straights at which the detour may return to the route. Part of the route must
-  /// remain after each station.
+  /// Returns the stations on straights at which the detour may return to the route.
   [[nodiscard]] std::vector<double> Backs() const {
     const Path& path = request_.route.reference.path;
     const std::vector<Stations> blocked = BlockedStretches(
@@ -216,8 +218,8 @@ class DetourSearch {
       backs.push_back(*back);
       from = *back + kReturnSpacing;
     }
-    // Return at the end of the route only if there is no other place, because this return skips the
-    // waypoints in between.
+    // Return at the end of the route only as a last resort, because the detour then skips the
+    // remaining waypoints.
     if (backs.empty() && behind < path.length() - 2.0 * kPathCheckSpacing) {
       backs.push_back(path.length());
     }
@@ -270,8 +272,8 @@ class DetourSearch {
     return Joined(leave, way, back, why);
   }
 
-  /// Steering schedule of a joined path. Within `driven`, the steering comes from the samples of
-  /// the driven motion. Beyond `driven`, the steering comes from the segments of the path.
+  /// Makes the steering schedule of a joined path. The first part is the schedule of the driven
+  /// plan over the stations `driven`. The rest follows from the segments of the path.
   [[nodiscard]] SteeringSchedule JoinedSchedule(const Path& path, const std::vector<SpeedCap>& caps,
                                                 const Stations& driven) const {
     const double lead = driven.to - driven.from;

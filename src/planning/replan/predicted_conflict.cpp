@@ -15,7 +15,8 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
   constexpr double kStep = 0.1;  // [s]
   constexpr double kClearanceTolerance =
       1e-2;  // [m], tolerance for planners that check clearance at samples.
-  // Use only the profile ahead, because times before a stop in the profile may be infinite.
+  // Use only the part of the profile ahead of the car, because a stop behind the car could make all
+  // later times infinite.
   const SpeedProfile ahead =
       Excerpt(reference.speed, {station, std::max(station, reference.path.length())});
   const auto station_at = [&](double time) { return station + ahead.StationAt(time); };
@@ -29,7 +30,8 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
     const double time = i * kStep;
     for (std::size_t j = 0; j < obstacles.size(); ++j) {
       if (too_near(time, obstacles[j])) {
-        // A time step of 0.1 s is 1.5 m at 15 m/s, so bisect for the time of first contact.
+        // In a time step of 0.1 s, a car at 15 m/s moves by 1.5 m, so find the time of first
+        // contact by bisection.
         double clear = i == 0 ? time : time - kStep;
         double near = time;
         for (int halving = 0; halving < 10 && i > 0; ++halving) {

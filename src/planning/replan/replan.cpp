@@ -16,27 +16,25 @@
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
-// Replanning while driving. If the plan is clear and the car is on the plan, the replanner keeps
-// the plan. If the plan is not clear, the replanner tries options in order. The replanner's first
-// option is to resume the route if the car is back on the route. The second option of the replanner
-// is a motion along the route (PlanAlongRoute) that proceeds or follows a leader. The third option
-// of the replanner is a detour around static obstacles (PlanDetour). The fourth option of the
-// replanner is a motion that stops behind an obstacle. The last option of the replanner is to brake
-// along the driven plan, comfortably if possible, otherwise harder.
+// Replans while the car drives. If the plan is free of conflicts and the car is on the plan, the
+// replanner keeps the plan. Otherwise the replanner takes the first possible of these options:
+// resume the route if the car is back on the route; proceed along the route or follow a leading
+// obstacle (PlanAlongRoute); make a detour around static obstacles (PlanDetour); stop behind an
+// obstacle (PlanAlongRoute); brake along the driven plan, comfortably if possible, otherwise
+// harder.
 
 namespace trackbed {
 namespace {
 
-/// A plan that ends at the goal is kept over its last kLastMeters [m], unless a conflict lies
-/// ahead.
+/// Over its last kLastMeters [m], the replanner keeps a plan unless the plan has a conflict.
 constexpr double kLastMeters = 1.0;
-/// Tolerances of the route within which a car is back on the route.
+/// Largest deviations from the route at which a car counts as back on the route.
 constexpr double kBackOffset = 0.02;     // [m]
 constexpr double kBackHeading = 0.005;   // [rad]
 constexpr double kBackSteering = 0.002;  // [rad]
-/// Paths shorter than kMinPathLength [m] become empty.
+/// Shorter paths are replaced by empty paths [m].
 constexpr double kMinPathLength = 1e-3;
-/// Distance to keep from an obstacle when the car brakes for the obstacle [m].
+/// A car that brakes for a conflict stops this far before the place of the conflict [m].
 constexpr double kBrakeRoom = 0.5;
 
 bool Stands(const MovingBox& box) {
@@ -73,7 +71,7 @@ class Replanning {
   Replanned Run() {
     auto conflict = NextConflict(driving_.plan.reference, driving_.station);
     if (request_.strayed && !conflict) {
-      // Check the plan, shifted by the car's lateral offset from the plan.
+      // Check the plan again, shifted by the car's lateral offset from the plan.
       const Pose2 beside = driving_.plan.reference.path.At(driving_.station).pose;
       conflict = NextConflict(driving_.plan.reference, driving_.station,
                               ToLocal(beside, request_.car.pose.position()).y());
@@ -91,7 +89,8 @@ class Replanning {
       motion = Motion(along);
       along = motion.ok() ? along : AlongPlan{};
     }
-    // Behind a leader, the route is clear only up to the leader.
+    // Do not resume the route behind a leading obstacle, because the route is clear only up to this
+    // obstacle.
     if (!driving_.on_route && (!along.ok() || along.kind == ManeuverType::kProceed)) {
       if (auto back = RejoinedRoute()) {
         return std::move(*back);
@@ -100,8 +99,8 @@ class Replanning {
     if (along.kind == ManeuverType::kProceed || along.kind == ManeuverType::kFollow) {
       return Follow(std::move(motion), along);
     }
-    // Candidate motions depend on their start. The current plan may pass an obstacle that no new
-    // candidate passes.
+    // Keep a plan without conflict, even if no new motion passes the obstacle: the candidate
+    // motions depend on their start, so the current plan may succeed where new motions fail.
     const bool is_free = !conflict && !request_.strayed;
     if (is_free && !stuck) {
       return Keep();
@@ -109,7 +108,7 @@ class Replanning {
     if (options_.detour) {
       Detour detour = FindDetour();
       diagnostics_.detour = FindingsOn(detour);
-      // Detours consider only static obstacles, so check the detour against moving obstacles.
+      // PlanDetour considers only static obstacles, so check the detour against moving obstacles.
       if (detour.route && !NextConflict((*detour.route)->reference, 0.0)) {
         diagnostics_.kind = "detour";
         detour.route->diagnostics().replan = diagnostics_;
@@ -131,7 +130,8 @@ class Replanning {
  private:
   [[nodiscard]] static Replanned Keep() { return {ReplanKind::kKeep, FeasiblePlan()}; }
 
-  /// Checks a new plan against the limits of the car and its road, by the policy `infeasible`.
+  /// Checks a new plan against the limits of car and road. The policy `infeasible` applies if the
+  /// plan exceeds a limit.
   [[nodiscard]] FeasiblePlan Held(Plan plan, InfeasiblePolicy infeasible,
                                   double deceleration = 0.0) const {
     PlanRequest constrained = RequestOn(request_.road, request_.vehicle, request_.speed);
@@ -140,7 +140,8 @@ class Replanning {
     return MakeFeasibleFromHere(std::move(plan), constrained);
   }
 
-  /// Policy for a plan that cannot be slowed down without a new check against moving obstacles.
+  /// Returns the policy for infeasible plans that must not be slowed down, because a slower plan
+  /// could meet moving obstacles.
   [[nodiscard]] InfeasiblePolicy WithoutSlowingDown() const {
     return request_.road.infeasible == InfeasiblePolicy::kAllow ? InfeasiblePolicy::kAllow
                                                                 : InfeasiblePolicy::kRefuse;
@@ -153,7 +154,8 @@ class Replanning {
                            options_.settings.safe_distance, options_.settings.look_ahead, offset);
   }
 
-  /// Conflict of a car that continues at its actual speed, not at the planned speed.
+  /// Returns the next conflict on the driven plan if the car continues at its actual speed instead
+  /// of the planned speed.
   [[nodiscard]] std::optional<PredictedConflict> AheadOfTheCar() const {
     const double speed = request_.car.speed;
     const Plan plan = StopAfter(
@@ -165,15 +167,15 @@ class Replanning {
     return conflict;
   }
 
-  /// Remaining length of the driven plan [m].
+  /// Returns the remaining length of the driven plan [m].
   [[nodiscard]] double LeftToDrive() const {
     return driving_.plan.reference.path.length() - driving_.station;
   }
 
   [[nodiscard]] bool IsNearGoal() const { return LeftToDrive() < kLastMeters; }
 
-  /// The planned motion beside the car or, if the car has strayed from the plan, the car's own
-  /// motion.
+  /// Returns the state at which new motions start: the planned state at the car's station or, if
+  /// the car has strayed from the plan, the car's own state.
   [[nodiscard]] MotionState Start() const {
     if (request_.strayed) {
       return request_.car;
@@ -191,7 +193,8 @@ class Replanning {
     return start;
   }
 
-  /// The rest of the route, if the motion has returned to the route and the route is clear.
+  /// Returns the rest of the route if the car is back on the route and the route is free of
+  /// conflicts.
   [[nodiscard]] std::optional<Replanned> RejoinedRoute() const {
     const MotionState start = Start();
     const Path& path = driving_.route.reference.path;
@@ -214,8 +217,9 @@ class Replanning {
     return Replanned{ReplanKind::kRoute, std::move(rest)};
   }
 
-  /// The mission's speed, or the speed of a slow stretch ahead. A slow stretch counts if it begins
-  /// within the distance driven in 2 s plus the distance to slow down.
+  /// Returns the mission's speed, or the speed of a slower stretch of the route ahead. A slower
+  /// stretch counts if it begins within the distance driven in 2 s plus the distance needed to slow
+  /// down.
   [[nodiscard]] double WantedSpeed(double speed) const {
     constexpr double kSpeedLeadTime = 2.0;  // [s]
     double wanted = request_.speed.speed;
@@ -230,14 +234,14 @@ class Replanning {
     return wanted;
   }
 
-  /// The limits of a motion on its road.
+  /// Limits of motions on the road ahead.
   struct Within {
     SpeedLimits speed;
     AlongOptions options;
   };
 
-  /// Lowers the limits of motions to those that the road holds under the route, as far as the
-  /// motions look ahead.
+  /// Returns the limits of motions, lowered to the accelerations that the road under the route
+  /// ahead allows.
   [[nodiscard]] Within OnThisRoad(double speed) const {
     Within within{request_.speed, *options_.along};
     const double fastest = std::max(speed, request_.speed.speed);
@@ -332,8 +336,8 @@ class Replanning {
     return found;
   }
 
-  /// Stops along the driven plan before the place of the conflict. The car brakes comfortably if
-  /// possible, otherwise as hard as necessary, at most as hard as it can.
+  /// Plans a stop along the driven plan before the place of the conflict. The car brakes
+  /// comfortably if possible, otherwise as hard as necessary, up to its limit.
   Replanned Brake(const PredictedConflict& conflict) {
     const MovingBox& obstacle = request_.obstacles[conflict.obstacle];
     const double speed = std::max(Start().speed, request_.car.speed);
@@ -341,11 +345,11 @@ class Replanning {
     const double braking = Stands(obstacle) ? BrakingWithin(room, speed) : BrakingFor(speed);
     const double shortest = speed * speed / (2.0 * braking);
     const bool comfortable = braking <= ComfortableBraking();
-    // Approach a static obstacle before braking. Brake at once for a moving obstacle, because it
-    // may come closer.
+    // For a static obstacle, brake as late as comfortable braking allows. For a moving obstacle,
+    // brake at once, because the obstacle may come closer.
     const double way = Stands(obstacle) && comfortable ? std::max(shortest, room) : shortest;
     if (way < kMinPathLength && LeftToDrive() < kMinPathLength) {
-      return Keep();  // the plan ends at the stopping place anyway
+      return Keep();  // the car is already at the end of the plan
     }
     Plan stop = StopAfter(way, speed, comfortable);
     if (!Stands(obstacle) && !DelaysConflict(stop, conflict)) {
@@ -358,20 +362,21 @@ class Replanning {
     diagnostics_.deceleration = braking;
     stop.diagnostics.replan = diagnostics_;
     FeasiblePlan held = Held(stop, request_.road.infeasible, braking);
-    if (!held.ok()) {  // braking is the only remaining option, even if the road holds less
+    if (!held.ok()) {  // brake even if the road cannot transmit the braking force
       held = Held(stop, InfeasiblePolicy::kAllow, braking);
     }
     return {ReplanKind::kStop, std::move(held)};
   }
 
-  /// Whether `plan` delays the next conflict beyond the conflict that the car brakes for. Braking
-  /// hastens a collision from behind.
+  /// Returns whether the next conflict of `plan` is not earlier than `conflict`. Braking can hasten
+  /// a collision from behind.
   [[nodiscard]] bool DelaysConflict(const Plan& plan, const PredictedConflict& conflict) const {
     const auto braked = NextConflict(plan.reference, 0.0);
     return !braked || braked->time >= conflict.time;
   }
 
-  /// Upper limit of hard braking, and on ice also of comfortable braking [m/s^2].
+  /// Returns the hardest braking that the car can achieve [m/s^2], which on ice also limits
+  /// comfortable braking.
   [[nodiscard]] double HardestBraking() const {
     return request_.max_deceleration > 0.0 ? request_.max_deceleration
                                            : request_.speed.deceleration;
@@ -381,15 +386,15 @@ class Replanning {
     return std::min(request_.speed.deceleration, HardestBraking());
   }
 
-  /// The deceleration that stops the car from `speed` within `room`. The result is at least the
-  /// comfortable and at most the hardest deceleration.
+  /// Returns the deceleration that stops the car from `speed` within `room` [m], clamped to the
+  /// range from comfortable to hardest braking.
   [[nodiscard]] double BrakingWithin(double room, double speed) const {
     const double needed = 0.5 * speed * speed / std::max(room, kMinPathLength);
     return std::min(std::max(needed, ComfortableBraking()), HardestBraking());
   }
 
-  /// The mildest braking that keeps clear of all known obstacles, including moving obstacles. If no
-  /// braking keeps clear, returns the hardest braking.
+  /// Returns the mildest braking with which the car keeps clear of all known obstacles, including
+  /// moving obstacles. If the car cannot keep clear of all obstacles, returns the hardest braking.
   [[nodiscard]] double BrakingFor(double speed) const {
     const double hardest = HardestBraking();
     constexpr int kSteps = 8;
@@ -404,8 +409,8 @@ class Replanning {
     return hardest;
   }
 
-  /// A plan that stops from `speed` after `way` along the driven plan. A comfortable stop is at the
-  /// end of the driven plan if this end is nearer.
+  /// Makes a plan that stops the car from `speed` over the distance `way` along the driven plan. A
+  /// comfortable stop ends at the end of the driven plan if that is nearer.
   [[nodiscard]] Plan StopAfter(double way, double speed, bool comfortable) const {
     const Path& path = driving_.plan.reference.path;
     const double from = driving_.station;
@@ -419,14 +424,14 @@ class Replanning {
         Path(path.At(from).pose, to - from < kMinPathLength ? std::vector<Segment>{}
                                                             : SegmentsBetween(path, {from, to}));
     const Path& own = plan.reference.path;
-    // Hard braking needs no speed caps: the car obeys the caps anyway, or cannot obey them.
+    // Hard braking needs no speed caps: the car slows down as fast as it can anyway.
     plan.caps =
         comfortable ? Moved(CapsOf(driving_.plan), {from, to}, -from) : std::vector<SpeedCap>{};
     SpeedLimits limits = request_.speed;
     limits.deceleration = ComfortableBraking();
     plan.reference.speed = StopAtEnd(own.length(), speed, limits, plan.caps);
-    // The samples of a motion have their own steering. Between samples, the path may bend faster
-    // than the steering allows.
+    // For a sampled motion, use the steering of the samples: between samples, the path's curvature
+    // may change faster than the wheels can turn.
     plan.sampled = driving_.plan.sampled;
     plan.schedule =
         plan.sampled && own.length() > 0.0

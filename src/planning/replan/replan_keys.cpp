@@ -6,11 +6,11 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/replan/replan.h"
 
-/// The keys of `plan.replan`: replanning while driving.
+/// Keys of `plan.replan`, the options of replanning while the car drives.
 namespace trackbed {
 namespace {
 
-/// Extent of the road on one side; unlimited by default.
+/// Visits the key of the road's width on one side of the path; unlimited by default.
 void VisitRoadSide(KeyVisitor& keys, const Key& key, double& width) {
   std::optional<double> side;
   if (std::isfinite(width)) {
@@ -20,7 +20,7 @@ void VisitRoadSide(KeyVisitor& keys, const Key& key, double& width) {
   width = side.value_or(std::numeric_limits<double>::infinity());
 }
 
-/// Planners that avoid obstacles themselves, restricted to driving forwards.
+/// Returns the planners that can plan detours: they avoid obstacles and drive only forwards.
 std::vector<PlannerEntry> DetourPlanners() {
   std::vector<PlannerEntry> fit;
   for (PlannerEntry entry : Planners()) {

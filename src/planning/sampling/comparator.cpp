@@ -8,13 +8,14 @@
 namespace trackbed {
 namespace {
 
-/// The remaining path of a car at `position`. The remaining path begins at the point of the path
-/// nearest to the car.
+/// Returns the remaining path of a car at `position`: the part of the path after the point nearest
+/// to the car.
 std::vector<Vec2> Rest(const std::vector<Vec2>& way, const Vec2& position) {
   std::size_t next = way.size();
   Vec2 nearest = way.back();
   double distance = (position - nearest).norm();
-  // If two points are equally near, take the later point, because no path is driven twice.
+  // Search from the end, so that of two equally near points the later point is found: the car has
+  // already driven the part before it.
   for (std::size_t i = way.size() - 1; i > 0; --i) {
     const Vec2 along = way[i] - way[i - 1];
     const double square = along.squaredNorm();

@@ -8,7 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// Mean number of nodes per cell: the upper limit, and the value after cells are divided.
+/// Mean number of nodes per cell: the value above which the cells are divided, and the value after
+/// the division.
 constexpr double kMaxNodesPerCell = 16.0;
 constexpr double kNodesPerCell = 4.0;
 
@@ -23,7 +24,7 @@ void NodeGrid::Divide(double cells) {
   const Vec2 box = high_ - low_;
   side_ = std::max(std::sqrt(box.prod() / cells), box.maxCoeff() / cells);
   if (side_ == 0.0) {
-    side_ = 1.0;  // all nodes are at one point
+    side_ = 1.0;  // the box is a single point
   }
   columns_ = static_cast<std::ptrdiff_t>(box.x() / side_) + 1;
   rows_ = static_cast<std::ptrdiff_t>(box.y() / side_) + 1;
@@ -61,8 +62,8 @@ std::size_t NodeGrid::Nearest(const Vec2& p) const {
   const std::ptrdiff_t column = Column(p.x());
   const std::ptrdiff_t row = Row(p.y());
   Near nearest{std::numeric_limits<double>::infinity(), 0};
-  // Search rings of cells around the point's cell. Nodes beyond ring r are more than r cell sides
-  // away.
+  // Search the rings of cells around the point's cell, from the inside out. Nodes beyond ring r are
+  // more than r cell sides away from the point.
   const std::ptrdiff_t rings = std::max(columns_, rows_);
   for (std::ptrdiff_t ring = 0; ring < rings; ++ring) {
     for (std::ptrdiff_t y = std::max(row - ring, std::ptrdiff_t{0});

@@ -7,11 +7,12 @@
 
 namespace trackbed {
 
-/// Square-cell index of points in the plane for neighbor queries. The points are added to the index
-/// one by one. The index divides cells as they fill, so that each cell holds a few points.
+/// Index for neighbor queries among points in the plane, which are added one by one. The index
+/// sorts the points into square cells and divides the cells as the number of points grows, so that
+/// each cell contains only a few points.
 ///
-/// Distances are exact to rounding. Adding a point costs O(1) amortized. A query visits the cells
-/// that its circle touches.
+/// Query results are exact except for rounding. Adding a point costs O(1) amortized. A query visits
+/// only the cells that overlap its circle.
 class NodeGrid {
  public:
   struct Entry {
@@ -23,15 +24,18 @@ class NodeGrid {
     std::size_t node;
   };
 
-  /// All points lie within the box between two corners. The box may be a line or a point.
+  /// Makes an empty index of points within the box with the corners `low` and `high`. The box may
+  /// be degenerate: a line or a point.
   NodeGrid(const Vec2& low, const Vec2& high);
 
   void Add(const Vec2& position, std::size_t node);
 
-  /// The node nearest to a point of the box. The index must not be empty.
+  /// Returns the node nearest to the point `p`, which must lie in the box. The index must not be
+  /// empty.
   [[nodiscard]] std::size_t Nearest(const Vec2& p) const;
 
-  /// Replaces `near` by all nodes within `radius` [m] of a point, in no particular order.
+  /// Finds all nodes within `radius` [m] of the point `p`. Stores the nodes in `near`, in no
+  /// particular order.
   void FindWithin(const Vec2& p, double radius, std::vector<Near>& near) const;
 
  private:

@@ -13,8 +13,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// Cost of a corner that the car cannot drive [m].
 constexpr double kTooTight = 1e6;
 
-/// Cost of the corner at the waypoint `at`. With `all_in`, the corner may use its whole incoming
-/// leg. With `all_out`, the corner may use its whole outgoing leg.
+/// Returns the cost of the corner at the waypoint `at`. With `all_in` or `all_out`, the corner may
+/// use its whole incoming or outgoing leg; otherwise it may use half of the leg.
 double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& at, const Vec2& to,
                   bool all_in, bool all_out) {
   const Vec2 in = at - from;
@@ -25,10 +25,10 @@ double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& a
   return problem.tangent(turn) > room ? kTooTight : 0.0;
 }
 
-/// The cheapest path that ends with the line from one given point to another point.
+/// The cheapest path whose last line connects two given points.
 struct Line {
   double cost = kInfinity;
-  std::size_t before = 0;  ///< start of the previous line
+  std::size_t before = 0;  ///< start point of the line before the last line
 };
 
 }  // namespace

@@ -73,7 +73,8 @@ class Tree {
     return index_.qbegin(index::nearest(Point(p.x(), p.y()), 1))->second;
   }
 
-  /// Extends the tree toward one sample. Returns the goal's node once the tree reaches the goal.
+  /// Extends the tree toward one random sample. Returns the goal's node if the tree has reached the
+  /// goal.
   std::optional<std::size_t> Iterate() {
     const Vec2 sample = Sample();
     const std::size_t from = Nearest(sample);
@@ -91,7 +92,8 @@ class Tree {
     return TryGoal(Add(position, from));
   }
 
-  /// Adds the goal's node if the goal is near the given node and the edge between them is free.
+  /// Adds the goal as a node if the goal is near the given node and the edge between the two is
+  /// free.
   std::optional<std::size_t> TryGoal(std::size_t node) {
     const Vec2 position = nodes_[node].position;
     if (position == problem_.goal) {
@@ -111,7 +113,7 @@ class Tree {
     return node;
   }
 
-  /// The path to a node along the tree.
+  /// Stores the path along the tree from the root to a node in `result`.
   void Trace(std::size_t node, RrtResult& result) const {
     for (; node != 0; node = nodes_[node].parent) {
       result.path.push_back(nodes_[node].position);

@@ -15,11 +15,11 @@
 #include "trackbed/planning/sampling/comparator.h"
 #include "trackbed/planning/sampling/rrt.h"
 
-// RRT for cars (LaValle 1998; smoothing and comparator of the wind-aware RRT). Each try grows one
-// tree per waypoint, smooths the path, removes needless waypoints and rounds the corners. If a tree
-// does not reach its goal, the planner may plan a partial path to the node nearest to the goal. A
-// complete plan is better than a partial plan. Between plans of the same kind, the comparator
-// decides.
+// RRT planner for cars (LaValle 1998; smoothing and comparator of the wind-aware RRT). Each try
+// grows one tree per waypoint, smooths the path, removes needless waypoints and rounds the corners.
+// If a tree does not reach its goal, the planner may plan a partial path to the node nearest to the
+// goal. The planner prefers complete plans to partial plans. The comparator selects the best of the
+// complete plans.
 namespace trackbed {
 namespace {
 
@@ -28,7 +28,7 @@ bool MayBePartial(const PlannerOptions& options) {
   return own.partial.value_or(own.time_limit.has_value());
 }
 
-/// Requires smoothing weights with which the smoothing converges.
+/// Reports a problem if the smoothing does not converge with the given weights.
 std::vector<OptionProblem> CheckSmoothing(const RrtPlannerOptions& options,
                                           const CouldReadKey& could_read) {
   const double step = options.data_weight + 2.0 * options.smoothness_weight;
@@ -42,8 +42,8 @@ std::vector<OptionProblem> CheckSmoothing(const RrtPlannerOptions& options,
                        step)}};
 }
 
-/// Checks the options for detours. A detour must be repeatable, so the check rejects a wall-clock
-/// limit. A detour must return to the route, so the check rejects a partial plan.
+/// Checks the options for detours. The check rejects a wall-clock limit, because detours must be
+/// reproducible. The check also rejects partial plans, because a detour must return to the route.
 std::vector<OptionProblem> CheckDetour(const RrtPlannerOptions& options) {
   std::vector<OptionProblem> problems;
   if (options.time_limit) {
@@ -67,29 +67,30 @@ SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& reque
                           request);
 }
 
-/// A path through all goals, or the part of this path that was found.
+/// A path through all goals, or through the first goals if a tree did not reach its goal.
 struct TreePath {
-  /// Points from the start through the goals reached, in the car's frame.
+  /// Points from the start through the reached goals, in the car's start frame.
   std::vector<Vec2> points;
   std::size_t goals = 0;      ///< Number of goals reached.
   std::vector<Vec2> nearest;  ///< Path along the tree to the node nearest to the next goal.
   double left = 0.0;          ///< Distance between the next goal and the tree's nearest node [m].
   RrtStatus status = RrtStatus::kReached;
   std::vector<RrtLeg> legs;
-  std::vector<TreeNode> tree;  ///< nodes of the trees, in the world frame
+  std::vector<TreeNode> tree;  ///< nodes of all trees, in the world frame
 };
 
-/// Data that the trees of one request share.
+/// Data that all trees of one request share.
 struct Forest {
   const RrtPlannerOptions& options;
   const PlanRequest& request;
   const SamplingTask& task;
   const CornerTangents& tangents;
-  /// Whether the time is over; if empty, the time is never over.
+  /// Returns whether the time limit is over; empty without a time limit.
   std::function<bool()> time_is_over;
 };
 
-/// Adds a tree's nodes, in the world frame, with the lengths of their paths.
+/// Appends the nodes of a tree to `tree`, in the world frame. The cost of a node is the length of
+/// its path.
 void AddTree(const RrtResult& result, const Pose2& frame, std::vector<TreeNode>& tree) {
   const std::size_t first = tree.size();
   for (const RrtNode& node : result.nodes) {
@@ -102,8 +103,8 @@ void AddTree(const RrtResult& result, const Pose2& frame, std::vector<TreeNode>&
   }
 }
 
-/// Smooths a tree's path, removes needless corners and appends the path to `points`. Fills in
-/// `leg`.
+/// Smooths a tree's path, removes needless corners and appends the path to `points`. Sets the
+/// findings `leg`.
 void AddLeg(const Forest& forest, const std::vector<Vec2>& path, bool is_last,
             std::vector<Vec2>& points, RrtLeg& leg) {
   const RrtPlannerOptions& options = forest.options;
@@ -172,8 +173,9 @@ struct Try {
   [[nodiscard]] bool is_partial() const { return way.status != RrtStatus::kReached; }
 };
 
-/// Whether `other` is better than `current`. Plans to the goal are better than partial plans, and
-/// partial plans are better than failures. Within a rank, the score decides.
+/// Returns whether `other` is better than `current`. Complete plans are better than partial plans,
+/// and partial plans are better than failures. Among complete plans, the score decides. Otherwise
+/// the number of reached goals decides, then the distance to the next goal.
 bool IsBetterTry(const Try& other, const Try& current) {
   const auto rank = [](const Try& each) { return !each.plan.ok() ? 0 : each.is_partial() ? 1 : 2; };
   if (rank(other) != rank(current)) {
@@ -186,15 +188,16 @@ bool IsBetterTry(const Try& other, const Try& current) {
          std::pair(current.way.goals, -current.way.left);
 }
 
-/// Describes the budget, for example "10 trees of 10000 samples" or "1 tree in 0.5 s".
+/// Returns the description of the used budget, for example "10 trees of 10000 samples" or "1 tree
+/// in 0.5 s".
 std::string DescribeBudget(const RrtPlannerOptions& options, std::size_t trees, bool time_is_over) {
   return fmt::format("{} {} ", trees, trees == 1 ? "tree" : "trees") +
          (time_is_over ? fmt::format("in {:.4g} s", *options.time_limit)
                        : fmt::format("of {} samples", options.iterations));
 }
 
-/// The refused plan for a path that was not found. The start of a tree is free, because it was
-/// checked, or because it is a goal that was reached.
+/// Returns the refused plan if no path was found. The start of the last tree cannot be the reason,
+/// because it was checked or is a goal that was reached.
 Plan RefusedAs(const TreePath& way, const Forest& forest) {
   if (way.status == RrtStatus::kGoalBlocked) {
     return GoalBlocked(forest.task, way.goals + 1);
@@ -214,8 +217,9 @@ Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
 }
 
 /// Plans along a path that does not reach its next goal, to the tree's node nearest to this goal.
-/// The car may be unable to reach the nearest node, because the car's front extends beyond the
-/// node. If the nearest node is unreachable, the plan ends at the last feasible node before it.
+/// The car may be unable to stop at the nearest node, because the front of the car extends beyond
+/// the node. Then the plan ends at an earlier node of the tree's path, the last with a feasible
+/// plan.
 void UsePartialPath(const Forest& forest, Try& next) {
   const std::vector<Vec2> reached = next.way.points;
   const std::vector<Vec2> nearest = next.way.nearest;
@@ -271,7 +275,8 @@ RrtTreeFindings FindingsOn(const Try& each) {
   return found;
 }
 
-/// Adds the search budget and the trees' distance to the goal to a failed or partial plan.
+/// Adds to a failed or partial plan a text with the search budget and the distance between the
+/// trees and the goal.
 void RecordBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan,
                   RrtDiagnostics& diagnostics) {
   if (plan.status == PlanStatus::kBudgetUsedUp) {
@@ -305,7 +310,7 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
     Try next = TryTree(forest, request.seed + (static_cast<std::uint64_t>(i) << 32U), samples);
     diagnostics.trees.push_back(FindingsOn(next));
     const RrtStatus status = next.way.status;
-    // A blocked goal is hopeless for every tree.
+    // If the goal is blocked, no tree can reach it.
     const bool hopeless = status == RrtStatus::kGoalBlocked;
     if (!best || hopeless || IsBetterTry(next, *best)) {
       best = std::move(next);
@@ -335,7 +340,7 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
   }
   TRACKBED_CHECK(options.trees > 0 && options.time_limit.value_or(1.0) > 0.0,
                  "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
-  // With a time limit, a second attempt would need the same time again, so try only one lead-in.
+  // With a time limit, each lead-in takes the whole time limit again, so try only one.
   return PlanWithLeadIn(options, request, PlanTrees, options.time_limit ? 1 : kLeadIns);
 }
 

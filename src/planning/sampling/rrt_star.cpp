@@ -11,15 +11,16 @@
 #include "trackbed/geometry/box_index.h"
 
 // RRT* (Karaman and Frazzoli 2011), k-nearest form, for a point in the plane. Each sample extends
-// the nearest node by at most one step. The new node joins its cheapest neighbor with a free edge.
-// Neighbors whose paths are cheaper through the new node are rewired, and the costs of their
-// descendants are updated. Informed sampling rejects nodes that cannot shorten the best path
-// (Gammell et al. 2014). NodeGrid answers the neighbor queries.
+// the tree from the nearest node by at most one step. The parent of the new node is the cheapest
+// neighbor with a free edge. Neighbors whose paths are cheaper through the new node are rewired,
+// and the costs of their descendants are updated. Informed sampling rejects nodes that cannot
+// shorten the best path (Gammell et al. 2014). NodeGrid answers the neighbor queries.
 
 namespace trackbed {
 namespace {
 
-// The factor is a tenth more than 2^(d+1) e (1 + 1/d) for d = 2 dimensions.
+// Factor of the number of neighbors, a tenth above the lower bound 2^(d+1) e (1 + 1/d) for d = 2
+// dimensions.
 constexpr double kNeighbors = 1.1 * 12.0 * 2.718281828459045;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -77,7 +78,8 @@ class RrtStarTree {
   }
 
   Vec2 Sample() {
-    // Always draw three numbers, so that reaching the goal does not shift the random sequence.
+    // Always draw three random numbers, so that the sequence of samples does not depend on whether
+    // the goal is reached.
     const double bias = Uniform();
     const double x = Uniform();
     const double y = Uniform();
@@ -88,11 +90,11 @@ class RrtStarTree {
             std::lerp(problem_.low.y(), problem_.high.y(), y)};
   }
 
-  /// Stores the `count` nearest nodes in near_, in no particular order. If there are fewer nodes,
-  /// stores all nodes.
+  /// Stores the `count` nodes nearest to the point `p` in near_, in no particular order. If the
+  /// tree has fewer nodes, stores all nodes.
   void FindNearest(const Vec2& p, std::size_t count) {
-    // For evenly spread nodes, the first search circle holds a quarter more than `count` nodes. The
-    // radius of the search circle grows if the sampled box is a line.
+    // For evenly spread nodes, the first search circle contains a quarter more than `count` nodes.
+    // If it contains too few nodes, the circle grows.
     const Vec2 box = problem_.high - problem_.low;
     const double share = static_cast<double>(count) / static_cast<double>(nodes_.size());
     const double even = std::sqrt(1.25 * share * box.prod() / M_PI);
@@ -139,14 +141,14 @@ class RrtStarTree {
     }
   }
 
-  /// Whether a path through a point can be shorter than the best path so far.
+  /// Returns whether a path through the point `p` can be shorter than the best path so far.
   [[nodiscard]] bool MayShorten(const Vec2& p) const {
     return goal_ == kNone ||
            (p - problem_.start).norm() + (p - problem_.goal).norm() < nodes_[goal_].cost;
   }
 
   /// Adds a node with its cheapest neighbor as parent, and rewires neighbors through the new node.
-  /// The caller knows that the edge to `reached_from` is free.
+  /// The edge to the node `reached_from` must be free.
   std::size_t Join(const Vec2& position, std::size_t reached_from) {
     const double count = static_cast<double>(nodes_.size());
     const double nearest = std::ceil(kNeighbors * std::log(count + 1.0));
@@ -167,7 +169,8 @@ class RrtStarTree {
     }
     const Neighbor parent = Cheapest(position, first);
     const std::size_t node = Add(position, parent.node, parent.cost);
-    // Rewiring one node only lowers the costs of other nodes.
+    // Drop the neighbors that are not cheaper through the new node. This stays correct while other
+    // nodes are rewired, because rewiring only lowers costs.
     const auto last = std::remove_if(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& of) {
       return parent.cost + of.distance >= nodes_[of.node].cost;
     });
@@ -185,8 +188,9 @@ class RrtStarTree {
     return a.cost < b.cost || (a.cost == b.cost && a.node < b.node);
   }
 
-  /// The cheapest neighbor in cheaper_ with a free edge, or `otherwise`. Reorders cheaper_. Few
-  /// edges need a check, so a heap avoids sorting hundreds of candidates.
+  /// Returns the cheapest neighbor in cheaper_ whose edge to `position` is free, or `otherwise`.
+  /// Reorders cheaper_ as a heap, because usually only few edges need a check and sorting hundreds
+  /// of candidates would take longer.
   Neighbor Cheapest(const Vec2& position, const Neighbor& otherwise) {
     const auto costs_more = [](const Neighbor& a, const Neighbor& b) { return CostsLess(b, a); };
     std::make_heap(cheaper_.begin(), cheaper_.end(), costs_more);
@@ -238,7 +242,7 @@ class RrtStarTree {
   std::vector<std::vector<std::size_t>> children_;
   NodeGrid index_;
   std::size_t goal_ = kNone;
-  std::vector<NodeGrid::Near> near_;  // Nodes of the last query.
+  std::vector<NodeGrid::Near> near_;  // Nodes found by the last query.
   std::vector<Neighbor> neighbors_;   // Neighbors of the node being added.
   std::vector<Neighbor> cheaper_;     // Neighbors that cost less than the extended node.
 };

@@ -23,7 +23,8 @@ SamplingTask MakeStarTask(const RrtStarPlannerOptions& options, const PlanReques
                           request);
 }
 
-/// The failed plan for a tree that did not reach this waypoint from the previous waypoint.
+/// Returns the failed plan for a tree that did not reach the waypoint `waypoint` from the previous
+/// waypoint.
 Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
                  const RrtStarResult& tree, std::size_t waypoint) {
   if (tree.status == RrtStarStatus::kGoalBlocked) {
@@ -42,7 +43,7 @@ Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
                   task.inflation));
 }
 
-/// Adds a tree's nodes in the world frame; the root is its own parent.
+/// Appends the nodes of a tree to `tree`, in the world frame. The root is its own parent.
 void AddNodes(const RrtStarResult& result, const Pose2& frame, std::vector<TreeNode>& tree) {
   const std::size_t first = tree.size();
   for (const TreeNode& node : result.nodes) {
@@ -50,8 +51,8 @@ void AddNodes(const RrtStarResult& result, const Pose2& frame, std::vector<TreeN
   }
 }
 
-/// The path between two waypoints. The path is the straight line if the line is free and short
-/// enough for one edge per sample. If the line is blocked or too long, the path comes from a tree.
+/// Finds the path between two waypoints: the straight line, if it is free and not longer than the
+/// tree's steps can reach; otherwise a path from an RRT* tree.
 RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& task,
                       const BoxIndex& obstacles, const Vec2& from, const Vec2& to,
                       std::uint64_t seed, long max_samples) {
@@ -81,7 +82,8 @@ RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& 
                      seed);
 }
 
-/// A plan along one tree through all waypoints. `diagnostics` receives the legs of this plan.
+/// Plans a path through all waypoints, with one tree per leg. Stores the legs of the plan in
+/// `diagnostics`.
 Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& request,
                   const SamplingTask& task, const CornerTangents& tangents, std::uint64_t seed,
                   RrtStarPlanDiagnostics& diagnostics, long& samples) {

@@ -12,13 +12,13 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/sampling/smoothing.h"
 
-/// Functions that the sampling planners share. The planners use all random numbers in the car's
+/// Functions that the sampling planners share. The planners draw their random samples in the car's
 /// start frame. Hence moving or rotating a whole mission moves or rotates the plan in the same way.
 namespace trackbed {
 
 /// The mission in the car's start frame.
 struct SamplingTask {
-  Vec2 lead{0.0, 0.0};      ///< Root of the first tree.
+  Vec2 lead{0.0, 0.0};      ///< Root of the first tree: the end of the initial straight [m].
   std::vector<Vec2> goals;  ///< Goals in the order of the mission.
   std::vector<OrientedBox> obstacles;
   double inflation = 0.0;
@@ -26,7 +26,7 @@ struct SamplingTask {
   WindScoring wind;
 };
 
-/// The keys that define a sampling task.
+/// Options that define a sampling task.
 struct SamplingTaskOptions {
   Corners corners = Corners::kRound;
   double safe_distance = 0.0;
@@ -38,7 +38,8 @@ struct SamplingTaskOptions {
 
 SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequest& request);
 
-/// Checks the initial straight. If the straight is blocked, returns a failed plan with the reason.
+/// Checks whether the initial straight is free. If the straight is blocked, returns a failed plan
+/// with the reason.
 Plan CheckLeadIn(const SamplingTask& task);
 
 /// Tangent lengths of corners at the lowest speed, tabulated by heading change.
@@ -46,8 +47,8 @@ class CornerTangents {
  public:
   CornerTangents(const VehicleParams& vehicle, double speed);
 
-  /// Tangent length, never too short: the function uses the next larger heading change in the
-  /// table.
+  /// Returns the tangent length [m] of the next larger heading change in the table, so the length
+  /// is never too short.
   double operator()(double turn) const;
 
  private:
@@ -56,28 +57,28 @@ class CornerTangents {
   std::array<double, kCount> lengths_{};  // the entry for a heading change of 0 is 0
 };
 
-/// Appends a tree's path to `points` without needless corners. The points begin with the start of
-/// the mission. The tree's path begins at the last of `points`.
+/// Appends a tree's path to `points`, without needless corners. The first of `points` must be the
+/// start of the mission, and the last must be the start of the tree's path.
 void AddPruned(const SamplingTask& task, const CornerTangents& tangents, double corner_cost,
                const std::vector<Vec2>& path, bool is_last, std::vector<Vec2>& points);
 
 std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points);
 
-/// The failed plan for a blocked waypoint. Waypoints are counted from 0.
+/// Returns the failed plan for a blocked waypoint. Waypoints are counted from 0.
 Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint);
 
-/// Length of the initial straight [m]. The length is `lead_in`, but at most half the distance to
-/// the first waypoint after the start.
+/// Returns the length of the initial straight [m]: `lead_in`, but at most half the distance to the
+/// first waypoint after the start.
 double StraightStart(double lead_in, const PlanRequest& request);
 
 /// Number of initial straights that PlanWithLeadIn tries.
 inline constexpr int kLeadIns = 3;
 
-/// Retries a failed plan of a rolling car. The car may need more room before its first corner than
-/// the trees leave. The function tries up to `tries` longer initial straights. The first initial
-/// straight is the longest, on which the car can stop. If an obstacle blocks the longest straight,
-/// a half or a quarter of its length may fit. The function grows only one tree for each shorter
-/// straight, because many refused missions have no plan at all.
+/// Plans with `plan_trees`. If the plan of a rolling car fails because its first corner is too
+/// near, PlanWithLeadIn retries with up to `tries` longer initial straights. The longest straight,
+/// on which the car can stop, comes first. If an obstacle blocks this straight, a half or a quarter
+/// of the added length may fit. For each shorter straight, PlanWithLeadIn grows only one tree,
+/// because many refused missions have no plan at all.
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {
@@ -91,7 +92,8 @@ Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const Pl
   }
   double more = 0.5 * request.start_speed * request.start_speed / request.speed.deceleration +
                 request.vehicle.min_turning_radius();
-  // The same initial straight would only repeat the same trees.
+  // Skip lengths that were tried before, because the same initial straight would give the same
+  // trees.
   std::vector<double> tried{StraightStart(options.lead_in, request)};
   for (int i = 0; i < tries; ++i, more *= 0.5) {
     Options longer = options;

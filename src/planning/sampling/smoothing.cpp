@@ -9,11 +9,11 @@
 namespace trackbed {
 namespace {
 
-/// Score differences below kEqualityTolerance [m] are rounding errors. In uniform wind, all paths
-/// have the same score.
+/// Smaller score differences [m] are rounding errors; in a uniform wind, the scores of all paths
+/// are equal up to rounding.
 constexpr double kEqualityTolerance = 1e-9;
 
-/// Wind score of one straight line.
+/// Returns the wind score of one straight line.
 double SegmentScore(const Vec2& from, const Vec2& to, const WindScoring& scoring) {
   const Vec2 wind = WindAt(scoring.wind, 0.5 * (from + to), scoring.time);
   return scoring.weight * wind.dot(to - from) / scoring.speed;
@@ -46,7 +46,7 @@ class Smoother {
   }
 
  private:
-  /// Moves one coordinate of a point and returns the distance of the move.
+  /// Moves one coordinate of a point by one smoothing step and returns the distance of the move.
   double Move(std::size_t i, Eigen::Index coordinate) {
     const Vec2& before = smooth_[i - 1];
     const Vec2& after = smooth_[i + 1];

@@ -9,13 +9,15 @@
 
 namespace trackbed {
 
-/// The largest curvature of a segment that is linear in the distance [1/m].
+/// Returns the curvature of largest magnitude on a segment whose curvature is linear in the
+/// distance [1/m].
 double SharpestCurvature(const Segment& segment);
 
-/// The steering over distance, atan(L kappa), with which a kinematic car follows the segments.
-/// Steps of curvature become the ramps of RampsOfSteps (curvature_steps.h), for a car that drives
-/// at `speed` [m/s] and slower within `caps`. The car stands at changes of direction and at
-/// `stops`; there, the step lies in the last micrometer before the stop.
+/// Computes the steering angle atan(L kappa) over the distance, with which a kinematic car follows
+/// the segments. At a step of curvature, the steering follows a ramp of RampsOfSteps
+/// (curvature_steps.h), for a car that drives at `speed` [m/s], or more slowly within `caps`. The
+/// car stops at changes of direction and at the stations `stops`. At such a station, the steering
+/// changes within the last micrometer before the stop.
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed, const std::vector<SpeedCap>& caps = {},
                                 const std::vector<double>& stops = {});

@@ -17,27 +17,27 @@
 
 /// Typed diagnostics of planners, independent of a file format.
 ///
-/// The diagnostics of a planner are any copyable struct. A function found by argument-dependent
-/// lookup names the fields of the struct:
+/// The diagnostics of a planner can be any copyable struct. A function `Visit`, found by
+/// argument-dependent lookup, names the fields of the struct:
 ///
 ///     void Visit(DiagnosticsVisitor& out, const MyDiagnostics& own) {
 ///       out.Integer("expansions", own.expansions);
 ///       out.Number("cost_m", own.cost);
 ///     }
 ///
-/// The writer of plan.json and the printer of `trackbed plan` are visitors. Names include units, as
-/// those of columns: "cost_m".
+/// The writer of plan.json and the printer of `trackbed plan` are visitors. The name of a field
+/// includes the unit, as in the names of table columns: "cost_m".
 namespace trackbed {
 
 class DiagnosticsVisitor {
  public:
   virtual ~DiagnosticsVisitor() = default;
 
-  /// Whether to visit all fields, as for plan.json. Otherwise visits only a summary, without
-  /// points, histories and values derived from other fields.
+  /// Returns whether to visit all fields, as for plan.json. If false, only a summary is visited,
+  /// without points, histories and values derived from other fields.
   [[nodiscard]] virtual bool full() const = 0;
 
-  /// A number; plan.json has null if it is not finite.
+  /// Visits a number. In plan.json, a number that is not finite becomes null.
   virtual void Number(const char* name, double value) = 0;
   virtual void Integer(const char* name, std::int64_t value) = 0;
   virtual void Flag(const char* name, bool value) = 0;
@@ -72,21 +72,21 @@ class DiagnosticsVisitor {
   virtual void VisitList(const char* name, std::size_t size, const Element& element) = 0;
 };
 
-/// The diagnostics of one method: empty, or a value of any copyable struct that names its fields.
+/// The diagnostics of one method: empty, or any copyable struct that has a function `Visit`.
 ///
-/// Diagnostics that contain stations of the path may also have
+/// A struct that contains stations of the path may also have the function
 ///
 ///     void ReplaceStretch(MyDiagnostics& own, const Stations& replaced, double shift);
 ///
-/// The function is called when the path between two stations is replaced. Stations beyond are
-/// shifted by `shift` [m].
+/// When a stretch of the path is replaced, this function shifts the stations beyond the replaced
+/// stretch by `shift` [m].
 class MethodDiagnostics {
  public:
   MethodDiagnostics() = default;
 
   template <typename Struct>
   requires(!std::is_same_v<std::decay_t<Struct>, MethodDiagnostics>) MethodDiagnostics(
-      Struct own)  // NOLINT(google-explicit-constructor): stands for what it holds
+      Struct own)  // NOLINT(google-explicit-constructor): converts implicitly by design
       : value_(std::move(own)), visit_([](DiagnosticsVisitor& out, const std::any& value) {
           Visit(out, *std::any_cast<Struct>(&value));
         }) {
@@ -101,13 +101,13 @@ class MethodDiagnostics {
 
   [[nodiscard]] bool has_value() const { return value_.has_value(); }
 
-  /// Returns the struct if it is of this type; else null.
+  /// Returns the struct if its type is `Struct`; else null.
   template <typename Struct>
   [[nodiscard]] const Struct* As() const {
     return std::any_cast<Struct>(&value_);
   }
 
-  /// Returns the struct. InternalError if it is of another type.
+  /// Returns the struct. Throws InternalError if the type of the struct is not `Struct`.
   template <typename Struct>
   [[nodiscard]] const Struct& Get() const {
     TRACKBED_CHECK(As<Struct>() != nullptr, "diagnostics of another method: {}",

@@ -10,9 +10,10 @@
 /// A grid of square cells, free or occupied, for searches in the plane.
 namespace trackbed {
 
-/// A grid of cells in rows along its x axis. Cells outside of the grid are not free.
+/// A grid of square cells in rows along the x axis of the grid. Cells outside of the grid are not
+/// free.
 struct OccupancyGrid {
-  Pose2 X_WG;         ///< Pose of the middle of cell 0; x along the columns, y along the rows.
+  Pose2 X_WG;         ///< Pose of the middle of cell 0. Columns count along x, rows along y.
   double cell = 1.0;  ///< Side of a cell [m], > 0.
   int columns = 0;
   int rows = 0;
@@ -20,10 +21,11 @@ struct OccupancyGrid {
 
   [[nodiscard]] std::size_t size() const { return occupied.size(); }
 
-  /// The middle of a cell, in world coordinates.
+  /// Returns the middle of a cell in world coordinates [m].
   [[nodiscard]] Vec2 CellCenter(std::size_t index) const;
 
-  /// The cell that contains a point of the world; -1 if the point is outside.
+  /// Returns the index of the cell that contains a point of the world; -1 if the point is outside
+  /// of the grid.
   [[nodiscard]] int CellAt(const Vec2& point_W) const;
 };
 
@@ -33,21 +35,21 @@ struct GridArea {
   Vec2 high{0.0, 0.0};  ///< Upper corner [m].
 };
 
-/// The smallest area, aligned with `X_WF`, that contains all points and boxes with a margin of
-/// `margin` [m].
+/// Returns the smallest rectangle along the axes of the frame F that contains all points and boxes,
+/// with a margin of `margin` [m].
 GridArea AreaAround(const Pose2& X_WF, const std::vector<Vec2>& points_W,
                     const std::vector<OrientedBox>& boxes_W, double margin);
 
 /// The maximum number of cells of a grid.
 inline constexpr double kMaxCells = 2e7;
 
-/// The number of cells that cover an area.
+/// Returns the number of cells with the side `cell` [m] that cover an area.
 double CellsIn(const GridArea& area, double cell);
 
 /// Makes a grid over an area of the frame X_WF, with the middle of a cell at the frame's origin. A
-/// cell is occupied when its middle is at most `inflation` [m] from a box. The cost is proportional
-/// to the number of cells in the inflated boxes. InternalError for more than kMaxCells cells,
-/// PreconditionError for boxes that are not finite.
+/// cell is occupied if its middle is at most `inflation` [m] away from a box. The computing time is
+/// proportional to the number of cells in the inflated boxes. Throws InternalError for more than
+/// kMaxCells cells, PreconditionError for boxes that are not finite.
 OccupancyGrid Rasterize(const Pose2& X_WF, const GridArea& area, double cell,
                         const std::vector<OrientedBox>& boxes_W, double inflation);
 

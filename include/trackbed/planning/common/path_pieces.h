@@ -6,7 +6,7 @@
 #include "trackbed/path/path.h"
 #include "trackbed/vehicle/params.h"
 
-/// Steering demands of a path, piece by piece.
+/// Computes the steering that a path demands, piece by piece.
 namespace trackbed {
 
 /// A short piece of a path, and its largest steering demands.
@@ -16,11 +16,12 @@ struct PathPiece {
   double slope = 0.0;      ///< Largest |d delta/ds| [rad/m] while the curvature is continuous.
 };
 
-/// The slope |d delta/ds| of the steering [rad/m]: L |kappa'|/(1 + (L kappa)^2).
+/// Returns the slope |d delta/ds| of the steering angle over the station [rad/m]: L |kappa'|/(1 +
+/// (L kappa)^2).
 double SteeringSlope(const VehicleParams& vehicle, double curvature, double sharpness);
 
-/// Calls `call` for equal pieces of at most `spacing` [m] of each segment. Short segments are thus
-/// included.
+/// Divides each segment of the path into equal pieces of at most `spacing` [m], and calls `call`
+/// for each piece. A segment shorter than `spacing` is one piece.
 template <typename Call>
 void ForEachPiece(const Path& path, const VehicleParams& vehicle, double spacing,
                   const Call& call) {

@@ -14,8 +14,8 @@ namespace trackbed {
 
 struct Plan;
 
-/// The side on which a path passes an obstacle: toward the center of the turn, or away from it. On
-/// a straight, the inner side is the left one.
+/// The side on which a path passes an obstacle: the inner side is toward the center of the turn,
+/// the outer side away from the center. On a straight, the inner side is the left side.
 enum class PassingSide { kInner, kOuter };
 
 /// Returns "inner" or "outer".
@@ -35,24 +35,25 @@ struct AvoidedStretch {
   double steering_rate_max = 0.0;         ///< Largest steering rate at `speed` [rad/s].
   double lateral_acceleration_max = 0.0;  ///< Largest lateral acceleration at `speed` [m/s^2].
   std::vector<Vec2> control_points;       ///< Control points of the Bezier curve [m].
-  /// Errors at the end of the stretch, if the kinematic car drives the stretch open loop.
-  double end_distance = 0.0;       ///< Distance from the path's point [m].
-  double end_heading_error = 0.0;  ///< Heading of the car minus that of the path [rad].
+  /// Errors of the kinematic car at the end of the stretch, if it drives the stretch open loop.
+  double end_distance = 0.0;       ///< Distance of the car from the end of the stretch [m].
+  double end_heading_error = 0.0;  ///< Heading of the car minus heading of the path [rad].
 };
 void Visit(DiagnosticsVisitor& out, const AvoidedStretch& stretch);
 
-/// How a plan was found, and what it requires of an open-loop run. Diagnostics are not needed to
-/// drive the plan.
+/// Describes how a plan was found, and how a car would drive the plan open loop. Diagnostics are
+/// not needed to drive the plan.
 struct PlanDiagnostics {
   MethodDiagnostics planner;  ///< Diagnostics of the planner, such as RrtDiagnostics.
   /// Diagnostics of the turns of an open-loop schedule: FilletTurnFindings.
   std::vector<MethodDiagnostics> turns;
   std::optional<std::vector<RoundCorner>> corners;  ///< Rounded corners.
   std::optional<std::size_t> direction_changes;     ///< Number of cusps on the path.
-  std::optional<double> stop_distance;   ///< Distance D_end of the schedule, if it has one [m].
-  std::optional<OpenLoopRun> open_loop;  ///< Run of the schedule with the kinematic car.
+  /// Distance D_end at which the car stops in an open-loop run [m]; none: not planned.
+  std::optional<double> stop_distance;
+  std::optional<OpenLoopRun> open_loop;  ///< Simulated open-loop run of the kinematic car.
   std::vector<AvoidedStretch> avoided;   ///< Stretches that were replaced to pass obstacles.
-  /// Findings on the speeds, if they are at the limit.
+  /// Findings on the plan's speeds, if the plan has speeds at the car's limit.
   std::optional<LimitProfileFindings> speed_profile;
   MethodDiagnostics replan;  ///< ReplanDiagnostics of a plan made during the run.
   long samples = 0;          ///< Number of random samples drawn in all trees.

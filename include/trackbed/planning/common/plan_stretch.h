@@ -4,28 +4,29 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// Stretches of a plan, shifted to the stations of another plan that contains them.
+/// Copies stretches of a plan into another plan, with shifted stations.
 namespace trackbed {
 
-/// The schedule's knots strictly between two distances, shifted by `shift`.
+/// Returns the schedule's knots that lie strictly between two distances, shifted by `shift` [m].
 std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
                                           double shift);
 
-/// The open-loop steering between two distances, with a knot at each end. Distances count from the
-/// first one.
+/// Returns the open-loop steering between two distances, with a knot at each end. The distances of
+/// the knots count from `within.from`.
 std::vector<SteeringSchedule::Knot> SteeringBetween(const SteeringSchedule& schedule,
                                                     Stations within);
 
-/// The parts of the caps that lie within two stations, shifted by `shift`.
+/// Returns the parts of speed caps that lie between two stations, shifted by `shift` [m].
 std::vector<SpeedCap> Moved(const std::vector<SpeedCap>& caps, Stations within, double shift);
 
-/// The turns that lie within two stations from the first ramp to the middle, shifted by `shift`.
+/// Returns the turns of which the part from the first ramp to the middle lies between two stations,
+/// shifted by `shift` [m].
 std::vector<IsolatedTurn> Moved(const std::vector<IsolatedTurn>& turns, Stations within,
                                 double shift);
 
-/// The segments between two stations, including the straight continuations before the start and
-/// beyond the end. A car that was pushed beyond an end of its path thus still has a path. Empty if
-/// nothing remains.
+/// Returns the segments of a path between two stations. The path continues straight before its
+/// start and beyond its end, so that a car that was pushed beyond an end still has a path. The
+/// result is empty if no segment remains.
 std::vector<Segment> SegmentsBetween(const Path& path, Stations within);
 
 template <typename T>
@@ -33,13 +34,14 @@ void Append(std::vector<T>& list, const std::vector<T>& more) {
   list.insert(list.end(), more.begin(), more.end());
 }
 
-/// The caps of a plan. For a plan at the car's limit, they are its speeds, as caps of at most 0.5
-/// m.
+/// Returns the speed caps of a plan. For a plan at the car's limit, these are the planned speeds,
+/// as caps on stretches of at most 0.5 m.
 std::vector<SpeedCap> CapsOf(const Plan& plan);
 
-/// The plan beyond `station`, with stations counted from there, starting at `start_speed` [m/s].
-/// The method's diagnostics of turns stay unchanged. A plan at the car's limit keeps its speeds; a
-/// slower car accelerates to these speeds with the limits' acceleration.
+/// Returns the part of a plan beyond `station`, for a car that is at `station` with `start_speed`
+/// [m/s]. The stations of the result count from `station`. The diagnostics of turns are copied
+/// unchanged. A plan at the car's limit keeps its speeds; a slower car accelerates to these speeds
+/// with the acceleration of `speed`.
 Plan RemainingPlan(const Plan& plan, double station, double start_speed, const SpeedLimits& speed);
 
 }  // namespace trackbed

@@ -13,9 +13,9 @@
 /// Functions shared by the planners that plan from stop to stop and avoid obstacles.
 namespace trackbed {
 
-/// The stops of a route with their headings: the car's start, then every waypoint except the first.
-/// Without given headings, the goal has the heading of the last leg. The heading of an intermediate
-/// waypoint points from the preceding stop to the next stop.
+/// Returns the stops of a route with their headings: the car's start, then every waypoint except
+/// the first. Without given headings, the goal has the heading of the last leg. The heading of an
+/// intermediate waypoint points from the preceding stop to the next stop.
 std::vector<Pose2> PlannedStops(const PlanRequest& request);
 
 namespace route {
@@ -26,35 +26,36 @@ Plan Refused(PlanStatus status, std::string reason);
 /// Checks the route. Returns a rejected plan if the route has a problem.
 Plan CheckRoute(const PlanRequest& request);
 
-/// Checks whether the car can turn on the requested radius, if one is given.
+/// Returns a rejected plan if a radius is requested on which the car cannot turn.
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
 
-/// Checks whether the car can stand at every stop.
+/// Returns a rejected plan if the car is too near to an obstacle at a stop.
 Plan CheckStops(const std::vector<Pose2>& stops, const CollisionChecker& clear);
 
-/// The radius for planning [m]: the requested radius, or 1.1 times the car's smallest one.
+/// Returns the radius for planning [m]: the requested radius, or 1.1 times the car's smallest
+/// radius.
 double RadiusFor(const VehicleParams& vehicle, const std::optional<double>& radius);
 
-/// Whether segments that begin at `pose` are clear.
+/// Returns whether the car is clear of obstacles along segments that begin at `pose`.
 bool IsFree(const CollisionChecker& clear, const Pose2& pose, const std::vector<Segment>& segments);
 
-/// The lead-in of a rolling car. The curves of the plan begin after the car has slowed down for the
+/// Computes the lead-in of a rolling car. The lead-in ends when the car has slowed down for the
 /// first step of curvature.
 LeadIn LeadInForCurves(const PlanRequest& request, double radius, double min_speed);
 
-/// Sets the members of a plan that follow from its path and caps.
+/// Sets the members of a plan that depend only on the path, the speed caps and the request.
 void Complete(Plan& plan, const PlanRequest& request);
 
 /// Completes a plan along arcs and straights.
 Plan AlongSegments(Plan plan, const PlanRequest& request, std::vector<Segment> segments,
                    double min_speed);
 
-/// Completes a plan along a polyline, whose corners are treated as `corners` specifies. The
-/// argument `plan` contains the diagnostics of the search.
+/// Completes a plan along a polyline. `corners` states how to treat the corners of the polyline.
+/// The argument `plan` contains the diagnostics of the search.
 Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
                    Corners corners, double safe_distance, double min_speed);
 
-// Keys shared by several of these planners.
+// Keys shared by several planners that plan from stop to stop.
 
 inline constexpr Key kFootprintDistance{"safe_distance", "m",
                                         "minimum distance of the car's footprint from obstacles"};

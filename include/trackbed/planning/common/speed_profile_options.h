@@ -9,9 +9,9 @@
 /// How to choose the speeds of a plan: the key mission.speed_profile.
 namespace trackbed {
 
-/// Constant accelerations: accelerates to the mission's speed with the acceleration of
-/// control.speed, and brakes with its deceleration. Slower where the car could not follow
-/// (feasibility.h).
+/// Constant accelerations: the car accelerates to the mission's speed with the acceleration in
+/// control.speed, and brakes with the deceleration in control.speed. The car drives more slowly
+/// where it could not follow the plan otherwise (feasibility.h).
 struct ConstantAccelerationOptions {};
 void Visit(KeyVisitor& keys, ConstantAccelerationOptions& options);
 
@@ -31,7 +31,7 @@ struct SpeedProfileEntry {
   SpeedProfileOptions defaults;
 };
 
-/// All methods for choosing the speeds.
+/// Returns all methods for choosing the speeds of a plan.
 const std::vector<SpeedProfileEntry>& SpeedProfiles();
 
 }  // namespace trackbed

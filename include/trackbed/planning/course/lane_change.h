@@ -8,7 +8,7 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/vehicle/params.h"
 
-/// The double lane changes of ISO 3888: three gates, and a path through them.
+/// Plans the double lane changes of ISO 3888: paths through three gates.
 ///
 /// Lengths and widths of the sections along the course, with w the car's width without mirrors.
 /// Sections 2 and 4 have no cones:
@@ -34,7 +34,8 @@ struct LaneChangePlannerOptions {
   LaneChangeStandard standard = LaneChangeStandard::kIso3888_1;
   Side first = Side::kLeft;  ///< Side on which section 3 lies.
   double lead_in = 30.0;     ///< Distance from the start to section 1 [m], > 0.
-  double lead_out = 20.0;    ///< Straight after section 5, before the car stops [m], > 0.
+  /// Length of the straight after section 5, before the car brakes [m], > 0.
+  double lead_out = 20.0;
   /// The rear axle leaves the middle of a gate at the distance `leave` before the gate's end [m].
   /// The rear axle reaches the middle of the next gate at the distance `join` after that gate's
   /// start [m]. Larger values lengthen the transition, which then bends less; the car comes nearer
@@ -44,34 +45,35 @@ struct LaneChangePlannerOptions {
 };
 void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options);
 
-/// The gates of a course whose section 1 begins at `start`, in the middle of its lane.
+/// Returns the gates of a course. `start` is the middle of the beginning of section 1.
 std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, double vehicle_width,
                                   const Pose2& start);
 
-/// The cones of a gate [m]: five along each edge, from end to end, with their inner sides on the
-/// edge.
+/// Returns the positions of the cones of a gate [m]: five cones along each edge, from end to end,
+/// with the inner sides of the cones on the edge.
 std::vector<Vec2> GateCones(const Gate& gate);
 
-/// The path from `start` along the middles of the gates. The transitions are y = h (10 u^3 - 15 u^4
-/// + 6 u^5). The curvature of a transition is continuous, 0 at both ends and at most 5.77
-/// h/length^2. The transitions are approximated by arcs of at most 0.1 m, whose curvature has steps
-/// of less than 6 m h/length^3. The path ends at the distance `lead_out` plus `stop` after the last
-/// gate.
+/// Computes the path from `start` along the middles of the gates. A transition to a gate with the
+/// lateral offset h is y = h (10 u^3 - 15 u^4 + 6 u^5), with u from 0 to 1. The curvature of a
+/// transition is continuous, 0 at both ends and at most 5.77 h/length^2. The transitions are
+/// approximated by arcs that are at most 0.1 m long. The curvature steps between these arcs by less
+/// than 6 m h/length^3. The path ends at the distance `lead_out` plus `stop` after the last gate.
 std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
                                     const std::vector<Gate>& gates, const Pose2& start,
                                     double stop);
 
-/// For each gate, the smallest distance [m] from a corner of the car's footprint to an edge, while
-/// the corner was between the gate's ends. Negative outside of the gate; infinite for a gate that
-/// no corner reached. The car moves straight between the poses of its rear axle.
+/// Returns, for each gate, the smallest distance [m] from a corner of the car's footprint to an
+/// edge, while the corner was between the gate's ends. The distance is negative if a corner was
+/// outside of the gate, and infinite if no corner reached the gate. The function assumes that the
+/// car moves straight between the given poses of its rear axle.
 std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
                                 const std::vector<Pose2>& poses);
 
-/// A gate of the course and the plan's margin to it.
+/// A gate of the course, and the margin of the planned path to this gate.
 struct GateFindings {
   Gate gate;
   std::vector<Vec2> cones;      ///< Positions of the cones [m].
-  double planned_margin = 0.0;  ///< Planned margin of GateMargins [m].
+  double planned_margin = 0.0;  ///< Margin of the planned path, see GateMargins [m].
 };
 void Visit(DiagnosticsVisitor& out, const GateFindings& own);
 
@@ -80,7 +82,7 @@ struct LaneChangeDiagnostics {
 };
 void Visit(DiagnosticsVisitor& out, const LaneChangeDiagnostics& own);
 
-/// The planner `lane_change`.
+/// Returns the planner `lane_change`.
 PlannerEntry LaneChangePlanner();
 
 }  // namespace trackbed

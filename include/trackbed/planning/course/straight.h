@@ -2,7 +2,7 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// A straight line, for tests of acceleration and braking.
+/// Plans a straight line, for tests of acceleration and braking.
 namespace trackbed {
 
 struct StraightOptions {
@@ -10,9 +10,9 @@ struct StraightOptions {
 };
 void Visit(KeyVisitor& keys, StraightOptions& options);
 
-/// The planner `straight`: a line from the start along its heading, with the mission's speed and a
-/// stop at its end. If the length is too short to reach that speed, the profile peaks below it. The
-/// planner ignores obstacles.
+/// Returns the planner `straight`, which plans a line from the start pose along its heading. The
+/// car drives at the mission's speed and stops at the end of the line. If the line is too short to
+/// reach the mission's speed, the car reaches a lower speed. The planner ignores obstacles.
 PlannerEntry StraightPlanner();
 
 }  // namespace trackbed

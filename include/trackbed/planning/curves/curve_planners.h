@@ -10,7 +10,7 @@
 /// Planners whose paths are the shortest curves between poses.
 namespace trackbed {
 
-/// Options of `dubins`: Dubins curves between the stops of a route (dubins.h).
+/// Options of the planner `dubins`, which joins the stops of a route by Dubins curves (dubins.h).
 struct DubinsOptions {
   std::optional<double> radius;  ///< Radius of every arc [m]; none: 1.1 times the car's smallest.
   double safe_distance = 0.3;    ///< Distance of the footprint from obstacles [m], >= 0.
@@ -18,7 +18,8 @@ struct DubinsOptions {
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);
 
-/// Options of `reeds_shepp` (reeds_shepp.h), with the same meaning as those of `dubins`.
+/// Options of the planner `reeds_shepp` (reeds_shepp.h). The options have the same meaning as the
+/// options of the planner `dubins`.
 struct ReedsSheppOptions {
   std::optional<double> radius;
   double safe_distance = 0.3;
@@ -26,9 +27,9 @@ struct ReedsSheppOptions {
 };
 void Visit(KeyVisitor& keys, ReedsSheppOptions& options);
 
-/// The curve from one stop to the next.
+/// Findings on the curve from one stop to the next.
 struct CurveFindings {
-  std::string word;     ///< Word of the curve, such as "LSR".
+  std::string word;     ///< Word of the curve, such as "L+S+R+".
   double length = 0.0;  ///< Length of the curve [m].
   double radius = 0.0;  ///< Radius of the arcs [m].
   /// Number of shorter curves rejected because of obstacles or the car's initial motion.

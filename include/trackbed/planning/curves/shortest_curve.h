@@ -17,23 +17,24 @@ enum class Bend : signed char { kRight = -1, kNone = 0, kLeft = 1 };
 
 struct CurvePiece {
   Bend bend = Bend::kNone;
-  double sweep = 0.0;  ///< Sweep: length/r, negative backwards.
+  double sweep = 0.0;  ///< Sweep length/r; negative for driving backwards.
 };
 
-/// A curve of up to five consecutive pieces: a word such as "LSR", or "L+R-L-". The curve ends
-/// within 1e-9 m of the requested pose, for distances up to 1e3 r.
+/// A curve of up to five consecutive pieces, described by a word such as "L+S+R+" or "L+R-L-". The
+/// curve ends within 1e-9 m of the requested pose, for distances up to 1e3 r.
 struct ShortestCurve {
   double radius = 1.0;  ///< Radius r [m].
   std::array<CurvePiece, 5> pieces{};
-  int count = 0;        ///< Number of pieces.
-  double length = 0.0;  ///< r times the sum of |sweep| [m]; infinite if there is no such curve.
+  int count = 0;  ///< Number of pieces.
+  /// Length r sum(|sweep|) of all pieces [m]; infinite if there is no such curve.
+  double length = 0.0;
 };
 
-/// The word of a curve: L, S or R for each piece whose length is not 0, followed by + forwards or -
-/// backwards.
+/// Returns the word of a curve. Each piece of a length other than 0 adds L, S or R, followed by +
+/// for forwards or - for backwards.
 std::string CurveWord(const ShortestCurve& curve);
 
-/// The pieces as segments of a path, without pieces shorter than 1e-12 r.
+/// Converts the pieces to segments of a path, without pieces shorter than 1e-12 r.
 std::vector<Segment> ToSegments(const ShortestCurve& curve);
 
 }  // namespace trackbed

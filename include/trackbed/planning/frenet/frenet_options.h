@@ -5,8 +5,8 @@
 
 #include "trackbed/options/key_visitor.h"
 
-/// The options of motions in the Frenet frame (frenet.h and lattice.h, which also define the
-/// symbols).
+/// The options for planning motions in the Frenet frame (frenet.h and lattice.h, which also define
+/// the symbols).
 namespace trackbed {
 
 struct FrenetWeights {
@@ -19,8 +19,8 @@ struct FrenetWeights {
   double k_st = 0.1;   ///< Weight of time in C_s [1/s].
   double k_lat = 1.0;  ///< Weight of the lateral cost C_d.
   double k_lon = 1.0;  ///< Weight of the longitudinal cost C_s.
-  /// Order of the derivative in the integrals. Order 3 is the jerk; order 2 is the acceleration, as
-  /// in the Frenet lecture.
+  /// Order of the derivative in the cost integrals. Order 3 is the jerk; order 2 is the
+  /// acceleration, as in the Frenet lecture.
   int derivative_order = 3;
 };
 void Visit(KeyVisitor& keys, FrenetWeights& weights);
@@ -32,10 +32,11 @@ struct FrenetLimits {
   /// Fraction by which v may exceed the speed limit: a car that keeps its speed along the path is
   /// faster while it moves sideways.
   double speed_tolerance = 0.05;
-  double max_lateral_acceleration = 3.0;    ///< Largest v^2 |kappa| [m/s^2].
-  double max_steering_rate_fraction = 1.0;  ///< Fraction of the car's steering rate.
-  double time_step = 0.2;                   ///< Time step of the first check [s], > 0.
-  double spacing = 0.1;  ///< Spacing of the last check and of the result's points [m], > 0.
+  double max_lateral_acceleration = 3.0;  ///< Largest v^2 |kappa| [m/s^2].
+  /// Largest steering rate, as a fraction of the car's limit.
+  double max_steering_rate_fraction = 1.0;
+  double time_step = 0.2;  ///< Time step of the first check of a motion [s], > 0.
+  double spacing = 0.1;    ///< Spacing of the points in the last check and in the result [m], > 0.
 };
 
 /// Width of the road on either side of the reference path [m], for the car's footprint.
@@ -44,17 +45,18 @@ struct RoadWidths {
   double right = std::numeric_limits<double>::infinity();
 };
 
-/// How the offset d varies. Over time, d needs motion. A function d of the station also suits a car
-/// that starts or stops.
+/// The variable of which the offset d is a function. If d is a function of time, the car must move.
+/// If d is a function of the station, the car may also start or stop.
 enum class LateralMotion {
-  /// Over the station if the motion begins or ends slower than `low_speed`, else over time.
+  /// The offset is a function of the station if the motion begins or ends slower than `low_speed`,
+  /// else of time.
   kAuto,
   kOverTime,
   kOverStation,
 };
 
-/// The end states to try. Each duration is combined with each offset, and with each speed factor
-/// (KeepSpeed) or each station offset (FollowLeader, StopAt).
+/// Options of PlanFrenet, including the end states to try. Each duration is combined with each
+/// offset, and with each speed factor (KeepSpeed) or each station offset (FollowLeader, StopAt).
 struct FrenetOptions {
   FrenetWeights weights;
   FrenetLimits limits;
@@ -62,14 +64,15 @@ struct FrenetOptions {
   /// Final offsets d(T) [m].
   std::vector<double> end_offsets{0.0,  0.5, -0.5, 1.0, -1.0, 1.5, -1.5, 2.0,
                                   -2.0, 2.5, -2.5, 3.0, -3.0, 3.5, -3.5};
-  std::vector<double> speed_factors{1.0, 0.9, 0.75, 0.5, 0.25};  ///< Final speeds s_t(T)/V_1, >= 0.
+  /// Final speeds, as factors s_t(T)/V_1, >= 0.
+  std::vector<double> speed_factors{1.0, 0.9, 0.75, 0.5, 0.25};
   /// Final station errors s(T) - S_1 [m].
   std::vector<double> station_offsets{0.0, -0.5, -1.0, -2.0, -4.0};
   LateralMotion lateral = LateralMotion::kAuto;
-  double low_speed = 2.0;  ///< Speed below which kAuto uses d over the station [m/s].
-  /// Time for which a motion must stay clear, continued at its final offset and speed [s]. Without
-  /// a horizon, cheap short motions would approach obstacles until it is too late for longer
-  /// motions.
+  double low_speed = 2.0;  ///< Speed below which kAuto makes d a function of the station [m/s].
+  /// Time for which a motion must stay clear of obstacles [s]. After its end, the motion continues
+  /// at its final offset and speed. Without a horizon, cheap short motions would approach obstacles
+  /// until it is too late for longer motions.
   double horizon = 8.0;
   int budget = 10000;  ///< Maximum number of candidates to check, >= 0.
 };
@@ -83,8 +86,8 @@ struct LatticeOptions {
   /// Offsets d_k of the nodes [m].
   std::vector<double> end_offsets{0.0, 0.5,  -0.5, 1.0,  -1.0, 1.5, -1.5,
                                   2.0, -2.0, 2.5,  -2.5, 3.0,  -3.0};
-  /// Speeds v_m of the nodes, relative to the goal's speed. If the goal is to stop, relative to the
-  /// limits' speed.
+  /// Speeds v_m of the nodes, relative to the goal's speed. For the goal StopAt, the speeds are
+  /// relative to the speed of the limits.
   std::vector<double> speed_factors{1.0, 0.75, 0.5};
   int budget = 100000;  ///< Maximum number of edges to check, >= 0.
 };

@@ -9,9 +9,10 @@ namespace trackbed {
 struct Polynomial {
   std::array<double, 6> coefficients{};
 
-  /// The derivative d^order x/dt^order at t, order 0 to 5. Cost: five multiplications at most.
+  /// Returns the derivative d^order x/dt^order at t, for an order from 0 to 5. Cost: five
+  /// multiplications at most.
   [[nodiscard]] double At(double t, std::size_t order = 0) const;
-  /// The integral of (d^order x/dt^order)^2 over [0, duration], in closed form.
+  /// Returns the integral of (d^order x/dt^order)^2 over [0, duration], in closed form.
   [[nodiscard]] double IntegralOfSquare(std::size_t order, double duration) const;
 
   bool operator==(const Polynomial&) const = default;
@@ -24,11 +25,11 @@ struct LineMotion {
   double acceleration = 0.0;
 };
 
-/// The motion between two states within `duration` > 0 with the smallest integral of the squared
-/// jerk.
+/// Returns the motion between two states within `duration` > 0 that has the smallest integral of
+/// the squared jerk.
 Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration);
 
-/// As QuinticBetween, with a free end position. The position of `to` is ignored.
+/// Same as QuinticBetween, but with a free end position. The position of `to` is ignored.
 Polynomial QuarticBetween(const LineMotion& from, const LineMotion& to, double duration);
 
 }  // namespace trackbed

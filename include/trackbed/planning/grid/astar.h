@@ -10,24 +10,24 @@
 /// search ignores the heading and the turning circle of a car.
 ///
 /// Symbols: g(n) cost of the best known path to cell n, h(n) octile distance from n to the goal,
-/// both in cells. A straight move costs 1, a diagonal one sqrt(2). Diagonal moves need both
-/// adjacent cells free.
+/// both in cells. A straight move costs 1, a diagonal one sqrt(2). A diagonal move is allowed only
+/// if both cells beside it are free.
 namespace trackbed {
 
-/// The cost of a path without obstacles: max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|). The
-/// octile distance never exceeds the true cost (admissible), and h(m) <= c(m, n) + h(n) for
-/// neighbors m, n (consistent).
+/// Returns the cost of the cheapest path over `dx` columns and `dy` rows without obstacles:
+/// max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|). The octile distance never exceeds the true cost
+/// (admissible), and h(m) <= c(m, n) + h(n) for neighbors m, n (consistent).
 double OctileDistance(int dx, int dy);
 
 enum class GridStatus {
   kFound,
   kStartOccupied,
   kGoalOccupied,
-  kUnreachable,   ///< All reachable cells have been expanded, without reaching the goal.
-  kBudgetUsedUp,  ///< The budget was used up before the goal was reached.
+  kUnreachable,   ///< The search expanded all reachable cells without reaching the goal.
+  kBudgetUsedUp,  ///< The search used up its budget before it reached the goal.
 };
 
-/// The spelling of a status in plan.json: "found", "start_occupied", ….
+/// Returns the spelling of a status in plan.json: "found", "start_occupied", ….
 const char* ToString(GridStatus status);
 
 struct GridPath {
@@ -40,12 +40,13 @@ struct GridPath {
   [[nodiscard]] bool ok() const { return status == GridStatus::kFound; }
 };
 
-/// Finds the cheapest path between two cells of the grid, expanding at most `budget` cells.
+/// Finds the cheapest path between two cells of the grid, expanding at most `budget` cells. Throws
 /// InternalError for cells outside of the grid. Cost: 30 ns per expanded cell.
 GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t goal,
                     long budget = std::numeric_limits<long>::max());
 
-/// The cost from every cell to `goal`, by Dijkstra's algorithm; infinite if there is no path.
+/// Computes the cost from every cell to `goal` by Dijkstra's algorithm. The cost is infinite if
+/// there is no path.
 std::vector<double> DistancesTo(const OccupancyGrid& grid, std::size_t goal);
 
 }  // namespace trackbed

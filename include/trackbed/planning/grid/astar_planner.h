@@ -8,11 +8,13 @@
 
 namespace trackbed {
 
-/// Options of A* from waypoint to waypoint (astar.h), with corners rounded or rejected (corners.h).
+/// Options of the planner that searches from waypoint to waypoint by A* (astar.h), and rounds or
+/// rejects corners (corners.h).
 struct AStarOptions {
   Corners corners = Corners::kRound;
   double safe_distance = 0.3;  ///< Distance of the footprint from obstacles [m], >= 0.
-  /// Additional distance in the search, for rounded corners [m], >= 0.
+  /// Additional distance from obstacles in the search, which leaves room for rounded corners [m],
+  /// >= 0.
   double corner_room = 1.0;
   double cell = 0.5;       ///< Side of a cell [m], > 0.
   double margin = 10.0;    ///< Margin of the search area around waypoints and obstacles [m].

@@ -12,15 +12,16 @@
 #include "trackbed/vehicle/params.h"
 
 /// Hybrid A* (Dolgov et al. 2008): a search over the poses that a car can drive through, forwards
-/// and backwards. Poses are continuous. Only the cheapest pose is kept for each cell of position
-/// and heading and each direction of travel.
+/// and backwards. The poses of the search are continuous. Only the cheapest pose is kept for each
+/// cell of position and heading and each direction of travel.
 ///
 /// Symbols: r radius of the sharpest arcs [m]; a step is an arc of curvature 0, +-1/(2r) or +-1/r.
 /// The cost of a path is its length [m], with reverse stretches weighted by `reverse_cost`. Every
 /// change of direction adds `switch_cost`. Every joint adds `steering_cost` times the change of
-/// curvature relative to 1/r. The estimate of the cost-to-go is the larger of two lengths. One is
-/// the shortest Reeds-Shepp curve. The other is the path on a grid around the obstacles, divided by
-/// 1.0824, the largest factor by which a grid path exceeds a straight line.
+/// curvature relative to 1/r. The estimate of the cost-to-go is the larger of two lengths. The
+/// first length is that of the shortest Reeds-Shepp curve. The second length is that of the
+/// shortest grid path around the obstacles, divided by 1.0824, the largest ratio of a grid path's
+/// length to that of a straight line.
 namespace trackbed {
 
 struct HybridAStarOptions {
@@ -34,7 +35,7 @@ struct HybridAStarOptions {
   /// most `weight` times the optimum.
   double weight = 2.0;
   double cell = 0.5;       ///< Side of a cell [m], > 0.
-  int headings = 72;       ///< Number of cells per full turn, >= 8.
+  int headings = 72;       ///< Number of heading cells per full turn, >= 8.
   double margin = 10.0;    ///< Margin of the search area around start, goal and obstacles [m].
   double min_speed = 0.3;  ///< Lowest speed at a step of curvature [m/s].
   int budget = 200000;     ///< Maximum number of expanded poses, >= 0.
@@ -60,13 +61,13 @@ struct HybridAStarResult {
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };
 
-/// Guarantees if ok: the path ends at the goal pose within 1e-9 m and rad. The last leg is a
-/// Reeds-Shepp curve, or a Dubins curve if reverse driving is not allowed. No curvature exceeds
-/// 1/r. The footprint is free (CollisionChecker). The same input gives the same result. The path is
-/// not globally optimal: it is the cheapest path that the cells distinguish and that ends with such
-/// a curve. If the budget is used up, returns the best path found so far. The status is kNoPath if
-/// all poses have been expanded. InternalError for options out of range. Cost: about 10 us per
-/// expansion.
+/// Guarantees for the status kOk: the path ends at the goal pose within 1e-9 m and rad. The last
+/// leg is a Reeds-Shepp curve, or a Dubins curve if reverse driving is not allowed. No curvature
+/// exceeds 1/r. The car's footprint is clear of all obstacles (CollisionChecker). The same input
+/// gives the same result. The path is not globally optimal: it is the cheapest path that the cells
+/// distinguish and that ends with a Reeds-Shepp or Dubins curve. If the budget is used up, returns
+/// the best path found so far. The status is kNoPath if all poses have been expanded. Throws
+/// InternalError for options out of range. Cost: about 10 us per expansion.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 
@@ -83,7 +84,7 @@ struct HybridAStarDiagnostics {
 };
 void Visit(DiagnosticsVisitor& out, const HybridAStarDiagnostics& own);
 
-/// The planner `hybrid_astar`.
+/// Returns the planner `hybrid_astar`.
 PlannerEntry HybridAStarPlanner();
 
 }  // namespace trackbed

@@ -6,8 +6,8 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/road_network/lane_route.h"
 
-/// The planner `lane_route`, along the centers of the lanes of a road network
-/// (road_network/lane_route.h).
+/// Plans along the centers of the lanes of a road network (road_network/lane_route.h): the planner
+/// `lane_route`.
 namespace trackbed {
 
 struct LaneRouteOptions {
@@ -23,9 +23,10 @@ struct LaneRouteDiagnostics {
 void Visit(DiagnosticsVisitor& out, const LaneStretch& stretch);
 void Visit(DiagnosticsVisitor& out, const LaneRouteDiagnostics& own);
 
-/// The planner for PlanRequest::lanes. Planning is in the plane: heights of roads are part of the
-/// ground (route_ground.h), and only affect speeds at the limit. The planner rejects a car that
-/// starts more than 1 mm or 1 mrad from the start of the route. The planner ignores obstacles.
+/// Returns the planner `lane_route`, which follows PlanRequest::lanes. The planner works in the
+/// plane: heights of roads are part of the ground (route_ground.h), and only affect speeds at the
+/// car's limit. The planner rejects a car that starts more than 1 mm or 1 mrad from the start of
+/// the route. The planner ignores obstacles.
 PlannerEntry LaneRoutePlanner();
 
 }  // namespace trackbed

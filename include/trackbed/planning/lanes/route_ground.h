@@ -27,10 +27,11 @@ struct RouteGround {
 /// from points every 0.5 m (Terrain). The ground is accurate to 1 mm if elevation and
 /// superelevation are smooth. Kinks and steps are rounded over half a meter. `deviation` is
 /// measured every 0.15 m along the centers and borders of the driven lanes, and is at most 1 cm.
-/// The surface extends 1.5 m beyond the lanes, and blends over another 8 m into smooth ground
+/// The road surface extends 1.5 m beyond the lanes, and blends over another 8 m into smooth ground
 /// between the roads. About 100 m from the route, the ground becomes level, a meter below the
-/// lowest road. Before its first and after its last place, the route's road continues for 15 m. If
-/// the road ends there, it continues straight for 6 m.
+/// lowest road. Before the first place and beyond the last place of the route, the ground follows
+/// the road for another 15 m. If the road ends within this distance, its surface continues straight
+/// for 6 m.
 ///
 /// Only roads of the route have heights, over the stations that the route needs. The other roads
 /// lie on the smooth ground, regardless of their heights. A route may pass above or below other

@@ -9,21 +9,22 @@
 #include "trackbed/path_files/path_map.h"
 #include "trackbed/planning/common/planner.h"
 
-/// Plans along a path from another program.
+/// Plans along a path that another program has made.
 namespace trackbed {
 
 enum class PathSpeeds {
-  kMission,  ///< The mission's speed.
-  kFile,     ///< Speeds of the points, limited by the mission and the car.
+  kMission,  ///< The car drives at the mission's speed.
+  kFile,     ///< The car drives at the speeds of the points, limited by the mission and the car.
 };
 
-/// Options of `path_file`. `path` is fitted by ReadScenario from the file, or by a program with
-/// FitPath from points. The members other than `speeds` and `notes` describe the origin of the
-/// path; changing them does not change the path.
+/// Options of the planner `path_file`. ReadScenario fits `path` to the points of the file. A
+/// program can make `path` from points with FitPath. The members other than `speeds` and `notes`
+/// describe the origin of the path; changing them does not change the path.
 struct PathFileOptions {
   std::string file;
   PathMap map;
-  /// Position of the given points on the car's axis, ahead of the rear axle [m].
+  /// The given points are the path of a point on the car's axis, at the distance `ahead` in front
+  /// of the rear axle [m].
   double ahead = 0.0;
   PathFitOptions fit;
   PathSpeeds speeds = PathSpeeds::kMission;
@@ -43,10 +44,10 @@ struct PathFileDiagnostics {
   double bulge = 0.0;
   double bulge_station = 0.0;     ///< Approximate station of the bulge [m].
   double smoothing_length = 0.0;  ///< Smoothing length of the spline; 0 without a spline [m].
-  /// Largest difference between the file's headings and the path's [rad].
+  /// Largest difference between the headings of the file and of the path [rad].
   double heading_difference = 0.0;
   std::size_t heading_jumps = 0;  ///< Number of corners of a polyline.
-  double heading_jump_max = 0.0;  ///< Largest corner of a polyline [rad].
+  double heading_jump_max = 0.0;  ///< Largest heading jump at a corner of a polyline [rad].
 };
 void Visit(DiagnosticsVisitor& out, const PathFileDiagnostics& own);
 PathFileDiagnostics DiagnosticsOf(const FittedPath& fitted);
@@ -54,9 +55,9 @@ PathFileDiagnostics DiagnosticsOf(const FittedPath& fitted);
 /// Describes the fit in one line: "spline within 0.049 m of 120 points, smoothing length 3.1 m".
 std::string Describe(const FittedPath& fitted);
 
-/// The planner `path_file`. The plan follows the given path from the first point and ignores
-/// obstacles. The status is kTurnTooTight if a polyline's heading jumps, unless the request allows
-/// infeasible plans. The status is kNoPath without a path.
+/// Returns the planner `path_file`. The plan follows the given path from the first point and
+/// ignores obstacles. The status is kTurnTooTight if a polyline's heading jumps, unless the request
+/// allows infeasible plans. If there is no path, the status is kNoPath.
 PlannerEntry PathFilePlanner();
 
 }  // namespace trackbed

@@ -2,13 +2,13 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// Laps along the surveyed middle of a track (PlanRequest::on_track), planned by FollowLine.
+/// Plans laps along the surveyed middle of a track (PlanRequest::on_track), with FollowLine.
 namespace trackbed {
 
 struct CenterLineOptions {};
 void Visit(KeyVisitor& keys, CenterLineOptions& options);
 
-/// The planner `center_line`.
+/// Returns the planner `center_line`.
 PlannerEntry CenterLinePlanner();
 
 }  // namespace trackbed

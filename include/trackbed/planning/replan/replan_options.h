@@ -11,8 +11,8 @@
 /// The options of replanning (replan.h, along_route.h).
 namespace trackbed {
 
-/// The method that finds motions: PlanFrenet or PlanLattice. The safe distance of these options is
-/// ignored; that of AlongSettings applies.
+/// The method that finds motions: PlanFrenet or PlanLattice. The safe distance in these options is
+/// ignored; AlongSettings::safe_distance applies.
 using AlongOptions = std::variant<FrenetOptions, LatticeOptions>;
 
 struct AlongSettings {
@@ -20,8 +20,8 @@ struct AlongSettings {
   RoadWidths road;
   double gap = 3.0;       ///< Gap to an obstacle ahead, between the bumpers at rest [m].
   double time_gap = 1.5;  ///< Additional gap to a moving obstacle ahead [s].
-  /// Time for which the way must be clear, with the motion continued after its end [s]. A longer
-  /// horizon of the method takes precedence.
+  /// Time for which the way must be clear [s], on the motion and on its continuation. If the
+  /// horizon of the method is longer, that horizon applies.
   double look_ahead = 12.0;
 };
 
@@ -35,12 +35,14 @@ void Visit(KeyVisitor& keys, DetourChoice& choice);
 
 struct ReplanOptions {
   double period = 0.5;  ///< Time between two checks [s], > 0.
-  /// Settings of motions. The look-ahead also applies, at the planned speeds, to plans that are
-  /// kept.
+  /// Settings of motions. The current plan, at its planned speeds, is also checked over the
+  /// look-ahead of these settings.
   AlongSettings settings;
   std::optional<AlongOptions> along;
-  std::optional<PlannerOptions> detour;      ///< Planner of detours, which must fit PlanDetour.
-  std::optional<DetourChoice> comparator{};  ///< Choice of a detour; none: the defaults.
+  /// Planner of detours, which must meet the requirements of PlanDetour.
+  std::optional<PlannerOptions> detour;
+  /// Settings for choosing a detour; none: the defaults.
+  std::optional<DetourChoice> comparator{};
 };
 void Visit(KeyVisitor& keys, ReplanOptions& options);
 

@@ -12,7 +12,7 @@
 /// budget. If the budget is used up, the path ends at the node nearest to the goal.
 namespace trackbed {
 
-/// Start, goal and obstacles of a path.
+/// The problem of finding a path: start, goal and obstacles.
 struct RrtProblem {
   Vec2 start{0.0, 0.0};  ///< Start of the path [m].
   Vec2 goal{0.0, 0.0};   ///< Goal of the path [m].
@@ -24,28 +24,29 @@ struct RrtProblem {
 
 struct RrtOptions {
   int iterations = 5000;  ///< Maximum number of samples, >= 0.
-  /// Maximum distance from the nearest node toward a sample [m], > 0. Nodes within this distance of
-  /// the goal also try to reach the goal.
+  /// Maximum distance of a new node from the nearest node, toward a sample [m], > 0. From a node
+  /// within this distance of the goal, the search also tries to reach the goal.
   double expand_distance = 2.0;
-  double goal_bias = 0.05;  ///< Fraction of samples at the goal, 0 to 1; 0 in wind-aware RRT.
-  /// Called before every iteration; may be empty. The result true ends the search, for example at a
-  /// time limit. Planners read no clock themselves.
+  /// Fraction of samples at the goal, 0 to 1; the original wind-aware RRT uses 0.
+  double goal_bias = 0.05;
+  /// Function that the search calls before every iteration; may be empty. If the function returns
+  /// true, the search ends, for example at a time limit. Planners read no clock themselves.
   std::function<bool()> stop;
 };
 
 enum class RrtStatus {
   kReached,  ///< The path ends at the goal.
-  /// All samples are drawn. The path ends at the node nearest to the goal.
+  /// All samples were drawn. The path ends at the node nearest to the goal.
   kIterations,
   /// The caller ended the search. The path ends at the node nearest to the goal.
   kStopped,
-  /// The start lies within the inflation of an obstacle. There is no path.
+  /// The start lies within the inflation of an obstacle, so that there is no path.
   kStartBlocked,
-  /// The goal lies within the inflation of an obstacle. There is no path.
+  /// The goal lies within the inflation of an obstacle, so that there is no path.
   kGoalBlocked,
 };
 
-/// The spelling of a status in plan.json: "reached", "iterations", ….
+/// Returns the spelling of a status in plan.json: "reached", "iterations", ….
 const char* ToString(RrtStatus status);
 
 /// A node of the tree. The first node is the start, which is its own parent.
@@ -67,10 +68,10 @@ struct RrtResult {
 /// Plans a path. Guarantees: every edge, including the last one to the goal, is farther than the
 /// inflation from every obstacle over its whole length. Edges are no longer than the expand
 /// distance. The same problem, options and seed give the same tree. A run with more iterations
-/// starts like a run with fewer. The result is the first path found: it is not the shortest
-/// (RrtStar), has corners, and ignores headings. Errors: InternalError for a start or goal outside
-/// the box, or for options out of range. Cost: O(log n + obstacles) per iteration, about 1 us plus
-/// 20 ns per obstacle.
+/// starts like a run with fewer iterations. The result is the first path found, not the shortest
+/// path (see PlanRrtStar). The path has corners and ignores headings. Errors: InternalError for a
+/// start or goal outside the box, or for options out of range. Cost: O(log n + obstacles) per
+/// iteration, about 1 us plus 20 ns per obstacle.
 RrtResult PlanRrt(const RrtProblem& problem, const RrtOptions& options, std::uint64_t seed);
 
 }  // namespace trackbed

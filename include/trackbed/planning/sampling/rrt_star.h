@@ -10,11 +10,11 @@
 #include "trackbed/planning/common/plan.h"
 
 /// RRT* (Karaman and Frazzoli 2011) for a point in the plane: a tree of straight edges that grows
-/// toward uniform samples. Each new node is connected to its cheapest neighbor. Neighbors are then
-/// reconnected through the new node if that is cheaper.
+/// toward uniform samples. Each new node is connected to the neighbor through which its cost is
+/// lowest. Neighbors are then reconnected through the new node if that lowers their cost.
 namespace trackbed {
 
-/// Start, goal and obstacles of a path.
+/// The problem of finding a path: start, goal and obstacles.
 struct RrtStarProblem {
   Vec2 start{0.0, 0.0};  ///< Start of the path [m].
   Vec2 goal{0.0, 0.0};   ///< Goal of the path [m].
@@ -26,27 +26,28 @@ struct RrtStarProblem {
 
 struct RrtStarOptions {
   int iterations = 2000;  ///< Number of samples, >= 0.
-  /// Maximum distance from the nearest node toward a sample [m]; 0: a fifth of the box's diagonal.
+  /// Maximum distance of a new node from the nearest node, toward a sample [m]; 0: a fifth of the
+  /// box's diagonal.
   double step = 0.0;
   double goal_bias = 0.05;  ///< Fraction of samples at the goal until the goal is reached, 0 to 1.
-  /// Whether to skip nodes that cannot shorten the path once the goal is reached (Gammell et al.
-  /// 2014). The distances of such a node from start and goal add up to at least the path's length.
-  /// The search is then several times faster, with an equally short path; the tree no longer covers
-  /// the box.
+  /// Whether to skip nodes that cannot shorten the path, once the goal is reached (Gammell et al.
+  /// 2014). A node cannot shorten the path if its distances from start and goal add up to at least
+  /// the length of the path. With this option, the search is several times faster and the path is
+  /// equally short, but the tree no longer covers the box.
   bool informed = false;
-  /// Called after every iteration; may be empty. The result true ends the search with the result so
-  /// far.
+  /// Function that the search calls after every iteration; may be empty. If the function returns
+  /// true, the search ends with the result so far.
   std::function<bool()> stop;
 };
 
 enum class RrtStarStatus {
-  kFound,         ///< Path and cost of the best path found.
-  kNotReached,    ///< The budget was used up before the goal was reached.
+  kFound,         ///< A path was found. The result contains the best path and its cost.
+  kNotReached,    ///< The search used up its budget before it reached the goal.
   kStartBlocked,  ///< The start lies within the inflation of an obstacle.
   kGoalBlocked,   ///< The goal lies within the inflation of an obstacle.
 };
 
-/// The spelling of a status in plan.json: "found", "not_reached", ….
+/// Returns the spelling of a status in plan.json: "found", "not_reached", ….
 const char* ToString(RrtStarStatus status);
 
 struct RrtStarResult {
@@ -60,13 +61,14 @@ struct RrtStarResult {
 };
 
 /// Plans a path. Guarantees: every edge of the tree is farther than the inflation from every
-/// obstacle, over its whole length. The cost of every node is the length of its path. A run with
-/// more iterations starts like a run with fewer, so that its cost is never higher. The same
-/// problem, options and seed give the same tree. The neighbors of a new node are its 1.1 x 12 e ln
-/// n nearest nodes, more than the 2^(d+1) e (1 + 1/d) ln n with which the k-nearest form converges
-/// to the optimum in d = 2 dimensions. The path is not smoothed; headings and curvature are
-/// ignored. Errors: InternalError for a start or goal outside the box or options out of range.
-/// Cost: O(neighbors), and O(neighbors x obstacles) for the edges, about 10 us per iteration.
+/// obstacle, over its whole length. The cost of every node is the length of the path from the start
+/// to the node. A run with more iterations starts like a run with fewer iterations, so that its
+/// cost is never higher. The same problem, options and seed give the same tree. The neighbors of a
+/// new node are its 1.1 x 12 e ln n nearest nodes, where n is the number of nodes. To converge to
+/// the optimum, k-nearest RRT* needs more than 2^(d+1) e (1 + 1/d) ln n neighbors, which is 12 e ln
+/// n in d = 2 dimensions. The path is not smoothed; headings and curvature are ignored. Errors:
+/// InternalError for a start or goal outside the box or options out of range. Cost: O(neighbors),
+/// and O(neighbors x obstacles) for the edges, about 10 us per iteration.
 RrtStarResult PlanRrtStar(const RrtStarProblem& problem, const RrtStarOptions& options,
                           std::uint64_t seed);
 

@@ -11,18 +11,20 @@
 
 namespace trackbed {
 
-/// Options of the planner `rrt_star`: RRT* from waypoint to waypoint (rrt_star.h), shortened by
-/// shortcuts that do not worsen it, with corners rounded or rejected (corners.h). If the straight
-/// line of a leg is free, the leg is that line, without a tree. Of several trees, the first whose
-/// path the car can drive is used. More iterations never lengthen a tree's path, but may lengthen
-/// or shorten the rounded path. The planner ignores wind and the headings of waypoints.
+/// Options of the planner `rrt_star`. The planner grows trees from waypoint to waypoint by RRT*
+/// (rrt_star.h), takes shortcuts that do not worsen the path, and rounds or rejects corners
+/// (corners.h). If the straight line to the next waypoint is free, the path follows that line,
+/// without a tree. The result is the path of the first tree whose path the car can drive. More
+/// iterations never lengthen the path of a tree, but may lengthen or shorten the rounded path. The
+/// planner ignores wind and the headings of waypoints.
 struct RrtStarPlannerOptions {
   Corners corners = Corners::kRound;
   double safe_distance = 0.3;  ///< Distance of the footprint from obstacles [m], >= 0.
-  /// Additional distance of the trees, for rounded corners [m], >= 0.
+  /// Additional distance of the trees from obstacles, which leaves room for rounded corners [m], >=
+  /// 0.
   double corner_room = 1.0;
-  double margin = 10.0;    ///< Margin of the sampled area around waypoints and obstacles [m].
-  double lead_in = 4.0;    ///< Maximum straight stretch at the start [m], >= 0; 0: none.
+  double margin = 10.0;  ///< Margin of the sampled area around waypoints and obstacles [m].
+  double lead_in = 4.0;  ///< Maximum length of a straight stretch at the start [m], >= 0; 0: none.
   double min_speed = 0.5;  ///< Lowest speed in a corner [m/s].
   int trees = 3;           ///< Maximum number of trees, > 0.
   int iterations = 5000;   ///< Number of samples for each leg of each tree, >= 0.
@@ -43,7 +45,7 @@ struct RrtStarLeg {
 };
 void Visit(DiagnosticsVisitor& out, const RrtStarLeg& leg);
 
-/// One of the trees, through all waypoints.
+/// Findings on one of the trees through all waypoints.
 struct RrtStarTreeFindings {
   PlanStatus status = PlanStatus::kOk;
   std::string reason;  ///< Reason of a failure; empty if ok.
@@ -51,9 +53,9 @@ struct RrtStarTreeFindings {
 void Visit(DiagnosticsVisitor& out, const RrtStarTreeFindings& own);
 
 struct RrtStarPlanDiagnostics {
-  /// Legs of the last tree, which is the chosen one if any is chosen.
+  /// Legs of the last tree, which is the chosen tree if any tree is chosen.
   std::vector<RrtStarLeg> legs;
-  std::vector<RrtStarTreeFindings> trees;  ///< Trees in order of planning.
+  std::vector<RrtStarTreeFindings> trees;  ///< Findings on the trees, in order of planning.
 };
 void Visit(DiagnosticsVisitor& out, const RrtStarPlanDiagnostics& own);
 
