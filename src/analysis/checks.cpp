@@ -9,9 +9,9 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// Checks of a verdict: metrics, requirements and differences between runs, with the wording of
-// their failures. CheckMetric looks a metric up by its path and compares it with a bound.
-// FailureMessage names the plant, the value, the bound, and the station and time of the value.
+// Checks metrics, requirements and differences between runs for a verdict, and words the failure
+// messages. CheckMetric looks a metric up by its path and compares it with a bound. FailureMessage
+// names the plant, the value, the bound, and the station and time of the value.
 namespace trackbed {
 namespace {
 
@@ -23,7 +23,7 @@ const Metric* Find(const std::vector<Metric>& metrics, const std::string& path) 
   return found == metrics.end() ? nullptr : &*found;
 }
 
-/// Reason why an existing metric was not measured in this run.
+/// Explains why the run has no value for the metric at `path`.
 std::string MissingMetricReason(const std::string& path, const std::vector<Metric>& metrics,
                                 const PlantMetrics& plant) {
   if (path.starts_with("turns[")) {
@@ -35,7 +35,7 @@ std::string MissingMetricReason(const std::string& path, const std::vector<Metri
   }
   std::vector<std::string> paths;
   for (const Metric& metric : metrics) {
-    // The first turn stands for all turns.
+    // Suggest only the metrics of the first turn, because all turns have the same metrics.
     if (!metric.path.starts_with("turns[") || metric.path.starts_with("turns[0]")) {
       paths.push_back(metric.path);
     }
@@ -51,8 +51,8 @@ std::optional<double> NumberIn(const MetricValue& value) {
   return number != nullptr ? std::optional(*number) : std::nullopt;
 }
 
-/// Value of a bound given as text. A bound that is JSON, such as "true" or "3", is parsed; other
-/// text is the bound itself.
+/// Converts a bound to JSON. A text that is valid JSON, such as "true" or "3", is parsed; any other
+/// text stays a text.
 ordered_json ParsedBound(const MetricValue& bound) {
   const auto* text = std::get_if<std::string>(&bound);
   const ordered_json parsed =
@@ -86,7 +86,7 @@ std::string Where(const MetricPlace& at) {
   return "";
 }
 
-/// Bound and value as text, with enough digits to look different.
+/// Formats the bound and the measured value, with enough digits that the two texts differ.
 std::pair<std::string, std::string> NumbersApart(const Check& check) {
   return FormatDistinct(NumberIn(check.bound).value_or(0.0), NumberIn(check.value).value_or(0.0));
 }
@@ -254,7 +254,7 @@ std::string FailureMessage(const Check& check) {
         return fmt::format("did not {}: {} at s = {:.4g} m, t = {:.4g} s{}", check.name,
                            ToText(check.value), check.at.s, check.at.t, check.detail);
       case CheckReason::kNoContact:
-        return "";  // a failure of this kind is reported by kArrival
+        return "";  // no message, because the check kArrival already reports the contact
       case CheckReason::kCorridor:
         return CorridorMessage(check);
       case CheckReason::kOverspeed:

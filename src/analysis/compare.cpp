@@ -16,17 +16,18 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/record.h"
 
-// Compares two runs at equal station. Traces are interpolated linearly at every station where a run
-// has a row and both runs have been. Gaps in the logs of recorded runs are skipped. Differences are
-// the second run minus the first. The rms is the exact integral over arc length of the piecewise
-// linear difference. The maximum of the difference is taken over the rows.
+// Compares two runs at equal stations. Both traces are interpolated linearly at every station where
+// either run has a log row, within the stations that both runs cover. Gaps in the logs of recorded
+// runs are skipped. A difference is the value of the second run minus the value of the first run.
+// The rms difference comes from the exact integral of the squared, piecewise linear difference over
+// arc length. The maximum difference is taken over the compared stations.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Position of a station between two rows of a trace: fraction `share` from row `before` to the
-/// next.
+/// Position of a station between two rows of a trace: the fraction `share` of the way from row
+/// `before` to the next row.
 struct Place {
   std::size_t before = 0;
   double share = 0.0;
@@ -50,7 +51,7 @@ Pose2 PoseIn(const Trace& trace, const Place& place) {
           std::lerp(a.yaw, b.yaw, place.share)};
 }
 
-/// Difference of the second run minus the first at one station.
+/// Difference between two runs at one station: the second run minus the first run.
 struct RowDifference {
   double s = 0.0;
   double first_t = 0.0;
@@ -62,13 +63,14 @@ struct RowDifference {
   bool after_gap = false;  // whether a gap in the compared stations precedes this row
 };
 
-/// Whether the place lies outside the gaps of a recorded run.
+/// Returns whether the station `place` lies outside the gaps of a recorded run.
 bool IsValid(const Trace& trace, const Place& place) {
   return trace.valid.empty() || ((place.share >= 1.0 || trace.valid[place.before]) &&
                                  (place.share <= 0.0 || trace.valid[place.before + 1]));
 }
 
-/// Differences at every station where either run has a row, within the range that both cover.
+/// Computes the differences at every station where either run has a log row, within the range of
+/// stations that both runs cover.
 std::vector<RowDifference> DifferencesAtRows(const Trace& first, const Trace& second) {
   if (first.station.size() < 2 || second.station.size() < 2) {
     return {};
@@ -108,8 +110,8 @@ std::vector<RowDifference> DifferencesAtRows(const Trace& first, const Trace& se
   return all;
 }
 
-/// Maximum and rms of a quantity over arc length. `of` returns the quantity as a vector; the
-/// quantity is linear between rows.
+/// Computes the maximum and the rms of a quantity over arc length. The function `of` returns the
+/// quantity of a row as a vector. The quantity is assumed to be linear between rows.
 template <typename Of>
 Difference ComputeDifference(const std::vector<RowDifference>& rows, const Of& of) {
   Difference difference;
@@ -161,7 +163,8 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
     if (log.contact_time && state.time > *log.contact_time) {
-      break;  // from this row on, an obstacle pushes the car, so it is not driven
+      break;  // from this row on, an obstacle pushes the car, so the controller does not determine
+              // the motion
     }
     const bool projected = row.tracking && source == StationSource::kProjection;
     AddRow(trace, projected ? row.tracking->s : state.distance, state.time, state.pose,

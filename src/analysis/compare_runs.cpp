@@ -14,18 +14,18 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
-// Compares the plants of one run, or the plants of two finished runs, pairwise at equal station
+// Compares the plants of one run, or the plants of two finished runs, pairwise at equal stations
 // (compare.cpp). Plants of one run are compared with each other. Plants of two runs are compared by
 // name, unless two plants are given. Bounds come from the given tolerances and, within one run,
-// from expect.between; the tightest bound applies. The verdict also notes different end statuses,
-// different plans, and plants that only one run has.
+// from expect.between; the tightest bound applies. The verdict also notes if the runs end with
+// different statuses, have different plans, or have different plants.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// The expectations on a plant's end of run and cross-track error.
+/// Returns only the expectations on the end of a plant's run and on its cross-track error.
 PlantExpectation EndExpectations(const PlantExpectation& expect) {
   PlantExpectation end{.max_cross_track = expect.max_cross_track, .collision = expect.collision};
   std::copy_if(expect.metrics.begin(), expect.metrics.end(), std::back_inserter(end.metrics),
@@ -47,7 +47,7 @@ void Tighten(std::optional<double>& bound, const std::optional<double>& other) {
   }
 }
 
-/// The tightest of all bounds between plants `a` and `b`.
+/// Returns the tightest of all bounds on the differences between plants `a` and `b`.
 DifferenceBounds BoundsBetween(const Expectations& expect, const std::string& a,
                                const std::string& b) {
   DifferenceBounds bounds;
@@ -66,7 +66,7 @@ ComparedPair Pair(const Trace& first, const Trace& second, const DifferenceBound
   return {CompareTraces(first, second), bounds, DifferencesOverArcLength(first, second)};
 }
 
-/// Adds the checks of the pair to the verdict.
+/// Adds the checks of a compared pair of plants to the verdict.
 void Judge(const ComparedPair& pair, Verdict& verdict) {
   if (pair.bounds.any() || !pair.comparison.comparable()) {
     for (Check& check : CheckBounds(pair.bounds, pair.comparison)) {
@@ -116,7 +116,7 @@ FinishedRun ReadRun(const fs::path& folder, const std::string& name) {
   return run;
 }
 
-/// A pair of finished runs, with distinct names.
+/// Two finished runs to compare, with distinct names.
 struct Candidates {
   FinishedDrive first;
   FinishedDrive second;
@@ -171,7 +171,7 @@ std::vector<Candidates> AcrossTwo(const FinishedRun& first, const FinishedRun& s
   return pairs;
 }
 
-/// Notes the plants that only one of the two runs has.
+/// Adds a note to the verdict for each plant that only one of the two runs has.
 void NoteUnpairedPlants(const FinishedRun& first, const FinishedRun& second, Verdict& verdict) {
   for (const auto& [run, other] : {std::pair(&first, &second), std::pair(&second, &first)}) {
     std::vector<std::string> alone;
@@ -197,7 +197,7 @@ void RefuseTwice(const std::vector<std::string>& plants) {
   }
 }
 
-/// The path of plan.csv as a trace.
+/// Converts the path in plan.csv to a trace.
 Trace PathIn(const Table& plan) {
   Trace trace{.station = plan.Column("s_m")};
   const auto x = plan.Column("x_m");
@@ -210,7 +210,8 @@ Trace PathIn(const Table& plan) {
   return trace;
 }
 
-/// Tolerance for the rounding of another build [m], [rad], [m/s].
+/// Tolerance for rounding differences between plans from different builds of Trackbed [m, rad,
+/// m/s].
 constexpr double kRounding = 1e-6;
 
 bool HaveSameRows(const Table& first, const Table& second) {
@@ -227,7 +228,8 @@ bool HaveSameRows(const Table& first, const Table& second) {
   return true;
 }
 
-/// Notes if the two runs have different plans, since a comparison usually assumes a common plan.
+/// Adds a note to the verdict if the two runs have different plans, since a comparison usually
+/// assumes a common plan.
 void NoteOtherPlan(const FinishedRun& first, const FinishedRun& second, Verdict& verdict) {
   const fs::path plan_of_first = first.folder / run_folder::kPlanCsv;
   const fs::path plan_of_second = second.folder / run_folder::kPlanCsv;
@@ -398,7 +400,8 @@ void AddComparison(const RunComparison& comparison, const fs::path& folder, Resu
   Table table(columns);
   ordered_json json{{"status", comparison.status()}};
   for (const fs::path& run : comparison.runs) {
-    // The path is relative to the folder, however the run was named.
+    // Write the path of each run relative to the comparison's folder, even if the user gave an
+    // absolute path.
     json["runs"].push_back(fs::relative(run, folder).generic_string());
   }
   json["pairs"] = ordered_json::array();

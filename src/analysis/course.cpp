@@ -10,20 +10,21 @@
 namespace trackbed {
 namespace {
 
-/// Reference course: the circle or straight line on which the rear axle moves at one row, continued
-/// from that row.
+/// Reference course: the circle or straight line along which the rear axle moves at a given log
+/// row, extended beyond that row.
 class ConstantCurvatureCourse {
  public:
   ConstantCurvatureCourse(const VehicleParams& vehicle, const VehicleState& state, double length)
       : start_yaw_(state.pose.yaw), curvature_(MeasuredCurvature(state)) {
-    // The rear axle may slip, so the course follows its direction of motion and not its heading.
+    // The rear axle may slip sideways, so the course starts in the axle's direction of motion, not
+    // in the car's heading.
     const double lateral = state.lateral_speed - state.yaw_rate * vehicle.cg_to_rear;
     const double course = state.pose.yaw + std::atan2(lateral, state.speed);
     path_ = Path({state.pose.x, state.pose.y, course}, {{length, curvature_}});
   }
 
-  /// Distance of the car from the course. The heading of the car is relative to the initial
-  /// heading, turned along the course.
+  /// Projects the car onto the course. The heading error of the returned projection is the change
+  /// of the car's heading since the start, minus the heading change of the course.
   [[nodiscard]] Projection At(const VehicleState& state) {
     constexpr double kMaxRowDistance = 5.0;  // maximum distance between rows [m]
     Projection at =
@@ -33,7 +34,7 @@ class ConstantCurvatureCourse {
     return at;
   }
 
-  /// Yaw rate of a car that follows the course [rad/s].
+  /// Returns the yaw rate of a car that follows the course [rad/s].
   [[nodiscard]] double YawRate(const VehicleState& state) const { return curvature_ * state.speed; }
 
  private:
@@ -48,7 +49,7 @@ class ConstantCurvatureCourse {
   double station_ = 0.0;
 };
 
-/// Largest departures from the course so far.
+/// Largest lateral and heading deviations of the car from the reference course so far.
 struct Departure {
   double lateral = 0.0;
   double heading = 0.0;
@@ -72,9 +73,9 @@ std::vector<ManeuverMetric> MethodMetrics(const BrakingTestOptions& /*options*/)
 
 void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
               ManeuverMetrics& metrics) {
-  constexpr double kBraking = 0.5;      // Deceleration that is larger than holding a speed needs
-                                        // [m/s^2].
-  constexpr double kStandstill = 0.05;  // Below this speed the car stops within a millimeter [m/s].
+  constexpr double kBraking = 0.5;  // Commanded deceleration that counts as braking, larger than
+                                    // any needed to hold a speed [m/s^2].
+  constexpr double kStandstill = 0.05;  // Speed from which the car stops within a millimeter [m/s].
   const auto& rows = input.log.rows;
   std::size_t onset = 0;
   while (onset < rows.size() && rows[onset].command.acceleration > -kBraking) {
@@ -144,8 +145,8 @@ void Evaluate(const DisturbanceOptions& options, const ManeuverInput& input,
   const bool straight = !rows.front().tracking;
   Departure departure;
   double yaw_rate = 0.0;
-  std::optional<double> left;  // Time at which the departure first exceeds its bound [s].
-  double back = 0.0;           // Time at which the departure last returns below its bound [s].
+  std::optional<double> left;  // Time at which the yaw rate deviation first exceeds its bound [s].
+  double back = 0.0;  // Time at which the yaw rate deviation last returns below its bound [s].
   for (std::size_t i = from; i < rows.size(); ++i) {
     const VehicleState& state = rows[i].state;
     departure.Take(straight ? course.At(state) : *rows[i].tracking);

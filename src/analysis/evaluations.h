@@ -7,8 +7,8 @@
 #include "trackbed/analysis/metric_value.h"
 #include "trackbed/planning/common/plan.h"
 
-/// Functions used by EvaluateManeuver to evaluate maneuvers. Each evaluation fills in values,
-/// passed, missing, begin and end.
+/// Evaluates maneuvers for EvaluateManeuver. Each function Evaluate fills in the members values,
+/// passed, missing, begin and end of ManeuverMetrics.
 namespace trackbed {
 
 /// A value measured in a maneuver. Each maneuver lists its metrics next to its evaluation.

@@ -17,16 +17,19 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// Converts the index of a byte into line and column, all counted from 1.
+/// Converts the position of a byte in a text to a line and a column. Byte, line and column are
+/// counted from 1.
 std::pair<int, int> Position(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
-  const std::size_t line_begin = before.rfind('\n') + 1;  // the index is 0 in the first line
+  // In the first line, rfind returns npos, and npos + 1 is 0.
+  const std::size_t line_begin = before.rfind('\n') + 1;
   return {1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
           1 + static_cast<int>(before.size() - line_begin)};
 }
 
-/// The part of an error message of nlohmann::json after `mark`. After() skips number and position
-/// in "[json.exception.parse_error.101] parse error at line 1, column 2: unexpected end of input".
+/// Returns the part of an nlohmann::json error message after `mark`. After() thereby removes error
+/// number and position from messages such as "[json.exception.parse_error.101] parse error at line
+/// 1, column 2: unexpected end of input".
 std::string_view After(std::string_view mark, std::string_view said) {
   const std::size_t place = said.find(mark);
   return place == std::string_view::npos ? said : said.substr(place + mark.size());
@@ -55,7 +58,7 @@ ordered_json ParseJsonOf(const std::string& file, std::string_view text) {
     throw InputError(
         Problem{file, line, column, "", fmt::format("not JSON: {}", After(": ", error.what()))});
   } catch (const nlohmann::json::exception& error) {
-    // The error is a number beyond the range of double.
+    // nlohmann::json throws this exception for a number beyond the range of a double.
     throw InputError(
         Problem{.file = file, .message = fmt::format("not JSON: {}", After("] ", error.what()))});
   }
@@ -67,7 +70,7 @@ std::string JsonText(const ordered_json& json) {
 
 namespace {
 
-/// Describes a value for a message.
+/// Describes a JSON value for an error message.
 std::string Describe(const ordered_json& json) {
   constexpr std::size_t kMaxShownLength = 60;
   if (json.is_object()) {
@@ -180,7 +183,7 @@ std::optional<double> JsonValue::NumberOrNull() const {
 }
 
 std::uint64_t JsonValue::Count(std::uint64_t max) const {
-  // A number that the parser read as negative is not an unsigned number.
+  // Rejects negative numbers, which nlohmann::json stores as signed numbers.
   if (!json_->is_number_integer() ||
       (!json_->is_number_unsigned() && json_->get<std::int64_t>() < 0) ||
       json_->get<std::uint64_t>() > max) {

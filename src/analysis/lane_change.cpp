@@ -15,10 +15,9 @@ namespace trackbed {
 
 namespace {
 
-/// ISO 3888: no corner of the footprint may leave a gate.
-constexpr StandardLimit kInsideGates{StandardLimit::Relation::kAtLeast, 0.0};  // Smallest distance
-                                                                               // from a gate's edge
-                                                                               // [m].
+/// Limit of ISO 3888 for the smallest distance from a gate's edge [m]: no corner of the footprint
+/// may leave a gate.
+constexpr StandardLimit kInsideGates{StandardLimit::Relation::kAtLeast, 0.0};
 
 }  // namespace
 
@@ -38,7 +37,8 @@ void Evaluate(const LaneChangeOptions&, const ManeuverInput& input, ManeuverMetr
     metrics.missing = "the plan has no gates";
     return;
   }
-  // Distance of the foremost corner, along the course, from the line across one end of a gate.
+  // Returns the position of the car's foremost corner along the gate, relative to the gate's center
+  // [m].
   const auto foremost = [&](const LogRow& row, const Gate& gate) {
     double x = -std::numeric_limits<double>::infinity();
     for (const Vec2& corner : FootprintAt(input.vehicle, row.state.pose).Corners()) {

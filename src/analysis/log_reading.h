@@ -5,10 +5,12 @@
 
 #include "trackbed/drive/run_log.h"
 
-/// Functions that interpolate the quantities of a log. `of` maps a row of the log to the quantity.
+/// Interpolates quantities of a log. The argument `of` is a function that returns the quantity of a
+/// log row.
 namespace trackbed {
 
-/// The quantity at `time` [s]: linear between rows, constant before the first and after the last.
+/// Interpolates the quantity linearly between log rows at `time` [s]. Before the first row and
+/// after the last row, the quantity is constant.
 template <typename Of>
 double ValueAt(const RunLog& log, double time, const Of& of) {
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
@@ -22,8 +24,8 @@ double ValueAt(const RunLog& log, double time, const Of& of) {
   return of(log.rows.back());
 }
 
-/// The first time at which the quantity rises to `level` [s], at or after row `from`; none if it
-/// never does.
+/// Returns the first time, at or after row `from`, at which the quantity rises to `level` [s].
+/// Returns none if the quantity never reaches `level`.
 template <typename Of>
 std::optional<double> TimeOfReaching(const RunLog& log, std::size_t from, double level,
                                      const Of& of) {

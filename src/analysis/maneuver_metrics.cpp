@@ -31,7 +31,7 @@ std::vector<ManeuverMetric> ListMethodMetrics(const ManeuverOptions& options) {
   return std::visit([](const auto& own) { return MethodMetrics(own); }, options);
 }
 
-/// A car that tips over fails every maneuver.
+/// Fails the maneuver if the car tips over.
 void CheckRoll(const RunLog& log, ManeuverMetrics& metrics) {
   constexpr double kTippedOver = 0.25 * kPi;  // roll angle from which a car cannot recover [rad]
   const auto tipped = std::find_if(log.rows.begin(), log.rows.end(), [](const LogRow& row) {

@@ -128,8 +128,8 @@ std::optional<Manifest> ReadManifest(const fs::path& folder) {
 
 namespace {
 
-/// The results that may contain a file with this name. A new plan makes the other files of a run
-/// outdated.
+/// Returns the names of the results that may contain a file with this name. For the files of a run,
+/// the names include the result `plan`, because a new plan makes the files of an old run outdated.
 std::vector<std::string> ResultsWith(const std::string& name) {
   std::vector<std::string> results;
   for (const ResultNames& own : AllResultNames()) {

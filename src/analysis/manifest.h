@@ -14,11 +14,12 @@
 /// manifest.json maps the files of a folder to the results that contain them.
 namespace trackbed {
 
-/// Accumulates size and SHA-256 of a content.
+/// Computes the manifest entry of a file, its size and SHA-256, from content added in parts.
 class EntryMaker {
  public:
   void Add(std::string_view content);
-  /// Returns the entry of the added content. Finish() must be the last call on an EntryMaker.
+  /// Returns the manifest entry of the content added so far. Finish() must be the last call on an
+  /// EntryMaker.
   [[nodiscard]] ManifestEntry Finish();
 
  private:
@@ -28,19 +29,19 @@ class EntryMaker {
 
 ManifestEntry MakeManifestEntry(std::string_view content);
 
-/// Entries of a result's files, keyed by file name.
+/// Manifest entries of the files of one result, keyed by file name.
 using ResultFiles = std::map<std::string, ManifestEntry>;
 
-/// Entries of a folder, keyed by the name of the result.
+/// Manifest of a folder: the file entries of each result, keyed by the name of the result.
 struct Manifest {
   std::map<std::string, ResultFiles> results;
   std::set<std::string> others;  ///< files of results of which other files are missing or replaced
 
-  /// Whether Trackbed has written a file of this name.
+  /// Returns whether the manifest lists a file with this name as written by Trackbed.
   [[nodiscard]] bool Lists(const std::string& name) const;
 
-  /// Adds a result. Drops other results that the added result makes incomplete, because it replaces
-  /// one of their files by a different one or because one of their files is among the `removed`.
+  /// Adds a result to the manifest. Drops every other result that becomes incomplete, because the
+  /// new result replaces one of its files or because one of its files is in `removed`.
   void Take(const std::string& result, ResultFiles files, const std::vector<std::string>& removed);
   [[nodiscard]] std::string ToJson() const;
 };
@@ -49,9 +50,9 @@ struct Manifest {
 /// InputError naming the file if the manifest is invalid.
 std::optional<Manifest> ReadManifest(const std::filesystem::path& folder);
 
-/// Throws InputError naming `file` if the file differs from its entry in the folder's manifest.
-/// RequireInManifest also throws if the entry is missing although the manifest has a result of that
-/// kind. RequireInManifest reads the whole file.
+/// Throws InputError naming `file` if the file differs from its entry in the manifest of its
+/// folder. RequireInManifest also throws if the manifest lists a result that should contain the
+/// file but has no entry for the file. RequireInManifest reads the whole file.
 void RequireInManifest(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -13,7 +13,8 @@ std::optional<double> NumberOfValue(const MetricValue& value) {
   return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
-/// A bound is a number; for Relation::kEquals it may also be the text of a number.
+/// Returns the bound of a check as a number. With Relation::kEquals, the bound may be the text of a
+/// number, which is parsed.
 std::optional<double> NumberOfBound(const MetricValue& bound) {
   const auto* text = std::get_if<std::string>(&bound);
   if (text == nullptr) {
@@ -62,7 +63,7 @@ std::vector<ExpectationMargin> Margins(const RunResult& result) {
                              .met = check.met,
                              .at = check.at};
     if (check.metric == "collision") {
-      // The margin is negative if the scenario expects a collision.
+      // If the scenario expects a collision, the margin is the negative clearance.
       const std::optional<double> clearance = Clearance(result, check.plant);
       const double sign = check.bound == MetricValue(std::string("true")) ? -1.0 : 1.0;
       margin.margin = clearance ? std::optional(sign * *clearance) : std::nullopt;

@@ -25,7 +25,7 @@ json ArraySchema(const json& items) {
   return {{"type", "array"}, {"items", items}};
 }
 
-// Schemas of Foxglove, reduced to the fields that are filled in here.
+// Message schemas of Foxglove, reduced to the fields that Trackbed fills in.
 const json kTime = Object({{"sec", {{"type", "integer"}}}, {"nsec", {{"type", "integer"}}}});
 const json kVector = Object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}});
 const json kQuaternion = Object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}, {"w", kNumber}});
@@ -74,7 +74,8 @@ json Cube(const OrientedBox& box, double height, const std::string& id, const st
   return {{"timestamp", Time(time)},
           {"frame_id", frame},
           {"id", id},
-          {"lifetime", Time(0.0)},  // a lifetime of 0 shows an entity until it is replaced
+          {"lifetime", Time(0.0)},  // with a lifetime of 0, the viewer shows the entity until a new
+                                    // message replaces the entity
           {"frame_locked", true},
           {"cubes", json::array({CubeAt(box, height, color)})}};
 }
@@ -89,11 +90,15 @@ json Obstacles(const World& world, double time) {
   return {{"entities", entities}};
 }
 
-/// The static walls of the world's map as a single entity with many cubes.
+/// Returns the static walls of the world's map as a single scene entity with many cubes.
 json Walls(const World& world) {
-  json entity{{"timestamp", Time(0.0)}, {"frame_id", "world"},   {"id", "map"},
-              {"lifetime", Time(0.0)},  // a lifetime of 0 shows an entity until it is replaced
-              {"frame_locked", true},   {"cubes", json::array()}};
+  json entity{{"timestamp", Time(0.0)},
+              {"frame_id", "world"},
+              {"id", "map"},
+              {"lifetime", Time(0.0)},  // with a lifetime of 0, the viewer shows the entity until a
+                                        // new message replaces the entity
+              {"frame_locked", true},
+              {"cubes", json::array()}};
   for (const OrientedBox& wall : MapWalls(world)) {
     entity["cubes"].push_back(
         CubeAt(wall, world.map->height, {{"r", 0.62}, {"g", 0.6}, {"b", 0.57}, {"a", 1.0}}));
@@ -110,7 +115,7 @@ json PosesMessage(const Path& path, double time) {
   return {{"timestamp", Time(time)}, {"frame_id", "world"}, {"poses", poses}};
 }
 
-/// A message with its time, so that messages can be sorted.
+/// A message with its time, by which messages are sorted.
 struct Message {
   double time;
   std::uint16_t channel;

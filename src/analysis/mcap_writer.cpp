@@ -7,7 +7,7 @@
 namespace trackbed {
 namespace {
 
-/// Opcodes of the records.
+/// Opcodes of MCAP records.
 enum : char {
   kHeader = 0x01,
   kFooter = 0x02,
@@ -24,8 +24,8 @@ enum : char {
 
 const std::string kMagic{"\x89MCAP0\r\n"};
 
-/// Limit of the size of a chunk [bytes]. A reader loads a whole chunk for a single moment, so
-/// chunks are small.
+/// Maximum size of a chunk [bytes]. Chunks are small, because a reader must load a whole chunk to
+/// show a single moment.
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
 
 template <typename Number>
@@ -61,7 +61,7 @@ std::string Dumped(const nlohmann::json& content) {
 
 McapWriter::McapWriter() : out_(kMagic) {
   std::string header;
-  PutText(header, "");  // no profile
+  PutText(header, "");  // empty profile: the file conforms to no MCAP profile
   PutText(header, "trackbed");
   PutRecord(out_, kHeader, header);
 }
@@ -87,7 +87,7 @@ std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string
   Put<std::uint16_t>(record, known->second);
   PutText(record, topic);
   PutText(record, "json");
-  Put<std::uint32_t>(record, 0);  // no metadata
+  Put<std::uint32_t>(record, 0);  // size of the metadata map: the channel has no metadata
   PutRecord(channel_records_, kChannel, record);
   PutRecord(out_, kChannel, record);
   return channel;
@@ -124,7 +124,7 @@ void McapWriter::CloseChunk() {
   Put(record, chunk_times_.last);
   Put<std::uint64_t>(record, chunk_.size());
   Put(record, Checksum(chunk_));
-  PutText(record, "");  // no compression
+  PutText(record, "");  // empty name: the chunk is not compressed
   Put<std::uint64_t>(record, chunk_.size());
   PutRecord(out_, kChunk, record + chunk_);
   const std::size_t end = out_.size();
@@ -170,8 +170,8 @@ std::string McapWriter::Statistics() const {
   Put(record, std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}));
   Put(record, static_cast<std::uint16_t>(schemas_.size()));
   Put(record, static_cast<std::uint32_t>(counts_.size()));
-  Put<std::uint32_t>(record, 0);  // No attachments.
-  Put<std::uint32_t>(record, 0);  // No metadata.
+  Put<std::uint32_t>(record, 0);  // number of attachments
+  Put<std::uint32_t>(record, 0);  // number of metadata records
   Put(record, chunks_);
   Put(record, times_.first);
   Put(record, times_.last);
@@ -179,8 +179,8 @@ std::string McapWriter::Statistics() const {
   return record;
 }
 
-/// The part of the file after the data: groups of records, their offsets, then the footer. The
-/// summary starts at offset `start`.
+/// Returns the part of an MCAP file after the data: the groups of summary records, the offsets of
+/// the groups, and the footer. The summary starts at byte `start` of the file.
 std::string McapWriter::SummaryAt(std::size_t start) {
   std::string statistics;
   PutRecord(statistics, kStatistics, Statistics());
@@ -202,7 +202,8 @@ std::string McapWriter::SummaryAt(std::size_t start) {
   Put<std::uint64_t>(footer, start);
   Put<std::uint64_t>(footer, start + summary.size());
   summary += offsets;
-  // The checksum covers all preceding bytes, including the first fields of the footer.
+  // The checksum of the summary covers all its bytes up to the checksum, including the first fields
+  // of the footer.
   std::string checked = summary;
   checked += kFooter;
   Put<std::uint64_t>(checked, footer.size() + sizeof(std::uint32_t));

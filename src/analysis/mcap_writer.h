@@ -24,7 +24,7 @@ class McapWriter {
   /// Adds a message to a channel. Message times [s] must be non-negative and in ascending order.
   void AddMessage(std::uint16_t channel, double time, const nlohmann::json& message);
 
-  /// Returns the content of the file. No calls may follow Finish.
+  /// Returns the content of the MCAP file. Finish must be the last call on an McapWriter.
   std::string Finish();
 
  private:
@@ -45,7 +45,7 @@ class McapWriter {
   std::string channel_records_;
   std::string chunk_;
   Times chunk_times_;
-  /// Time and offset in the chunk of each message, by channel.
+  /// Time of each message [ns] and its offset in the current chunk [bytes], by channel.
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> chunk_messages_;
   std::uint32_t chunks_ = 0;
   std::string chunk_index_records_;

@@ -14,11 +14,11 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/planning/registry/planners.h"
 
-// Registry of metrics. The fixed metrics (metric_table.cpp) and registered ones have one entry
-// each. ListMetrics lists the metrics of a run with their paths in metrics.json. Metrics of entries
-// come first, then the sections maneuver, turns[N], laps[N], windows[N] and requirements.
-// DescribeMetric finds label and unit by path. AllMetrics fills every metric that a scenario can
-// have with a dummy value, so that paths can be checked before the run.
+// Registry of metrics. Each built-in metric (metric_table.cpp) and each registered metric has one
+// entry. ListMetrics lists the metrics of a run with their paths in metrics.json. The metrics with
+// an entry come first, followed by the sections maneuver, turns[N], laps[N], windows[N] and
+// requirements. DescribeMetric finds label and unit by path. AllMetrics fills every metric that a
+// scenario can have with a dummy value, so that paths can be checked before the run.
 namespace trackbed {
 namespace {
 
@@ -31,8 +31,7 @@ constexpr const char* kWindows = "windows";
 constexpr const char* kRequirements = "requirements";
 constexpr const char* kRobustness = ".robustness";
 
-/// The list of metrics is the only list that changes after startup, because RegisterMetric appends
-/// to it.
+/// Returns the list of all metric entries, to which RegisterMetric appends.
 std::vector<MetricEntry>& Registry() {
   static std::vector<MetricEntry> entries = BuiltInMetrics();
   return entries;
@@ -47,7 +46,7 @@ std::optional<MetricReading> ReadMetric(const MetricEntry& entry, const PlantMet
   return found == metrics.measured.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// The paths of an entry in metrics.json.
+/// Returns the paths in metrics.json that belong to a metric entry.
 std::vector<std::string> EntryPaths(const MetricEntry& entry) {
   return entry.located ? std::vector{entry.path, entry.path + "_s", entry.path + "_t"}
                        : std::vector{entry.path};
@@ -66,8 +65,8 @@ bool IsPath(std::string_view path) {
   return !begins;
 }
 
-/// Whether two paths cannot coexist in one file: they are equal, or one is a section that contains
-/// the other.
+/// Returns whether two metric paths cannot exist in the same file, because the paths are equal or
+/// one path is a section that contains the other path.
 bool Conflict(const std::string& a, const std::string& b) {
   return a == b || a.starts_with(b + ".") || b.starts_with(a + ".");
 }
@@ -99,8 +98,8 @@ void CheckEntry(const MetricEntry& entry) {
   }
 }
 
-/// The part of a path after a list index, such as "lateral_offset" of "turns[1].lateral_offset".
-/// InList stores the list index in `index`.
+/// Returns the part of a metric path after a list index, such as "lateral_offset" for
+/// "turns[1].lateral_offset". InList stores the list index in `index`.
 std::optional<std::string_view> InList(const char* list, std::string_view path, int& index) {
   const std::string begin = fmt::format("{}[", list);
   const std::size_t close = path.find("].");
@@ -305,7 +304,7 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
     }
     metrics.blocked = scenario.plan->avoid ? "why" : "";
     metrics.partial = MayBePartial(scenario.plan->global) ? "why" : "";
-    // There is at most one turn per waypoint between the first and the last.
+    // Each waypoint between the first and the last waypoint causes at most one turn.
     metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
   }
   if (HasObstacles(scenario.world)) {

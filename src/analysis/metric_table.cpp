@@ -13,8 +13,8 @@ namespace {
 using Reading = std::optional<MetricReading>;
 using Read = std::function<Reading(const PlantMetrics&)>;
 
-// Selects the part of the metrics that contains a member. SelectMetrics returns null if the run has
-// no such part.
+// Returns the part of a plant's metrics that has the type of `which`. SelectMetrics returns null if
+// the run did not measure that part.
 const PlantMetrics* SelectMetrics(const PlantMetrics& metrics, const PlantMetrics* /*which*/) {
   return &metrics;
 }
@@ -31,7 +31,8 @@ const RecordMetrics* SelectMetrics(const PlantMetrics& metrics, const RecordMetr
   return metrics.recorded ? &*metrics.recorded : nullptr;
 }
 
-/// Reads the member `value`, which refers to the whole run or to the run's end.
+/// Returns a function that reads the member `value` of the metrics. The value describes the whole
+/// run or the end of the run, according to `span`.
 template <typename Part, typename T>
 Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
   return [=](const PlantMetrics& metrics) -> Reading {
@@ -40,7 +41,8 @@ Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
   };
 }
 
-/// Reads the member `value`, which refers to the moment at station `s` and time `t`.
+/// Returns a function that reads the member `value` of the metrics. The value occurs at the station
+/// in the member `s` and the time in the member `t`.
 template <typename Part, typename T>
 Read At(T Part::*value, double Part::*s, double Part::*t) {
   return [=](const PlantMetrics& metrics) -> Reading {
@@ -98,7 +100,8 @@ MetricEntry Headline(MetricEntry entry) {
   return entry;
 }
 
-/// Adds station and time of an entry's value to metrics.json.
+/// Returns the metric entry, changed so that metrics.json also contains the station and the time of
+/// the value.
 MetricEntry Located(MetricEntry entry) {
   entry.located = true;
   return entry;

@@ -7,7 +7,7 @@
 
 namespace trackbed {
 
-/// The metrics that Trackbed defines, in the order of metrics.json.
+/// Returns the metrics that Trackbed defines, in the order of metrics.json.
 std::vector<MetricEntry> BuiltInMetrics();
 
 /// A metric of each isolated turn, written to metrics.json under `turns[N]`.
@@ -41,11 +41,11 @@ struct WindowMetricEntry {
 
 const std::vector<WindowMetricEntry>& WindowMetricTable();
 
-/// Puts a value into an entry of metrics.json at its path: "turns[0].waypoint" becomes
+/// Writes the value of a metric into `json` at the path of the metric: "turns[0].waypoint" becomes
 /// /turns/0/waypoint.
 void PutMetric(const Metric& metric, nlohmann::ordered_json& json);
 
-/// All metrics that a run of the plant can have in the scenario, with dummy values.
+/// Returns all metrics that a run of the plant can have in the scenario, filled with dummy values.
 PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant);
 
 }  // namespace trackbed

@@ -38,7 +38,8 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double cor
   double rows = 0.0;
   for (const LogRow& row : log.rows) {
     if (log.contact_time && row.state.time > *log.contact_time && rows > 0.0) {
-      break;  // from this row on, an obstacle pushes the car, so it is not steered
+      break;  // from this row on, an obstacle pushes the car, so steering does not determine the
+              // motion
     }
     rows += 1.0;
     const Projection& at = *row.tracking;
@@ -98,7 +99,8 @@ void PlaceContact(const RunLog& log, PlantMetrics& metrics) {
   metrics.contact_s = row == log.rows.end() ? metrics.end_s : RowStation(*row);
 }
 
-/// Root mean square of the measured steering rate, averaged over each control period.
+/// Returns the root mean square of the measured steering rate, where each rate is a mean over one
+/// control period.
 double SteeringRateRms(const RunLog& log, double control_period) {
   double squares = 0.0;
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
@@ -125,9 +127,9 @@ std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
                                       const VehicleParams& vehicle, StationSource source) {
   std::vector<TurnMetrics> turns;
   const Trace trace = MakeTrace(log, source);
-  // Wheels that forces move lag behind their actuator; prescribed wheels do not.
+  // Steered wheels lag behind their actuator only in plants that simulate wheels.
   const double lag = log.rows.front().state.wheels ? vehicle.steering_lag : 0.0;
-  // After a change of plan, stations refer to another path.
+  // After the first change of plan, the stations in the log refer to another path.
   const double until =
       log.changes.empty() ? std::numeric_limits<double>::infinity() : log.changes.front().station;
   for (const IsolatedTurn& turn : plan.turns) {

@@ -25,20 +25,20 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file_name.h"
 
-// Output folders with crash-safe results. A folder is locked (flock) while it is written.
-// ResultWriter writes all files of a result into a hidden folder, and renaming that folder commits
-// the result. The files of the result are then moved into place, the manifest last. Committing a
-// result and moving its files can both be repeated. The next process that locks the folder
-// therefore completes an interrupted commit and removes incomplete results. Folders may come from
-// untrusted sources: links are never followed. Only files that Trackbed has written are overwritten
-// or removed (own_files.h).
+// Writes results into output folders such that a crash leaves no incomplete results. A folder is
+// locked (flock) while it is written. ResultWriter writes all files of a result into a hidden
+// folder, and commits the result by renaming that folder. The files of the result are then moved
+// into the output folder, the manifest last. If a process is killed while it moves files, the next
+// process that locks the folder moves the remaining files. That process also removes results that
+// were not committed. Output folders may come from untrusted sources, so links are never followed.
+// Only files that Trackbed has written are overwritten or removed (own_files.h).
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Lists in the hidden folders: the files to remove, as JSON, and the files that were begun, one per
-// line.
+// Names of two lists in the hidden folders. The first lists the files to remove, as JSON. The
+// second lists the files that were begun, one per line.
 constexpr const char* kObsolete = ".obsolete";
 constexpr const char* kWritten = ".written";
 
@@ -46,8 +46,8 @@ constexpr const char* kWritten = ".written";
   throw RunError(fmt::format("cannot write {}: {}", file.string(), error.message()));
 }
 
-/// Process that holds the lock, such as " (process 123)", from the kernel's list of locks; empty if
-/// unknown.
+/// Describes the process that holds the lock, such as " (process 123)", using the kernel's list of
+/// locks. Returns an empty text if the process is unknown.
 std::string Holder(int descriptor) {
   struct stat status {};
   if (::fstat(descriptor, &status) != 0) {
@@ -73,21 +73,21 @@ std::string Holder(int descriptor) {
   return "";
 }
 
-/// TryLock returns EWOULDBLOCK if another process holds the lock, else 0. TryLock also returns 0 on
-/// file systems without locks.
+/// Tries to lock an open folder. TryLock returns EWOULDBLOCK if another process holds the lock,
+/// else 0. TryLock also returns 0 on file systems without locks.
 int TryLock(int descriptor, int how) {
   return ::flock(descriptor, how | LOCK_NB) != 0 && errno == EWOULDBLOCK ? EWOULDBLOCK : 0;
 }
 
-/// Whether the path is a folder and not a link to one. A run folder may come from an untrusted
-/// source, and the target of a link must not be changed.
+/// Returns whether the path is a folder and not a link to a folder. A run folder may come from an
+/// untrusted source, so Trackbed must not change the target of a link.
 bool IsFolder(const fs::path& path) {
   std::error_code ignored;
   return fs::is_directory(fs::symlink_status(path, ignored));
 }
 
-/// Reads the list of names of files to remove. ObsoleteNames returns nothing if there is no list of
-/// files to remove.
+/// Reads the names of the files that a committed result removes. ObsoleteNames returns nothing if
+/// the result has no list of files to remove.
 std::vector<std::string> ObsoleteNames(const fs::path& complete) {
   std::error_code ignored;
   const fs::path file = complete / kObsolete;
@@ -97,13 +97,13 @@ std::vector<std::string> ObsoleteNames(const fs::path& complete) {
   try {
     return JsonValue(ParseJson(file), file.string()).Texts();
   } catch (const InputError&) {
-    return {};  // a damaged list removes no files
+    return {};  // if the list is damaged, no file is removed
   }
 }
 
-/// Removes the obsolete files listed in `complete`. The files of `complete` are then moved into the
-/// folder, the manifest last. MoveIntoPlace also continues an interrupted move. Files that Trackbed
-/// has not written stay in both folders.
+/// Removes the obsolete files that a committed result lists. Then moves the files of the result
+/// into the folder, the manifest last. MoveIntoPlace also continues an interrupted move. Files that
+/// Trackbed has not written stay in both folders.
 void MoveIntoPlace(const fs::path& folder) {
   const fs::path complete = folder / run_folder::kComplete;
   const auto fail = [&](const fs::path& file, const std::string& why) {
@@ -152,7 +152,7 @@ void MoveIntoPlace(const fs::path& folder) {
   RemoveHiddenFolder(complete, {kObsolete, kWritten});
 }
 
-/// Removes the incomplete result of a killed process.
+/// Removes the incomplete result that a killed process left in the folder.
 void RemovePartial(const fs::path& folder) {
   const fs::path partial = folder / run_folder::kPartial;
   std::vector<std::string> names{kObsolete, kWritten, run_folder::kManifest};
@@ -173,7 +173,8 @@ bool NeedsRecovery(const fs::path& folder) {
   return IsFolder(folder / run_folder::kPartial) || IsFolder(folder / run_folder::kComplete);
 }
 
-/// Completes or removes the results of a killed process. Recover requires the lock of the folder.
+/// Completes the committed result of a killed process and removes an incomplete result. The caller
+/// of Recover must hold the lock of the folder.
 void Recover(const fs::path& folder) {
   if (IsFolder(folder / run_folder::kPartial)) {
     RemovePartial(folder);
@@ -183,7 +184,7 @@ void Recover(const fs::path& folder) {
   }
 }
 
-/// Throws RunError if the name of a hidden folder is taken, for example by a link.
+/// Throws RunError if the name of a hidden folder is already in use, for example by a link.
 void RequireHiddenFolders(const fs::path& folder) {
   for (const char* name : {run_folder::kPartial, run_folder::kComplete}) {
     static_cast<void>(FolderBelow(folder, name));
@@ -209,7 +210,7 @@ void OutputFolder::Open(For use) {
   }
   lock_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock_.get() < 0) {
-    return;  // an absent or unreadable folder is reported on reading or writing
+    return;  // a later read or write reports the absent or unreadable folder
   }
   Lock(use);
   RemoveAbandonedTemporaries(path_);
@@ -256,8 +257,8 @@ std::optional<OutputFolder> LockFolderOf(const fs::path& file, const fs::path& r
   const fs::path beside = (fs::path(".") / file).parent_path();
   std::error_code ignored;
   if (fs::equivalent(beside, fs::path(".") / result, ignored)) {
-    // A run folder may come from an untrusted source; a link in it must not choose the file to
-    // overwrite.
+    // A run folder may come from an untrusted source, so a link in the folder must not determine
+    // which file is overwritten.
     const fs::file_status status = fs::symlink_status(file, ignored);
     if (fs::exists(status) && !fs::is_regular_file(status)) {
       throw RunError(fmt::format("cannot write {}: it is {}; remove it, or give another place",
@@ -296,7 +297,7 @@ ResultWriter::~ResultWriter() {
   try {
     RemovePartial(folder_);
   } catch (const std::exception&) {
-    // The next writer reports the error.
+    // Ignores the error: the next process that writes to the folder reports it.
   }
 }
 
@@ -313,11 +314,13 @@ void ResultWriter::Add(const std::string& name, const std::function<std::string(
                     WithoutControls(name), folder_.string()));
   }
   const fs::path file = folder_ / name;
-  // Foreign files are refused here, because Commit would find them too late.
+  // Refuse to replace foreign files now, because Commit would find them only after all files were
+  // written.
   if (name != run_folder::kManifest && !IsOwnOrAbsent(folder_, name, before_.get())) {
     FailAsForeign(file);
   }
-  // The name is listed before the file is written, so that after a kill all files are listed.
+  // List the file name before writing the file, so that the list is complete even if the process is
+  // killed.
   written_->Write(name + "\n");
   NewFile out(folder_ / run_folder::kPartial / name, file);
   EntryMaker entry;
@@ -385,8 +388,8 @@ void ResultWriter::Commit() {
   const fs::path partial = folder_ / run_folder::kPartial;
   WriteNewFile(partial / kObsolete, nlohmann::json(obsolete).dump(), folder_ / kObsolete);
   written_->Close();
-  // Commit point. From the commit point on, the result is moved into place, by this process or by
-  // the next one.
+  // Commit point: after this rename, this process or the next one moves the files of the result
+  // into the folder.
   std::error_code error;
   fs::rename(partial, folder_ / run_folder::kComplete, error);
   if (error) {

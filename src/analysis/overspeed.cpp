@@ -18,10 +18,10 @@ std::optional<double> OverspeedLimit(const RunLog& log, const Scenario& scenario
     road = std::max(road, RoadFactor(scenario.world, row.state.pose.position()));
   }
   const SpeedControlOptions& speed = scenario.control.speed;
-  const double hardest = MaxDeceleration(vehicle, road);  // Deceleration of the hardest braking; 0:
-                                                          // unknown.
-  const double most = 2.0 * speed.deceleration;           // Largest commanded deceleration; see
-                                                          // SpeedControl.
+  // Deceleration of the hardest braking [m/s^2]; 0: unknown.
+  const double hardest = MaxDeceleration(vehicle, road);
+  // Largest deceleration that SpeedControl commands [m/s^2].
+  const double most = 2.0 * speed.deceleration;
   const double braking = hardest > 0.0 ? std::min(most, hardest) : most;
   return braking / speed.gain + braking * scenario.drive.control_period;
 }

@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Status of the path itself, even if the path is a link.
+/// Returns the status of the path itself; if the path is a link, returns the status of the link.
 fs::file_status StatusOf(const fs::path& path) {
   std::error_code ignored;
   return fs::symlink_status(path, ignored);
@@ -52,7 +52,8 @@ void Remove(const fs::path& file) {
   }
 }
 
-/// The names of all files that Trackbed may have written to the folder, except its manifest.
+/// Returns the names of all files that Trackbed may have written to the folder, except the
+/// manifest.
 std::set<std::string> NamesOf(const Manifest& manifest) {
   std::set<std::string> names = manifest.others;
   names.insert(
@@ -112,21 +113,22 @@ void RemoveHiddenFolder(const fs::path& folder, const std::vector<std::string>& 
 std::vector<std::string> ForeignNames(const fs::path& folder,
                                       const std::vector<std::string>& names) {
   const auto look = [&] {
-    // A process that is running, or was killed, may have moved a part of a result into place. The
-    // manifest of the hidden folder is read first, since it becomes that of the folder.
+    // A running or killed process may have moved only some files of a result into the folder. Read
+    // the manifest of the hidden folder first, because that manifest is moved into the folder last.
     const std::optional<Manifest> next = ReadManifest(folder / run_folder::kComplete);
     const std::optional<Manifest> manifest = ReadManifest(folder);
     std::vector<std::string> foreign;
     std::copy_if(names.begin(), names.end(), std::back_inserter(foreign),
                  [&](const std::string& name) {
-                   // ReadManifest has checked the manifest's own file.
+                   // Skip the manifest itself, which ReadManifest has already checked.
                    return name != run_folder::kManifest &&
                           !IsOwnOrAbsent(folder, name, manifest ? &*manifest : nullptr) &&
                           !IsOwnOrAbsent(folder, name, next ? &*next : nullptr);
                  });
     return foreign;
   };
-  // Looks a second time, because files may have been moved after the first look read the manifests.
+  // Check a second time, because another process may have moved files after the first check read
+  // the manifests.
   return look().empty() ? std::vector<std::string>() : look();
 }
 

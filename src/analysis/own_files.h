@@ -4,23 +4,25 @@
 #include <string>
 #include <vector>
 
-/// Decides which files of an output folder Trackbed has written, and may replace or remove.
+/// Determines which files of an output folder Trackbed has written and may therefore replace or
+/// remove.
 namespace trackbed {
 
 struct Manifest;
 
-/// Whether the name is free in the folder or belongs to a regular file that Trackbed has written.
-/// Trackbed has written a file that the manifest (null: none) lists, that carries a mark (HasMark),
-/// or that is a file of records.
+/// Returns whether the folder has no file with this name, or a regular file that Trackbed has
+/// written. A file counts as written by Trackbed if the manifest (null: none) lists the file, if
+/// the file carries a mark (HasMark), or if the file contains the records of a study.
 bool IsOwnOrAbsent(const std::filesystem::path& folder, const std::string& name,
                    const Manifest* manifest);
 
-/// Throws RunError that describes the file for which IsOwnOrAbsent returns false.
+/// Throws a RunError that names a file which Trackbed has not written and must not replace.
 [[noreturn]] void FailAsForeign(const std::filesystem::path& file);
 
-/// Removes the regular files with these names, then the folder. RemoveHiddenFolder throws RunError
-/// for a link. RemoveHiddenFolder throws RunError listing the files that Trackbed has not written,
-/// which stay. RemoveHiddenFolder ignores absent folders.
+/// Removes the regular files with these names from a hidden folder, then removes the folder.
+/// RemoveHiddenFolder throws RunError if the folder is a link. If the folder contains files that
+/// Trackbed has not written, RemoveHiddenFolder keeps these files and throws a RunError that lists
+/// them. RemoveHiddenFolder ignores absent folders.
 void RemoveHiddenFolder(const std::filesystem::path& folder, const std::vector<std::string>& names);
 
 }  // namespace trackbed

@@ -14,7 +14,8 @@ const Segments& SegmentsOf(const PlannedPath& path) {
   return path.plan.reference.path.segments();
 }
 
-/// Both ends of the segment, and the inner point where the curvature has an extremum.
+/// Returns the distances along the segment at which the curvature may have an extremum: both ends,
+/// and an inner vertex of the quadratic curvature.
 std::vector<double> Extrema(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const double vertex = -segment.sharpness / segment.sharpness_rate;
@@ -35,7 +36,8 @@ double MaxCurvature(const Segments& segments) {
 }
 
 double MaxCurvatureRate(const Segments& segments) {
-  double largest = 0.0;  // the quantity is linear within a segment, so it is largest at an end
+  // The curvature rate is linear within a segment, so its largest magnitude is at an end.
+  double largest = 0.0;
   for (const Segment& segment : segments) {
     largest = std::max({largest, std::abs(segment.sharpness),
                         std::abs(segment.sharpness + segment.sharpness_rate * segment.length)});
@@ -43,8 +45,8 @@ double MaxCurvatureRate(const Segments& segments) {
   return largest;
 }
 
-/// Integral of the squared curvature by three-point Gauss-Legendre quadrature, which is exact for
-/// the square of a quadratic.
+/// Computes the integral of the squared curvature by three-point Gauss-Legendre quadrature, which
+/// is exact for the square of a quadratic.
 double SquaredCurvature(const Segment& segment) {
   static const double kOuter = std::sqrt(0.6);
   const double half = 0.5 * segment.length;
@@ -55,7 +57,8 @@ double SquaredCurvature(const Segment& segment) {
   return half * (5.0 * square(-kOuter) + 8.0 * square(0.0) + 5.0 * square(kOuter)) / 9.0;
 }
 
-/// Both ends of the segment and the zeros of its curvature, in order.
+/// Returns the distances along the segment of both ends and of the zeros of the curvature, in
+/// ascending order.
 std::vector<double> Crossings(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const auto add = [&](double d) {
@@ -63,7 +66,7 @@ std::vector<double> Crossings(const Segment& segment) {
       places.push_back(d);
     }
   };
-  // Roots of 0.5 r d^2 + q d + p, computed without cancellation.
+  // Compute the roots d of the curvature 0.5 r d^2 + q d + p without cancellation.
   const double p = segment.curvature;
   const double q = segment.sharpness;
   const double r = segment.sharpness_rate;
@@ -90,10 +93,11 @@ double Turning(const Segments& segments) {
   return turned;
 }
 
-/// Largest curvature jump within the legs of a path between its stops. SplitIntoLegs cuts a path at
-/// cusps and stops.
+/// Returns the largest curvature jump inside the legs of a path. SplitIntoLegs cuts a path at cusps
+/// and stops.
 double MaxCurvatureJump(const PlannedPath& path) {
-  constexpr double kRounding = 1e-12;  // rounding of a segment's final curvature [rad/m]
+  // Bound of the rounding error of a segment's final curvature [rad/m].
+  constexpr double kRounding = 1e-12;
   double largest = 0.0;
   const Path& line = path.plan.reference.path;
   for (const Stations& leg : SplitIntoLegs(line, path.plan.stops)) {
@@ -107,8 +111,8 @@ double MaxCurvatureJump(const PlannedPath& path) {
   return largest > kRounding ? largest : 0.0;
 }
 
-/// Minimum clearance of the path. The current clearance limits each step, since the clearance
-/// changes by at most `moved` per meter of path.
+/// Computes the minimum clearance along the path. Each step along the path is limited by the
+/// current clearance, because the clearance changes by at most `moved` per meter of path.
 std::optional<double> MinClearance(const PlannedPath& path) {
   World known = path.world;
   std::erase_if(known.obstacles, [](const Obstacle& obstacle) {

@@ -48,8 +48,8 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
 
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin,
                          double end) {
-  // The tolerance is one microradian: below any relevant change of the command, above rounding in
-  // the actuator.
+  // The tolerance of one microradian is smaller than any relevant change of the command and larger
+  // than the rounding errors of the actuator.
   constexpr double kReachedTolerance = 1e-6;
   double saturated = 0.0;
   double periods = 0.0;

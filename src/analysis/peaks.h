@@ -5,24 +5,25 @@
 
 namespace trackbed {
 
-/// Station of a row on the path; without a path, the distance driven.
+/// Returns the station of a log row on the path; without a path, returns the distance driven.
 inline double RowStation(const LogRow& row) {
   return row.tracking ? row.tracking->s : row.state.distance;
 }
 
-/// Largest magnitude of the lateral acceleration averaged over `window` control periods. The
-/// average of the acceleration includes the rows at both ends of the window. The acceleration is
-/// averaged, since a single sample may be an impact of a tyre on the road.
+/// Measures the largest magnitude of the lateral acceleration, averaged over windows of `window`
+/// control periods. Each average includes the rows at both ends of the window. The acceleration is
+/// averaged, because a single sample may contain the impact of a tyre on the road.
 void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetrics& metrics);
 
-/// Measures the largest magnitude of the measured steering angle, and of its mean rate over
-/// `window` control periods.
+/// Measures the largest magnitude of the steering angle and of the mean steering rate over `window`
+/// control periods.
 void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metrics);
 
-/// Fraction of the control periods within `begin` to `end` [s] in which the steering actuator was
-/// saturated. A saturated actuator does not reach the command although it moves at its maximum rate
-/// or is at its maximum angle. Delay and backlash of the command are not saturation. If the limits
-/// are unknown (0), every period in which the actuator misses the command counts.
+/// Returns the fraction of the control periods from `begin` to `end` [s] in which the steering
+/// actuator was saturated. A saturated actuator moves at its maximum rate or is at its maximum
+/// angle, but has not reached the command. Deviations due to delay or backlash do not count as
+/// saturation. If the actuator's limits are unknown (0), every control period in which the actuator
+/// misses the command counts as saturated.
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin, double end);
 
 }  // namespace trackbed

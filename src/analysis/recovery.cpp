@@ -17,7 +17,7 @@ std::optional<RecoveryMetrics> MeasureRecovery(const RunLog& log, const Disturba
     if (!near) {
       recovery.time.reset();
     } else if (!recovery.time) {
-      // Rounds the time to nanoseconds, the resolution of times.
+      // Round the time to nanoseconds, the resolution of all logged times.
       recovery.time = std::round(std::max(0.0, row.state.time - *end) * 1e9) / 1e9;
     }
   }

@@ -20,7 +20,7 @@ std::optional<double> NumberOf(const MetricValue& value) {
   return number != nullptr && std::isfinite(*number) ? std::optional(*number) : std::nullopt;
 }
 
-/// Margin of a check; none if the check is met but has no number.
+/// Returns the margin of a check; none if the check is met but has no numeric margin.
 std::optional<double> ExtentOf(const Check& check) {
   const std::optional<double> bound = NumberOf(check.bound);
   const std::optional<double> value = NumberOf(check.value);
@@ -32,7 +32,8 @@ std::optional<double> ExtentOf(const Check& check) {
   }
   const double left = check.relation == Relation::kAtMost ? *bound - *value : *value - *bound;
   const double margin = *bound == 0.0 ? left : left / std::abs(*bound);
-  // The requirement `x < y` is violated if both are equal.
+  // A strict requirement such as `x < y` is violated with margin 0, so the margin must become
+  // negative.
   return check.met ? margin : std::min(margin, -std::numeric_limits<double>::min());
 }
 

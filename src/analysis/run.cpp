@@ -24,11 +24,11 @@
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/scene.h"
 
-// Plans and runs a scenario, then writes its run folder. PlanRun plans; DriveRun simulates all
-// plants (simulate_plants.cpp) and measures each (metrics.cpp). DriveRun compares each pair of
-// plants (compare.cpp) and judges the results (verdict.cpp). WriteRunFolder writes all inputs next
-// to the results: resolved scenario, model, map, track and recordings. A run can therefore be
-// repeated from its folder.
+// Plans and runs a scenario, then writes its run folder. PlanRun computes the plan. DriveRun
+// simulates all plants (simulate_plants.cpp) and computes the metrics of each plant (metrics.cpp).
+// DriveRun compares each pair of plants (compare.cpp) and judges the results (verdict.cpp).
+// WriteRunFolder writes the results together with all inputs: resolved scenario, model, map, track
+// and recordings. A run can therefore be repeated from its folder.
 namespace trackbed {
 namespace {
 
@@ -40,8 +40,8 @@ constexpr double kPlanSpacing = 0.1;
 
 Table PlanTable(const Reference& reference) {
   Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
-  // Each leg is sampled separately, so that the cusps are among the rows. Where two legs meet, the
-  // point of the earlier leg is kept.
+  // Sample each leg of the path separately, so that plan.csv contains every cusp. Where two legs
+  // meet, keep the point of the earlier leg.
   for (const Stations& leg : SplitIntoLegs(reference.path)) {
     const Reference part = Excerpt(reference, leg);
     for (const PathPoint& point : part.path.Sample(kPlanSpacing)) {
@@ -57,7 +57,8 @@ Table PlanTable(const Reference& reference) {
   return table;
 }
 
-/// Table of the knots of the open-loop schedule delta(D).
+/// Returns a table with the knots of the open-loop steering schedule delta(D): steering angle over
+/// distance.
 Table ScheduleTable(const SteeringSchedule& schedule) {
   Table table({"distance_m", "steering_rad"});
   for (const SteeringSchedule::Knot& knot : schedule.knots()) {
@@ -66,7 +67,7 @@ Table ScheduleTable(const SteeringSchedule& schedule) {
   return table;
 }
 
-/// Table of the edges of the search trees.
+/// Returns a table with the edges of the planner's search trees.
 Table TreeTable(const std::vector<TreeNode>& tree) {
   Table table({"x_m", "y_m", "parent_x_m", "parent_y_m", "cost_m"});
   for (const TreeNode& node : tree) {
@@ -76,7 +77,8 @@ Table TreeTable(const std::vector<TreeNode>& tree) {
   return table;
 }
 
-/// Plans adopted during the run: the rows of plan.csv for each plan, with the time of its adoption.
+/// Returns a table of the plans adopted during the run. For each plan, the table contains the rows
+/// of plan.csv and the time of adoption.
 Table ChangesTable(const RunLog& log) {
   std::vector<std::string> columns{"from_t_s"};
   const Table first = PlanTable(log.changes.front().plan.reference);
@@ -118,9 +120,9 @@ void AddUnlessEmpty(const Table& table, const std::string& name, ResultWriter& w
   }
 }
 
-/// Fraction of the rows in which a loaded tyre slides.
+/// Returns the fraction of the log rows in which at least one loaded tyre slides.
 double SlidingShare(const RunLog& log) {
-  constexpr double kSlip = 0.1;     // Slip relative to the speed, longitudinal or lateral.
+  constexpr double kSlip = 0.1;     // Slip ratio or slip angle above which a tyre slides.
   constexpr double kAtLeast = 1.0;  // Speed below which rounding dominates the slip [m/s].
   const auto slides = [&](const LogRow& row) {
     return std::abs(row.state.speed) > kAtLeast && row.state.wheels &&
@@ -134,8 +136,8 @@ double SlidingShare(const RunLog& log) {
          static_cast<double>(log.rows.size());
 }
 
-/// MuJoCo's friction cone lifts sliding contacts, so wheel loads of a run with sliding tyres are
-/// not realistic.
+/// Adds a note to the verdict if the tyres slid on MuJoCo's contacts. MuJoCo's friction cone lifts
+/// sliding contacts, so the wheel loads of such a run are not realistic.
 void NoteSlidingContacts(RunResult& result, const CarModel& car) {
   constexpr double kNotedFraction = 0.01;
   for (const RunLog& log : result.logs) {
@@ -200,7 +202,8 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
     metrics.tracking->overspeed_limit = OverspeedLimit(log, scenario, car.unladen());
   }
   if (log.plant == kRecordedPlant) {
-    // The limits are those of the model, but the measured wheels are those of the real vehicle.
+    // Clear the steering limits, which belong to the model, because the measured wheels belong to
+    // the real vehicle.
     metrics.steering_rate_limit = 0.0;
     metrics.steering_limit = 0.0;
   }
@@ -332,8 +335,8 @@ void WritePlan(const RunResult& planned, const OutputFolder& folder) {
 
 namespace {
 
-/// The car of a scenario that names its own model file, without load and world; none for a shipped
-/// car.
+/// Returns the model of the car without payload and world if the scenario names its own model file;
+/// none for a car shipped with Trackbed.
 std::optional<Scene> OwnVehicle(const RunResult& result) {
   const Scenario& scenario = result.scenario;
   if (!IsModelPath(scenario.vehicle.model)) {

@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::string_view kStateEnding = ".state.csv";
 
-/// Makes the file name of a plant. Names of plants may come from files and must not point outside
-/// the folder.
+/// Makes a file name from the name of a plant. Plant names may come from files, so the file name
+/// must not point outside the folder.
 std::string Name(const std::string& plant, std::string_view ending) {
   if (plant.empty() || plant.front() == '.' || plant.find('/') != std::string::npos) {
     throw InputError(Problem{.message = fmt::format("'{}' is no name of a plant", plant)});

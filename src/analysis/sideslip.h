@@ -7,9 +7,10 @@
 
 namespace trackbed {
 
-/// Largest magnitude of the sideslip angle at the center of gravity [rad], up to the first contact
-/// with an obstacle. Only speeds above 1 m/s count: below, the sway of the body on its suspension
-/// dominates. The largest sideslip is 0 for a car that never exceeds 1 m/s.
+/// Returns the largest magnitude of the sideslip angle at the center of gravity [rad], up to the
+/// first contact with an obstacle. Only rows with speeds above 1 m/s count, because the sway of the
+/// body on its suspension dominates the sideslip at lower speeds. The largest sideslip is 0 for a
+/// car that never exceeds 1 m/s.
 inline std::optional<MetricReading> LargestSideslip(const MetricInput& input) {
   constexpr double kMinSpeed = 1.0;  // [m/s]
   double largest = 0.0;

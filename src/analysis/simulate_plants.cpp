@@ -13,7 +13,8 @@
 namespace trackbed {
 namespace {
 
-/// Simulates one plant and measures the time taken. The measured time excludes the hook `logged`.
+/// Simulates one plant and measures the computing time. The computing time excludes the caller's
+/// hook `logged`.
 SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
                              const std::string& plant, DriveHooks hooks) {
   DriveTiming timing{.plant = plant};
@@ -48,7 +49,8 @@ SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
   return simulated;
 }
 
-/// Calls the run's hook for the end of a plant, even if its simulation throws.
+/// On destruction, calls the caller's hook for the end of a plant. The hook is therefore called
+/// even if the simulation of the plant throws.
 class PlantEndNotifier {
  public:
   PlantEndNotifier(const RunHooks& hooks, const std::string& plant)

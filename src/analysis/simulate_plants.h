@@ -9,13 +9,13 @@ namespace trackbed {
 struct SimulatedPlant {
   RunLog log;
   DriveTiming timing;
-  std::vector<WindowErrors> windows;  // Errors of prediction windows; only with a record.
+  std::vector<WindowErrors> windows;  // Errors of the prediction windows; empty without a record.
   bool interrupted = false;           // Whether the simulation or its windows were interrupted.
 };
 
 /// Simulates the plants of a planned run, one after another or in parallel, as the hooks request.
-/// If a plant is interrupted, later plants are skipped. In parallel, an exception of one plant
-/// interrupts the others and is rethrown.
+/// If the simulation of a plant is interrupted, later plants are skipped. If plants run in
+/// parallel, an exception in one plant interrupts the other plants and is rethrown.
 std::vector<SimulatedPlant> SimulatePlants(const RunResult& planned, const CarModel& car,
                                            const RunHooks& hooks);
 

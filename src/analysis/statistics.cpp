@@ -12,21 +12,23 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
-// Statistics of study tables. Pass rates have the Wilson score interval (Wilson 1927). Quantiles
-// are interpolated linearly between order statistics. Means have intervals by Student's t. Classify
-// forms one class per value, or classes of about equal size if there are many values.
-// FirstOrderIndices computes the share of the variance between classes (epsilon squared). The
-// interval of an index is a normal interval from bootstrap resamples. CorrelateRanks computes the
-// rank correlation (Spearman 1904) with the interval of Bonett and Wright (2000). ComparePairs
-// computes paired differences and the sign test.
+// Computes statistics of study tables. Confidence intervals of pass rates are Wilson score
+// intervals (Wilson 1927). Quantiles are interpolated linearly between order statistics. Confidence
+// intervals of means use Student's t distribution. Classify forms one class per value, or classes
+// of about equal size if there are many values. FirstOrderIndices computes the fraction of an
+// output's variance that lies between classes (epsilon squared). The confidence interval of an
+// index is a normal interval from bootstrap resamples. CorrelateRanks computes the rank correlation
+// (Spearman 1904) with the confidence interval of Bonett and Wright (2000). ComparePairs computes
+// paired differences and the sign test.
 namespace trackbed {
 namespace {
 
-/// Boost's tables of long doubles overflow at startup if long doubles have only 64 bits, as under
-/// valgrind.
+/// Makes Boost compute with doubles only, because Boost's tables of long doubles overflow at
+/// startup if long doubles have only 64 bits, as under valgrind.
 using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-/// Half width of an interval with this confidence, in standard deviations of a normal distribution.
+/// Returns the half width of a confidence interval, in standard deviations of a normal
+/// distribution.
 double NormalReach(double confidence) {
   TRACKBED_REQUIRE(confidence > 0.0 && confidence < 1.0, "confidence {} is not in (0, 1)",
                    confidence);
@@ -38,8 +40,9 @@ double MeanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Epsilon squared of an output with a mean near 0: 1 - (within / (n - B)) / (total / (n - 1)) for
-/// n rows in B classes.
+/// Computes epsilon squared of an output with a mean near 0, for n rows in B classes: 1 - (W / (n -
+/// B)) / (T / (n - 1)). W is the sum of squares within the classes, and T is the total sum of
+/// squares.
 class VarianceShare {
  public:
   explicit VarianceShare(std::size_t classes) : counts_(classes), sums_(classes) {}
@@ -52,7 +55,7 @@ class VarianceShare {
     counts_[its_class] += 1.0;
     sums_[its_class] += value;
   }
-  /// `squares` is the sum of squares of all added values.
+  /// Returns epsilon squared. The argument `squares` is the sum of the squares of all added values.
   [[nodiscard]] std::optional<double> Share(double squares) const {
     double rows = 0.0;
     double sum = 0.0;
@@ -91,7 +94,8 @@ Interval WilsonInterval(std::size_t passed, std::size_t count, double confidence
   const double scale = 1.0 + z * z / n;
   const double center = (p + z * z / (2.0 * n)) / scale;
   const double half = z * std::sqrt(p * (1.0 - p) / n + z * z / (4.0 * n * n)) / scale;
-  // Avoids rounding at the ends of the interval, which are exact if no run or all runs passed.
+  // Avoid rounding errors at the ends of the interval: the lower end is exactly 0 if no run passed,
+  // and the upper end is exactly 1 if all runs passed.
   return {passed == 0 ? 0.0 : std::max(0.0, center - half),
           passed == count ? 1.0 : std::min(1.0, center + half)};
 }
@@ -155,7 +159,7 @@ Classes Classify(const std::vector<std::string>& values, std::size_t max_classes
   std::sort(numbers.begin(), numbers.end());
   classes.names.clear();
   for (std::size_t begin = 0; begin < numbers.size();) {
-    // Divides the remaining rows among the remaining classes.
+    // Divide the remaining rows evenly among the remaining classes.
     const std::size_t left =
         std::max<std::size_t>(1, max_classes - std::min(max_classes, classes.names.size()));
     std::size_t end = begin + std::max<std::size_t>(1, (numbers.size() - begin) / left);
@@ -180,7 +184,8 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
   if (output.empty()) {
     return indices;
   }
-  // Centers the values, so that a large mean does not cancel digits of the squares.
+  // Subtract the mean from the values, so that a large mean does not cause cancellation in the sums
+  // of squares.
   std::vector<double> values = output;
   const double mean = MeanOf(values);
   std::vector<VarianceShare> shares;
@@ -198,7 +203,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
     for (std::size_t row = 0; row < values.size(); ++row) {
       shares[p].Add(classes.of_row[row], values[row]);
     }
-    // Ignores variation due to rounding.
+    // Skip an output that varies only by rounding errors.
     const double rounding = 1e-12 * std::abs(mean);
     if (squares <= rounding * rounding * static_cast<double>(values.size())) {
       continue;
@@ -207,7 +212,8 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
       indices[p] = FirstOrderIndex{.index = *index};
     }
   }
-  std::mt19937_64 random(1);  // NOLINT(cert-msc51-cpp): the same intervals every time
+  // A fixed seed gives the same intervals every time.
+  std::mt19937_64 random(1);  // NOLINT(cert-msc51-cpp)
   std::vector<std::vector<double>> resampled(parameters.size());
   for (int resample = 0; resample < options.resamples; ++resample) {
     for (VarianceShare& share : shares) {
@@ -215,7 +221,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
     }
     double own_squares = 0.0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      // Row number below values.size(), computed from the upper half of the bits.
+      // Draw a row number below values.size() from the upper 32 random bits.
       const std::size_t row = ((random() >> 32U) * values.size()) >> 32U;
       own_squares += values[row] * values[row];
       for (std::size_t p = 0; p < parameters.size(); ++p) {
@@ -245,7 +251,8 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
 
 namespace {
 
-/// Ranks from 0; equal values share their mean rank. RanksOf returns none if all values are equal.
+/// Returns the ranks of the values, counted from 0. Equal values get the mean of their ranks.
+/// RanksOf returns none if all values are equal.
 std::optional<std::vector<double>> RanksOf(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -9,12 +9,13 @@
 namespace trackbed {
 namespace {
 
-constexpr double kMinSteadySpeed = 1.0;    // Speed below which L psi'/v is meaningless [m/s].
+// Speed below which the ratio of yaw rate to speed is too inaccurate to use [m/s].
+constexpr double kMinSteadySpeed = 1.0;
 constexpr double kYawAcceleration = 0.05;  // Largest yaw acceleration of a quasi-steady state
                                            // [rad/s^2].
 constexpr double kWindow = 0.5;            // Window of the mean yaw acceleration [s].
 
-/// Quasi-steady sample, mirrored to a left turn.
+/// Sample of a quasi-steady state; samples of right turns are mirrored to left turns.
 struct Sample {
   double steering = 0.0;
   double curvature = 0.0;
@@ -54,7 +55,7 @@ struct Line {
   double offset = 0.0;
 };
 
-/// Least-squares fit of y = offset + slope x.
+/// Fits the line y = offset + slope x by least squares.
 template <typename Y>
 Line Fit(const std::vector<Sample>& samples, const Y& y) {
   const auto n = static_cast<double>(samples.size());
@@ -84,7 +85,7 @@ std::vector<Sample> Between(const std::vector<Sample>& samples, double from, dou
   return between;
 }
 
-/// Range of the samples' lateral accelerations [m/s^2].
+/// Returns the range of the samples' lateral accelerations: maximum minus minimum [m/s^2].
 double Spread(const std::vector<Sample>& samples) {
   double low = samples.empty() ? 0.0 : samples.front().lateral_acceleration;
   double high = low;
@@ -97,7 +98,8 @@ double Spread(const std::vector<Sample>& samples) {
 
 void EvaluateGradients(const std::vector<Sample>& samples, double from, double to, double wheelbase,
                        ManeuverMetrics& metrics) {
-  constexpr double kMinSpread = 0.5;  // smallest range of accelerations for a gradient [m/s^2]
+  // Smallest range of lateral accelerations from which a gradient is computed [m/s^2].
+  constexpr double kMinSpread = 0.5;
   double highest = 0.0;
   for (const Sample& sample : samples) {
     highest = std::max(highest, sample.lateral_acceleration);

@@ -103,7 +103,8 @@ ordered_json DistributionJson(const Variation& variation) {
   return json;
 }
 
-/// The variation as a list of values, or as an object if it has further parameters.
+/// Converts a variation to a JSON list of values, or to an object if the variation has further
+/// parameters.
 ordered_json VariationJson(const Variation& variation) {
   ordered_json json = ordered_json::array();
   if (variation.distribution) {
@@ -129,7 +130,8 @@ ordered_json VariationJson(const Variation& variation) {
 }  // namespace
 
 ordered_json DescribeStudy(const Study& study) {
-  // The path is absolute, so that it does not depend on the current folder.
+  // Write the scenario's absolute path, so that the description does not depend on the current
+  // folder.
   const fs::path scenario = fs::absolute(study.scenario).lexically_normal();
   ordered_json json{{"study", study.name}, {"scenario", scenario.string()}};
   json["set"] = SettingsJson(study.set);

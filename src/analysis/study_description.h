@@ -8,10 +8,10 @@
 
 namespace trackbed {
 
-/// Keys of a study's parameters, in the order of the table's columns.
+/// Returns the keys of a study's parameters, in the order of the columns of the study's table.
 std::vector<std::string> ParameterKeys(const Study& study);
 
-/// Column names of a study's table.
+/// Returns the column names of a study's table.
 std::vector<std::string> TableColumns(const Study& study);
 
 /// Converts a YAML value to JSON. SettingsJson keeps the type of numbers, booleans and null; other
@@ -19,8 +19,8 @@ std::vector<std::string> TableColumns(const Study& study);
 nlohmann::ordered_json SettingsJson(const std::string& value);
 nlohmann::ordered_json SettingsJson(const std::vector<Setting>& settings);
 
-/// Describes all inputs that determine the rows of a study, except the contents of files. Two
-/// studies with equal descriptions have equal rows.
+/// Describes all inputs that determine the rows of a study, except the contents of input files. Two
+/// studies with equal descriptions and equal input files have equal rows.
 nlohmann::ordered_json DescribeStudy(const Study& study);
 
 }  // namespace trackbed

@@ -65,8 +65,8 @@ void RunCase(const std::function<Scenario(const fs::path&)>& read,
   one.wall_time = took.count();
 }
 
-/// Reports cases in the order of the files. A case is reported as soon as it and all earlier cases
-/// have finished.
+/// Reports test cases in the order of their files. A case is reported as soon as that case and all
+/// earlier cases have finished.
 class OrderedCases {
  public:
   OrderedCases(const std::vector<SuiteCase>& cases,
@@ -101,7 +101,7 @@ std::string XmlText(const std::string& text) {
     const bool broken = c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete;
     const bool control = c < 0x20 && c != '\t' && c != '\n';
     if (broken) {
-      // Skips the remaining bytes of an invalid multibyte character.
+      // Skip the remaining bytes of an invalid multibyte character.
       at = std::find_if(begin + 1, text.end(), [](char byte) {
         return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;
       });
@@ -123,7 +123,8 @@ std::string Seconds(double time) {
   return fmt::format("{:.3f}", time);
 }
 
-/// Adds the child element of a case that failed; adds nothing if the case passed.
+/// Adds a child element that describes why a test case did not pass; adds nothing if the case
+/// passed.
 void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
   struct Kind {
     const char* element;
@@ -159,7 +160,7 @@ void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
   outcome.SetText(XmlText(fmt::format("{}", fmt::join(one.reasons, "\n"))).c_str());
 }
 
-/// Class name by which reports group cases, such as "scenarios.studies" for
+/// Returns the class name by which JUnit reports group test cases, such as "scenarios.studies" for
 /// scenarios/studies/x.yaml.
 std::string ClassName(const fs::path& file) {
   std::string name;

@@ -18,20 +18,21 @@
 #include "trackbed/analysis/sweep_rows.h"
 #include "trackbed/core/error.h"
 
-// Runs the rows of a study in parallel and records each as it finishes (sweep_records.cpp). A row
-// is a point of the study and a repetition. The study fixes the row numbers, so a shard or a
-// resumed study runs only the missing rows. `--until` stops a sample once the Wilson intervals of
-// the pass rates are narrow enough at all grid points. The pass rates are checked every kUntilBatch
-// points. WriteSweep writes the table row by row from the records; MergeRecords joins shards and
-// rejects contradicting rows.
+// Runs the rows of a study in parallel and records each row when its run finishes
+// (sweep_records.cpp). A row is one repetition of one point of the study. The row numbers depend
+// only on the study, so a shard or a resumed study can run exactly the missing rows. The option
+// `--until` stops sampling when the Wilson intervals of the pass rates are narrow enough at all
+// grid points. The intervals are checked after every kUntilBatch points. WriteSweep writes the
+// table row by row from the records. MergeRecords joins the records of shards and rejects
+// contradicting rows.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Rows of the shard that are to be run: those missing in the records. If `again` is given, the
-/// rows to run are those recorded with one of its statuses.
+/// Returns the rows of the shard that must be run: the rows that are missing in the records. If
+/// `again` lists statuses, returns instead the recorded rows with one of these statuses.
 std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptions& options) {
   const std::vector<std::string> columns = records.Columns();
   const auto status = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "status") -
@@ -53,7 +54,8 @@ std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptio
   return rows;
 }
 
-/// Number of rows that passed at each grid point, over the first points of the sample.
+/// Counts the rows that passed at each grid point, over the points of the sample that have been run
+/// so far.
 class SampledPassRates {
  public:
   SampledPassRates(const SweepRecords& records, std::size_t repeat, std::size_t samples)
@@ -62,8 +64,8 @@ class SampledPassRates {
         samples_(samples),
         passed_(records.rows() / (samples * repeat)) {}
 
-  /// Rows of the next kUntilBatch points of the sample, at all grid points. NextRows returns
-  /// nothing at the end of the sample.
+  /// Returns the rows of the next kUntilBatch points of the sample, at all grid points. NextRows
+  /// returns no rows at the end of the sample.
   [[nodiscard]] std::vector<std::size_t> NextRows() const {
     std::vector<std::size_t> rows;
     const std::size_t end = std::min(sampled_ + kUntilBatch, samples_);
@@ -75,8 +77,8 @@ class SampledPassRates {
     return rows;
   }
 
-  /// Counts the results of the rows that NextRows returned. Take() returns false if a result is
-  /// missing.
+  /// Counts which of the rows returned by NextRows passed. Take() returns false if the result of a
+  /// row is missing.
   bool Take(const std::vector<std::size_t>& rows) {
     for (const std::size_t row : rows) {
       if (!records_.Has(row)) {
@@ -88,7 +90,7 @@ class SampledPassRates {
     return true;
   }
 
-  /// Whether the half width of every 95 % interval is at most `half_width`.
+  /// Returns whether the 95 % interval of every pass rate has a half width of at most `half_width`.
   [[nodiscard]] bool AreAllKnownTo(double half_width) const {
     return std::all_of(passed_.begin(), passed_.end(), [&](std::size_t passed) {
       const Interval interval = WilsonInterval(passed, sampled_ * repeat_, 0.95);
@@ -101,7 +103,7 @@ class SampledPassRates {
   std::size_t repeat_;
   std::size_t samples_;
   std::vector<std::size_t> passed_;  // Number of passed rows at each grid point.
-  std::size_t sampled_ = 0;          // Number of points of the sample so far.
+  std::size_t sampled_ = 0;          // Number of sample points that have been run so far.
 };
 
 /// Calls `take` with every recorded row of the shard, in order.
@@ -114,7 +116,7 @@ void ForEachRow(const SweepRecords& records, const Shard& shard,
   }
 }
 
-/// Content of sweep.json: the study and the rows that were run.
+/// Returns the content of sweep.json, which describes the study and the rows that were run.
 ordered_json Description(const SweepRecords& records, const Shard& shard,
                          const SweepSummary& sweep) {
   ordered_json json = records.header();
@@ -207,7 +209,7 @@ void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords
                  [&](std::size_t row) { return !records.Has(row); });
     run_rows(missing);
     if (next.empty() || !rates.Take(next)) {
-      return;  // returns if all rows have been run or the study was interrupted
+      return;  // all rows have been run, or the study was interrupted
     }
   }
 }
@@ -240,7 +242,8 @@ SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWri
     description["stopped"] = stopped;
   }
   writer.Add(run_folder::kSweepJson, JsonText(description));
-  // Removes the outcome, which belongs to other rows.
+  // Also remove the report and the outcome of a search or verification, which belong to the old
+  // rows.
   writer.EndResult(run_folder::kStudy,
                    {run_folder::kReport, run_folder::kFalsifyJson, run_folder::kVerifyJson});
   return summary;
@@ -335,7 +338,7 @@ std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t ro
   const JsonValue header = records.Header();
   std::vector<Override> overrides;
   for (const auto& [key, value] : header.At("set").Members()) {
-    // Cells with text are written unchanged; other values are written as YAML.
+    // Write cells with text unchanged and other values as YAML.
     const nlohmann::ordered_json& json = value.json();
     overrides.push_back(
         fmt::format("{}={}", key, json.is_string() ? json.get<std::string>() : json.dump()));

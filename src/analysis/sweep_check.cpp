@@ -18,13 +18,13 @@ namespace {
 
 using CarKey = std::tuple<std::string, double, double>;
 
-/// Key of a scenario's compiled model without obstacles.
+/// Returns the key that identifies the compiled model of a scenario's car, without obstacles.
 CarKey MakeCarKey(const Scenario& scenario) {
   return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep,
           scenario.vehicle.steering_rate.value_or(0.0)};
 }
 
-/// A copy of the scenario without additions to the car's scene.
+/// Returns a copy of the scenario without obstacles, map, ground and payload.
 Scenario Bare(Scenario scenario) {
   scenario.world.obstacles.clear();
   scenario.world.map.reset();
@@ -33,14 +33,14 @@ Scenario Bare(Scenario scenario) {
   return scenario;
 }
 
-/// Checks one scenario per key and collects the InputErrors.
+/// Checks only one scenario for each key and collects the problems that the checks report.
 template <typename Key>
 class OncePerKey {
  public:
   explicit OncePerKey(std::function<void(const Scenario& scenario)> check)
       : check_(std::move(check)) {}
 
-  /// Whether the check succeeds for the scenarios with this key.
+  /// Returns whether the check succeeds for scenarios with this key.
   bool operator()(const Key& key, const Scenario& scenario) {
     const auto [at, is_new] = good_.try_emplace(key, true);
     if (is_new) {
@@ -62,7 +62,8 @@ class OncePerKey {
   std::vector<Problem> problems_;
 };
 
-/// Constructs each plant with its car, since some plants need elements that a model may lack.
+/// Constructs each plant with its car, because some plants need elements that the car's model may
+/// lack.
 void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
   std::vector<Problem> problems;
   const World bare;
@@ -99,7 +100,7 @@ void CheckOutputs(const Study& study, const std::set<std::string>& possible) {
   }
 }
 
-/// SHA-256 of a car's model and the model's assets.
+/// Returns the SHA-256 of a car's model and of the model's asset files.
 std::string HashOfModel(const Scenario& scenario) {
   const Scene scene = ComposeScene(FindModel(scenario.vehicle.model, scenario.folder), {});
   Sha256Sum hash;
@@ -111,8 +112,8 @@ std::string HashOfModel(const Scenario& scenario) {
   return hash.Finish();
 }
 
-/// Adds the SHA-256 of each input file of the scenario, under the source of the input. A map
-/// consists of two files.
+/// Adds the SHA-256 of each input file of the scenario to `hashes`, keyed by the source of the
+/// file. A map consists of two files.
 void AddInputHashes(const Scenario& scenario, std::map<std::string, std::string>& hashes) {
   std::map<std::string, std::string> contents;
   for (const InputFile& file : InputFiles(scenario)) {
@@ -172,7 +173,7 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
     return std::nullopt;
   }
   const bool passed = result.verdict.passed;
-  // Without a plan the verdict has a single failure, which gives the reason.
+  // If planning failed, the verdict has a single failure, which gives the reason.
   RunOutcome outcome{.status = !result.plan.ok()        ? "no_plan"
                                : !result.verdict.judged ? "driven"
                                : passed                 ? "passed"

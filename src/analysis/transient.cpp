@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-// Limits of ISO 19365 and FMVSS 126 for the sine with dwell.
+// Limits of the standards ISO 19365 and FMVSS 126 for the maneuver sine with dwell.
 constexpr StandardLimit kEarlyRatio{StandardLimit::Relation::kAtMost, 0.35};     // [1]
 constexpr StandardLimit kLateRatio{StandardLimit::Relation::kAtMost, 0.20};      // [1]
 constexpr StandardLimit kDisplacement{StandardLimit::Relation::kAtLeast, 1.83};  // [m]
@@ -24,7 +24,7 @@ double LateralAcceleration(const LogRow& row) {
   return row.state.lateral_acceleration;
 }
 
-/// Mean of a quantity over the last `duration` seconds of the run.
+/// Returns the mean of a quantity over the last `duration` seconds of the run.
 template <typename Of>
 double MeanAtEnd(const RunLog& log, double duration, const Of& of) {
   const double from = log.rows.back().state.time - duration - 1e-9;
@@ -67,8 +67,8 @@ std::optional<Step> FindStep(const RunLog& log, double steady) {
   return step;
 }
 
-/// Adds response time, peak time, overshoot and steady value of a quantity, under keys that begin
-/// with `name`_.
+/// Adds the response time, peak time, overshoot and steady value of a quantity to the metrics. The
+/// keys of these metrics begin with `name`.
 template <typename Of>
 double EvaluateResponse(const RunLog& log, const Step& step, double steady_time,
                         const std::string& name, const Of& of, ManeuverMetrics& metrics) {
@@ -143,8 +143,8 @@ std::vector<ManeuverMetric> MethodMetrics(const SineWithDwellTestOptions& /*opti
 void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
               ManeuverMetrics& metrics) {
   const auto& rows = input.log.rows;
-  // The threshold of the steering is 5 degrees at the steering wheel. For a car without a steering
-  // ratio, a ratio of 20 is assumed.
+  // The maneuver begins when the steering wheel angle exceeds 5 degrees. If the steering ratio of
+  // the car is unknown, assume a ratio of 20.
   const double ratio = input.vehicle.steering_ratio > 0.0 ? input.vehicle.steering_ratio : 20.0;
   const double begins = 5.0 * kPi / 180.0 / ratio;
   const auto steering = [&](std::size_t i) { return rows[i].state.steering_actuator; };
@@ -164,7 +164,7 @@ void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
   while (reversal < rows.size() && side * steering(reversal) > 0.0) {
     ++reversal;
   }
-  // Row in which the steering returns to zero for the last time.
+  // Index of the log row in which the steering angle returns to zero for the last time.
   std::size_t complete = rows.size();
   while (complete > reversal && std::abs(steering(complete - 1)) < kNoSteering) {
     --complete;
@@ -175,8 +175,8 @@ void Evaluate(const SineWithDwellTestOptions&, const ManeuverInput& input,
   }
   const double completion = rows[complete].state.time;
 
-  // Lateral displacement relative to the initial heading, positive toward the first half of the
-  // sine.
+  // Compute the lateral displacement relative to the initial heading, positive in the direction of
+  // the first half of the sine.
   const Pose2& start = rows[first].state.pose;
   const double to_cg = input.vehicle.cg_to_rear;
   const auto across = [&](const LogRow& row) {

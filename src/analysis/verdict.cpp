@@ -5,15 +5,15 @@
 #include <algorithm>
 
 // Judges a run. Each plant must arrive without a collision, or collide if the scenario expects a
-// collision. Each plant must stay below the actuator's steering rate and within the default
-// corridor of one car width. Each plant must also meet its expectations, its requirements and the
-// bounds between plants. Explicit expectations replace the default expectations on status and
-// cross-track error. Every check is recorded, even if it is met. A run without expectations, plan
-// and obstacles is judged only if a check fails.
+// collision. Each plant must not exceed the actuator's steering rate, and must stay within the
+// default corridor of one car width. Each plant must also meet its expectations, its requirements,
+// and the bounds on its difference from other plants. Explicit expectations replace the default
+// expectations on status and cross-track error. Every check is recorded, even if it is met. A run
+// without expectations, plan and obstacles gets a verdict only if a check fails.
 namespace trackbed {
 namespace {
 
-/// Fraction of the actuator's rate by which the measured steering rate may exceed that rate.
+/// Fraction by which the measured steering rate may exceed the rate limit of the actuator.
 constexpr double kWheelCompliance = 0.03;
 
 bool HasExpectationFor(std::string_view metric, const PlantExpectation& expect) {
@@ -33,7 +33,7 @@ bool HasExpectations(const Expectations& expect) {
                      [](const auto& own) { return HasExpectations(own.second); });
 }
 
-/// Reason why a run ended before the goal; appended to the failure message.
+/// Explains why a run ended before the goal. The explanation is appended to the failure message.
 std::string EarlyEndReason(const PlantMetrics& metrics) {
   return !metrics.blocked.empty()   ? fmt::format(" (it {})", metrics.blocked)
          : !metrics.partial.empty() ? fmt::format(" (the plan {})", metrics.partial)
@@ -41,7 +41,8 @@ std::string EarlyEndReason(const PlantMetrics& metrics) {
                                     : "";
 }
 
-/// Expectations on one plant: those on all plants, then those on this plant alone.
+/// Expectations that apply to one plant: the expectations on all plants, followed by the
+/// expectations on this plant alone.
 class Expected {
  public:
   Expected(const Expectations& expect, const std::string& plant) {
@@ -61,7 +62,8 @@ class Expected {
     });
   }
 
-  /// Whether a collision is expected; none if the scenario does not say.
+  /// Returns whether the scenario expects a collision; none if the scenario specifies no
+  /// expectation.
   [[nodiscard]] std::optional<bool> Collision() const {
     std::optional<bool> collision;
     for (const PlantExpectation* part : parts_) {
@@ -80,8 +82,8 @@ class Expected {
   std::vector<const PlantExpectation*> parts_;
 };
 
-/// Checks that the run arrives or ends in the expected collision. JudgeEnd returns true if the run
-/// ends as expected, or if the scenario has an expectation on the status.
+/// Checks that the run arrives at the goal or ends in the expected collision. JudgeEnd returns true
+/// if the run ends as expected, or if the scenario has an expectation on the metric `status`.
 bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& verdict) {
   if (expected.HasMetric("status")) {
     return true;
@@ -102,7 +104,7 @@ bool JudgeEnd(const Expected& expected, const PlantMetrics& metrics, Verdict& ve
   return arrival.met;
 }
 
-/// Notes prescribed steering that exceeds the limits of the car.
+/// Adds a note to the verdict if the prescribed steering exceeds the limits of the car.
 void NotePrescribedSteering(const PlantMetrics& metrics, Verdict& verdict) {
   const auto note = [&](const char* what, double was, double limit, const char* unit) {
     if (limit > 0.0 && was > (1.0 + kWheelCompliance) * limit) {
@@ -136,7 +138,8 @@ void JudgeCorridor(const PlantMetrics& metrics, Verdict& verdict) {
   }
 }
 
-/// If the overspeed exceeds its limit, a note explains how the limit is composed.
+/// Checks that the overspeed does not exceed its limit. Otherwise, adds a note with the overspeed
+/// and the limit to the verdict.
 void JudgeOverspeed(const PlantMetrics& metrics, Verdict& verdict) {
   const TrackingMetrics& tracking = *metrics.tracking;
   if (!tracking.overspeed_limit || !tracking.overspeed_max) {
@@ -167,7 +170,7 @@ void JudgeMetric(const MetricExpectation& expect, const PlantMetrics& metrics, V
   const auto check = [&](Relation relation, const MetricValue& bound) {
     if (is_number) {
       Check own = CheckMetric(metrics, expect.metric, relation, bound);
-      // A missing or non-numeric metric is reported once, not once per bound.
+      // Report a missing or non-numeric metric only once, even if the metric has several bounds.
       const bool found = own.detail.empty();
       const bool number =
           std::holds_alternative<int>(own.value) || std::holds_alternative<double>(own.value);

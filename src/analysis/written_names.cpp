@@ -19,7 +19,7 @@ namespace {
 
 using Names = std::vector<std::string>;
 
-/// The files that a composed model names (sim/scene.h).
+/// Returns the name patterns of the asset files that belong to a composed model (sim/scene.h).
 const Names& AssetNames() {
   static const Names names{"asset<number>_<file>", "ground_<number>.hfield"};
   return names;
@@ -47,7 +47,8 @@ Names RunNames() {
                       run_folder::kMetricsJson});
 }
 
-/// The fixed parts of a name pattern: those of "<plant>.csv" are "" and ".csv".
+/// Returns the fixed parts of a name pattern. For example, the fixed parts of "<plant>.csv" are ""
+/// and ".csv".
 Names FixedParts(const std::string& pattern) {
   Names parts{""};
   for (std::size_t at = 0; at < pattern.size(); ++at) {
@@ -62,7 +63,8 @@ Names FixedParts(const std::string& pattern) {
   return parts;
 }
 
-/// Whether `name` contains the fixed parts in order, with at least one character between them.
+/// Returns whether `name` matches the pattern. The name must contain the pattern's fixed parts in
+/// order, with at least one character between them.
 bool Matches(const std::string& pattern, const std::string& name) {
   const Names parts = FixedParts(pattern);
   if (parts.size() == 1) {
@@ -82,8 +84,8 @@ bool Matches(const std::string& pattern, const std::string& name) {
   return at + parts.back().size() <= name.size();
 }
 
-/// Fills a pattern with each known text of its variable part. Filled() returns nothing if no text
-/// is known for the variable part.
+/// Replaces the variable part of a name pattern by each of its known values, and returns the
+/// resulting names. Filled() returns no names if no value is known.
 Names Filled(const std::string& pattern, const NameParts& parts) {
   const std::size_t begin = pattern.find('<');
   if (begin == std::string::npos) {
@@ -108,8 +110,8 @@ const VerbNames& OfVerb(std::string_view verb) {
   return *found;
 }
 
-/// Reads `size` bytes of the file from `offset` on; a negative offset counts from the end. BytesAt
-/// returns an empty text if the file has fewer bytes.
+/// Reads `size` bytes of a file, starting at `offset`. A negative offset counts from the end of the
+/// file. BytesAt returns an empty text if the file has too few bytes.
 std::string BytesAt(const std::filesystem::path& file, std::streamoff offset, std::size_t size) {
   std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);

@@ -48,7 +48,7 @@ struct CheckPathOptions {
   ScenarioOptions scenario;
 };
 
-/// Turns the file name into a valid name of a scenario.
+/// Makes a valid scenario name from the name of a path file.
 std::string NameOf(const fs::path& file) {
   std::string name = file.stem().string();
   std::replace_if(
@@ -58,8 +58,8 @@ std::string NameOf(const fs::path& file) {
   return name.empty() ? "path" : name;
 }
 
-/// Text of a scenario that follows the path, without expectations on the car. The scenario is
-/// written as JSON, which is valid YAML.
+/// Returns the text of a scenario in which a car follows the path, without expectations on the car.
+/// The scenario is written as JSON, which is valid YAML.
 std::string ScenarioText(const CheckPathOptions& options) {
   const fs::path file = options.file;
   nlohmann::ordered_json plan{
@@ -142,8 +142,8 @@ int Drive(const CheckPathOptions& options, const Scenario& scenario) {
 
 int CheckPathFile(const CheckPathOptions& options) {
   const fs::path file = options.file;
-  static_cast<void>(OpenInput(file));  // makes the error name the file, not a key of the scenario
-                                       // made for it
+  static_cast<void>(OpenInput(file));  // if the file cannot be read, the error names the file and
+                                       // not a key of the generated scenario
   const Scenario scenario =
       options.scenario.Parse(ScenarioText(options), "check-path", file.parent_path());
   const auto* plan = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;

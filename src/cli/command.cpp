@@ -10,10 +10,10 @@
 
 #include "src/cli/terminal.h"
 
-// Command line on top of CLI11: Command and Option wrap CLI11's apps and options. CommandLine adds
-// help in the usual layout, wrapped to the terminal's width. CommandLine also adds the option
-// --color to every verb, and shorter messages for missing arguments. VisibleVerbs describes all
-// verbs for completion, manual pages and the reference.
+// Implements the command line with CLI11: Command and Option wrap CLI11's apps and options.
+// CommandLine prints help in the usual layout, wrapped to the width of the terminal. CommandLine
+// also adds the option --color to every verb, and shorter messages for missing arguments.
+// VisibleVerbs describes all verbs for completion, manual pages and the reference.
 namespace trackbed::cli {
 
 Option Option::Required() const {
@@ -122,8 +122,8 @@ namespace {
 
 constexpr const char* kColorOption = "--color";
 
-/// Appends the verbs of `app` and, recursively, the verbs below them. `before` is prepended to the
-/// names.
+/// Appends the verbs of `app` and, recursively, the verbs below these verbs to `verbs`. Each name
+/// is preceded by `before`.
 void AddVisibleVerbs(const CLI::App& app, const std::string& before,
                      const std::map<const CLI::App*, std::vector<Example>>& examples,
                      std::vector<CommandInfo>& verbs) {
@@ -163,7 +163,7 @@ void Command::AddExample(const std::string& text, const std::string& command) co
 
 namespace {
 
-/// The message "missing FILE" for the first required option that was not given.
+/// Returns the message "missing FILE" for the first required option that the user did not give.
 std::optional<std::string> Missing(const CLI::App& program) {
   for (const CLI::App* verb : program.get_subcommands()) {
     for (const CLI::Option* option : verb->get_options()) {
@@ -183,7 +183,8 @@ std::optional<std::string> Missing(const CLI::App& program) {
 
 namespace {
 
-/// Formats help like other programs: value names as given, text wrapped to the terminal's width.
+/// Formats help in the style of other programs: value names are printed as given, and text is
+/// wrapped to the terminal's width.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool positional) const override {
@@ -212,7 +213,7 @@ class HelpFormatter : public CLI::Formatter {
   }
 
  private:
-  /// The width is at most 100, since longer lines are hard to read.
+  /// Returns the width of help texts, at most 100 columns, because longer lines are hard to read.
   static std::size_t Width() { return std::min<std::size_t>(TerminalWidth(), 100); }
 
   static std::string Item(const std::string& name, const std::string& text) {
@@ -255,7 +256,7 @@ Command CommandLine::AddVerb(const std::string& name, const std::string& summary
 
 void CommandLine::Prepare(CLI::App& verb) {
   verb.group("Verbs");
-  verb.footer("");  // prevents the verb from inheriting its parent's footer
+  verb.footer("");  // otherwise the verb would inherit the footer of its parent verb
   verb.add_option_function<std::string>(kColorOption, &ChooseColors,
                                         "Colors: auto (on a terminal, unless NO_COLOR is set), "
                                         "always or never")
@@ -266,8 +267,8 @@ void CommandLine::Prepare(CLI::App& verb) {
 
 namespace {
 
-/// Makes a verb's required options optional if a verb below it is given. CLI11 would otherwise take
-/// the lower verb's name as a required argument.
+/// If the command line names a verb and a verb below that verb, makes the required options of the
+/// upper verb optional. CLI11 would otherwise take the lower verb's name as a required argument.
 void RequireOnlyOfLowestVerb(CLI::App& program, int argc, char** argv) {
   const auto find = [](CLI::App& app, const char* name) {
     return app.get_subcommands([&](const CLI::App* verb) { return verb->check_name(name); });

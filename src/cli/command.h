@@ -16,8 +16,8 @@ class Option;
 
 namespace trackbed::cli {
 
-/// Variable set by an option; it must outlive the parsing. OptionTarget takes the address of the
-/// variable, so a copy must not be passed.
+/// Reference to the variable that an option sets. The variable must outlive the parsing of the
+/// command line. OptionTarget stores the address of the variable, so callers must not pass a copy.
 using OptionTarget = std::variant<
     std::reference_wrapper<std::string>, std::reference_wrapper<int>,
     std::reference_wrapper<std::uint64_t>, std::reference_wrapper<double>,
@@ -25,20 +25,21 @@ using OptionTarget = std::variant<
     std::reference_wrapper<std::optional<double>>, std::reference_wrapper<std::optional<int>>,
     std::reference_wrapper<std::vector<std::string>>, std::reference_wrapper<std::vector<double>>>;
 
-/// Handle of an option; valid as long as its CommandLine.
+/// Handle of a command line option. The handle is valid as long as the CommandLine exists.
 class Option {
  public:
   Option Required() const;
-  /// Name of the value in help, such as FILE.
+  /// Sets the name of the option's value in help, such as FILE.
   Option TypeName(const std::string& name) const;
   /// Accepts several values in one word, separated by `separator`.
   Option Delimiter(char separator) const;
-  /// Each occurrence of a list option takes one word, not all following words.
+  /// Makes each occurrence of a list option take one word instead of all following words.
   Option OneWord() const;
   /// Shows the variable's current value as default in help.
   Option ShowDefault() const;
   Option Excludes(const Option& other) const;
-  /// Excludes the option `other`, and makes it optional if this option is given.
+  /// Makes this option an alternative to the required option `other`: exactly one of the two
+  /// options must be given.
   Option InsteadOf(const Option& other) const;
   /// Rejects integers outside low..high.
   Option Range(int low, int high) const;
@@ -52,7 +53,7 @@ class Option {
   CLI::Option* option_;
 };
 
-/// Description of an option or positional argument for the reference pages.
+/// Describes an option or positional argument for the reference pages.
 struct OptionInfo {
   std::string name;   ///< Names such as "-o,--out"; for a positional argument, its type name.
   std::string value;  ///< Type name; empty for flags and positional arguments.
@@ -68,7 +69,7 @@ struct Example {
   std::string command;  ///< The command as typed.
 };
 
-/// Description of a verb for help and the reference pages.
+/// Describes a verb for help and the reference pages.
 struct CommandInfo {
   std::string name;
   std::string summary;
@@ -78,24 +79,24 @@ struct CommandInfo {
 
 class CommandLine;
 
-/// Handle of a verb; valid as long as its CommandLine.
+/// Handle of a verb. The handle is valid as long as the CommandLine exists.
 class Command {
  public:
   Option AddPositional(const std::string& name, OptionTarget target, const std::string& text) const;
-  /// Adds an option with `names` such as "-o,--out".
+  /// Adds an option; `names` lists its names, such as "-o,--out".
   Option AddOption(const std::string& names, OptionTarget target, const std::string& text) const;
   void AddFlag(const std::string& names, bool& target, const std::string& text) const;
   /// Adds a verb below this verb, such as "sweep merge". If the added verb is given, this verb is
   /// not run and requires no options.
   [[nodiscard]] Command AddVerb(const std::string& name, const std::string& summary) const;
-  /// Adds an example to the end of --help.
+  /// Adds an example to the end of the verb's help.
   void AddExample(const std::string& text, const std::string& command) const;
   /// Hides the verb from --help and VisibleVerbs.
   void Hide() const;
   /// Sets the action of the verb; `run` returns the exit code. Exceptions of `run` propagate
   /// through CommandLine::Parse.
   void OnRun(std::function<int()> run) const;
-  /// All verbs of the program that --help shows.
+  /// Returns all verbs of the program that --help shows.
   [[nodiscard]] std::vector<CommandInfo> VisibleVerbs() const;
 
  private:
@@ -106,8 +107,8 @@ class Command {
   CommandLine* line_;
 };
 
-/// Parser of a program with verbs. Only command.cpp includes CLI11, whose headers take longer to
-/// compile than the verbs.
+/// Parses the command line of a program with verbs. Only command.cpp includes CLI11, whose headers
+/// take longer to compile than the verbs.
 class CommandLine {
  public:
   CommandLine(const std::string& name, const std::string& summary,
@@ -118,8 +119,9 @@ class CommandLine {
 
   Command AddVerb(const std::string& name, const std::string& summary);
 
-  /// Runs the verb on the command line and returns its exit code. Prints help, the version or an
-  /// error of usage. Parse() returns `bad_usage` for an error of usage and if no verb is given.
+  /// Runs the verb that the command line names and returns the verb's exit code. Parse() also
+  /// prints help, the version and errors of usage. Parse() returns `bad_usage` for an error of
+  /// usage and if no verb is given.
   int Parse(int argc, char** argv, int bad_usage);
 
  private:

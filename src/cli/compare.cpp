@@ -51,7 +51,7 @@ void PrintComparison(const std::string& name, const RunComparison& result, const
   for (const ComparedPair& pair : result.pairs) {
     const PlantComparison& c = pair.comparison;
     if (!c.comparable()) {
-      continue;  // the verdict reports that the pair is not comparable
+      continue;  // skip the pair: the verdict reports that these plants are not comparable
     }
     Print("  {} - {}, from {:.4g} m to {:.4g} m\n", c.first, c.second, c.from_s, c.to_s);
     for (const ComparedQuantity& quantity : ComparedQuantities()) {
@@ -109,8 +109,8 @@ int CompareScenario(const ScenarioRun& run, const CompareOptions& options) {
 }
 
 int CompareScenarios(const CompareOptions& options) {
-  static_cast<void>(Tolerances(options));  // checks the tolerances before the runs, so that an
-                                           // error appears early
+  // Check the given tolerances before the runs, so that an error appears early.
+  static_cast<void>(Tolerances(options));
   const std::vector<ScenarioRun> runs =
       ReadScenarioRuns(options.files, options.scenario, options.out, "out/compare");
   for (const ScenarioRun& run : runs) {

@@ -40,7 +40,7 @@ void AddCompletion(const Command& command) {
 }
 
 void AddManual(const Command& command) {
-  command.Hide();  // the verb is used by the build and not shown in --help
+  command.Hide();  // --help does not show this verb, because only the build uses it
   const auto folder = std::make_shared<std::string>();
   command.AddPositional("folder", *folder, "Folder for the manual pages")
       .Required()

@@ -18,7 +18,8 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-/// Words and unit of a field name: "ramp_time_s" is {"ramp", "time"} with the unit s.
+/// Column heading made from a field name: "ramp_time_s" becomes the words {"ramp", "time"} with the
+/// unit s.
 struct Heading {
   Texts words;
   std::string unit;  ///< empty for dimensionless fields
@@ -55,13 +56,13 @@ struct TextCell {
   std::string text;
 };
 
-/// Fields of a list element or of the plan itself.
+/// The fields of a list element, or of the plan itself.
 struct Fields {
   std::vector<TextCell> cells;
   Texts remarks;  ///< sentences too long for a column
 };
 
-/// A named list of rows.
+/// A list in the diagnostics, such as turns, printed as a table with one row per element.
 struct NamedList {
   std::string name;
   std::vector<Fields> rows;

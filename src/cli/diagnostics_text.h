@@ -6,8 +6,9 @@
 
 namespace trackbed::cli {
 
-/// Summary of any planner's diagnostics for the terminal. Each list, such as turns or corners, is a
-/// table; each other field is one line. The summary ends with a line feed unless it is empty.
+/// Formats the diagnostics of any planner for the terminal. Each list, such as turns or corners,
+/// becomes a table; each other field becomes one line. The summary ends with a line feed unless it
+/// is empty.
 std::string DiagnosticsText(const Plan& plan);
 
 }  // namespace trackbed::cli

@@ -17,7 +17,7 @@
 namespace trackbed::cli {
 namespace {
 
-/// The generated part of the page, between two marker lines.
+/// A generated part of a documentation page, between two marker lines.
 struct Block {
   std::string name;
   std::string markdown;
@@ -38,7 +38,7 @@ std::string Cell(const std::string& text) {
   return cell;
 }
 
-/// Within code only the bar must be escaped.
+/// Formats text as code for a Markdown table cell, in which only the character | must be escaped.
 std::string Code(const std::string& text) {
   std::string cell;
   for (const char c : text) {
@@ -60,7 +60,8 @@ std::string VerbTable(const std::vector<CommandInfo>& verbs) {
   return table;
 }
 
-/// Table of a verb's options except --help, which the page describes once for all verbs.
+/// Returns the table of a verb's options. The table omits --help, which the page describes once for
+/// all verbs.
 std::string OptionTable(const CommandInfo& verb) {
   std::string table = "| argument | means |\n|---|---|\n";
   for (const OptionInfo& option : verb.options) {
@@ -103,7 +104,7 @@ std::string NameList(const std::vector<std::string>& names) {
   return list;
 }
 
-/// Tables of the files of each result, and of the results of each verb.
+/// Returns two tables: the files of each kind of result, and the results of each verb.
 std::string WrittenNamesTables() {
   std::string tables = "| result | its files |\n|---|---|\n";
   for (const ResultNames& result : AllResultNames()) {
@@ -131,7 +132,7 @@ std::vector<Block> Blocks(const std::vector<CommandInfo>& verbs) {
   return blocks;
 }
 
-/// Returns the page with new text between its markers.
+/// Returns the page with the generated text of `blocks` between its marker lines.
 std::string Filled(const std::string& file, const std::string& page, std::vector<Block> blocks) {
   std::vector<std::string> names;
   for (const Block& block : blocks) {
@@ -178,7 +179,7 @@ std::string Filled(const std::string& file, const std::string& page, std::vector
 }  // namespace
 
 void AddDocs(const Command& command) {
-  command.Hide();  // the verb is for developers of Trackbed and not shown in --help
+  command.Hide();  // --help does not show this verb, because only developers of Trackbed use it
   const auto page = std::make_shared<std::string>();
   command.AddPositional("page", *page, "Markdown file to update").Required().TypeName("FILE");
   command.OnRun([page, command] {

@@ -19,10 +19,10 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/sim/car_model.h"
 
-// The experiment of Skackauskas et al. 2017. A primary drives one lap at a constant steering angle.
-// A search finds the constant angle with which a car at another speed ends at the same place. Runs
-// all speeds with each search method, matched by time and by arc length. The found angles are
-// compared with the published angles.
+// Repeats the experiment of Skackauskas et al. 2017. A primary car drives one lap at a constant
+// steering angle. For a car at another speed, a search finds the constant steering angle with which
+// the car ends at the same place. The experiment runs all speeds with each search method, matched
+// by time and by arc length. The angles found are compared with the published angles.
 namespace trackbed::cli {
 namespace {
 
@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 constexpr const char* kOptimalSteering = "optimal_steering";
 constexpr double kDegree = kPi / 180.0;
 
-/// Defaults are those of Skackauskas et al. 2017.
+/// Options of the experiment. The defaults are the values of Skackauskas et al. 2017.
 struct ExperimentOptions {
   std::string name;
   std::string vehicle = "prius";
@@ -46,9 +46,9 @@ struct ExperimentOptions {
   bool quiet = false;
 };
 
-/// Angles that the genetic algorithm found in the second stage of Skackauskas et al. 2017. In the
-/// study of Skackauskas et al. 2017, the primary steers 10 deg at 3 m/s. The published angles
-/// differ from the primary's 10 deg by at most 2.3 %.
+/// Returns the steering angle that the genetic algorithm found in the second stage of Skackauskas
+/// et al. 2017, if published for these options and this speed. In the publication, the primary car
+/// steers 10 deg at 3 m/s. The published angles differ from the primary's 10 deg by at most 2.3 %.
 std::optional<double> Published(const ExperimentOptions& options, double speed) {
   struct Row {
     double speed;    // [m/s]
@@ -97,7 +97,8 @@ std::vector<const SearchEntry*> ChosenSearches(const std::vector<std::string>& c
   return entries;
 }
 
-/// Results, ordered by speed, then by matching (time, arc length), then by search.
+/// Runs all searches and returns the results, ordered by speed, then by matching (time, arc
+/// length), then by search method.
 std::vector<Match> MatchAll(const VehicleParams& vehicle, const ExperimentOptions& options,
                             const std::vector<const SearchEntry*>& searches) {
   std::vector<Match> matches;
@@ -120,7 +121,8 @@ std::vector<Match> MatchAll(const VehicleParams& vehicle, const ExperimentOption
   return matches;
 }
 
-/// Deviation of the found angle from the primary's angle [%].
+/// Returns the deviation of the found steering angle from the steering angle of the primary car
+/// [%].
 double Scatter(const ExperimentOptions& options, const Match& match) {
   return 100.0 * (match.steering / options.steering - 1.0);
 }
@@ -144,8 +146,8 @@ std::string ToCsv(const ExperimentOptions& options, const std::vector<Match>& ma
   return table.ToCsv();
 }
 
-/// Whether a search deviates from the primary's angle no more than the published angles do. Only
-/// angles matched by arc length count.
+/// Returns whether the angles found by a search deviate from the primary car's angle by no more
+/// than the published angles. Only angles matched by arc length count.
 bool StaysWithin(const ExperimentOptions& options, const SearchEntry& search,
                  const std::vector<Match>& matches) {
   return std::all_of(matches.begin(), matches.end(), [&](const Match& match) {

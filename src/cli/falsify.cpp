@@ -21,10 +21,10 @@
 #include "trackbed/falsify/counterexample.h"
 #include "trackbed/report/report.h"
 
-// `trackbed falsify` searches a study for a run that fails (falsify.cpp of the library). The verb
-// continues from the records of an interrupted search. The verb `falsify` writes the table of runs
-// and falsify.json. If a run fails, the verb also writes the run folder of the shrunk
-// counterexample, with a scenario for a test suite. Video and report of the counterexample are
+// `trackbed falsify` searches a study for a run that fails (falsify.cpp of the library). If a
+// search was interrupted, the verb continues from the recorded runs. The verb writes the table of
+// runs and falsify.json. If a run fails, the verb also writes the run folder of the shrunk
+// counterexample, with a scenario for a test suite. A video and a report of the counterexample are
 // optional.
 namespace trackbed::cli {
 namespace {
@@ -39,13 +39,13 @@ struct FalsifyVerbOptions {
   bool video = false;
   std::string gl = FilmOptions{}.gl;
   bool report = false;
-  int jobs = 0;  // number of threads; 0: one per hardware thread
+  int jobs = 0;  // number of parallel threads; 0: one per hardware thread
   ScenarioOptions scenario;
 };
 
-/// Writes the outcome and the table of the runs made, which may be fewer than planned. The outcome
-/// names the run folder of the counterexample, so that the folder is not mistaken for that of
-/// another search.
+/// Writes the outcome of the search and the table of its runs, which may be fewer than planned. The
+/// outcome contains the hash of the counterexample's run, so that the run folder of another search
+/// is not mistaken for the counterexample.
 SweepSummary WriteOutcome(const SweepRecords& records, nlohmann::ordered_json outcome,
                           const OutputFolder& folder) {
   nlohmann::ordered_json header = records.header();
@@ -75,7 +75,7 @@ void WriteCounterexample(const RunResult& run, const CheckedSearch& search, cons
   writer.Commit(run_folder::kCounterexample, {});
 }
 
-/// Adds film and report to the counterexample's run folder.
+/// Adds the film and the report to the run folder of the counterexample, if requested.
 void ShowCounterexample(const RunResult& run, const FalsifyResult& result,
                         const CheckedSearch& search, const fs::path& out,
                         const FalsifyVerbOptions& options) {
@@ -101,7 +101,7 @@ std::string Cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.5g}", *value) : "-";
 }
 
-/// Range of the key in which the run passes, such as "16.4 to 18.2".
+/// Formats the range of a key's values in which the run passes, such as "16.4 to 18.2".
 std::string ReachText(const SearchSpace& space, std::size_t i, const KeyMargin& margin) {
   const auto end = [&](const std::optional<SingleKeyReach>& alone) {
     return alone ? space.Value(i, alone->passes) : space.keys()[i].nominal;
@@ -115,7 +115,7 @@ std::string ReachText(const SearchSpace& space, std::size_t i, const KeyMargin& 
 void PrintMargins(const FalsifyResult& result, const CheckedSearch& search) {
   const ShrinkResult& shrunk = result.shrunk;
   if (shrunk.keys.empty()) {
-    return;  // the counterexample was not shrunk
+    return;  // nothing to print: the counterexample was not shrunk
   }
   const SearchSpace& space = search.space;
   std::vector<TextColumn> columns{{{"key"}, "", {}},
@@ -180,9 +180,8 @@ int Falsify(const FalsifyVerbOptions& options) {
   const CheckedSearch search = CheckSearch(options.scenario.ReadStudyFile(options.file));
   const std::string& name = search.study.name;
   const fs::path out = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
-  const OutputFolder folder(out, FileNamesOfVerb("falsify"));  // locks the folder before the
-                                                               // search, so that an error appears
-                                                               // early
+  // Lock the output folder before the search, so that an error appears early.
+  const OutputFolder folder(out, FileNamesOfVerb("falsify"));
   const fs::path counterexample = FolderBelow(out, run_folder::kCounterexample);
   std::vector<std::string> names = run_folder::AllNames();
   names.emplace_back(run_folder::kCounterexampleYaml);

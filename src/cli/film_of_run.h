@@ -8,10 +8,11 @@
 
 namespace trackbed::cli {
 
-/// Adds the option --gl, which sets FilmOptions::gl.
+/// Adds the command line option --gl, which sets FilmOptions::gl.
 void AddGlOption(const Command& command, std::string& gl);
 
-/// Films a run folder with a progress bar. Ctrl-C cancels the film, and no file is written.
+/// Renders the film of a run folder and shows a progress bar. Ctrl-C cancels the rendering, and no
+/// file is written.
 void FilmRun(const std::filesystem::path& folder, const std::filesystem::path& output,
              const FilmOptions& options, bool quiet);
 

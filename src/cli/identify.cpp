@@ -96,9 +96,8 @@ void PrintRecords(const IdentificationResult& result) {
 int RunIdentification(const IdentifyOptions& options) {
   const Identification study = ReadIdentification(options.study, Paths(options.asset_folders));
   const fs::path out = options.out.empty() ? fs::path("out") / study.name : fs::path(options.out);
-  const OutputFolder folder(out, IdentificationFiles(study));  // locks the folder before the
-                                                               // search, so that an error appears
-                                                               // early
+  // Lock the output folder before the search, so that an error appears early.
+  const OutputFolder folder(out, IdentificationFiles(study));
   for (const auto* list : {&study.fit_scenarios, &study.held_out_scenarios}) {
     for (const Scenario& scenario : *list) {
       RequireNoForeignFiles(RecordFolder(out, scenario.name), run_folder::AllNames());

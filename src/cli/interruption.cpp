@@ -15,7 +15,7 @@ std::atomic<bool> interrupted{false};
 
 namespace {
 
-// The state of a signal handler must be in global variables.
+// A signal handler can only access global variables.
 std::atomic<int> finishing{0};
 
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
@@ -33,11 +33,11 @@ void OnSignal(int /*signal*/) {
 
 void OnGraceOver(int /*signal*/) {
   if (finishing > 0) {
-    return;  // ~FinishingResult restarts the timer
+    return;  // the destructor ~FinishingResult restarts the timer
   }
   constexpr std::string_view kText = "interrupted: ended in the middle of its work\n";
   if (::write(STDERR_FILENO, kText.data(), kText.size()) < 0) {
-    // The error is ignored: without stderr it cannot be shown.
+    // Ignores the error: if stderr cannot be written, no error can be shown.
   }
   ::_exit(kInterrupted);
 }
@@ -50,7 +50,7 @@ void EndOnSignals() {
   sigaction(SIGALRM, &action, nullptr);
   action.sa_handler = OnSignal;
   sigaction(SIGTERM, &action, nullptr);
-  // Closing the terminal also ends the run, unless nohup ignores SIGHUP.
+  // Closing the terminal (SIGHUP) also ends the run, unless nohup made the process ignore SIGHUP.
   struct sigaction hang_up {};
   sigaction(SIGHUP, nullptr, &hang_up);
   if (hang_up.sa_handler != SIG_IGN) {

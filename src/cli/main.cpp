@@ -70,7 +70,8 @@ int Run(int argc, char** argv) {
   for (const Verb& verb : kVerbs) {
     verb.add(line.AddVerb(verb.name, verb.summary));
   }
-  // Reports an unknown verb, because CLI11 would call it an unexpected argument.
+  // Report an unknown verb here, because CLI11 would report an unknown verb as an unexpected
+  // argument.
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> names;
     bool known = false;
@@ -93,8 +94,8 @@ namespace trackbed {
 namespace {
 
 /// Opens /dev/null for each closed standard stream. If a standard stream stayed closed, the next
-/// opened file would get its number, and output would be written into that file. The opened streams
-/// are read-only, so writing to them fails.
+/// opened file would get the number of the stream, and output would be written into that file. The
+/// opened streams are read-only, so writing to them fails.
 void OccupyClosedStreams() {
   int descriptor = 0;
   do {
@@ -111,7 +112,7 @@ int Main(int argc, char** argv) {
   OccupyClosedStreams();
   cli::EndOnSignals();
   std::signal(SIGPIPE, SIG_IGN);
-  // The error message uses plain stdio, which does not throw if stderr is closed.
+  // Print the error message with plain stdio, which does not throw if stderr is closed.
   const auto say = [](const std::string& text) {
     const cli::SafeText shown = cli::Colorize(cli::Tone::kBad, cli::Lines{text}, stderr);
     std::fputs((shown.text + "\n").c_str(), stderr);
@@ -129,7 +130,7 @@ int Main(int argc, char** argv) {
     say(error.what());
     code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const std::system_error& error) {
-    // Reports an exception of fmt on output in the same way as a failed flush.
+    // If fmt throws because output failed, print the same message as for a failed flush.
     say(std::ferror(stdout) != 0 ? "cannot write to standard output" : error.what());
     code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const std::exception& error) {

@@ -24,7 +24,7 @@ namespace trackbed::cli {
 namespace {
 
 void Row(const char* name, double value, const char* unit) {
-  // Values are printed with five digits, more than their accuracy.
+  // Print five significant digits, which exceed the accuracy of the values.
   Print("  {:<26} {:>12.5g}{}\n", name, value,
         std::string_view(unit).empty() ? "" : fmt::format(" {}", unit));
 }
@@ -96,7 +96,8 @@ void PrintModel(const CarModel& car, const std::string& file) {
   }
 }
 
-/// Speeds from standstill to the top speed in steps of 10 m/s. Slow vehicles have ten speeds.
+/// Returns the speeds of the g-g-v table, from standstill to the top speed but at most 60 m/s. The
+/// step is 10 m/s, or a tenth of the top speed for vehicles up to 20 m/s.
 std::vector<double> GgvSpeeds(const GgvDiagram& diagram) {
   constexpr double kMaxTableSpeed = 60.0;  // [m/s]
   const double own = diagram.forces().top_speed;
@@ -121,8 +122,8 @@ void PrintLinkage(const CarModel& car) {
   }
 }
 
-/// Prints the limits of longitudinal acceleration on a level road, at fractions of the largest
-/// lateral acceleration.
+/// Prints the limits of longitudinal acceleration on a level road, at given fractions of the
+/// largest lateral acceleration.
 void PrintGgv(const GgvDiagram& diagram, const std::string& name) {
   constexpr std::array<double, 4> kShares{0.0, 0.5, 0.8, 0.95};
   Print("g-g-v diagram of {} on a level road of factor 1 [m/s^2]\n", name);
@@ -143,8 +144,8 @@ void PrintGgv(const GgvDiagram& diagram, const std::string& name) {
   }
 }
 
-/// Boundary at each speed, from full braking through the largest lateral acceleration to full
-/// drive.
+/// Returns a table with the boundary of the g-g-v diagram at each speed. Each boundary runs from
+/// full braking through the largest lateral acceleration to full drive.
 Table GgvTable(const GgvDiagram& diagram) {
   Table table({"speed_mps", "lateral_acceleration_mps2", "longitudinal_acceleration_mps2"});
   constexpr int kSteps = 24;

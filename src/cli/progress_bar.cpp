@@ -11,7 +11,7 @@
 namespace trackbed::cli {
 namespace {
 
-/// Prints with plain stdio, which does not throw if the terminal was closed.
+/// Prints a text with plain stdio, which does not throw if the terminal was closed.
 void Put(const std::string& text) {
   std::fputs(text.c_str(), stderr);
   std::fflush(stderr);
@@ -46,8 +46,8 @@ std::string ProgressBar::TimeLeft(double fraction) {
   if (!begun_ && fraction > 0.0) {
     begun_ = Moment{now, fraction};
   }
-  constexpr double kMinElapsed = 2.0;  // time before the first estimate [s]; earlier ones are too
-                                       // inaccurate
+  constexpr double kMinElapsed = 2.0;  // time before the first estimate of the remaining time [s];
+                                       // earlier estimates are too inaccurate
   const double took = begun_ ? std::chrono::duration<double>(now - begun_->time).count() : 0.0;
   const double done = begun_ ? fraction - begun_->fraction : 0.0;
   if (took < kMinElapsed || !(done > 0.0) || fraction >= 1.0) {

@@ -7,7 +7,7 @@
 namespace trackbed::cli {
 
 /// A progress bar in one line on stderr. After two seconds, the progress bar shows the remaining
-/// time. The bar is not printed if stderr is not a terminal, or if `quiet`.
+/// time. The bar is not printed if stderr is not a terminal, or if `quiet` is set.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);
@@ -23,13 +23,13 @@ class ProgressBar {
     double fraction;
   };
 
-  /// The text ", 12 s left", or an empty text.
+  /// Returns a text such as ", 12 s left", or an empty text if no estimate exists yet.
   std::string TimeLeft(double fraction);
 
   std::string label_;
   bool visible_;
-  std::optional<Moment> begun_;  ///< time of the first progress; earlier work does not count for
-                                 ///< the speed
+  // Time of the first progress; the speed estimate ignores earlier work.
+  std::optional<Moment> begun_;
 };
 
 }  // namespace trackbed::cli

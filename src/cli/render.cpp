@@ -50,7 +50,7 @@ std::pair<int, int> ParseSize(const std::string& text) {
       Problem{.key = "--size", .message = fmt::format("'{}' is not of the form 1280x720", text)});
 }
 
-/// Formats choices as "chase (behind the car), side (from its right)".
+/// Formats a list of choices, such as "chase (behind the car), side (from its right)".
 std::string Listed(const std::vector<FilmChoice>& choices) {
   std::string text;
   for (const FilmChoice& choice : choices) {
@@ -62,7 +62,7 @@ std::string Listed(const std::vector<FilmChoice>& choices) {
 int RenderOne(const RenderOptions& options) {
   const fs::path folder = options.folder;
   FilmOptions film;
-  // Options that are not given have the values of the run's scenario.
+  // Options that the user does not give default to the values in the run's scenario.
   if (const fs::path resolved = folder / run_folder::kScenarioYaml; fs::exists(resolved)) {
     const RenderSpec render = ReadRenderSpec(run_folder::RequireFile(resolved));
     film = {

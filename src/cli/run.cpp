@@ -35,7 +35,8 @@ struct RunOptions {
   ScenarioOptions scenario;
 };
 
-/// Runs the scenario of a study's row. The row's settings precede other overrides.
+/// Replaces the options by those of a study's row: its scenario, and its settings before all other
+/// overrides.
 void TakeRow(RunOptions& options) {
   const fs::path folder = options.sweep;
   const SweepRecords records(folder / run_folder::kSweepRecords);

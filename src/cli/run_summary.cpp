@@ -41,7 +41,7 @@ void PrintManeuver(const ManeuverMetrics& maneuver) {
   }
 }
 
-/// Prints the deviation of a plant from the record.
+/// Prints how far a plant deviates from the recorded drive.
 void PrintRecord(const PlantMetrics& plant) {
   const RecordMetrics& recorded = *plant.recorded;
   Print(
@@ -109,7 +109,7 @@ void PrintSummary(const RunResult& result, const std::filesystem::path& folder) 
   for (const std::string& note : result.verdict.notes) {
     Print("  {}\n", note);
   }
-  std::fflush(stdout);  // flushes, since the following work takes time and may fail
+  std::fflush(stdout);  // flush now, because the following work takes time and may fail
 }
 
 ExitCode ExitCodeOf(const RunResult& result) {

@@ -10,7 +10,7 @@ namespace trackbed::cli {
 /// Prints the result of a run, which was written to `folder`.
 void PrintSummary(const RunResult& result, const std::filesystem::path& folder);
 
-/// Returns kInterrupted, kFailedExpectations or kOk for a run.
+/// Returns the exit code of a run: kInterrupted, kFailedExpectations or kOk.
 ExitCode ExitCodeOf(const RunResult& result);
 
 }  // namespace trackbed::cli

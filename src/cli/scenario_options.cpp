@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Names of the cameras, to which the scenario module has no access.
+/// Returns the names of the cameras, which the scenario module needs but cannot access itself.
 std::vector<std::string> CameraNames() {
   std::vector<std::string> names;
   for (const FilmChoice& camera : Cameras()) {
@@ -31,7 +31,7 @@ std::vector<std::string> CameraNames() {
   return names;
 }
 
-/// Appends the files in `folder`, then those in its subfolders.
+/// Appends the scenario files in `folder`, then the scenario files in its subfolders.
 void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::path>& files) {
   std::vector<fs::path> own;
   std::vector<fs::path> folders;

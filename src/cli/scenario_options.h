@@ -10,7 +10,7 @@
 
 namespace trackbed::cli {
 
-/// Options of all verbs that read scenarios.
+/// Command line options that all verbs reading scenarios share.
 struct ScenarioOptions {
   std::vector<std::string> plants;
   std::vector<std::string> overrides;
@@ -18,28 +18,28 @@ struct ScenarioOptions {
   std::vector<std::string> asset_folders;
   bool quiet = false;
 
-  /// Adds --plant and the options of AddKeysTo.
+  /// Adds the option --plant and the options that AddKeysTo adds.
   void AddTo(const Command& command);
 
-  /// Adds --set, --seed, --allow-assets and --quiet. AddKeysTo suits verbs with their own options
-  /// for plants.
+  /// Adds the options --set, --seed, --allow-assets and --quiet. Verbs with their own options for
+  /// plants use AddKeysTo instead of AddTo.
   void AddKeysTo(const Command& command);
 
-  /// Reads a scenario and applies the options of the command line. Read() throws the errors of
-  /// ReadScenario.
+  /// Reads a scenario file and applies the options of the command line. Read() throws the same
+  /// errors as ReadScenario.
   [[nodiscard]] Scenario Read(const std::filesystem::path& file) const;
 
-  /// Same as Read, for the text of a scenario. Messages use `name` as the file's name; relative
-  /// paths start at `folder`.
+  /// Reads a scenario from text instead of a file, and applies the options of the command line.
+  /// Error messages use `name` as the file name. Relative paths in the scenario start at `folder`.
   [[nodiscard]] Scenario Parse(const std::string& yaml, const std::string& name,
                                const std::filesystem::path& folder) const;
 
-  /// Reads a study and applies the options of the command line to its scenario. ReadStudyFile
-  /// throws the errors of ReadStudy.
+  /// Reads a study file and applies the options of the command line to the study's scenario.
+  /// ReadStudyFile throws the same errors as ReadStudy.
   [[nodiscard]] Study ReadStudyFile(const std::filesystem::path& file) const;
 
  private:
-  /// Converts all options to overrides of scenario keys.
+  /// Converts all command line options to overrides of scenario keys.
   [[nodiscard]] std::vector<Override> Overrides() const;
 };
 
@@ -48,24 +48,25 @@ void AddAllowAssets(const Command& command, std::vector<std::string>& folders);
 
 std::vector<std::filesystem::path> Paths(const std::vector<std::string>& names);
 
-/// Kinds of files that verbs take from folders.
+/// Kinds of files that verbs read from folders.
 enum class FolderContent { kScenarios, kScenariosAndStudies };
 
-/// All files in the folder `scenarios` of the data; the files of a folder precede its subfolders.
-/// The list of shipped files excludes scenarios/validation, whose recordings are not installed.
+/// Returns all files in the folder `scenarios` of Trackbed's data. The files of each folder precede
+/// the files of its subfolders. The list excludes scenarios/validation, whose recordings are not
+/// installed.
 std::vector<std::filesystem::path> ShippedScenarios(FolderContent content);
 
-/// Resolves a file name on the command line. An existing file, or a name with an extension, is
-/// returned unchanged. Names of other forms are those of a shipped scenario or study:
+/// Resolves a file name on the command line. FindScenario returns an existing file, or a name with
+/// an extension, unchanged. Any other name refers to a shipped scenario or study, such as
 /// "three_turns", "studies/robustness" or "robustness". Throws InputError for an ambiguous name.
-/// FindScenario throws InputError with the nearest name for an unknown name.
+/// For an unknown name, FindScenario throws InputError that suggests the most similar name.
 std::filesystem::path FindScenario(const std::filesystem::path& name);
 
-/// The scenario files that `paths` name, each once. Names of files are resolved by FindScenario. A
-/// folder stands for all *.yaml and *.yml in it, sorted, with files before subfolders.
-/// ScenarioFiles skips hidden entries (.git) and links to folders. A folder without scenarios stays
-/// in the list, so that RefuseFolder reports it. ScenarioFiles throws RunError if a folder cannot
-/// be read.
+/// Returns the scenario files that `paths` name, without duplicates. FindScenario resolves file
+/// names. A folder is replaced by all its *.yaml and *.yml files, sorted, with files before
+/// subfolders. ScenarioFiles skips hidden files and folders (.git) and links to folders. A folder
+/// without scenarios stays in the list, so that RefuseFolder can report the folder. ScenarioFiles
+/// throws RunError if a folder cannot be read.
 std::vector<std::filesystem::path> ScenarioFiles(const std::vector<std::string>& paths,
                                                  FolderContent content);
 

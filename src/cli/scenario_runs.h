@@ -13,35 +13,36 @@
 
 namespace trackbed::cli {
 
-/// A scenario and the output folder of its run.
+/// A scenario to run, and the output folder of the run.
 struct ScenarioRun {
   Scenario scenario;
   std::filesystem::path folder;
 };
 
-/// Reads all files before the first run, so that an error in the last file is found early. For a
-/// single file, the output folder is `out`. For several files, the output folder is
-/// `<out>/<scenario>`, or `<parent>/<scenario>` without `out`. Throws the errors of ReadScenario.
-/// Throws InputError if two runs would share a folder.
+/// Reads all scenario files before the first run, so that an error in the last file is found early.
+/// For a single file, the output folder is `out`. For several files, the output folder is
+/// `<out>/<scenario>`, or `<parent>/<scenario>` without `out`. Throws the same errors as
+/// ReadScenario. Throws InputError if two runs would have the same output folder.
 std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
                                           const ScenarioOptions& options, const std::string& out,
                                           const std::filesystem::path& parent);
 
-/// Calls `work` for each run until Ctrl-C. Finally, ForEachRun prints the number of skipped runs to
-/// stderr. ForEachRun returns the worst exit code. A RunError of `work` is rethrown, except that of
-/// an interrupted film.
+/// Calls `work` for each run until Ctrl-C. After Ctrl-C, ForEachRun prints the number of skipped
+/// runs to stderr. ForEachRun returns the worst exit code of all runs. ForEachRun rethrows a
+/// RunError that `work` throws, unless Ctrl-C has interrupted the runs.
 int ForEachRun(const std::vector<ScenarioRun>& runs,
                const std::function<int(const ScenarioRun& run)>& work);
 
-/// A run that is not yet written, and its output folder, which this process has locked.
+/// A finished run whose results are not yet written, and its output folder, which this process has
+/// locked.
 struct DrivenScenario {
   OutputFolder folder;
   RunResult result;
   std::optional<FinishingResult> finishing{};  ///< set for an interrupted run until it is written
 };
 
-/// Runs the scenario with a progress bar until its end or Ctrl-C. The folder is created and locked
-/// before the run, but not if the model is invalid.
+/// Runs the scenario with a progress bar, until the end of the run or Ctrl-C. The output folder is
+/// created and locked before the run, unless the vehicle model is invalid.
 DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet);
 
 }  // namespace trackbed::cli

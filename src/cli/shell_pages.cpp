@@ -30,9 +30,9 @@ Words PartsOf(const std::string& text, char separator) {
   return words;
 }
 
-/// The possible values of an option's type name. The type name "draft|film" itself lists its
-/// values; "CAMERA", "CAMERA,..." and "SCENARIO..." are kinds of `trackbed list`. No values are
-/// returned for other type names.
+/// Returns the possible values of an option with this type name. A type name such as "draft|film"
+/// lists the values. The type names "CAMERA", "CAMERA,..." and "SCENARIO..." are kinds of names
+/// that `trackbed list` prints. For other type names, ValuesOf returns no values.
 Words ValuesOf(const std::string& type) {
   if (type.find('|') != std::string::npos) {
     return PartsOf(type, '|');
@@ -54,7 +54,7 @@ bool IsList(const std::string& type) {
   return type.ends_with(",...");
 }
 
-/// Options of a verb, including those that every verb has.
+/// Returns the options of a verb, including the options that every verb has.
 std::vector<OptionInfo> OptionsOf(const CommandInfo& verb) {
   std::vector<OptionInfo> options;
   for (const OptionInfo& option : verb.options) {
@@ -67,7 +67,7 @@ std::vector<OptionInfo> OptionsOf(const CommandInfo& verb) {
   return options;
 }
 
-/// The possible values of positional arguments.
+/// Returns the possible values of the verb's positional arguments.
 Words PositionalValues(const CommandInfo& verb) {
   Words values;
   for (const OptionInfo& option : verb.options) {
@@ -79,7 +79,8 @@ Words PositionalValues(const CommandInfo& verb) {
   return values;
 }
 
-/// The last words of the verbs below `above`; without `above`, of the program's verbs.
+/// Returns the verbs directly below the verb `above`, each named by its last word. If `above` is
+/// empty, returns the top-level verbs of the program.
 std::vector<CommandInfo> VerbsBelow(const std::vector<CommandInfo>& verbs,
                                     const std::string& above) {
   std::vector<CommandInfo> below;
@@ -114,12 +115,13 @@ std::string Replaced(const std::string& text, std::string_view what, std::string
   return result + text.substr(at);
 }
 
-/// Quotes a text of the program itself for bash and zsh.
+/// Quotes a text of the program, such as a help text, for bash and zsh.
 std::string QuotedText(const std::string& text) {
   return QuotedForSh(text).value();
 }
 
-/// The words that may stand in place of an option: positional values and the verbs below.
+/// Returns the words that may follow a verb in place of an option: values of positional arguments,
+/// and the names of the verbs below this verb.
 Words PositionalWords(const std::vector<CommandInfo>& verbs, const CommandInfo& verb) {
   Words words = PositionalValues(verb);
   for (const std::string& below : NamesOf(VerbsBelow(verbs, verb.name))) {
@@ -131,8 +133,8 @@ Words PositionalWords(const std::vector<CommandInfo>& verbs, const CommandInfo& 
 }  // namespace
 
 std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
-  // `compgen -W` would expand the words, so they are quoted. Bash inserts a completed word
-  // unchanged.
+  // Quote the words, because `compgen -W` would expand unquoted words. Bash inserts a completed
+  // word unchanged.
   std::string text =
       "# bash completion of trackbed; written by `trackbed completion bash`.\n"
       "_trackbed_offer() {  # what, before each: those of the other words that begin with it\n"
@@ -207,14 +209,15 @@ std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
 
 namespace {
 
-/// Generates the functions of a zsh script that offer names. A specification of _arguments is
-/// evaluated by zsh. A specification of _arguments therefore contains only the name of a function.
+/// Generates zsh functions that offer names as completions. Zsh evaluates the argument
+/// specifications passed to _arguments. To prevent code injection, a specification therefore
+/// contains only the name of a function.
 class ZshOffers {
  public:
-  /// Name of a function that offers the given names, or files if there are none.
+  /// Returns the name of a zsh function that offers the given names and all files.
   std::string OrFiles(const Words& names) { return Function(names, "  _files\n"); }
 
-  /// Name of a function that offers the names after the last comma.
+  /// Returns the name of a zsh function that completes the last word of a comma-separated list.
   std::string List(const Words& names) { return Function(names, "", "  compset -P '*,'\n"); }
 
   [[nodiscard]] const std::string& text() const { return text_; }
@@ -236,7 +239,7 @@ class ZshOffers {
   std::string text_;
 };
 
-/// Quotes a text for a specification of _arguments or _describe.
+/// Quotes a text for a specification of the zsh functions _arguments or _describe.
 std::string InZshSpecification(const std::string& text) {
   return Replaced(Replaced(Replaced(Replaced(text, "\\", "\\\\"), "[", "\\["), "]", "\\]"), ":",
                   "\\:");
@@ -310,13 +313,13 @@ std::string ZshCompletion(const std::vector<CommandInfo>& verbs) {
 
 namespace {
 
-/// Quotes a text of the program itself for fish.
+/// Quotes a text of the program, such as a help text, for fish.
 std::string OwnTextOfFish(const std::string& text) {
   return QuotedForFish(text).value();
 }
 
-/// The words as the value of `complete --arguments`. Fish parses the value of `complete
-/// --arguments` twice, so each word is quoted, and then the whole list.
+/// Formats the words as the value of fish's `complete --arguments`. Fish parses that value twice,
+/// so each word is quoted, and then the whole list is quoted again.
 std::string FishArguments(const Words& words) {
   return OwnTextOfFish(AllQuoted(words, QuotedForFish));
 }
@@ -360,7 +363,7 @@ std::string FishCompletion(const std::vector<CommandInfo>& verbs) {
 
 namespace {
 
-/// Escapes the text of a line of roff.
+/// Escapes a text for a line of a manual page in roff format.
 std::string Roff(const std::string& text) {
   const std::string escaped = Replaced(Replaced(text, "\\", "\\e"), "-", "\\-");
   return escaped.starts_with('.') || escaped.starts_with('\'') ? "\\&" + escaped : escaped;

@@ -5,23 +5,23 @@
 
 #include "src/cli/command.h"
 
-/// Shell completion and manual pages, generated from the same tables as --help.
+/// Generates shell completions and manual pages from the same tables as --help.
 namespace trackbed::cli {
 
-/// Completes verbs, options and values. The completed values are those that `trackbed list` prints,
-/// or that the option's type name lists (auto|always|never). File names are completed in all other
-/// places.
+/// Returns a bash script that completes verbs, options and values. The script completes values that
+/// `trackbed list` prints, and values that an option's type name lists, such as auto|always|never.
+/// In all other places, the script completes file names.
 std::string BashCompletion(const std::vector<CommandInfo>& verbs);
 std::string ZshCompletion(const std::vector<CommandInfo>& verbs);
 std::string FishCompletion(const std::vector<CommandInfo>& verbs);
 
-/// Manual page of section 1.
+/// A manual page of section 1.
 struct ManualPage {
   std::string file;  ///< file name such as "trackbed-run.1"
   std::string text;
 };
 
-/// Manual pages: one for the program and one for each verb.
+/// Returns the manual pages: one page for the program and one page for each verb.
 std::vector<ManualPage> ManualPages(const std::vector<CommandInfo>& verbs);
 
 }  // namespace trackbed::cli

@@ -7,18 +7,18 @@
 
 /// Quotes words for the programs that read the scripts of `completion` and `sweep submit`.
 ///
-/// No value is returned for a word that no quotes make safe: one that is not UTF-8, or that
-/// contains a control character, such as a line feed.
+/// The functions return no value for a word that cannot be quoted safely, because the word is not
+/// UTF-8 or contains a control character such as a line feed.
 namespace trackbed::cli {
 
 /// Quotes a word for sh, bash and zsh, in single quotes.
 std::optional<std::string> QuotedForSh(std::string_view word);
 
-/// Quotes a word for fish, in single quotes, within which fish interprets \\ and \'.
+/// Quotes a word for fish in single quotes. Within single quotes, fish interprets \\ and \'.
 std::optional<std::string> QuotedForFish(std::string_view word);
 
-/// Quotes a word for a line `#SBATCH …`, in double quotes. Slurm's parser interprets a backslash as
-/// an escape character, inside and outside quotes.
+/// Quotes a word for a line `#SBATCH …` of a Slurm script, in double quotes. Slurm's parser
+/// interprets a backslash as an escape character, inside and outside quotes.
 std::optional<std::string> QuotedForSbatch(std::string_view word);
 
 /// Quotes the words and joins them with blanks. Words that cannot be quoted are omitted.

@@ -37,7 +37,7 @@ struct SweepVerbOptions {
   std::vector<std::string> only;
   std::string until;
   bool restart = false;
-  int jobs = 0;  // number of threads; 0: one per hardware thread
+  int jobs = 0;  // number of parallel threads; 0: one per hardware thread
   ScenarioOptions scenario;
 };
 
@@ -45,7 +45,7 @@ struct SweepVerbOptions {
   throw InputError(Problem{.key = option, .message = std::move(message)});
 }
 
-/// Parses a shard such as "2/7".
+/// Parses a shard such as "2/7", which means the second of seven parts of a study.
 Shard ParseShard(const std::string& text) {
   Shard shard;
   const std::size_t slash = text.find('/');
@@ -63,7 +63,7 @@ Shard ParseShard(const std::string& text) {
   return shard;
 }
 
-/// Parses "pass_rate:0.01" and returns the half width of the interval.
+/// Parses an option such as "pass_rate:0.01" and returns the half width of the interval.
 std::optional<double> ParseUntil(const std::string& text, const Study& study) {
   if (text.empty()) {
     return std::nullopt;
@@ -90,7 +90,8 @@ std::optional<double> ParseUntil(const std::string& text, const Study& study) {
   return width;
 }
 
-/// The shard of the Slurm array task in which the program runs; all rows outside Slurm.
+/// Returns the shard of the Slurm array task in which the program runs. Outside Slurm, the shard
+/// contains all rows of the study.
 Shard ShardOfTask() {
   const auto number = [](const char* name) {
     const char* text = std::getenv(name);
@@ -124,8 +125,8 @@ int Sweep(const SweepVerbOptions& options) {
   const std::string& name = study.name;
   const fs::path all = options.out.empty() ? fs::path("out") / name : fs::path(options.out);
   const fs::path out = FolderOfShard(all, shard);
-  const OutputFolder folder(out, FileNamesOfVerb("sweep"));  // locks the folder before the runs, so
-                                                             // that an error appears early
+  // Lock the output folder before the runs, so that an error appears early.
+  const OutputFolder folder(out, FileNamesOfVerb("sweep"));
   CheckKeptRows(all);
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
@@ -172,8 +173,9 @@ int Sweep(const SweepVerbOptions& options) {
                                 sweep.rows, sweep.rows_expected);
     const fs::path csv = out / run_folder::kSweepCsv;
     Print("{}: {}, in {}\n", name, how, csv.string());
-    constexpr std::size_t kMaxRows = 100'000;  // limit of the rows to read, which would take more
-                                               // memory than the study
+    // Largest number of rows of sweep.csv that are read to print a table; more rows would take more
+    // memory than the study itself.
+    constexpr std::size_t kMaxRows = 100'000;
     if (sweep.rows <= kMaxRows) {
       Print("{}", Lines{SweepTableText(ReadTextCsv(csv), TerminalWidth())});
     }

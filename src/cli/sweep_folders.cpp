@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kShardFolder = "shard_";
 
-/// The existing folders of kept rows. KeptRows throws RunError for links.
+/// Returns the existing run folders of kept rows. KeptRows throws RunError if a folder is a link.
 std::vector<fs::path> KeptRows(const fs::path& study) {
   std::vector<fs::path> folders;
   std::error_code error;
@@ -85,7 +85,8 @@ void KeepWorstRows(const SweepRecords& records, const fs::path& study,
     return;
   }
   if (!keep->IsSection()) {
-    static_cast<void>(keep->Text());  // the value "all" or "failed" keeps rows when they are run
+    static_cast<void>(keep->Text());  // for "all" and "failed", the row's run folder was already
+                                      // written when the row was run
     return;
   }
   for (const std::size_t row : WorstRows(records)) {
@@ -107,7 +108,7 @@ void KeepWorstRows(const SweepRecords& records, const fs::path& study,
 
 void PrintRowsWithoutRun(const std::string& name, const SweepSummary& sweep) {
   if (sweep.refused + sweep.errors > 0) {
-    std::fflush(stdout);  // flushes to keep the order of both streams
+    std::fflush(stdout);  // flush stdout, so that its text precedes the text on stderr
     PrintTo(stderr,
             "{}: {} rows without a run: {} refused, {} with an internal error; see the "
             "column reason\n",

@@ -33,7 +33,7 @@ struct SubmitOptions {
   ScenarioOptions scenario;
 };
 
-/// Throws InputError if `word`, the value of `what`, cannot be quoted.
+/// Quotes `word`, the value of the option `what`. Throws InputError if the word cannot be quoted.
 std::string Quoted(std::optional<std::string> (*quoted)(std::string_view word),
                    const std::string& word, const char* what) {
   const std::optional<std::string> text = quoted(word);
@@ -47,12 +47,12 @@ std::string Quoted(std::optional<std::string> (*quoted)(std::string_view word),
   return *text;
 }
 
-/// Quotes a word for the shell.
+/// Quotes a word for the shell sh.
 std::string ForSh(const std::string& word, const char* what) {
   return Quoted(QuotedForSh, word, what);
 }
 
-/// Submits a script to Slurm and returns the number of the job.
+/// Submits a script to Slurm and returns the number of the Slurm job.
 std::string Submit(const std::string& options, const fs::path& script) {
   const std::string command =
       fmt::format("sbatch --parsable {}{} 2>&1", options, ForSh(script.string(), kOutOption));
@@ -66,7 +66,7 @@ std::string Submit(const std::string& options, const fs::path& script) {
     said += part.data();
   }
   said.erase(said.find_last_not_of("\n") + 1);
-  // Slurm prints "123", or "123;cluster".
+  // Slurm prints the job number as "123" or "123;cluster".
   const std::string job = said.substr(0, said.find(';'));
   if (job.empty() || job.find_first_not_of("0123456789") != std::string::npos) {
     throw RunError(fmt::format("sbatch did not take {}: {}", script.string(), said));
@@ -74,7 +74,8 @@ std::string Submit(const std::string& options, const fs::path& script) {
   return job;
 }
 
-/// The command of an array task, which runs the shard given by Slurm's variables.
+/// Returns the shell command of an array task. The command runs the shard that Slurm's environment
+/// variables define.
 std::string SweepCommand(const Study& study, const std::string& program, const fs::path& out) {
   std::string command =
       fmt::format("{} sweep {} --out {} --quiet --jobs \"${{SLURM_CPUS_PER_TASK:-1}}\"",
@@ -89,7 +90,7 @@ std::string SweepCommand(const Study& study, const std::string& program, const f
   return command;
 }
 
-/// The lines of a script's head that Slurm reads.
+/// Returns the first lines of a script, which contain the options for Slurm.
 std::string SbatchLines(const std::vector<std::string>& options) {
   std::string lines = "#!/bin/sh\n";
   for (const std::string& option : options) {
@@ -119,8 +120,8 @@ Scripts MakeScripts(const Study& study, int tasks, const fs::path& out) {
                                ForSh(out.string(), kOutOption))};
 }
 
-/// Throws RunError if Slurm would write through a link, or over a file that is no log of an earlier
-/// submission.
+/// Throws RunError if Slurm would write its logs through a link, or would overwrite a file that is
+/// not a log of an earlier submission.
 void RequireNoForeignLogs(const fs::path& out, bool submitted) {
   std::error_code error;
   for (fs::directory_iterator at(out, error), end; !error && at != end; at.increment(error)) {
@@ -137,7 +138,8 @@ void RequireNoForeignLogs(const fs::path& out, bool submitted) {
   }
 }
 
-/// The lock of the folder ends before tasks write to the folder.
+/// Writes the scripts to the output folder. WriteScripts releases the lock of the folder before the
+/// tasks write to the folder.
 void WriteScripts(const Scripts& scripts, const fs::path& out) {
   const std::vector<std::string> names{run_folder::kArraySh, run_folder::kMergeSh};
   const OutputFolder folder(out, names);
@@ -161,7 +163,7 @@ int SubmitStudy(const SubmitOptions& options) {
   WriteScripts(scripts, out);
   const fs::path merge = out / run_folder::kMergeSh;
   const std::string job = Submit(sbatch, out / run_folder::kArraySh);
-  // The merge job starts after all tasks have succeeded. The merge job is cancelled if a task
+  // The merge job starts after all tasks have succeeded. Slurm cancels the merge job if a task
   // fails.
   const std::string last = Submit(
       fmt::format("{}--dependency=afterok:{} --kill-on-invalid-dep=yes ", sbatch, job), merge);

@@ -39,8 +39,8 @@ std::vector<std::string> CellsOf(const TextTable& table, std::size_t column) {
   return cells;
 }
 
-/// Formats parameters, status and outputs of the rows. The column of the reason is omitted: its
-/// sentences are too long.
+/// Formats the parameters, status and outputs of all rows as a table. The table omits the column
+/// `reason`, whose sentences are too long.
 std::string RowsText(const TextTable& table, std::size_t status, std::size_t width) {
   TextColumns columns;
   std::size_t shown = 0;
@@ -75,7 +75,8 @@ std::string RowsText(const TextTable& table, std::size_t status, std::size_t wid
   return text;
 }
 
-/// One line for each output that has a number in at least one row.
+/// Formats minimum, median and maximum of the outputs, with one line for each output that has a
+/// number in at least one row.
 std::string ExtremesText(const TextTable& table, std::size_t status, std::size_t width) {
   constexpr std::size_t kNumber = 10;
   struct Line {

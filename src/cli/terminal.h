@@ -10,11 +10,11 @@
 #include <utility>
 #include <vector>
 
-/// Terminal output: colors, lines that fit the terminal's width, and texts of inputs. Control
-/// characters in texts of inputs are replaced, so that the terminal does not obey them.
+/// Prints to the terminal, in colors and in lines that fit the terminal's width. Control characters
+/// in texts from input files are replaced, so that an input file cannot control the terminal.
 namespace trackbed::cli {
 
-/// Meaning of a text, shown as its color.
+/// Meaning of a text, which determines its color.
 enum class Tone {
   kGood,      ///< green
   kBad,       ///< red
@@ -22,11 +22,11 @@ enum class Tone {
   kHeading,   ///< bold
 };
 
-/// When to use colors. With kAuto, colors are used on a terminal unless NO_COLOR is set and not
-/// empty (no-color.org) or TERM is "dumb".
+/// Specifies when output is colored. With kAuto, output to a terminal is colored unless NO_COLOR is
+/// set and not empty (no-color.org) or TERM is "dumb".
 enum class ColorChoice { kAuto, kAlways, kNever };
 
-/// The names of the color choices: "auto", "always" and "never".
+/// Returns the names of the color choices: "auto", "always" and "never".
 const std::vector<std::string>& ColorChoices();
 
 /// Sets the color choice for the rest of the program. Throws InternalError for a name that is not
@@ -37,24 +37,25 @@ void ChooseColors(const std::string& choice);
 /// replaced by names: "<U+001B>". Bytes that are not UTF-8 are replaced by names: "<0xFF>".
 std::string SafeLine(std::string_view text);
 
-/// A text that is printed unchanged: a safe line, with escape sequences for colors.
+/// A text that can be printed unchanged: a safe line (SafeLine), possibly with escape sequences for
+/// colors.
 struct SafeText {
   std::string text;
 };
 
-/// A text of several lines. A text of type Lines is printed as SafeLine, but keeps its line feeds
-/// and tabs.
+/// A text of several lines. A text of type Lines is made safe like a SafeLine, but keeps its line
+/// feeds and tabs.
 struct Lines {
   std::string_view text;
 };
 
-/// The SafeLine of `text` in the tone's color, if `stream` uses colors.
+/// Returns `text` as a safe line, in the color of the tone if output to `stream` is colored.
 SafeText Colorize(Tone tone, std::string_view text, std::FILE* stream = stdout);
 
-/// Colors a text of several lines.
+/// Makes a text of several lines safe and colors it.
 SafeText Colorize(Tone tone, Lines text, std::FILE* stream);
 
-/// Joins the `parts` with `separator` between them.
+/// Joins safe texts, with `separator` between the texts.
 SafeText Joined(const std::vector<SafeText>& parts, std::string_view separator);
 
 }  // namespace trackbed::cli
@@ -77,8 +78,8 @@ inline SafeText Safe(SafeText text) {
 
 SafeText Safe(Lines text);
 
-/// Numbers are passed unchanged; texts become safe lines. Texts of other types do not compile,
-/// because fmt::join would print them unchanged.
+/// Converts an argument for fmt: passes numbers unchanged and makes texts safe. Texts of other
+/// types do not compile, because fmt::join would print these texts unchanged.
 template <typename T>
 auto Safe(const T& value) {
   if constexpr (std::is_convertible_v<const T&, std::string_view>) {
@@ -94,21 +95,22 @@ using Printed = decltype(Safe(std::declval<const T&>()));
 
 }  // namespace detail
 
-/// Prints to `stream` like fmt::print, with every text as its SafeLine. Verbs print only by PrintTo
-/// and Print. std::system_error is thrown if the stream fails.
+/// Prints to `stream` like fmt::print, but converts every text to a safe line (SafeLine). Verbs
+/// print only through PrintTo and Print. PrintTo throws std::system_error if the stream fails.
 template <typename... T>
 void PrintTo(std::FILE* stream, fmt::format_string<detail::Printed<T>...> format,
              const T&... values) {
   fmt::print(stream, format, detail::Safe(values)...);
 }
 
-/// Prints to stdout by PrintTo.
+/// Prints to stdout, using PrintTo.
 template <typename... T>
 void Print(fmt::format_string<detail::Printed<T>...> format, const T&... values) {
   fmt::print(stdout, format, detail::Safe(values)...);
 }
 
-/// Width of the terminal in columns, at least 40; 80 if `stream` is not a terminal.
+/// Returns the width of the terminal in columns, at least 40. Returns 80 if `stream` is not a
+/// terminal.
 std::size_t TerminalWidth(std::FILE* stream = stdout);
 
 /// Wraps `text` between words into lines of at most `width` columns. A word longer than a line is

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct TestOptions {
   std::vector<std::string> paths;
   std::string junit;
-  int jobs = 0;  // number of threads; 0: one per hardware thread
+  int jobs = 0;  // number of parallel threads; 0: one per hardware thread
   ScenarioOptions scenario;
 };
 
@@ -59,11 +59,12 @@ void PrintCase(const SuiteCase& one, bool quiet) {
     case CaseStatus::kInterrupted:
       break;
   }
-  std::fflush(stdout);  // prints each line at once, even into a pipe
+  std::fflush(stdout);  // flush, so that each line appears at once, even if stdout is a pipe
 }
 
-/// An internal error takes precedence over bad input, and bad input over failed expectations. With
-/// bad input, the result of the test suite is incomplete.
+/// Returns the exit code of a test suite. An internal error takes precedence over bad input, and
+/// bad input takes precedence over failed expectations. With bad input, the result of the test
+/// suite is incomplete.
 int SuiteExitCode(const std::vector<SuiteCase>& cases) {
   const auto any = [&](CaseStatus status) {
     return std::any_of(cases.begin(), cases.end(),
@@ -108,7 +109,8 @@ int Test(const TestOptions& options) {
   const auto start = std::chrono::steady_clock::now();
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
   const std::vector<fs::path> files = ScenarioFiles(options.paths, FolderContent::kScenarios);
-  if (!options.junit.empty()) {  // opens the file before the runs, so that an error appears early
+  // Open the output file before the runs, so that an error appears early.
+  if (!options.junit.empty()) {
     PrepareToWrite(options.junit);
   }
   const std::vector<SuiteCase> cases =

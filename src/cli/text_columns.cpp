@@ -8,7 +8,7 @@
 namespace trackbed::cli {
 namespace {
 
-/// Number of UTF-8 characters of a text; each counts as one column.
+/// Returns the number of UTF-8 characters in a text; each character counts as one column.
 std::size_t Width(const std::string& text) {
   return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char byte) {
     return (static_cast<unsigned char>(byte) & 0xC0U) != 0x80U;

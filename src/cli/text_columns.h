@@ -6,7 +6,7 @@
 
 namespace trackbed::cli {
 
-/// A column of a printed table: a heading above texts, all right-aligned.
+/// A column of a printed table: a heading and the texts below, all right-aligned.
 struct TextColumn {
   std::vector<std::string> words;  ///< Words of the heading, between which it may be broken.
   std::string unit;                ///< Unit in brackets below the heading; empty if dimensionless.
@@ -19,13 +19,14 @@ class TextColumns {
  public:
   void Add(TextColumn column);
 
-  /// Number of leading columns that fit into `width` characters.
+  /// Returns how many columns, counted from the left, fit into `width` characters.
   [[nodiscard]] std::size_t CountWithin(std::size_t width) const;
-  /// The heading lines of the first `count` columns, then one line per row.
+  /// Returns the lines of a table with the first `count` columns: heading lines, then one line per
+  /// row.
   [[nodiscard]] std::vector<std::string> Lines(std::size_t count) const;
   [[nodiscard]] std::vector<std::string> Lines() const { return Lines(columns_.size()); }
 
-  /// Indent before each line and each column.
+  /// Space before each line and between columns.
   static constexpr const char* kIndent = " ";
 
  private:

@@ -38,7 +38,7 @@ void AddCompletion(const Command& command);
 void AddDocs(const Command& command);
 void AddManual(const Command& command);
 
-// Adds a verb below `sweep`.
+// Each of these functions adds a verb below the verb `sweep`.
 void AddSweepMerge(const Command& command);
 void AddSweepSubmit(const Command& command);
 

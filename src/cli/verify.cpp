@@ -26,7 +26,7 @@ struct VerifyVerbOptions {
   std::string out;
   VerifyClaim claim;
   bool restart = false;
-  int jobs = 0;  // number of threads; 0: one per hardware thread
+  int jobs = 0;  // number of parallel threads; 0: one per hardware thread
   ScenarioOptions scenario;
 };
 
@@ -37,8 +37,8 @@ int Verify(const VerifyVerbOptions& options) {
   const std::string& name = checked.points.study().name;
   const fs::path out =
       options.out.empty() ? fs::path("out") / (name + "_verify") : fs::path(options.out);
-  const OutputFolder folder(out, FileNamesOfVerb("verify"));  // locks the folder before the runs,
-                                                              // so that an error appears early
+  // Lock the output folder before the runs, so that an error appears early.
+  const OutputFolder folder(out, FileNamesOfVerb("verify"));
   const fs::path file = out / run_folder::kSweepRecords;
   if (options.restart) {
     SweepRecords::Remove(file);

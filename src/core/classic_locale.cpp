@@ -8,8 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// State that the last user of the locale restores. A process has only one saved state, because it
-/// has only one locale.
+/// Locale that the last ClassicLocale restores on destruction. Only one locale is saved, because
+/// the locale is global to the process.
 struct SavedLocale {
   std::mutex mutex;
   int users = 0;

@@ -16,7 +16,7 @@ namespace {
 constexpr std::size_t kMaxColumns = 4096;
 constexpr std::size_t kMaxCellLength = std::size_t{1} << 16U;
 
-/// Receives the callbacks of libcsv.
+/// Receives cells and rows through the callbacks of libcsv.
 struct RowReader {
   const std::filesystem::path& file;
   std::size_t max_cells;
@@ -26,8 +26,8 @@ struct RowReader {
   std::size_t all_cells = 0;
   bool any_row = false;
   bool stopped = false;
-  int line = 1;     // Line on which the row begins.
-  int endings = 0;  // Number of line feeds in the row's quoted cells.
+  int line = 1;     // Line on which the current row begins.
+  int endings = 0;  // Number of line feeds in the quoted cells of the current row.
 
   void Stop(std::string message) {
     if (!stopped) {
@@ -51,7 +51,8 @@ struct RowReader {
     cells.emplace_back(cell);
   }
 
-  /// The argument `ending` is the character that ended the row, or -1 at the end of the file.
+  /// Handles the end of a row. The argument `ending` is the character that ended the row, or -1 at
+  /// the end of the file.
   void EndOfRow(int ending) {
     if (stopped) {
       return;
@@ -61,7 +62,8 @@ struct RowReader {
       take(cells, line);
     }
     cells.clear();
-    // A carriage return before the line feed ends the row, but not the line.
+    // Count only line feeds: libcsv also ends a row at a carriage return, which does not begin a
+    // new line.
     line += std::exchange(endings, 0) + (ending == '\n' ? 1 : 0);
   }
 };
@@ -81,8 +83,8 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   };
   const auto row = [](int ending, void* self) { static_cast<RowReader*>(self)->EndOfRow(ending); };
   bool at_begin = true;
-  // Parse the file in blocks, because libcsv cannot be stopped and buffers a cell until the cell
-  // ends.
+  // Parse the file in blocks, so that reading can stop between blocks. libcsv itself cannot be
+  // stopped, and buffers a cell until the cell ends.
   const auto parse = [&](std::string_view part) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (std::exchange(at_begin, false) && part.starts_with(kByteOrderMark)) {

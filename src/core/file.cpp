@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
       fmt::format("cannot {} {}: {}", what, file.string(), std::generic_category().message(error)));
 }
 
-/// Writes all of the content. Returns 0 or an errno.
+/// Writes the whole content to a file descriptor. Returns 0 or the errno of the failure.
 int WriteAll(int out, std::string_view content) {
   while (!content.empty()) {
     const ssize_t written = ::write(out, content.data(), content.size());
@@ -38,8 +38,8 @@ int WriteAll(int out, std::string_view content) {
   return 0;
 }
 
-/// Whether the file is a device or pipe (/dev/stdout, /dev/full), which can be written but not
-/// replaced.
+/// Returns whether the file is a device or pipe (/dev/stdout, /dev/full), which can be written but
+/// not replaced.
 bool IsDevice(const fs::path& file) {
   struct stat existing {};
   return ::stat(file.c_str(), &existing) == 0 && !S_ISREG(existing.st_mode) &&
@@ -55,7 +55,7 @@ namespace {
       fmt::format("cannot read {}: it has more than {} MiB", file.string(), max_bytes >> 20U));
 }
 
-/// Kind of a file as a text for people, for example "a pipe" or "a device".
+/// Returns a description of a special file for error messages, for example "a pipe" or "a device".
 const char* KindOf(mode_t mode) {
   return S_ISFIFO(mode)                   ? "a pipe"
          : S_ISCHR(mode) || S_ISBLK(mode) ? "a device"
@@ -81,13 +81,14 @@ Descriptor OpenInput(const fs::path& file) {
   if (::stat(file.c_str(), &status) != 0) {
     Fail("read", file, errno);
   }
-  // Check before opening, because opening a device may have an effect.
+  // Check the kind of the file before opening it, because opening a device may have side effects.
   RequireRegular(file, status);
   Descriptor in(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY));
   if (in.get() < 0 || ::fstat(in.get(), &status) != 0) {
     Fail("read", file, errno);
   }
-  RequireRegular(file, status);  // another file may have taken the name since the first check
+  // Check again, because another file may have got this name since the first check.
+  RequireRegular(file, status);
   return in;
 }
 
@@ -122,7 +123,8 @@ void ReadBlocks(const fs::path& file, const std::function<bool(std::string_view 
     }
     const auto size = static_cast<std::size_t>(got);
     bytes += size;
-    if (bytes > max_bytes) {  // reached if the file grows, or if it is a file of /proc
+    // The limit is exceeded if the file has grown, or if the file is in /proc, where sizes are 0.
+    if (bytes > max_bytes) {
       FailAsTooLarge(file, max_bytes);
     }
     if (size == 0 || !take({block.data(), size})) {
@@ -159,7 +161,7 @@ fs::path TemporaryName(const fs::path& file, int number) {
   return name;
 }
 
-/// Whether `name` is a name that TemporaryName returns.
+/// Returns whether `name` has the form of the names that TemporaryName returns.
 bool IsTemporaryName(std::string_view name) {
   const std::size_t mark = name.rfind(kTemporary);
   if (mark == std::string_view::npos || !name.starts_with('.')) {
@@ -178,8 +180,8 @@ bool IsTemporaryName(std::string_view name) {
          take_digits() == '-' && take_digits() == '.';
 }
 
-/// Locks a new temporary file. Returns false if another process takes the file for abandoned and
-/// has already locked or removed it.
+/// Locks a new temporary file. Returns false if another process regards the file as abandoned and
+/// has already locked or removed the file.
 bool IsOurs(int descriptor) {
   const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   struct stat status {};
@@ -189,8 +191,8 @@ bool IsOurs(int descriptor) {
 }  // namespace
 
 TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)) {
-  // The number gives each thread of a process its own name. The number also avoids the names that a
-  // killed process with the same process id left behind.
+  // The number in the name distinguishes temporary files of several threads. The number also avoids
+  // names of files that a killed process with the same process id has left behind.
   for (int number = 0;; ++number) {
     path_ = TemporaryName(file_, number);
     descriptor_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -223,8 +225,8 @@ void TemporaryFile::Publish() {
   if (const int error = descriptor_.Close(); error != 0) {
     Fail("write", file_, error);
   }
-  // A link remains a link: the file that the link points to is replaced. A device or pipe must not
-  // be replaced.
+  // If the file is a link, replace the target of the link and keep the link. Refuse to replace a
+  // device or pipe.
   std::error_code error_code;
   const fs::path real = fs::is_symlink(file_) ? fs::weakly_canonical(file_, error_code) : file_;
   if (fs::is_directory(real, error_code)) {
@@ -351,7 +353,8 @@ void MakeFolder(const fs::path& folder) {
 
 namespace {
 
-/// The path without links and dots. The last parts of the path need not exist.
+/// Returns the absolute path with all links and dots resolved. The last parts of the path need not
+/// exist.
 fs::path RealPath(const fs::path& path) {
   std::error_code error;
   const fs::path absolute = fs::absolute(path.empty() ? "." : path, error);
@@ -363,7 +366,7 @@ bool IsInside(const fs::path& real_file, const fs::path& folder) {
   const fs::path real_folder = RealPath(folder / "");
   const auto [of_folder, of_file] =
       std::mismatch(real_folder.begin(), real_folder.end(), real_file.begin(), real_file.end());
-  // The path of a folder may end in an empty part, after the slash.
+  // The path of a folder may end with a slash, after which std::filesystem adds an empty part.
   return of_folder == real_folder.end() || of_folder->empty();
 }
 

@@ -5,7 +5,7 @@
 namespace trackbed {
 namespace {
 
-/// Whether a character is plain in a file name, in every locale.
+/// Returns whether a file name may contain the character, independent of the locale.
 bool IsPlain(char c) {
   return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '.' ||
          c == '_' || c == '-';
@@ -28,7 +28,7 @@ std::string FileNameOf(std::string_view name) {
 }
 
 bool IsFileName(std::string_view name) {
-  constexpr std::size_t kMaxNameLength = 255;  // value of NAME_MAX on Linux
+  constexpr std::size_t kMaxNameLength = 255;  // longest file name on Linux (NAME_MAX)
   return !name.empty() && name.size() <= kMaxNameLength && name.front() != '.' &&
          std::all_of(name.begin(), name.end(), IsPlain);
 }

@@ -8,7 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// Levenshtein distance, computed one row at a time.
+/// Returns the Levenshtein distance between two words. Only one row of the distance matrix is
+/// stored at a time.
 std::size_t EditDistance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -29,7 +30,8 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 std::string NearestSpelling(std::string_view word, const std::vector<std::string>& known) {
   std::string nearest;
-  // If every letter has to change, the word is not a misspelling.
+  // Ignore candidates for which all letters of the word would have to change, because the word is
+  // then not a misspelling.
   std::size_t fewest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   for (const std::string& candidate : known) {
     const std::size_t edits = EditDistance(word, candidate);

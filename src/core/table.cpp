@@ -17,7 +17,7 @@
 namespace trackbed {
 namespace {
 
-/// Selects the columns to read.
+/// Specifies which columns of a CSV file are read and which cells are valid.
 struct Selection {
   bool all = true;
   std::vector<std::string> needed{};    // Columns that the table must have, if `all` is false.
@@ -31,14 +31,14 @@ struct Selection {
   }
 };
 
-/// Turns rows of text into a table.
+/// Converts rows of text to a table of numbers.
 struct Reader {
   std::string file;
   Selection selection;
-  // Receives the rows; if this function is empty, the table receives the rows.
+  // Receives the rows. If `take` is empty, the rows are added to the table.
   std::function<void(const std::vector<double>& numbers, int line)> take{};
   std::optional<Table> table{};
-  std::vector<int> lines{};           // Line of each row of the table.
+  std::vector<int> lines{};           // Line number of each row of the table.
   std::vector<std::string> header{};  // All column names of the file.
   std::vector<std::size_t> taken{};   // For each column of the table, its index in `header`.
   std::vector<std::string> cells{};   // Cells of the current row.
@@ -49,8 +49,8 @@ struct Reader {
     problems.Add({file, line, 0, std::move(key), std::move(message)});
   }
 
-  /// Locates a cell by its number, counted from 1, and its column, because libcsv does not count
-  /// characters.
+  /// Adds a problem of a cell. The problem names the number of the cell in its row, counted from 1,
+  /// and its column, because libcsv does not report character positions.
   void AddCellError(std::size_t cell, std::string message) {
     const std::string& column = header[cell];
     const std::string name = column.empty() ? "" : fmt::format(" ({})", column);
@@ -129,7 +129,8 @@ struct Reader {
   }
 };
 
-/// Reads the whole file. Throws InputError if any part of the file cannot be read.
+/// Reads a whole CSV file through `reader`. Throws InputError if any part of the file cannot be
+/// read.
 void ReadThrough(const std::filesystem::path& file, const CsvLimits& limits, Reader& reader) {
   ReadCsvRows(file, limits, reader.problems, [&](std::vector<std::string>& cells, int line) {
     reader.cells.swap(cells);
@@ -205,7 +206,7 @@ std::string Table::ToCsv() const {
   const std::size_t width = columns_.size();
   for (std::size_t row = 0; row < rows(); ++row) {
     for (std::size_t column = 0; column < width; ++column) {
-      // Adding 0.0 turns a negative zero into zero, because the sign of a zero is only noise in a
+      // Add 0.0 to convert a negative zero to zero, because the sign of a zero is only noise in a
       // log.
       fmt::format_to(fmt::appender(out), FMT_COMPILE("{}"), at(row, column) + 0.0);
       out.push_back(column + 1 < width ? ',' : '\n');
@@ -234,7 +235,8 @@ void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::st
   Reader reader{.file = file.string(),
                 .selection = {.all = false, .needed = columns, .optional = {}, .empty = true}};
   std::vector<double> ordered(columns.size());
-  std::vector<std::size_t> place;  // position of each of `columns` in the file's order
+  // Index of each requested column among the columns that were read.
+  std::vector<std::size_t> place;
   reader.take = [&](const std::vector<double>& numbers, int line) {
     if (place.empty()) {
       for (const std::string& column : columns) {

@@ -18,7 +18,7 @@ std::string CsvLine(const std::vector<std::string>& cells) {
   std::string csv;
   for (std::size_t i = 0; i < cells.size(); ++i) {
     csv += i == 0 ? "" : ",";
-    // Quote a single empty cell, because readers skip empty lines.
+    // Quote the empty cell of a row with a single cell, because CSV readers skip empty lines.
     if (cells[i].find_first_of(",\"\r\n") == std::string::npos &&
         !(cells.size() == 1 && cells[i].empty())) {
       csv += cells[i];
@@ -43,12 +43,13 @@ std::optional<double> CellNumber(const std::string& cell) {
 }
 
 std::string ShortestText(double number) {
-  return fmt::format("{}", number + 0.0);  // adding 0.0 turns a negative zero into zero
+  return fmt::format("{}", number + 0.0);  // adding 0.0 converts a negative zero to zero
 }
 
 std::pair<std::string, std::string> FormatDistinct(double first, double second) {
   std::pair<std::string, std::string> texts;
-  constexpr int kRoundTripDigits = 17;  // enough digits to distinguish any two doubles
+  // Number of digits with which every double can be read back exactly.
+  constexpr int kRoundTripDigits = 17;
   for (int digits = 4; digits <= kRoundTripDigits; ++digits) {
     texts = {fmt::format("{:.{}g}", first, digits), fmt::format("{:.{}g}", second, digits)};
     if (first == second || texts.first != texts.second) {

@@ -9,11 +9,12 @@
 namespace trackbed {
 namespace {
 
-/// Expectations that describe the outcome of a run: the ones that the run met, and the opposite of
-/// the ones that it violated.
+/// Builds expectations that describe the outcome of a run: the expectations that the run met, and
+/// the negations of the expectations that the run violated.
 class OutcomeExpectations {
  public:
-  /// Returns false if no expectation can express the outcome of the check.
+  /// Adds the expectation that describes the outcome of a check. Returns false if no expectation
+  /// can describe this outcome.
   bool Add(const Check& check) {
     switch (check.reason) {
       case CheckReason::kSteeringRate:
@@ -39,7 +40,8 @@ class OutcomeExpectations {
         break;
     }
     if (!check.other.empty()) {
-      return check.met;  // a check of the section `between`, which is kept
+      return check.met;  // a check between two plants needs no new expectation, because the section
+                         // `between` is kept
     }
     return check.relation == Relation::kEquals ? AddEqual(check) : AddLimit(check);
   }
@@ -91,14 +93,14 @@ class OutcomeExpectations {
     }
     (is_upper ? OfMetric(check).max : OfMetric(check).min) = *bound;
     if (check.metric == "cross_track.max" && real != nullptr) {
-      // Sets a bound explicitly, because otherwise the default of one car width would apply.
+      // Set the bound explicitly, because otherwise the default bound of one car width would apply.
       Of(check.plant).max_cross_track = 2.0 * *real;
     }
     return true;
   }
 
   bool AddRequirement(const Check& check) {
-    // The name of the metric is requirements.NAME.robustness.
+    // The metric of a requirement has the path requirements.NAME.robustness.
     const std::size_t dot = check.metric.find('.') + 1;
     Of(check.plant)
         .requirements.push_back(
@@ -110,8 +112,8 @@ class OutcomeExpectations {
   std::vector<std::pair<std::string, PlantExpectation>> plants_;
 };
 
-/// Whether the scenario passes. Passes() returns false if a negated requirement is too long or
-/// nested too deeply.
+/// Runs the scenario and returns whether it passes. Passes() also returns false if the scenario is
+/// invalid, because a negated requirement is too long or nested too deeply.
 bool Passes(const Scenario& scenario) {
   try {
     return RunMission(scenario).verdict.passed;

@@ -12,12 +12,12 @@
 #include "trackbed/core/stopwatch.h"
 #include "trackbed/core/text_table.h"
 
-// Falsification first runs the nominal point. After the nominal point, a search (point_search.cpp)
-// proposes points in batches to minimize the robustness. The search ends when a run fails (unless
-// `stop` is false), the runs are used up or the time is over. The violation nearest to the nominal
-// point becomes the counterexample. The counterexample is shrunk toward the nominal point
-// (shrink.cpp). All runs are recorded (search_runs.cpp), so that an interrupted search continues
-// without repeating them.
+// Searches a study for a point at which the run violates an expectation. Falsification first runs
+// the nominal point. Then a search (point_search.cpp) proposes points in batches to minimize the
+// robustness. The search ends when a run fails (unless `stop` is false), when all runs are used up,
+// or when the time is over. The failing point nearest to the nominal point becomes the
+// counterexample. The counterexample is shrunk toward the nominal point (shrink.cpp). All runs are
+// recorded (search_runs.cpp), so that an interrupted search continues without repeating runs.
 namespace trackbed {
 namespace {
 
@@ -48,7 +48,7 @@ class Falsifier {
   }
 
  private:
-  /// Runs the nominal point; returns none if interrupted.
+  /// Runs the scenario at the nominal point; returns none if interrupted.
   std::optional<SearchRun> RunNominal() {
     const UnitPoint& nominal = search_.space.nominal();
     const auto runs = runs_.Run({nominal}, "nominal");
@@ -86,7 +86,7 @@ class Falsifier {
 
   std::optional<std::vector<std::optional<double>>> RunBatchOf(
       const std::vector<UnitPoint>& points) {
-    std::size_t next = runs_.count();  // row number of the first new run
+    std::size_t next = runs_.count();  // row number of the next new run
     const auto runs = runs_.Run(points, "search");
     if (!runs) {
       interrupted_ = true;
@@ -239,8 +239,8 @@ CheckedSearch CheckSearch(Study study) {
   try {
     base = ReadPoint(study, {});
   } catch (const InputError&) {
-    // Ignores the error: the scenario may be invalid without values of the searched keys. If the
-    // scenario is invalid without the searched keys, the study must give `nominal`.
+    // Ignores the error: without values of the searched keys, the scenario may be invalid. In this
+    // case, the study must give the nominal values in `nominal`.
   }
   SearchSpace space(study, base ? &*base : nullptr);
   return {.study = std::move(study), .runs = std::move(runs), .space = std::move(space)};
@@ -259,7 +259,8 @@ ordered_json FalsifyHeader(const CheckedSearch& search) {
   for (const SearchKey& key : search.space.keys()) {
     header["nominal"][key.key] = key.nominal;
   }
-  header["rows_expected"] = spec.runs + spec.shrink_runs + 1;  // one more row for the nominal point
+  // The additional row is the run of the nominal point.
+  header["rows_expected"] = spec.runs + spec.shrink_runs + 1;
   header["columns"] = SearchColumns(study);
   return header;
 }

@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-/// Proposes the points of a sample.
+/// Search that proposes the points of a sample, independent of their values.
 class SampledPoints : public PointSearch {
  public:
   SampledPoints(const SampleSpec& spec, const SearchSpace& space)
@@ -52,15 +52,17 @@ SearchMethod NloptMethod(const std::string& name) {
   throw InternalError("no search of this name: " + name);
 }
 
-/// Runs several NLopt searches in parallel. NLopt requests one value at a time, so each search runs
-/// in a separate thread. A batch contains one point of each search that has not ended.
+/// Runs several NLopt searches in parallel. NLopt requests the values of points one after the
+/// other, so each search runs in a separate thread. A batch contains one point of each search that
+/// has not ended.
 class NloptSearches : public PointSearch {
  public:
   NloptSearches(const SearchSpec& spec, const SearchSpace& space, int restarts)
       : spec_(spec), space_(space), lanes_(static_cast<std::size_t>(restarts)) {
     const bool finishes = spec.finish != "none";
     const int last = finishes ? spec.runs / 4 : 0;
-    // The first search starts at the nominal point, the others at points of a sample.
+    // The first search starts at the nominal point, and each other search starts at a point of a
+    // sample.
     const Eigen::MatrixXd starts =
         UnitSample({.count = restarts, .method = SampleMethod::kSobol, .seed = spec.seed},
                    static_cast<int>(space.keys().size()));
@@ -131,7 +133,7 @@ class NloptSearches : public PointSearch {
   struct Lane {
     UnitPoint start;
     State state = State::kRuns;
-    UnitPoint point;     // Point at which the search requests a value.
+    UnitPoint point;     // Point for which the NLopt search requests a value.
     double value = 0.0;  // Value of the objective at `point`.
     std::exception_ptr failure;
     std::thread thread;
@@ -194,14 +196,14 @@ class NloptSearches : public PointSearch {
           best = found;
         }
         if (method == SearchMethod::kDirect) {
-          break;  // the method is deterministic, so a repetition finds the same point
+          break;  // DIRECT is deterministic, so a repetition would find the same point
         }
       }
       if (last_runs > 0 && best.ok()) {
         SearchFrom(lane, NloptMethod(spec_.finish), best.x, last_runs, spec_.seed);
       }
     } catch (const Stopped&) {
-      // The exception ends the thread of a stopped search.
+      // The caller stopped the search: end the thread.
     } catch (...) {
       lane.failure = std::current_exception();
     }

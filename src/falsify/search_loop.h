@@ -8,12 +8,13 @@
 
 namespace trackbed {
 
-/// Runs points and returns their values; returning none ends the search.
+/// Function that runs points and returns the values of their objective. If the function returns
+/// none, the search ends.
 using RunBatch = std::function<std::optional<std::vector<std::optional<double>>>(
     const std::vector<UnitPoint>& points)>;
 
-/// Alternates between proposals of `search` and their values from `run` until one of them ends the
-/// search. Proposals are rounded to the steps of `space`.
+/// Runs the points that `search` proposes and passes the resulting values back to `search`, until
+/// `search` or `run` ends the search. Proposed points are rounded to the steps of `space`.
 void FollowSearch(PointSearch& search, const SearchSpace& space, const RunBatch& run);
 
 }  // namespace trackbed

@@ -59,7 +59,7 @@ std::optional<std::vector<SearchRun>> SearchRuns::Run(const std::vector<UnitPoin
   };
   std::vector<Task> tasks;
   std::vector<std::vector<std::string>> texts;
-  std::map<std::vector<std::string>, std::size_t> rows;  // row of each new point
+  std::map<std::vector<std::string>, std::size_t> rows;  // row number of each new point
   for (const UnitPoint& point : points) {
     texts.push_back(Texts(point));
     if (known_.find(texts.back()) != known_.end()) {

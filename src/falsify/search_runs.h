@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// A run of the search, as recorded in the search's table.
+/// Result of a run of the search, as recorded in the table of runs.
 struct SearchRun {
   std::size_t row = 0;
   std::string status;
@@ -21,26 +21,26 @@ struct SearchRun {
   [[nodiscard]] bool violated() const { return status == "failed" || status == "no_plan"; }
 };
 
-/// Columns of the table of a search.
+/// Returns the column names of a search's table of runs.
 std::vector<std::string> SearchColumns(const Study& study);
 
-/// Runs each point once and records its row.
+/// Runs each point of a search once and records the result as a row of the table of runs.
 class SearchRuns {
  public:
   SearchRuns(const CheckedSearch& search, SweepRecords& records, const FalsifyOptions& options)
       : search_(search), records_(records), options_(options) {}
 
-  /// Returns one run per point, or none if interrupted. Runs missing points in parallel and counts
-  /// the new runs.
+  /// Returns the results of all points, or none if interrupted. Points without a known result are
+  /// run in parallel.
   std::optional<std::vector<SearchRun>> Run(const std::vector<UnitPoint>& points,
                                             const char* phase);
 
-  /// Whether the run of `point` is known.
+  /// Returns whether the result of `point` is known.
   [[nodiscard]] bool Has(const UnitPoint& point) const;
   [[nodiscard]] std::size_t count() const { return next_; }
 
  private:
-  /// Restores a run from its recorded row.
+  /// Reads the result of a run from its recorded row.
   [[nodiscard]] SearchRun FromRecords(std::size_t row, const std::vector<std::string>& texts) const;
   [[nodiscard]] bool RunRow(std::size_t row, const UnitPoint& point, const char* phase);
   [[nodiscard]] std::vector<std::string> Texts(const UnitPoint& point) const;
@@ -48,10 +48,10 @@ class SearchRuns {
   const CheckedSearch& search_;
   SweepRecords& records_;
   const FalsifyOptions& options_;
-  std::map<std::vector<std::string>, SearchRun> known_;  // Runs, keyed by the values of the
-                                                         // searched keys.
-  std::size_t next_ = 0;                                 // Number of the next row.
-  std::mutex mutex_;                                     // Guards the reports of progress.
+  // Known results, keyed by the values of the searched keys.
+  std::map<std::vector<std::string>, SearchRun> known_;
+  std::size_t next_ = 0;  // Number of the next row of the table.
+  std::mutex mutex_;      // Protects the progress reports of parallel runs.
 };
 
 }  // namespace trackbed

@@ -13,13 +13,13 @@
 namespace trackbed {
 namespace {
 
-/// The number nearest to `value` that is a whole number of steps from the start of the range, and
-/// within the range.
+/// Rounds `value` to the nearest number in the key's range that is a whole number of steps from the
+/// start of the range.
 double NearestStep(const SearchKey& key, double value) {
   return SteppedValue(key.from, key.step, std::round((value - key.from) / key.step));
 }
 
-/// Reads the searched keys of a study and collects problems with their positions.
+/// Reads the searched keys of a study and collects problems with their positions in the file.
 class SpaceReader {
  public:
   SpaceReader(const Study& study, const Scenario* scenario) : study_(study), scenario_(scenario) {}
@@ -130,7 +130,7 @@ class SpaceReader {
   std::vector<Problem> problems_;
 };
 
-/// Exponent of the power of ten to which values of this range are rounded.
+/// Returns the exponent of the power of ten to whose multiples the values of a key are rounded.
 int DecimalExponent(const SearchKey& key) {
   return static_cast<int>(std::floor(std::log10(1e-3 * (key.to - key.from))));
 }
@@ -206,7 +206,7 @@ double SearchSpace::Step(std::size_t i) const {
     case DistributionKind::kInteger:
       return 1.0 / (key.to - key.from);
     case DistributionKind::kLogUniform:
-      return 1e-4 / std::log(key.to / key.from);  // five digits are kept
+      return 1e-4 / std::log(key.to / key.from);  // values are rounded to about five digits
     default:
       if (key.step > 0.0) {
         return key.step / (key.to - key.from);

@@ -10,11 +10,11 @@
 namespace trackbed {
 namespace {
 
-/// As in statistics.cpp, avoids tables of long doubles, which overflow under valgrind.
+/// Avoids Boost's tables of long doubles, which overflow under valgrind, as in statistics.cpp.
 using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-/// Logarithm of the integral of q^s (1 - q)^f, relative to p^s (1 - p)^f. The integral of q^s (1 -
-/// q)^f is from 0 to p, or from p to 1.
+/// Returns the logarithm of the mean likelihood of q below p, or above p, divided by the likelihood
+/// of p. The likelihood of q is q^s (1 - q)^f for s successes and f failures.
 double LogRatio(double successes, double failures, double p, bool above) {
   const DoublePrecision policy;
   const double a = successes + 1.0;
@@ -22,7 +22,8 @@ double LogRatio(double successes, double failures, double p, bool above) {
   const double share =
       above ? boost::math::ibetac(a, b, p, policy) : boost::math::ibeta(a, b, p, policy);
   if (share < std::numeric_limits<double>::min()) {
-    return -std::numeric_limits<double>::infinity();  // the test is far from a decision
+    return -std::numeric_limits<double>::infinity();  // the ratio underflows to 0, far from a
+                                                      // decision of the test
   }
   const double log_beta = boost::math::lgamma(a, policy) + boost::math::lgamma(b, policy) -
                           boost::math::lgamma(a + b, policy);

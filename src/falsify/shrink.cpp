@@ -28,7 +28,7 @@ class Shrinker {
       MeasureSingleKeys();
       result_.complete = true;
     } catch (const BudgetExhausted&) {
-      // If interrupted, the shrinking returns its partial result.
+      // If the budget of runs is exhausted, return the partial result.
     }
     if (result_.point.empty()) {
       result_.point = violation;
@@ -48,7 +48,8 @@ class Shrinker {
     return *evaluation;
   }
 
-  /// Accepts the point if its run violates an expectation.
+  /// Runs the point. If the run violates an expectation, the point becomes the new result, and
+  /// Take() returns true.
   bool Take(const UnitPoint& point) {
     const Evaluation evaluation = Evaluate(point);
     if (evaluation.violated) {
@@ -58,7 +59,8 @@ class Shrinker {
     return evaluation.violated;
   }
 
-  /// Bisects on the straight line for the violation nearest to `to`.
+  /// Bisects the straight line from the current result to the point `to` for the violation nearest
+  /// to `to`.
   void MoveToward(const UnitPoint& to) {
     if (Take(to)) {
       return;
@@ -98,8 +100,9 @@ class Shrinker {
 
   [[nodiscard]] double StepOf(std::size_t i) const { return std::max(tolerance_, space_.Step(i)); }
 
-  /// Tests for each key whether moving it one step nearer to its nominal value ends the violation.
-  /// MeasureHolds returns false after moving a key if the run still violates.
+  /// Tests for each key whether the violation ends when the key moves one step toward its nominal
+  /// value. If the run still violates after such a step, MeasureHolds keeps the step and returns
+  /// false.
   bool MeasureHolds() {
     for (std::size_t i = 0; i < nominal_.size(); ++i) {
       const double place = result_.point[i];

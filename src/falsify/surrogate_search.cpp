@@ -55,12 +55,12 @@ class SurrogateSearch : public PointSearch {
   void Tell(const std::vector<std::optional<double>>& values) override {
     bool restart = false;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-      // dlib proposes a point again until it gets a value. A point without a value therefore gets
-      // the highest known value.
+      // dlib proposes a point again until the point gets a value. A point whose run has no value
+      // therefore gets the highest known value.
       const double value = values[i].value_or(highest_);
       Keep(batch_[i], value);
-      // dlib accepts changed values, or values that it has not asked for, only in its constructor.
-      // The search of dlib is therefore constructed again.
+      // dlib accepts changed values, and values of points that dlib did not request, only in the
+      // constructor of a search. Such values therefore require a new dlib search.
       restart =
           restart || requests_.find(batch_[i]) == requests_.end() || (value < 0.0 && !spec_.stop);
     }
@@ -78,7 +78,7 @@ class SurrogateSearch : public PointSearch {
  private:
   // dlib alternates between exploring and refining, so a batch of two has one point of each.
   static constexpr int kBatch = 2;
-  // Noise relative to the range of the values; the default of dlib.
+  // Noise of the objective relative to the range of its values; the value is the default of dlib.
   static constexpr double kNoise = 0.001;
 
   void Keep(const UnitPoint& point, double value) {
@@ -89,16 +89,16 @@ class SurrogateSearch : public PointSearch {
     }
   }
 
-  /// Objective at a point whose run is known. If the search continues after a violation, it should
-  /// find other regions. The values near violations are therefore raised, as in deflation for roots
-  /// of equations.
+  /// Returns the objective at a known point, as passed to dlib. If the search continues after a
+  /// violation, the search should find other regions with violations. The values near known
+  /// violations are therefore raised, similar to deflation in root finding.
   [[nodiscard]] double ObjectiveAt(const UnitPoint& point) const {
     const double value = known_.at(point);
     if (spec_.stop || violations_.empty()) {
       return value;
     }
-    constexpr double kRepulsionRadius = 0.15;  // radius around a violation, relative to the range
-                                               // of a key
+    // Radius of raised values around a violation, relative to the range of a key.
+    constexpr double kRepulsionRadius = 0.15;
     double nearest = std::numeric_limits<double>::infinity();
     for (const UnitPoint& violation : violations_) {
       nearest = std::min(nearest, Distance(point, violation) / kRepulsionRadius);
@@ -106,8 +106,8 @@ class SurrogateSearch : public PointSearch {
     return std::max(value, 0.0) + height_ * std::exp(-0.5 * nearest * nearest);
   }
 
-  /// Amount by which values are raised at a violation: three times the median of the passing
-  /// values.
+  /// Returns the amount by which values are raised at a violation: three times the median of the
+  /// values at passing points.
   [[nodiscard]] double Height() const {
     std::vector<double> values;
     for (const auto& [point, value] : known_) {
@@ -135,8 +135,8 @@ class SurrogateSearch : public PointSearch {
     search_.set_seed(static_cast<time_t>(spec_.seed + known_.size()));
   }
 
-  /// Asks dlib for a new point. dlib ignores steps and may propose known points again; such points
-  /// get their known value.
+  /// Asks dlib for a new point. Proposals are rounded to steps, so dlib may propose known points
+  /// again. For such points, dlib gets the known value.
   std::optional<UnitPoint> Propose(const std::vector<UnitPoint>& batch) {
     constexpr int kMaxAttempts = 20;
     for (int i = 0; i < kMaxAttempts; ++i) {
@@ -154,7 +154,8 @@ class SurrogateSearch : public PointSearch {
     return std::nullopt;
   }
 
-  /// The point of a sample that is farthest from all known points; none if all points are known.
+  /// Returns the point of a sample that is farthest from all known points; none if all points of
+  /// the sample are known.
   std::optional<UnitPoint> FarthestPoint(const std::vector<UnitPoint>& batch) {
     const Eigen::MatrixXd sample = UnitSample(
         {.count = 1024, .method = SampleMethod::kSobol, .seed = spec_.seed + known_.size()},
@@ -184,13 +185,14 @@ class SurrogateSearch : public PointSearch {
 
   const SearchSpec& spec_;
   const SearchSpace& space_;
-  std::map<UnitPoint, double> known_;  // Objective of each known point, rounded to the steps.
-  double highest_ = 0.0;               // Highest known objective.
+  // Value of each known point, whose coordinates are rounded to the steps.
+  std::map<UnitPoint, double> known_;
+  double highest_ = 0.0;  // Highest known value.
   std::vector<UnitPoint> violations_;
   double height_ = 0.0;  // amount by which values near violations are raised
   dlib::global_function_search search_{UnitCube(1)};
-  std::map<UnitPoint, dlib::function_evaluation_request> requests_;  // dlib's requests for the
-                                                                     // current batch
+  // Requests that dlib made for the points of the current batch.
+  std::map<UnitPoint, dlib::function_evaluation_request> requests_;
   std::vector<UnitPoint> batch_;
   int proposals_ = 0;
 };

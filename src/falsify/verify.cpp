@@ -17,14 +17,15 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kVerifyBatch = 32;
 
-/// The text in a row's column `status`.
+/// Returns the text in the column `status` of a row.
 std::string StatusOf(const SweepRecords& records, const SweepRow& row) {
   const std::vector<std::string> columns = records.Columns();
   const auto at = std::find(columns.begin(), columns.end(), "status") - columns.begin();
   return row.cells.at(static_cast<std::size_t>(at));
 }
 
-/// RunBatch returns false if interrupted.
+/// Runs the rows `from` to `to` (exclusive) that are not recorded yet. RunBatch returns false if
+/// interrupted.
 bool RunBatch(const CheckedStudy& checked, std::size_t from, std::size_t to, SweepRecords& records,
               const VerifyOptions& options) {
   std::vector<std::size_t> missing;

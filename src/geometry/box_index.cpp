@@ -19,9 +19,9 @@ using Point = boost::geometry::model::d2::point_xy<double>;
 using Bounds = boost::geometry::model::box<Point>;
 using Entry = std::pair<Bounds, std::size_t>;
 
-/// Largest number of boxes for which the index uses a linear search.
+/// Largest number of boxes for which the index uses a linear search instead of a tree.
 constexpr std::size_t kMaxLinearSearch = 16;
-/// Enlargement of bounds for rounding, relative to 1 m plus the largest coordinate.
+/// Margin of bounding boxes for rounding errors, relative to 1 m plus the largest coordinate.
 constexpr double kRounding = 1e-12;
 
 bool IsFinite(const OrientedBox& box) {
@@ -86,7 +86,8 @@ double BoxIndex::DistanceTo(const OrientedBox& box, double at_most) const {
   const auto all = static_cast<unsigned>(boxes_.size());
   for (auto own = tree_->tree.qbegin(index::nearest(center, all)); own != tree_->tree.qend();
        ++own) {
-    // The query returns boxes by ascending distance of their bounds from the center.
+    // Stop when no further box can be nearer, because the query returns boxes by ascending distance
+    // of their bounds from the center.
     if (nearest == 0.0 || boost::geometry::distance(center, own->first) - radius >= nearest) {
       break;
     }

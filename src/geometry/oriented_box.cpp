@@ -6,7 +6,7 @@
 namespace trackbed {
 namespace {
 
-/// Half length and half width of a box, along the axes of the box.
+/// Half length x and half width y of a box.
 struct HalfSizes {
   double x;
   double y;
@@ -14,7 +14,8 @@ struct HalfSizes {
   explicit HalfSizes(const OrientedBox& box) : x(0.5 * box.length), y(0.5 * box.width) {}
 };
 
-/// Squared distance from a point in the box's frame to the box; 0 inside the box.
+/// Returns the squared distance from a point, given in the frame of the box, to the box; 0 inside
+/// the box.
 double SquareToPoint(const HalfSizes& half, const Vec2& p) {
   const double x = std::max(std::abs(p.x()) - half.x, 0.0);
   const double y = std::max(std::abs(p.y()) - half.y, 0.0);
@@ -49,7 +50,8 @@ double Separation(const OrientedBox& a, const OrientedBox& b) {
   const double c = std::cos(turn);
   const double s = std::sin(turn);
   const Vec2 a_in_b{-c * b_in_a.x() - s * b_in_a.y(), s * b_in_a.x() - c * b_in_a.y()};
-  // Check all inputs, because std::max ignores a NaN that is not its first argument.
+  // Return NaN if any input is NaN, because std::max below ignores a NaN that is not its first
+  // argument.
   const double all = b_in_a.x() + b_in_a.y() + turn + half_a.x + half_a.y + half_b.x + half_b.y;
   if (std::isnan(all)) {
     return all;
@@ -92,7 +94,8 @@ double Distance(const Vec2& from, const Vec2& to, const OrientedBox& box) {
   const Vec2 q = ToLocal(box.center, to);
   const Vec2 middle = 0.5 * (p + q);
   const Vec2 along = 0.5 * (q - p);
-  // Line and box intersect unless an axis of the box or the line's normal separates them.
+  // The line and the box are disjoint only if an axis of the box or the normal of the line is a
+  // separating axis.
   const Vec2 reach{std::abs(along.x()), std::abs(along.y())};
   if (std::abs(middle.x()) <= half.x + reach.x() && std::abs(middle.y()) <= half.y + reach.y() &&
       std::abs(Cross(along, middle)) <= half.x * reach.y() + half.y * reach.x()) {

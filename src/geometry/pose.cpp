@@ -28,8 +28,8 @@ Pose2 MoveOnArc(const Pose2& start, double distance, double turn, double slip) {
   // The chord of an arc has the length distance * sin(turn/2)/(turn/2) and the mean direction of
   // the arc.
   const double half = 0.5 * turn;
-  // For angles below 1e-4, the series is exact to double precision: the next term of the series is
-  // below 1e-18.
+  // For angles below 1e-4, the Taylor series is exact to double precision, because the next term of
+  // the series is below 1e-18.
   const double ratio = std::abs(half) < 1e-4 ? 1.0 - half * half / 6.0 : std::sin(half) / half;
   const Vec2 end = start.position() + distance * ratio * Direction(start.yaw + slip + half);
   return {end.x(), end.y(), start.yaw + turn};

@@ -52,7 +52,7 @@ std::vector<std::size_t> Estimator::FixInertParameters() {
   std::vector<std::size_t> inert;
   for (const std::size_t i : free_) {
     const IdentifiedParameter& parameter = study_.parameters[i];
-    constexpr double kProbeFraction = 0.1;  // step as a fraction of the parameter's range
+    constexpr double kProbeFraction = 0.1;  // test step, as a fraction of the parameter's range
     const double move = kProbeFraction * (parameter.to - parameter.from);
     std::vector<double> moved = start_;
     moved[i] = start_[i] + move <= parameter.to ? start_[i] + move : start_[i] - move;
@@ -68,10 +68,12 @@ std::vector<std::size_t> Estimator::FixInertParameters() {
 }
 
 double Estimator::Improve(std::vector<double> at) {
-  constexpr double kMinStep = 1e-4;  // Smallest step, as a fraction of the range.
-  constexpr double kMinGain = 1e-5;  // Smallest gain of a step, as a fraction of the cost.
+  // Step below which the search stops, as a fraction of the parameter's range.
+  constexpr double kMinStep = 1e-4;
+  // Cost reduction below which the search stops, as a fraction of the cost.
+  constexpr double kMinGain = 1e-5;
   const int last = counter_.evaluations() + study_.evaluations;
-  double radius = 0.25;  // trust region, as a fraction of the range
+  double radius = 0.25;  // radius of the trust region, as a fraction of the parameter's range
   double cost = Cost(at);
   Keep(at, cost);
   while (std::isfinite(cost) && counter_.evaluations() < last) {
@@ -146,7 +148,7 @@ std::vector<double> Estimator::Moved(std::vector<double> values,
 Eigen::VectorXd Estimator::Step(const LinearModel& linear, const std::vector<double>& at,
                                 double radius) const {
   const Eigen::Index n = linear.gradient.size();
-  // A small ridge keeps parameters without effect at their values.
+  // A small ridge, added to the Hessian, keeps parameters without effect at their values.
   constexpr double kMinRidge = 1e-9;
   const double ridge = std::max(kMinRidge * linear.hessian.trace(), kMinRidge);
   QuadraticProgram program;

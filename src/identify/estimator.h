@@ -10,14 +10,14 @@
 
 namespace trackbed {
 
-/// Counts evaluations and reports the progress to the caller.
+/// Counts evaluations of the cost and reports the progress to the caller.
 class ProgressCounter {
  public:
   ProgressCounter(const IdentificationHooks& hooks, int max_evaluations);
 
-  /// Throws Interrupted if the caller asks to stop.
+  /// Counts an evaluation. Throws Interrupted if the caller asks to stop.
   void Count();
-  /// Counts unused evaluations of a budget as done.
+  /// Counts the unused evaluations of a budget as done, up to `evaluations`.
   void SkipTo(int evaluations);
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
@@ -27,12 +27,12 @@ class ProgressCounter {
   int evaluations_ = 0;
 };
 
-/// Initial values of the search: the study's start values or those of the model, clamped to the
-/// bounds.
+/// Returns the initial values of the search: the start values of the study, or else the values of
+/// the car model, clamped to the bounds.
 std::vector<double> StartValues(const Identification& study, const CarModel& car);
 
-/// Current estimate of all parameters, some of which are free and the others fixed. Estimator keeps
-/// references to its arguments.
+/// Estimates parameters, of which some are free and the others are fixed. Estimator keeps
+/// references to the arguments of its constructor.
 class Estimator {
  public:
   Estimator(const Identification& study, const ResidualModel& model, ProgressCounter& work);
@@ -42,17 +42,18 @@ class Estimator {
   [[nodiscard]] double best_cost() const { return best_cost_; }
   [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }
 
-  /// Fixes the parameters that do not change any bit of the cost, because the plant lacks the part.
-  /// FixInertParameters returns the indices of the fixed parameters.
+  /// Fixes the parameters without any effect on the cost, for example because the plant does not
+  /// model the part of the car. FixInertParameters returns the indices of the fixed parameters.
   std::vector<std::size_t> FixInertParameters();
 
-  /// Makes Gauss-Newton steps in a trust region, starting at `at`, and keeps the best values found.
-  /// Improve() returns the cost that it reaches. Each step is a quadratic program with the bounds,
-  /// solved by NLopt's SLSQP. (SLSQP on the cost itself would take six times as many evaluations.
-  /// SLSQP would have to build up the Hessian, which the residuals already provide.)
+  /// Makes Gauss-Newton steps in a trust region, starting at the values `at`, and keeps the best
+  /// values found. Improve() returns the cost that the last step reaches. Each step is a quadratic
+  /// program with the bounds, solved by NLopt's SLSQP. (If SLSQP minimized the cost itself, it
+  /// would need six times as many evaluations. SLSQP would have to approximate the Hessian, which
+  /// the residuals already provide.)
   double Improve(std::vector<double> at);
 
-  /// Random values of the free parameters within their bounds.
+  /// Returns random values of the free parameters within their bounds.
   std::vector<double> Random(std::mt19937_64& generator) const;
 
   /// Fixes a parameter at its start value.
@@ -63,8 +64,8 @@ class Estimator {
   void Keep(const std::vector<double>& values, double cost);
   [[nodiscard]] std::vector<double> Moved(std::vector<double> values,
                                           const Eigen::VectorXd& step) const;
-  /// Step to the minimum of the linear model within bounds and trust region, relative to the
-  /// parameters' ranges.
+  /// Returns the step to the minimum of the local model within bounds and trust region. The step is
+  /// relative to the parameters' ranges.
   [[nodiscard]] Eigen::VectorXd Step(const LinearModel& linear, const std::vector<double>& at,
                                      double radius) const;
 

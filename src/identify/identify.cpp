@@ -14,19 +14,21 @@
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_parameters.h"
 
-// Identifies model parameters from records. Minimizes the loss of prediction residuals over all
-// windows (residuals.cpp), plus priors. The method is Gauss-Newton in a trust region from several
-// starts (estimator.cpp). Parameters without effect on the cost are fixed first. The covariance
-// (linear_model.cpp) then shows whether the records determine each parameter better than its bounds
-// do. While the records do not determine a parameter, the worst parameter is fixed and the estimate
-// is improved. Finally, all records are replayed with the start values and with the fitted values.
+// Identifies parameters of a car model from recorded drives (records). The cost is the loss of the
+// prediction residuals over all windows (residuals.cpp), plus priors. The cost is minimized by
+// Gauss-Newton steps in a trust region, from several starts (estimator.cpp). Parameters without
+// effect on the cost are fixed first. The covariance (linear_model.cpp) then shows whether the
+// records determine each parameter better than its bounds do. If the records do not determine all
+// parameters, the least determined parameter is fixed and the estimate is repeated. Finally, all
+// records are replayed with the start values and with the fitted values.
 namespace trackbed {
 namespace {
 
-/// If two estimates correlate more than this value, the parameters are hard to distinguish.
+/// Correlation of two estimates above which their parameters are hard to distinguish.
 constexpr double kStrongCorrelation = 0.95;
 
-/// Moves a problem of a parameter to the parameter's place in the study file.
+/// Rethrows the error. Problems of a parameter are reported at the line of the study file that
+/// defines the parameter.
 [[noreturn]] void ThrowPlaced(const InputError& error, const Identification& study) {
   std::vector<Problem> problems = error.problems();
   for (Problem& problem : problems) {
@@ -44,15 +46,17 @@ constexpr double kStrongCorrelation = 0.95;
 }
 
 bool IsAt(double value, double bound, const IdentifiedParameter& parameter) {
-  constexpr double kBoundTolerance = 1e-4;  // tolerance as a fraction of the range
+  constexpr double kBoundTolerance = 1e-4;  // tolerance as a fraction of the parameter's range
   return std::abs(value - bound) <= kBoundTolerance * (parameter.to - parameter.from);
 }
 
-/// The free parameter with the largest deviation, if it exceeds the deviation of a uniform
-/// distribution between the bounds; none if the records determine all parameters.
+/// Returns the free parameter with the largest standard deviation, if that deviation exceeds the
+/// deviation of a uniform distribution between the parameter's bounds. Returns none if the records
+/// determine all parameters.
 std::optional<std::size_t> LeastDetermined(const Eigen::MatrixXd& covariance) {
   std::optional<std::size_t> least;
-  double worst = 1.0 / std::sqrt(12.0);  // deviation of a uniform distribution over the range
+  // Standard deviation of a uniform distribution over the range.
+  double worst = 1.0 / std::sqrt(12.0);
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
     const double deviation = std::sqrt(covariance(i, i));
     if (!(deviation <= worst)) {
@@ -69,8 +73,8 @@ double Correlation(const Eigen::MatrixXd& covariance, std::size_t a, std::size_t
   return covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
 }
 
-/// Sets the model with the estimates. ReplayRecords replays the records with the start values and
-/// the estimates, unless the search was interrupted.
+/// Stores the model with the estimated parameters in the result. Unless the search was interrupted,
+/// ReplayRecords also replays the records, both with the start values and with the estimates.
 void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
                    IdentificationResult& result) {
   std::vector<CarParameter> start;
@@ -121,7 +125,7 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
 }
 
 /// Estimates the parameters. Parameters that cannot be estimated are fixed, until the records
-/// determine all free ones.
+/// determine all free parameters.
 void Estimate(Estimator& estimator, const ResidualModel& model, ProgressCounter& work,
               IdentificationResult& result) {
   const Identification& study = result.study;

@@ -10,12 +10,13 @@
 namespace trackbed {
 namespace {
 
-/// Derivative of the residuals with respect to a parameter divided by the parameter's range.
+/// Returns the derivative of the residuals with respect to a parameter, where the parameter is
+/// divided by its range.
 std::vector<SignalResiduals> Derivative(const Identification& study, const ResidualModel& model,
                                         const std::vector<double>& estimate, std::size_t index,
                                         const std::function<void()>& count) {
-  // The step is large enough to average over backlash, where residuals have kinks. The step is
-  // small enough for a Magic Formula to be linear.
+  // The step must be large enough to average over the kinks that backlash causes in the residuals.
+  // The step must be small enough that the Magic Formula is almost linear within the step.
   constexpr double kStep = 1e-3;  // Fraction of the range.
   const IdentifiedParameter& parameter = study.parameters[index];
   const double width = parameter.to - parameter.from;
@@ -86,8 +87,8 @@ LinearModel Linearize(const Identification& study, const ResidualModel& model,
   std::vector<std::vector<SignalResiduals>> jacobian;
   for (const std::size_t index : free) {
     jacobian.push_back(Derivative(study, model, estimate, index, counted));
-    if (jacobian.back().size() != residuals.size()) {  // values next to the estimate cannot be
-                                                       // compiled
+    // The sizes differ if the model cannot be compiled with parameter values next to the estimate.
+    if (jacobian.back().size() != residuals.size()) {
       jacobian.back() = residuals;
       for (SignalResiduals& signal : jacobian.back()) {
         std::fill(signal.values.begin(), signal.values.end(), 0.0);
@@ -133,7 +134,8 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
   const auto windows = static_cast<double>(linear.of_windows.cols());
   const double freedom = std::max(1.0, windows - static_cast<double>(n));
   Eigen::MatrixXd scatter = linear.of_windows * linear.of_windows.transpose() * (windows / freedom);
-  // A prior acts as a measurement whose scatter is the prior's deviation.
+  // A prior acts as an additional measurement of the parameter, whose standard deviation is the
+  // prior's deviation.
   for (Eigen::Index i = 0; i < n; ++i) {
     const IdentifiedParameter& parameter = study.parameters[free[static_cast<std::size_t>(i)]];
     if (parameter.prior) {
@@ -157,7 +159,8 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
   const Eigen::MatrixXd inverted =
       eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
   Eigen::MatrixXd covariance = inverted * scatter * inverted;
-  constexpr double kFlatComponent = 1e-3;  // smallest component in a flat direction that counts
+  // A parameter counts as undetermined if its component in a flat direction exceeds this value.
+  constexpr double kFlatComponent = 1e-3;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (flat[i] > kFlatComponent) {
       covariance(i, i) = std::numeric_limits<double>::infinity();

@@ -17,10 +17,11 @@
 namespace trackbed {
 namespace {
 
-constexpr double kDivergedResidual = 100.0;  // residual after divergence, in units of the signal's
-                                             // deviation
+// Residual after the plant has diverged, in units of the signal's deviation.
+constexpr double kDivergedResidual = 100.0;
 
-/// A fitted signal: its deviation, and the difference of a predicted state from the recorded one.
+/// A fitted signal: its deviation, and a function that returns the difference between the predicted
+/// and the recorded value.
 struct FittedSignal {
   double deviation;
   double (*difference)(const VehicleState& predicted, const VehicleState& recorded);
@@ -49,14 +50,15 @@ std::vector<FittedSignal> FittedSignals(const ResidualDeviations& residuals) {
   return signals;
 }
 
-/// Residuals of all signals in one window.
+/// Returns the residuals of all signals in one prediction window.
 std::vector<std::vector<double>> ResidualsOf(const WindowPrediction& prediction,
                                              const Scenario& scenario, std::size_t states,
                                              const VehicleParams& vehicle,
                                              const std::vector<FittedSignal>& signals) {
   const RecordSpec& record = *scenario.record;
   std::vector<std::vector<double>> residuals(signals.size());
-  for (std::size_t k = 1; k < states; ++k) {  // the loop skips the first state, which is recorded
+  // Skip the first state, which is the recorded state itself.
+  for (std::size_t k = 1; k < states; ++k) {
     const double time = prediction.start + static_cast<double>(k) * scenario.drive.control_period;
     const RecordedSample sample = record.data->At(time);
     if (std::abs(sample.velocity_V.x()) < record.min_speed) {
@@ -118,7 +120,8 @@ std::vector<SignalResiduals> ResidualModel::At(std::span<const double> values) c
   }
   const std::vector<FittedSignal> signals = FittedSignals(study_.residuals);
   std::vector<std::vector<std::vector<double>>> of_windows(windows_.size());
-  // Windows are grouped, because each call follows the commands from the start of the record.
+  // Predict several windows in one call, because each call simulates the steering actuator from the
+  // start of the record.
   constexpr std::size_t kWindowsPerBatch = 8;
   const std::size_t parts = (windows_.size() + kWindowsPerBatch - 1) / kWindowsPerBatch;
   ForEachIndex(parts, threads_, [&](std::size_t part) {

@@ -10,30 +10,31 @@
 
 namespace trackbed {
 
-/// Exception for an interruption by the caller; Identify catches it.
+/// Exception that Identify catches when the caller interrupts the identification.
 struct Interrupted {};
 
-/// Residuals of one signal in one window, divided by the deviation of the signal.
+/// Residuals of one signal in one prediction window, divided by the deviation of the signal.
 struct SignalResiduals {
   std::size_t window = 0;
   std::vector<double> values{};
 };
 
-/// Residuals of the model for given parameter values, over all windows of all fitted records. After
-/// a plant diverges, its residuals are 100 deviations.
+/// Computes the prediction residuals of the car model for given parameter values, over all windows
+/// of all fitted records. After a plant has diverged, its residuals are 100 deviations.
 class ResidualModel {
  public:
-  /// The study must outlive the model. All threads call `interrupted` before each window.
+  /// The study must outlive the ResidualModel. Each thread calls `interrupted` before each window.
   ResidualModel(const Identification& study, int threads, std::function<bool()> interrupted = {});
 
   [[nodiscard]] const CarModel& car() const { return cars_.front(); }
   [[nodiscard]] std::size_t windows() const { return windows_.size(); }
-  /// Residuals for values of the study's parameters, given in the order of the study. Each signal
-  /// always has the same number of residuals in the same order. At() returns nothing if the model
-  /// cannot be compiled with the values. At() throws Interrupted if the caller asks to stop.
+  /// Returns the residuals for given values of the study's parameters, in the order of the study.
+  /// The number and the order of the residuals do not depend on the values. At() returns no
+  /// residuals if the car model cannot be compiled with the values. At() throws Interrupted if the
+  /// caller asks to stop.
   [[nodiscard]] std::vector<SignalResiduals> At(std::span<const double> values) const;
-  /// Cars of the fitted scenarios with the given parameter values. CarsAt throws InputError if the
-  /// cars cannot be compiled.
+  /// Returns the cars of the fitted scenarios with the given parameter values. CarsAt throws
+  /// InputError if the cars cannot be compiled.
   [[nodiscard]] std::vector<CarModel> CarsAt(std::span<const double> values) const;
 
  private:
@@ -45,11 +46,12 @@ class ResidualModel {
   const Identification& study_;
   int threads_;
   std::function<bool()> interrupted_;
-  std::vector<CarModel> cars_;  // cars, one per fitted scenario
+  std::vector<CarModel> cars_;  // car models, one per fitted scenario
   std::vector<Window> windows_;
 };
 
-/// Loss rho(r) of the study, and the weight rho'(r)/r of a residual in the gradient.
+/// Loss() returns the loss rho(r) of a residual r. LossWeight() returns the weight rho'(r)/r of the
+/// residual in the gradient.
 double Loss(const Identification& study, double residual);
 double LossWeight(const Identification& study, double residual);
 

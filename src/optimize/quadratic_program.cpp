@@ -16,7 +16,7 @@ using Rows = QuadraticProgram::Rows;
 using Bounds = QuadraticProgram::Bounds;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 
-/// The problem: minimize |y|^2/2 + linear^T y subject to rows y <= bounds.
+/// Least-distance problem: minimize |y|^2/2 + linear^T y subject to rows y <= bounds.
 struct LeastDistance {
   Vector linear;
   Rows rows;
@@ -57,9 +57,10 @@ Vector SolveBySlsqp(LeastDistance& problem, const Vector& start, double toleranc
     double value = 0.0;
     search.optimize(y, value);
   } catch (const nlopt::roundoff_limited&) {
-    // The solution is as accurate as rounding permits.
+    // Ignore: the solution is as accurate as rounding errors permit.
   } catch (const std::runtime_error&) {
-    // The constraints are contradictory; the caller sees the violation of the constraints.
+    // Ignore: the constraints contradict each other, and the caller checks whether the solution
+    // violates a constraint.
   }
   return ConstVectorMap(y.data(), n);
 }
@@ -86,7 +87,7 @@ QuadraticSolution Solve(const QuadraticProgram& program, double tolerance) {
   solution.x = -cholesky.solve(program.linear);
   const auto m = program.bounds.size();
 
-  // Substitute y = L^T x into the problem.
+  // Substitute y = L^T x into the quadratic program, where L is the Cholesky factor of the Hessian.
   LeastDistance problem;
   problem.linear = cholesky.matrixL().solve(program.linear);
   Vector y = -problem.linear;

@@ -10,20 +10,20 @@
 
 #include "trackbed/core/error.h"
 
-// Optimization with NLopt under bounds and inequality constraints. Methods with native constraints
-// (isres, cobyla, slsqp) receive the constraints. For unconstrained methods, infeasible points get
-// values above 1e100 that grow with the violation. DIRECT gets infinity for infeasible points. The
-// evaluator caches the last point, counts evaluations and differentiates centrally. The evaluator
-// also keeps the best point, which has the least violation and, among equal violations, the least
-// value.
+// Minimizes functions with NLopt under bounds and inequality constraints. Methods that support
+// constraints (isres, cobyla, slsqp) receive the constraints. For other methods, infeasible points
+// get objective values above 1e100 that grow with the violation. DIRECT gets infinity for
+// infeasible points. The class Evaluator caches the last point, counts evaluations and computes
+// gradients by central differences. Evaluator also keeps the best point: the point with the
+// smallest violation and, among points with equal violation, the smallest objective.
 
 namespace trackbed {
 namespace {
 
-/// For unconstrained methods, objective values of kInfeasibleCost or more mean an infeasible point.
+/// Smallest objective value that unconstrained methods get for an infeasible point.
 constexpr double kInfeasibleCost = 1e100;
 
-/// How constraints are passed to a method.
+/// Specifies how constraints are passed to a search method.
 enum class Handling {
   kNative,  ///< The method supports constraints.
   kRanked,  ///< The method only compares points. Infeasible points rank below all feasible points.
@@ -79,7 +79,7 @@ class Evaluator {
     result_.value = std::numeric_limits<double>::infinity();
   }
 
-  /// The objective for the method, and the objective's gradient if requested.
+  /// Returns the objective value for the search method, and computes the gradient if requested.
   double Objective(const double* x, double* gradient) {
     Evaluate(x);
     const double seen = MethodValue();
@@ -113,7 +113,8 @@ class Evaluator {
  private:
   void Evaluate(const double* x) {
     if (evaluated_ && std::equal(point_.begin(), point_.end(), x)) {
-      return;  // NLopt requests objective and constraints of a point one after the other
+      return;  // already evaluated: NLopt requests the objective and the constraints of a point one
+               // after the other
     }
     if (result_.evaluations >= budget_) {
       throw nlopt::forced_stop();
@@ -128,8 +129,9 @@ class Evaluator {
         }
       } catch (...) {
         failure = std::current_exception();
-        // If DIRECT of NLopt 2.7.1 is stopped during its first points, DIRECT reads uninitialized
-        // memory. Hence DIRECT must finish after a failure, without calling the caller's functions.
+        // The algorithm DIRECT in NLopt 2.7.1 reads uninitialized memory if it is stopped during
+        // its first points. After a failure, DIRECT therefore continues to its end, without further
+        // calls of the caller's functions.
         if (options_.method != SearchMethod::kDirect) {
           throw nlopt::forced_stop();
         }
@@ -177,8 +179,8 @@ class Evaluator {
     }
   }
 
-  /// The objective value that the method receives. The returned value is never NaN, because NLopt
-  /// compares values.
+  /// Returns the objective value that the search method receives. The value is never NaN, because
+  /// NLopt must compare values.
   [[nodiscard]] double MethodValue() const {
     if (handling_ == Handling::kHidden && violation_ > 0.0) {
       return std::numeric_limits<double>::infinity();
@@ -192,16 +194,17 @@ class Evaluator {
     return value_;
   }
 
-  /// Gradients of the objective and of the constraints (row by row) by central differences. At the
-  /// bounds, the differences are one-sided. NLopt requests the gradients of objective and
-  /// constraints for a point one after the other.
+  /// Computes the gradients of the objective and of the constraints (row by row) by central
+  /// differences. At the bounds, the differences are one-sided. The gradients are cached, because
+  /// NLopt requests the gradients of the objective and of the constraints one after the other.
   void Differentiate(const double* x) {
     if (differentiated_at_.size() == point_.size() &&
         std::equal(differentiated_at_.begin(), differentiated_at_.end(), x)) {
       return;
     }
-    // The step is the cube root of an evaluation's rounding error. With the cube root, the rounding
-    // error balances the error from the third derivative.
+    // Step of the differences, as a fraction of the range: the cube root of the rounding error of
+    // an evaluation. This step balances the rounding error and the truncation error, which is due
+    // to the third derivative.
     constexpr double kStep = 6e-6;
     const std::size_t n = point_.size();
     std::vector<double> at(x, x + n);
@@ -235,12 +238,13 @@ class Evaluator {
   int budget_;
   Handling handling_;
   bool evaluated_ = false;
-  std::vector<double> point_;  // the last point that was evaluated
+  std::vector<double> point_;  // last point that was evaluated
   double value_ = 0.0;
   double violation_ = 0.0;
   std::vector<double> constraints_;
   std::vector<double> differentiated_at_;
-  // Gradient, at `differentiated_at_`, of the objective that the method receives.
+  // Gradient, at the point `differentiated_at_`, of the objective value that the search method
+  // receives.
   std::vector<double> gradient_;
   std::vector<double> jacobian_;
   int next_record_;
@@ -278,7 +282,8 @@ struct Box {
   std::vector<double> upper;
 };
 
-/// Shrinks a box to a fiftieth of its volume, centered on x, within the problem's bounds.
+/// Returns a box with a fiftieth of the volume of `box`, centered at x and clipped to the problem's
+/// bounds.
 Box Zoomed(const SearchProblem& problem, const Box& box, const std::vector<double>& x) {
   Box zoomed = box;
   const double share = std::pow(0.02, 1.0 / static_cast<double>(x.size()));
@@ -290,7 +295,7 @@ Box Zoomed(const SearchProblem& problem, const Box& box, const std::vector<doubl
   return zoomed;
 }
 
-/// Runs NLopt once; the evaluator keeps the result.
+/// Runs an NLopt algorithm once. The evaluator keeps the best point.
 void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& box,
          std::vector<double> x, int evaluations, const SearchOptions& options,
          Evaluator& evaluator) {
@@ -314,12 +319,12 @@ void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& bo
     double value = 0.0;
     search.optimize(x, value);
   } catch (const nlopt::forced_stop&) {
-    // The budget is used up, or a function of the problem failed.
+    // Stopped, because the budget is used up or a function of the problem threw an exception.
   } catch (const nlopt::roundoff_limited&) {
-    // Rounding errors limit further progress.
+    // Ended, because rounding errors prevent further progress.
   } catch (const std::runtime_error&) {
-    // NLopt gave up, for example because slsqp took too many steps in its least-squares solver.
-    // Keep the best point.
+    // NLopt failed, for example because slsqp needed too many steps in its least-squares solver.
+    // The best point so far is kept.
   }
 }
 
@@ -386,12 +391,13 @@ SearchResult Search(const SearchProblem& problem, const SearchOptions& options,
     start[i] = problem.start.empty() ? 0.5 * (box.lower[i] + box.upper[i])
                                      : std::clamp(problem.start[i], box.lower[i], box.upper[i]);
   }
-  // NLopt's generator is per thread, takes a 32-bit seed, and is by default seeded from the clock.
+  // Seed NLopt's random number generator, because its default seed is the clock. Each thread has
+  // its own generator, with a 32-bit seed.
   if (SearchFor(options.method).random) {
     nlopt::srand(static_cast<unsigned long>((seed ^ (seed >> 32U)) & 0xffffffffU));
   }
-  // DIRECT's cost grows with the square of the number of its cells, so run DIRECT three times, in
-  // ever smaller boxes.
+  // The computing time of DIRECT grows with the square of the number of its cells, so run DIRECT
+  // three times, each time in a smaller box.
   const int looks = options.method == SearchMethod::kDirect ? 3 : 1;
   for (int look = 0; look < looks && !evaluator.failure; ++look) {
     if (look > 0 && evaluator.best().status != SearchStatus::kNotFinite) {

@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// Formats a number; uses an exponent for large numbers.
+/// Formats a number for error messages; uses an exponent for large numbers.
 std::string Number(double number) {
   constexpr double kMaxPlainNumber = 1e9;
   return std::abs(number) <= kMaxPlainNumber ? fmt::format("{}", number)
@@ -95,7 +95,7 @@ class NumberFinder final : public KeyVisitor {
   std::optional<double> found_;
 };
 
-/// Throws for the first number that is NaN or out of range.
+/// Throws an error for the first number that is NaN or out of range.
 class RangeChecker final : public KeyVisitor {
  public:
   explicit RangeChecker(std::string owner) : owner_(std::move(owner)) {}
@@ -171,7 +171,7 @@ class RangeChecker final : public KeyVisitor {
   }
 
   std::string owner_;
-  std::string prefix_;  // prefix of the keys, with a dot
+  std::string prefix_;  // prefix of the visited keys, with a dot at the end
 };
 
 }  // namespace

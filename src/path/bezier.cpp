@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Evaluates the Bernstein sum in Horner's form.
+/// Evaluates a Bézier curve at u: the Bernstein sum in Horner's form.
 Vec2 Evaluate(const std::vector<Vec2>& points, double u) {
   if (points.empty()) {
     return Vec2::Zero();
@@ -31,7 +31,7 @@ Vec2 Evaluate(const std::vector<Vec2>& points, double u) {
   return sum + power * u * points.back();
 }
 
-/// The control points of the curve's derivative.
+/// Returns the control points of the Bézier curve's derivative.
 std::vector<Vec2> Hodograph(const std::vector<Vec2>& points) {
   std::vector<Vec2> out;
   const double degree = static_cast<double>(points.size()) - 1.0;
@@ -80,8 +80,8 @@ double BezierCurve::Sharpness(double u) const {
 }
 
 double BezierCurve::Length(double from, double to) const {
-  // Integrate over sixteenths of the curve. The parameter speed |P'| is not a polynomial, but close
-  // to a polynomial within a sixteenth.
+  // Integrate over each sixteenth of the parameter range. The parameter speed |P'| is not a
+  // polynomial, but is close to a polynomial within a sixteenth.
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces = std::max(1.0, std::ceil(16.0 * std::abs(to - from)));
   double length = 0.0;
@@ -99,7 +99,7 @@ std::vector<CurvePoint> BezierCurve::Points(double spacing, double start_yaw) co
   TRACKBED_REQUIRE(Length() / spacing <= kMaxPoints,
                    "BezierCurve::Points: {} m every {} m; must be at most {} points", Length(),
                    spacing, kMaxPoints);
-  double fastest = 0.0;  // upper bound of |P'|: the largest control point of P'
+  double fastest = 0.0;  // upper bound of |P'|: the largest norm of a control point of P'
   for (const Vec2& velocity : polygons_[1]) {
     fastest = std::max(fastest, velocity.norm());
   }

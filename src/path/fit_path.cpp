@@ -11,29 +11,31 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
-// Fits a path to points. The fit drops repeated points, and optionally resamples the other points
-// along straight lines. A spline fit is a quintic smoothing spline over chord length (Reinsch
+// Fits a path to points. FitPath drops repeated points, and optionally resamples the other points
+// along straight lines. A spline fit computes a quintic smoothing spline over chord length (Reinsch
 // 1967). Bisection finds the largest smoothing length that keeps all points within the tolerance.
-// The fit then samples the spline to segments, ever more finely until the segments keep the
-// tolerance too. A polyline fit joins straight lines by arcs with tangents of at most 1 mm. The fit
-// reports points that turn back as reversals.
+// The spline is then sampled to path segments, with smaller and smaller spacing until the segments
+// are within the tolerance, too. A polyline fit joins straight lines by arcs with tangents of at
+// most 1 mm. Points at which the path turns back are reported as reversals.
 
 namespace trackbed {
 namespace {
 
 constexpr std::size_t kMaxFittedPoints = 200'000;
-constexpr double kEqualityTolerance = 1e-9;  // [m]; closer points are repetitions
+// Points that are closer than this distance [m] count as repeated points.
+constexpr double kEqualityTolerance = 1e-9;
 
 [[noreturn]] void Fail(const std::string& key, std::string message, int line = 0) {
   throw InputError(Problem{.line = line, .key = key, .message = std::move(message)});
 }
 
-/// Line number of a given point in its file; 0 if the line number is not known.
+/// Returns the line number of a point in the point's file; 0 if the line number is not known.
 int LineOf(const PathPoints& given, std::size_t point) {
   return given.lines.empty() ? 0 : given.lines[point];
 }
 
-/// Name of a point: "row 7 at (1, 2)", or "point 6 at (1, 2)" where rows are not known.
+/// Describes a point for error messages, such as "row 7 at (1, 2)", or "point 6 at (1, 2)" if line
+/// numbers are not known.
 std::string NameOf(const PathPoints& given, std::size_t point) {
   const Vec2& at = given.points[point];
   const int line = LineOf(given, point);
@@ -41,7 +43,7 @@ std::string NameOf(const PathPoints& given, std::size_t point) {
                      line > 0 ? static_cast<std::size_t>(line) : point + 1, at.x(), at.y());
 }
 
-/// The points that differ from their predecessor, with the chord length of these points.
+/// The given points without repeated points, with the chord length at each point.
 struct DistinctPoints {
   ChordPoints chords;
   std::vector<std::size_t> number;  // Index of each distinct point among the given points.
@@ -75,13 +77,14 @@ DistinctPoints Distinct(const PathPoints& given, bool closed) {
   return distinct;
 }
 
-/// Index of the last element not above u >= 0 in an ascending list that begins with 0.
+/// Returns the index of the last element that is at most u, for u >= 0 and an ascending list that
+/// begins with 0.
 std::size_t LastBefore(const std::vector<double>& rising, double u) {
   const auto after = std::upper_bound(rising.begin(), rising.end(), u);
   return static_cast<std::size_t>(after - rising.begin()) - 1;
 }
 
-/// The point on the polyline at chord length u.
+/// Returns the point on the polyline at chord length u.
 Vec2 OnLines(const ChordPoints& chords, double u) {
   const std::size_t i = LastBefore(chords.u, u);
   if (i + 1 == chords.u.size()) {
@@ -139,8 +142,8 @@ ChordPoints Resampled(const DistinctPoints& distinct, double spacing) {
   return resampled;
 }
 
-/// Calls `call` with the change of direction at each inner point. On a closed path, calls `call` at
-/// every point.
+/// Calls `call` with the change of direction at each inner point of the polyline. On a closed path,
+/// every point is an inner point.
 template <typename Call>
 void ForEachTurn(const ChordPoints& chords, double period, const Call& call) {
   const std::size_t count = chords.points.size();
@@ -167,7 +170,7 @@ std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period)
   return reversals;
 }
 
-/// Joins straight lines by tiny arcs.
+/// Fits a path of straight lines, which tiny arcs join.
 void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
                  std::vector<double>& stations) {
   constexpr double kTangent = 1e-3;  // [m]
@@ -175,7 +178,8 @@ void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
   std::vector<double> angles(count, 0.0);
   std::vector<double> tangents(count, 0.0);
   ForEachTurn(chords, period, [&](std::size_t i, double angle, double shorter) {
-    const bool is_start = i == 0;  // a closed path does not drive the jump at its start
+    // The path has no corner at its start, even if the path is closed.
+    const bool is_start = i == 0;
     if (std::abs(angle) > kEqualityTolerance && !is_start) {
       angles[i] = angle;
       tangents[i] = std::min(kTangent, 0.25 * shorter);
@@ -215,7 +219,7 @@ void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
   }
 }
 
-/// The largest distance of points from the spline.
+/// Returns the largest distance of the points from the spline.
 double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
   double deviation = 0.0;
   for (std::size_t i = 0; i < points.u.size(); ++i) {
@@ -224,8 +228,8 @@ double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
   return deviation;
 }
 
-/// Fits with the largest smoothing length that keeps the spline within `tolerance` [m] of all given
-/// and fitted points. Returns the smoothing length of this fit.
+/// Fits the spline with the largest smoothing length that keeps the spline within `tolerance` [m]
+/// of all given and fitted points. Returns that smoothing length.
 double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordPoints& fitted,
                  double tolerance) {
   const std::vector<double>& knots = spline.knots();
@@ -271,16 +275,17 @@ double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordP
   return good;
 }
 
-/// Deviation of a spline from the straight line between two knots.
+/// Deviation of a spline from the straight line between two adjacent knots.
 struct Bulge {
-  double distance = 0.0;   // Largest distance of the spline from the line [m].
-  double plausible = 0.0;  // Largest distance of a smooth path that turns with the points [m].
-  double length = 0.0;     // Length of the spline between the knots [m].
-  double chord = 0.0;      // Length of the chord [m].
-  std::size_t knot = 0;    // Index of the knot before the bulge.
+  double distance = 0.0;  // Largest distance of the spline from the line [m].
+  // Largest plausible distance of a smooth path through the points from the line [m].
+  double plausible = 0.0;
+  double length = 0.0;   // Length of the spline between the knots [m].
+  double chord = 0.0;    // Length of the chord [m].
+  std::size_t knot = 0;  // Index of the knot before the bulge.
 
-  /// Whether the spline swings aside too far. Both ends of the spline may deviate from the line by
-  /// the tolerance.
+  /// Returns whether the spline deviates from the line by more than a plausible distance. The
+  /// spline may miss both ends of the line by the tolerance.
   [[nodiscard]] bool IsAside(double tolerance) const {
     return distance > plausible + tolerance || length > 0.5 * kPi * chord + 2.0 * tolerance;
   }
@@ -292,17 +297,18 @@ double DistanceToLine(const Vec2& p, const Vec2& from, const Vec2& to) {
   return (from + share * line - p).norm();
 }
 
-/// Largest plausible bulge of a path. On a circle through three neighboring points, the turn
-/// between the two chords is half of the angle of both arcs. Hence an arc beside a turn phi has an
-/// angle of at most 2 phi. The height of this arc is chord/2 tan(phi/2). Splines also swing by up
-/// to a fifth of the chord near more distant corners.
+/// Returns the largest plausible distance of a smooth path from a chord between two points. On a
+/// circle through three neighboring points, the angle between the two chords is half of the angle
+/// of both arcs together. Hence, if adjacent chords turn by phi, the arc over a chord has an angle
+/// of at most 2 phi. The height of such an arc is chord/2 tan(phi/2). Splines also deviate by up to
+/// a fifth of the chord near more distant corners.
 double PlausibleBulge(double chord, double turn) {
   constexpr double kSwing = 0.2;
   return chord * std::max(kSwing, 0.5 * std::tan(0.5 * std::min(turn, 0.5 * kPi)));
 }
 
-/// The bulge after a knot. Between knots the spline is a polynomial of degree 5, so sixteen points
-/// show the distance from the line.
+/// Measures the deviation of the spline from the straight line after a knot. Between knots, the
+/// spline is a polynomial of degree 5, so sixteen points suffice to measure the distance.
 Bulge BulgeAfter(const SmoothingSpline& spline, std::size_t knot, const Vec2& from, const Vec2& to,
                  double turn) {
   constexpr int kPieces = 16;
@@ -319,7 +325,8 @@ Bulge BulgeAfter(const SmoothingSpline& spline, std::size_t knot, const Vec2& fr
   return bulge;
 }
 
-/// The largest bulge. If bulges swing aside too far, returns the first such bulge.
+/// Returns the first bulge that deviates too far from its line (IsAside). If no bulge does, returns
+/// the bulge with the largest distance.
 Bulge FindBulge(const SmoothingSpline& spline, const ChordPoints& fitted, double period,
                 double tolerance) {
   const std::size_t count = fitted.points.size();
@@ -339,7 +346,7 @@ Bulge FindBulge(const SmoothingSpline& spline, const ChordPoints& fitted, double
   return largest;
 }
 
-/// Difference in length of the straight lines with and without a point.
+/// Returns by how much the polyline becomes shorter if a point is removed.
 double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
   const double before = i > 0 ? (points[i] - points[i - 1]).norm() : 0.0;
   const double after = i + 1 < points.size() ? (points[i + 1] - points[i]).norm() : 0.0;
@@ -352,8 +359,8 @@ double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
   const std::vector<Vec2>& points = distinct.chords.points;
   const std::size_t before = LastBefore(distinct.chords.u, fitted.u[bulge.knot]);
   const std::size_t after = (before + 1) % points.size();
-  // Find the wrong point: among the ends of the gap, the point whose removal shortens the polyline
-  // most.
+  // Find the point that is probably wrong. Of the two points at the ends of the bulge, choose the
+  // point whose removal shortens the polyline more.
   std::size_t wrong = before;
   for (const std::size_t i : {before, after}) {
     wrong = DetourOf(points, i) > DetourOf(points, wrong) ? i : wrong;
@@ -369,8 +376,8 @@ double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
        LineOf(given, number));
 }
 
-/// The station of the point at chord length u. A point at a knot has the station of the knot. Any
-/// other point has the station of the nearest point between the adjacent knots.
+/// Returns the station of a point with chord length u. A point at a knot has the station of the
+/// knot. Any other point has the station of the nearest path point between the adjacent knots.
 double StationOf(const SampledSpline& sampled, const std::vector<double>& knots, const Path& path,
                  double u, const Vec2& point) {
   const std::size_t i = LastBefore(knots, u);
@@ -381,7 +388,8 @@ double StationOf(const SampledSpline& sampled, const std::vector<double>& knots,
   return path.Project({point.x(), point.y(), 0.0}, {sampled.knot_stations[i], to}).s;
 }
 
-/// The largest distance of a distinct point from its station, and the index of this point.
+/// Returns the largest distance between a given point and the path at the point's station, and the
+/// index of that point.
 std::pair<double, std::size_t> LargestDeviation(const Path& path, const ChordPoints& chords,
                                                 const std::vector<double>& stations) {
   std::pair<double, std::size_t> largest{0.0, 0};
@@ -394,13 +402,13 @@ std::pair<double, std::size_t> LargestDeviation(const Path& path, const ChordPoi
 
 void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct, FittedPath& fitted,
                std::vector<double>& stations) {
-  constexpr double kSpacing = 0.1;  // [m]; larger on a path of more than 100 km.
+  constexpr double kSpacing = 0.1;  // [m]; on a path longer than 100 km, the spacing is larger.
   constexpr int kMaxHalvings = 6;
-  constexpr double kUsualSegments = 1e6;  // Number of segments of a long path.
+  constexpr double kUsualSegments = 1e6;  // Number of segments of a path longer than 100 km.
   constexpr std::size_t kMaxSegments = 4'000'000;
   const double tolerance = fitted.options.max_deviation;
   SmoothingSpline spline(knots, distinct.period);
-  // Reserve some tolerance for the segments that approximate the spline.
+  // Reserve 5 % of the tolerance for the segments, which approximate the spline.
   fitted.smoothing_length = FitWithin(spline, distinct.chords, knots, 0.95 * tolerance);
   const Bulge bulge = FindBulge(spline, knots, distinct.period, tolerance);
   if (bulge.IsAside(tolerance)) {
@@ -453,9 +461,9 @@ void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
   }
 }
 
-/// The largest difference between the given headings and the headings of the path [rad].
+/// Returns the largest difference between the given headings and the headings of the path [rad].
 double HeadingDifference(const FittedPath& fitted) {
-  // [rad]; a smaller difference may come from another reference axis of the car
+  // [rad]; a smaller difference may mean that the given headings refer to another axis of the car
   constexpr double kOpposite = 2.0;
   double largest = 0.0;
   for (std::size_t i = 0; i < fitted.given.yaw.size(); ++i) {
@@ -501,8 +509,8 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
   if (chords.points.size() > 2) {
     const double turn = AngleDifference(direction(1), direction(0));
     const double curvature = 2.0 * std::sin(turn) / (chords.points[2] - chords.points[0]).norm();
-    // The angle is relative to the tangent at the first point. The tangent's direction precedes the
-    // chord's direction by half of the turn along the chord.
+    // The initial yaw is relative to the tangent at the first point. The direction of the tangent
+    // differs from the direction of the first chord by half of the turn along the chord.
     yaw -= 0.5 * curvature * chords.u[1] + std::asin(std::clamp(ahead * curvature, -1.0, 1.0));
   }
   Vec2 before = given.points.front();
@@ -510,8 +518,8 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
     const Vec2 along = point - before;
     before = point;
     if (along.norm() > kEqualityTolerance) {
-      // Let phi be the angle to a straight line of length d. Along the straight line, tan(phi/2)
-      // falls by the factor exp(-d/ahead).
+      // Let phi be the angle between the car's yaw and a straight line of length d. Along the line,
+      // tan(phi/2) decreases by the factor exp(-d/ahead).
       const double line = std::atan2(along.y(), along.x());
       const double angle = AngleDifference(line, yaw);
       yaw = line - 2.0 * std::atan(std::tan(0.5 * angle) * std::exp(-along.norm() / ahead));
@@ -550,7 +558,7 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
     name_points(fitted.reversals);
     return fitted;
   }
-  std::vector<double> stations;  // stations of the distinct points
+  std::vector<double> stations;  // stations of the points without repeated points
   if (options.fit == PathFit::kSpline && own.points.size() > 2) {
     FitSpline(own, distinct, fitted, stations);
   } else {
@@ -574,8 +582,8 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
   const auto [deviation, where] = LargestDeviation(fitted.path, distinct.chords, stations);
   fitted.deviation = deviation;
   fitted.deviation_point = distinct.number[where];
-  // A repeated point has its predecessor's station. The last point of a closed path has the station
-  // of the path's end.
+  // A repeated point gets the station of its predecessor. The last point of a closed path gets the
+  // station of the path's end.
   for (const double u : distinct.given_u) {
     const std::size_t i = LastBefore(distinct.chords.u, u);
     fitted.stations.push_back(u > distinct.chords.u[i] ? fitted.path.length() : stations[i]);

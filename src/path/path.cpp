@@ -8,11 +8,12 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
-// Paths of segments with quadratic curvature. Lines and arcs are evaluated in closed form. On other
-// segments, ten-node Gauss quadrature integrates the position over pieces that turn by at most half
-// a radian. Projection brackets the foot points of a point between points a quarter radian apart.
-// The TOMS 748 method then refines the bracketed foot points. SegmentsThrough interpolates heading
-// and curvature of given points exactly.
+// Implements paths of segments with quadratic curvature. Positions on straight lines and arcs are
+// computed in closed form. On other segments, ten-node Gauss quadrature integrates the position
+// over pieces that turn by at most half a radian. To project a point onto the path, Project
+// brackets the foot points between path points a quarter radian apart. The TOMS 748 method then
+// refines the foot points. SegmentsThrough interpolates the heading and the curvature of given
+// points exactly.
 
 namespace trackbed {
 namespace {
@@ -21,21 +22,21 @@ bool IsLineOrArc(const Segment& segment) {
   return segment.sharpness == 0.0 && segment.sharpness_rate == 0.0;
 }
 
-/// Heading change over `distance`: the integral of the curvature, not yet multiplied by the
-/// direction.
+/// Returns the heading change over `distance`, the integral of the curvature. The result is not yet
+/// multiplied by the segment's direction of motion.
 double HeadingChange(const Segment& segment, double distance) {
   return distance * (segment.curvature + distance * (segment.sharpness / 2.0 +
                                                      distance * segment.sharpness_rate / 6.0));
 }
 
-/// Upper bound of the heading change within the first `distance`.
+/// Returns an upper bound of the heading change within the first `distance` of a segment.
 double MaxHeadingChange(const Segment& segment, double distance) {
   return distance * (std::abs(segment.curvature) +
                      distance * (std::abs(segment.sharpness) / 2.0 +
                                  distance * std::abs(segment.sharpness_rate) / 6.0));
 }
 
-/// The pose after `distance` along a segment, in the segment's direction of motion.
+/// Returns the pose after `distance` along a segment, in the segment's direction of motion.
 Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   const double moved = segment.direction * distance;
   if (IsLineOrArc(segment)) {
@@ -44,7 +45,7 @@ Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   const auto yaw = [&](double d) {
     return start.yaw + segment.direction * HeadingChange(segment, d);
   };
-  // Ten nodes per half radian integrate cosine and sine to machine precision.
+  // With ten nodes per half radian, the quadrature integrates cosine and sine to machine precision.
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces =
       std::max(1.0, std::ceil(2.0 * MaxHeadingChange(segment, std::abs(distance))));
@@ -60,12 +61,13 @@ Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   return {position.x(), position.y(), yaw(distance)};
 }
 
-/// NearestDistance for segments of varying curvature. The point p lies abeam of its foot points.
-/// The function brackets the foot points between points a quarter radian apart.
+/// Implements NearestDistance for segments of varying curvature. Foot points of p are the points of
+/// the segment at which p lies exactly abeam. NearestOnCurve brackets the foot points between
+/// points a quarter radian apart.
 double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                       double to) {
-  // Distance that p lies ahead of the point at d, along the motion. At a foot point, the distance
-  // ahead crosses zero downward.
+  // Returns how far p lies ahead of the segment's point at d, in the direction of motion. At a foot
+  // point nearest to p, this value crosses zero downward.
   const auto ahead = [&](double d) {
     return segment.direction * ToLocal(Along(start, segment, d), p).x();
   };
@@ -92,9 +94,10 @@ double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p,
   return best;
 }
 
-/// Distance along an (unbounded) segment to the point of the segment nearest to p. On an arc,
-/// returns the smallest distance in [from, to] that leads to the nearest point. If no such distance
-/// lies in [from, to], returns the closer of `from` and `to`.
+/// Returns the distance in [from, to] along a segment at which the segment is nearest to p. An arc
+/// may pass the nearest point several times; NearestDistance then returns the smallest of these
+/// distances. If the nearest point lies outside of [from, to], returns the closer of `from` and
+/// `to`.
 double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                        double to) {
   if (!IsLineOrArc(segment)) {
@@ -113,7 +116,8 @@ double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p
   if (distance <= to) {
     return distance;
   }
-  // The foot point is out of range: return the closer end, measured along the circle.
+  // The foot point lies outside of the range: return the end of the range that is closer to the
+  // foot point along the circle.
   return (from - (distance - lap)) <= (distance - to) ? from : to;
 }
 
@@ -134,7 +138,8 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
                    "segment of length {}, curvature {}, sharpness {} and {}, direction {}",
                    segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
                    segment.direction);
-    // The number of quadrature pieces equals the number of half radians that the segment turns.
+    // Limits the number of quadrature pieces, which is the number of half radians by which the
+    // segment turns.
     constexpr double kMaxHeadingChange = 1e4;
     TRACKBED_REQUIRE(
         IsLineOrArc(segment) || MaxHeadingChange(segment, segment.length) <= kMaxHeadingChange,
@@ -144,7 +149,7 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
         MaxHeadingChange(segment, segment.length), kMaxHeadingChange);
     starts_.push_back(Along(starts_.back(), segment, segment.length));
     length_ += segment.length;
-    // [m]; at a length of 1e12 m, stations are rounded by 0.1 mm.
+    // [m]; on a path of 1e12 m, stations have rounding errors of 0.1 mm.
     constexpr double kMaxLength = 1e12;
     TRACKBED_REQUIRE(length_ <= kMaxLength, "Path: {} m; must be at most {} m", length_,
                      kMaxLength);
@@ -243,8 +248,8 @@ std::vector<Segment> Path::Cut(Stations within) const {
   std::vector<Segment> pieces;
   for (std::size_t i = 0; i < segments_.size(); ++i) {
     const Segment& whole = segments_[i];
-    // A range that begins or ends at a joint excludes the segment beyond the joint, even if the
-    // joint's station is rounded.
+    // If the range begins or ends at a joint of two segments, exclude the segment beyond the joint,
+    // even if the station of the joint has a rounding error.
     const double end = stations_[i + 1];
     const double from =
         within.from >= end ? whole.length : std::max(within.from - stations_[i], 0.0);
@@ -290,8 +295,8 @@ std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points) {
     const CurvePoint& b = points[i];
     const double h = b.s - a.s;
     TRACKBED_CHECK(h > 0.0, "points at {} and {} m", a.s, b.s);
-    // The curvature is quadratic with given end values, and the mean curvature gives the change of
-    // heading.
+    // Choose the quadratic curvature with the given values at both ends whose mean gives the change
+    // of heading.
     const double mean = (b.yaw - a.yaw) / h;
     segments.push_back({h, a.curvature, 1, (6.0 * mean - 4.0 * a.curvature - 2.0 * b.curvature) / h,
                         6.0 * (a.curvature + b.curvature - 2.0 * mean) / (h * h)});

@@ -5,26 +5,27 @@
 
 #include "trackbed/core/error.h"
 
-// Speed profiles with constant acceleration between knots. StopAtEnd splits the path at the ends of
-// the speed caps. A backward pass limits the speed at each split by braking to the end. A forward
-// pass limits the speed by accelerating from the start. Each stretch then gets knots where the car
-// starts to cruise and where it starts to brake. A car that starts too fast brakes as hard as
-// needed until it meets the profile.
+// Computes speed profiles with constant acceleration between knots. StopAtEnd splits the path into
+// stretches at the ends of the speed caps. A backward pass limits the speed at each split, so that
+// the car can brake in time for the rest of the path. A forward pass limits the speed to what the
+// car can reach by accelerating from the start. Each stretch then gets knots where the car starts
+// to cruise and where it starts to brake. A car that starts too fast brakes as hard as needed until
+// its speed meets the profile.
 
 namespace trackbed {
 namespace {
 
-/// Stretches of a profile shorter than kNegligible are dropped [m].
+/// Length below which stretches of a profile are dropped [m].
 constexpr double kNegligible = 1e-9;
 
-/// A stretch between two stations with a constant speed limit.
+/// A stretch of the path with a constant speed limit.
 struct Stretch {
   double from;
   double to;
   double speed;
 };
 
-/// Splits [0, length] at the ends of the speed caps.
+/// Splits the path from station 0 to `length` at the ends of the speed caps.
 std::vector<Stretch> SplitAtSpeedCaps(double length, double limit,
                                       const std::vector<SpeedCap>& caps) {
   std::vector<double> ends{0.0, length};
@@ -53,10 +54,10 @@ std::vector<Stretch> SplitAtSpeedCaps(double length, double limit,
   return stretches;
 }
 
-/// Adds the knots inside a stretch with given squared speeds at its ends. The caller ensures that
-/// the length of the stretch permits the speeds at its ends. First the car brakes at `braking` or
-/// accelerates to the stretch's speed. After reaching the stretch's speed, the car cruises and
-/// brakes to the exit speed.
+/// Adds the knots inside a stretch, given the squared speeds at both ends. The caller ensures that
+/// the stretch is long enough to change between these speeds. The car first accelerates, or brakes
+/// at `braking`, to the speed of the stretch. Then the car cruises, and finally brakes to the exit
+/// speed.
 void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared, double braking,
                    const SpeedLimits& limits, std::vector<SpeedProfile::Knot>& knots) {
   const double a = in_squared > stretch.speed * stretch.speed ? -braking : limits.acceleration;
@@ -74,7 +75,8 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
     add(stretch.from + ramp, v_squared);
     add(stretch.to - brake, v_squared);
   } else if (a > 0.0) {
-    // The car cannot reach the highest speed, so it accelerates until it must begin to brake.
+    // The stretch is too short to reach its speed, so the car accelerates until it must begin to
+    // brake.
     const double peak = (out_squared - in_squared + 2.0 * b * length) / (2.0 * (a + b));
     add(stretch.from + peak, in_squared + 2.0 * a * peak);
   }
@@ -166,7 +168,7 @@ double SpeedProfile::StationAt(double time) const {
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
     const Knot& a = knots_[i];
     const Knot& b = knots_[i + 1];
-    // The duration is infinite if both speeds are 0, because the car stays at rest.
+    // If both speeds are 0, the duration is infinite, because the car stays at rest.
     const double duration = 2.0 * (b.s - a.s) / (a.speed + b.speed);
     if (time < duration) {
       const double acceleration = (b.speed - a.speed) / duration;
@@ -185,7 +187,8 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
   }
   const std::vector<Stretch> stretches = SplitAtSpeedCaps(length, limits.speed, caps);
   const double start_squared = start_speed * start_speed;
-  // Largest squared speeds at the ends of the stretches: backward from standstill, then forward.
+  // Compute the largest squared speeds at the ends of the stretches: first backward from standstill
+  // at the end, then forward from the start speed.
   std::vector<double> squared(stretches.size() + 1, 0.0);
   double braking = std::max(limits.deceleration, start_squared / (2.0 * length));
   for (std::size_t i = stretches.size(); i-- > 0;) {
@@ -196,7 +199,8 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
       braking = std::max(braking, (start_squared - speed * speed) / (2.0 * from));
     }
   }
-  // A car that starts too fast for the path ahead brakes at `braking` until it meets the profile.
+  // A car that starts too fast for the path ahead brakes at `braking` until its speed meets the
+  // profile.
   bool too_fast = start_squared > squared[0];
   squared[0] = start_squared;
   for (std::size_t i = 0; i < stretches.size(); ++i) {
@@ -231,7 +235,8 @@ SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits
     const SpeedProfile profile =
         StopAtEnd(leg.to - leg.from, first ? start_speed : 0.0, limits, own);
     for (const SpeedProfile::Knot& knot : profile.knots()) {
-      // After adding the leg's start, stations near the leg's ends may coincide by rounding.
+      // Skip a knot that coincides with the previous knot due to rounding errors in the sum of
+      // stations.
       if (first || leg.from + knot.s > knots.back().s + 0.5 * kNegligible) {
         knots.push_back({leg.from + knot.s, knot.speed});
       }
@@ -246,7 +251,7 @@ SpeedProfile Excerpt(const SpeedProfile& profile, Stations within) {
                    "Excerpt: stations {} and {}; must be numbers", within.from, within.to);
   std::vector<SpeedProfile::Knot> knots{{0.0, profile.SpeedAt(within.from)}};
   for (const SpeedProfile::Knot& knot : profile.knots()) {
-    // After subtracting `from`, stations near the ends may coincide with the ends by rounding.
+    // Skip knots that would coincide with an end of the excerpt due to rounding errors.
     if (knot.s > within.from + 0.5 * kNegligible && knot.s < within.to - 0.5 * kNegligible) {
       knots.push_back({knot.s - within.from, knot.speed});
     }

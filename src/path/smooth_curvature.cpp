@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSpacing = 0.1;  // [m]
 
-/// Mean position of the path over the window around the path's start.
+/// Returns the mean position of the path over a window centered at the path's start.
 Vec2 MeanAtStart(const Path& path, double window) {
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces = std::ceil(window / kSpacing);
@@ -37,7 +37,8 @@ Path SmoothCurvature(const Path& path, double window) {
   for (const Segment& segment : path.segments()) {
     TRACKBED_CHECK(segment.direction == 1, "a segment of direction {}", segment.direction);
   }
-  // The derivatives of the moving average by s are differences over the window.
+  // The derivatives of the moving average by s are differences between both ends of the window,
+  // divided by the length of the window.
   const auto first_at = [&](double s) -> Vec2 {
     return (path.At(s + 0.5 * window).pose.position() - path.At(s - 0.5 * window).pose.position()) /
            window;

@@ -17,7 +17,7 @@ namespace {
 constexpr int kDegree = 5;
 using Spline = Eigen::Spline<double, 2, Eigen::Dynamic>;
 
-/// Length of path that each point represents [m].
+/// Returns the weight of each point: the length of the path that the point represents [m].
 std::vector<double> Weights(const ChordPoints& fitted, double period) {
   const std::size_t count = fitted.u.size();
   std::vector<double> weights(count, 0.0);
@@ -50,7 +50,7 @@ SmoothingSpline::SmoothingSpline(const ChordPoints& fitted, double period)
   for (Eigen::Index i = 0; i < all_knots_.size(); ++i) {
     const Eigen::Index own = i - kDegree;
     if (period > 0.0) {
-      // Number of periods, rounded down.
+      // Number of whole periods between the first period and the period that contains the knot.
       const Eigen::Index turns = (own + kDegree * count) / count - kDegree;
       all_knots_[i] = knots_[static_cast<std::size_t>(own - turns * count)] +
                       static_cast<double>(turns) * period;
@@ -87,8 +87,8 @@ void SmoothingSpline::AddData(const ChordPoints& fitted) {
 }
 
 void SmoothingSpline::AddPenalty() {
-  // The third derivative P''' is quadratic between knots, so three nodes integrate its square
-  // exactly.
+  // The third derivative P''' is quadratic between knots, so a Gauss quadrature with three nodes
+  // integrates its square exactly.
   const double node = std::sqrt(0.6);
   const std::array<std::pair<double, double>, 3> rule{
       {{-node, 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {node, 5.0 / 9.0}}};
@@ -128,7 +128,7 @@ bool SmoothingSpline::Fit(double smoothing_length) {
   if (!solution.allFinite()) {
     return false;
   }
-  // One step of iterative refinement recovers digits lost by rounding.
+  // One step of iterative refinement recovers digits that the solution has lost by rounding.
   solution += solver_.solve(Eigen::MatrixX2d(right_ - matrix * solution));
   if (!solution.allFinite()) {
     return false;
@@ -147,9 +147,10 @@ Vec2 SmoothingSpline::At(double u, int order) const {
 }
 
 SampledSpline Sample(const SmoothingSpline& spline, double spacing, std::size_t max_points) {
-  constexpr double kTurn = 0.2;            // [rad]
-  constexpr int kMaxHalvings = 12;         // number of halvings
-  constexpr double kMinDerivative = 1e-3;  // small, because |P'| is about 1
+  constexpr double kTurn = 0.2;     // [rad]
+  constexpr int kMaxHalvings = 12;  // limit for the number of halvings of the spacing
+  // A smaller |P'| indicates a cusp, because |P'| is usually about 1.
+  constexpr double kMinDerivative = 1e-3;
   using Quadrature = boost::math::quadrature::gauss<double, 7>;
   const auto length = [&](double from, double to) {
     return Quadrature::integrate([&](double u) { return spline.At(u, 1).norm(); }, from, to);

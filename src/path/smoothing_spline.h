@@ -10,38 +10,40 @@
 
 namespace trackbed {
 
-/// Points along a path by ascending chord length u [m].
+/// Points along a path, ordered by chord length u [m].
 struct ChordPoints {
   std::vector<double> u;
   std::vector<Vec2> points;
 };
 
-/// The smoothing spline of degree 5 of fit_path.h. With `period` > 0 [m], the spline is closed. The
-/// last point of a closed spline connects to the first point, and u repeats after `period`.
+/// Smoothing spline of degree 5, which FitPath uses. With `period` > 0 [m], the spline is closed:
+/// its last point connects to its first point, and u repeats after `period`.
 class SmoothingSpline {
  public:
-  /// Needs at least two points for an open path, and at least three points for a closed path.
+  /// An open path needs at least two points, and a closed path needs at least three points.
   SmoothingSpline(const ChordPoints& fitted, double period);
 
-  /// Fits the spline with the smoothing length l [m]. If the equations are singular to machine
-  /// precision, returns false and leaves the spline unchanged.
+  /// Fits the spline with the smoothing length l [m]. If the system of equations is singular to
+  /// machine precision, Fit() returns false and leaves the spline unchanged.
   bool Fit(double smoothing_length);
 
-  /// Derivative d^order P/du^order, for order 0 to 2.
+  /// Returns the derivative d^order P/du^order at u, for order 0 to 2.
   [[nodiscard]] Vec2 At(double u, int order = 0) const;
 
-  /// The knots, between which the spline is a polynomial. The first knot is the first point's u.
-  /// The last knot is the last point's u or, for a closed path, the first point's u one period
-  /// later.
+  /// Returns the knots, between which the spline is a polynomial. The first knot is the first
+  /// point's u. The last knot is the last point's u for an open path, and the first point's u plus
+  /// `period` for a closed path.
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
   struct Basis {
-    // Index of the first nonzero coefficient, before the modulus of Coefficient.
+    // Index of the first coefficient whose basis function is not zero. For a closed path,
+    // Coefficient() reduces the index modulo the number of coefficients.
     Eigen::Index first;
-    Eigen::ArrayXXd factors;  // Factors of the coefficients, one row per derivative.
+    Eigen::ArrayXXd factors;  // Values of the nonzero basis functions and their derivatives, one
+                              // row per order of derivative.
   };
   [[nodiscard]] Basis BasisAt(double u, int order) const;
   [[nodiscard]] Eigen::Index Coefficient(Eigen::Index i) const { return i % size_; }
@@ -60,7 +62,7 @@ class SmoothingSpline {
   bool is_analyzed_ = false;
 };
 
-/// Points along the spline, to be joined by segments (SegmentsThrough).
+/// Points along the spline, which SegmentsThrough joins to a path.
 struct SampledSpline {
   std::vector<CurvePoint> points;
   std::vector<double> knot_stations;  ///< [m]

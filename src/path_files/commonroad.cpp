@@ -11,7 +11,7 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/text_table.h"
 
-// Reads solutions of CommonRoad, which have one trajectory of states per planning problem.
+// Reads CommonRoad solution files, which contain one trajectory of states per planning problem.
 namespace trackbed {
 namespace {
 
@@ -49,7 +49,7 @@ double Required(const XMLElement& state, const char* name, double largest,
   return *number;
 }
 
-/// The XML element of the trajectory, such as ksTrajectory.
+/// Returns the first XML element that contains a trajectory, such as ksTrajectory.
 const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
   const XMLElement* first = nullptr;
   for (const XMLElement* child = root.FirstChildElement(); child != nullptr;
@@ -89,7 +89,7 @@ PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& te
     points.points.emplace_back(Required(*state, "x", kMaxPosition, file),
                                Required(*state, "y", kMaxPosition, file));
     points.lines.push_back(state->GetLineNum());
-    // A point-mass state has velocities along both axes instead of an orientation.
+    // A state of the point-mass model has velocities along both axes instead of an orientation.
     const auto vx = Number(*state, "xVelocity", kMaxPathSpeed, file);
     const auto vy = Number(*state, "yVelocity", kMaxPathSpeed, file);
     const auto speed = Number(*state, "velocity", kMaxPathSpeed, file);

@@ -17,16 +17,16 @@
 #include "trackbed/core/table.h"
 #include "trackbed/core/text_table.h"
 
-// Reads paths from tables with a header line of column names, which '#' may comment out. The reader
-// finds columns by their usual names (PathColumnNames) or by the caller's names. The reader
+// Reads paths from CSV tables with a header line of column names, which may begin with '#'. The
+// reader finds columns by their usual names (PathColumnNames) or by the caller's names. The reader
 // converts the values to SI units and collects problems with their line and column. If the table
-// has no speed column, times become speeds.
+// has times but no speed column, the speeds are computed from the times.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The value of one `unit` in SI units.
+/// Returns the factor that converts values in `unit` to SI units.
 double InSi(const std::string& unit) {
   static const std::vector<std::pair<std::string, double>> units{
       {"m", 1.0},       {"cm", 0.01},         {"mm", 0.001}, {"km", 1000.0},
@@ -38,7 +38,7 @@ double InSi(const std::string& unit) {
   return found->second;
 }
 
-/// The delimiter of the first line that is not a comment.
+/// Detects the delimiter of the table from the first line that is not a comment.
 char FindDelimiter(const fs::path& file) {
   char delimiter = ',';
   std::string begin;
@@ -65,12 +65,12 @@ char FindDelimiter(const fs::path& file) {
   return delimiter;
 }
 
-/// Column of a quantity in the table.
+/// Column of the table that contains a quantity.
 struct Column {
   std::size_t index;
   double factor;  // factor that converts to SI units
   double offset = 0.0;
-  double largest = 0.0;  // largest value in SI units
+  double largest = 0.0;  // largest permitted magnitude in SI units
 };
 
 enum Quantity { kX, kY, kYaw, kCurvature, kSpeed, kTime, kQuantities };
@@ -167,7 +167,8 @@ class CsvPath {
     ConvertTumHeading();
   }
 
-  /// Converts headings of TUM's racing lines, which are measured from north.
+  /// Detects racing lines of TUM, whose headings are measured from north, and corrects these
+  /// headings.
   void ConvertTumHeading() {
     const auto has = [&](const char* name) {
       return std::find(names_.begin(), names_.end(), name) != names_.end();
@@ -280,7 +281,8 @@ class CsvPath {
   ProblemList problems_;
   bool is_header_known_ = false;
   bool is_broken_ = false;
-  std::vector<std::string> comment_;  // cells of the last comment before the header
+  // Cells of the last comment line before the table, which may be the header.
+  std::vector<std::string> comment_;
   int comment_line_ = 0;
   std::vector<std::string> names_;
   std::array<std::optional<Column>, kQuantities> columns_;

@@ -22,17 +22,17 @@ struct PathFormatEntry {
   const char* name = "";               ///< Value of the key `format`.
   const char* description = "";        ///< Description of the format for users.
   std::vector<std::string> endings{};  ///< Endings of file names, in lower case.
-  /// Whether the file's content fits the format; if null, any content fits.
+  /// Returns whether the content of a file fits the format. If null, any content fits.
   bool (*may_be)(const std::filesystem::path& file) = nullptr;
   PathFile (*read)(const std::filesystem::path& file, const PathMap& map) = nullptr;
 };
 
-/// The table of formats, one entry each. The first format applies to files with an ending that is
-/// not listed.
+/// Returns the list of path formats. Files with an ending that no format lists are read in the
+/// first format.
 const std::vector<PathFormatEntry>& PathFormats();
 
 PathFile ReadPathCsv(const std::filesystem::path& file, const PathColumns& columns);
-/// Reads a nav_msgs/Path, or a message with a nav_msgs/Path as member `path`.
+/// Reads a ROS message nav_msgs/Path, or a message that contains a nav_msgs/Path as member `path`.
 PathFile ReadNavPath(const std::filesystem::path& file, const nlohmann::json& message);
 PathFile ReadGeoJson(const std::filesystem::path& file, const nlohmann::json& json,
                      const PathMap& map);
@@ -44,13 +44,13 @@ nlohmann::json ParseJsonText(const std::string& text, const std::string& file);
 /// Throws InputError if the text is not valid YAML.
 nlohmann::json ParseYamlText(const std::string& text, const std::string& file);
 
-/// The number at `key`. Throws InputError unless the number is finite and at most `largest` in
-/// magnitude.
+/// Returns the number at `key`. Throws InputError unless the number is finite and its magnitude is
+/// at most `largest`.
 double NumberOf(const nlohmann::json& value, const std::string& key, double largest,
                 const std::string& file);
 
-/// Computes speeds from times [s]. If the times do not increase, throws InputError about "point N"
-/// at `key`.
+/// Computes the speeds of points from their times [s]. Throws InputError that names the point if
+/// the times do not increase.
 void AddSpeeds(PathPoints& points, const std::vector<double>& times, const std::string& file);
 
 [[noreturn]] void Refuse(const std::filesystem::path& file, const std::string& key,

@@ -8,7 +8,8 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
 
-// Reads GeoJSON (RFC 7946): one line string, alone, as a feature or in a collection of features.
+// Reads a path from GeoJSON (RFC 7946). The file must contain one line string, alone, in a feature
+// or in a collection of features.
 namespace trackbed {
 namespace {
 
@@ -26,7 +27,7 @@ std::string TypeOf(const json& value) {
              : "";
 }
 
-/// Collects the line strings of features and geometry collections; ignores other geometries.
+/// Collects all line strings in features and geometry collections, and ignores other geometries.
 void FindLines(const json& value, const std::string& key, Found& found) {
   const std::string type = TypeOf(value);
   const auto inside = [&](const char* name) {
@@ -56,8 +57,8 @@ void FindLines(const json& value, const std::string& key, Found& found) {
   }
 }
 
-/// Name of the reference system in the member `crs` of GeoJSON 2008. Returns none if the member
-/// `crs` is absent.
+/// Returns the name of the coordinate reference system, which GeoJSON 2008 specifies in the member
+/// `crs`. Returns none if the member `crs` is absent.
 std::optional<std::string> NamedSystem(const json& root) {
   if (root.contains("crs") && root["crs"].is_object() && root["crs"].contains("properties") &&
       root["crs"]["properties"].is_object() && root["crs"]["properties"].contains("name") &&
@@ -71,7 +72,8 @@ bool IsWgs84(const std::string& system) {
   return system.find("CRS84") != std::string::npos || system.ends_with("4326");
 }
 
-/// Converts degrees to meters by a transverse Mercator projection about an origin.
+/// Converts longitude and latitude to meters by a transverse Mercator projection centered at an
+/// origin.
 class Projection84 {
  public:
   Projection84(double longitude, double latitude)
@@ -94,7 +96,7 @@ class Projection84 {
   std::unique_ptr<PJ, PJ* (*)(PJ*)> projection_;
 };
 
-/// The first two numbers of each position; the third number is the height.
+/// Returns the first two numbers of each position; ignores the third number, the height.
 std::vector<Vec2> Positions(const Found& found, const std::string& file, double largest) {
   const json& list = *found.coordinates;
   if (!list.is_array()) {
@@ -129,7 +131,8 @@ void Project(std::vector<Vec2>& positions, const Found& line, const PathMap& map
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 degrees = positions[i];
     positions[i] = projection.ToMeters(degrees.x(), degrees.y());
-    // Farther east, the scale error of the projection exceeds 1/1000 (300 km: 1.0011).
+    // Largest distance east or west of the origin [m]. Beyond this distance, the scale error of the
+    // projection exceeds about 1/1000 (scale at 300 km: 1.0011).
     constexpr double kMaxEasting = 3e5;
     if (!positions[i].allFinite() || std::abs(positions[i].x()) > kMaxEasting ||
         std::abs(positions[i].y()) > kMaxPosition) {

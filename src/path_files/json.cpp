@@ -12,14 +12,14 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/text_table.h"
 
-// Parses JSON, and YAML converted to JSON values.
+// Parses JSON texts, and YAML texts that are converted to JSON values.
 namespace trackbed {
 namespace {
 
 using nlohmann::json;
 
-/// Converts the events of a YAML document to JSON. Refuses aliases, so that a small text cannot
-/// expand to a large document.
+/// Builds a JSON value from the events of a YAML parser. Refuses aliases, because aliases can
+/// expand a small text to a huge document.
 class JsonOfYaml : public YAML::EventHandler {
  public:
   explicit JsonOfYaml(std::string file) : file_(std::move(file)) {}
@@ -55,7 +55,7 @@ class JsonOfYaml : public YAML::EventHandler {
  private:
   struct Level {
     json value;
-    std::optional<std::string> key{};  // key of the next value
+    std::optional<std::string> key{};  // key of the next value in the mapping
     YAML::Mark mark;
   };
 

@@ -7,7 +7,8 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/error.h"
 
-// Reads a nav_msgs/Path of ROS: a list `poses` of geometry_msgs/PoseStamped.
+// Reads the ROS message nav_msgs/Path, whose list `poses` contains messages of type
+// geometry_msgs/PoseStamped.
 namespace trackbed {
 namespace {
 
@@ -21,7 +22,8 @@ const json& Member(const json& value, const char* name, std::string_view key,
   return value.at(name);
 }
 
-/// The heading of a quaternion. Returns 0 for an all-zero quaternion, which means no orientation.
+/// Returns the heading of a quaternion. Returns 0 for an all-zero quaternion, which means that the
+/// pose has no orientation.
 double Yaw(const json& orientation, const std::string& key, const std::string& file) {
   const auto part = [&](const char* name) {
     return NumberOf(Member(orientation, name, key, file), key + "." + name, 1e6, file);
@@ -48,8 +50,8 @@ PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
   std::size_t oriented = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string key = fmt::format("poses[{}].pose", i);
-    // An element is a PoseStamped, which contains a header and a pose. In lists such as PoseArray,
-    // an element is a bare pose.
+    // An element of `poses` is a PoseStamped, which contains a header and a pose. In other
+    // messages, such as PoseArray, an element is a pose without a header.
     const json& pose = poses[i].is_object() && poses[i].contains("position")
                            ? poses[i]
                            : Member(poses[i], "pose", fmt::format("poses[{}]", i), file);
@@ -70,8 +72,8 @@ PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
            fmt::format("{} of {} poses have an orientation; must be all or none", oriented,
                        poses.size()));
   }
-  // Drop the headings if all quaternions are the default, which planners without headings leave
-  // unchanged.
+  // Drop the headings if all quaternions have their default value, because planners without
+  // headings do not set the quaternions.
   if (!yaw.empty() &&
       std::all_of(yaw.begin(), yaw.end(), [](double angle) { return angle == 0.0; })) {
     yaw.clear();

@@ -25,7 +25,7 @@ std::string Ending(const fs::path& file) {
   return ending;
 }
 
-/// Whether a .json file holds GeoJSON and not a nav_msgs/Path.
+/// Returns whether a .json file contains GeoJSON instead of a nav_msgs/Path.
 bool HoldsGeoJson(const fs::path& file) {
   const nlohmann::json value = ParseJsonText(ReadFile(file, kMaxTextBytes), file.string());
   return value.is_object() && value.contains("type") && !value.contains("poses");
@@ -42,8 +42,8 @@ PathFile ReadAsNavPath(const fs::path& file, const PathMap& /*map*/) {
       file, is_json ? ParseJsonText(text, file.string()) : ParseYamlText(text, file.string()));
 }
 
-/// The format of a file by its ending and content. For endings that no format lists, returns the
-/// first format.
+/// Determines the format of a path file from the ending of its name and from its content. Returns
+/// the first format if no format lists the ending.
 const PathFormatEntry& FormatOf(const fs::path& file) {
   const std::string ending = Ending(file);
   for (const PathFormatEntry& entry : PathFormats()) {

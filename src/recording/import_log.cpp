@@ -13,29 +13,30 @@
 #include "trackbed/control/signal.h"
 #include "trackbed/core/error.h"
 
-// Imports the log of a drive. Rows are read in SI units and ENU axes (log_rows.h), and columns are
-// checked for contradictions (log_check.h). Local polynomials (local_polynomial.h: Cleveland 1979)
-// resample poses and signals to a grid of constant period; their derivatives give velocity and
-// acceleration. A measured speed, yaw rate or acceleration replaces the polynomial's derivative.
-// Inputs such as the steering angle are interpolated linearly. Gaps are filled linearly and marked
-// invalid.
+// Imports the log of a recorded drive. Rows are read in SI units and ENU axes (log_rows.h), and
+// columns are checked for contradictions (log_check.h). Local polynomials (local_polynomial.h:
+// Cleveland 1979) resample poses and signals to a time grid with a constant period. The derivatives
+// of the polynomials give velocity and acceleration. If the log contains a measured speed, yaw rate
+// or acceleration, the measured value replaces the derivative. Inputs such as the steering angle
+// are interpolated linearly. Gaps are filled linearly and marked invalid.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMinDuration = 1.0;  // Shortest imported part [s].
-constexpr double kMaxSamples = 1e6;   // Limit of the memory: 130 MB.
+constexpr double kMinDuration = 1.0;  // Shortest duration that can be imported [s].
+// Largest number of samples, which limits the memory to 130 MB.
+constexpr double kMaxSamples = 1e6;
 
-/// Pose X_WV of the rear axle from the pose X_WS of the measured point.
+/// Computes the pose X_WV of the rear axle from the pose X_WS of the measured point (sensor).
 Pose2 VehiclePose(const Pose2& X_WS, const LogSensor& X_VS) {
   const Vec2 p_SV = ToLocal({X_VS.x, X_VS.y, X_VS.yaw}, Vec2::Zero());
   return Compose(X_WS, {p_SV.x(), p_SV.y(), -X_VS.yaw});
 }
 
-/// The updates of a series that repeats the values of a slower loop. The series is linear between
-/// two updates. A value that stays constant for longer than a period is held until one period
-/// before it changes.
+/// Reduces a series to the rows at which its value changed, for a signal that is updated less often
+/// than it is logged. The result is interpolated linearly between two updates. A value that stays
+/// constant for longer than 1.5 update periods is held until one period before the next change.
 LogSeries Updates(const LogSeries& rows, double period) {
   LogSeries updates;
   const auto add = [&](double time, double value) {
@@ -66,8 +67,8 @@ Signal Linear(const LogSeries& series, const std::optional<double>& period) {
   return signal;
 }
 
-/// Fits a series that has its own timestamps, at any time. The fitted value is constant beyond the
-/// ends of the series.
+/// Evaluates the local polynomial fit of a signal, which has its own timestamps, at any time.
+/// Beyond the ends of the signal, the fitted value is constant.
 class FittedSeries {
  public:
   FittedSeries(const LogSeries& series, const LogMap& map)
@@ -194,7 +195,7 @@ void Importer::BuildTimeGrid() {
     Refuse(fmt::format("{:.3g} s of data between {:.3g} s and {:.3g} s; must be at least {} s",
                        std::max(0.0, end - start_), start_, end, kMinDuration));
   }
-  // The tolerance keeps a last sample that rounding would exclude.
+  // The tolerance keeps the last sample, which rounding errors could otherwise exclude.
   const double count = std::floor((end - start_) * map_.resample.rate + 1e-6) + 1.0;
   if (count > kMaxSamples) {
     Refuse(
@@ -219,7 +220,8 @@ void Importer::FitPoses() {
   const LocalPolynomial fits(rows_.time, values, map_.resample.half_width, map_.resample.degree);
   const std::vector<LogStretch> stretches = SplitAtGaps(rows_.time, map_.gap);
   auto stretch = stretches.begin();
-  // The tolerance is needed because grid times are rounded, and row times are not.
+  // The tolerance is needed because the times of the grid have rounding errors, unlike the times of
+  // the log rows.
   const double slack = 1e-6 * drive_.period;
   for (RecordedSample& sample : drive_.samples) {
     const double at = LogTime(sample);
@@ -268,8 +270,8 @@ void Importer::FitSignals() {
   }
 }
 
-/// Interpolates samples in a gap linearly between the gap's ends. The grid begins and ends within
-/// rows, so every gap has two ends.
+/// Fills gaps by linear interpolation between the valid samples at both ends of a gap. The time
+/// grid begins and ends within the rows of the log, so every gap has two ends.
 void Importer::FillGaps() {
   std::vector<RecordedSample>& samples = drive_.samples;
   const auto valid = [](const RecordedSample& sample) { return sample.valid; };
@@ -345,7 +347,7 @@ void Importer::NoteGaps() {
   int missing = 0;
   double longest = 0.0;
   double longest_at = 0.0;
-  double since = 0.0;  // start time of the gap
+  double since = 0.0;  // start time of the current gap [s]
   bool in_gap = false;
   for (const RecordedSample& sample : drive_.samples) {
     missing += sample.valid ? 0 : 1;

@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-/// Weight function of Cleveland (1979).
+/// Tricube weight function of Cleveland (1979).
 double Tricube(double u) {
   const double rest = 1.0 - std::abs(u * u * u);
   return rest * rest * rest;
@@ -37,11 +37,13 @@ LocalFit LocalPolynomial::At(double at, const LogStretch& stretch) const {
   const std::ptrdiff_t needed = std::min<std::ptrdiff_t>(degree_ + 1, end - begin);
   double width = half_width_;
   if (last - first < needed) {
-    while (last - first < needed) {  // adds the neighboring row that is nearer in time
+    while (last - first < needed) {  // adds the neighboring row nearer in time, until enough rows
+                                     // determine the polynomial
       const bool before = first != begin && (last == end || at - *(first - 1) <= *last - at);
       before ? static_cast<void>(--first) : static_cast<void>(++last);
     }
-    // Width of the weight function at which the furthest row has a third of the full weight.
+    // Choose the width of the weight function such that the farthest row has about a third of the
+    // full weight.
     width = 1.5 * std::max(at - *first, *(last - 1) - at);
     width = width > 0.0 ? width : half_width_;
   }

@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// Rows `first` to `end` (exclusive) without a gap longer than the map permits.
+/// Rows `first` to `end` (exclusive) of a log, without a gap longer than the log's map permits.
 struct LogStretch {
   std::size_t first = 0;
   std::size_t end = 0;
@@ -14,19 +14,19 @@ struct LogStretch {
 
 std::vector<LogStretch> SplitAtGaps(const std::vector<double>& time, double gap);
 
-/// Value, first and second derivative of the polynomials at one time. The value and each derivative
-/// are one row, with one column per quantity.
+/// Values, first derivatives and second derivatives of the fitted polynomials at one time, as the
+/// three rows of a matrix. The matrix has one column per quantity.
 using LocalFit = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
-/// Local weighted polynomial regression in time, used by ImportLog. `values` has one row per time
-/// and one column per quantity.
+/// Fits a weighted polynomial to the log rows near a time (local regression); used by ImportLog.
+/// The matrix `values` has one row per time and one column per quantity.
 class LocalPolynomial {
  public:
   LocalPolynomial(const std::vector<double>& time, const Eigen::MatrixXd& values, double half_width,
                   int degree)
       : time_(time), values_(values), half_width_(half_width), degree_(degree) {}
 
-  /// The fit at time `at`, computed only from rows of the stretch.
+  /// Returns the fit at time `at`, computed only from rows of the stretch.
   [[nodiscard]] LocalFit At(double at, const LogStretch& stretch) const;
 
  private:

@@ -11,17 +11,18 @@
 #include "trackbed/control/signal.h"
 #include "trackbed/core/angle.h"
 
-// Compares columns of a log with derivatives of the logged positions, fitted by local polynomials.
-// Yaw and yaw rate are compared with the course. Speed, yaw rate and steering are compared with the
-// pose by the slope or sign of a least-squares fit. A wrong unit or sign is recognized if the
-// corrected column agrees, or by the fitted factor (3.6, 180/pi, -1). The comparison uses upper
-// quartiles, which are robust against outliers.
+// Compares columns of a log with derivatives of the logged positions, which are fitted by local
+// polynomials. The logged yaw and its rate are compared with the direction of motion. The columns
+// for speed, yaw rate and steering are compared with the motion of the pose by the slope or sign of
+// a least-squares fit. A wrong unit or sign is recognized if the corrected column agrees with the
+// motion, or by the fitted factor (3.6, 180/pi, -1). Errors are measured by upper quartiles, which
+// are robust against outliers.
 namespace trackbed {
 namespace {
 
-constexpr double kTurns = 0.02;  // turns slower than this rate are not judged [rad/s]
+constexpr double kTurns = 0.02;  // yaw rates below this value are too small to judge [rad/s]
 
-/// Motion at one moment of the drive, derived from the position and the logged yaw.
+/// Motion at one moment of the drive, derived from the logged positions and yaw.
 struct Moment {
   double time;
   double speed;        // Speed of the measured point [m/s].
@@ -37,9 +38,9 @@ double UpperQuartile(std::vector<double> values) {
   return *place;
 }
 
-/// The moments at which the measured point moves with at least a fifth of its RMS speed. Every yaw
-/// of the moments is multiplied by `scale`. Moments() returns fewer than 8000 evenly spread
-/// moments.
+/// Returns moments of the drive at which the measured point moves with at least a fifth of its RMS
+/// speed. The logged yaw is multiplied by `scale`. Moments() returns fewer than 8000 moments,
+/// evenly distributed over the drive.
 std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale) {
   constexpr std::size_t kMaxMoments = 4000;
   std::vector<double> yaw = rows.yaw;
@@ -75,8 +76,8 @@ std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale
   return all;
 }
 
-/// Upper quartile of the yaw rate error, relative to that of the course rate; none if the drive
-/// hardly turns.
+/// Returns the upper quartile of the yaw rate error, divided by the upper quartile of the course
+/// rate; none if the vehicle hardly turns.
 std::optional<double> Misfit(const std::vector<Moment>& moments) {
   std::vector<double> apart;
   std::vector<double> course;
@@ -132,7 +133,7 @@ void CheckYawRateOfYaw(const LogRows& rows, const LogMap& map, Found& found) {
                 100.0 * *misfit));
 }
 
-/// Detects a yaw that differs from the course by a constant of about a quarter turn, as compass
+/// Detects a logged yaw that differs from the direction of motion by a constant angle, as compass
 /// headings do.
 void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& found) {
   if (moments.size() < 20) {
@@ -144,9 +145,10 @@ void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& 
   }
   mean /= static_cast<double>(moments.size());
   const double off = std::atan2(mean.y(), mean.x());
-  constexpr double kMinConcentration = 0.9;  // Smallest length of the mean direction; a constant
-                                             // direction has length 1.
-  // Driving in reverse gives an offset of half a turn.
+  // Smallest length of the mean of the unit direction vectors; the length is 1 if all directions
+  // are equal.
+  constexpr double kMinConcentration = 0.9;
+  // Ignore an offset of half a turn, which a drive in reverse causes.
   if (mean.norm() > kMinConcentration && std::abs(off) > 0.6 && std::abs(off) < kPi - 0.6) {
     found.emplace_back(YawKey(map),
                        fmt::format("the car moves {:.3g} rad to the {} of where it points, all the "
@@ -155,8 +157,8 @@ void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& 
   }
 }
 
-/// Slope b of the least-squares fit column = b * (quantity of the pose), and the correlation of the
-/// two.
+/// Least-squares fit column = b q of a log column by a quantity q of the pose: the slope b, and the
+/// correlation of column and q.
 struct Ratio {
   double slope = 0.0;
   double correlation = 0.0;
@@ -244,7 +246,8 @@ void CheckYawRate(const LogRows& rows, const std::vector<Moment>& moments, Found
 
 void CheckSteering(const LogRows& rows, const std::vector<Moment>& moments, LogSignal signal,
                    Found& found) {
-  // tan(delta) is proportional to the path's curvature for any wheelbase.
+  // Compare tan(delta) of the steering angle delta with the curvature of the path, because both are
+  // proportional for any wheelbase.
   const Ratio ratio = RatioTo(rows.signals[signal], moments, [](const Moment& moment) {
     return moment.course_rate / moment.speed;
   });
@@ -268,7 +271,8 @@ Found FindContradictions(const LogRows& rows, const LogMap& map) {
   if (rows.has[kSpeedSignal]) {
     CheckSpeed(rows, moments, found);
   }
-  if (rows.has[kYawRateSignal] && found.empty()) {  // the check needs a correct yaw
+  // This check is only meaningful if the yaw is correct.
+  if (rows.has[kYawRateSignal] && found.empty()) {
     CheckYawRate(rows, moments, found);
   }
   for (const LogSignal signal : {kSteeringSignal, kSteeringCommandSignal}) {

@@ -9,13 +9,14 @@
 
 namespace trackbed {
 
-/// Finds columns that contradict each other, each with the map key to check. A heading may turn
-/// differently from the path, for example if degrees are read as radians or the sign is wrong.
-/// Speeds, yaw rates and steering may disagree with the pose.
+/// Finds columns of a log that contradict each other, and returns for each the map key that the
+/// user should check. For example, the heading turns differently from the path if degrees are read
+/// as radians or the sign is wrong. Speeds, yaw rates and steering are compared with the motion of
+/// the pose.
 ///
 /// The check compares upper quartiles and least-squares fits over the moving part of the drive.
-/// Outliers in single rows therefore have little effect. Drives that hardly turn or move are not
-/// judged.
+/// Outliers in single rows therefore have little effect. Drives in which the vehicle hardly turns
+/// or moves are not judged.
 std::vector<std::pair<std::string, std::string>> FindContradictions(const LogRows& rows,
                                                                     const LogMap& map);
 

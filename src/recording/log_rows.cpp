@@ -16,19 +16,20 @@
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
 
-// Reads the CSV file of a log, and the other files that the map names, row by row. Times are
-// relative to the first row of the log. Rows outside the imported part, and rows excluded by a
-// condition of the map, are skipped. Poses that are incomplete or repeat a time are skipped, too.
-// Numbers are converted by the scale, unit, offset and curve of their column. NED poses become ENU,
-// and signals positive to the right change their sign.
+// Reads the CSV file of a log, and the other files that the log's map names, row by row. Times are
+// relative to the first row of the log. Rows outside the imported part, and rows that a condition
+// of the map excludes, are skipped. Poses that are incomplete or repeat a time are also skipped.
+// Numbers are converted by the scale, unit, offset and curve of their column. NED poses are
+// converted to ENU, and signals that are positive to the right change their sign.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxNumbers = 50'000'000;  // limit of the memory: 400 MB
+// Largest number of values, which limits the memory to 400 MB.
+constexpr std::size_t kMaxNumbers = 50'000'000;
 
-/// Column of a signal, with the signal's sign in the frame of the vehicle.
+/// Column of a signal, and the sign that converts the column to Trackbed's vehicle frame.
 struct SignalColumn {
   LogSignal signal;
   LogColumn column;
@@ -112,7 +113,7 @@ class LogReader {
  private:
   using Numbers = std::vector<double>;
 
-  /// Column of the time in one file, and the last time read.
+  /// Time column of a file, and the last time read from that column.
   struct Clock {
     std::size_t column;
     std::optional<std::size_t> nanoseconds;
@@ -127,8 +128,8 @@ class LogReader {
     return clock;
   }
 
-  /// Time of a row since the first row of the log [s]. TimeOf adds a problem and returns none if
-  /// the time is missing or decreases.
+  /// Returns the time of a row since the first row of the log [s]. TimeOf adds a problem and
+  /// returns none if the time is missing or decreases.
   std::optional<double> TimeOf(Clock& clock, const Numbers& numbers, const fs::path& file, int line,
                                ProblemList& problems) {
     const double count = numbers[clock.column];
@@ -141,7 +142,8 @@ class LogReader {
       origin_ = {count, nanoseconds};
       rows_.origin = count;
     }
-    // Subtracts before scaling, so that differences are exact even for counts near 1e18.
+    // Subtract before scaling, so that time differences are exact even if the log's times are
+    // integers near 1e18.
     const double time = (count - origin_->first) * UnitInSi(map_.time.unit) +
                         (nanoseconds - origin_->second) * 1e-9;
     if (clock.last && time < *clock.last) {
@@ -180,7 +182,7 @@ class LogReader {
     LogSeries& series = rows_.signals[signal.signal];
     const double at = time - column.delay;
     if (!series.time.empty() && at <= series.time.back()) {
-      return;  // the row has the same time as the row before
+      return;  // skips the value, because its time is not later than the time of the previous value
     }
     Count(2);
     double value = column.scale * (number * UnitInSi(column.unit)) + column.offset;
@@ -193,7 +195,7 @@ class LogReader {
 
   void ReadPoses();
   void ReadOther(const std::string& name, const char* key);
-  /// Adds position and yaw of a row that has both.
+  /// Adds position and yaw of a row that contains both.
   void TakePose(const Numbers& numbers, double time, int line,
                 const std::vector<std::size_t>& columns);
 
@@ -201,7 +203,8 @@ class LogReader {
   const LogMap& map_;
   std::vector<SignalColumn> signals_;
   LogRows rows_;
-  std::optional<std::pair<double, double>> origin_;  // count and nanoseconds of the first row
+  // Time in the log's unit, and additional nanoseconds, of the first row.
+  std::optional<std::pair<double, double>> origin_;
   std::size_t kept_ = 0;
 };
 
@@ -301,7 +304,8 @@ void LogReader::ReadOther(const std::string& name, const char* key) {
   ProblemList problems;
   ReadCsvNumbers(file, names.names(), DelimiterOf(map_), [&](const Numbers& numbers, int line) {
     const std::optional<double> time = TimeOf(clock, numbers, file, line, problems);
-    if (time) {  // rows outside the imported part are not skipped, since rows may be far apart
+    if (time) {  // rows outside the imported part are not skipped, because the rows of this file
+                 // may be far apart
       for (const auto& [signal, column] : signals) {
         TakeSignal(*signal, numbers[column], *time);
       }

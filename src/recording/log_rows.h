@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// Signals of a log in addition to the pose.
+/// Signals that a log may contain in addition to the pose.
 enum LogSignal : std::size_t {
   kSpeedSignal,
   kYawRateSignal,
@@ -22,12 +22,12 @@ enum LogSignal : std::size_t {
   kLogSignals,
 };
 
-/// Key of each signal in a map.
+/// Key of each signal in the map of a log.
 inline constexpr std::array<const char*, kLogSignals> kLogSignalKeys{
     "speed",    "yaw_rate",         "accelerometer", "accelerometer",
     "steering", "steering_command", "throttle"};
 
-/// A signal, with values at the rows that contain it.
+/// Values of a signal at the log rows that contain the signal.
 struct LogSeries {
   std::vector<double> time;   // Time since the first row of the log, increasing [s].
   std::vector<double> value;  // Values in SI units, positive forward and to the left.
@@ -37,16 +37,18 @@ struct LogSeries {
 struct LogRows {
   std::vector<double> time{};    // Time since the first row of the log, strictly increasing [s].
   std::vector<Vec2> position{};  // Position of the measured point [m].
-  std::vector<double> yaw{};  // Yaw of the measured axes as logged, which may jump by whole turns
-                              // [rad].
+  // Logged yaw of the measured axes, which may jump by whole turns [rad].
+  std::vector<double> yaw{};
   std::array<LogSeries, kLogSignals> signals{};
-  std::array<bool, kLogSignals> has{};  // For each signal, whether the map names it.
-  double origin = 0.0;                  // Time of the first row, in the log's unit.
-  std::size_t rows = 0;                 // Number of rows in the log.
-  std::size_t invalid = 0;              // Rows that a condition of the map excludes.
-  std::size_t without_pose = 0;         // Rows without a number for the pose.
-  std::size_t repeated = 0;             // Rows that repeat the time of the row before.
-  int repeated_line = 0;                // Line of the first row that repeats a time.
+  // For each signal, whether the map of the log names the signal.
+  std::array<bool, kLogSignals> has{};
+  double origin = 0.0;           // Time of the first row, in the log's unit.
+  std::size_t rows = 0;          // Number of rows in the log.
+  std::size_t invalid = 0;       // Number of rows that a condition of the map excludes.
+  std::size_t without_pose = 0;  // Number of rows without a complete pose.
+  std::size_t repeated = 0;      // Number of rows with the same time as the previous row.
+  // Line number of the first row that has the same time as the previous row.
+  int repeated_line = 0;
 };
 
 /// Reads the rows of the log and of the other files that the map names. ReadLogRows throws

@@ -12,12 +12,12 @@
 namespace trackbed {
 namespace {
 
-/// A column, and the field of the sample that it contains.
+/// A column of the CSV file, and the field of RecordedSample that the column contains.
 struct Column {
   const char* name;
   std::function<double&(RecordedSample& sample)> number;
-  bool RecordedDrive::*has = nullptr;  // flag of the drive that says whether the drive has the
-                                       // column; none: always
+  // Flag of the drive that tells whether the drive has this column; null: always.
+  bool RecordedDrive::*has = nullptr;
 };
 
 const std::vector<Column>& Columns() {

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Speed of backward motion [m/s] that position noise may suggest for a car at rest.
+/// Backward speed [m/s] that position noise may simulate for a car at rest.
 constexpr double kBackwards = 0.05;
 
 RecordedSample Between(const RecordedSample& a, const RecordedSample& b, double share) {
@@ -32,7 +32,8 @@ RecordedSample Between(const RecordedSample& a, const RecordedSample& b, double 
   return sample;
 }
 
-/// Names of the drive's signals for playback, such as "steering_command and throttle".
+/// Returns the names of the drive's signals that can be replayed, such as "steering_command,
+/// throttle".
 std::string SignalsOf(const RecordedDrive& drive) {
   std::string names;
   const auto add = [&](bool has, const char* name) {
@@ -83,7 +84,7 @@ RecordedSample RecordedDrive::At(double time) const {
                    period);
   const double last = static_cast<double>(samples.size() - 1);
   const double place = std::clamp(time / period, 0.0, last);
-  // A time that differs from a sample's time only by rounding uses that sample.
+  // Return a sample unchanged if its time differs from the requested time only by rounding errors.
   constexpr double kRounding = 1e-6;
   const double nearest = std::round(place);
   if (std::abs(place - nearest) < kRounding) {

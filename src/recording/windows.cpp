@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-/// Data that all windows share.
+/// Data of a replay that all prediction windows share.
 struct Replay {
   const CarModel& car;
   const RecordedDrive& drive;
@@ -25,7 +25,7 @@ struct Replay {
   int steps;  // number of steps per control period
 };
 
-/// State of the steering actuator after some control periods of the drive.
+/// State of the steering actuator after a number of control periods of the recorded drive.
 struct SteeringHistory {
   SteeringFilter filter;
   double angle;  // [rad]
@@ -40,8 +40,9 @@ int StepsPerPeriod(double period, double timestep) {
   return static_cast<int>(std::lround(steps));
 }
 
-/// Simulates the actuator from the start of the drive, following its commands. Returns the
-/// actuator's state at each of `periods`, which must increase.
+/// Simulates the steering actuator with the commands of the recorded drive, from the start of the
+/// drive. Returns the actuator's state at each of the control periods in `periods`, which must be
+/// in ascending order.
 std::vector<SteeringHistory> FollowCommands(const Replay& replay,
                                             const std::vector<long>& periods) {
   const VehicleParams& params = replay.car.params();
@@ -110,7 +111,7 @@ WindowPrediction Predict(const Replay& replay, const std::string& name, long fir
   return window;
 }
 
-/// Quantile of sorted values, with linear interpolation between them.
+/// Returns a quantile of sorted values, with linear interpolation between the values.
 double QuantileOf(const std::vector<double>& sorted, double share) {
   const double place = share * static_cast<double>(sorted.size() - 1);
   const auto before = static_cast<std::size_t>(place);
@@ -138,7 +139,7 @@ std::vector<WindowPrediction> PredictWindows(const CarModel& car, const std::str
                    "PredictWindows: a horizon of {} s; must be above 0", horizon);
   std::vector<long> first;
   for (const double restart : restarts) {
-    // The tolerance allows a grid that ends between two control periods.
+    // The tolerance of 1.5 periods allows for a time grid that ends between two control periods.
     TRACKBED_REQUIRE(restart >= 0.0 && restart + horizon <= drive.duration() + 1.5 * period,
                      "PredictWindows: a window from {} s to {} s of a drive of {} s", restart,
                      restart + horizon, drive.duration());
@@ -195,8 +196,8 @@ WindowErrors MeasureWindows(const std::vector<WindowPrediction>& windows,
   RelativeRms yaw_rate;
   RelativeRms lateral;
   for (const WindowPrediction& window : windows) {
-    for (std::size_t k = 1; k < window.states.size(); ++k) {  // the loop skips the first state,
-                                                              // which is the record itself
+    // Skip the first state, which is the recorded state itself.
+    for (std::size_t k = 1; k < window.states.size(); ++k) {
       const VehicleState& state = window.states[k];
       const VehicleState recorded = StateOf(drive.At(state.time), vehicle, false);
       if (std::abs(recorded.speed) >= min_speed) {

@@ -6,7 +6,8 @@
 
 namespace trackbed {
 
-/// Robustness of a condition at a sample.
+/// Degree to which a condition is satisfied at a sample: its robustness value, and whether the
+/// condition holds.
 struct Degree {
   static constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
 
@@ -17,13 +18,14 @@ struct Degree {
 
 using Degrees = std::vector<Degree>;
 
-/// The minimum over an empty set of samples is kTrue, and the maximum is kFalse.
+/// Degree of a condition that always holds. The minimum over an empty set of samples is kTrue, and
+/// the maximum over an empty set is kFalse.
 inline constexpr Degree kTrue{.value = std::numeric_limits<double>::infinity(), .satisfied = true};
 inline constexpr Degree kFalse{.value = -std::numeric_limits<double>::infinity()};
 
-/// Whether a degree is less than another degree. Of two degrees of equal robustness, the violated
-/// degree is less. Hence the minimum of degrees is also the "and" of `satisfied`, and the maximum
-/// is the "or".
+/// Returns whether degree a is less than degree b. If both have equal robustness, a violated
+/// condition is less than a satisfied condition. Hence the minimum of two degrees is satisfied if
+/// both are satisfied, and the maximum is satisfied if at least one is satisfied.
 inline bool IsLess(const Degree& a, const Degree& b) {
   return a.value != b.value ? a.value < b.value : !a.satisfied && b.satisfied;
 }
@@ -38,23 +40,27 @@ inline Degree Max(const Degree& a, const Degree& b) {
   return IsLess(a, b) ? b : a;
 }
 
-/// The samples [begin[i], end[i]) of each sample i. The lists `begin` and `end` are non-decreasing.
+/// Time windows of samples: the window of sample i contains the samples [begin[i], end[i]). The
+/// lists `begin` and `end` are non-decreasing.
 struct Windows {
   std::vector<std::uint32_t> begin;
   std::vector<std::uint32_t> end;
 };
 
-/// The samples from `from` to `to` [s] after each sample, both included, to 1 ns. A window never
-/// begins before its sample. `times` must increase.
+/// Finds for each sample the window of samples that lie `from` to `to` seconds later, including
+/// both ends, with a tolerance of 1 ns. A window never begins before its sample. The times of the
+/// samples must increase.
 Windows FindWindows(const std::vector<double>& times, double from, double to);
 
-/// Minimum and maximum over each sample's window, by Lemire's monotonic wedge in O(samples). If
-/// several samples have the same extreme value, the functions return the earliest sample.
+/// Compute the minimum or maximum over the window of each sample, by Lemire's monotonic wedge in
+/// O(samples). If several samples have the same extreme value, the functions return the earliest of
+/// these samples.
 Degrees SlidingMin(const Degrees& values, const Windows& windows);
 Degrees SlidingMax(const Degrees& values, const Windows& windows);
 
-/// Degrees of phi until[from, to] psi, in O(samples) (Donzé, Ferrère and Maler 2013). The function
-/// evaluates "psi within the window, and phi until psi at or after its beginning".
+/// Computes the degrees of phi until[from, to] psi in O(samples) (Donzé, Ferrère and Maler 2013).
+/// The result is the minimum of three degrees: psi holds at some sample of the window; phi holds up
+/// to the beginning of the window; "phi until psi" holds at the beginning of the window.
 Degrees Until(const Degrees& phi, const Degrees& psi, const Windows& windows);
 
 }  // namespace trackbed

@@ -35,7 +35,7 @@ std::size_t OperandCount(FormulaOperation operation) {
   }
 }
 
-/// Whether the operands are numbers, as opposed to conditions.
+/// Returns whether the operands of an operation are numbers and not conditions.
 bool TakesNumbers(FormulaOperation operation) {
   return operation < FormulaOperation::kNot;
 }
@@ -44,7 +44,8 @@ bool GivesNumber(FormulaOperation operation) {
   return operation < FormulaOperation::kLess;
 }
 
-/// The leading name or number of a text, otherwise a single character.
+/// Returns the name or number at the beginning of a text. If the text begins with neither, returns
+/// the first character.
 std::string_view FirstWord(std::string_view text) {
   const auto in_word = [](unsigned char c) { return std::isalnum(c) != 0 || c == '_' || c == '.'; };
   const auto is_continuation = [](unsigned char c) { return (c & 0xC0U) == 0x80U; };
@@ -59,7 +60,7 @@ std::string_view FirstWord(std::string_view text) {
   return text.substr(0, length);
 }
 
-/// A part of a formula in quotes, shortened if it is long.
+/// Returns a part of a formula in quotes, shortened if the part is long.
 std::string Quoted(std::string_view part) {
   constexpr std::size_t kMaxQuotedLength = 60;
   return part.size() <= kMaxQuotedLength ? fmt::format("'{}'", part)

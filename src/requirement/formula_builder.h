@@ -7,40 +7,43 @@
 
 namespace trackbed {
 
-/// Builds a formula while the parser reads its text. Checks that operands are conditions or numbers
-/// as required. Throws InputError with the column in the text.
+/// Builds a formula while the parser reads the text of the formula. Checks that each operation gets
+/// conditions or numbers as operands, as required. Throws InputError with the column of the error
+/// in the text.
 class FormulaBuilder {
  public:
-  /// `text` must outlive the builder. All other texts must be parts of `text`.
+  /// The argument `text` is the whole formula and must outlive the builder. The text arguments of
+  /// all other functions must be parts of `text`.
   FormulaBuilder(std::string_view text, const std::vector<std::string>& allowed)
       : text_(text), allowed_(allowed) {}
 
   void AddNumber(std::string_view number);
   void AddSignal(std::string_view name);
 
-  /// Begins an operation; the operands of the operation follow.
+  /// Begins an operation; the following calls add its operands.
   void Open(FormulaOperation operation, std::string_view sign);
-  /// Adds a bound to the last operation that was begun: the number, or the duration T minus the
-  /// number.
+  /// Adds a time bound to the operation that was begun last. The bound is the number, or for
+  /// AddBoundFromEnd the run's duration T minus the number.
   void AddBound(std::string_view number);
   void AddBoundFromEnd(std::string_view number);
-  /// Ends the operation, after its last operand.
+  /// Ends the operation that was begun last, after its last operand.
   void Close();
 
   void OpenParenthesis(std::string_view sign);
-  /// Ends the second or a later argument of `min` and `max`, before the comma or parenthesis that
-  /// follows.
+  /// Combines the second or a later argument of `min` or `max` with the arguments before. The
+  /// parser calls FoldArgument before the comma or parenthesis that follows the argument.
   void FoldArgument();
-  /// Ends a call of `abs`, `min` or `max`.
+  /// Ends a call of the function `abs`, `min` or `max`.
   void CloseFunction(std::string_view sign);
   void CloseParenthesis(std::string_view sign);
 
   [[nodiscard]] std::vector<FormulaStep> TakeSteps();
   [[nodiscard]] std::vector<std::string> TakeSignals() { return std::move(signals_); }
 
-  /// Throws InputError at the part of the text that begins at `at`.
+  /// Throws InputError with the column of the position `at` in the text.
   [[noreturn]] void Fail(const char* at, const std::string& message) const;
-  /// Throws InputError that names the text at `at` and the text that was expected there.
+  /// Throws InputError that quotes the text at position `at` and names what was expected at this
+  /// position.
   [[noreturn]] void FailExpected(const char* at, const std::string& expected) const;
 
  private:

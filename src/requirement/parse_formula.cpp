@@ -5,9 +5,9 @@
 #include <boost/spirit/home/x3.hpp>
 #include <functional>
 
-// The grammar of formulas. The next word determines every choice, so the parser parses nothing
-// twice. Every recursive rule begins with FormulaBuilder::Open or OpenParenthesis, which limit the
-// depth. Error messages name the expected rule.
+// Defines the grammar of formulas. The next word determines every choice between rules, so the
+// parser never parses a text twice. Every recursive rule begins with FormulaBuilder::Open or
+// OpenParenthesis, which limit the nesting depth. Error messages name the expected rule.
 namespace trackbed {
 namespace formula_grammar {
 namespace {
@@ -28,7 +28,7 @@ std::string_view Matched(const Context& context) {
   return {range.begin(), static_cast<std::size_t>(range.end() - range.begin())};
 }
 
-/// Parser action that begins an operation.
+/// Returns a parser action that begins an operation.
 auto Open(FormulaOperation operation) {
   return [operation](auto& context) { Builder(context).Open(operation, Matched(context)); };
 }
@@ -168,8 +168,8 @@ void ParseFormula(std::string_view text, FormulaBuilder& builder) {
   const char* first = text.data();
   const char* last = first + text.size();
   try {
-    // x3::eps turns a mismatch at the first word into an expectation failure, like later
-    // mismatches.
+    // Begin with x3::eps, so that a mismatch at the first word also causes an expectation failure,
+    // like later mismatches.
     const auto whole = x3::with<grammar::BuilderTag>(
         std::ref(builder))[x3::eps > grammar::formula > grammar::end_of_formula];
     x3::phrase_parse(first, last, whole, x3::ascii::space);

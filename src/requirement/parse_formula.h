@@ -6,8 +6,8 @@
 
 namespace trackbed {
 
-/// Parses a formula and passes its parts to the builder. Throws InputError for a syntax error, and
-/// passes on an InputError from the builder.
+/// Parses a formula and passes its parts to the builder. Throws InputError for a syntax error, or
+/// if the builder throws InputError.
 void ParseFormula(std::string_view text, FormulaBuilder& builder);
 
 }  // namespace trackbed

@@ -6,7 +6,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/requirement/formula.h"
 
-// Evaluates formulas on logs.
+// Computes the robustness of requirement formulas on the log of a run.
 namespace trackbed {
 namespace {
 
@@ -35,7 +35,7 @@ Numbers ReadTimes(const Table& log) {
   return times;
 }
 
-/// Evaluates a formula at all samples, by a stack machine.
+/// Evaluates a formula at all samples of a log with a stack machine.
 class Evaluation {
  public:
   Evaluation(const Formula& formula, const Table& log)
@@ -56,7 +56,7 @@ class Evaluation {
     return top;
   }
 
-  /// Combines the top two numbers or conditions of a stack.
+  /// Replaces the top two numbers or conditions of a stack by their combination.
   template <typename T, typename Combine>
   static void Reduce(std::vector<T>& stack, const Combine& combine) {
     const T right = Pop(stack);
@@ -126,7 +126,7 @@ class Evaluation {
         return Reduce(numbers_, [](double a, double b) { return a * b; });
       case FormulaOperation::kDivide:
         return Reduce(numbers_, [](double a, double b) { return a / b; });
-      case FormulaOperation::kMin:  // does not use std::min, which may drop a NaN
+      case FormulaOperation::kMin:  // std::min is not used, because it may drop a NaN
         return Reduce(numbers_, [](double a, double b) { return std::isnan(a) || a < b ? a : b; });
       case FormulaOperation::kMax:
         return Reduce(numbers_, [](double a, double b) { return std::isnan(a) || a > b ? a : b; });

@@ -11,21 +11,24 @@
 #include "trackbed/core/angle.h"
 
 // Joins the centers of a route's lanes to a path. Each lane center is the reference line plus a
-// lateral offset. A lane change blends two offsets by a quintic polynomial. The algorithm splits
-// the centers at the joints of the file's polynomials. The algorithm samples the pieces to points
-// with exact heading and curvature. Kinks up to 0.2 rad are rounded over 0.5 m on either side. The
-// algorithm refuses gaps, kinks and deviations beyond the limits.
+// lateral offset. A lane change blends the offsets of two lanes by a quintic polynomial. The
+// algorithm splits the lane centers where one polynomial of the OpenDRIVE file ends and the next
+// polynomial begins. The pieces are sampled to points with exact heading and curvature. Kinks up to
+// 0.2 rad are rounded over 0.5 m on either side. The algorithm refuses gaps, larger kinks, and
+// deviations beyond the limit.
 
 namespace trackbed {
 namespace {
 
-constexpr double kSpacing = 0.25;       // Spacing of the points that segments join [m].
-constexpr double kKink = 1e-6;          // Smaller kinks need no rounding [rad].
-constexpr double kMaxKink = 0.2;        // [rad]
-constexpr double kRounding = 0.5;       // Length that is replaced on either side of a kink [m].
+// Largest spacing of the points between which path segments are fitted [m].
+constexpr double kSpacing = 0.25;
+constexpr double kKink = 1e-6;    // Kinks smaller than this angle are not rounded [rad].
+constexpr double kMaxKink = 0.2;  // [rad]
+// Length of the center line that rounding replaces on either side of a kink [m].
+constexpr double kRounding = 0.5;
 constexpr double kMaxDeviation = 0.05;  // [m]
 
-/// A point of a lane's center, in driving direction.
+/// A point of a lane's center, with heading and curvature in driving direction.
 struct CenterPoint {
   Vec2 position{0.0, 0.0};
   CurvePoint curve;  ///< distance along the center, heading, curvature
@@ -34,7 +37,7 @@ struct CenterPoint {
 /// A smooth piece of a lane's center.
 using Piece = std::vector<CenterPoint>;
 
-/// A stretch with its road and lane section.
+/// A stretch of a route, with its road and the lane section of the road.
 struct RoadStretch {
   const Road& road;
   std::size_t section;
@@ -42,14 +45,16 @@ struct RoadStretch {
 
   [[nodiscard]] int direction() const { return stretch.to > stretch.from ? 1 : -1; }
 
-  /// Offset t of the path as a function of s, with derivatives. LaneBordersAt explains `piece_of`.
+  /// Returns the lateral offset t of the path from the reference line at s, with derivatives by s.
+  /// LaneBordersAt explains the argument `piece_of`.
   [[nodiscard]] CubicValue Offset(double s, double piece_of) const {
     const CubicValue a = LaneBordersAt(road, section, stretch.lane, s, piece_of).Center();
     if (stretch.to_lane == stretch.lane) {
       return a;
     }
     const CubicValue b = LaneBordersAt(road, section, stretch.to_lane, s, piece_of).Center();
-    // Quintic polynomial from 0 to 1 with zero slope and curvature at both ends.
+    // Blend the offsets with a quintic polynomial w that rises from 0 to 1, with zero slope and
+    // curvature at both ends.
     const double scale = 1.0 / (stretch.to - stretch.from);
     const double q = std::clamp((s - stretch.from) * scale, 0.0, 1.0);
     const double w = q * q * q * (10.0 + q * (-15.0 + 6.0 * q));
@@ -62,11 +67,13 @@ struct RoadStretch {
   }
 };
 
-/// Stations of the joints of the file's polynomials that define the center.
+/// Returns the stations at which a polynomial that defines the lane center ends and the next
+/// polynomial begins.
 std::vector<double> Joints(const RoadStretch& own) {
   const double low = std::min(own.stretch.from, own.stretch.to);
   const double high = std::max(own.stretch.from, own.stretch.to);
-  // Closer joints are rounding errors, or the pieces between these joints are negligibly short.
+  // Merge joints that are closer than this distance. Such joints differ only by rounding errors, or
+  // the piece between the joints is negligible.
   constexpr double kMinSpacing = 0.01;  // [m]
   std::vector<double> joints;
   const auto add = [&](double s) { joints.push_back(s); };
@@ -93,8 +100,9 @@ std::vector<double> Joints(const RoadStretch& own) {
   return apart;
 }
 
-/// The center R(s) + t(s) N(s), with the left normal N, and the derivatives of the center by s. The
-/// tangent of the center is m T + t' N, with m = dR/ds (1 - kappa t).
+/// The lane center R(s) + t(s) N(s) and its derivatives by s, where R is the reference line, N its
+/// left normal and t the lateral offset. The tangent of the center is m T + t' N, where T is the
+/// tangent of the reference line, kappa its curvature, and m = |dR/ds| (1 - kappa t).
 struct CenterState {
   Vec2 position{0.0, 0.0};
   double heading = 0.0;
@@ -122,7 +130,8 @@ CenterState StateAt(const RoadStretch& own, double s, double piece_of) {
   return state;
 }
 
-/// The smooth pieces of a stretch, in driving direction. Returns none if the center is folded.
+/// Returns the smooth pieces of a stretch's lane center, in driving direction. Returns no pieces if
+/// the center is folded.
 std::vector<Piece> SmoothPieces(const RoadStretch& own) {
   std::vector<Piece> pieces;
   const std::vector<double> joints = Joints(own);
@@ -159,10 +168,12 @@ std::vector<Piece> SmoothPieces(const RoadStretch& own) {
   return pieces;
 }
 
-/// Joins pieces with continuous distances and headings; merges pieces across a kink.
+/// Joins pieces of lane centers to one line with continuous distances and headings. Kinks between
+/// pieces are rounded.
 class Joiner {
  public:
-  /// Adds a piece. Returns the reason if the piece cannot be joined, otherwise an empty text.
+  /// Adds a piece to the end of the line. Returns the reason if the piece cannot be joined,
+  /// otherwise an empty text.
   std::string Add(Piece piece) {
     if (runs_.empty()) {
       runs_.push_back(std::move(piece));
@@ -189,7 +200,8 @@ class Joiner {
       runs_.push_back(std::move(piece));
       return "";
     }
-    // Keep the very first and the very last point.
+    // Remove the points that the rounding replaces, but keep the first point of the line and the
+    // last point of the new piece.
     while (before.size() > 1 && before.back().curve.s > end.s - kRounding) {
       before.pop_back();
     }
@@ -201,8 +213,8 @@ class Joiner {
     return "";
   }
 
-  /// Builds the path. Merges the pieces of a line or an arc into one segment, because planners
-  /// measure the distance between curvature steps.
+  /// Builds the path. Adjacent pieces of the same straight line or arc become one segment, because
+  /// planners measure the distance between curvature steps.
   [[nodiscard]] Path Join() const {
     std::vector<Segment> segments;
     for (const Piece& run : runs_) {
@@ -236,7 +248,7 @@ class Joiner {
   std::vector<Piece> runs_;
 };
 
-/// The largest distance of the centers from the path at the same stations.
+/// Returns the largest distance between the lane centers and the path at equal stations.
 double Deviation(const Path& path, const std::vector<Piece>& pieces) {
   double worst = 0.0;
   double station = 0.0;

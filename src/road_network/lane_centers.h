@@ -14,7 +14,7 @@ struct JoinedPath {
   double deviation = 0.0;  ///< largest distance of the path from the centers [m]
 };
 
-/// The path along the centers of consecutive stretches.
+/// Computes the path along the lane centers of consecutive stretches.
 JoinedPath JoinLaneCenters(const RoadNetwork& network, const std::vector<LaneStretch>& stretches);
 
 }  // namespace trackbed

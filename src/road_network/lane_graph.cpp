@@ -57,8 +57,8 @@ void LaneGraph::AddJunction(std::size_t index, const std::string& id) {
     if (connection.incoming != node.road->id || road == network_.roads.end()) {
       continue;
     }
-    // If both ends of a road meet one junction, the lane's number determines the end where the car
-    // leaves the road.
+    // If both ends of a road meet the same junction, the sign of the lane's number determines at
+    // which end the car leaves the road.
     for (const auto& [from, to] : connection.lane_links) {
       if (from == node.lane) {
         AddLink(index, road->second, connection.contact, to);

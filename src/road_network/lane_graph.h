@@ -11,7 +11,7 @@
 /// The drivable lanes of a network, and the links between these lanes.
 namespace trackbed {
 
-/// A lane within a lane section.
+/// A node of the lane graph: a lane within one lane section.
 struct LaneNode {
   const Road* road = nullptr;
   std::size_t section = 0;
@@ -28,14 +28,14 @@ class LaneGraph {
  public:
   explicit LaneGraph(const RoadNetwork& network);
 
-  /// The node of a lane. Returns none if the lane is not drivable.
+  /// Returns the node of a lane; none if the lane is not drivable.
   [[nodiscard]] std::optional<std::size_t> Find(const Road& road, std::size_t section,
                                                 int lane) const;
   [[nodiscard]] const LaneNode& node(std::size_t index) const { return nodes_[index]; }
 
-  /// The shortest path in driving direction from the end of one lane to the start of another lane.
-  /// The path includes both lanes. The two lanes may be the same lane, for a loop. Returns an empty
-  /// path if no path exists. Cost: O(lanes log lanes).
+  /// Returns the shortest path in driving direction from the end of one lane to the start of
+  /// another lane. The path includes both lanes. If both lanes are the same lane, the path is a
+  /// loop. Returns an empty path if the target lane cannot be reached. Cost: O(lanes log lanes).
   [[nodiscard]] std::vector<std::size_t> ShortestWay(std::size_t from, std::size_t to) const;
 
  private:
@@ -51,9 +51,9 @@ class LaneGraph {
   void AddLink(std::size_t from, const Road& road, RoadEnd contact, int lane);
 
   const RoadNetwork& network_;
-  std::vector<LaneNode> nodes_;  // Nodes grouped by road, in order of sections and lanes.
-  std::map<std::string, std::size_t, std::less<>> first_;  // First node of each road.
-  std::map<std::string, std::size_t, std::less<>> last_;   // End of each road's nodes.
+  std::vector<LaneNode> nodes_;  // All nodes, grouped by road and ordered by section and lane.
+  std::map<std::string, std::size_t, std::less<>> first_;  // Index of the first node of each road.
+  std::map<std::string, std::size_t, std::less<>> last_;  // Index after the last node of each road.
   Graph links_;
 };
 

@@ -84,7 +84,7 @@ Lane ReadLane(const XmlFields& fields, int id, bool has_lane_offset,
   ForEachChild(&fields.element(), "height", [&](const XMLElement& element, std::size_t index) {
     const XmlFields height(element, fmt::format("{}.height[{}]", fields.where(), index),
                            fields.problems());
-    // Curbs of sidewalks do not affect the drivable surface.
+    // Ignore the heights of sidewalks, because curbs do not affect the drivable surface.
     has_height = has_height || height.Number("inner", {}, 0.0) != 0.0 ||
                  height.Number("outer", {}, 0.0) != 0.0;
   });
@@ -109,7 +109,7 @@ void ReadSide(const XmlFields& section, const char* side, bool has_lane_offset, 
     const int id = unnamed.Integer("id");
     const XmlFields fields(element, fmt::format("{}.{}.lane[{}]", section.where(), side, id),
                            section.problems());
-    constexpr int kMaxLanes = 100;  // maximum per side, as in mission.route
+    constexpr int kMaxLanes = 100;  // maximum number of lanes per side, as in mission.route
     if (id < -kMaxLanes || id > kMaxLanes) {
       fields.AddError("id", fmt::format("{} is out of range; must be at least {} and at most {}",
                                         id, -kMaxLanes, kMaxLanes));

@@ -23,14 +23,14 @@ std::string Named(const LanePlace& place) {
   return fmt::format("lane {} of road {} at s = {:.4g} m", place.lane, place.road, place.s);
 }
 
-/// A place with its road, section and node.
+/// Road, lane section and graph node of a place.
 struct Found {
   const Road* road;
   std::size_t section;
   std::size_t node;
 };
 
-/// Adds stretches and sums up the length of these stretches.
+/// Collects the stretches of a route and sums up the lengths of the stretches.
 class Stretches {
  public:
   void Add(const Road& road, int lane, int to_lane, double from, double to) {
@@ -39,7 +39,8 @@ class Stretches {
       all_.push_back({road.id, lane, to_lane, from, to});
     }
   }
-  /// AddUpToEnd adds the rest of a lane. AddFromStart adds the beginning of a lane.
+  /// AddUpToEnd adds the part of a lane from station `from` to the lane's end. AddFromStart adds
+  /// the part from the lane's start to station `to`.
   void AddUpToEnd(const LaneNode& node, double from) {
     Add(*node.road, node.lane, node.lane, from, node.follows_road() ? node.end() : node.start());
   }
@@ -62,8 +63,8 @@ Found FindPlace(const RoadNetwork& network, const LaneGraph& graph, const LanePl
   return {&road, section, graph.Find(road, section, place.lane).value()};
 }
 
-/// Adds the stretches between two places. Returns the reason if no path exists, otherwise an empty
-/// text.
+/// Adds the stretches between two places of a route. Returns the reason if no path connects the
+/// places, otherwise an empty text.
 std::string Connect(const LaneGraph& graph, const LanePlace& a, const Found& from,
                     const LanePlace& b, const Found& to, Stretches& stretches) {
   const LaneNode& node = graph.node(from.node);

@@ -17,7 +17,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Documents with more elements would take gigabytes of memory.
+/// Largest number of XML elements. A document with more elements would take gigabytes of memory.
 constexpr std::ptrdiff_t kMaxElements = 4000000;
 
 void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& problems) {
@@ -46,11 +46,12 @@ Junction ReadJunction(const XmlFields& fields) {
     JunctionConnection connection;
     connection.line = own.line();
     connection.incoming = own.OptionalText("incomingRoad");
-    // A direct junction (since version 1.6) links roads without connecting roads.
+    // A direct junction (since OpenDRIVE 1.6) links two roads directly, without a connecting road
+    // between them.
     const bool direct = element.Attribute("linkedRoad") != nullptr;
     connection.connecting = direct ? own.Text("linkedRoad") : own.OptionalText("connectingRoad");
     if (connection.incoming.empty() || connection.connecting.empty()) {
-      return;  // a virtual connection, which no car drives over
+      return;  // skips a virtual connection, which cars do not use
     }
     connection.contact = ReadContactPoint(own);
     ForEachChild(&element, "laneLink", [&](const XMLElement& link, std::size_t) {
@@ -62,7 +63,7 @@ Junction ReadJunction(const XmlFields& fields) {
   return junction;
 }
 
-/// Adds a part by its id. A repeated id is an error.
+/// Adds a road or junction to a map with ids as keys. A repeated id is an error.
 template <typename Part>
 void AddById(Part part, int line, const char* kind, std::map<std::string, Part, std::less<>>& parts,
              XmlProblems& problems) {
@@ -92,8 +93,8 @@ void NoteUnreadHeights(RoadNetwork& network) {
   throw InputError(Problem{name, line, 0, "", std::move(message)});
 }
 
-/// Reports entity declarations, because tinyxml2 does not expand the entities that a document
-/// declares.
+/// Refuses a document with entity declarations, because tinyxml2 does not expand the entities that
+/// a document declares.
 void CheckDeclarations(const tinyxml2::XMLDocument& document, const std::string& name) {
   for (const tinyxml2::XMLNode* node = document.FirstChild(); node != nullptr;
        node = node->NextSibling()) {

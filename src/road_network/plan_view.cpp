@@ -18,13 +18,14 @@ using tinyxml2::XMLElement;
 constexpr Bounds kCoordinate{-1e8, 1e8};     // [m]; northings of UTM are below 1e7.
 constexpr Bounds kGeometryLength{0.0, 1e6};  // [m]
 constexpr Bounds kBend{-1e3, 1e3};           // [1/m]
-/// Tolerance between the station of a geometry and the end of the previous geometry [m].
+/// Largest difference between the start station of a geometry and the end station of the previous
+/// geometry [m].
 constexpr double kMaxStationGap = 0.1;
 /// Geometries shorter than kMinGeometryLength [m] are dropped as rounding errors of the exporting
 /// program.
 constexpr double kMinGeometryLength = 1e-9;
 
-/// Pose and length of a geometry, common to all shapes.
+/// Pose and length of a geometry, which all shapes have.
 struct GeometryPlace {
   Pose2 start;
   double length = 0.0;

@@ -26,11 +26,13 @@ double Second(const Coefficients& c, double p) {
   return 2.0 * c[2] + 6.0 * c[3] * p;
 }
 
-/// Number of parts of the parameter range. Within a part, the parameter speed of a road's curve is
-/// so smooth that ten nodes integrate it to machine precision.
+/// Number of parts into which the parameter range of a curve is divided to compute its length.
+/// Within a part, the parameter speed of a road's curve is so smooth that a quadrature with ten
+/// nodes integrates it to machine precision.
 constexpr std::size_t kParts = 32;
 
-/// Index of the piece that applies at s. If s lies before the first piece, returns the first piece.
+/// Returns the index of the piece that applies at s. If s lies before the first piece, returns the
+/// index of the first piece.
 template <typename Piece>
 std::size_t IndexAt(const std::vector<Piece>& pieces, double s) {
   const auto after = std::upper_bound(pieces.begin(), pieces.end(), s,
@@ -73,7 +75,8 @@ ParametricCubic::ParametricCubic(const Coefficients& u, const Coefficients& v, d
 }
 
 ParametricCubic ParametricCubic::OverU(const Coefficients& v, double length) {
-  // The curve is at least as long as its u, so the curve's end lies within `length`.
+  // The length of the curve is at least its extent in u, so u is at most `length` at the end of the
+  // curve.
   const Coefficients u{0.0, 1.0, 0.0, 0.0};
   const ParametricCubic whole(u, v, length, length);
   const double end = whole.Parameter(length);

@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// Tolerance for rounded stations in files.
+/// Tolerance for stations that a file gives with rounding errors.
 constexpr double kStationSlack = 1e-3;  // [m]
 
 double OnRoad(const Road& road, double s) {
@@ -30,8 +30,8 @@ bool HasSlope(const PiecewiseCubic& function) {
   });
 }
 
-/// Whether a piecewise constant function has steps. The function of a level road must not have
-/// steps.
+/// Returns whether a piecewise constant function, such as the elevation of a road, has steps. A
+/// level road has neither slopes nor steps.
 bool HasSteps(const PiecewiseCubic& function) {
   const auto& pieces = function.pieces();
   return std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {

@@ -22,7 +22,7 @@ Vec2 Beside(const Road& road, double s, double piece_of, double t) {
   return ToWorld(road.reference.At(s, piece_of).pose, {0.0, t});
 }
 
-/// Evenly spaced stations from `from` to `to`, both included, at most `spacing` apart.
+/// Returns evenly spaced stations from `from` to `to`, including both, at most `spacing` apart.
 std::vector<double> Stations(double from, double to, double spacing) {
   const auto parts =
       std::max<std::size_t>(1, static_cast<std::size_t>(std::ceil((to - from) / spacing)));
@@ -40,8 +40,8 @@ bool IsPaved(const Lane& lane) {
   return std::find(kUnpaved.begin(), kUnpaved.end(), lane.type) == kUnpaved.end();
 }
 
-/// Whether each line of a mark is dashed, from left to right. The mark "solid broken" has two
-/// lines.
+/// Returns for each line of a road mark, from left to right, whether the line is dashed. For
+/// example, the mark "solid broken" has two lines, and the second is dashed.
 std::vector<bool> DashedLines(const std::string& type) {
   if (type == "none") {
     return {};
@@ -57,7 +57,7 @@ std::vector<bool> DashedLines(const std::string& type) {
   return dashed;
 }
 
-/// Collects the paint of one network.
+/// Collects the paint of a road network: paved areas and road marks.
 class Painter {
  public:
   Painter(const RoadNetwork& network, double spacing) : spacing_(spacing) {
@@ -83,7 +83,7 @@ class Painter {
   void Section(const Road& road, std::size_t index) {
     const LaneSection& section = road.sections[index];
     const double end = road.SectionEnd(index);
-    // Paint groups of adjacent paved lanes, beginning from the left.
+    // Paint each group of adjacent paved lanes as one area, beginning from the left.
     const std::vector<Lane>& lanes = section.lanes;
     for (std::size_t first = 0; first < lanes.size();) {
       if (lanes[first].id == 0 || !IsPaved(lanes[first])) {
@@ -141,7 +141,8 @@ class Painter {
         add(from, to);
         continue;
       }
-      // Limits the dashes to the number of points.
+      // Lengthen the period of the dashes if necessary, so that the number of dashes does not
+      // exceed the limit for points.
       const double period = std::max(kDashPeriod, 2.0 * spacing_);
       for (double begin = from; begin < to; begin += period) {
         add(begin, std::min(begin + kDashLength, to));

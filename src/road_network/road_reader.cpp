@@ -51,8 +51,7 @@ void ReadHeights(const XmlFields& fields, Road& road) {
   }
 }
 
-/// Checks that the lane ids of the links exist in the adjacent section; reports each missing id
-/// once.
+/// Checks that the adjacent lane section contains all lanes to which `ids` link.
 void CheckLaneIds(const std::vector<int>& ids, const LaneSection& beyond, const std::string& key,
                   int line, XmlProblems& problems) {
   for (const int id : ids) {
@@ -62,7 +61,7 @@ void CheckLaneIds(const std::vector<int>& ids, const LaneSection& beyond, const 
   }
 }
 
-/// Checks the lane links between the sections of a road, and to adjacent roads.
+/// Checks the lane links between the sections of a road, and the lane links to adjacent roads.
 void CheckLaneLinks(const RoadNetwork& network, const Road& road, XmlProblems& problems) {
   const auto beyond = [&](const std::optional<RoadLink>& link) -> const LaneSection* {
     if (!link || link->is_junction) {

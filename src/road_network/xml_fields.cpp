@@ -20,7 +20,8 @@ std::string_view WithoutSpaces(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
 
-/// Parses the whole text as a number. Skips a plus sign, which std::from_chars rejects.
+/// Parses the whole text as a number; returns false if the text is not a number. A leading plus
+/// sign is skipped, because std::from_chars rejects a plus sign.
 template <typename Number_>
 bool ParseAll(std::string_view text, Number_& number) {
   if (text.starts_with('+') && !text.starts_with("+-")) {

@@ -12,13 +12,13 @@
 /// Reads attributes of XML elements as numbers and collects all problems.
 namespace trackbed {
 
-/// Permitted values of an attribute.
+/// Range of the permitted values of an attribute.
 struct Bounds {
   double min = -1e9;
   double max = 1e9;
 };
 
-/// Collects the problems of a file, each with its line.
+/// Collects the problems of an XML file, each with its line number.
 class XmlProblems {
  public:
   explicit XmlProblems(std::string file) : file_(std::move(file)) {}
@@ -34,8 +34,8 @@ class XmlProblems {
   ProblemList problems_;
 };
 
-/// The attributes of an element. Messages name the element by `where`, for example
-/// "road[3].planView.geometry[0]".
+/// Reads the attributes of an XML element. Error messages refer to the element as `where`, for
+/// example "road[3].planView.geometry[0]".
 class XmlFields {
  public:
   XmlFields(const tinyxml2::XMLElement& element, std::string where, XmlProblems& problems)
@@ -46,20 +46,22 @@ class XmlFields {
   [[nodiscard]] int line() const { return element_.GetLineNum(); }
   [[nodiscard]] XmlProblems& problems() const { return problems_; }
 
-  /// A number within bounds. After an error, returns the permitted value nearest to 0.
+  /// Reads a number within bounds. After an error, returns the permitted value that is nearest to
+  /// 0.
   [[nodiscard]] double Number(const char* name, Bounds bounds = {}) const;
-  /// A number within bounds, or `missing` if the attribute is absent.
+  /// Reads a number within bounds; returns `missing` if the attribute is absent.
   [[nodiscard]] double Number(const char* name, Bounds bounds, double missing) const;
-  /// An integer; 0 after an error.
+  /// Reads an integer; returns 0 after an error.
   [[nodiscard]] int Integer(const char* name) const;
-  /// A non-empty text; "" after an error.
+  /// Reads a non-empty text; returns "" after an error.
   [[nodiscard]] std::string Text(const char* name) const;
-  /// The text of the attribute; "" if the attribute is absent.
+  /// Reads a text; returns "" if the attribute is absent.
   [[nodiscard]] std::string OptionalText(const char* name) const;
 
   void AddError(const char* name, std::string message) const;
 
-  /// The only child with this name, or null. A second child with this name is an error.
+  /// Returns the only child element with this name, or null. A second child with this name is an
+  /// error.
   [[nodiscard]] const tinyxml2::XMLElement* Child(const char* name) const;
 
  private:
@@ -68,7 +70,7 @@ class XmlFields {
   XmlProblems& problems_;
 };
 
-/// Calls `take(element, index)` for each child element with this name.
+/// Calls `take(element, index)` for each child element with the given name.
 template <typename Take>
 void ForEachChild(const tinyxml2::XMLElement* parent, const char* name, const Take& take) {
   if (parent == nullptr) {

@@ -12,10 +12,11 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
 
-// Cross-checks of the mission and the plan: rules between keys, which the schema of a single key
-// cannot express. Each check returns early if one of its keys could not be read, so that an error
-// is reported once. Rules depend on the planner's registry entry and not on its name (PlannerEntry:
-// follows_track, follows_lanes, needs_limits, min_waypoints, ...).
+// Checks rules between several keys of the mission and the plan, which the schema of a single key
+// cannot express. Each check returns early if one of its keys could not be read, so that each error
+// is reported only once. The rules depend on properties in the planner's registry entry
+// (PlannerEntry: follows_track, follows_lanes, needs_limits, min_waypoints, ...) and not on the
+// planner's name.
 namespace trackbed {
 namespace {
 
@@ -27,7 +28,8 @@ void AddProblems(Diagnostics& c, const std::string& section, std::vector<OptionP
   }
 }
 
-/// Checks rules between the options of the planner, and between those of the planner of detours.
+/// Checks rules between the options of the global planner, and between the options of the detour
+/// planner.
 void CheckPlanners(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   if (!plan) {
@@ -60,8 +62,8 @@ void CheckAvoider(Diagnostics& c) {
   }
 }
 
-/// Local planners connect to straight legs with straight wheels, so a neutral steering angle is
-/// rejected.
+/// Rejects a neutral steering angle together with local planners, because local planners plan
+/// detours that begin and end with a steering angle of 0.
 void CheckNeutralSteering(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   if (NeutralSteering(c.scenario) == 0.0 || !(plan->avoid || plan->replan) ||
@@ -151,7 +153,8 @@ void CheckHeadings(Diagnostics& c) {
   }
 }
 
-/// Limits the length of the route, and thereby the planner's work and the plan's rows.
+/// Limits the length of the route, and thereby the computing time of the planner and the number of
+/// rows of plan.csv.
 void CheckRouteLength(Diagnostics& c) {
   const std::vector<Vec2>& waypoints = c.scenario.mission.waypoints;
   double length = 0.0;
@@ -208,9 +211,10 @@ void CheckWaypoints(Diagnostics& c) {
   }
 }
 
-/// A speed profile at the limit applies to a single plan. Local avoidance and replanning change
-/// speeds during the run. With a profile at the limit, local avoidance and replanning are therefore
-/// rejected, except for planners that follow a track.
+/// Checks the options of the speed profile. A speed profile at the car's limits applies to a single
+/// plan, but local avoidance and replanning change speeds during the run. A profile at the limits
+/// is therefore rejected together with local avoidance or replanning, except for planners that
+/// follow a track.
 void CheckSpeedProfile(Diagnostics& c) {
   const auto& profile = c.scenario.mission.speed_profile;
   if (!profile || !c.CouldRead({"mission.speed_profile", "mission.speed_profile.method"}) ||
@@ -230,7 +234,8 @@ void CheckSpeedProfile(Diagnostics& c) {
   if (!std::holds_alternative<LimitProfileOptions>(*profile)) {
     return;
   }
-  constexpr double kMinFriction = 0.01;  // the ggv diagram resolves 0.0006 m/s^2
+  constexpr double kMinFriction = 0.01;  // lower friction is not resolved by the g-g-v diagram,
+                                         // whose resolution is 0.0006 m/s^2
   const auto check = [&](const std::string& key, double friction) {
     if (friction < kMinFriction && c.could_read(key)) {
       c.AddError(key, fmt::format("{} is below {}, the least for speeds at the limit", friction,
@@ -245,7 +250,7 @@ void CheckSpeedProfile(Diagnostics& c) {
   }
 }
 
-/// A track needs a planner that follows a track, and vice versa.
+/// Checks that a scenario with a track uses a planner that follows a track, and vice versa.
 void CheckTrack(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const bool has_track = c.scenario.mission.track.has_value();
@@ -282,7 +287,8 @@ void CheckTrack(Diagnostics& c) {
   }
 }
 
-/// Planners that need a profile at the limit require mission.speed_profile: {method: limits}.
+/// Checks that planners which need a speed profile at the car's limits are used with
+/// mission.speed_profile: {method: limits}.
 void CheckLimits(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const auto& profile = c.scenario.mission.speed_profile;
@@ -298,7 +304,8 @@ void CheckLimits(Diagnostics& c) {
   }
 }
 
-/// A route over roads needs a planner that follows lanes, and vice versa.
+/// Checks that a scenario with a route over roads uses a planner that follows lanes, and vice
+/// versa.
 void CheckLanes(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
   const std::vector<LanePlace>& route = c.scenario.mission.route;

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// Whether the name can be a word in the path of a metric.
+/// Returns whether the name may be used as a word in the path of a metric.
 bool IsMetricWord(const std::string& name) {
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
   return !name.empty() && name.size() <= 100 && is_letter(name.front()) &&
@@ -84,10 +84,10 @@ class RequirementCheck {
     return "";
   }
 
-  std::vector<std::pair<std::string, std::vector<std::string>>> columns_;  // Columns of the log of
-                                                                           // each plant.
-  std::set<std::pair<std::string, std::string>> names_;                    // Pairs of plant and
-                                                                           // name.
+  // Column names in the log of each plant.
+  std::vector<std::pair<std::string, std::vector<std::string>>> columns_;
+  // Names of requirements, each paired with its plant.
+  std::set<std::pair<std::string, std::string>> names_;
   std::vector<std::pair<std::string, std::string>> found_;
 };
 

@@ -8,8 +8,8 @@
 
 namespace trackbed {
 
-/// Problems of the requirements, as pairs of key and message. RequirementProblems expects a
-/// scenario without other problems.
+/// Returns the problems of the requirements, as pairs of key and message. RequirementProblems
+/// expects a scenario that has no other problems.
 std::vector<std::pair<std::string, std::string>> RequirementProblems(const Scenario& scenario);
 
 }  // namespace trackbed

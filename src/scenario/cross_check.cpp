@@ -43,7 +43,7 @@ void CheckSpeedOverTime(Diagnostics& c) {
   }
 }
 
-/// Checks rules between the options of the controller.
+/// Checks rules between several options of the controller.
 void CheckController(Diagnostics& c) {
   const ControllerOptions& options = c.scenario.control.steering;
   const auto check = ControllerFor(options).check;
@@ -94,7 +94,8 @@ void CheckPicture(Diagnostics& c) {
   }
 }
 
-/// Rejects ground steeper than 45 degrees, because it acts as a wall, not as a driving surface.
+/// Rejects ground steeper than 45 degrees, because such ground acts as a wall and not as a driving
+/// surface.
 void CheckGround(Diagnostics& c) {
   constexpr double kMaxSlope = 1.0;
   for (std::size_t i = 0; i < c.scenario.world.ground.bumps.size(); ++i) {

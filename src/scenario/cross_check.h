@@ -9,13 +9,13 @@
 
 namespace trackbed {
 
-/// Problems that concern more than one key, each with the key to change. Checks of keys that could
-/// not be read (`could_read` takes a dotted key) are skipped, because they would only cause
-/// follow-up errors.
+/// Returns the problems that concern more than one key, each paired with the key that the user
+/// should change. The function `could_read` tells whether a dotted key was read. Checks of keys
+/// that were not read are skipped, because these checks would only report follow-up errors.
 std::vector<std::pair<std::string, std::string>> CrossProblems(
     const Scenario& scenario, const std::function<bool(const std::string& key)>& could_read);
 
-/// Whether the scenario runs the plant `plant`.
+/// Returns whether the scenario runs the plant `plant`.
 bool Drives(const Scenario& scenario, const std::string& plant);
 
 }  // namespace trackbed

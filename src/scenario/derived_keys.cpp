@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// Characters of names in formulas: those of dotted keys with list indices.
+/// Characters allowed in the names of a formula, which are dotted keys with list indices.
 constexpr const char* kNameCharacters =
     "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.[]";
 
@@ -20,8 +20,9 @@ Problem PlacedAt(const Study& study, const DerivedKey& derived, std::string mess
   return {study.file, derived.line, derived.column, "derive." + derived.key, std::move(message)};
 }
 
-/// Throws mu::ParserError unless the formula has one value. muParser also evaluates lists such as
-/// "2, 3", and finds assignments only if the names are known.
+/// Throws mu::ParserError unless the formula is an expression with a single value. The check is
+/// needed because muParser also evaluates lists such as "2, 3", and recognizes assignments only to
+/// names that are defined.
 void RequireOneValue(const std::string& formula, const std::vector<std::string>& names) {
   mu::Parser parser;
   parser.DefineNameChars(kNameCharacters);
@@ -36,7 +37,7 @@ void RequireOneValue(const std::string& formula, const std::vector<std::string>&
   }
 }
 
-/// The keys that a formula uses. NamesIn throws mu::ParserError if the formula is invalid.
+/// Returns the keys that a formula uses. NamesIn throws mu::ParserError if the formula is invalid.
 std::vector<std::string> NamesIn(const std::string& formula) {
   mu::Parser parser;
   parser.DefineNameChars(kNameCharacters);

@@ -15,13 +15,14 @@
 
 namespace trackbed {
 
-/// Prefix of the keys of the global planner.
+/// Returns the prefix of the global planner's keys.
 inline std::string PlannerSection(const Scenario& scenario) {
   const bool layers = scenario.plan->avoid || scenario.plan->replan;
   return layers ? "plan.global." : "plan.";
 }
 
-/// Name of the first planner with this property, for the advice in a message.
+/// Returns the name of the first planner with this property, so that an error message can suggest
+/// the planner.
 inline const char* NameOfPlannerThat(bool PlannerEntry::*property) {
   const std::vector<PlannerEntry>& planners = Planners();
   return std::find_if(planners.begin(), planners.end(),
@@ -29,11 +30,12 @@ inline const char* NameOfPlannerThat(bool PlannerEntry::*property) {
       ->name;
 }
 
-/// Collects problems between keys of a scenario, each with the key to report.
+/// Collects problems that concern several keys of a scenario. Each problem is paired with the key
+/// at which the problem is reported.
 struct Diagnostics {
   const Scenario& scenario;
-  /// Whether the value of a key was read. If a key was not read, its problem has already been
-  /// reported.
+  /// Tells whether the value of a key was read. If a key was not read, the reader has already
+  /// reported a problem of this key.
   const std::function<bool(const std::string& key)>& could_read;
   std::vector<std::pair<std::string, std::string>> found{};
 
@@ -41,8 +43,8 @@ struct Diagnostics {
     return std::all_of(keys.begin(), keys.end(), could_read);
   }
 
-  /// Same as CouldRead, for keys of the global plan. Keys of the global plan may be given in `plan`
-  /// or in `plan.global`.
+  /// Returns whether the given keys of the global plan were read. A file may contain these keys in
+  /// the section `plan` or in `plan.global`.
   [[nodiscard]] bool CouldReadPlan(std::initializer_list<const char*> keys) const {
     return could_read("plan.global") &&
            std::all_of(keys.begin(), keys.end(), [&](const std::string& key) {
@@ -50,7 +52,7 @@ struct Diagnostics {
            });
   }
 
-  /// Dotted key of an option of the global planner.
+  /// Returns the dotted key of an option of the global planner.
   [[nodiscard]] std::string KeyOfPlan(const char* key) const {
     return PlannerSection(scenario) + key;
   }
@@ -64,9 +66,9 @@ struct Diagnostics {
   }
 };
 
-/// Checks the mission and the plan.
+/// Adds the problems of the mission and the plan to `c`.
 void CheckMissionAndPlan(Diagnostics& c);
-/// Checks the expectations.
+/// Adds the problems of the expectations to `c`.
 void CheckExpectations(Diagnostics& c);
 
 }  // namespace trackbed

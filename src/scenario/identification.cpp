@@ -25,7 +25,8 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   if (study.parameters.empty()) {
     add_error("parameters", "needs at least one parameter");
   }
-  constexpr std::size_t kMaxParameters = 40;  // largest number of parameters of QuadraticProgram
+  // Largest number of parameters that QuadraticProgram supports.
+  constexpr std::size_t kMaxParameters = 40;
   if (study.parameters.size() > kMaxParameters) {
     add_error("parameters",
               fmt::format("at most {}; found {}", kMaxParameters, study.parameters.size()));
@@ -54,8 +55,8 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   }
 }
 
-/// Reads the scenarios that a list of files names. Adds a problem for a scenario without a record,
-/// or with another vehicle than the first scenario.
+/// Reads the listed scenario files. Adds a problem for each scenario that has no recorded drive or
+/// has another vehicle than the first scenario.
 std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const std::string& list,
                                   const fs::path& folder, const std::vector<fs::path>& assets,
                                   const Scenario* first, const YAML::Node& root,
@@ -92,7 +93,8 @@ std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const s
   return scenarios;
 }
 
-/// Files of the records are named after the scenarios, so the names of the scenarios must differ.
+/// Checks that the names of the scenarios differ, because output files are named after the
+/// scenarios.
 void CheckRecordNames(const Identification& study, const YAML::Node& root, ReaderContext& context) {
   std::set<std::string> names;
   for (const auto& [list, scenarios] :

@@ -10,17 +10,19 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
 
-// Initial state of a run, for planners, plants and the resolved scenario.
+// Determines the initial state of a run, which planners, plants and the resolved scenario use.
 namespace trackbed {
 namespace {
 
-/// The first recorded sample of the scenario; null without a record.
+/// Returns the first sample of the scenario's recorded drive; null if the scenario has no recorded
+/// drive.
 const RecordedSample* FirstSample(const Scenario& scenario) {
   return scenario.record && scenario.record->data ? &scenario.record->data->samples.front()
                                                   : nullptr;
 }
 
-/// The state in which the plan begins, independent of the mission; none for most planners.
+/// Returns the state in which the plan begins, if the planner defines that state. Returns none for
+/// most planners, whose plan begins where the mission begins.
 std::optional<PlannedStart> StartOfPlan(const Scenario& scenario) {
   if (!scenario.plan) {
     return std::nullopt;
@@ -52,7 +54,7 @@ Pose2 StartPose(const Scenario& scenario) {
   return {given.x.value_or(pose.x), given.y.value_or(pose.y), given.yaw.value_or(pose.yaw)};
 }
 
-/// Initial angle of the road wheels and of the actuator [rad].
+/// Returns the initial angle of the road wheels and of the actuator [rad].
 double StartSteering(const Scenario& scenario) {
   if (const std::optional<double>& given = scenario.mission.start.steering) {
     return *given;
@@ -105,7 +107,7 @@ StartState InitialState(const Scenario& scenario) {
   const RecordedSample* recorded = FirstSample(scenario);
   if (recorded != nullptr) {
     const StartState own = StartFrom(*recorded, start.steering);
-    // The recorded sideslip applies only at the recorded speed.
+    // Use the recorded lateral speed and yaw rate only if the car starts at the recorded speed.
     if (start.speed == own.speed) {
       start.lateral_speed = own.lateral_speed;
       start.yaw_rate = own.yaw_rate;

@@ -13,9 +13,9 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
-// The files next to the resolved scenario of a run: their names and contents, and the keys that
-// name them in the resolved scenario. Controllers and planners add their own files through their
-// registry entries.
+// Defines the input files in a run folder: names, contents, and the keys of the resolved scenario
+// that refer to the files. Controllers and planners add their own files through their registry
+// entries.
 namespace trackbed {
 namespace {
 
@@ -23,7 +23,8 @@ void Append(std::vector<InputFile> more, std::vector<InputFile>& files) {
   files.insert(files.end(), more.begin(), more.end());
 }
 
-/// Whether the controller replays the recorded drive of the scenario and not a file.
+/// Returns whether the controller replays the scenario's recorded drive instead of a separate
+/// recording file.
 bool ReplaysRecord(const Scenario& scenario) {
   const ControllerEntry& controller = ControllerFor(scenario.control.steering);
   return scenario.record && controller.replays_record != nullptr &&

@@ -4,7 +4,8 @@
 
 namespace trackbed {
 
-/// The scenario with the file names of a run folder: those of InputFiles, and kVehicleXml.
+/// Returns the scenario with all file names replaced by the names in a run folder: the names of
+/// InputFiles, and kVehicleXml for the vehicle.
 Scenario WithResolvedFiles(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -24,17 +24,18 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
-// Reads the files that a scenario names. Record, track, map and road network come first, then the
-// files of the controller and of the planner. Each reader first checks that its keys were read and
-// that the file may be read. A file must lie in the scenario's folder or in an asset folder. A file
-// may lie in Trackbed's data folder, unless it is a recording. Attempt separates problems inside a
-// file from problems of a key. Problems inside a file are returned with their position in the file;
-// problems of a key are reported at the key.
+// Reads the files that a scenario names. The recorded drive, the track, the map and the road
+// network are read first, followed by the files of the controller and of the planner. Each reader
+// first checks that its keys were read and that access to the file is allowed. A file must lie in
+// the scenario's folder or in an asset folder. Files other than recordings may also lie in
+// Trackbed's data folder. Attempt() separates problems inside a file from problems of a key.
+// Problems inside a file are returned with their position in the file; problems of a key are
+// reported at the key.
 namespace trackbed {
 namespace {
 
-/// Calls `read` and handles its errors. Returns the problems found inside a file. Reports problems
-/// of a key to `add_error`.
+/// Calls `read` and catches its errors. Attempt() returns the problems inside a file, and reports
+/// the problems of a key to `add_error`.
 std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
                              ReaderContext& context, const AddKeyError& add_error) {
   try {
@@ -53,7 +54,7 @@ std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
   return {};
 }
 
-/// Adds Trackbed's data folder to the folders that may be read.
+/// Adds Trackbed's data folder to the folders from which files may be read.
 std::vector<std::filesystem::path> WithOwnData(std::vector<std::filesystem::path> folders) {
   try {
     folders.push_back(DataFolder());
@@ -117,7 +118,8 @@ std::vector<Problem> ReadRecord(Scenario& scenario, ReaderContext& context,
       "record.file", context, add_error);
 }
 
-/// Takes the recorded inputs for a controller that replays them, and for prediction windows.
+/// Passes the recorded inputs to a controller that replays the drive, and checks the inputs that
+/// prediction windows need.
 std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
                                 const AddKeyError& add_error) {
   const RecordSpec& record = *scenario.record;
@@ -143,7 +145,8 @@ std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
 /// Reads the files that a controller or a planner names in its section of the scenario.
 class SectionReader final : public InputReader {
  public:
-  /// `section` is the prefix of the section's keys; `others` are further folders that may be read.
+  /// The argument `section` is the prefix of the section's keys. The argument `others` lists
+  /// further folders from which files may be read.
   SectionReader(const Scenario& scenario, std::string section,
                 std::vector<std::filesystem::path> others, ReaderContext& context,
                 const AddKeyError& add_error)
@@ -181,11 +184,11 @@ class SectionReader final : public InputReader {
     problems_.insert(problems_.end(), more.begin(), more.end());
   }
 
-  /// Problems found inside the files.
+  /// Returns the problems found inside the files.
   [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
 
  private:
-  /// Prefixes the keys of problems that do not name a file.
+  /// Adds the section's prefix to the keys of all problems that do not name a file.
   [[nodiscard]] std::vector<Problem> WithFullKeys(std::vector<Problem> problems) const {
     for (Problem& problem : problems) {
       if (problem.file.empty() && !problem.key.empty()) {
@@ -271,7 +274,7 @@ std::vector<Problem> ReadMap(Scenario& scenario, MapSpec& map, ReaderContext& co
       "world.map.file", context, add_error);
 }
 
-/// Uses the elevation of the roads on the mission's route as ground.
+/// Uses the elevation of the roads on the mission's route as the ground of the world.
 void LayRouteGround(Scenario& scenario, const AddKeyError& add_error) {
   const bool has_ground = !IsFlat(scenario.world.ground);
   const std::string failure = AddRouteGround(scenario.mission.route, scenario.world);
@@ -300,7 +303,8 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
       [&] {
         roads.data =
             std::make_shared<const OpenDriveFile>(ReadOpenDriveFile(scenario.folder / roads.file));
-        // After an error, the route may differ from the intended one, so its ground is not used.
+        // If an error was found, the route may differ from the intended route, so do not use the
+        // ground of this route.
         if (context.problems.empty()) {
           LayRouteGround(scenario, add_error);
         }
@@ -313,8 +317,8 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
 std::string ImageAccessError(const std::filesystem::path& image,
                              const std::filesystem::path& folder,
                              const std::vector<std::filesystem::path>& others) {
-  // The paths are absolute, since lexically_relative returns nothing for a relative and an absolute
-  // path.
+  // Make both paths absolute, because lexically_relative cannot relate a relative path to an
+  // absolute path.
   const std::filesystem::path from = std::filesystem::absolute(folder / ".").lexically_normal();
   const std::filesystem::path to = std::filesystem::absolute(image).lexically_normal();
   return ReadAccessError(to.lexically_relative(from).string(), folder, others);

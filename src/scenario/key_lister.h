@@ -13,7 +13,8 @@
 
 namespace trackbed {
 
-/// Lists the keys that a struct's Visit declares. Default values are those of the given instance.
+/// Lists the keys that the function Visit of a struct declares. The listed default values are the
+/// values of the given instance.
 class KeyLister final : public KeyVisitor {
  public:
   KeyLister(std::vector<KeySection>& sections, KeySection own)
@@ -110,7 +111,7 @@ class KeyLister final : public KeyVisitor {
   }
 
  private:
-  /// Adds a key with the given description.
+  /// Adds a key with the given description to the current section.
   void Add(const Key& key, std::string type, Need need, std::string fallback, std::string allowed) {
     const bool required = need == Need::kRequired;
     sections_[index_].keys.push_back({key.name, std::move(type), key.unit,
@@ -128,7 +129,7 @@ class KeyLister final : public KeyVisitor {
   }
 
   std::vector<KeySection>& sections_;
-  std::size_t index_;  // index, not a reference, because the vector grows
+  std::size_t index_;  // index instead of a reference, because the vector of sections grows
 };
 
 }  // namespace trackbed

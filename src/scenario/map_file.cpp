@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 enum class MapMode { kTrinary, kScale };
 
-/// Keys of the YAML file of a ROS map.
+/// Keys in the YAML file of a ROS map.
 struct RosMapKeys {
   std::string image;
   double resolution = 0.0;     ///< Side of a pixel [m].
@@ -46,8 +46,8 @@ void Visit(KeyVisitor& keys, RosMapKeys& map) {
   keys.Field({"mode", "", "what the thresholds mean"}, map.mode, Need::kOptional, modes);
 }
 
-/// Reads a file of at most kMaxMapFileBytes bytes. ReadMapFile throws InputError for an unreadable
-/// file.
+/// Reads a map file of at most kMaxMapFileBytes bytes. ReadMapFile throws InputError if the file
+/// cannot be read.
 std::string ReadMapFile(const fs::path& file) {
   try {
     return ReadFile(file, kMaxMapFileBytes);

@@ -19,7 +19,7 @@ namespace {
   throw InputError(Problem{.file = file, .message = std::move(message)});
 }
 
-/// Checks the size of an image before allocating it.
+/// Checks the size of an image before memory for the image is allocated.
 void CheckSize(const std::string& file, std::uint64_t columns, std::uint64_t rows) {
   if (columns == 0 || rows == 0 || columns > kMaxMapCells || rows > kMaxMapCells ||
       columns * rows > kMaxMapCells) {
@@ -32,10 +32,10 @@ void CheckSize(const std::string& file, std::uint64_t columns, std::uint64_t row
 class PgmNumbers {
  public:
   PgmNumbers(const std::string& content, const std::string& file) : file_(file), rest_(content) {
-    rest_.remove_prefix(2);  // skips the format, P2 or P5
+    rest_.remove_prefix(2);  // skips the format name, P2 or P5
   }
 
-  /// The next whole number after white space and comments.
+  /// Reads the next whole number, and skips white space and comments before the number.
   std::uint64_t Next(const char* what) {
     SkipBlanks();
     std::uint64_t number = 0;
@@ -48,7 +48,7 @@ class PgmNumbers {
     return number;
   }
 
-  /// The content after the single blank that follows the last number.
+  /// Returns the content after the single blank that follows the last number.
   [[nodiscard]] std::string_view AfterBlank() const {
     return rest_.empty() ? rest_ : rest_.substr(1);
   }
@@ -87,7 +87,7 @@ MapImage ReadPgm(const std::string& content, const std::string& file) {
   const bool is_text = content[1] == '2';
   const std::size_t bytes = white > 255 ? 2 : 1;
   const std::string_view pixels = numbers.AfterBlank();
-  // In text format, each pixel takes at least one digit and one blank.
+  // In the text format P2, each pixel takes at least one digit and one blank.
   const std::size_t needed = is_text ? 2 * count - 1 : bytes * count;
   if (pixels.size() < needed) {
     RefuseImage(file, fmt::format("ends early: {} x {} pixels take {}{} bytes, found {}", columns,
@@ -110,7 +110,7 @@ MapImage ReadPgm(const std::string& content, const std::string& file) {
   return image;
 }
 
-/// Frees the image of libpng in its destructor.
+/// Image of libpng, whose memory the destructor frees.
 struct PngImage {
   PngImage() { image.version = PNG_IMAGE_VERSION; }
   PngImage(const PngImage&) = delete;

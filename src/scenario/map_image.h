@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// The gray image of a map file.
+/// Gray values of the image of a map.
 struct MapImage {
   int columns = 0;
   int rows = 0;

@@ -20,7 +20,7 @@ class Lines {
   [[nodiscard]] bool empty() const { return rest_.empty(); }
   [[nodiscard]] int number() const { return number_; }
 
-  /// The next line without its line feed.
+  /// Returns the next line without its line feed.
   std::string_view Next() {
     ++number_;
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
@@ -43,7 +43,7 @@ class Lines {
   int number_ = 0;
 };
 
-/// Parses the number of a line such as "height 512".
+/// Parses the number in a line such as "height 512".
 int ReadSize(Lines& lines, std::string_view name) {
   const std::string_view line = lines.Next();
   int size = 0;

@@ -83,7 +83,8 @@ Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::s
   try {
     playback.recording = ReplayInputs(*drive, record.steering, record.drive);
   } catch (const InputError&) {
-    // Without steering, or in reverse, the record can be viewed and compared but not replayed.
+    // A record without steering, or of a drive in reverse, can be viewed and compared but not
+    // replayed.
     record.windows.clear();
   }
   scenario.control.steering = std::move(playback);

@@ -15,9 +15,9 @@ namespace {
 
 constexpr int kMaxDimensions = 1000;
 
-/// An independent random stream for each coordinate of a sample. The C++ standard defines the
-/// engine and its seeding to the bit. The standard does not define distributions to the bit, so
-/// these are implemented here.
+/// Returns an independent random number generator for one coordinate of a sample. The C++ standard
+/// defines the generator and its seeding to the bit. The standard does not define distributions to
+/// the bit, so Trackbed implements its own distributions.
 std::mt19937_64 StreamOf(std::uint64_t seed, int dimension) {
   constexpr unsigned kHalf = 32;
   std::seed_seq sequence{static_cast<std::uint32_t>(seed),
@@ -26,19 +26,20 @@ std::mt19937_64 StreamOf(std::uint64_t seed, int dimension) {
   return std::mt19937_64(sequence);
 }
 
-/// Midpoint of one of 2^52 intervals of (0, 1), chosen by `bits`.
+/// Converts random bits to a number in (0, 1): the midpoint of one of 2^52 equal intervals.
 double Unit(std::uint64_t bits) {
   constexpr unsigned kDroppedBits = 12;
   constexpr int kKeptBits = 52;
   return std::ldexp(static_cast<double>(bits >> kDroppedBits) + 0.5, -kKeptBits);
 }
 
-/// Random permutation of 0 to count - 1 (Fisher and Yates, in Durstenfeld's form).
+/// Returns a random permutation of the integers 0 to count - 1 (Fisher and Yates, in Durstenfeld's
+/// form).
 std::vector<int> Permutation(int count, std::mt19937_64& stream) {
   std::vector<int> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size(); i > 1; --i) {
-    // The modulo bias is below count / 2^64.
+    // The modulo operation causes a bias below count / 2^64.
     std::swap(order[i - 1], order[stream() % i]);
   }
   return order;
@@ -57,7 +58,8 @@ Eigen::MatrixXd Random(const SampleSpec& spec, int dimensions) {
 
 Eigen::MatrixXd LatinHypercube(const SampleSpec& spec, int dimensions) {
   Eigen::MatrixXd sample(spec.count, dimensions);
-  const double largest = std::nextafter(1.0, 0.0);  // used if rounding gives 1
+  // Largest double below 1, which replaces values that rounding has raised to 1.
+  const double largest = std::nextafter(1.0, 0.0);
   for (int j = 0; j < dimensions; ++j) {
     std::mt19937_64 stream = StreamOf(spec.seed, j);
     const std::vector<int> order = Permutation(spec.count, stream);
@@ -78,7 +80,7 @@ Eigen::MatrixXd Sobol(const SampleSpec& spec, int dimensions) {
   Eigen::MatrixXd sample(spec.count, dimensions);
   for (int i = 0; i < spec.count; ++i) {
     for (int j = 0; j < dimensions; ++j) {
-      // Boost's sequence omits the first point, which is zero.
+      // Boost omits the first point of the Sobol sequence, which is zero.
       const std::uint64_t number = i == 0 ? 0 : sequence();
       sample(i, j) = Unit(number ^ shifts[static_cast<std::size_t>(j)]);
     }
@@ -86,8 +88,8 @@ Eigen::MatrixXd Sobol(const SampleSpec& spec, int dimensions) {
   return sample;
 }
 
-/// Boost's tables of long doubles overflow at startup if long doubles have only 64 bits, as under
-/// valgrind.
+/// Makes Boost compute with doubles only, because Boost's tables of long doubles overflow at
+/// startup if long doubles have only 64 bits, as under valgrind.
 using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
 double NormalQuantile(const Distribution& distribution, double u) {
@@ -96,8 +98,9 @@ double NormalQuantile(const Distribution& distribution, double u) {
   const double below = std::isinf(distribution.min) ? 0.0 : cdf(normal, distribution.min);
   const double up_to = std::isinf(distribution.max) ? 1.0 : cdf(normal, distribution.max);
   const double share = below + u * (up_to - below);
-  // In the far tail, the cumulative probabilities are indistinguishable. In the far tail, the bound
-  // nearer to the mean is returned.
+  // In the far tail of the normal distribution, the cumulative probabilities of both bounds round
+  // to the same value. If both bounds are indistinguishable, return the bound that is nearer to the
+  // mean.
   if (!(share > 0.0)) {
     return distribution.max;
   }

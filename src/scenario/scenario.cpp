@@ -31,14 +31,14 @@
 // Reads a scenario. ReadScenario parses the YAML, applies the overrides, visits all keys (visit.h)
 // and reads the files that the keys name (inputs.cpp). Finally, ReadScenario checks rules between
 // keys (cross_check.cpp), requirements and names of metrics. All problems are collected and
-// reported in the order of the file. ResolvedYaml writes the scenario back as YAML. In the resolved
-// scenario, all defaults are explicit, and all files have their names in a run folder.
+// reported in the order of the file. ResolvedYaml writes the scenario back as YAML. The resolved
+// scenario contains all default values explicitly, and names all files as in a run folder.
 namespace trackbed {
 namespace {
 
-/// Removes expectations on plants that are not run. Expectations are removed only if drive.plants
-/// is overridden. A scenario file must be consistent, but overriding its plants must not require
-/// editing its expectations.
+/// Removes expectations on plants that are not run. The function is called only if the command line
+/// overrides drive.plants. A scenario file must be consistent, but a user who overrides the plants
+/// should not have to edit the expectations.
 void DropUnusedExpectations(Scenario& scenario) {
   std::erase_if(scenario.expect.plants,
                 [&](const auto& entry) { return !Drives(scenario, entry.first); });
@@ -48,10 +48,12 @@ void DropUnusedExpectations(Scenario& scenario) {
   });
 }
 
-/// Expectations on metrics that no run can have, as pairs of key and message.
+/// Finds expectations on metrics that no run of the scenario can have, and returns pairs of key and
+/// message.
 std::vector<std::pair<std::string, std::string>> UnknownMetrics(
     const Expectations& expect, const std::vector<std::string>& possible) {
-  std::vector<std::string> shown;  // the first element of a list stands for the whole list
+  // Metrics to suggest; of each list, only the metrics of the first element.
+  std::vector<std::string> shown;
   std::copy_if(possible.begin(), possible.end(), std::back_inserter(shown),
                [](const std::string& path) {
                  const std::size_t bracket = path.find('[');
@@ -226,7 +228,7 @@ std::string OneLine(Options options) {
   YamlWriter writer(out);
   Visit(writer, options);
   out << YAML::EndMap;
-  const std::string text = out.c_str();  // text enclosed in braces
+  const std::string text = out.c_str();  // the emitted text is enclosed in braces
   return text.substr(1, text.size() - 2);
 }
 
@@ -253,8 +255,8 @@ std::string ResolvedYaml(const Scenario& scenario) {
   const StartState start = InitialState(scenario);
   const bool planner_sets_start =
       scenario.plan && PlannerFor(scenario.plan->global).start != nullptr;
-  // With a recorded command, or a start of the planner, the car computes its own initial angle: see
-  // DrivePlant and InitialState.
+  // If a recorded drive or the planner determines the start, the initial steering angle is not
+  // written, because DrivePlant and InitialState compute the angle.
   const std::optional<double> steering =
       scenario.record || planner_sets_start ? scenario.mission.start.steering : start.steering;
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed, steering};

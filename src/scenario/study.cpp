@@ -14,27 +14,29 @@
 #include "trackbed/core/text_table.h"
 #include "trackbed/optimize/search.h"
 
-// Computes the points of a study. The grid is the product of `list` and all lists of values. Point
-// numbers are mixed-radix numbers: `list` is the lowest digit, then follow the keys from last to
-// first. Conditions (`when`) drop keys. If points are duplicates after keys were dropped, the
-// duplicates are removed. At each grid point, keys with distributions take the quantiles of a unit
-// sample (sampling.cpp). Columns of one file share a coordinate of the sample. Derived keys
-// (derived_keys.cpp) are computed last. A point becomes a scenario by overriding the base scenario.
-// Problems of a point are mapped back to the lines of the study.
+// Computes the points of a study. The grid is the Cartesian product of `list` and all lists of
+// values. Grid points are numbered by mixed-radix numbers: `list` is the lowest digit, followed by
+// the keys from last to first. Conditions (`when`) can drop keys from a point. Points that become
+// duplicates because keys were dropped are removed. At each grid point, keys with distributions
+// take the quantiles of a unit sample (sampling.cpp). Keys that take their values from columns of
+// the same file share a coordinate of the sample. Derived keys (derived_keys.cpp) are computed
+// last. The scenario of a point is the base scenario with the point's settings as overrides.
+// Problems of a point are reported at the lines of the study file that cause them.
 namespace trackbed {
 namespace {
 
 /// File name under which ParseScenario reports problems of overrides. A study passes its settings
-/// as overrides.
+/// to ParseScenario as overrides.
 constexpr const char* kOverride = "--set";
 
 std::string OverrideKey(const Override& override_text) {
   return override_text.substr(0, override_text.find('='));
 }
 
-/// Moves a problem of a setting to the setting's place in the study.
+/// If a setting of the study caused the problem, changes the position of the problem to the line of
+/// that setting.
 void PlaceInStudy(const Study& study, const std::vector<Setting>& settings, Problem& problem) {
-  // If an override cannot be applied, problem.key is the whole text of the override.
+  // If ParseScenario cannot apply an override, problem.key contains the whole text of the override.
   const std::string key = problem.file == kOverride ? OverrideKey(problem.key) : "";
   for (auto setting = settings.rbegin(); setting != settings.rend(); ++setting) {
     if (!key.empty() && Replaces(setting->key, key)) {
@@ -47,7 +49,7 @@ void PlaceInStudy(const Study& study, const std::vector<Setting>& settings, Prob
   }
 }
 
-/// Collects the problems of many points and reports each problem once.
+/// Collects the problems of many points of a study and reports each problem only once.
 class Problems {
  public:
   explicit Problems(const Study& study) : study_(study) {}
@@ -77,7 +79,8 @@ class Problems {
                      [&](const Found& a, const Found& b) { return place(a) < place(b); });
     std::vector<Problem> problems;
     for (Found& found : found_) {
-      // A problem without a place in the study is shown with the settings of the point.
+      // Append the settings of the point to the message if the problem has no position in the study
+      // file.
       if (found.problem.file != study_.file && found.count < points_) {
         std::string where;
         for (const Setting& setting : found.point) {
@@ -93,7 +96,7 @@ class Problems {
  private:
   struct Found {
     Problem problem;
-    std::vector<Setting> point;  // first point with this problem
+    std::vector<Setting> point;  // settings of the first point with this problem
     std::size_t count = 0;
   };
 
@@ -103,7 +106,8 @@ class Problems {
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> known_;
 };
 
-/// Rejects overrides of keys that the study varies, since one of the two values would be lost.
+/// Rejects command line overrides of keys that the study varies, because one of the two values
+/// would be lost.
 void CheckOverrides(const Study& study) {
   std::vector<Problem> problems;
   for (const Override& override_text : study.overrides) {
@@ -122,14 +126,14 @@ void CheckOverrides(const Study& study) {
   }
 }
 
-/// Whether the condition holds at a point with these settings.
+/// Returns whether a condition (`when`) holds at a point with these settings.
 bool Holds(const Condition& condition, const Study& study, const std::vector<Setting>& point) {
   const auto is_key = [&](const Setting& setting) { return setting.key == condition.key; };
   auto found = std::find_if(point.begin(), point.end(), is_key);
   if (found == point.end()) {
     found = std::find_if(study.set.begin(), study.set.end(), is_key);
     if (found == study.set.end()) {
-      return false;  // a key was dropped by its own condition
+      return false;  // the key to which the condition refers was itself dropped
     }
   }
   return std::any_of(
@@ -196,7 +200,8 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
   const auto add = [&](const Setting& setting) {
     overrides.push_back(fmt::format("{}={}", setting.key, setting.value));
   };
-  // Order of the settings: those of the whole study, of the command line, then of this point.
+  // Apply the settings in this order: settings of the whole study, of the command line, and of this
+  // point.
   const auto own = all.end() - static_cast<std::ptrdiff_t>(settings.size() + (bisected ? 1 : 0));
   std::for_each(all.begin(), own, add);
   overrides.insert(overrides.end(), study.overrides.begin(), study.overrides.end());
@@ -277,8 +282,8 @@ std::vector<Setting> StudyPoints::OfGrid(std::size_t combination) const {
   if (!study_.list.empty()) {
     listed = study_.list[digit(study_.list.size())];
   }
-  // The last key is the lowest digit of the point number. A key can depend only on keys that
-  // precede it.
+  // Among the varied keys, the last key is the lowest digit of the point number. The conditions of
+  // a key can depend only on earlier keys.
   std::vector<std::size_t> chosen(study_.vary.size());
   for (std::size_t k = study_.vary.size(); k-- > 0;) {
     if (!study_.vary[k].distribution) {
@@ -354,7 +359,8 @@ const std::vector<std::string>& StudySearches() {
     }
     all.emplace_back("surrogate");
     for (const SearchEntry& entry : Searches()) {
-      if (entry.method != SearchMethod::kSlsqp) {  // finite differences of runs are not gradients
+      if (entry.method != SearchMethod::kSlsqp) {  // SLSQP needs gradients, which finite
+                                                   // differences of runs cannot provide
         all.emplace_back(entry.name);
       }
     }
@@ -377,7 +383,7 @@ void CheckPoints(const StudyPoints& points, bool all) {
   const Study& study = points.study();
   Problems problems(study);
   bool any_valid = false;
-  // Whether the scenario with these settings is valid.
+  // Returns whether the scenario with these settings is valid.
   const auto is_valid = [&](const std::vector<Setting>& settings, std::optional<double> bisected) {
     problems.CountPoint();
     try {
@@ -407,7 +413,7 @@ void CheckPoints(const StudyPoints& points, bool all) {
     } else {
       const BisectSpec& bisect = *study.bisect;
       const bool at_from = is_valid(settings, bisect.from);
-      // Checks a third value that is not round, since bisection tries arbitrary values.
+      // Check a third value with many digits, because bisection tries arbitrary values.
       good = is_valid(settings, bisect.to) && at_from &&
              is_valid(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
     }

@@ -10,10 +10,11 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/study.h"
 
-// Reads a study file. The reader visits the keys (study_visit.h) and reads sections of scenario
-// keys by callbacks (variation_reader.cpp). Finally, rules between the keys of the study are
-// checked. For example, a condition may only use keys set earlier, and settings must not overwrite
-// each other. All problems are collected and reported in the order of the file.
+// Reads a study file. The reader visits the study's keys (study_visit.h) and reads the sections
+// that contain scenario keys through callbacks (variation_reader.cpp). Finally, the reader checks
+// rules between the keys of the study. For example, a condition may only use keys that are set
+// earlier, and settings must not overwrite each other. All problems are collected and reported in
+// the order of the file.
 namespace trackbed {
 namespace {
 
@@ -279,16 +280,16 @@ class StudyReader {
     if (search.method == "direct" && search.restarts > 1) {
       refuse("restarts", "direct does the same each time; 1 at most");
     }
-    // Requires runs for about three rounds of DIRECT. The first round evaluates the center and two
-    // points per key.
+    // Require enough runs for about three rounds of DIRECT. The first round evaluates the center
+    // and two points per key.
     if (search.method == "direct" && search.runs < 4 * (2 * keys + 1)) {
       refuse("runs", fmt::format("{} for direct and {} keys; at least {}", search.runs, keys,
                                  4 * (2 * keys + 1)));
     }
   }
 
-  /// A condition may use only keys that are set before it. A key of the grid must not depend on a
-  /// sampled key.
+  /// Checks that each condition uses only keys set before the condition, and that no key of the
+  /// grid depends on a sampled key.
   void CheckConditions(const Study& study) {
     Names of_grid;
     for (const Setting& setting : study.set) {
@@ -323,7 +324,7 @@ class StudyReader {
     }
   }
 
-  /// Each key must be set once, and no setting may overwrite an earlier one.
+  /// Checks that each key is set only once and that no setting overwrites an earlier setting.
   void CheckUniqueSettings(const Study& study) {
     std::vector<Setting> single_settings;
     for (const Variation& variation : study.vary) {

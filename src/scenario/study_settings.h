@@ -8,25 +8,26 @@
 
 namespace trackbed {
 
-/// Whether setting the key `later` discards everything set by `earlier`.
+/// Returns whether setting the key `later` discards everything that the key `earlier` has set.
 bool Replaces(const std::string& later, const std::string& earlier);
 
-/// All settings of a run at a grid point, in the order in which they are applied.
+/// Returns all settings of a run at a grid point, in the order in which the settings are applied.
 std::vector<Setting> AllSettings(const Study& study, const std::vector<Setting>& point,
                                  std::optional<double> bisected);
 
-/// Parses a YAML value as a number; none if it is not a number.
+/// Parses a YAML value as a number; returns none if the value is not a number.
 std::optional<double> NumberOf(const std::string& value);
 
-/// Appends the values of the study's formulas at a point with these settings. AddDerived throws
-/// InputError, placed at the formula, if a value is not finite.
+/// Evaluates the study's formulas at a point with these settings and appends the results to the
+/// settings. If a result is not finite, AddDerived throws InputError with the position of the
+/// formula.
 void AddDerived(const Study& study, std::vector<Setting>& settings);
 
-/// Throws InputError, placed at the formula, if a formula is invalid or uses a key that the study
-/// does not set.
+/// Checks the formulas of a study. If a formula is invalid or uses a key that the study does not
+/// set, CheckFormulas throws InputError with the position of the formula.
 void CheckFormulas(const Study& study);
 
-/// Settings of the keys that differ between runs, at least one per key.
+/// Returns settings of all keys that differ between runs, at least one setting per key.
 std::vector<Setting> Varied(const Study& study);
 
 }  // namespace trackbed

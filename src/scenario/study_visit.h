@@ -10,12 +10,12 @@
 #include "src/scenario/yaml_reader.h"
 #include "trackbed/scenario/study.h"
 
-/// Keys of a study, used for reading and listing.
+/// Declares the keys of a study file, for reading and for listing the keys.
 namespace trackbed {
 
 enum class GridScale { kLinear, kLog };
 
-/// Evenly spaced grid of values, given instead of a list.
+/// Evenly spaced grid of values, which a study may specify instead of a list.
 struct GridRange {
   double from = 0.0;
   double to = 0.0;
@@ -34,8 +34,7 @@ inline void Visit(KeyVisitor& a, GridRange& range) {
           Need::kOptional, scales);
 }
 
-/// Visits the parameters of a distribution. The kind of the distribution defines which parameters
-/// exist.
+/// Visits the parameters that a distribution of this kind has.
 inline void Visit(KeyVisitor& a, Distribution& distribution) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   switch (distribution.kind) {
@@ -70,7 +69,7 @@ inline void Visit(KeyVisitor& a, Distribution& distribution) {
   }
 }
 
-/// Names of distributions in files. The distribution `file` draws rows of a table.
+/// Names of the distributions in study files. The distribution `file` draws rows of a table.
 inline constexpr const char* kFileDistribution = "file";
 template <typename Enum, std::size_t count>
 EnumNames<Enum> NamesOf(const std::array<Enum, count>& values) {
@@ -88,7 +87,7 @@ inline const EnumNames<DistributionKind>& DistributionNames() {
   return names;
 }
 
-/// Column of a CSV file.
+/// A column of a CSV file from which a key takes its values.
 struct TableColumn {
   std::string file;
   std::string column;
@@ -140,8 +139,8 @@ inline void Visit(KeyVisitor& a, BisectSpec& bisect) {
           bisect.tolerance, Need::kRequired, kPositive);
 }
 
-/// A study file and the functions that read its sections. The functions of StudyFile read the
-/// sections whose keys are keys of the scenario.
+/// Content of a study file, together with the functions that read the sections whose keys are
+/// scenario keys.
 struct StudyFile {
   using Read = std::function<void(const YAML::Node& node, const std::string& key)>;
 

@@ -9,14 +9,15 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// Reads one entry of `vary`. An entry is a list of values, {values, when}, a range {from, to,
-// steps, scale}, or a distribution with its parameters. Values are kept as YAML text in flow style,
-// so that they can be applied as overrides of a scenario. A range is expanded to values with 15
-// digits. A column of a CSV file becomes a choice among its cells.
+// Reads one entry of the section `vary` of a study. An entry is a list of values, {values, when}, a
+// range {from, to, steps, scale}, or a distribution with its parameters. Values are stored as YAML
+// text in flow style, because the study applies the values as overrides of a scenario. A range is
+// expanded to values with 15 digits. A column of a CSV file becomes a random choice among its
+// cells.
 namespace trackbed {
 namespace {
 
-/// Writes a value on one line as it was read, and keeps quotes.
+/// Writes a YAML value on one line, and keeps its quotes.
 void WriteFlow(const YAML::Node& node, YAML::Emitter& out) {
   if (node.IsMap()) {
     out << YAML::Flow << YAML::BeginMap;
@@ -43,7 +44,8 @@ void WriteFlow(const YAML::Node& node, YAML::Emitter& out) {
   }
 }
 
-/// Formats with 15 digits, so that a tenth is 0.1 and not 0.10000000000000002.
+/// Formats value i of a range with 15 digits, so that a tenth is printed as 0.1 and not as
+/// 0.10000000000000002.
 std::string GridValue(const GridRange& range, int i) {
   const int last = range.steps - 1;
   if (i == 0 || i == last) {
@@ -88,7 +90,7 @@ class VariationReader {
     context_.AddError(node.Mark(), key, std::move(message));
   }
 
-  /// Reads a section with the keys that `visit` declares, plus `when`.
+  /// Reads a section with the keys that `visit` declares and the additional key `when`.
   void WithCondition(const YAML::Node& node, const std::string& dotted, Variation& variation,
                      const std::function<void(YamlReader& reader)>& visit) {
     YamlReader reader(context_, node, dotted);
@@ -172,7 +174,7 @@ class VariationReader {
         }
         if (distribution.step > 0.0 && distribution.from < distribution.to) {
           const double steps = (distribution.to - distribution.from) / distribution.step;
-          // The tolerance covers the binary rounding of decimal fractions such as 0.2.
+          // The tolerance allows for rounding errors of decimal fractions such as 0.2.
           if (std::round(steps) < 1.0 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
             AddError(node["step"], dotted + ".step",
                      fmt::format("{} to {} is no whole number of steps of {}", distribution.from,
@@ -212,7 +214,7 @@ class VariationReader {
     }
   }
 
-  /// Reads the cells of a column as the values to choose from.
+  /// Reads the cells of a column as the values among which the sample chooses.
   void ReadColumn(const YAML::Node& node, const std::string& dotted, const TableColumn& column,
                   Distribution& distribution) {
     if (const std::string why = ReadAccessError(column.file, folders_.own, folders_.others);

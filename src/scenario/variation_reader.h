@@ -10,20 +10,21 @@
 #include "src/scenario/reader_context.h"
 #include "trackbed/scenario/study.h"
 
-/// Readers for the sections of a study that set keys of the study's scenario.
+/// Reads the sections of a study that set keys of the study's scenario.
 namespace trackbed {
 
-/// A key with its value as YAML text.
+/// Returns the setting of a key, with the value as YAML text.
 Setting ParseSetting(const std::string& key, const YAML::Node& value);
 
 using ReadEntry =
     std::function<void(const YAML::Node& key, const YAML::Node& value, const std::string& dotted)>;
 
-/// Calls `read` with each key of a section of scenario keys, and with the key's value.
+/// Calls `read` with each key of a section that contains scenario keys, and with the value of the
+/// key.
 void ForEachKey(ReaderContext& context, const YAML::Node& node, const std::string& section,
                 const ReadEntry& read);
 
-/// Reports a problem at `from` unless from < to.
+/// Reports a problem at the key `from` unless from < to.
 void CheckEnds(ReaderContext& context, const YAML::Node& node, const std::string& dotted,
                double from, double to);
 

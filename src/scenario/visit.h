@@ -11,7 +11,7 @@
 #include "trackbed/scenario/record.h"
 #include "trackbed/scenario/scenario.h"
 
-/// Keys of a scenario, used for reading, writing and listing.
+/// Declares the keys of a scenario file, for reading, writing and listing the keys.
 namespace trackbed {
 
 inline constexpr Key kVehicleSection{"vehicle", "", "vehicle"};

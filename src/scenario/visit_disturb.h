@@ -2,7 +2,7 @@
 
 #include "trackbed/scenario/disturbances.h"
 
-/// Keys of the section `disturb`.
+/// Declares the keys of the section `disturb` of a scenario.
 namespace trackbed {
 
 inline constexpr Range kFactor{.min = 0.1, .max = 10.0};

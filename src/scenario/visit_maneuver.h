@@ -3,10 +3,10 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/scenario/maneuver.h"
 
-/// Keys of the maneuvers.
+/// Declares the keys of the maneuvers.
 namespace trackbed {
 
-/// Keys of all maneuvers that fit gradients.
+/// Visits the keys that are common to all maneuvers from which gradients are fitted.
 template <typename Options>
 void VisitGradients(KeyVisitor& a, Options& options) {
   a.Field({"settle", "s", "samples before this time are ignored"}, options.settle, Need::kOptional,

@@ -3,7 +3,7 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/world/map_obstacles.h"
 
-/// Keys of `world.map`.
+/// Declares the keys of the section `world.map` of a scenario.
 namespace trackbed {
 
 inline constexpr Range kSize{.max = 1e4, .above = 0.0};  // [m]

@@ -6,10 +6,10 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/scenario/scenario.h"
 
-/// Keys of `plan`.
+/// Declares the keys of the section `plan` of a scenario.
 namespace trackbed {
 
-/// Layers of a plan, each under its own key.
+/// Layers of a plan, each with its own key in the section `plan`.
 struct PlanLayers {
   std::optional<PlannerOptions>& global;
   std::optional<AvoiderOptions>& avoid;
@@ -38,7 +38,8 @@ inline void Visit(KeyVisitor& a, PlanLayers& layers) {
   VisitInfeasible(a, layers.infeasible);
 }
 
-/// `plan: {method: …}` is a short form of `plan: {global: {method: …}}`.
+/// Visits the section `plan`. A scenario may write `plan: {method: …}` as a short form of `plan:
+/// {global: {method: …}}`.
 inline void VisitPlan(KeyVisitor& a, std::optional<PlanSpec>& plan) {
   using Mode = KeyVisitor::Mode;
   if (a.mode() == Mode::kWrite && !plan) {

@@ -3,11 +3,12 @@
 #include "src/scenario/visit_map.h"
 #include "trackbed/world/world.h"
 
-/// Keys of the section `world`.
+/// Declares the keys of the section `world` of a scenario.
 namespace trackbed {
 
 inline constexpr Range kRoadFactor{.max = 10.0, .above = 0.0};
-inline constexpr Range kSlopeRange{.min = -0.5, .max = 0.5};     // 27 degrees
+// A slope of 0.5 is an angle of 27 degrees.
+inline constexpr Range kSlopeRange{.min = -0.5, .max = 0.5};
 inline constexpr Range kWindSpeed{.min = -100.0, .max = 100.0};  // [m/s]
 
 inline constexpr Key kWorldSection{"world", "", "environment of the car"};
@@ -26,7 +27,7 @@ inline void Visit(KeyVisitor& a, FrictionPatch& patch) {
           Need::kRequired, kRoadFactor);
 }
 
-/// Keys of `grade`.
+/// Keys of the section `grade`.
 struct GradeKeys {
   Vec2& grade;
 };
@@ -107,7 +108,7 @@ inline void Visit(KeyVisitor& a, World& world) {
   }
 }
 
-/// Keys of `box`.
+/// Keys of the section `box` of an obstacle.
 struct BoxKeys {
   Obstacle& obstacle;
 };
@@ -117,7 +118,7 @@ inline void Visit(KeyVisitor& a, BoxKeys& keys) {
   a.Field({"height", "m", "height above the ground"}, keys.obstacle.height, Need::kOptional, kSize);
 }
 
-/// Keys of `velocity`.
+/// Keys of the section `velocity` of an obstacle.
 struct VelocityKeys {
   Vec2& velocity;
 };
@@ -127,7 +128,7 @@ inline void Visit(KeyVisitor& a, VelocityKeys& keys) {
   a.Field({"y", "m/s", "northward"}, keys.velocity.y(), Need::kOptional, kWindSpeed);
 }
 
-/// Keys of `known_from`.
+/// Keys of the section `known_from` of an obstacle.
 struct KnownFromKeys {
   Obstacle& obstacle;
 };
@@ -147,7 +148,7 @@ inline void Visit(KeyVisitor& a, Obstacle& obstacle) {
     a.Section({"velocity", "", "velocity of the box, without rotation; default: static"}, velocity);
   }
   if (writes && !obstacle.known_from_time && !obstacle.known_from_range) {
-    return;  // omits an empty section
+    return;  // the writer omits the empty section
   }
   KnownFromKeys known{obstacle};
   a.Section(

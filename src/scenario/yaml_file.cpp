@@ -14,12 +14,13 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
-// Loads YAML and explains syntax errors to the user. A first pass of yaml-cpp's event parser
-// (EventTracker) tracks open collections and quotes. EventTracker limits nesting and the number of
-// values. If the first pass fails, Explain maps yaml-cpp's message and position to a line and to
-// wording that helps the user. Examples are a missing colon, wrong indentation, a tab, an unclosed
-// bracket and an unquoted special character. A second pass detects unclosed quotes, because
-// yaml-cpp often reads on to the end of the text. Finally, valid text is loaded as nodes.
+// Loads YAML and explains syntax errors to the user. In a first pass, EventTracker receives the
+// events of yaml-cpp's parser, tracks open collections and quotes, and limits nesting and the
+// number of values. If the first pass fails, Explain() converts yaml-cpp's message and position to
+// an explanation that helps the user. Explain() recognizes errors such as a missing colon, wrong
+// indentation, a tab, an unclosed bracket and an unquoted special character. A second pass detects
+// unclosed quotes, because yaml-cpp often reads on to the end of the text. Finally, valid text is
+// loaded as nodes.
 namespace trackbed {
 namespace {
 
@@ -31,14 +32,14 @@ constexpr std::size_t kMaxTextBytes = std::size_t{16} << 20U;
   throw InputError(Problem{file, mark.line + 1, mark.column + 1, "", std::move(message)});
 }
 
-/// Whether YAML allows this character.
+/// Returns whether YAML allows this character.
 bool IsPrintable(boost::locale::utf::code_point c) {
   return c == '\t' || c == '\n' || c == '\r' || c == 0x85 || (c >= 0x20 && c < 0x7f) || c >= 0xa0;
 }
 
 void RejectInvalidText(const std::string& text, const std::string& file) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
-  YAML::Mark mark;  // position; columns count bytes, as in yaml-cpp
+  YAML::Mark mark;  // current position; the column counts bytes, as in yaml-cpp
   for (auto at = text.begin(); at != text.end();) {
     const auto begin = at;
     const boost::locale::utf::code_point c = Utf8::decode(at, text.end());
@@ -54,8 +55,9 @@ void RejectInvalidText(const std::string& text, const std::string& file) {
   }
 }
 
-/// Follows the parser, so that an error can be related to the open collections. The tracker limits
-/// nesting and repetition: anchors can expand a small file to an endless tree.
+/// Tracks the collections that the YAML parser has opened, so that error messages can refer to
+/// these collections. EventTracker also limits nesting and repetition, because anchors can expand a
+/// small file to an enormous tree.
 class EventTracker : public YAML::EventHandler {
  public:
   explicit EventTracker(std::string file) : file_(std::move(file)) {}
@@ -89,18 +91,18 @@ class EventTracker : public YAML::EventHandler {
     Count(mark, found->second);
   }
 
-  /// Start of the innermost list or section that is still open.
+  /// Returns the start of the innermost list or section that is still open.
   [[nodiscard]] YAML::Mark open() const {
     return open_.empty() ? YAML::Mark::null_mark() : open_.back().mark;
   }
-  /// Start of the last value if that value is quoted, else null.
+  /// Returns the start of the last value if that value is quoted, else the null mark.
   [[nodiscard]] YAML::Mark quoted() const { return quoted_; }
 
  private:
   struct Collection {
     YAML::Mark mark;
     YAML::anchor_t anchor;
-    std::size_t begin;  // number of values before the anchor
+    std::size_t begin;  // number of values counted up to the start of the collection
   };
 
   void Count(const YAML::Mark& mark, std::size_t values) {
@@ -129,7 +131,8 @@ class EventTracker : public YAML::EventHandler {
   std::string file_;
   int documents_ = 0;
   std::size_t values_ = 0;
-  std::unordered_map<YAML::anchor_t, std::size_t> sizes_;  // number of values under each anchor
+  // Number of values that each anchor expands to.
+  std::unordered_map<YAML::anchor_t, std::size_t> sizes_;
   std::vector<Collection> open_;
   YAML::Mark quoted_ = YAML::Mark::null_mark();
 };
@@ -169,13 +172,14 @@ YAML::Mark MarkAt(int line, std::size_t column) {
   return mark;
 }
 
-/// Position of a syntax error, and its wording for the user.
+/// A syntax error: its position, and the message for the user.
 struct SyntaxError {
   YAML::Mark mark;
   std::string message;
 };
 
-/// Explains a misplaced key. Most often the line before a misplaced key is wrong.
+/// Explains the syntax error of a misplaced key. The cause is most often an error in the line
+/// before the key.
 SyntaxError ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
   const auto here = static_cast<std::size_t>(mark.line);
   const std::string_view line = lines[here];
@@ -199,7 +203,8 @@ SyntaxError ExplainKey(const std::vector<std::string_view>& lines, const YAML::M
           "indented under a line that already has a value"};
 }
 
-/// Explains a value that ends where the indentation requires it to continue.
+/// Explains the syntax error of a value that ends where the indentation requires the value to
+/// continue.
 SyntaxError ExplainEnd(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
   const std::string_view line = lines[static_cast<std::size_t>(mark.line)];
   const std::string_view rest = Trimmed(line.substr(static_cast<std::size_t>(mark.column)));
@@ -279,9 +284,9 @@ SyntaxError Explain(const std::string& text, const YAML::Exception& error,
   return {mark, "not YAML: " + said};
 }
 
-/// Whether a quote is still open at the end of the text. yaml-cpp reports an open quote only if no
-/// line feed follows. If a line feed follows, yaml-cpp takes the rest of the text as the quoted
-/// value.
+/// Returns whether a quote is still open at the end of the text. yaml-cpp reports an open quote
+/// only if no line feed follows the quote. If a line feed follows, yaml-cpp takes the rest of the
+/// text as the quoted value.
 bool EndsInQuotes(const std::string& text) {
   EventTracker tracker("");
   try {
@@ -304,7 +309,8 @@ std::string ReadInput(const std::filesystem::path& file) {
 
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
   RejectInvalidText(text, file);
-  const std::string lines = text + "\n";  // the line feed completes a value at the end of the text
+  // The added line feed completes a value at the end of the text.
+  const std::string lines = text + "\n";
   EventTracker tracker(file);
   std::optional<SyntaxError> syntax_error;
   try {

@@ -10,17 +10,17 @@ namespace trackbed {
 /// Reads the whole content of a file. ReadInput throws InputError if the file cannot be read.
 std::string ReadInput(const std::filesystem::path& file);
 
-/// Parses a text as a YAML value. LoadYamlValue throws InputError with line, column and an
-/// explanation. Text is invalid if it is not UTF-8 or not YAML, has control characters or several
-/// documents, or is nested or repeated excessively.
+/// Parses a text as a YAML value. If the text is invalid, LoadYamlValue throws InputError with
+/// line, column and an explanation. A text is invalid if it is not UTF-8 or not YAML, if it
+/// contains control characters or several documents, or if it is nested or repeated excessively.
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file);
 
-/// Same as LoadYamlValue, but the value must be a section. Messages call the content of the file
-/// `what`.
+/// Parses a text as a YAML section, with the same errors as LoadYamlValue. Also throws InputError
+/// if the value is not a section. Error messages refer to the content of the file as `what`.
 YAML::Node LoadYaml(const std::string& text, const std::string& file,
                     const char* what = "a scenario");
 
-/// The node at a dotted key, or the nearest existing ancestor of that node.
+/// Returns the node at a dotted key, or the nearest existing ancestor of that node.
 YAML::Node NodeAt(const YAML::Node& root, const std::string& key);
 
 }  // namespace trackbed

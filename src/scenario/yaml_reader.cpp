@@ -11,11 +11,11 @@
 #include "trackbed/core/file_name.h"
 #include "trackbed/core/spelling.h"
 
-// A KeyVisitor that reads a YAML mapping. Each Field takes its key from the mapping and checks
-// type, range and allowed names. Problems of keys are reported with their position and a hint.
-// Values in quotes are text, never numbers. Finish reports duplicate and unknown keys, with the
-// nearest spelling. A misspelled key marks the intended key as unread, so that it causes no
-// follow-up errors.
+// Implements a KeyVisitor that reads a YAML mapping. Each call of Field reads one key of the
+// mapping and checks type, range and allowed names. Problems of keys are reported with their
+// position and a hint. Values in quotes are text, never numbers. Finish reports duplicate keys and
+// unknown keys, and suggests the most similar valid key. If a key is misspelled, Finish marks the
+// intended key as unread, so that the missing value causes no follow-up errors.
 namespace trackbed {
 namespace {
 
@@ -35,7 +35,7 @@ std::string Numbers(std::size_t count) {
                     : fmt::format("{} {}", count, count == 1 ? "number" : "numbers");
 }
 
-/// Whether the value is a number that overflows a double.
+/// Returns whether the value is a number that is too large for a double.
 bool IsTooLarge(const YAML::Node& node) {
   if (!node.IsScalar() || IsQuoted(node)) {
     return false;
@@ -57,7 +57,8 @@ std::string YamlReader::Dotted(const char* key) const {
 }
 
 void YamlReader::AddError(const YAML::Node& node, const std::string& dotted, std::string message) {
-  // yaml-cpp places a missing value at the next token, so the position of the key is used.
+  // If the value is missing, use the position of the key, because yaml-cpp gives a missing value
+  // the position of the next token.
   context_.AddError(node.IsNull() ? last_key_mark_ : node.Mark(), dotted, std::move(message));
 }
 
@@ -144,7 +145,7 @@ void YamlReader::VisitMethod(const Key& key, Need need, const Methods& methods) 
   inner.Field(kMethod, method, Need::kRequired, names);
   const auto found = std::find(names.begin(), names.end(), method);
   if (found == names.end()) {
-    return;  // the known keys depend on the method, which is unknown
+    return;  // the section's valid keys depend on the method, which is unknown
   }
   methods.select(static_cast<std::size_t>(found - names.begin()));
   methods.visit_selected(inner);
@@ -255,7 +256,7 @@ void YamlReader::Field(const Key& key, int& value, Need need, Range range) {
 
 void YamlReader::Field(const Key& key, std::uint64_t& value, Need need) {
   if (const auto node = Take(key.name, need)) {
-    // A stream would read -1 into an unsigned number as the largest representable number.
+    // Reject a minus sign, because a C++ stream converts -1 to the largest unsigned number.
     if (node->Scalar().starts_with('-') || !Decode(*node, value)) {
       AddError(
           *node, Dotted(key.name),

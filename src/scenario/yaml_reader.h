@@ -44,7 +44,8 @@ class YamlReader final : public KeyVisitor {
   void Pair(const Key& key, int& first, int& second, Range range) override;
   [[nodiscard]] bool HasAny(const char* key, const Names& inner) const override;
 
-  /// Visits a key whose value is parsed by `read`, which also receives the dotted key.
+  /// Visits a key whose value the function `read` parses. The function `read` also receives the
+  /// dotted key.
   template <typename Read>
   void Custom(const Key& key, const char* type, const Read& read) {
     const auto node = Take(key.name, Need::kOptional);
@@ -57,7 +58,7 @@ class YamlReader final : public KeyVisitor {
 
   void Finish();
 
-  /// Describes a node as "a section", "a list", "'word'", …
+  /// Describes a node for error messages, for example as "a section", "a list" or "'word'".
   static std::string Describe(const YAML::Node& node);
 
  protected:
@@ -75,8 +76,8 @@ class YamlReader final : public KeyVisitor {
   bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
   void AddError(const YAML::Node& node, const std::string& dotted, std::string message);
-  /// Describes a value that is not of type T. If removing quotes would make the value a T, the text
-  /// suggests to remove the quotes.
+  /// Describes a value that is not of type T, for error messages. If the value without quotes would
+  /// be a T, the description suggests removing the quotes.
   template <typename T>
   static std::string DescribeNo(const YAML::Node& node);
 
@@ -84,7 +85,7 @@ class YamlReader final : public KeyVisitor {
   YAML::Node node_;
   std::string key_;
   Names known_;
-  YAML::Mark last_key_mark_;  // position of the key that was taken last
+  YAML::Mark last_key_mark_;  // position of the key that was read last
 };
 
 }  // namespace trackbed

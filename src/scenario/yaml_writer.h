@@ -13,8 +13,9 @@
 
 namespace trackbed {
 
-/// Counterpart of YamlReader. Writes the keys that a struct's Visit declares, with the shortest
-/// numbers that read back to the same value. The writer omits optional values that are not set.
+/// Writes the keys that the function Visit of a struct declares as YAML, so that YamlReader reads
+/// the same values. Numbers are written with the fewest digits that identify the value. The writer
+/// omits optional values that are not set.
 class YamlWriter final : public KeyVisitor {
  public:
   explicit YamlWriter(YAML::Emitter& out) : out_(out) {}

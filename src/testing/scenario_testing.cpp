@@ -10,13 +10,13 @@
 #include "trackbed/analysis/verdict.h"
 #include "trackbed/core/error.h"
 
-// GoogleTest matchers for scenario runs. Each matcher is a function that returns failure texts,
-// wrapped in a RunMatcher. Most matchers apply a check to every plant. A run without a plan or
+// Defines GoogleTest matchers for scenario runs. Each matcher wraps a function that returns failure
+// texts in a RunMatcher. Most matchers apply the same check to every plant. A run without a plan or
 // without plants never matches.
 namespace trackbed {
 namespace {
 
-/// Returns the reasons why a run does not match, one per line; empty if the run matches.
+/// Function that returns the reasons why a run does not match; empty if the run matches.
 using Failures = std::function<std::vector<std::string>(const RunResult&)>;
 
 class RunMatcher {
@@ -49,7 +49,8 @@ class RunMatcher {
   Failures failures_;
 };
 
-/// Applies a check to every plant. `check` returns an empty text if it passes.
+/// Returns a function that applies `check` to every plant of a run. The function `check` returns an
+/// empty text for a plant that passes.
 Failures ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
   return [check = std::move(check)](const RunResult& run) {
     std::vector<std::string> failures;
@@ -65,8 +66,8 @@ Failures ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
   };
 }
 
-/// Describes how a metric of a plant violates its bound; empty if the bound is met. `format`
-/// receives the number, the station and the time.
+/// Describes how a metric of a plant violates its bound; returns an empty text if the bound is met.
+/// The text `format` receives the value, the station and the time of the metric.
 std::string DescribeFailure(const PlantMetrics& plant, const char* metric, Relation relation,
                             double bound, const char* format) {
   const Check check = CheckMetric(plant, metric, relation, bound);

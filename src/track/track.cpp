@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// The center line as a curve over the parameter of its spline.
+/// The center line as a function of the spline parameter t.
 class Curve {
  public:
   Curve(ClosedSplineBasis basis, Eigen::MatrixXd coefficients)
@@ -27,8 +27,8 @@ class Curve {
     return boost::math::quadrature::gauss<double, 7>::integrate(
         [&](double t) { return At(t, 1).norm(); }, from, to);
   }
-  /// The point of the curve at parameter t, with the station `s`. The point's yaw continues from
-  /// the yaw of the previous point.
+  /// Returns the point of the curve at parameter t, with the given station `s`. The yaw of the
+  /// point continues the yaw of the previous point without jumps of whole turns.
   [[nodiscard]] CurvePoint PointAt(double t, double s, double yaw_before) const {
     const Vec2 tangent = At(t, 1);
     const double yaw = std::atan2(tangent.y(), tangent.x());
@@ -66,11 +66,11 @@ double Wrapped(double s, double length) {
   return wrapped < length ? wrapped : 0.0;
 }
 
-/// The points of the track as samples over the length of the chords. The weight of a point is half
-/// the length of its two chords.
+/// The points of a track as samples over chord length. The weight of a point is half the length of
+/// the two chords that meet at the point.
 struct ChordSamples {
   SplineSamples samples;
-  std::vector<double> chords;  // Lengths of the chords from each point to the next [m].
+  std::vector<double> chords;  // Length of the chord from each point to the next point [m].
   double period = 0.0;         // [m]
 };
 
@@ -94,15 +94,17 @@ ChordSamples SampleChords(const std::vector<TrackPoint>& points) {
 
 }  // namespace
 
-/// The smoothed center line as points along a lap, before the line becomes a path.
+/// The smoothed center line, as points along a lap from which the path is built.
 struct Track::CenterLine {
   double smoothing = 0.0;          // Wavelength of the smoothing [m].
-  std::vector<double> deviations;  // Deviation of each point, positive to the left of the line [m].
-  std::vector<double> stations;    // Station of each point [m].
-  std::vector<std::size_t> first;  // Index in `lap` of each point.
-  std::vector<CurvePoint> lap;     // Points of the lap, beginning at the start line.
-  CurvePoint end;                  // Point at the start line after the lap.
-  Vec2 start{0.0, 0.0};            // Position where the line begins [m].
+  std::vector<double> deviations;  // Deviation of each track point from the line, positive to the
+                                   // left of the line [m].
+  std::vector<double> stations;    // Station of each track point [m].
+  std::vector<std::size_t> first;  // Index of each track point in `lap`.
+  // Points of the smoothed line along a lap, beginning at the start line.
+  std::vector<CurvePoint> lap;
+  CurvePoint end;        // Point at the start line at the end of the lap.
+  Vec2 start{0.0, 0.0};  // Position at which the line begins [m].
 
   [[nodiscard]] const CurvePoint& After(std::size_t i) const {
     return i + 1 < lap.size() ? lap[i + 1] : end;
@@ -122,8 +124,8 @@ Track::CenterLine Track::Smooth(const std::vector<TrackPoint>& points,
     const Vec2 apart = points[i].position - curve.At(samples.t[i], 0);
     line.deviations.push_back(std::copysign(apart.norm(), Cross(curve.At(samples.t[i], 1), apart)));
   }
-  // Sample the line at the points of the track, and between them at least every quarter of the mean
-  // distance.
+  // Sample the line at the track points and between them. The samples are at most a quarter of the
+  // mean distance between track points apart.
   const double step = 0.25 * period / static_cast<double>(count);
   const Vec2 first_tangent = curve.At(0.0, 1);
   double yaw = std::atan2(first_tangent.y(), first_tangent.x());
@@ -164,11 +166,11 @@ void Track::BuildPath(const CenterLine& line) {
   const std::vector<CurvePoint>& lap = line.lap;
   const double turn = line.end.yaw - lap.front().yaw;
 
-  // The path begins before the start line and ends after the start line.
+  // The path begins before the start line and ends beyond the start line after one lap.
   const double extra = std::min(0.5 * length_, 100.0);
   auto begin = std::find_if(lap.begin(), lap.end(),
                             [&](const CurvePoint& p) { return p.s >= length_ - extra; });
-  // The last point serves if the points are farther apart than `extra`.
+  // If the points are farther apart than `extra`, use the last point of the lap.
   begin = begin == lap.end() ? std::prev(begin) : begin;
   extra_ = length_ - begin->s;
   std::vector<CurvePoint> all;
@@ -179,8 +181,7 @@ void Track::BuildPath(const CenterLine& line) {
   for (auto point = lap.begin(); point->s <= extra; ++point) {
     all.push_back({point->s + length_, point->yaw + turn, point->curvature});
   }
-  // At the start line, the path has the curve's position. The path before the start line is
-  // computed backwards from the position at the start line.
+  // Shift the path such that the path and the curve have the same position at the start line.
   const std::vector<Segment> segments = SegmentsThrough(all);
   const Path from_origin({0.0, 0.0, all.front().yaw}, segments);
   const Vec2 shift = line.start - from_origin.At(extra_).pose.position();
@@ -190,9 +191,9 @@ void Track::BuildPath(const CenterLine& line) {
 void Track::PlaceEdges(const CenterLine& line) {
   const double pieces = static_cast<double>(line.lap.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    // Seen from the smoothed line, a track point itself lies at a small offset. The foot of a track
-    // point lies at most twice the point's offset from the point's station. The bound of the foot
-    // holds unless the radius of the line is smaller than the offset.
+    // Compute the lateral offset of each track point from the smoothed line, because the smoothing
+    // moves the line. The foot point of a track point lies at most twice the point's deviation from
+    // the point's station. This bound holds if the radius of the line exceeds the deviation.
     const double reach = 4.0 * std::abs(line.deviations[i]) + 4.0 * length_ / pieces;
     const double own = LocateWithin(points_[i].position, stations_[i], reach).offset;
     edges_.push_back({own + points_[i].width_left, own - points_[i].width_right});
@@ -253,8 +254,8 @@ namespace {
 
 constexpr double kMaxRadiusFraction = 0.95;
 
-/// The largest |curvature| of a piece of the line, and the largest possible heading change of the
-/// piece.
+/// Largest |curvature| of a piece of the center line, and the largest possible heading change
+/// within the piece.
 struct PieceBend {
   double curvature = 0.0;  // [1/m]
   double turn = 0.0;       // [rad]
@@ -292,7 +293,7 @@ std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
                        : points[at].width_right - line.deviations[at];
       };
       const double inner = std::min(width(i), width(next));
-      // FindFold, called for the finished track, finds smaller folds.
+      // FindFold finds smaller folds when it checks the finished track.
       if (bend.turn > kPi || bend.curvature * inner > 1.0) {
         return TrackFold{i, 1.0 / bend.curvature, inner, bend.turn};
       }

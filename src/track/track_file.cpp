@@ -20,7 +20,7 @@ constexpr std::uintmax_t kMaxTrackFileBytes = std::uintmax_t{16} << 20U;
 constexpr double kMaxPosition = 1e5;     // [m]
 constexpr double kMaxWidth = 1000.0;     // [m]
 constexpr double kMaxLapLength = 200e3;  // [m]
-// Largest turn at a point [deg]; beyond this angle, the line turns back.
+// Largest change of direction at a point [deg]; at a larger angle, the center line turns back.
 constexpr double kMaxTurn = 150.0;
 constexpr const char* kFirstColumn = "# x_m";
 
@@ -34,7 +34,7 @@ void CheckSize(const std::filesystem::path& file) {
   }
 }
 
-/// The name of the first column. The '#' that begins the header belongs to no name.
+/// Returns the name of the table's first column, which may include the '#' that begins the header.
 const char* FindFirstColumn(const std::filesystem::path& file, const Table& table) {
   for (const char* name : {kFirstColumn, "#x_m", "x_m"}) {
     if (table.Find(name) >= 0) {
@@ -47,13 +47,14 @@ const char* FindFirstColumn(const std::filesystem::path& file, const Table& tabl
                                       "'# x_m,y_m,w_tr_right_m,w_tr_left_m'"});
 }
 
-/// Rejects a line that jumps back and forth, because it cannot be smoothed to a track.
+/// Rejects a center line that jumps back and forth, because such a line cannot be smoothed to a
+/// track.
 void CheckShape(const std::string& name, const std::vector<int>& lines,
                 const std::vector<TrackPoint>& points, ProblemList& problems) {
   const std::size_t count = points.size();
   double length = 0.0;
   double longest = 0.0;
-  std::size_t widest = 0;  // the point before the largest gap
+  std::size_t widest = 0;  // index of the point before the largest gap
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2& here = points[i].position;
     const Vec2 before = here - points[(i + count - 1) % count].position;

@@ -9,19 +9,21 @@
 
 #include "trackbed/core/error.h"
 
-// Computes the g-g-v diagram of a two-axle car. For the accelerations f_x and f_y, the load
-// transfer gives the four wheel loads. The load transfer of f_x depends on the wheelbase. The axles
-// share the load transfer of f_y by their roll stiffness. The tyre model is the Magic Formula or a
-// friction circle. An axle holds its force if its tyres reach the required lateral force in
-// addition to their longitudinal force. Bisection finds the largest f_y at each f_x. Bisection also
+// Computes the g-g-v diagram of a two-axle car. For a longitudinal acceleration f_x and a lateral
+// acceleration f_y, load transfer determines the four wheel loads. The load transfer due to f_x
+// depends on the wheelbase. The load transfer due to f_y is divided between the axles according to
+// their roll stiffness. The tyre model is the Magic Formula or a friction circle. The accelerations
+// are feasible if the tyres of both axles can generate the required lateral force in addition to
+// their longitudinal force. Bisection finds the largest feasible f_y at each f_x. Bisection also
 // finds the limits of driving and braking at fractions cos(angle) of the largest f_y.
 namespace trackbed {
 namespace {
 
-constexpr double kInfeasibleGrip = -1.0;  // an axle that cannot hold its longitudinal force
+// Lateral force of an axle that cannot generate its longitudinal force.
+constexpr double kInfeasibleGrip = -1.0;
 
-/// The lateral force [N] of a tyre at a slip angle. The slip ratio is the ratio at which the tyre's
-/// longitudinal force is `along`. Returns none if no slip ratio gives the longitudinal force.
+/// Returns the lateral force [N] of a tyre at a slip angle, while the tyre generates the
+/// longitudinal force `along`. Returns none if no slip ratio gives this longitudinal force.
 std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double road, double along,
                                   TyreSlip slip) {
   if (!(load > 0.0)) {
@@ -43,7 +45,8 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
   for (const double high : kRatios) {
     const TyreForce above = at(high);
     if (side * above.longitudinal >= wanted) {
-      // Between adjacent slip ratios of the table, the force is almost linear.
+      // Interpolate, because the longitudinal force is almost linear between adjacent slip ratios
+      // of the table.
       const double span = side * (above.longitudinal - below.longitudinal);
       const double share = (wanted - side * below.longitudinal) / span;
       return at(std::lerp(low, high, share)).lateral;
@@ -54,7 +57,7 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
   return std::nullopt;
 }
 
-/// Loads and forces that an axle must hold.
+/// Wheel loads of an axle, and the longitudinal forces that its tyres must generate.
 struct AxleDemand {
   std::array<double, 2> load{};  // Load of the inner and the outer wheel [N].
   double along = 0.0;            // Longitudinal force of each wheel [N].
@@ -62,11 +65,12 @@ struct AxleDemand {
   double road = 1.0;
 };
 
-/// Lateral grip of an axle that holds its longitudinal force.
+/// Lateral grip of an axle that also generates its longitudinal force.
 struct AxleGripState {
-  // Largest lateral force [N]; kInfeasibleGrip if the axle cannot hold its longitudinal force.
+  // Largest lateral force [N]; kInfeasibleGrip if the axle cannot generate its longitudinal force.
   double most = kInfeasibleGrip;
-  double angle = 0.0;  // Slip angle of the required force, or of the largest force [rad].
+  double angle = 0.0;  // Slip angle at the required lateral force; if that force is not reached,
+                       // slip angle at the largest force [rad].
 };
 
 AxleGripState OnFrictionCircles(double friction, const AxleDemand& demand) {
@@ -88,7 +92,7 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
   const auto lateral_at = [&](double angle) {
     double sum = 0.0;
     for (const double load : demand.load) {
-      // A positive lateral force needs a negative slip angle.
+      // A positive lateral force requires a negative slip angle.
       const std::optional<double> own = TyreLateral(*axle.tyre, load, demand.road, demand.along,
                                                     {.angle = -angle, .camber = demand.camber});
       if (!own) {
@@ -99,7 +103,8 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
     return sum;
   };
   constexpr double kMaxSlip = 0.5;  // [rad]
-  constexpr int kBits = 8;  // bits of precision of the angle; the force is flat around its peak
+  constexpr int kBits = 8;  // bits of precision of the slip angle; few bits suffice, because the
+                            // force is flat around its peak
   const auto [peak, negative] = boost::math::tools::brent_find_minima(
       [&](double at) { return -lateral_at(at); }, 0.0, kMaxSlip, kBits);
   AxleGripState state{.most = std::max(-negative, lateral_at(0.0)), .angle = peak};
@@ -112,7 +117,7 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
   return state;
 }
 
-/// Steady state of the car at accelerations f_x and f_y.
+/// Determines which accelerations f_x and f_y the car can hold in a steady state.
 class SteadyState {
  public:
   SteadyState(const GripModel& car, double road, double speed)
@@ -124,9 +129,9 @@ class SteadyState {
     lean_ = weight_ * car.cg_height;
   }
 
-  /// Whether both axles hold their forces. The tyres must also overcome the drag of their slip
-  /// angles. The drag of the slip angles depends on the tyre forces, so the function uses a
-  /// fixed-point iteration.
+  /// Returns whether both axles can generate the forces that the accelerations require. The tyres
+  /// must also overcome the drag due to their slip angles. This drag depends on the tyre forces, so
+  /// AxlesHold uses a fixed-point iteration.
   [[nodiscard]] bool AxlesHold(double longitudinal, double lateral) const {
     // Each iteration reduces the error of the drag about tenfold.
     constexpr int kDragIterations = 4;
@@ -154,13 +159,15 @@ class SteadyState {
     return lateral <= RollOver() && AxlesHold(longitudinal, lateral);
   }
 
-  /// The largest f_y that the car holds at f_x; 0 if the car holds no f_y.
+  /// Returns the largest lateral acceleration f_y that the car can hold at the longitudinal
+  /// acceleration f_x; 0 if the car can hold none.
   [[nodiscard]] double MaxLateral(double longitudinal) const {
     return Largest(0.0, kMaxAcceleration,
                    [&](double lateral) { return Holds(longitudinal, lateral); });
   }
 
-  /// The furthest f_x from `from` in the direction of `side` at which the car holds f_y.
+  /// Starting at `from`, returns the last longitudinal acceleration f_x in the direction of `side`
+  /// at which the car can hold the lateral acceleration f_y.
   [[nodiscard]] double Reach(double from, double side, double lateral) const {
     return from + side * Largest(0.0, kMaxAcceleration, [&](double further) {
                     return Holds(from + side * further, lateral);
@@ -171,8 +178,8 @@ class SteadyState {
   static constexpr double kMaxAcceleration = 40.0;  // [m/s^2]; exceeds any car without downforce
   static constexpr double kSameDrag = 0.005;        // [m/s^2]
 
-  /// The argument `wheels` is the longitudinal force of all tyres in wheel direction, divided by
-  /// the mass [m/s^2].
+  /// Returns the wheel loads and longitudinal forces of axle i. The argument `wheels` is the sum of
+  /// the longitudinal tyre forces, divided by the car's mass [m/s^2].
   [[nodiscard]] AxleDemand DemandOn(std::size_t i, double longitudinal, double wheels,
                                     double lateral) const {
     const GripAxle& axle = car_.axles[i];
@@ -189,11 +196,11 @@ class SteadyState {
             .road = road_};
   }
 
-  /// The largest number in [low, high] for which `holds` is true, by bisection. The condition
-  /// `holds` must also be true for all smaller numbers.
+  /// Bisects for the largest number in [low, high] for which `holds` is true. The condition `holds`
+  /// must also be true for all smaller numbers.
   template <typename Test>
   [[nodiscard]] static double Largest(double low, double high, const Test& holds) {
-    constexpr int kHalvings = 16;  // [m/s^2]; the resolution is 40/2^16 = 0.0006 m/s^2
+    constexpr int kHalvings = 16;  // gives a resolution of 40/2^16 = 0.0006 m/s^2
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
       (holds(middle) ? low : high) = middle;
@@ -201,7 +208,7 @@ class SteadyState {
     return low;
   }
 
-  /// The acceleration f_y at which the inner wheels of both axles are unloaded.
+  /// Returns the lateral acceleration f_y at which the inner wheels of both axles lose their load.
   [[nodiscard]] double RollOver() const {
     double moment = 0.0;
     for (const GripAxle& axle : car_.axles) {
@@ -267,8 +274,8 @@ double MaxLateralForce(const GripModel& car, double road, double longitudinal) {
 
 GgvDiagram ComputeGgv(const GripModel& car, const std::vector<double>& roads) {
   CheckModel(car, roads);
-  // The drag and the load transfer from the drag are linear in the square of the speed, so two
-  // speeds suffice.
+  // Two speeds suffice for the table, because the drag and its load transfer are linear in the
+  // squared speed.
   constexpr double kMaxTableSpeed = 60.0;  // [m/s]
   std::vector<double> speeds{0.0};
   if (car.forces.drag > 0.0 && car.drag_height != car.cg_height) {
@@ -297,7 +304,8 @@ GgvDiagram FrictionGgv(const VehicleParams& vehicle, const std::vector<double>& 
     sections.push_back(EllipticSection(driving, braking, lateral));
     sections.back().road = road;
   }
-  const double mass = vehicle.mass > 0.0 ? vehicle.mass : 1.0;  // any mass gives the same result
+  // Without a mass, use 1 kg, because every mass gives the same accelerations.
+  const double mass = vehicle.mass > 0.0 ? vehicle.mass : 1.0;
   return {{.mass = mass, .rolling_mass = mass, .top_speed = vehicle.top_speed},
           std::move(sections)};
 }

@@ -59,8 +59,8 @@ Pose2 KinematicCar::PoseAfter(const MotionPiece& piece, double moved) const {
     const double turn = moved * std::cos(slip) * CurvatureForSteering(params_, state_.steering);
     return MoveOnArc(state_.pose, moved, turn, slip);
   }
-  // The fourth-order Runge-Kutta method integrates the yaw. Speed and steering are known functions
-  // of time.
+  // Integrate position and yaw by the fourth-order Runge-Kutta method. Speed and steering angle are
+  // known functions of time.
   const auto rates = [&](double time, double yaw) {
     return RatesAt(yaw, state_.speed + piece.acceleration * time,
                    state_.steering + piece.steering_rate * time);
@@ -82,7 +82,8 @@ Pose2 KinematicCar::PoseAfter(const MotionPiece& piece, double moved) const {
 VehicleState KinematicCar::FullState() const {
   const double l_g = params_.cg_to_rear;
   const double slip = Slip(state_.steering);
-  // Speed of the rear axle and its derivative; with the CG as reference, v_rear = v cos(beta).
+  // Compute the speed of the rear axle and its derivative. If the reference point is the CG, the
+  // speed of the rear axle is v cos(beta), where beta is the sideslip angle.
   const double tangent = std::tan(state_.steering);
   const double curvature = tangent / params_.wheelbase;
   const double curvature_rate = (1.0 + tangent * tangent) * steering_rate_ / params_.wheelbase;

@@ -9,35 +9,35 @@ namespace {
 
 /// Width [rad] over which the sign function of the camber is smoothed.
 constexpr double kCamberSign = 5e-4;
-/// Largest camber that enters the formula [rad]. Tyres are measured up to about 6 degrees. At
-/// larger camber, the squared camber in the formula would give more and more grip to a car that
-/// rolls over.
+/// Camber to which larger camber angles are clamped [rad]. Tyres are measured up to a camber of
+/// about 6 degrees. Without the clamp, the squared camber in the formula would give a car that
+/// rolls over more and more grip.
 constexpr double kMaxCamber = 0.1;
 
-/// The function f(u) = C atan(u - E (u - atan u)).
+/// Evaluates the function f(u) = C atan(u - E (u - atan u)) of the Magic Formula.
 double Shape(double c, double e, double u) {
   return c * std::atan(u - e * (u - std::atan(u)));
 }
 
-/// Weight of combined slip: the factor on a force due to the other slip component, `slip`. The
-/// weight is 1 at zero slip.
+/// Returns the weighting factor for combined slip. The factor describes how the slip in the other
+/// direction, `slip`, reduces a tyre force. The factor is 1 at zero slip.
 double Weight(double b, double c, double e, double shift, double slip) {
   const double kept = std::cos(Shape(c, e, b * (slip + shift)));
   return shift == 0.0 ? kept : kept / std::cos(Shape(c, e, b * shift));
 }
 
-/// Cosine of atan(x).
+/// Returns the cosine of atan(x).
 double CosAtan(double x) {
   return 1.0 / std::sqrt(1.0 + x * x);
 }
 
-/// Relative load change (F_z - F_z0)/F_z0.
+/// Returns the relative load change (F_z - F_z0)/F_z0 from the nominal load F_z0.
 double LoadChange(const MagicFormula& tyre, double load) {
   return tyre.f_z0 > 0.0 ? (load - tyre.f_z0) / tyre.f_z0 : 0.0;
 }
 
-/// Friction coefficient mu. The coefficient decreases with the load, to at least a tenth of its
-/// nominal value.
+/// Returns the friction coefficient mu. The coefficient is linear in the load change, but at least
+/// a tenth of its nominal value.
 double Friction(double at_nominal, double per_load, double load_change) {
   return std::max(at_nominal + per_load * load_change, 0.1 * at_nominal);
 }
@@ -103,7 +103,8 @@ double CorneringStiffness(const MagicFormula& tyre, double load) {
     return -tyre.p_ky1 * load;
   }
   const double x = load / (tyre.p_ky2 * tyre.f_z0);
-  return -tyre.p_ky1 * tyre.f_z0 * 2.0 * x / (1.0 + x * x);  // factor sin(2 atan(x)) in closed form
+  // 2 x / (1 + x^2) is sin(2 atan(x)) in closed form.
+  return -tyre.p_ky1 * tyre.f_z0 * 2.0 * x / (1.0 + x * x);
 }
 
 double SlipStiffness(const MagicFormula& tyre, double load) {
@@ -115,7 +116,8 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     return {};
   }
   const double gamma = std::clamp(slip.camber, -kMaxCamber, kMaxCamber);
-  // The smoothed sign of gamma turns the shift to the side of the camber.
+  // Multiply the shift by the smoothed sign of the camber gamma, so that the shift points to the
+  // side of the camber.
   const double side =
       slip.shift * gamma / std::sqrt(gamma * gamma + kCamberSign * kCamberSign);  // sgn gamma
   const double lean = std::abs(gamma);

@@ -46,8 +46,9 @@ Motion MotionUnder(const Command& command, const VehicleParams& params, double s
     piece.end_speed = speed;
     piece.end_steering = move.At(done);
   }
-  // The rates jump at the ends of the pieces. At the end of a piece, the rates of the earlier piece
-  // apply. Times within a nanosecond differ only by rounding.
+  // Steering rate and acceleration jump from piece to piece. Where two pieces meet, the rates of
+  // the earlier piece apply. Times that differ by less than a nanosecond count as equal, because of
+  // rounding errors.
   constexpr double kNanosecond = 1e-9;
   motion.steering_rate = duration <= move.ramp_time + kNanosecond ? move.rate : 0.0;
   motion.acceleration = rests && rest_time < duration - kNanosecond ? 0.0 : command.acceleration;

@@ -7,7 +7,8 @@
 
 namespace trackbed {
 
-/// A piece of a step in which steering and speed are linear in time and the speed keeps its sign.
+/// Part of a time step in which the steering angle and the speed are linear in time and the speed
+/// keeps its sign.
 struct MotionPiece {
   double duration = 0.0;       ///< Duration of the piece [s]; 0: the piece is empty.
   double steering_rate = 0.0;  ///< Steering rate [rad/s].
@@ -17,8 +18,9 @@ struct MotionPiece {
   double end_speed = 0.0;  ///< Speed at the end [m/s], exact: 0 where the car comes to rest.
 };
 
-/// Steering and speed of a car that follows a constant command exactly. A new piece begins when the
-/// steering reaches its target, and when the car comes to rest.
+/// Motion of a car during a time step with a constant command: the steering angle and the speed, in
+/// exact pieces. A new piece begins when the steering reaches its target and when the car comes to
+/// rest.
 struct Motion {
   std::array<MotionPiece, 3> pieces;
   double steering_rate = 0.0;  ///< Steering rate of the last piece [rad/s].

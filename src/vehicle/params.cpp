@@ -57,7 +57,8 @@ FrontAngles AckermannAngles(const VehicleParams& params, double steering) {
   const double k = params.track_front / (2.0 * params.wheelbase);
   const double sine = std::sin(steering);
   const double cosine = std::cos(steering);
-  // In a left turn, the left wheel is the inner wheel, and cot(left) = cot(delta) - k.
+  // In a left turn, the left wheel is the inner wheel. The cotangent of the inner wheel's angle is
+  // cot(delta) - k, where delta is the steering angle of the bicycle model.
   return {std::atan2(sine, cosine - k * sine), std::atan2(sine, cosine + k * sine)};
 }
 

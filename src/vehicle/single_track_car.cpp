@@ -12,8 +12,8 @@ namespace {
 
 constexpr double kMaxStep = 0.002;  // [s]
 
-/// The integrator Radau IIA with three stages (Hairer and Wanner 1996, IV.5). The last stage of
-/// Radau IIA is the end of the step.
+/// Coefficients of the integrator Radau IIA with three stages (Hairer and Wanner 1996, IV.5). The
+/// last stage of Radau IIA is the end of the step.
 struct Radau {
   Eigen::Vector3d node;
   Eigen::Matrix3d weight;
@@ -106,14 +106,16 @@ void SingleTrackCar::Advance(const MotionPiece& piece) {
   }
 }
 
-/// With z = (v/u, r/u) and s the sign of u, the equations are |u| z' = B tan(delta) - Decay z.
+/// Returns the matrix Decay of the equations of motion |u| z' = B tan(delta) - Decay z. Here u is
+/// the forward speed, v the lateral speed, r the yaw rate, and z = (v/u, r/u).
 Eigen::Matrix2d SingleTrackCar::Decay(double speed, double acceleration_along) const {
   Eigen::Matrix2d decay = slip_rate_ + acceleration_along * Eigen::Matrix2d::Identity();
   decay(0, 1) += speed * std::abs(speed);
   return decay;
 }
 
-/// At rest, returns the only finite solution: the ratios with which the car arrives or leaves.
+/// Returns the ratios of lateral speed and yaw rate to the forward speed. At rest, returns the only
+/// finite limit of these ratios, with which the car comes to rest or starts to move.
 SingleTrackCar::Ratios SingleTrackCar::RatiosAt(double direction, double acceleration) const {
   if (state_.speed != 0.0) {
     return Ratios(state_.lateral_speed, state_.yaw_rate) / state_.speed;
@@ -124,12 +126,12 @@ SingleTrackCar::Ratios SingleTrackCar::RatiosAt(double direction, double acceler
 void SingleTrackCar::StepByRadau(const MotionPiece& piece) {
   const Radau& radau = RadauIIA();
   const double h = piece.duration;
-  // The speed has the same sign during the whole step.
+  // The speed does not change its sign during the step.
   const double direction = std::copysign(1.0, state_.speed + piece.end_speed);
   const Ratios start = RatiosAt(direction, piece.acceleration);
 
-  // For the slopes f of z, solve |u_i| f_i + Decay_i h sum_j w_ij f_j = B tan(delta_i) - Decay_i
-  // z_0.
+  // Solve the stage equations of Radau IIA for the derivatives f_i = z'_i of the ratios z: |u_i|
+  // f_i + Decay_i h sum_j w_ij f_j = B tan(delta_i) - Decay_i z_0.
   Eigen::Matrix<double, 6, 6> matrix;
   Eigen::Matrix<double, 6, 1> right;
   Eigen::Vector3d speed;
@@ -180,8 +182,8 @@ VehicleState SingleTrackCar::FullState() const {
   full.steering_actuator = state_.steering;
   full.steering = state_.steering;
   if (state_.speed != 0.0 || acceleration_ != 0.0) {
-    // Use the acceleration (F_f + F_r)/m of the tyres. A car that has just come to rest moved
-    // against its acceleration before.
+    // Compute the lateral acceleration (F_f + F_r)/m from the lateral tyre forces of the front and
+    // rear axles. A car that has just come to rest was moving opposite to its acceleration.
     const double direction =
         std::copysign(1.0, state_.speed != 0.0 ? state_.speed : -acceleration_);
     const Ratios ratios = RatiosAt(direction, acceleration_);

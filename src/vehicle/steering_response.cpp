@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// The dead time in timesteps.
+/// Returns the dead time of the steering in timesteps.
 double DeadTimeSteps(const SteeringResponse& response, double timestep, double start) {
   TRACKBED_REQUIRE(response.time_constant >= 0.0 && std::isfinite(response.time_constant) &&
                        response.backlash >= 0.0 && std::isfinite(response.backlash) &&
@@ -26,7 +26,8 @@ double DeadTimeSteps(const SteeringResponse& response, double timestep, double s
                    "SteeringFilter: a dead time of {} s in timesteps of {} s; must be at most {} "
                    "steps",
                    response.dead_time, timestep, kMaxSteps);
-  constexpr double kRounding = 1e-6;  // tolerance for a whole number of timesteps
+  // Tolerance within which the dead time counts as a whole number of timesteps.
+  constexpr double kRounding = 1e-6;
   const double whole = std::round(steps);
   return std::abs(steps - whole) < kRounding ? whole : steps;
 }

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// From the distance D = `distance` on, the wheels turn to `target`.
+/// Target of the steering angle, valid from the driven distance `distance` on.
 struct Target {
   double distance;
   double steering;
@@ -28,7 +28,7 @@ std::vector<Target> SteeringTargets(const std::vector<TurnSteering>& turns,
                      "SteeringSchedule: steering {} and {} rad; must be finite", turn.steering,
                      neutral);
     targets.push_back({turn.start, turn.steering, slopes[k]});
-    // The turn that started last takes precedence and ends any earlier turn.
+    // If turns overlap, the later turn takes precedence and ends the earlier turn.
     if (k + 1 == turns.size() || turn.end < turns[k + 1].start) {
       targets.push_back({turn.end, neutral, slopes[k]});
     }
@@ -187,8 +187,8 @@ std::vector<KinematicState> RollOut(const VehicleParams& params, const Kinematic
       }
       const double next =
           std::min({done + step, distance, knot != knots.end() ? knot->distance : distance});
-      // The path does not depend on the speed, so choose the speed at which the actuator turns for
-      // the whole step.
+      // The path does not depend on the speed, so choose the speed at which the actuator needs the
+      // whole step to reach the new steering angle.
       const double from = schedule.At(done);
       const double to = schedule.At(next);
       const double time = from == to ? next - done : std::abs(to - from) / params.steering_rate;

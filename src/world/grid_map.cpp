@@ -5,7 +5,7 @@
 namespace trackbed {
 namespace {
 
-/// The blocked cells that no rectangle covers yet.
+/// The blocked cells of a map that no rectangle covers yet.
 class OpenCells {
  public:
   OpenCells(const GridMap& map, UnknownCells unknown)
@@ -21,7 +21,8 @@ class OpenCells {
     return column < columns_ && row < rows_ && open_[Index(column, row)] != 0;
   }
 
-  /// The widest rectangle that begins at a cell; of equally wide rectangles, the highest.
+  /// Returns the widest rectangle of open cells that begins at a cell. Of equally wide rectangles,
+  /// returns the tallest.
   [[nodiscard]] CellRectangle Widest(int column, int row) const {
     CellRectangle found{column, row, 0, 1};
     while (IsOpen(column + found.columns, row)) {
@@ -40,7 +41,8 @@ class OpenCells {
     return found;
   }
 
-  /// The highest rectangle that begins at a cell; of equally high rectangles, the widest.
+  /// Returns the tallest rectangle of open cells that begins at a cell. Of equally tall rectangles,
+  /// returns the widest.
   [[nodiscard]] CellRectangle Highest(int column, int row) const {
     CellRectangle found{column, row, 1, 0};
     while (IsOpen(column, row + found.rows)) {

@@ -9,7 +9,8 @@
 namespace trackbed {
 namespace {
 
-/// A height and its derivatives along one or two coordinates.
+/// Height of the ground and its derivatives: Profile along one coordinate, Lift along two
+/// coordinates.
 struct Profile {
   double height = 0.0;
   double slope = 0.0;
@@ -19,7 +20,8 @@ struct Lift {
   Vec2 slope = Vec2::Zero();
 };
 
-/// The function C(distance / reach). C is 1 up to distance 0, then falls, and is 0 from `reach` on.
+/// Returns the cosine-shaped profile C(distance / reach) and its derivative. The profile is 1 up to
+/// distance 0, then decreases smoothly, and is 0 from the distance `reach` on.
 Profile Falloff(double distance, double reach) {
   if (distance <= 0.0) {
     return {1.0, 0.0};
@@ -31,13 +33,15 @@ Profile Falloff(double distance, double reach) {
   return {std::cos(angle) * std::cos(angle), -0.5 * kPi / reach * std::sin(2.0 * angle)};
 }
 
-/// A profile symmetric about 0: flat in the middle, 0 at +-half.
+/// Returns a height profile that is symmetric about 0: flat in the middle, and 0 from the distance
+/// `half` on.
 Profile SymmetricFalloff(double place, double half, double reach) {
   const Profile one = Falloff(std::abs(place) - half + reach, reach);
   return {one.height, std::copysign(1.0, place) * one.slope};
 }
 
-/// Product of a profile along u and a profile along v, with the product's slope in world axes.
+/// Returns the product of a profile along u and a profile along v. The slope of the product is in
+/// world axes.
 Lift Product(const Pose2& pose, double height, const Profile& along, const Profile& across) {
   const Vec2 u = Direction(pose.yaw);
   return {height * along.height * across.height,
@@ -56,7 +60,8 @@ Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
   const Vec2 p = ToLocal(stretch.area.center, point_W);
   const double half_length = 0.5 * stretch.area.length;
   const double width = stretch.area.width;
-  const double up = std::copysign(1.0, stretch.slope);  // sign of v in the uphill direction
+  // Sign of the lateral coordinate v in the uphill direction.
+  const double up = std::copysign(1.0, stretch.slope);
   const double w = 0.5 * width + up * p.y();
   Profile across;
   if (w > width) {
@@ -71,7 +76,7 @@ Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
       across);
 }
 
-/// Height and slope of the highest feature of the ground.
+/// Returns the height and the slope of the feature of the ground that is highest at the point.
 Lift Highest(const Ground& ground, const Vec2& point_W) {
   Lift highest;
   const auto look = [&](const auto& features) {

@@ -10,14 +10,14 @@
 namespace trackbed {
 namespace {
 
-/// Weights of four neighbors, and the derivatives of these weights by the position u between the
-/// middle two neighbors.
+/// Interpolation weights of four neighboring cells, and their derivatives by the position u between
+/// the middle two cells.
 struct Weights {
   std::array<double, 4> value;
   std::array<double, 4> slope;
 };
 
-/// Weights of the uniform cubic B-spline.
+/// Returns the weights of the uniform cubic B-spline.
 Weights SplineWeights(double u) {
   const double v = 1.0 - u;
   return {{v * v * v / 6.0, (3.0 * u * u * u - 6.0 * u * u + 4.0) / 6.0,
@@ -25,7 +25,8 @@ Weights SplineWeights(double u) {
           {-0.5 * v * v, (1.5 * u - 2.0) * u, -(1.5 * v - 2.0) * v, 0.5 * u * u}};
 }
 
-/// Weights of cubic convolution, which interpolates with slopes by central differences.
+/// Returns the weights of cubic convolution, which interpolates the values with slopes from central
+/// differences.
 Weights ConvolutionWeights(double u) {
   const double uu = u * u;
   return {{0.5 * u * (-1.0 + 2.0 * u - uu), 1.0 + 0.5 * uu * (3.0 * u - 5.0),
@@ -34,7 +35,8 @@ Weights ConvolutionWeights(double u) {
            u * (1.5 * u - 1.0)}};
 }
 
-/// Weighted sum over sixteen neighbors. In `at(i, j)`, i counts along x.
+/// Returns the weighted sum over sixteen neighboring cells. In `at(i, j)`, i counts along x and j
+/// counts along y.
 template <typename At>
 Terrain::Point Sum(const Weights& x, const Weights& y, double cell, const At& at) {
   Terrain::Point sum;
@@ -52,7 +54,8 @@ Terrain::Point Sum(const Weights& x, const Weights& y, double cell, const At& at
   return sum;
 }
 
-/// Index of the cell at a coordinate, and the position of the coordinate in this cell.
+/// Returns the index of the cell at a coordinate, and the relative position of the coordinate
+/// within this cell.
 std::pair<int, double> CellAt(double place, double cell, int count) {
   const int index = std::clamp(static_cast<int>(place / cell), 0, count - 1);
   return {index, place / cell - index};
@@ -115,7 +118,7 @@ bool Terrain::IsRefined(int column, int row) const {
 
 Terrain::Point Terrain::At(const Vec2& point_W) const {
   const Vec2 place = point_W - size_.low;
-  // The condition treats NaN as outside the terrain.
+  // The condition is written such that NaN counts as outside of the terrain.
   if (!(place.x() >= 0.0 && place.y() >= 0.0 && place.x() <= kBlock * size_.columns &&
         place.y() <= kBlock * size_.rows)) {
     return {size_.base, Vec2::Zero()};

@@ -77,7 +77,7 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
   double nearest = std::numeric_limits<double>::infinity();
   for (const Obstacle& obstacle : world.obstacles) {
     const OrientedBox box = FootprintAt(obstacle, time);
-    // Bounding circles show that most boxes cannot be the nearest box.
+    // Skip boxes that cannot be the nearest box, because their bounding circles are too far away.
     const double circles = nearest + radius + 0.5 * std::hypot(box.length, box.width);
     if ((box.center.position() - middle).squaredNorm() < circles * circles) {
       nearest = std::min(nearest, Distance(footprint, box));
@@ -88,7 +88,8 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
 
 namespace {
 
-/// Upper bound on the motion of a footprint point relative to an obstacle between two samples [m].
+/// Returns an upper bound on how far a point of the footprint moves relative to an obstacle between
+/// two samples [m].
 double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
                          const ClearanceSample& from, const ClearanceSample& to) {
   const double reach = std::hypot(
@@ -101,12 +102,13 @@ double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
          reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);
 }
 
-/// Limit of the bisections. The limit of bisections suffices for any motion of a car, and bounds
-/// the time for a diverged motion.
+/// Largest number of bisections. This number suffices for any real motion of a car, and limits the
+/// computing time if a simulation has diverged.
 constexpr long kMaxBisections = 100000;
 
-/// Bisects the motion between two samples, over which the clearance changes by at most `moved` [m].
-/// Stops when the clearance cannot be smaller than the best clearance by more than a tolerance.
+/// Searches for the smallest clearance between two samples by bisection. Between the samples, the
+/// clearance changes by at most `moved` [m]. The bisection stops when the clearance cannot be
+/// smaller than the best known clearance by more than a tolerance.
 void Approach(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
               const ClearanceSample& to, double moved, long& looks, ClosestApproach& best) {
   constexpr double kTolerance = 5e-3;  // [m]
@@ -114,7 +116,8 @@ void Approach(const World& world, const VehicleParams& vehicle, const ClearanceS
   constexpr double kDepth = 1e-3;  // [m]
   const double least = 0.5 * (from.clearance + to.clearance - moved);
   const double near = best.clearance - std::max(kTolerance, kShare * best.clearance);
-  // Below the tolerance, the bisection continues to find out whether car and obstacle touch.
+  // If the car may touch an obstacle, continue below the tolerance, until `moved` is less than
+  // kDepth.
   if (best.clearance == 0.0 || moved < kDepth || (least > 0.0 && least >= near) || --looks < 0) {
     return;
   }

@@ -11,8 +11,8 @@ struct IpoptResult {
   int iterations = 0;
 };
 
-/// Solves a program that has been checked and whose matrices are compressed. Throws RunError in a
-/// build without IPOPT.
+/// Solves a quadratic program with IPOPT. The caller must have checked the program and compressed
+/// its matrices. Throws RunError in a build without IPOPT.
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                          InteriorSteps steps);
 

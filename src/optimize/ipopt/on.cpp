@@ -15,15 +15,16 @@ using Sparse = Eigen::SparseMatrix<double>;
 using ConstVectorMap = Eigen::Map<const Eigen::VectorXd>;
 using VectorMap = Eigen::Map<Eigen::VectorXd>;
 
-/// The program and the iteration count, for the callbacks of IPOPT.
+/// Data for the callbacks of IPOPT: the quadratic program and the iteration count.
 struct Context {
   const SparseQuadraticProgram& program;
   Sparse lower_triangle;
   int iterations = 0;
 };
 
-/// Deduces IPOPT's types from a callback, because no type names exist in all versions. Version 3.14
-/// deprecates Index, Number and Bool. Version 3.11 lacks ipindex and ipnumber.
+/// Deduces IPOPT's number types from the type of a callback, because no names of these types exist
+/// in all versions of IPOPT. IPOPT 3.14 deprecates the names Index, Number and Bool. IPOPT 3.11
+/// lacks the names ipindex and ipnumber.
 template <typename Callback>
 struct TypesOf;
 template <typename BoolType, typename IndexType, typename NumberType>
@@ -40,8 +41,8 @@ Context& ContextOf(UserDataPtr data) {
   return *static_cast<Context*>(data);
 }
 
-/// Fills in the positions of a matrix's entries if `rows` is given, otherwise the values of the
-/// entries.
+/// Fills in the row and column indices of a matrix's entries if `values` is null, otherwise the
+/// values of the entries.
 void FillEntries(const Sparse& matrix, IpIndex* rows, IpIndex* columns, IpNumber* values) {
   Eigen::Index entry = 0;
   for (Eigen::Index outer = 0; outer < matrix.outerSize(); ++outer) {
@@ -101,7 +102,7 @@ IpBool CountIteration(IpIndex /*mode*/, IpIndex iteration, IpNumber /*objective*
 }
 
 void SetOptions(IpoptProblem problem, InteriorSteps steps) {
-  // The C interface takes non-const texts but does not change the texts.
+  // The C interface of IPOPT requires non-const texts but does not change these texts.
   const auto set_text = [&](std::string name, const std::string& value) {
     std::string own = value;
     TRACKBED_CHECK(AddIpoptStrOption(problem, name.data(), own.data()) == TRUE, "{}", name);
@@ -109,7 +110,8 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
   const auto set_integer = [&](std::string name, int value) {
     TRACKBED_CHECK(AddIpoptIntOption(problem, name.data(), value) == TRUE, "{}", name);
   };
-  // With an empty name, IPOPT does not read ipopt.opt from the current folder.
+  // With an empty file name, IPOPT does not read options from the file ipopt.opt in the current
+  // folder.
   set_text("option_file_name", "");
   set_text("hessian_constant", "yes");
   set_text("jac_d_constant", "yes");
@@ -132,7 +134,8 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
 
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                          InteriorSteps steps) {
-  // MUMPS, IPOPT's linear solver in Debian, has global state, so concurrent solutions would crash.
+  // Solve only one program at a time: MUMPS, IPOPT's linear solver in Debian, has global state and
+  // would crash if used by several threads.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const auto n = static_cast<IpIndex>(program.linear.size());
