@@ -18,17 +18,18 @@
 
 #include "trackbed/core/error.h"
 
-// The append-only file of a study's rows. The first line is the header, which describes the study.
-// Each further line is one row as JSON, preceded by its CRC-32. Load() keeps the offset of every
-// row and truncates the file after the last valid line. A killed process therefore loses at most
-// the row that it was writing. A later line of a row replaces an earlier one. The file of rows is
-// synchronized to disk once per second.
+// Manages the append-only file with the rows of a study. The first line of the file is the header,
+// which describes the study. Each further line is one row as JSON, preceded by its CRC-32. Load()
+// stores the file offset of every row and truncates the file after the last valid line. A killed
+// process therefore loses at most the row that it was writing. If several lines contain the same
+// row, the last of these lines counts. The file is synchronized to disk once per second.
 namespace trackbed {
 namespace {
 
 using nlohmann::ordered_json;
 
-constexpr std::size_t kChecksumWidth = 9;  // width of the checksum: eight digits and a space
+// Width of the checksum in a line: eight digits and a space.
+constexpr std::size_t kChecksumWidth = 9;
 constexpr std::string_view kRowKey = "{\"row\":";
 
 std::uint32_t Checksum(std::string_view text) {
@@ -41,7 +42,8 @@ std::string LineOf(std::string_view json) {
   return fmt::format("{:08x} {}\n", Checksum(json), json);
 }
 
-/// The JSON of a line without its line feed; none if the checksum does not match.
+/// Returns the JSON text of a line of the file, without the line feed; none if the checksum does
+/// not match.
 std::optional<std::string_view> JsonOf(std::string_view line) {
   std::uint32_t told = 0;
   if (line.size() <= kChecksumWidth || line[kChecksumWidth - 1] != ' ') {
@@ -92,12 +94,13 @@ void AddDifferences(const ordered_json& now, const ordered_json& before, const s
   }
 }
 
-/// Calls `take` with every complete line and its offset, until `take` returns false.
+/// Calls `take` with every complete line and the line's offset in the file, until `take` returns
+/// false.
 void ForEachLine(int descriptor, const std::function<bool(std::string_view, std::int64_t)>& take,
                  const std::function<void(int error)>& fail) {
   constexpr std::size_t kBlock = std::size_t{1} << 20U;
   std::string text;
-  std::int64_t begin = 0;  // offset of the text in the file
+  std::int64_t begin = 0;  // offset of the buffered text in the file
   for (;;) {
     const std::size_t before = text.size();
     text.resize(before + kBlock);
@@ -128,8 +131,8 @@ void ForEachLine(int descriptor, const std::function<bool(std::string_view, std:
   }
 }
 
-/// Opens the file, or creates it. A new file appears at once with its header, so a killed process
-/// leaves no incomplete file.
+/// Opens the file of records, or creates it together with its header in one step. A killed process
+/// therefore leaves no file without a header.
 int OpenOrCreate(const std::filesystem::path& file, const ordered_json& header) {
   constexpr int kFlags = O_RDWR | O_CLOEXEC | O_NOFOLLOW;
   const int descriptor = ::open(file.c_str(), kFlags);
@@ -160,7 +163,7 @@ SweepRecords::SweepRecords(std::filesystem::path file, int descriptor)
 SweepRecords::SweepRecords(const std::filesystem::path& file, const ordered_json& header,
                            std::string_view remedy)
     : SweepRecords(file, OpenOrCreate(file, header)) {
-  // The header is normalized as by writing and reading it.
+  // Serialize and parse the header, so that it can be compared with the header read from the file.
   Load(ordered_json::parse(Dumped(header)), remedy);
 }
 
@@ -180,7 +183,9 @@ bool SweepRecords::IsFileOfRecords(const std::filesystem::path& file) {
       in.get(),
       [&](std::string_view line, std::int64_t /*begin*/) {
         const std::optional<std::string_view> json = JsonOf(line);
-        is_header = json && ordered_json::parse(*json, nullptr, false).contains("rows_expected");
+        is_header = json && JsonValue(ParseJsonOf(file.string(), *json), file.string())
+                                .Find("rows_expected")
+                                .has_value();
         return false;
       },
       [&](int error) {
@@ -234,7 +239,7 @@ void SweepRecords::Fail(const char* what, int error) const {
 
 void SweepRecords::Load(const std::optional<ordered_json>& header, std::string_view remedy) {
   bool any_line = false;
-  // The callback returns whether to continue.
+  // The callback take_row returns whether to continue with the next line.
   const auto take_row = [&](std::string_view json, std::int64_t begin) {
     std::size_t row = 0;
     if (!json.starts_with(kRowKey)) {
@@ -279,7 +284,7 @@ void SweepRecords::Load(const std::optional<ordered_json>& header, std::string_v
                                fmt::join(Differences(*header, this->header()), "; "), remedy)});
   }
   if (!header) {
-    return;  // the file is opened for reading only
+    return;  // nothing to do: the file is open for reading only
   }
   if (status.st_size > end_ && ::ftruncate(descriptor_.get(), end_) != 0) {
     Fail("write", errno);
@@ -301,7 +306,7 @@ void SweepRecords::WriteLine(std::string_view json) {
     }
     if (written <= 0) {
       const int error = written < 0 ? errno : ENOSPC;
-      // If truncating fails, the incomplete line is removed when the file is next opened.
+      // If truncating fails, the next process that opens the file removes the incomplete line.
       [[maybe_unused]] const int ignored = ::ftruncate(descriptor_.get(), end_);
       Fail("write", error);
     }
