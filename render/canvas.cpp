@@ -14,7 +14,7 @@
 namespace trackbed::render {
 namespace {
 
-/// Mean of the glyph's pixels covered by one pixel of the smaller mask.
+/// Returns the mean of the glyph's pixels that one pixel of the smaller mask covers.
 std::uint8_t AverageOver(const Image& glyph, double left, double top, double step) {
   const double right = std::min(left + step, static_cast<double>(glyph.width));
   const double bottom = std::min(top + step, static_cast<double>(glyph.height));
@@ -96,8 +96,8 @@ void Canvas::Blend(int x, int y, Color color, double alpha) {
 void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double alpha) {
   const double center_x = rectangle.left + 0.5 * rectangle.width;
   const double center_y = rectangle.top + 0.5 * rectangle.height;
-  // Pixels away from the edges depend only on their old value, so a lookup table is used. Most
-  // pixels of a panel are away from the edges.
+  // The new value of a pixel away from the edges depends only on its old value, so a lookup table
+  // is used. Most pixels of a panel are away from the edges.
   const int inner_left = std::max(0, static_cast<int>(std::ceil(rectangle.left + radius)) + 1);
   const int inner_right = std::min(
       image_.width, static_cast<int>(std::floor(rectangle.left + rectangle.width - radius)) - 1);
@@ -133,7 +133,8 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
 }
 
 void Canvas::Arrow(double middle_x, double middle_y, double length, double direction, Color color) {
-  // Dimensions of an arrow relative to its length, along it from its middle and across it.
+  // Dimensions of an arrow, as fractions of its length: along the arrow from its middle, and across
+  // it.
   constexpr double kNeck = 0.10;
   constexpr double kShaft = 0.08;
   constexpr double kHead = 0.26;
@@ -180,7 +181,7 @@ Canvas::Box Canvas::BoxAround(const std::vector<CanvasPoint>& points, double rea
 
 void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color color,
                     double alpha) {
-  const double reach = 0.5 * width + 0.5;  // half a pixel of fading
+  const double reach = 0.5 * width + 0.5;  // the edge fades over half a pixel
   const Box all = BoxAround(points, reach);
   if (points.size() < 2 || all.right <= all.left || all.bottom <= all.top) {
     return;
@@ -223,7 +224,8 @@ void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color 
 }
 
 void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha) {
-  double area = 0.0;  // twice the polygon's area; the sign is the orientation of the corners
+  double area = 0.0;  // twice the polygon's signed area; the sign gives the orientation of the
+                      // corners
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const CanvasPoint& a = corners[i];
     const CanvasPoint& b = corners[(i + 1) % corners.size()];

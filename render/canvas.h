@@ -10,27 +10,28 @@
 
 namespace trackbed::render {
 
-/// A font of large one-bit glyphs, averaged down to any smaller size. Unlike MuJoCo's text, text in
-/// this font has smooth edges.
+/// A font whose large black-and-white glyphs are averaged down to any smaller size. Unlike MuJoCo's
+/// text, text in this font has smooth edges.
 class Font {
  public:
   static constexpr char kFirst = ' ';
   static constexpr char kLast = '~';
 
-  /// `glyphs` are the characters kFirst to kLast, white on black, of equal height.
+  /// `glyphs` has a picture for each character from kFirst to kLast, white on black, all of equal
+  /// height.
   explicit Font(std::vector<Image> glyphs);
 
-  /// Width of a line of text [px] in glyph cells `size` px high. Characters without a glyph are
-  /// drawn as '?'.
+  /// Returns the width of a line of text [px] whose glyph cells are `size` px high. Characters
+  /// without a glyph are drawn as '?'.
   [[nodiscard]] double Width(std::string_view text, double size) const;
 
-  /// Coverage in [0, 255] of one character's cell, rows from the top.
+  /// Coverage of each pixel of one character's cell, in [0, 255], with rows from the top.
   struct Mask {
     int width = 0;
     int height = 0;
     std::vector<std::uint8_t> coverage;
   };
-  /// Mask of a glyph, computed at the first use of a size, then cached.
+  /// Returns the mask of a glyph, which is computed at the first use of a size and then cached.
   const Mask& GlyphMask(char character, double size);
   [[nodiscard]] double Advance(char character, double size) const;
 
@@ -60,16 +61,18 @@ class Canvas {
     double height = 0;
   };
 
-  /// A filled rectangle with smooth rounded corners.
+  /// Draws a filled rectangle with smooth rounded corners.
   void Fill(const Rectangle& rectangle, double radius, Color color, double alpha);
 
-  /// Draws an arrow of `length` about its middle, along `direction`: 0 to the right, pi/2 up.
+  /// Draws an arrow of the given length and middle. A `direction` of 0 points to the right, pi/2
+  /// up.
   void Arrow(double middle_x, double middle_y, double length, double direction, Color color);
 
-  /// A polyline with round ends and joints and smooth edges.
+  /// Draws a polyline with smooth edges and round ends and joints.
   void Stroke(const std::vector<CanvasPoint>& points, double width, Color color, double alpha);
 
-  /// A convex polygon with smooth edges, its corners in either orientation.
+  /// Draws a filled convex polygon with smooth edges. The corners may be in clockwise or
+  /// counterclockwise order.
   void FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha);
 
   /// Draws one line of text; `left` and `top` are the corner of the first glyph cell. Capitals
@@ -78,14 +81,15 @@ class Canvas {
   double Text(double left, double top, std::string_view text, double size, Color color);
 
  private:
-  /// A range of pixels, excluding `right` and `bottom`.
+  /// A rectangle of pixels, which excludes column `right` and row `bottom`.
   struct Box {
     int left = 0;
     int top = 0;
     int right = 0;
     int bottom = 0;
   };
-  /// The part of the picture within `reach` [px] of the points.
+  /// Returns the bounding box of the points, enlarged by `reach` [px] on each side and clipped to
+  /// the picture.
   [[nodiscard]] Box BoxAround(const std::vector<CanvasPoint>& points, double reach) const;
   void Blend(int x, int y, Color color, double alpha);
 

@@ -18,10 +18,11 @@ namespace {
 struct Reading {
   std::string label;
   std::string value;
-  std::string widest;  // widest text of the value; keeps columns in place when numbers change
+  std::string widest;  // longest possible text of the value, which keeps the columns in place when
+                       // numbers change
 };
 
-/// Signed number, without a sign if it rounds to zero.
+/// Formats a number with its sign, or without a sign if it rounds to zero.
 std::string Signed(double value, int digits, const char* unit) {
   const std::string text = fmt::format("{:+.{}f}", value, digits);
   const bool zero = text.find_first_not_of("+-0.") == std::string::npos;
@@ -29,7 +30,7 @@ std::string Signed(double value, int digits, const char* unit) {
 }
 
 /// Formats a lateral and a longitudinal difference as "0.98 m left, 0.12 m ahead". The longitudinal
-/// difference is the difference of the stations if these are known.
+/// difference is the difference of the stations, if both stations are known.
 std::string RelativePositionText(const RelativePosition& apart) {
   const double ahead = apart.station.value_or(apart.ahead);
   return fmt::format("{:.2f} m {}, {:.2f} m {}", std::abs(apart.left),
@@ -59,14 +60,14 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   return shown;
 }
 
-/// Draws the readings as a slim bar above `bottom` [px]. The bar has as many lines as the picture's
-/// width needs. Returns the top of the bar of readings.
+/// Draws the readings in a slim bar above `bottom` [px]. The bar has several lines if the picture
+/// is too narrow for one. Returns the top of the bar [px].
 double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double width,
                     double bottom, const Readings& readings) {
   const double space = 0.4 * layout.pad;  // gap between a label and its value
   const double widest = width - 2.0 * (layout.margin + layout.pad);
-  std::vector<std::vector<std::pair<Reading, double>>> lines(1);  // lines of readings, each reading
-                                                                  // with its left edge
+  // Lines of readings; each reading has the position of its left edge.
+  std::vector<std::vector<std::pair<Reading, double>>> lines(1);
   double pen = 0.0;
   double longest = 0.0;
   for (const Reading& reading : ReadingsToShow(readings)) {
@@ -98,7 +99,7 @@ double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, doub
   return top;
 }
 
-/// Draws an entry's symbol in its color, in a cell of `width` by `height` px.
+/// Draws the symbol of a legend entry in the entry's color, in a cell of `width` by `height` px.
 void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double top, double width,
                 double height) {
   const double middle_x = left + 0.5 * width;
@@ -155,7 +156,8 @@ void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double to
   }
 }
 
-/// Size of letters with which the legend fits into half of the picture's height and stays readable.
+/// Returns the size of the legend's letters. The size shrinks until the legend fits into half of
+/// the picture's height, but not below the smallest readable size.
 double LegendLetters(const Layout& layout, int height, int lines) {
   constexpr double kMaxHeightShare = 0.5;
   constexpr double kMinLabelShare = 0.75;  // factor on the size of labels
@@ -164,7 +166,7 @@ double LegendLetters(const Layout& layout, int height, int lines) {
       std::clamp(room / std::max(1, lines), kMinLabelShare * layout.label, layout.label));
 }
 
-/// Returns the bottom of the legend's panel [px].
+/// Draws the legend and returns the bottom of its panel [px].
 double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, const Image& image,
                   const std::vector<LegendEntry>& legend) {
   int lines = 0;
@@ -195,7 +197,7 @@ double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, const 
   return layout.margin + tall;
 }
 
-/// Height of the title's letters, and of the panel around one line of them.
+/// Returns the height of the title's letters [px].
 double TitleSize(const Layout& layout) {
   return std::round(0.5 * (layout.label + layout.value));
 }
@@ -203,7 +205,7 @@ double TitlePanel(const Layout& layout) {
   return TitleSize(layout) + 0.8 * layout.pad;
 }
 
-/// Top of the panel of a caption line, where line 0 is the title.
+/// Returns the top of the panel of a caption line [px]. Line 0 is the title.
 double TopOfLine(const Layout& layout, int line) {
   return layout.margin + line * (TitlePanel(layout) + 0.5 * layout.pad);
 }
@@ -217,10 +219,10 @@ void DrawLine(Canvas& canvas, const Font& font, const Layout& layout, int line,
   canvas.Text(layout.margin + layout.pad, top + 0.4 * layout.pad, text, size, kValue);
 }
 
-/// Draws the wind as an arrow on a map whose up direction is the camera's azimuth.
+/// Draws the wind as an arrow. An arrow that points up is wind along the camera's azimuth.
 void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, int line, const Vec2& wind,
               double azimuth) {
-  constexpr double kCalm = 0.05;  // wind speed below which the caption would read 0.0 or 0.1 [m/s]
+  constexpr double kCalm = 0.05;  // wind speed below which no arrow is drawn [m/s]
   const double size = TitleSize(layout);
   const double tall = TitlePanel(layout);
   const double top = TopOfLine(layout, line);
@@ -290,7 +292,8 @@ Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Reading
   int line = 0;
   DrawLine(canvas, font, layout, line++, Shortened(caption.title));
   if (!caption.note.empty()) {
-    constexpr double kShare = 0.7;  // fraction of the picture's width
+    constexpr double kShare = 0.7;  // largest width of the note, as a fraction of the picture's
+                                    // width
     const double width = kShare * image.width - 2.0 * layout.pad;
     DrawLine(canvas, font, layout, line++, Fitting(font, caption.note, TitleSize(layout), width));
   }

@@ -9,7 +9,7 @@
 
 namespace trackbed::render {
 
-/// Texts that are the same in every picture of a film.
+/// Caption texts that stay the same in every picture of a film.
 struct Caption {
   std::string title;
   std::string note{};  ///< may be empty
@@ -23,13 +23,14 @@ struct Rows {
 };
 
 /// Draws the texts of a picture: run name, note and wind at the top left, the legend at the top
-/// right. The note is cut at 0.7 of the picture's width. The readings are at the left, above
-/// `bottom` [px]. The wind's arrow points up if the wind blows along `azimuth`, the camera's
-/// direction [rad]. Returns the rows between the legend and the readings.
+/// right, and the readings at the left, above `bottom` [px]. A note longer than 0.7 of the
+/// picture's width is shortened. The wind's arrow points up if the wind blows along `azimuth`, the
+/// camera's direction [rad]. Returns the rows of the picture between the legend and the readings.
 Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Readings& readings,
                  double azimuth, double bottom);
 
-/// The overlay that draws the caption, above the panels already drawn at the bottom.
+/// Returns the overlay that draws the caption. The readings are placed above the panels that were
+/// already drawn at the bottom.
 OverlayEntry CaptionOverlay();
 
 }  // namespace trackbed::render

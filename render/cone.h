@@ -6,10 +6,11 @@
 
 namespace trackbed::render {
 
-/// Number of shapes per traffic cone; MuJoCo's scenes have no cones.
+/// Number of cylinders that make up a traffic cone, since MuJoCo has no cone shape.
 inline constexpr std::size_t kConePieces = 4;
 
-/// Adds a cone half a meter high that stands at `foot`. AddCone does nothing if the scene is full.
+/// Adds a traffic cone, half a meter high, that stands at `foot`. AddCone does nothing if the scene
+/// is full.
 void AddCone(mjvScene& scene, const Point& foot);
 
 }  // namespace trackbed::render

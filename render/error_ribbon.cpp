@@ -74,7 +74,8 @@ bool HasErrorScale(const Recording& recording) {
 
 std::vector<double> ErrorFractions(const Recording& recording) {
   constexpr double kSteps = 16.0;
-  constexpr double kHysteresis = 0.6;  // fraction of a color step; above 0.5 for hysteresis
+  constexpr double kHysteresis = 0.6;  // threshold for a color change, as a fraction of a color
+                                       // step; above 0.5, so that there is hysteresis
   const PlantRecording& car = recording.plants.front();
   std::vector<double> fractions;
   double step = -1.0;

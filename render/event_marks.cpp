@@ -15,7 +15,7 @@ namespace {
 
 using Kind = RunEvent::Kind;
 
-constexpr double kMinTextDuration = 1.5;  // Minimum duration of a line of text [s].
+constexpr double kMinTextDuration = 1.5;  // Shortest time for which a line of text is shown [s].
 constexpr double kFlash = 0.6;            // Duration of a flash [s].
 constexpr double kSide = 0.4;             // Side of a mark [m].
 constexpr double kRim = 0.07;             // Width of the dark rim around the mark [m].
@@ -86,7 +86,8 @@ class EventMarks : public Overlay {
     for (const RunEvent& event : events_) {
       if (event.from <= context.time &&
           context.time <= std::max(event.to, event.from + kMinTextDuration)) {
-        // Of several new plans in quick succession, only the last is shown.
+        // If several new plans are adopted in quick succession, only the text of the last one is
+        // shown.
         if (!shown.empty() && event.kind == Kind::kNewPlan) {
           std::erase_if(shown, [](const RunEvent* other) { return other->kind == Kind::kNewPlan; });
         }
@@ -124,7 +125,7 @@ class EventMarks : public Overlay {
     return recording_.OnGround({place.x + x, place.y + y});
   }
 
-  /// Adds a diamond along the car's heading, with a dark rim.
+  /// Adds a diamond-shaped mark with a dark rim, aligned with the car's heading.
   void AddDiamond(SceneContext& context, const RunEvent& event, double scale) const {
     const double heading = recording_.plants.front().Heading(event.from) + 0.25 * kPi;
     const double c = std::cos(heading);
@@ -151,7 +152,7 @@ class EventMarks : public Overlay {
     }
   }
 
-  /// Returns the panel's top less the gap to the next panel [px].
+  /// Draws the line of text in a panel. Returns the bottom of the next panel above it [px].
   static double DrawLine(Canvas& canvas, const Font& font, const Layout& layout, double first,
                          double bottom, const RunEvent& event) {
     const double tall = layout.label + 0.6 * layout.pad;

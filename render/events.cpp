@@ -54,11 +54,11 @@ void AddRateLimits(const Recording& recording, std::vector<RunEvent>& events) {
   if (!actuator || recording.steering_rate <= 0.0) {
     return;
   }
-  constexpr double kShare = 0.98;     // Fraction of the maximum rate; allows for rounding in the
-                                      // log.
-  constexpr double kReached = 1e-6;   // Tolerance [rad], as for metrics.json's
-                                      // steering_saturated_fraction.
-  constexpr double kSameEvent = 0.5;  // Longest gap within one event [s].
+  constexpr double kShare = 0.98;     // Fraction of the maximum rate that counts as the maximum,
+                                      // because the log is rounded.
+  constexpr double kReached = 1e-6;   // Tolerance for reaching the command [rad], as for
+                                      // steering_saturated_fraction in metrics.json.
+  constexpr double kSameEvent = 0.5;  // Longest gap between two periods of one event [s].
   const std::size_t command = log.Require("steering_command_rad");
   const std::vector<double>& times = log.times();
   const Table& rows = log.table();
@@ -99,7 +99,8 @@ void AddCollision(const Recording& recording, std::vector<RunEvent>& events) {
 }
 
 void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
-  constexpr double kRolledOverCosine = 0.5;  // Cosine of 60 degrees, as for the status rolled_over.
+  constexpr double kRolledOverCosine = 0.5;  // Cosine of 60 degrees, the lean at which a run ends
+                                             // with the status rolled_over.
   constexpr double kLeaningCosine = 0.87;    // Cosine of 30 degrees.
   const PlantRecording& car = recording.plants.front();
   const std::vector<double>& times = car.times();
@@ -109,7 +110,8 @@ void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
     return;
   }
   const double over = recording.roll_over_time.value_or(first == times.end() ? 0.0 : *first);
-  // Recorded states are sparser than rows of the log, so the last state may precede `over`.
+  // States are recorded less often than rows of the log, so the last state may be earlier than
+  // `over`.
   auto from = std::upper_bound(times.begin(), times.end(), over);
   while (from != times.begin() && car.Upright(*(from - 1)) < kLeaningCosine) {
     --from;

@@ -4,7 +4,7 @@
 
 namespace trackbed::render {
 
-/// Draws lines on the ground around the gates that the plan passes, between the gates' cones.
+/// Draws a line on the ground around each gate that the plan passes, from cone to cone.
 OverlayEntry GateOverlay();
 
 }  // namespace trackbed::render

@@ -13,20 +13,20 @@
 namespace trackbed::render {
 namespace {
 
-constexpr float kGhostAlpha = 0.22F;  // alpha of a ghost; MuJoCo draws translucent surfaces twice:
-                                      // 1 - 0.78^2 = 0.39
+constexpr float kGhostAlpha = 0.22F;  // alpha of a ghost; MuJoCo draws translucent surfaces twice,
+                                      // so the opacity is 1 - 0.78^2 = 0.39
 constexpr float kGhostTint = 0.7F;
-// Parts of a ghost smaller than this fraction of its largest part are not drawn. Spokes and lamps
-// are not recognizable in a ghost, and triple the rendering time.
+// Parts that are smaller than this fraction of a ghost's largest part are not drawn. Small parts
+// such as spokes and lamps are not recognizable in a ghost, and drawing them would triple the
+// rendering time.
 constexpr float kGhostDetail = 0.125F;
-// Ghosts are drawn farther from the camera than they are, by this distance [m]. A ghost that
-// coincides with the car is therefore hidden by the car and does not flicker on its surface.
-// Differences between car and ghost that are smaller than this distance are visible by footprint
-// and trail.
+// Ghosts are drawn farther from the camera than their true position, by this distance [m]. A ghost
+// that coincides with the car is therefore hidden by the car and does not flicker on its surface.
+// Footprint and trail show differences between car and ghost that are smaller than this distance.
 constexpr double kGhostBehind = 0.10;
 constexpr double kFootprintWidth = 0.06;    // Width of the footprint's lines [m].
-constexpr std::size_t kFootprintMax = 100;  // Maximum number of pieces of 0.25 m, around a car of 8
-                                            // m by 3 m.
+constexpr std::size_t kFootprintMax = 100;  // Maximum number of pieces of a footprint; enough for
+                                            // pieces of 0.25 m around a car of 8 m by 3 m.
 
 float LargestSide(const mjvGeom& geom) {
   return std::max({geom.size[0], geom.size[1], geom.size[2]});
@@ -104,7 +104,7 @@ class Ghosts : public Overlay {
     AddFootprint(context, style);
   }
 
-  /// Whether the ghost would hide the road from a camera inside the car.
+  /// Whether a ghost is so close that it would hide the road from a camera inside the car.
   [[nodiscard]] bool BlocksCamera(double time, std::size_t ghost) const {
     const Point own = recording_.plants.front().Position(time);
     const Point other = recording_.plants[ghost].Position(time);

@@ -4,7 +4,8 @@
 
 namespace trackbed::render {
 
-/// The other plants as translucent cars, each with its footprint.
+/// Returns the overlay that draws the run's other plants as translucent cars, each with its
+/// footprint.
 OverlayEntry GhostOverlay();
 
 }  // namespace trackbed::render

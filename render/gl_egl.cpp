@@ -1,4 +1,4 @@
-// EGL_NO_X11 excludes the types of X11, whose header defines macros such as None.
+// EGL_NO_X11 keeps EGL from including the X11 headers, which define macros such as None.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* kPackage = "libegl1, with libgl1-mesa-dri";
 
-/// The functions of EGL 1.5, from a library loaded on first use.
+/// Pointers to the functions of EGL 1.5, from a library that is loaded on first use.
 struct EglFunctions {
   explicit EglFunctions(const RuntimeLibrary& library)
       : get_address(library.Find<decltype(eglGetProcAddress)>("eglGetProcAddress")),
@@ -47,8 +47,9 @@ struct EglFunctions {
   decltype(&eglGetCurrentSurface) current_surface;
 };
 
-/// Displays without a screen, in the order to try: each device, as in MuJoCo's Python package, then
-/// Mesa's surfaceless platform. EGL lists graphics cards before software renderers.
+/// Returns EGL displays that need no screen, in the order to try: one for each device, as in
+/// MuJoCo's Python package, then Mesa's surfaceless platform. EGL lists graphics cards before
+/// software renderers.
 std::vector<EGLDisplay> OffscreenDisplays(const EglFunctions& egl) {
   std::vector<EGLDisplay> displays;
   std::array<EGLDeviceEXT, 16> devices{};
@@ -65,7 +66,7 @@ std::vector<EGLDisplay> OffscreenDisplays(const EglFunctions& egl) {
   return displays;
 }
 
-/// Reads the current OpenGL context of this thread.
+/// The OpenGL context, surfaces and display that are current in this thread.
 struct Current {
   explicit Current(const EglFunctions& egl)
       : api(egl.query_api()),
@@ -89,7 +90,7 @@ class EglContext final : public GlContext {
     for (EGLDisplay display : OffscreenDisplays(egl_)) {
       error = Start(display);
       if (error == EGL_SUCCESS) {
-        // MuJoCo looks for EGL among the symbols of the process.
+        // Makes EGL's symbols visible in the whole process, where MuJoCo searches for them.
         const RuntimeLibrary global(file, kPackage, RuntimeLibrary::Symbols::kGlobal);
         return;
       }
@@ -102,7 +103,7 @@ class EglContext final : public GlContext {
                     error));
   }
 
-  // The destructor does not terminate the display, which the process shares.
+  // The destructor does not terminate the display, because other code in the process may share it.
   ~EglContext() override {
     if (before_.context == EGL_NO_CONTEXT) {
       egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
@@ -119,7 +120,8 @@ class EglContext final : public GlContext {
   }
 
  private:
-  /// Makes an OpenGL context of this display current. Start() returns EGL_SUCCESS or an EGL error.
+  /// Creates an OpenGL context on the display and makes it current. Returns EGL_SUCCESS or an EGL
+  /// error code.
   EGLint Start(EGLDisplay display) {
     constexpr std::array<EGLint, 5> kConfigAttributes{
         EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
@@ -133,7 +135,7 @@ class EglContext final : public GlContext {
     if (count < 1) {
       return EGL_BAD_CONFIG;
     }
-    // Without attributes EGL creates the compatibility profile, which MuJoCo needs.
+    // Without attributes, EGL creates a context with the compatibility profile, which MuJoCo needs.
     context_ = egl_.create(display, config, EGL_NO_CONTEXT, nullptr);
     if (context_ == EGL_NO_CONTEXT) {
       return egl_.get_error();

@@ -8,8 +8,8 @@
 namespace trackbed::render {
 namespace {
 
-// Mesa 25.1 removed OSMesa and <GL/osmesa.h>. The declarations of the removed header <GL/osmesa.h>
-// are repeated here, so that one build works with and without OSMesa.
+// Mesa 25.1 removed OSMesa and its header <GL/osmesa.h>. The declarations of that header are
+// repeated here, so that one build works with and without OSMesa.
 struct OsmesaState;
 using OsmesaCreate = OsmesaState*(unsigned format, int depth_bits, int stencil_bits, int accum_bits,
                                   OsmesaState* share);
@@ -48,14 +48,14 @@ class OsmesaContext final : public GlContext {
       }
       throw RunError("OSMesa makes no OpenGL context");
     }
-    // MuJoCo looks for OSMesa among the symbols of the process.
+    // Makes OSMesa's symbols visible in the whole process, where MuJoCo searches for them.
     const RuntimeLibrary global(file, kPackage, RuntimeLibrary::Symbols::kGlobal);
   }
 
   OsmesaMakeCurrent* make_current_;
   OsmesaDestroy* destroy_;
   OsmesaGetProcAddress* get_address_;
-  // OSMesa requires a window buffer, which stays unused.
+  // Window buffer, which OSMesa requires but MuJoCo does not use.
   std::array<std::uint8_t, std::size_t{4} * kWindowSize * kWindowSize> window_{};
   OsmesaState* state_;
 };

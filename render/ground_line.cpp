@@ -5,9 +5,10 @@
 namespace trackbed::render {
 namespace {
 
-// Largest deviation of a thinned line [m]: a twentieth of the narrowest ribbon.
+// Largest deviation of a thinned line from the original [m]: a twentieth of the narrowest ribbon's
+// width.
 constexpr double kLineTolerance = 0.005;
-constexpr std::size_t kMaxPieces = 3000;  // Largest number of pieces per line.
+constexpr std::size_t kMaxPieces = 3000;  // Largest number of pieces of a line.
 // Beyond this distance from the camera's target, paint would be thinner than a pixel [m].
 constexpr double kPaintRange = 250.0;
 
@@ -31,7 +32,7 @@ std::vector<Point> Thinned(const std::vector<Point>& line) {
 }
 
 std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners) {
-  // Pieces of a line are short enough to follow the ground.
+  // On uneven ground, the pieces of a line are short enough to follow the surface.
   const double longest = IsFlat(recording.world.ground) ? 1e6 : 0.25;
   std::vector<Point> points;
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -9,22 +9,22 @@
 /// Lines painted on the ground of a recorded world.
 namespace trackbed::render {
 
-/// Indices of the points to keep when a line on the ground is thinned. The thinned line deviates by
-/// at most a twentieth of the narrowest ribbon.
+/// Returns the indices of the points to keep when a line on the ground is thinned. The thinned line
+/// deviates from the original by at most a twentieth of the narrowest ribbon's width.
 std::vector<std::size_t> KeptPoints(const std::vector<Point>& line);
 
-/// The points of a line that KeptPoints keeps.
+/// Returns the points of a line that KeptPoints selects.
 std::vector<Point> Thinned(const std::vector<Point>& line);
 
-/// The outline of a rectangle on the ground.
+/// Returns the outline of a rectangle on the ground, as a closed line.
 std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners);
 
-/// Adds one straight piece. A piece is skipped if it is so far from the camera's target that it
-/// would be thinner than a pixel.
+/// Adds one straight piece of a line to the scene. The piece is skipped if it is so far from the
+/// camera's target that it would be thinner than a pixel.
 void AddPiece(SceneContext& context, const World& world, const Point& a, const Point& b,
               const RibbonStyle& style);
 
-/// Adds the straight pieces between consecutive points.
+/// Adds a straight piece between each two consecutive points to the scene.
 void AddLine(SceneContext& context, const World& world, const std::vector<Point>& points,
              const RibbonStyle& style);
 

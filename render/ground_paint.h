@@ -8,7 +8,7 @@
 #include "render/image.h"
 #include "trackbed/world/world.h"
 
-/// Flat paint on the ground of any shape.
+/// Flat paint on flat or uneven ground.
 namespace trackbed::render {
 
 /// A translucent rectangle.
@@ -21,20 +21,22 @@ struct Tile {
   float alpha = 1.0F;
 };
 
-/// Color of a friction factor. Ice is light blue. Slippery patches look like wet road, darker with
-/// less friction. Patches with more grip than usual are brownish.
+/// Returns the color of a patch with this friction factor. Ice is light blue. Slippery patches look
+/// like wet road, and are darker for lower friction. Patches with more friction than usual are
+/// brownish.
 Color PatchColor(double friction);
 
-/// The color of a patch seen on asphalt.
+/// Returns the color of a friction patch on asphalt.
 Color PatchColorOnRoad(double friction);
 
-/// The world's friction patches, cut into tiles. Under a tile, the ground bends and twists by at
-/// most 1.5 mm; the tile's sides are at least 0.1 m. Tiles lie 1 to 2 mm above the ground, later
-/// patches above earlier ones.
+/// Returns the world's friction patches, cut into flat tiles. The ground under a tile deviates from
+/// a plane by at most 1.5 mm, unless the tile's sides have reached the minimum of 0.1 m. Tiles lie
+/// 1 to 2 mm above the ground; tiles of later patches lie above those of earlier patches.
 std::vector<Tile> PatchTiles(const World& world);
 
-/// A rectangle on the ground, cut into tiles under which the ground bends by at most `tolerance`
-/// [m]. The tiles lie `above` the ground [m] and have the color of `like`.
+/// Cuts a rectangle on the ground into flat tiles, such that the ground under each tile deviates
+/// from a plane by at most `tolerance` [m]. The tiles lie at the height `above` over the ground [m]
+/// and have the color of `like`.
 std::vector<Tile> CutToGround(const Ground& ground, const OrientedBox& box, const Tile& like,
                               double above, double tolerance);
 

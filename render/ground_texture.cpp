@@ -10,12 +10,13 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kSide = 10.0;  // side of the square texture, on the ground [m]
+constexpr double kSide = 10.0;  // side of the square of ground that the texture covers [m]
 constexpr double kLineSpacing = 5.0;
 constexpr double kLineWidth = 0.05;
 constexpr double kLineLight = 1.12;
 
-/// A pseudorandom number in [-1, 1] for a corner of a lattice; it is the same in every film.
+/// Returns a pseudorandom number in [-1, 1] for a corner of a lattice. The number is the same in
+/// every film.
 double Scattered(std::uint32_t x, std::uint32_t y, std::uint32_t octave) {
   std::uint32_t h = x * 374761393U + y * 668265263U + octave * 2246822519U;
   h = (h ^ (h >> 13U)) * 1274126177U;
@@ -23,7 +24,8 @@ double Scattered(std::uint32_t x, std::uint32_t y, std::uint32_t octave) {
   return static_cast<double>(h & 0xffffU) / 32767.5 - 1.0;
 }
 
-/// Periodic value noise in [-1, 1], with `cells` cells along each side of the texture.
+/// Returns periodic value noise in [-1, 1], with `cells` lattice cells along each side of the
+/// texture.
 double Noise(double u, double v, std::uint32_t cells, std::uint32_t octave) {
   const double x = u * cells;
   const double y = v * cells;

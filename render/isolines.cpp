@@ -9,7 +9,7 @@
 namespace trackbed::render {
 namespace {
 
-/// Maps each side of a cell to the other sides that line pieces connect with that side.
+/// Maps each side of a cell to the sides to which a piece of a contour line connects it.
 using Neighbors = std::map<int, std::vector<int>>;
 
 void Join(Neighbors& neighbors, int a, int b) {
@@ -17,7 +17,8 @@ void Join(Neighbors& neighbors, int a, int b) {
   neighbors[b].push_back(a);
 }
 
-/// Removes the line that begins at a side, and returns it.
+/// Removes the contour line that begins at the side `first` from `neighbors`, and returns its
+/// sides.
 std::vector<int> TakeLine(Neighbors& neighbors, int first) {
   std::vector<int> line{first};
   while (!neighbors[line.back()].empty()) {
@@ -86,8 +87,8 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
       if (cut.size() == 2) {
         Join(neighbors, sides[cut[0]], sides[cut[1]]);
       } else if (cut.size() == 4) {
-        // A line separates each corner above the level from the rest. Each line around a corner
-        // crosses the sides before and after that corner.
+        // A line separates each corner above the level from the rest of the cell. The line crosses
+        // the two sides that meet at the corner.
         for (std::size_t i = 0; i < 4; ++i) {
           if (above[i]) {
             Join(neighbors, sides[(i + 3) % 4], sides[i]);

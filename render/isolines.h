@@ -7,14 +7,14 @@
 
 namespace trackbed::render {
 
-/// Contour lines of a function (marching squares). On square cells with a bilinear function, the
-/// lines are exact on the cells' sides and straight in between.
+/// Computes contour lines of a function by marching squares. If the function is bilinear on each
+/// square cell, the contour lines are exact on the cells' sides and straight between them.
 ///
-/// `value` is evaluated once per cell corner; cells with sides of `step` [m] cover the rectangle
-/// from `low` to `high`. A contour line ends at the rectangle's sides or closes; if closed, its
-/// last point repeats the first. A cell with two opposite corners above the level and two below is
-/// cut as if its middle were below. Cost of the contour lines: linear in the number of cells, times
-/// the levels.
+/// The function `value` is evaluated once per cell corner. Square cells of side `step` [m] cover
+/// the rectangle from `low` to `high`. Each contour line either ends at the rectangle's sides or is
+/// closed; the last point of a closed line repeats the first. If two opposite corners of a cell are
+/// above the level and the other two below, the middle of the cell is assumed to be below. The run
+/// time is proportional to the number of cells times the number of levels.
 class IsolineGrid {
  public:
   IsolineGrid(const Vec2& low, const Vec2& high, double step,
@@ -29,7 +29,8 @@ class IsolineGrid {
     return values_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
                    static_cast<std::size_t>(column)];
   }
-  /// Index of a cell side that begins at a corner: direction 0 along x, 1 along y.
+  /// Returns the index of the cell side that begins at a corner and runs along x (direction 0) or
+  /// along y (direction 1).
   [[nodiscard]] int Side(int column, int row, int direction) const {
     return 2 * (row * columns_ + column) + direction;
   }

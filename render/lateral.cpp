@@ -15,10 +15,11 @@ namespace {
 
 constexpr double kLength = 40.0;  // Shown length of the path [m].
 constexpr double kBehind = 0.75;  // Fraction of the shown length behind the car.
-constexpr double kFill = 0.85;    // Fraction of the half height that the largest distance fills.
+constexpr double kFill = 0.85;    // Fraction of half the inset's height that the largest
+                                  // cross-track error of the run fills.
 constexpr double kGridAlpha = 0.35;
 
-/// Columns of a log with the car's station and cross-track error.
+/// Indices of the log columns with the car's station and cross-track error.
 struct AlongPath {
   std::size_t station;
   std::size_t left;
@@ -30,7 +31,8 @@ std::optional<AlongPath> FindAlongPath(const TimedTable& log) {
   return station && left ? std::optional(AlongPath{*station, *left}) : std::nullopt;
 }
 
-/// Height of letters in an inset, which is at most 0.3 as high as its picture.
+/// Returns the height of letters in an inset of this height [px]. An inset is at most 0.3 times as
+/// high as the picture.
 double LetterSize(int height) {
   return std::clamp(std::round(0.085 * height), 11.0, 23.0);
 }
@@ -53,7 +55,7 @@ void LateralView::DrawAxes(Canvas& canvas, Font& font, int width, int height, do
   const double scale = PixelsPerMeter(width, height);
   const double hairline = std::max(1.0, 0.005 * height);
   const double letters = LetterSize(height);
-  // Draws two or three lines on each side of the path, at round distances.
+  // Draws two or three grid lines on each side of the path, at round distances.
   const double reach = 0.5 * height / (kMagnification * scale);
   const double apart = RoundedUp(reach / 4.0);
   for (double left = apart; left < reach; left += apart) {
@@ -68,7 +70,7 @@ void LateralView::DrawAxes(Canvas& canvas, Font& font, int width, int height, do
       }
     }
   }
-  // Draws a station mark about every 10 m, fixed to the road.
+  // Draws a mark at a round station about every 10 m.
   const double step = RoundedUp(width / scale / 5.0);
   const double first = step * std::floor((car - kBehind * width / scale) / step);
   for (double station = first; station < car + width / scale; station += step) {
@@ -106,7 +108,8 @@ void LateralView::Draw(Image& image, Font& font, double time) const {
     for (std::size_t row = 0; row < log.times().size() && log.times()[row] <= time; ++row) {
       const CanvasPoint point = Place(width, height, car, log.table().at(row, along->station),
                                       log.table().at(row, along->left));
-      // Keeps points at least half a pixel apart, and few outside the picture.
+      // Skips points that are less than half a pixel from the previous one, and most points outside
+      // the picture.
       if (point.x > -2.0 &&
           (line.empty() || std::hypot(point.x - line.back().x, point.y - line.back().y) > 0.5)) {
         line.push_back(point);

@@ -5,12 +5,12 @@
 
 namespace trackbed::render {
 
-/// Draws the path as a straight line from left to right, and each plant's car at its logged station
-/// and cross-track error. Lateral distances are enlarged ten times.
+/// A view of the path as a straight line from left to right, with each plant's car at its logged
+/// station and cross-track error. Lateral distances are magnified ten times.
 ///
-/// Shows 40 m of the path, three quarters of it behind the car. The view shows more of the path if
-/// the largest distance of the run needs it. The view skips plants whose logs lack s_m or
-/// cross_track_m.
+/// The view shows 40 m of the path, three quarters of it behind the car. If the largest cross-track
+/// error of the run does not fit, the view shows a longer part of the path at a smaller scale.
+/// Plants whose logs lack s_m or cross_track_m are skipped.
 class LateralView {
  public:
   static constexpr double kMagnification = 10.0;
@@ -18,11 +18,11 @@ class LateralView {
   /// The recording must outlive the view.
   explicit LateralView(const Recording& recording) : recording_(recording) {}
 
-  /// Draws the whole picture of the lateral view.
+  /// Draws the lateral view at `time` [s] over the whole picture.
   void Draw(Image& image, Font& font, double time) const;
 
-  /// Pixel position of a station and of a distance from the path, positive to the left. `car` is
-  /// the station of the car [m].
+  /// Returns the pixel position of a point at `station` and at the distance `left` to the left of
+  /// the path [m]. `car` is the station of the car [m].
   [[nodiscard]] CanvasPoint Place(int width, int height, double car, double station,
                                   double left) const;
 

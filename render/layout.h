@@ -5,7 +5,7 @@
 
 #include "render/image.h"
 
-/// Sizes of panels and text over a picture.
+/// Sizes of the panels and text that are drawn over a picture.
 namespace trackbed::render {
 
 inline constexpr Color kPanel{0.06F, 0.07F, 0.09F};
@@ -13,8 +13,9 @@ inline constexpr double kPanelAlpha = 0.66;
 inline constexpr Color kLabel{0.70F, 0.74F, 0.78F};
 inline constexpr Color kValue{1.00F, 1.00F, 1.00F};
 
-/// Sizes of the picture's panels and text [px]. Sizes are proportional to the picture's height, but
-/// readable down to 640x360. In smaller pictures, the sizes of panels and text shrink to fit.
+/// Sizes of the picture's panels and text [px]. The sizes are proportional to the picture's height,
+/// with a minimum that keeps text readable down to 640x360. In smaller pictures, panels and text
+/// shrink further to fit.
 struct Layout {
   double margin;  ///< Distance from the picture's edge to a panel.
   double pad;     ///< Distance from a panel's edge to its text.
@@ -26,9 +27,9 @@ struct Layout {
   Layout(int width, int height) {
     const double scale = height / 720.0;
     // At the smallest readable size, legend and title side by side need about 400 px of width. All
-    // panels below each other need 250 px of height at the smallest readable size.
+    // panels, stacked vertically, need 250 px of height at the smallest readable size.
     const double shrink = std::min({1.0, width / 400.0, height / 270.0});
-    // Limits the sizes in tall, narrow pictures, such as two side by side.
+    // Limits the sizes in tall, narrow pictures, such as each of two pictures side by side.
     const double widest = width / 960.0;
     const auto size = [&](double of_height, double least) {
       return std::max(of_height * std::min(scale, widest), least * shrink);

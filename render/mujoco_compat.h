@@ -4,12 +4,12 @@
 
 #include <concepts>
 
-/// Covers the differences between MuJoCo versions in the drawing functions; src/sim/mujoco_compat.h
-/// covers those in the physics.
+/// Hides the differences between MuJoCo versions in the drawing functions. Differences in the
+/// physics are handled in src/sim/mujoco_compat.h.
 namespace trackbed::render::mj {
 
-/// Index of the texture of a material's color; -1 if the material has none. Since MuJoCo 3.2, a
-/// material has one texture per role.
+/// Returns the index of a material's color texture; -1 if the material has none. Since MuJoCo 3.2,
+/// a material can have several textures, one per role.
 inline int ColorTexture(const mjModel& model, int material) {
 #if mjVERSION_HEADER >= 320
   const int* of_roles = model.mat_texid + mjNTEXROLE * material;
@@ -22,7 +22,7 @@ inline int ColorTexture(const mjModel& model, int material) {
 /// Pixels of a texture, row by row.
 struct TexturePixels {
   mjtByte* first;
-  int channels;  ///< bytes per pixel, beginning with red, green, blue
+  int channels;  ///< number of bytes per pixel, the first three of which are red, green and blue
 };
 
 template <std::same_as<mjModel> Model>

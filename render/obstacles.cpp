@@ -10,15 +10,15 @@
 #include "render/scene_handle.h"
 #include "trackbed/sim/mujoco_handles.h"
 
-// Draws each obstacle by its size (ChooseLook). An obstacle looks like the run's own car stretched
-// to the obstacle's box, or like a wall, cone, post or crate. The obstacle's box in the model is
-// recolored or replaced. Before the planner detects an obstacle, and shortly after, the edges of
-// its box are drawn as an outline.
+// Draws each obstacle with an appearance that depends on its size (ChooseLook). An obstacle looks
+// like the run's own car stretched to the obstacle's box, or like a wall, cone, post or crate. The
+// obstacle's box in MuJoCo's scene is recolored, or replaced by other shapes. Until shortly after
+// the planner detects an obstacle, the edges of the obstacle's box are drawn as an outline.
 namespace trackbed::render {
 namespace {
 
-constexpr double kOutlineDuration = 1.5;  // Duration of the outline after the planner detects an
-                                          // obstacle [s].
+constexpr double kOutlineDuration = 1.5;  // Time for which the outline stays after the planner
+                                          // detects an obstacle [s].
 constexpr double kEdge = 0.05;            // Thickness of outlines and of a crate's edges [m].
 constexpr std::size_t kEdges = 12;        // Number of edges of a box.
 
@@ -48,7 +48,8 @@ struct Block {
       }
     }
   }
-  /// A point of the block, in coordinates relative to its half sides, each from -1 to 1.
+  /// Returns a point of the block. Each coordinate is a fraction of the block's half side, from -1
+  /// to 1.
   [[nodiscard]] Eigen::Vector3d At(double along, double across, double up) const {
     return center + axes * Eigen::Vector3d(along * half[0], across * half[1], up * half[2]);
   }
@@ -77,8 +78,8 @@ void AddEdges(mjvScene& scene, const Block& block, const Color& color, float emi
   }
 }
 
-/// The run's own car at its initial position, without small parts. The car is scaled so that its
-/// box has half sides of 1.
+/// The shapes of the run's own car, without small parts. The car is scaled so that its bounding box
+/// has half sides of 1.
 class CarParts {
  public:
   explicit CarParts(const Recording& recording) {
@@ -119,10 +120,10 @@ class CarParts {
 
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
 
-  /// Draws the car as large as the block. `forward` is the car's direction along the block's
-  /// length, 1 or -1.
+  /// Draws the car, stretched to the size of the block. `forward` is the car's direction along the
+  /// block's longer side, 1 or -1.
   void Add(mjvScene& scene, const Block& block, double forward, const Color& paint) const {
-    // The car's length is along the longer side of the block.
+    // The car is turned so that its length is along the longer side of the block.
     RowMajorMatrix3 turn = RowMajorMatrix3::Identity() * forward;
     turn(2, 2) = 1.0;
     Eigen::Vector3d half(block.half[0], block.half[1], block.half[2]);
@@ -130,8 +131,8 @@ class CarParts {
       std::swap(half.x(), half.y());
       turn << 0.0, -forward, 0.0, forward, 0.0, 0.0, 0.0, 0.0, 1.0;
     }
-    // The matrix of the car also stretches, so it is no rotation. MuJoCo uses the matrix unchanged
-    // and normalizes normals.
+    // The matrix also stretches the car, so it is not a pure rotation. MuJoCo uses the matrix
+    // unchanged and normalizes the normals.
     const RowMajorMatrix3 stretched = block.axes * turn * half.cwiseProduct(scale_).asDiagonal();
     for (const Part& part : parts_) {
       if (scene.ngeom >= scene.maxgeom) {
@@ -166,8 +167,8 @@ class CarParts {
   std::vector<Part> parts_;
 };
 
-/// Adds cylinders or boxes on top of each other, from bottom to top, with these relative sizes and
-/// colors.
+/// Fills the block with a stack of cylinders or boxes of equal height. `layers` has their
+/// horizontal sizes, relative to the block, and their colors, from bottom to top.
 void AddStack(mjvScene& scene, const Block& block, mjtGeom type,
               const std::vector<std::pair<double, Color>>& layers) {
   const double tall = 1.0 / static_cast<double>(layers.size());
@@ -202,7 +203,7 @@ class Obstacles : public Overlay {
 
   void AddShapes(SceneContext& context) override {
     mjvScene& scene = context.scene;
-    const int count = scene.ngeom;  // number of shapes in the scene before any are added here
+    const int count = scene.ngeom;  // number of shapes in the scene before obstacles are added
     for (std::size_t i = 0; i < geoms_.size(); ++i) {
       const auto is_own = [&](const mjvGeom& geom) {
         return geom.objtype == mjOBJ_GEOM && geom.objid == geoms_[i];
@@ -227,7 +228,8 @@ class Obstacles : public Overlay {
   }
 
  private:
-  // Marks a geom that other shapes replace; MuJoCo has no object type with this number.
+  // Object type that marks a geom which other shapes replace. MuJoCo has no object type with this
+  // number.
   static constexpr int kReplaced = -1;
 
   void AddOne(SceneContext& context, std::size_t i, mjvGeom* own) const {
@@ -235,7 +237,8 @@ class Obstacles : public Overlay {
     const Block block(*own);
     const double since = context.time - known_[i];
     if (since < kOutlineDuration) {
-      // The outline is around the obstacle's drawn shape, not inside it.
+      // The outline is slightly larger than the obstacle's shape, so that the shape does not hide
+      // it.
       Block outline = block;
       for (double& half : outline.half) {
         half += since < 0.0 ? 0.0 : kEdge;
@@ -280,7 +283,8 @@ class Obstacles : public Overlay {
     }
   }
 
-  /// Direction of a car along the block's longer side, 1 or -1, by the obstacle's velocity.
+  /// Returns the direction, 1 or -1, in which a car faces along the block's longer side, from the
+  /// obstacle's velocity.
   [[nodiscard]] double ForwardOf(std::size_t i, const Block& block) const {
     const Vec2& velocity = recording_.world.obstacles[i].velocity;
     const int side = block.half[0] >= block.half[1] ? 0 : 1;

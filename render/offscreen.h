@@ -11,31 +11,31 @@
 
 namespace trackbed::render {
 
-/// MuJoCo's renderer without a display.
+/// Renders MuJoCo scenes without a display.
 ///
-/// The renderer's OpenGL context is current in this thread during its lifetime, so there is at most
-/// one per thread.
+/// The renderer's OpenGL context is current in its thread during the renderer's lifetime, so a
+/// thread can have at most one renderer.
 class Offscreen {
  public:
-  /// Allocates buffers for pictures of the given size [px]. Each pixel is the mean of
-  /// `supersampling` squared samples. The constructor sets the sizes in `model.vis` to those of the
-  /// buffers. Throws RunError if MuJoCo cannot draw in the context.
+  /// Allocates buffers for pictures of the given size [px]. Each pixel is the mean of a square of
+  /// `supersampling` by `supersampling` samples. The constructor sets the buffer sizes in
+  /// `model.vis`. Throws RunError if MuJoCo cannot draw in the context.
   Offscreen(mjModel& model, int width, int height, int supersampling,
             std::unique_ptr<GlContext> gl = MakeGlContext("auto"));
   ~Offscreen();
   Offscreen(const Offscreen&) = delete;
   Offscreen& operator=(const Offscreen&) = delete;
 
-  /// Renders the scene with the scene's own camera. Rendering takes 60 to 290 ms at 1280x720.
+  /// Renders the scene with the camera stored in it. Rendering takes 60 to 290 ms at 1280x720.
   void Render(mjvScene& scene, Image& image) { Render(scene, image, width_, height_); }
-  /// Renders the scene in a size [px] of at most that of the buffers.
+  /// Renders the scene at a size [px] that does not exceed the size of the buffers.
   void Render(mjvScene& scene, Image& image, int width, int height);
 
-  /// The part of Render done by MuJoCo: draws the scene and reads its samples back.
+  /// Draws the scene with MuJoCo and reads the samples back, without averaging them into pixels.
   void Draw(mjvScene& scene) { Draw(scene, width_, height_); }
 
-  /// Image of a printable ASCII character in MuJoCo's largest font, white on black. The glyph's
-  /// `width` is the advance; every glyph has the same height.
+  /// Returns the image of a printable ASCII character in MuJoCo's largest font, white on black. The
+  /// image is as wide as the character's advance; all characters have the same height.
   Image Glyph(char character);
 
  private:
@@ -47,8 +47,8 @@ class Offscreen {
   int supersampling_;
   std::unique_ptr<GlContext> gl_;
   mjrContext context_;
-  std::vector<std::uint8_t> upside_down_;  // samples as OpenGL stores them, with rows from the
-                                           // bottom
+  std::vector<std::uint8_t> upside_down_;  // samples in OpenGL's order, which begins with the
+                                           // bottom row
 };
 
 }  // namespace trackbed::render

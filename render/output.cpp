@@ -11,21 +11,23 @@
 #include "trackbed/core/file.h"
 
 // Outputs of a film. FrameOutput writes numbered PNG files with libpng; render/video/ has the
-// formats encoded by FFmpeg. BackgroundOutput writes to another output in a thread with a queue of
-// at most two pictures, guarded by a mutex. An exception in the writing thread is rethrown by the
-// next call. EncodePng adds a chunk that identifies Trackbed as the author.
+// formats encoded by FFmpeg. BackgroundOutput passes pictures to another output in a separate
+// thread, through a queue of at most two pictures that a mutex guards. An exception in the writing
+// thread is rethrown by the next call. EncodePng adds a PNG chunk that identifies Trackbed as the
+// author.
 namespace trackbed::render {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kHeaderSize = 33;  // length of a PNG's signature and IHDR
+constexpr std::size_t kHeaderSize = 33;  // length of a PNG file's signature and IHDR chunk [bytes]
 
-/// Writes one PNG per picture, into a hidden folder until all are complete. When all are complete,
+/// Writes one PNG file per picture, into a hidden folder until the film is complete. On completion,
 /// the frames of an earlier film of the same name are removed, so that frames of two films are
-/// never mixed. The frames of an earlier film are the pictures numbered without a gap. All must
-/// have been written by Trackbed. Without Finish or Keep, the frames of an earlier film are kept.
-/// If there is no earlier film, the frames written so far are kept.
+/// never mixed. The frames of an earlier film are the files that are numbered from 0 without a gap.
+/// If one of these files was not written by Trackbed, RunError is thrown. If neither Finish() nor
+/// Keep() is called, the frames of the earlier film stay. If there is no earlier film, the new
+/// frames written so far stay instead.
 class FrameOutput : public FilmOutput {
  public:
   explicit FrameOutput(fs::path output) : output_(std::move(output)), frames_(output_) {
@@ -41,14 +43,14 @@ class FrameOutput : public FilmOutput {
       try {
         FrameOutput::Finish();
       } catch (const RunError&) {
-        // Ignores the error, because another exception is already being handled.
+        // The error is ignored, because a destructor must not throw.
       }
     }
   }
 
   void Add(const Image& image) override {
     const fs::path frame = FrameName(output_, next_);
-    RequireOwn(frame);  // frames behind a gap in the numbers are checked, too
+    RequireOwn(frame);  // also checks files after a gap in the numbers
     WriteNewFile(frames_.path() / frame.filename(), EncodePng(image), frame);
     ++next_;
   }
@@ -59,8 +61,8 @@ class FrameOutput : public FilmOutput {
     while (frames > 0 && IsThere(old)) {
       ++old;
     }
-    // Frames are removed from the last one on. If removing fails, the next film can then identify
-    // and remove the remaining frames.
+    // Frames are removed in reverse order. If removing a frame fails, the remaining frames are
+    // still numbered from 0 without a gap, so the next film can remove them.
     while (old > 0) {
       const fs::path name = FrameName(output_, --old);
       if (!fs::remove(name, error)) {
@@ -97,7 +99,7 @@ class FrameOutput : public FilmOutput {
   int next_ = 0;
 };
 
-/// The registry of formats.
+/// Returns the registry of film formats.
 const std::array<FilmFormat, 4>& FormatTable() {
   static const std::array<FilmFormat, 4> table{{
       {".mp4", "video", true, VideoOpener()},
@@ -161,7 +163,7 @@ void BackgroundOutput::Rethrow() {
 
 void BackgroundOutput::Write(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  // After a stop request, the thread continues until no pictures are waiting.
+  // After a stop request, the thread still writes all waiting pictures.
   while (changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
     Image image = std::move(waiting_.front());
     waiting_.pop_front();
@@ -220,7 +222,8 @@ std::string EncodePng(const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
-  png.flags = PNG_IMAGE_FLAG_FAST;  // encodes in a third of the time, for a few percent more bytes
+  png.flags = PNG_IMAGE_FLAG_FAST;  // fast compression: a third of the time, for files that are a
+                                    // few percent larger
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0) {

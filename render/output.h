@@ -15,7 +15,7 @@
 
 namespace trackbed::render {
 
-/// Destination of the pictures of a film.
+/// Destination to which a film's pictures are written.
 class FilmOutput {
  public:
   FilmOutput() = default;
@@ -24,17 +24,17 @@ class FilmOutput {
   FilmOutput& operator=(const FilmOutput&) = delete;
 
   virtual void Add(const Image& image) = 0;
-  /// Finish() must be called after the last picture; only then is the file complete.
+  /// Completes the file. Finish() must be called after the last picture.
   virtual void Finish() = 0;
-  /// Keep() is called instead of Finish after an error. Keep() leaves the pictures in place if they
-  /// are usable alone.
+  /// Called instead of Finish() after an error. Keep() keeps the pictures written so far if each
+  /// picture is a separate file.
   virtual void Keep() {}
 };
 
-/// Writes to another output in a separate thread while the next picture is drawn. At most two
-/// pictures wait in the queue; a further call of Add() blocks. An exception in the writing thread
-/// is rethrown by the next call; no more pictures are written. Pictures in the queue are still
-/// written if another exception destroys this output.
+/// Writes pictures to another output in a separate thread, while the next picture is drawn. At most
+/// two pictures wait in the queue; with a full queue, Add() blocks. An exception in the writing
+/// thread is rethrown by the next call, and no more pictures are written. If another exception
+/// destroys this object, the pictures in the queue are still written.
 class BackgroundOutput : public FilmOutput {
  public:
   explicit BackgroundOutput(std::unique_ptr<FilmOutput> output);
@@ -52,19 +52,20 @@ class BackgroundOutput : public FilmOutput {
   std::mutex mutex_;  // guards the members below, except for the thread
   std::condition_variable_any changed_;
   std::deque<Image> waiting_;
-  std::vector<Image> free_images_;  // pictures already written, whose memory is reused
+  std::vector<Image> free_images_;  // pictures that have been written and whose memory is reused
   bool writing_ = false;
   std::exception_ptr failure_;
   std::jthread thread_;  // declared last, so that it is joined before the other members are
                          // destroyed
 };
 
-/// Properties of the pictures of a film.
+/// Properties shared by all pictures of a film.
 struct FilmPictures {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
   double fps = 0.0;
-  bool quick = false;  ///< whether to encode a video in a third of the time, into a larger file
+  bool quick = false;  ///< whether to encode a video three times as fast, at the cost of a larger
+                       ///< file
 };
 
 using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& output,
@@ -73,17 +74,17 @@ using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& 
 /// A file format of films.
 struct FilmFormat {
   std::string extension;  ///< File name extension, including the dot.
-  std::string summary;    ///< Summary in one word.
+  std::string summary;    ///< One-word description of the format.
   bool even_sides;        ///< Whether width and height must be even.
   OpenOutput open;        ///< Function that opens an output; null if this build does not support
                           ///< the format.
 };
 
-/// The film format for the file name extension of `output`. Throws InputError naming all formats if
-/// this build does not support the extension.
+/// Returns the film format that belongs to the file name extension of `output`. If this build does
+/// not support the extension, throws InputError that lists all supported formats.
 const FilmFormat& FilmFormatFor(const std::filesystem::path& output);
 
-/// Name of a frame's file: "frames/f.png" and 7 give "frames/f_00007.png".
+/// Returns the file name of a frame: for "frames/f.png" and frame 7, "frames/f_00007.png".
 std::filesystem::path FrameName(const std::filesystem::path& output, int frame);
 
 /// Encodes a picture as a PNG file. Throws RunError if the picture cannot be encoded.

@@ -16,30 +16,30 @@
 /// Interface of overlays, which draw over the recorded world. See docs/how-to/add-an-overlay.md.
 namespace trackbed::render {
 
-/// Symbol of a color in the legend.
+/// Symbol that shows a color in the legend.
 enum class LegendSymbol {
   kLine,     ///< A line on the ground.
   kOutline,  ///< Outline of an area or a box.
   kDiamond,  ///< A mark on the ground.
   kCross,    ///< A cross on the ground.
-  kDial,     ///< A dial of the used friction.
+  kDial,     ///< A dial that shows the used friction of a tyre.
 };
 
-/// An entry of the legend: the meaning of a color in the picture.
+/// An entry of the legend, which explains a color in the picture.
 struct LegendEntry {
   Color color;
   std::string text;
-  std::string note{};         ///< Second line; may be empty.
-  std::vector<Color> ramp{};  ///< Colors from left to right, instead of a single color.
+  std::string note{};         ///< Second line of the entry; may be empty.
+  std::vector<Color> ramp{};  ///< Color scale from left to right, shown instead of a single color.
   LegendSymbol symbol = LegendSymbol::kLine;
 };
 
-/// The world posed for one picture; overlays add shapes to it.
+/// The scene of one picture, to which overlays add shapes.
 struct SceneContext {
   mjvScene& scene;
   double time;               ///< Time of the picture [s].
   const CameraPose& camera;  ///< Camera of the picture.
-  mjvCamera& view;           ///< The same camera for MuJoCo.
+  mjvCamera& view;           ///< The picture's camera in MuJoCo's format.
   const mjvOption& visible;  ///< Which parts of a model are visible.
 };
 
@@ -49,14 +49,18 @@ struct PictureContext {
   Font& font;
   double time;  ///< [s]
   const CameraPose& camera;
-  const mjData& car;  ///< the car at `time`
+  const mjData& car;  ///< MuJoCo's data of the car at `time`
   const std::vector<LegendEntry>& legend;
-  double top;     ///< Bottom of the panels at the upper edge [px]; each new panel increases it.
-  double bottom;  ///< Top of the panels at the lower edge [px]; each new panel decreases it.
-  double left;    ///< Start of free space above `bottom` [px]; each new panel increases it.
+  double top;     ///< Lower end of the panels at the picture's upper edge [px]; each new panel
+                  ///< increases `top`.
+  double bottom;  ///< Upper end of the panels at the picture's lower edge [px]; each new panel
+                  ///< decreases `bottom`.
+  double left;    ///< Left end of the free space just above `bottom` [px]; each new panel there
+                  ///< increases `left`.
 };
 
-/// Something drawn over the world of one recording. An overlay draws nothing by default.
+/// Base class of overlays, which draw something over the world of one recording. The default
+/// functions draw nothing.
 class Overlay {
  public:
   Overlay() = default;
@@ -64,19 +68,19 @@ class Overlay {
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
-  /// Maximum number of shapes that AddShapes adds.
+  /// Returns the maximum number of shapes that AddShapes adds to a scene.
   [[nodiscard]] virtual std::size_t max_shapes() const { return 0; }
-  /// Adds shapes to the world, where the car and other objects hide and shade the shapes. The added
-  /// shapes are also shown in an inset.
+  /// Adds shapes to the 3D scene, where the car and other objects can hide and shade them. The
+  /// picture's inset also shows these shapes.
   virtual void AddShapes(SceneContext& /*context*/) {}
-  /// Draws flat over the picture, except over the picture's inset.
+  /// Draws two-dimensional shapes over the picture, but not over its inset.
   virtual void Draw(PictureContext& /*context*/) {}
-  /// Adds entries to the legend, whose first entry is the car.
+  /// Adds this overlay's entries to the legend, whose first entry is the car.
   virtual void AddLegend(std::vector<LegendEntry>& /*legend*/) const {}
 };
 using OverlayList = std::vector<std::unique_ptr<Overlay>>;
 
-/// Arguments for making overlays: one recording, in pictures of one size.
+/// Arguments for making the overlays of one recording, for pictures of one size.
 struct OverlaySetup {
   const Recording& recording;             ///< The recording must outlive the overlay.
   const std::vector<std::string>& shown;  ///< Names of all overlays of the film.
@@ -90,15 +94,15 @@ struct OverlaySetup {
   }
 };
 
-/// An overlay in the table.
+/// An entry of the overlay table.
 struct OverlayEntry {
   std::string name;
-  std::string summary;  ///< summary in one line, shown to users
+  std::string summary;  ///< one-line summary for users
   std::unique_ptr<Overlay> (*make)(const OverlaySetup& setup);
   bool by_default = true;  ///< whether films show the overlay by default
 };
 
-/// The table entry of an overlay whose constructor takes an OverlaySetup.
+/// Makes the table entry of an overlay class whose constructor takes an OverlaySetup.
 template <typename Own>
 OverlayEntry MakeOverlayEntry(std::string name, std::string summary) {
   return {std::move(name), std::move(summary),

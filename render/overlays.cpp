@@ -41,7 +41,7 @@ void CheckNames(const std::vector<std::string>& names) {
 
 }  // namespace
 
-/// The registry of overlays, with one line per overlay. Later overlays are drawn over earlier ones.
+/// The registry has one line per overlay. Later overlays are drawn over earlier ones.
 const std::vector<OverlayEntry>& OverlayTable() {
   static const std::vector<OverlayEntry> table{
       RoadOverlay(),  ReliefOverlay(),  GateOverlay(),  ObstacleOverlay(), SkidMarkOverlay(),
@@ -74,7 +74,8 @@ std::vector<LegendEntry> MakeLegend(const Recording& recording, const OverlayLis
   }
   std::sort(factors.begin(), factors.end());
   factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
-  constexpr std::size_t kMaxFactors = 3;  // a fourth color would be hard to distinguish
+  constexpr std::size_t kMaxFactors = 3;  // largest number of friction factors in the legend; a
+                                          // fourth color would be hard to distinguish
   for (std::size_t i = 0; i < std::min(factors.size(), kMaxFactors); ++i) {
     legend.push_back({PatchColorOnRoad(factors[i]), fmt::format("friction x{:.3g}", factors[i])});
   }

@@ -7,14 +7,14 @@
 
 namespace trackbed::render {
 
-/// The table of overlays, in the order of drawing and of the legend.
+/// Returns the table of overlays, in the order in which they are drawn and listed in the legend.
 const std::vector<OverlayEntry>& OverlayTable();
 
-/// The overlays named by `setup.shown`. MakeOverlays throws InputError with the nearest name if a
-/// name is unknown.
+/// Makes the overlays named in `setup.shown`. For an unknown name, throws InputError that suggests
+/// the most similar name.
 OverlayList MakeOverlays(const OverlaySetup& setup);
 
-/// The legend of a picture of `recording` with these overlays.
+/// Returns the legend for pictures of `recording` with these overlays.
 std::vector<LegendEntry> MakeLegend(const Recording& recording, const OverlayList& overlays);
 
 }  // namespace trackbed::render

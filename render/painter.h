@@ -19,28 +19,30 @@ namespace trackbed::render {
 /// Settings that trade quality against rendering time.
 struct Quality {
   const char* name;
-  int supersampling;  ///< samples per pixel in each direction
+  int supersampling;  ///< number of samples along each side of a pixel
   bool shadows;
   bool quick;  ///< whether to encode quickly; see FilmPictures::quick
 };
 
-/// Draws the pictures of a film: the recorded worlds, overlays and captions.
+/// Draws the pictures of a film, with the recorded worlds, overlays and captions.
 class Painter {
  public:
   /// The painter keeps references to the recordings and changes their models' visual settings. At
-  /// least one recording is required, and all must have the same model. Each recording gets a part
-  /// of the picture, from left to right. Size, cameras, quality and overlays are those of
-  /// `options`. Throws InputError for unknown names, and RunError if there is no off-screen OpenGL.
+  /// least one recording is required, and all recordings must have the same model. The recordings
+  /// are shown side by side in parts of the picture, from left to right. `options` determines size,
+  /// cameras, quality and overlays. Throws InputError for unknown names, and RunError if there is
+  /// no off-screen OpenGL.
   Painter(std::span<Recording> recordings, const FilmOptions& options);
   ~Painter();
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 
-  /// The picture at `time` [s].
+  /// Draws the picture at `time` [s].
   void Paint(double time, Image& image);
 
-  /// The scene that Paint draws of the first recording at `time` [s], by the main camera and
-  /// without flat overlays. The scene is valid until the next call.
+  /// Returns the scene of the first recording at `time` [s], as Paint draws it with the main
+  /// camera, but without two-dimensional overlays. The scene is valid until the next call of
+  /// SceneAt or Paint.
   mjvScene& SceneAt(double time);
   [[nodiscard]] Offscreen& offscreen() { return offscreen_; }
   [[nodiscard]] const Quality& quality() const { return quality_; }

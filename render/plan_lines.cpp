@@ -10,17 +10,18 @@ namespace {
 
 constexpr double kPlanWidth = 0.48;
 constexpr double kPlanHeight = 0.008;
-// A replaced plan fades to the color of asphalt; translucent paint would be darker where two pieces
-// overlap. The line is narrower than trails of ghosts, so only the part that was not driven remains
-// visible.
+// A replaced plan is drawn in a color near that of asphalt, since translucent paint would be darker
+// where two pieces overlap. The line of a replaced plan is narrower than the trails of ghosts, so
+// only the part that no car has driven remains visible.
 constexpr double kAbandonedWidth = 0.24;
 constexpr Color kAsphalt{0.60F, 0.62F, 0.60F};
-constexpr float kAbandonedShare = 0.35F;  // Weight of the plan's color against asphalt.
-// Plans driven for less than this time are not shown [s]. With two replans per second, plans driven
-// for a short time would cover the road with lines.
+constexpr float kAbandonedShare = 0.35F;  // Weight of the plan's color in the mixture with the
+                                          // color of asphalt.
+// Plans that the car followed for less than this time are not shown after they are replaced [s].
+// With two replans per second, all replaced plans together would cover the road with lines.
 constexpr double kBrief = 1.0;
 
-/// `newer` is the number of plans adopted after this one.
+/// Returns the style of a plan's line. `newer` is the number of plans that the car adopted later.
 RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
   if (newer == 0) {
     return {color, kPlanWidth * scale, kPlanHeight};
@@ -28,7 +29,7 @@ RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
   const auto fade = [](float own, float asphalt) {
     return asphalt + kAbandonedShare * (own - asphalt);
   };
-  // Replaced plans often overlap where they rejoin the route, so newer ones are drawn above older
+  // Replaced plans often overlap where they rejoin the route, so newer plans are drawn above older
   // ones.
   return {{fade(color.r, kAsphalt.r), fade(color.g, kAsphalt.g), fade(color.b, kAsphalt.b)},
           kAbandonedWidth * scale,
@@ -76,7 +77,7 @@ class PlanLines : public Overlay {
   }
 
  private:
-  /// A thinned plan, and the time of its adoption.
+  /// The thinned line of a plan, and the time at which the car adopted the plan [s].
   struct Line {
     double from;
     Color color;

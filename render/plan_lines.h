@@ -4,8 +4,8 @@
 
 namespace trackbed::render {
 
-/// Draws the planned path and, after a replan, the new one. Earlier plans remain as faint, narrow
-/// lines.
+/// Returns the overlay that draws the planned path. After each replan, the overlay draws the new
+/// path, and the earlier paths remain as faint, narrow lines.
 OverlayEntry PlanOverlay();
 
 }  // namespace trackbed::render

@@ -14,14 +14,14 @@ class Projection {
   /// Makes the projection for a picture of this size [px].
   Projection(const CameraPose& camera, int width, int height);
 
-  /// The point of the world in the picture; the point may be outside the picture's borders. There
-  /// is no point in the picture for points behind the camera or nearer than a tenth of the distance
-  /// to its target.
+  /// Projects a point of the world into the picture; the result may be outside the picture's
+  /// borders. Returns nullopt for a point that is behind the camera, or closer to the camera than a
+  /// tenth of the distance to the camera's target.
   [[nodiscard]] std::optional<CanvasPoint> operator()(const Eigen::Vector3d& point_W) const;
 
  private:
   Eigen::Vector3d eye_;
-  Eigen::Matrix3d axes_;  // camera axes as rows: right, down, forward
+  Eigen::Matrix3d axes_;  // rotation matrix whose rows are the camera axes: right, down, forward
   double nearest_;
   double focal_;  // [px]
   CanvasPoint middle_;

@@ -53,7 +53,8 @@ std::vector<Point> ReadPlan(const fs::path& file) {
   return points;
 }
 
-// The plans are stored one after the other; each row has the adoption time of its plan.
+// The file lists the plans one after the other; each row has the time at which its plan was
+// adopted.
 std::vector<NewPlan> ReadNewPlans(const fs::path& file) {
   std::vector<NewPlan> plans;
   std::error_code ignored;
@@ -97,7 +98,7 @@ std::vector<CurvatureProfile> ReadCurvatures(const fs::path& file, double begin)
       profiles.push_back({.from = from[i], .s = {}, .curvature = {}});
     }
     CurvatureProfile& profile = profiles.back();
-    // Of several rows with equal station, as at a jump, the first is kept.
+    // If several rows have the same station, as at a jump of the curvature, only the first is kept.
     if (profile.s.empty() || s[i] > profile.s.back()) {
       profile.s.push_back(s[i]);
       profile.curvature.push_back(curvature[i]);

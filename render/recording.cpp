@@ -26,8 +26,8 @@
 
 // Reads a run folder for a film: the model, the states and log of each plant, the scenario's world,
 // plans, gates and road. Between recorded rows, positions and joint angles are interpolated
-// linearly, and quaternions linearly with normalization (nlerp). The first plant, preferably one of
-// MuJoCo, is shown as the car; the others are ghosts.
+// linearly, and quaternions linearly with normalization (nlerp). One plant, preferably a MuJoCo
+// plant, is shown as the car; the other plants are ghosts.
 namespace trackbed::render {
 namespace {
 
@@ -42,7 +42,7 @@ MujocoModel LoadModel(const fs::path& file) {
   return CompileScene(ComposeScene(run_folder::RequireFile(file), {}), file.string(), Looks::kKept);
 }
 
-/// The plants with a state file in the folder.
+/// Returns the names of the plants that have a state file in the folder.
 std::vector<std::string> PlantsWithStates(const fs::path& folder) {
   std::vector<std::string> plants;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
@@ -74,7 +74,7 @@ void CheckAllAreThere(const fs::path& folder, const std::vector<std::string>& pl
   }
 }
 
-/// The plants of the run, beginning with the one shown as the car.
+/// Returns the plants of the run, beginning with the plant that is shown as the car.
 std::vector<std::string> FindPlants(const fs::path& folder) {
   std::vector<std::string> plants = PlantsWithStates(folder);
   CheckAllAreThere(folder, plants);
@@ -84,7 +84,7 @@ std::vector<std::string> FindPlants(const fs::path& folder) {
   return plants;
 }
 
-/// The plants to film: those in `selected`, or all if it is empty.
+/// Returns the plants to film: the plants in `selected`, or all plants if `selected` is empty.
 std::vector<std::string> SelectPlants(const fs::path& folder, std::vector<std::string> available,
                                       const std::vector<std::string>& selected) {
   for (const std::string& plant : selected) {
@@ -98,14 +98,14 @@ std::vector<std::string> SelectPlants(const fs::path& folder, std::vector<std::s
   return selected.empty() ? std::move(available) : selected;
 }
 
-/// Reads the gates of a plan.json and their cones.
+/// Reads the gates and their cones from a plan.json, and adds them to the recording.
 void AddGates(const fs::path& file, Recording& recording) {
   for (const std::vector<Point>& cones : ReadGates(file)) {
     for (const Point& cone : cones) {
       recording.cones.push_back(recording.OnGround(cone));
     }
-    // Cones come in pairs across the lane, from entry to exit; the outline connects the outer
-    // pairs.
+    // The cones are in pairs, left and right of the lane, from entry to exit. The outline of a gate
+    // connects its first and its last pair.
     if (cones.size() >= 4) {
       const std::size_t last = cones.size() - 1;
       std::vector<Point> corners;
@@ -117,7 +117,7 @@ void AddGates(const fs::path& file, Recording& recording) {
   }
 }
 
-/// The name of the planner of a plan.json; empty without such a file.
+/// Returns the planner's name in a plan.json; empty if the file is missing.
 std::string PlannerOf(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {
@@ -127,7 +127,8 @@ std::string PlannerOf(const fs::path& file) {
   return method ? method->Text() : "";
 }
 
-/// Difference of stations, second log less first [m]; none if a log has no stations.
+/// Returns the station in the second log minus the station in the first log [m]; nullopt if a log
+/// has no stations.
 std::optional<double> StationBetween(const TimedTable& first, const TimedTable& second,
                                      double time) {
   const std::optional<std::size_t> own = first.Find("s_m");
@@ -138,7 +139,8 @@ std::optional<double> StationBetween(const TimedTable& first, const TimedTable& 
   return second.Value(second.At(time), *other) - first.Value(first.At(time), *own);
 }
 
-/// Largest steering rate of the car at its road wheels [rad/s]; 0 if the model has no such rate.
+/// Returns the car's largest steering rate at the road wheels [rad/s]; 0 if the model has no such
+/// rate.
 double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   const auto number = [&](const char* name) {
     const int id = mj_name2id(&model, mjOBJ_NUMERIC, name);
@@ -148,8 +150,8 @@ double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   return vehicle.steering_rate.value_or(ratio > 0.0 ? number("steering_wheel_rate") / ratio : 0.0);
 }
 
-/// Reads the times of first contact and roll-over from metrics.json. Without metrics.json, only the
-/// time of contact is known, from the log.
+/// Reads the times of first contact and roll-over from metrics.json. Without metrics.json, the time
+/// of contact is read from the log, and the time of a roll-over is unknown.
 void ReadMishaps(const fs::path& folder, Recording& recording) {
   const PlantRecording& car = recording.plants.front();
   const fs::path metrics = folder / run_folder::kMetricsJson;
@@ -174,7 +176,7 @@ void ReadMishaps(const fs::path& folder, Recording& recording) {
   }
 }
 
-/// Text on the car's parameters that the run changed.
+/// Returns a text on the car's parameters that the scenario changed.
 std::string VehicleNote(const VehicleSpec& vehicle) {
   return vehicle.steering_rate
              ? fmt::format("steering rate set to {:.2f} rad/s", *vehicle.steering_rate)
@@ -239,7 +241,8 @@ void PlantRecording::Pose(double time, const mjModel& model, mjData& data) const
   for (std::size_t i = 0; i < 3; ++i) {
     pose[i] = state_.Value(place, pose_columns_[i]);
   }
-  // Quaternions q and -q are the same rotation, so the interpolation takes the shorter arc.
+  // Quaternions q and -q describe the same rotation, so the sign is chosen that gives the shorter
+  // arc.
   double dot = 0.0;
   for (std::size_t i = 3; i < 7; ++i) {
     dot += state_.table().at(place.row, pose_columns_[i]) *
@@ -402,14 +405,15 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
                                    run_folder::RequireFile(folder / run_folder::kScenarioYaml));
   }
   if (recording.world.road_network) {
-    constexpr double kSpacing = 1.0;  // spacing of points [m]; 1 cm off an arc with a radius of 12
-                                      // m
+    constexpr double kSpacing = 1.0;  // spacing of points along lines [m]; deviates by 1 cm from an
+                                      // arc with a radius of 12 m
     recording.roads =
         PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
   }
   recording.new_plans = ReadNewPlans(new_plans);
   recording.curvatures = ReadCurvatures(plan, recording.begin());
-  // Stations of the log continue over all plans; those of each plan begin at 0.
+  // Stations in the log continue to increase when the car adopts a new plan, but stations in each
+  // plan begin at 0.
   const TimedTable& log = recording.plants.front().log();
   const std::optional<std::size_t> station = log.Find("s_m");
   for (CurvatureProfile& profile : ReadCurvatures(new_plans, recording.begin())) {

@@ -4,12 +4,12 @@
 
 namespace trackbed::render {
 
-/// Contour lines of ground that is not level, and of each bump and side slope. Contour lines make
-/// hills and bumps visible.
+/// Returns the overlay that draws contour lines of ground that is not level, and of each bump and
+/// side slope. The lines make hills and bumps visible.
 OverlayEntry ReliefOverlay();
 
-/// Height between contour lines for ground whose heights span `span` [m]. The interval is 1, 2 or 5
-/// times a power of ten, with at most 40 lines.
+/// Returns the height between contour lines [m] for ground whose highest point is `span` above its
+/// lowest point [m]. The interval is 1, 2 or 5 times a power of ten, and gives at most 40 lines.
 double ContourInterval(double span);
 
 }  // namespace trackbed::render

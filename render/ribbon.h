@@ -11,7 +11,7 @@
 
 namespace trackbed::render {
 
-/// Style of a line painted on the ground, drawn as flat pieces without shadow.
+/// Style of a line on the ground, which is drawn as flat pieces that cast no shadow.
 struct RibbonStyle {
   Color color;
   double width = 0.2;  ///< Width of the line [m].
@@ -19,19 +19,19 @@ struct RibbonStyle {
   double height = 0.01;
 };
 
-/// Thins a polyline to a few straight pieces. Thin() returns the indices of the points kept,
-/// including both ends.
+/// Thins a polyline to a few straight pieces. Returns the indices of the kept points, which include
+/// both ends.
 ///
-/// Every omitted point is within the tolerance of the piece that replaces it. Vertically, every
-/// omitted point is within a fifth of the tolerance, so that paint does not sink into the ground.
-/// The tolerance is `tolerance` [m], doubled until at most `max_pieces` pieces are left. Thinning
-/// costs O(n) for roads; a piece never spans more than 512 points.
+/// The distance of an omitted point from the piece that replaces it is at most the tolerance. The
+/// vertical distance is at most a fifth of the tolerance, so that paint does not sink into the
+/// ground. The tolerance is `tolerance` [m], doubled until at most `max_pieces` pieces are left.
+/// The run time for roads is O(n), since a piece never spans more than 512 points.
 std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance,
                               std::size_t max_pieces);
 
-/// Appends one straight piece to the scene. The piece extends slightly beyond `a` and `b` to close
-/// the corners between pieces. `normal` is the ground's normal between `a` and `b`. AddRibbonPiece
-/// does nothing if the points coincide or the scene is full.
+/// Appends one straight piece of a line to the scene. The piece extends slightly beyond `a` and
+/// `b`, so that there are no gaps in corners between pieces. `normal` is the ground's normal
+/// between `a` and `b`. AddRibbonPiece does nothing if the points coincide or the scene is full.
 void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const RibbonStyle& style,
                     const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ());
 

@@ -9,45 +9,47 @@
 #include "render/ground_paint.h"
 #include "render/ribbon.h"
 
-// Paints roads on the ground in layers of different height. Asphalt consists of tiles that follow
-// the ground. Gravel verges, edge lines, dashes and road marks are ribbons; posts stand beside the
-// road. The center line of a road is that of the road network, the track or the plan. Along a plan,
-// the center line has a point every 0.5 m. To limit the number of shapes, lines are thinned and
-// pieces far from the camera's target are skipped.
+// Draws roads on the ground, in layers of different height. Asphalt consists of flat tiles that
+// follow the ground. Gravel verges, edge lines, dashes and road marks are ribbons; posts stand
+// beside the road. The center line of a road comes from the road network, the track or the plan.
+// Along a plan, the center line has a point every 0.5 m. To limit the number of shapes, lines are
+// thinned and pieces far from the camera's target are skipped.
 namespace trackbed::render {
 namespace {
 
 constexpr Color kRoadColor{0.40F, 0.41F, 0.42F};
 constexpr Color kPaint{0.93F, 0.93F, 0.90F};
 constexpr Color kYellowPaint{0.90F, 0.72F, 0.20F};
-constexpr float kGroundUnderRoad = 0.006F;  // Lowering of level ground under asphalt [m].
-constexpr double kShoulder = 0.4;           // Width of asphalt beyond the edge lines [m].
+constexpr float kGroundUnderRoad = 0.006F;  // Depth by which the ground is lowered, to stay below
+                                            // the asphalt [m].
+constexpr double kShoulder = 0.4;           // Width of the asphalt outside the edge lines [m].
 constexpr double kLineWidth = 0.14;         // Width of a painted line [m].
-constexpr double kVergeWidth = 1.05;        // Width of the gravel verge, over the rough edge of the
-                                            // asphalt [m].
-constexpr double kVergeBegin = 0.22;        // Distance from the edge line's center to the gravel
-                                            // [m].
+constexpr double kVergeWidth = 1.05;        // Width of the gravel verge, which covers the rough
+                                            // edge of the asphalt [m].
+constexpr double kVergeBegin = 0.22;        // Distance from the center of the edge line to the
+                                            // gravel [m].
 constexpr Color kGravel{0.58F, 0.54F, 0.45F};
-constexpr double kVergeHeight = -0.0015;   // Height of the verge, above the asphalt, whose corners
-                                           // it covers [m].
+constexpr double kVergeHeight = -0.0015;   // Height of the verge [m]; higher than the asphalt,
+                                           // whose corners the verge covers.
 constexpr double kAsphaltHeight = -0.003;  // Height of the asphalt, below all other paint [m].
-constexpr double kAsphaltRange = 250.0;    // Asphalt farther than this distance is thinner than a
+constexpr double kAsphaltRange = 250.0;    // Distance beyond which asphalt would be thinner than a
                                            // pixel [m].
 constexpr double kPaintHeight = -0.001;
 constexpr double kDash = 3.0;         // Length of a dash [m].
-constexpr double kDashPeriod = 9.0;   // Distance between the starts of dashes [m].
+constexpr double kDashPeriod = 9.0;   // Distance from the start of a dash to the start of the next
+                                      // [m].
 constexpr double kPostPeriod = 10.0;  // Distance between posts [m].
-constexpr double kPostRange = 120.0;  // Posts farther than this distance are thinner than a pixel
+constexpr double kPostRange = 120.0;  // Distance beyond which posts would be thinner than a pixel
                                       // [m].
 constexpr double kPostHeight = 1.0;   // Height of a post [m].
 
-/// A point of a line, with the direction to its left.
+/// A point of a line, with the direction to the left of the line.
 struct Spot {
   Point point;
   Vec2 left;
 };
 
-/// Points every `step` [m] along a line, from its start.
+/// Returns points every `step` [m] along a line, beginning at its start.
 std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
   std::vector<Spot> spots;
   double ahead = 0.0;  // distance to the next point
@@ -64,7 +66,7 @@ std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
   return spots;
 }
 
-/// A road: points of its center line, and half its width at each point [m].
+/// A road, given by the points of its center line and half its width at each point [m].
 struct Roadway {
   std::vector<Spot> spots;
   std::vector<double> half;
@@ -76,7 +78,7 @@ Roadway AlongPlan(const std::vector<Point>& plan, double width, double step) {
   return way;
 }
 
-/// The whole lap of a track, back to the track's start.
+/// Returns the whole lap of a track, which ends at the track's start.
 Roadway AlongTrack(const Track& track) {
   Roadway way;
   const std::size_t count = track.left_edge().size();
@@ -91,15 +93,16 @@ Roadway AlongTrack(const Track& track) {
 }
 
 bool NearTheCamera(const CameraPose& camera, const Point& place) {
-  constexpr double kNearFraction = 0.6;  // fraction of the camera's distance from its target
+  constexpr double kNearFraction = 0.6;  // distance that counts as near, as a fraction of the
+                                         // camera's distance from its target
   const double level = camera.distance * std::cos(camera.elevation);
   const double x = place.x - camera.target_x + level * std::cos(camera.azimuth);
   const double y = place.y - camera.target_y + level * std::sin(camera.azimuth);
   return !camera.inside && std::hypot(x, y) < kNearFraction * level;
 }
 
-/// Colors the ground beside the road like grass. The ground beside the road is lowered, so that the
-/// depth buffer separates it from the road.
+/// Colors the ground like grass and lowers it slightly, so that the depth buffer can separate the
+/// ground from the road.
 void PaintGround(const mjModel& model, mjvScene& scene) {
   const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
   for (int i = 0; i < scene.ngeom; ++i) {
@@ -192,12 +195,12 @@ class RoadRibbons : public Overlay {
     RibbonStyle style;
   };
 
-  /// Adds pavement and road marks of the world's road network.
+  /// Adds the pavement and road marks of the world's road network.
   void AddNetwork() {
     for (const PavedBand& band : recording_.roads.bands) {
       for (std::size_t i = 1; i < band.left.size(); ++i) {
-        // Each tile extends from border to border across the road. Neighboring tiles have different
-        // heights, like pieces of ribbons.
+        // Each tile extends across the road, from border to border. Neighboring tiles overlap, so
+        // they alternate between two heights.
         const Vec2 from = 0.5 * (band.left[i - 1] + band.right[i - 1]);
         const Vec2 to = 0.5 * (band.left[i] + band.right[i]);
         const Vec2 along = to - from;
@@ -211,8 +214,8 @@ class RoadRibbons : public Overlay {
         Tile like;
         like.color = kRoadColor;
         const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
-        constexpr double kOverlap =
-            0.1;  // overlap with each neighboring tile, or the ground shows between them [m]
+        constexpr double kOverlap = 0.1;  // overlap with each neighboring tile [m]; without
+                                          // overlap, the ground would be visible between tiles
         const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                               length + 2.0 * kOverlap,
                               width};
@@ -227,7 +230,8 @@ class RoadRibbons : public Overlay {
       for (const Vec2& point : line.points) {
         points.push_back(recording_.OnGround({point.x(), point.y()}));
       }
-      // A thinned line would sink below the asphalt at crests.
+      // On uneven ground, lines are not thinned, since a thinned line would sink below the asphalt
+      // at crests.
       const bool flat = IsFlat(recording_.world.ground);
       network_lines_.push_back({flat ? Thinned(points) : points,
                                 {line.yellow ? kYellowPaint : kPaint, line.width, kPaintHeight}});
@@ -239,7 +243,8 @@ class RoadRibbons : public Overlay {
         {spot.point.x + left * spot.left.x(), spot.point.y + left * spot.left.y()});
   }
 
-  /// A line on the left (1) or right (-1) side of the road, `beyond` [m] outside the road's edge.
+  /// Returns a line along the left (1) or right (-1) side of the road, at the distance `beyond`
+  /// outside the road's edge [m].
   [[nodiscard]] std::vector<Point> Beside(const Roadway& way, double side, double beyond) const {
     std::vector<Point> line;
     for (std::size_t i = 0; i < way.spots.size(); ++i) {
@@ -248,8 +253,8 @@ class RoadRibbons : public Overlay {
     return Thinned(line);
   }
 
-  /// Thins the edge of the gravel to a tolerance of 3 cm. The edge is thinned only on flat ground,
-  /// where no point can sink below the surface.
+  /// Thins the edge of the gravel, with a tolerance of 3 cm. The edge is thinned only on flat
+  /// ground, where no point can sink below the surface.
   [[nodiscard]] std::vector<Point> Coarse(const std::vector<Point>& line) const {
     if (!IsFlat(recording_.world.ground)) {
       return line;
@@ -262,7 +267,8 @@ class RoadRibbons : public Overlay {
     return points;
   }
 
-  /// Adds straight pieces of asphalt, coarser than the edge lines on top of them.
+  /// Adds the asphalt as straight pieces, which are longer than the pieces of the edge lines on
+  /// top.
   void AddAsphalt(const Roadway& way) {
     constexpr double kCoarse = 0.1;       // [m]
     constexpr double kTolerance = 0.002;  // [m]
@@ -287,7 +293,7 @@ class RoadRibbons : public Overlay {
       const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                             along.norm() + 2.0 * overlap,
                             width};
-      // Neighboring pieces overlap at different heights, like pieces of ribbons.
+      // Neighboring pieces overlap, so they alternate between two heights.
       const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
       const std::vector<Tile> tiles =
           CutToGround(recording_.world.ground, box, like, above, kTolerance);
@@ -306,7 +312,7 @@ class RoadRibbons : public Overlay {
   static void AddPost(SceneContext& context, const Point& post) {
     const double away =
         std::hypot(post.x - context.camera.target_x, post.y - context.camera.target_y);
-    // A post next to the camera would hide the car.
+    // Skips posts next to the camera, since they would hide the car.
     const bool near = NearTheCamera(context.camera, post);
     if (away < kPostRange && !near) {
       const std::array<mjtNum, 3> size{0.06, 0.06, 0.5 * kPostHeight};

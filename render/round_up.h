@@ -4,7 +4,8 @@
 
 namespace trackbed::render {
 
-/// Rounds `value` > 0 up to 1, 2 or 5 times a power of ten, with a tolerance for rounding errors.
+/// Rounds a positive `value` up to 1, 2 or 5 times a power of ten, with a tolerance for
+/// floating-point errors.
 inline double RoundedUp(double value) {
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   for (const double step : {1.0, 2.0, 5.0}) {

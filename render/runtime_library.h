@@ -4,21 +4,23 @@
 
 namespace trackbed::render {
 
-/// A shared library loaded on first use, not at program start. OSMesa with LLVM and FFmpeg are 140
-/// libraries, which many programs do not need. The library is never unloaded.
+/// A shared library that is loaded on first use, not at program start. OSMesa, LLVM and FFmpeg
+/// together load 140 shared libraries, which many programs do not need. The library is never
+/// unloaded.
 class RuntimeLibrary {
  public:
   enum class Symbols {
     kLocal,
-    kGlobal,  ///< symbols also visible to libraries that search the process, such as MuJoCo
+    kGlobal,  ///< Symbols are also visible to libraries that search the whole process, such as
+              ///< MuJoCo.
   };
 
   /// Loads the library. Throws RunError naming the library and its Debian package `package` if the
   /// library cannot be loaded.
   RuntimeLibrary(std::string file, std::string package, Symbols symbols = Symbols::kLocal);
 
-  /// The library's function with this name; throws RunError if the function is missing. `Function`
-  /// is the type of the function.
+  /// Finds the library's function with this name and the type `Function`. Throws RunError if the
+  /// library has no such function.
   template <typename Function>
   [[nodiscard]] Function* Find(const char* name) const {
     return reinterpret_cast<Function*>(Address(name));

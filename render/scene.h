@@ -22,17 +22,18 @@ struct CarPart {
 /// Finds the drawing properties of each geom of the model.
 std::vector<CarPart> FindCarParts(const mjModel& model);
 
-/// The recorded world at a given time, with the shapes of overlays.
+/// The 3D scene of a film: the recorded world at a given time, with the shapes of overlays.
 class FilmScene {
  public:
-  /// FilmScene keeps references to the recording and the overlays. The scene changes the lens and
-  /// clipping in the model's visual settings. With `shadows`, the model's lights cast MuJoCo's
-  /// shadows; otherwise a soft dark patch lies under the car.
+  /// Keeps references to the recording and the overlays. FilmScene changes the lens and the
+  /// clipping planes in the model's visual settings. With `shadows`, MuJoCo computes the shadows of
+  /// the model's lights; otherwise a soft dark patch is drawn under the car.
   FilmScene(Recording& recording, const OverlayList& overlays, bool shadows);
 
-  /// The scene at `time` [s] from `camera`; valid until the next call.
+  /// Returns the scene at `time` [s], as seen from `camera`. The scene is valid until the next
+  /// call.
   mjvScene& At(double time, const CameraPose& camera);
-  /// State of the car in the last scene.
+  /// Returns MuJoCo's data of the car in the scene that At() returned last.
   [[nodiscard]] const mjData& car() const { return *car_data_; }
 
  private:
@@ -47,8 +48,9 @@ class FilmScene {
   const OverlayList& overlays_;
   std::vector<Tile> patches_;
   CarBox box_;
-  std::vector<CarPart> car_parts_;   // Properties of each geom of the model.
-  std::vector<int> obstacle_geoms_;  // Geom of each of the world's obstacles; -1: not in the model.
+  std::vector<CarPart> car_parts_;   // Drawing properties of each geom of the model.
+  std::vector<int> obstacle_geoms_;  // Index of each obstacle's geom; -1 if the model has no such
+                                     // geom.
   MujocoData car_data_;
   SceneHandle scene_;
   mjvOption visible_;

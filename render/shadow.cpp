@@ -10,17 +10,18 @@
 namespace trackbed::render {
 namespace {
 
-constexpr int kShadowMapSide =
-    4096;  // size of the shadow map [texels]; twice that would cost a quarter of a picture's time
+constexpr int kShadowMapSide = 4096;  // side of the shadow map [texels]; a side of 8192 would take
+                                      // a quarter of a picture's rendering time
 
 }  // namespace
 
 double ShadowReach(const CameraPose& camera) {
   const double half_height = camera.distance * std::tan(0.5 * camera.view_angle);
-  // A reach of 3.5 half heights makes a map of 7 half heights. The 4096 texels of the map
-  // give 1.6 texels per pixel of a picture with 720 rows.
+  // With a reach of 3.5 half heights of the picture, the side of the map is 7 half heights. The
+  // map's 4096 texels then give 1.6 texels per pixel of a picture with 720 rows.
   constexpr double kMaxHalfHeights = 3.5;
-  // Half the diagonal of a picture of up to 21:9, for a camera that looks down.
+  // For a camera that looks down: half the diagonal of a picture with an aspect ratio of up to
+  // 21:9, in half heights of the picture.
   const double seen = 2.5 / std::max(0.1, std::sin(-camera.elevation));
   return half_height * std::min(kMaxHalfHeights, seen);
 }
@@ -35,15 +36,15 @@ void AimLamps(mjvScene& scene, const CameraPose& camera) {
   // The map is centered ahead of the target, since little ground is visible between camera and
   // target.
   const double ahead = 0.6 * reach * std::cos(camera.elevation);
-  // The map moves in steps, so that its texels stay in place between steps. Edges of static shadows
-  // therefore do not crawl.
+  // The map moves in steps, so that its texels stay in place between two steps. The edges of static
+  // shadows therefore do not flicker.
   const double step = 0.1 * reach;
   const auto in_steps = [step](double place) { return step * std::round(place / step); };
   const std::array<double, 3> middle{in_steps(camera.target_x + ahead * std::cos(camera.azimuth)),
                                      in_steps(camera.target_y + ahead * std::sin(camera.azimuth)),
                                      camera.ground_z};
-  // The lamp is far enough back that all ground under the map is in front of a lamp at 20 degrees
-  // elevation.
+  // The lamp is so far away that all ground in the map is in front of it, if the elevation of the
+  // lamp is at least 20 degrees.
   const double back = 3.0 * reach;
   for (int i = 0; i < scene.nlight; ++i) {
     mjvLight& lamp = scene.lights[i];

@@ -10,9 +10,9 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kSkidWidth = 0.17;      // Width of a mark: about the width of a tyre [m].
+constexpr double kSkidWidth = 0.17;      // Width of a mark, about that of a tyre [m].
 constexpr double kSkidHeight = 0.003;    // Height of a mark, below plans and trails [m].
-constexpr double kMinSkidLength = 0.15;  // Minimum length of a piece [m].
+constexpr double kMinSkidLength = 0.15;  // Minimum length of a piece of a mark [m].
 constexpr Color kRubber{0.10F, 0.10F, 0.11F};
 
 class SkidMarks : public Overlay {
@@ -24,7 +24,7 @@ class SkidMarks : public Overlay {
     }
     const MujocoData data = MakeMujocoData(*recording_.model);
     const PlantRecording& car = recording_.plants.front();
-    std::map<int, Point> begins;  // point where the skid mark of each wheel starts
+    std::map<int, Point> begins;  // for each wheel, the point at which its current skid mark starts
     for (const double time : car.times()) {
       car.Pose(time, *recording_.model, *data);
       std::map<int, Point> still;
@@ -75,7 +75,7 @@ class SkidMarks : public Overlay {
 
   const Recording& recording_;
   double scale_ = FindCarBox(*recording_.model).scale();
-  std::vector<Piece> pieces_;  // pieces in the order of time
+  std::vector<Piece> pieces_;  // pieces of marks, in the order of time
 };
 
 }  // namespace

@@ -11,20 +11,20 @@
 
 namespace trackbed::render {
 
-/// A panel at the bottom of the picture over the time of the whole run. The panel shows the planned
-/// curvature at the car's position, and the commanded and actual steering up to now. The axes of
-/// the panel end at the recording's scales.
+/// A chart at the bottom of the picture, whose time axis covers the whole run. The chart shows the
+/// planned curvature at the car's position, and the commanded and actual steering angle up to the
+/// picture's time. Recording::scales determines the ends of the vertical axes.
 class Strip {
  public:
-  /// Makes the panel for pictures of this size [px].
+  /// Makes the chart for pictures of this size [px].
   Strip(const Recording& recording, int width, int height, Font& font);
 
-  /// Top of the strip's panel [px].
+  /// Returns the top of the chart's panel [px].
   [[nodiscard]] double top() const { return panel_.top; }
   void Draw(Image& image, Font& font, double time) const;
 
  private:
-  /// Coverage of each pixel of the plot by a curve, 0 to 255, rows from the top.
+  /// Coverage of each pixel of the plot by a curve, from 0 to 255, with rows from the top.
   using Mask = std::vector<std::uint8_t>;
 
   struct Label {
@@ -41,7 +41,7 @@ class Strip {
   double end_;
   Layout layout_;
   Canvas::Rectangle panel_;
-  // Left, top and size of the plot in whole pixels.
+  // Left edge, top edge and size of the plot, in whole pixels.
   int left_ = 0;
   int top_ = 0;
   int columns_ = 0;
@@ -52,7 +52,7 @@ class Strip {
   std::vector<Label> labels_;
 };
 
-/// The overlay that draws the strip; other panels are placed above it.
+/// Returns the overlay that draws the chart. Other panels are placed above the chart.
 OverlayEntry StripOverlay();
 
 }  // namespace trackbed::render

@@ -10,11 +10,11 @@
 
 namespace trackbed::render {
 
-/// A table whose first column is time, with interpolation between rows.
+/// A table whose first column is the time. Values between two rows are interpolated.
 class TimedTable {
  public:
-  /// Reads `file`. Throws InputError naming the file if the file is missing, broken or has no rows.
-  /// Cells must be finite and times must increase.
+  /// Reads the table from `file`. Throws InputError naming the file if it is missing, broken or has
+  /// no rows. All cells must be finite, and the times must increase.
   explicit TimedTable(const std::filesystem::path& file);
 
   [[nodiscard]] double begin() const { return times_.front(); }
@@ -22,18 +22,20 @@ class TimedTable {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   [[nodiscard]] const Table& table() const { return table_; }
 
-  /// Index of a column; throws InputError naming the file and the column if it is missing.
+  /// Returns the index of a column. Throws InputError naming the file and the column if the column
+  /// is missing.
   [[nodiscard]] std::size_t Require(const std::string& column) const;
-  /// Index of a column; none if it is missing.
+  /// Returns the index of a column; nullopt if the column is missing.
   [[nodiscard]] std::optional<std::size_t> Find(const std::string& column) const;
 
-  /// Position of a time between two rows: value = (1 - part) * row + part * next.
+  /// Position of a time between two rows. Interpolated values are (1 - part) * row + part * next.
   struct Place {
     std::size_t row = 0;
     std::size_t next = 0;
     double part = 0;
   };
-  /// Clamps times before the first row and after the last row.
+  /// Finds the position of a time between two rows. Times before the first row or after the last
+  /// row are clamped.
   [[nodiscard]] Place At(double time) const;
   [[nodiscard]] double Value(const Place& place, std::size_t column) const;
 

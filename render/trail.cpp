@@ -17,7 +17,7 @@ class Trails : public Overlay {
   explicit Trails(const OverlaySetup& setup) : recording_(setup.recording) {
     const std::size_t cars = setup.Shows("ghosts") ? setup.recording.plants.size() : 1;
     for (std::size_t car = 0; car < cars; ++car) {
-      // The error ribbon replaces the car's trail.
+      // If the error ribbon is shown, it replaces the car's trail.
       if (car > 0 || !setup.Shows("error") || !HasErrorScale(setup.recording)) {
         trails_.push_back({car, Trail(setup.recording, car)});
       }
@@ -84,7 +84,7 @@ Trail::Trail(const Recording& recording, std::size_t car, const std::vector<Colo
 
 void Trail::AddShapes(SceneContext& context, RibbonStyle style) const {
   for (std::size_t i = 1; i < points_.size() && times_[i - 1] < context.time; ++i) {
-    // The last drawn piece ends at the car.
+    // The last drawn piece ends at the car's present position.
     const Point end = times_[i] <= context.time
                           ? points_[i]
                           : recording_.OnGround(recording_.plants[car_].Position(context.time));

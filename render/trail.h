@@ -8,19 +8,20 @@
 
 namespace trackbed::render {
 
-/// Style of a car's trail: narrower than the lines that it covers, like lines of a transport map.
+/// Returns the style of a car's trail. A trail is narrower than the lines that it covers, so that
+/// all remain visible, as on a transport map.
 RibbonStyle TrailStyle(const Recording& recording, std::size_t car, double scale);
 
-/// The path of a car's rear-axle center, up to the time of the picture.
+/// The path that a car's rear-axle center has driven, up to the time of the picture.
 class Trail {
  public:
-  /// Draws the trail in the car's color, or with a color for each recorded state. The recording
-  /// must outlive the trail.
+  /// Makes a trail in the car's color or, if `colors` is not empty, with a separate color for each
+  /// recorded state. The recording must outlive the trail.
   Trail(const Recording& recording, std::size_t car, const std::vector<Color>& colors = {});
 
   [[nodiscard]] std::size_t max_shapes() const { return points_.size(); }
-  /// If the trail has colors, a piece has the color of its first point; otherwise it has that of
-  /// `style`.
+  /// Adds the pieces of the trail to the scene. If the trail has colors, each piece has the color
+  /// of its first point; otherwise all have the color of `style`.
   void AddShapes(SceneContext& context, RibbonStyle style) const;
 
  private:
@@ -31,7 +32,7 @@ class Trail {
   std::vector<Color> colors_;  // Color at each point; may be empty.
 };
 
-/// The trails of the car and, if shown, of the ghosts.
+/// Returns the overlay that draws the trails of the car and, if shown, of the ghosts.
 OverlayEntry TrailOverlay();
 
 }  // namespace trackbed::render

@@ -16,12 +16,14 @@ namespace trackbed::render {
 namespace {
 
 // Dimensions of the dials, in units of the height of letters.
-constexpr double kRadius = 1.15;    // Radius of a dial.
-constexpr double kBetween = 0.35;   // Gap between two dials.
-constexpr double kOverflow = 1.12;  // Factor on the rim, since tyre laws may slightly exceed
-                                    // friction times load.
+constexpr double kRadius = 1.15;   // Radius of a dial.
+constexpr double kBetween = 0.35;  // Gap between two dials.
+// Largest length of the hand relative to the dial's radius, since some tyre laws give forces
+// slightly above friction times load.
+constexpr double kOverflow = 1.12;
 
-/// The model's tyre coefficient for an axle, or for both axles; 0 if the model has none.
+/// Returns the model's tyre coefficient for an axle, or else the coefficient for both axles; 0 if
+/// the model has neither.
 double Coefficient(const mjModel& model, const std::string& name, const char* axle) {
   int id = mj_name2id(&model, mjOBJ_NUMERIC, (name + "_" + axle).c_str());
   if (id < 0) {
@@ -67,7 +69,8 @@ class Forces : public Overlay {
     const double top = context.bottom - side;
     Canvas canvas(context.image, context.font);
     canvas.Fill({left, top, side, side}, layout.round(), kPanel, kPanelAlpha);
-    // The dials are arranged like the wheels, with the car's front up.
+    // The dials are arranged like the car's wheels as seen from above, with the front of the car
+    // up.
     const CanvasPoint first{left + 0.6 * layout.pad + radius, top + 0.6 * layout.pad + radius};
     const std::vector<WheelForce> forces = forces_.At(context.time, context.car);
     for (std::size_t wheel = 0; wheel < kWheels.size(); ++wheel) {
@@ -175,8 +178,8 @@ void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, cons
   if (tyre == nullptr) {
     return;
   }
-  // Force relative to the friction limit along each axis, so that the friction ellipse becomes the
-  // rim.
+  // Force divided by the friction limit along each axis. Dividing by the limits maps the friction
+  // ellipse to the dial's rim.
   Vec2 share = tyre->force.cwiseQuotient(tyre->most);
   const double use = share.norm();
   if (use > kOverflow) {

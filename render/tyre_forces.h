@@ -19,39 +19,41 @@ struct WheelForce {
   Eigen::Vector3d forward;  ///< Unit vector along the ground in rolling direction.
   Eigen::Vector3d left;     ///< Unit vector along the ground to the left.
   Vec2 force;               ///< Tyre force along `forward` and `left` [N].
-  Vec2 most;                ///< Half axes of the friction ellipse, friction times load [N].
+  Vec2 most;                ///< Half axes of the friction ellipse: friction times load, along and
+                            ///< across [N].
   int body = -1;            ///< The wheel's body in the model.
   std::size_t wheel = 0;    ///< Index of the wheel in kWheels of car_model.h.
 
-  /// The used fraction of the friction; 1 is on the friction ellipse. The used fraction may
-  /// slightly exceed 1 with some tyre laws.
+  /// Returns the used fraction of the available friction, which is 1 on the friction ellipse. With
+  /// some tyre laws, the used fraction may slightly exceed 1.
   [[nodiscard]] double Use() const;
 };
 
-/// The tyre forces of a recorded car whose log has them.
+/// The tyre forces of a recorded car, read from its log.
 class TyreForces {
  public:
-  /// Reads the forces of the car, `recording.plants.front()`. The recording must outlive this
+  /// Reads the tyre forces of the car, `recording.plants.front()`. The recording must outlive this
   /// object.
   explicit TyreForces(const Recording& recording);
 
-  /// Whether the log has forces and the model has the corresponding wheels.
+  /// Whether the log has tyre forces and the model has the corresponding wheels.
   [[nodiscard]] bool known() const { return !wheels_.empty(); }
-  /// The force of each loaded wheel. `data` must be posed at `time` [s].
+  /// Returns the tyre force of each wheel that carries a load. `data` must have the car's pose at
+  /// `time` [s].
   [[nodiscard]] std::vector<WheelForce> At(double time, const mjData& data) const;
 
  private:
   struct Wheel {
     std::size_t index = 0;
-    int joint = -1;  // the spin joint
+    int joint = -1;  // index of the wheel's spin joint
     int body = -1;
-    std::array<std::size_t, 3> columns{};  // Columns of the load and of the forces along and
-                                           // across.
-    Vec2 friction{0.0, 0.0};               // Friction along and across, at the nominal load.
-    Vec2 friction_per_load{0.0, 0.0};      // Change of the friction with load, relative to the
+    std::array<std::size_t, 3> columns{};  // Columns of the load and of the longitudinal and
+                                           // lateral force.
+    Vec2 friction{0.0, 0.0};               // Longitudinal and lateral friction coefficient at the
                                            // nominal load.
-    double nominal_load = 0.0;             // Nominal load [N]; 0: friction does not depend on the
-                                           // load.
+    Vec2 friction_per_load{0.0, 0.0};      // Change of the friction coefficients when the load
+                                           // rises by the nominal load.
+    double nominal_load = 0.0;  // Nominal load [N]; 0 if friction does not depend on the load.
   };
 
   [[nodiscard]] std::optional<Wheel> FindWheel(const char* name, const char* axle) const;
@@ -60,19 +62,19 @@ class TyreForces {
   std::vector<Wheel> wheels_;
 };
 
-/// Used fraction of a tyre's grip above which the tyre leaves a skid mark and its dial is red.
+/// Used fraction of a tyre's grip above which the tyre leaves a skid mark and its dial turns red.
 inline constexpr double kSkidUse = 0.9;
 
-/// Draws the used grip of a tyre as a line from the center of a dial. The line points up for a
-/// forward force, and left for a force to the left. At the friction limit, the line ends on the
-/// rim, at `radius` [px]. Beyond the friction limit, the line exceeds the rim by at most an eighth
-/// of the radius. The dial is empty for null, which is a wheel without load. `hairline` is the
-/// thickness of the dial's rim [px].
+/// Draws the used grip of a tyre as a hand from the center of a dial. The hand points up for a
+/// forward force, and left for a force to the left. At the friction limit, the hand ends on the
+/// rim, at `radius` [px]. Beyond the friction limit, the hand extends past the rim by at most an
+/// eighth of the radius. If `tyre` is null, the wheel carries no load and the dial is empty.
+/// `hairline` is the thickness of the dial's rim [px].
 void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, const WheelForce* tyre,
                   double hairline);
 
-/// A panel of dials, one per tyre of the car, arranged like the wheels. The panel of dials is shown
-/// if the log has forces.
+/// Returns the overlay that draws a panel of dials, one per tyre of the car, arranged like the
+/// wheels. The panel is shown only if the car's log has tyre forces.
 OverlayEntry ForceOverlay();
 
 }  // namespace trackbed::render

@@ -4,12 +4,13 @@
 
 namespace trackbed::render {
 
-/// Opens an MP4 video for pictures of a given size, whose sides must be even. VideoOpener returns
-/// null in a build without TRACKBED_VIDEO, which compiles only render/video/off.cpp of that folder.
+/// Returns the function that opens an MP4 video, for pictures of even width and height. Returns
+/// null in a build without TRACKBED_VIDEO, which compiles render/video/off.cpp instead of the
+/// encoder.
 OpenOutput VideoOpener();
 
-/// Opens an animated picture that loops forever: WebP, or lossless PNG. The opener is null in a
-/// build without TRACKBED_VIDEO.
+/// Returns the function that opens an animated picture, which repeats forever: WebP, or lossless
+/// PNG. Returns null in a build without TRACKBED_VIDEO.
 OpenOutput WebpOpener();
 OpenOutput ApngOpener();
 

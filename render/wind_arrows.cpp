@@ -13,12 +13,14 @@ constexpr double kGustWidth = 0.16;
 constexpr double kGustHeight = 0.006;
 
 constexpr double kSpacing = 5.0;  // Spacing of the arrows [m].
-constexpr int kHalfCount = 4;     // Positions from the middle to each side, 81 in all.
+constexpr int kHalfCount = 4;     // Number of arrows from the middle to each side; 81 arrows in
+                                  // total.
 constexpr double kHeight = 0.004;
 constexpr double kWidth = 0.12;
-constexpr double kMinWindSpeed = 0.5;  // a wind slower than this speed counts as calm [m/s]
+constexpr double kMinWindSpeed = 0.5;  // wind speed below which no arrow is drawn [m/s]
 constexpr double kPerSpeed = 1.0 / 3.0;
-constexpr double kMinArrowLength = 0.6;  // Arrow length at which only the head is drawn [m].
+constexpr double kMinArrowLength = 0.6;  // Smallest length of an arrow [m], at which only its head
+                                         // is visible.
 constexpr double kMaxArrowLength = 4.0;  // Largest arrow length [m]; below the spacing of 5 m.
 
 void AddArrow(mjvScene& scene, const Recording& recording, const Vec2& middle, const Vec2& wind,

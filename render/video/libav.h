@@ -10,7 +10,7 @@ extern "C" {
 
 namespace trackbed::render {
 
-/// The FFmpeg functions that films use, with FFmpeg's names.
+/// Pointers to the FFmpeg functions that films use, under FFmpeg's names.
 struct LibavFunctions {
   decltype(&::avcodec_alloc_context3) avcodec_alloc_context3;
   decltype(&::avcodec_find_encoder_by_name) avcodec_find_encoder_by_name;
@@ -52,8 +52,8 @@ struct LibavFunctions {
   decltype(&::sws_setColorspaceDetails) sws_setColorspaceDetails;
 };
 
-/// Loads FFmpeg's libraries at the first call, in the versions of the headers used at compile time.
-/// Throws RunError if FFmpeg's libraries are missing.
+/// Returns the FFmpeg functions. The first call loads FFmpeg's libraries, in the versions whose
+/// headers were used at compile time. Throws RunError if FFmpeg's libraries are missing.
 const LibavFunctions& Libav();
 
 }  // namespace trackbed::render

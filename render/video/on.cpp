@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A film in one file, which has a temporary name until it is complete.
+/// Writes a film into a single file, which has a temporary name until the film is complete.
 class VideoOutput : public FilmOutput {
  public:
   VideoOutput(fs::path output, FilmCodec codec, const FilmPictures& pictures)
@@ -46,7 +46,7 @@ class VideoOutput : public FilmOutput {
 
   fs::path output_;
   bool has_boxes_;           // Whether the film is an MP4 file, whose last box is Trackbed's mark.
-  TemporaryFile temporary_;  // Declared before the writer in order to outlive it.
+  TemporaryFile temporary_;  // Declared before the writer, so that the file outlives the writer.
   VideoWriter writer_;
 };
 

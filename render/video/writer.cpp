@@ -37,21 +37,22 @@ std::string Describe(int error) {
   return text.data();
 }
 
-/// Encoder and settings for a kind of film.
+/// Encoder, container and settings of a film format.
 struct Recipe {
   const char* encoder;
   const char* container;
   AVPixelFormat pixels;
   bool bt709;  // whether to convert to BT.709; otherwise RGB as in the pictures
   std::vector<std::pair<const char*, const char*>> encoder_options;
-  std::vector<std::pair<const char*, const char*>> quick_options;  // options for quick encoding,
-                                                                   // instead of encoder_options
+  // Options for quick encoding, which replace encoder_options.
+  std::vector<std::pair<const char*, const char*>> quick_options;
   std::vector<std::pair<const char*, const char*>> container_options;
 };
 
 const Recipe& EncoderRecipe(FilmCodec codec) {
-  // x264's macroblock tree reads past the end of its rows unless the width is a multiple of 128.
-  // The memory beyond the rows differs between runs (seen with build 164 at 96, 320, 854, 960 px).
+  // Option mbtree=0 keeps films reproducible. Unless the width is a multiple of 128, the macroblock
+  // tree of x264 reads past the end of its rows, where the memory differs between runs (seen with
+  // build 164 at widths of 96, 320, 854 and 960 px).
   static const Recipe h264{"libx264",
                            "mp4",
                            AV_PIX_FMT_YUV420P,
@@ -78,9 +79,9 @@ struct VideoWriter::Encoder {
   std::string name;
   std::unique_ptr<AVFormatContext, FreeFormat> format;
   std::unique_ptr<AVCodecContext, FreeCodec> codec;
-  std::unique_ptr<AVFrame, FreeFrame> picture;  // RGB picture; swscale reads past the end of plain
-                                                // memory.
-  std::unique_ptr<AVFrame, FreeFrame> frame;    // Picture in the encoder's format.
+  std::unique_ptr<AVFrame, FreeFrame> picture;  // RGB picture in padded memory, since swscale reads
+                                                // past its end.
+  std::unique_ptr<AVFrame, FreeFrame> frame;    // Picture in the pixel format of the encoder.
   std::unique_ptr<AVPacket, FreePacket> packet;
   std::unique_ptr<SwsContext, FreeScaler> scaler;
   AVStream* stream = nullptr;  // owned by format
@@ -134,14 +135,14 @@ struct VideoWriter::Encoder {
 
   void SetOptions(const std::vector<std::pair<const char*, const char*>>& options) const {
     for (const auto& [key, value] : options) {
-      // Some options belong to one encoder, some to all encoders.
+      // Also searches the encoder's private options, since some options belong to one encoder only.
       Check(Libav().av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN));
     }
   }
 
   void OpenFile(const std::filesystem::path& file) {
     AVFormatContext* made = nullptr;
-    // The prefix "file:" keeps FFmpeg from reading a name with a colon as a URL.
+    // The prefix "file:" keeps FFmpeg from treating a file name with a colon as a URL.
     const std::string url = "file:" + file.string();
     Check(Libav().avformat_alloc_output_context2(&made, nullptr, recipe.container, url.c_str()));
     format.reset(made);
@@ -181,7 +182,8 @@ struct VideoWriter::Encoder {
         codec->width, codec->height, AV_PIX_FMT_RGB24, codec->width, codec->height, codec->pix_fmt,
         SWS_BILINEAR | SWS_ACCURATE_RND | SWS_BITEXACT, nullptr, nullptr, nullptr)));
     if (recipe.bt709) {
-      // By default swscale converts by BT.601, whatever the film's metadata.
+      // Sets BT.709 explicitly, since swscale converts to BT.601 by default, regardless of the
+      // film's metadata.
       const int* bt709 = Libav().sws_getCoefficients(SWS_CS_ITU709);
       constexpr int kOne = 1 << 16;
       Check(Libav().sws_setColorspaceDetails(scaler.get(), bt709, 1, bt709, 0, 0, kOne, kOne));

@@ -10,22 +10,22 @@ namespace trackbed::render {
 
 /// Codec and container of a film.
 enum class FilmCodec {
-  kH264,  ///< MP4: libx264, veryfast (quick: ultrafast), crf 23, yuv420p, BT.709, the index in
-          ///< front.
-  kWebp,  ///< Animated WebP: libwebp_anim, quality 80, in an endless loop.
-  kApng,  ///< Animated PNG: lossless, in an endless loop.
+  kH264,  ///< MP4 with libx264: preset superfast and crf 23 (quick: preset ultrafast), yuv420p,
+          ///< BT.709, index at the start of the file.
+  kWebp,  ///< Animated WebP with libwebp_anim: quality 80, endless loop.
+  kApng,  ///< Animated PNG: lossless, endless loop.
 };
 
-/// Writes pictures into a film. The encoder has one thread and writes no dates or versions, so
-/// equal pictures give equal bytes.
+/// Encodes pictures into a film. The encoder has one thread and writes no dates or versions, so the
+/// same pictures always give the same bytes.
 ///
-/// The video file is complete only after Finish; without Finish, the destructor leaves a partial
-/// file. Encoding takes about 25 ms per picture at 1280x720 on a busy machine, 8 ms if quick.
-/// VideoWriter throws RunError naming `shown_name` if encoding or writing fails.
+/// The file is complete only after Finish(); without Finish(), the destructor leaves a partial
+/// file. On a busy machine, encoding a picture of 1280x720 takes about 25 ms, or 8 ms with quick
+/// encoding. VideoWriter throws RunError naming `shown_name` if encoding or writing fails.
 class VideoWriter {
  public:
-  /// H.264 requires an even width and height. `shown_name` is the file's name in messages, since
-  /// `file` itself may be temporary.
+  /// Opens the file. H.264 requires an even width and height. Messages name the file `shown_name`,
+  /// since `file` may be a temporary name.
   VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
               FilmCodec codec, const FilmPictures& pictures);
   ~VideoWriter();

@@ -14,17 +14,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Bound of a check as text, such as "≤ 0.15" or "= arrived".
+/// Formats the bound of a check, such as "≤ 0.15" or "= arrived".
 std::string BoundText(const std::string& relation, const ordered_json& bound) {
   const char* sign = relation == "at_most" ? "≤" : relation == "at_least" ? "≥" : "=";
-  // Bounds have six digits, as metrics do.
+  // Bounds have six significant digits, like metrics.
   return fmt::format("{} {}", sign,
                      bound.is_number_float() ? fmt::format("{:.6g}", bound.get<double>())
                      : bound.is_string()     ? bound.get<std::string>()
                                              : bound.dump());
 }
 
-/// Shortened label of a requirement, such as "Robustness of lane: always abs(cross_track_m) < 0.5".
+/// Returns the label of a requirement, such as "Robustness of lane: always abs(cross_track_m) <
+/// 0.5". A long formula is shortened.
 std::string RequirementLabel(const ShownName& name, const std::string& formula) {
   constexpr std::size_t kMaxFormulaLength = 120;
   return fmt::format("{}: {}{}", name.label, formula.substr(0, kMaxFormulaLength),

@@ -6,12 +6,12 @@
 
 namespace trackbed {
 
-/// Table rows for the checks of a verdict in metrics.json: {of, metric, what, unit, relation,
-/// bound, asked, found, t, met}. CheckRows returns nothing for runs of older versions, whose
-/// verdicts only have failures.
+/// Returns a table row for each check of a verdict in metrics.json: {of, metric, what, unit,
+/// relation, bound, asked, found, t, met}. Runs of older versions give no rows, because their
+/// verdicts list only failures.
 nlohmann::ordered_json CheckRows(const JsonValue& verdict);
 
-/// A verdict without its checks: {passed, failures, notes}.
+/// Returns a verdict without its checks, as {passed, failures, notes}.
 nlohmann::ordered_json VerdictJson(const JsonValue& verdict);
 
 }  // namespace trackbed

@@ -16,19 +16,19 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/report/names.h"
 
-// Data of the comparisons on a report page. Pairs come from compare.json, in a comparison folder or
-// next to the runs. Without compare.json, several runs are paired by equal plant names, and a
-// single run pairs its own plants. Differences are computed again from the logs. If the maxima of
-// the differences do not match compare.json, the logs have changed and the page is refused. Curves
-// are thinned to a common limit of rows.
+// Computes the comparisons on a report page. The compared pairs are listed in compare.json, in a
+// comparison folder or next to the runs. Without compare.json, plants with equal names in several
+// runs are paired, or all plants of a single run. Differences are computed again from the logs. If
+// the maxima of the differences do not match compare.json, the logs have changed, and the report
+// fails with InputError. Curves are thinned to a common limit of rows.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Limit of the rows of all curves together. The limit exceeds the resolution of a chart, but is
-/// small enough for ten pairs.
+/// Largest number of rows of all curves together. A single curve may thus exceed the resolution of
+/// a chart, and ten pairs still give a small page.
 constexpr std::size_t kCurveRows = 3000;
 
 [[noreturn]] void FailOutdated(const fs::path& file, const std::string& message) {
@@ -45,17 +45,19 @@ struct Drive {
 struct Pair {
   Drive first;
   Drive second;
-  std::optional<JsonValue> outcome;  ///< pair in compare.json, for a comparison that was judged
+  std::optional<JsonValue> outcome;  ///< entry of the pair in compare.json; nullopt without
+                                     ///< compare.json
 };
 
-/// Adds the pairs and the verdict of a comparison to the page. Indices of the runs start at `at`.
+/// Adds the pairs and the verdict of a comparison to `pairs` and `verdicts`. The first compared run
+/// has the index `at`.
 void AddJudgedPairs(const fs::path& folder, const std::vector<fs::path>& runs, std::size_t at,
                     std::vector<Pair>& pairs, ordered_json& verdicts) {
   const JsonValue json = ReadJson(folder / run_folder::kCompareJson);
   const std::size_t last = ComparedRuns(folder).size() - 1;
   for (const JsonValue& pair : json.At("pairs").Elements()) {
     const std::vector<JsonValue> plants = pair.At("plants").Elements(2);
-    // In a comparison of two runs, a name consists of folder and plant.
+    // In a comparison of two runs, the names in compare.json consist of folder and plant.
     const auto drive = [&](std::size_t which, std::size_t run) {
       return Drive{run, fs::path(plants[which].Text()).filename()};
     };
@@ -97,7 +99,7 @@ void AddPairsOfRun(const std::vector<FinishedDrive>& drives, std::vector<Pair>& 
   }
 }
 
-/// Notes on plants that the first run has and another run lacks, or vice versa.
+/// Returns a note on each plant that is only in the first run or only in another run.
 ordered_json UnpairedPlants(const std::vector<fs::path>& runs,
                             const std::vector<std::vector<FinishedDrive>>& drives) {
   ordered_json left_out = ordered_json::array();
@@ -117,14 +119,14 @@ ordered_json UnpairedPlants(const std::vector<fs::path>& runs,
   return left_out;
 }
 
-/// Refuses a comparison whose logs have changed since it was made.
+/// Throws InputError if the logs have changed since the comparison was made.
 void RefuseIfChanged(const JsonValue& outcome, const PlantComparison& now) {
   constexpr double kEqualityTolerance =
-      1e-6;  // tolerance for rounding on another machine [m], [rad], [rad/s]
+      1e-6;  // tolerance for rounding differences between machines [m], [rad], [rad/s]
   for (const ComparedQuantity& quantity : ComparedQuantities()) {
     const std::optional<double> then = outcome.At(quantity.key).At("max").NumberOrNull();
     const double max = (now.*quantity.difference).max;
-    // Null in the file is a maximum that is not finite.
+    // In compare.json, null stands for a maximum that is not finite.
     if (then ? !(std::abs(*then - max) <= kEqualityTolerance) : std::isfinite(max)) {
       FailOutdated(outcome.file(), "does not match the runs' current logs");
     }
@@ -160,7 +162,7 @@ ordered_json CurveJson(const Table& differences, std::size_t row_limit) {
   return json;
 }
 
-/// The bounds of a pair, keyed by their names.
+/// Returns the tolerances of a pair, keyed by name.
 ordered_json TolerancesJson(const JsonValue& tolerances) {
   ordered_json json = ordered_json::object();
   for (const auto& [name, bound] : tolerances.Members()) {
@@ -198,7 +200,7 @@ std::vector<fs::path> ComparedRuns(const fs::path& folder) {
   std::vector<fs::path> runs;
   const std::optional<JsonValue> names = json.Find("runs");
   for (const std::string& name : names ? names->Texts() : std::vector<std::string>()) {
-    const fs::path path = folder / name;  // an absolute path stays absolute
+    const fs::path path = folder / name;  // `folder` has no effect on an absolute path
     if (runs.empty() || fs::weakly_canonical(runs.front()) != fs::weakly_canonical(path)) {
       runs.push_back(path);
     }
@@ -226,7 +228,7 @@ ordered_json ComparisonData(const std::vector<fs::path>& runs,
     }
   }
   std::vector<std::vector<FinishedDrive>> drives;
-  // The plants of an interrupted run have driven different distances.
+  // Plants of an interrupted run are not compared, since they have driven different distances.
   const bool of_plants =
       pairs.empty() && runs.size() == 1 && PlantCount(runs.front()) > 1 && IsComplete(runs.front());
   if (!pairs.empty() || runs.size() > 1 || of_plants) {

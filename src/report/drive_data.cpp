@@ -19,11 +19,11 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kReachedTolerance = 1e-6;  // Tolerance of the steering angle [rad], as in
-                                            // PlantMetrics.
-constexpr double kMinSpan = 0.1;            // Shortest visible interval [s].
+constexpr double kReachedTolerance = 1e-6;  // Tolerance for reaching the commanded steering angle
+                                            // [rad], as in PlantMetrics.
+constexpr double kMinSpan = 0.1;            // Shortest interval that is shown [s].
 
-/// Intervals in which the actuator did not reach the command of the previous row.
+/// Returns the intervals in which the actuator did not reach the command of the previous row.
 std::vector<std::array<double, 2>> RateLimitSpans(const Table& log) {
   const std::vector<double> time = log.Column("t_s");
   const std::vector<double> commanded = log.Column("steering_command_rad");
@@ -45,8 +45,8 @@ std::vector<std::array<double, 2>> RateLimitSpans(const Table& log) {
   return spans;
 }
 
-/// Time at which the car detected an obstacle; none if it never did, or knew the obstacle from the
-/// start.
+/// Returns the time at which the planner detected an obstacle [s]; nullopt if the obstacle was
+/// never detected or was known from the start.
 std::optional<double> KnownFrom(const Obstacle& obstacle, const Table& log,
                                 const VehicleParams& car) {
   const std::vector<double> time = log.Column("t_s");
@@ -71,7 +71,7 @@ std::string ForceColumn(const char* kind, const char* wheel) {
   return fmt::format("{}_force_{}_N", kind, wheel);
 }
 
-/// Used fractions of a tyre's friction, for each row of a log.
+/// Used fractions of a tyre's longitudinal and lateral friction, for each row of a log.
 struct TyreShares {
   std::vector<double> along;
   std::vector<double> across;

@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Limit of the rows of all records together.
+/// Largest number of rows of all records together.
 constexpr std::size_t kRows = 6000;
 
 ordered_json Residuals(const fs::path& file, std::size_t max_points) {
@@ -62,7 +62,7 @@ ordered_json ParametersJson(const JsonValue& list) {
   return parameters;
 }
 
-/// The correlation matrix, with a row and a column for each name.
+/// Formats the correlation matrix, which has a row and a column for each name.
 ordered_json CorrelationJson(const JsonValue& correlation) {
   const std::vector<std::string> names = correlation.At("names").Texts();
   ordered_json matrix = ordered_json::array();
@@ -73,7 +73,7 @@ ordered_json CorrelationJson(const JsonValue& correlation) {
   return {{"names", names}, {"matrix", matrix}};
 }
 
-/// The prediction errors of one plant on one record.
+/// Formats the prediction errors of one plant on one record.
 ordered_json PlantJson(const JsonValue& plant) {
   ordered_json json{{"windows", ordered_json::array()}};
   if (const std::optional<JsonValue> yaw_rate = plant.Find("yaw_rate_relative_rms")) {

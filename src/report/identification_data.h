@@ -5,12 +5,12 @@
 
 namespace trackbed {
 
-/// Whether the folder contains an identification.
+/// Whether the folder contains the result of an identification.
 bool IsIdentificationFolder(const std::filesystem::path& folder);
 
-/// Data of an identification for the page: the content of identify.json, and each record over time
-/// with the model before and after the fit. IdentificationData throws InputError naming a missing
-/// or invalid file.
+/// Returns the data of an identification for its page: the content of identify.json, and each
+/// record over time, together with the model before and after the fit. Throws InputError naming a
+/// missing or invalid file.
 nlohmann::ordered_json IdentificationData(const std::filesystem::path& folder);
 
 }  // namespace trackbed

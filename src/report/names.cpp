@@ -11,8 +11,8 @@
 namespace trackbed {
 namespace {
 
-/// Formats units with superscripts: m/s² for m/s^2. A path without a registered metric is its own
-/// label.
+/// Converts a metric's description to a name; units get superscripts, such as m/s² for m/s^2. If no
+/// metric is registered for the path, the label is the path.
 ShownName Shown(const std::optional<MetricInfo>& info, const std::string& path) {
   if (!info) {
     return {path, ""};
@@ -24,7 +24,7 @@ ShownName Shown(const std::optional<MetricInfo>& info, const std::string& path) 
   return name;
 }
 
-/// Removes and returns the part before the first dot.
+/// Removes the part before the first dot from `path` and returns it.
 std::string TakeWord(std::string& path) {
   const std::size_t dot = path.find('.');
   std::string word = path.substr(0, dot);
@@ -48,7 +48,8 @@ ShownName NameOfOutput(const std::string& path) {
   if (kind == "metrics") {
     const std::string plant = TakeWord(rest);
     ShownName name = NameOfMetric(rest);
-    // A label such as "… at station" is only understood below the row that it continues.
+    // A label that begins with "…", such as "… at station", continues the label of the row above.
+    // Such a label is not understandable alone, so the path is used instead.
     name.label = name.label.starts_with("…") ? rest : name.label;
     name.label += plant == "*" ? "" : fmt::format(" ({})", plant);
     return name;
@@ -75,7 +76,7 @@ ShownName NameOfOutput(const std::string& path) {
 }
 
 ShownName NameOfKey(const std::string& key) {
-  // In the table, N is the index in all lists.
+  // The table of keys has N in place of each list index.
   static const std::regex index(R"(\[\d+\])");
   const std::string listed = std::regex_replace(key, index, "[N]");
   for (const KeySection& section : ScenarioKeys()) {

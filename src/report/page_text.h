@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// Parts of the page without its data. The build assembles the parts of the page from
-/// src/report/page/ and the libraries (cmake/ReportPage.cmake).
+/// Parts of a report page except its data. The build assembles these parts from src/report/page/
+/// and JavaScript libraries (cmake/ReportPage.cmake).
 namespace trackbed {
 
 extern const std::string_view kPageBeforeLiveSource;

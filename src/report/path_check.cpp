@@ -22,12 +22,12 @@ ordered_json OrNull(double number) {
   return std::isfinite(number) ? ordered_json(number) : ordered_json();
 }
 
-/// A limit of 0 means unknown.
+/// Formats a limit; 0 means unknown and becomes null.
 ordered_json LimitJson(double limit) {
   return limit > 0.0 ? OrNull(limit) : ordered_json();
 }
 
-/// Limit of the drawn speeds [m/s], since nothing limits the speed on a straight.
+/// Largest speed in the chart [m/s], since the speed on a straight is unlimited.
 constexpr double kMaxShownSpeed = 100.0;
 
 Table DemandTable(const PathCheck& check) {
@@ -95,7 +95,7 @@ ordered_json PathCheckReport(const PathCheckTitle& title, const FittedPath& fitt
     columns[column] = RoundedColumn(table, column, rows);
   }
   json["demand"] = std::move(columns);
-  // The given points as a line, thinned evenly.
+  // Adds the given points as a line, thinned evenly.
   const std::vector<Vec2>& points = fitted.given.points;
   const std::size_t step = std::max<std::size_t>(1, points.size() / kMaxDemands);
   ordered_json xs = ordered_json::array();

@@ -6,14 +6,14 @@
 /// Makes text from untrusted files safe to show on a page.
 namespace trackbed {
 
-/// Replaces invisible characters that affect the text around them by names such as "<U+202E>".
-/// Control characters other than tab and line feed are replaced. Readable also replaces Unicode's
-/// marks and overrides of writing direction (annex 9), Unicode's line separators, and zero-width
-/// characters. Zero-width joiners, which emoji and some scripts need, are kept. Invalid UTF-8
-/// becomes U+FFFD, once per character or stray byte.
+/// Replaces invisible characters that affect the text around them by names such as "<U+202E>". The
+/// replaced characters are control characters other than tab and line feed, Unicode's marks and
+/// overrides of the writing direction (annex 9), Unicode's line separators, and zero-width
+/// characters. Zero-width joiners, which emoji and some scripts need, are kept. Each invalid UTF-8
+/// sequence becomes U+FFFD.
 std::string Readable(const std::string& text);
 
-/// Applies Readable to all texts in `json`. Names of entries in `json` are not shown and stay
+/// Applies Readable to all text values in `json`. Keys are not shown on the page and stay
 /// unchanged.
 nlohmann::ordered_json WithReadableTexts(nlohmann::ordered_json json);
 

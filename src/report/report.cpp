@@ -19,21 +19,23 @@
 #include "trackbed/core/file.h"
 #include "trackbed/report/live.h"
 
-// Report pages. ReportData collects runs, a comparison, a study or an identification as JSON. A
-// page is a fixed text (page_text.h) with the data in a script element. The JavaScript in page/
-// renders the data of a page. All texts pass WithReadableTexts, and '<' is escaped, so that data
-// from foreign files cannot become markup. Films are linked, or embedded as base64. The page is
-// written atomically, after checking that the run folders have not changed meanwhile.
+// Makes report pages. ReportData collects the data of runs, a comparison, a study or an
+// identification as JSON. A page is a fixed text (page_text.h) with this data in a script element;
+// the JavaScript in page/ renders the data. All texts pass through WithReadableTexts, and '<' is
+// escaped, so that data from untrusted files cannot become markup. Films are linked, or embedded as
+// base64. The page is written atomically, after a check that the run folders have not changed
+// meanwhile.
 namespace trackbed {
 namespace {
 
 constexpr std::size_t kMaxFilmBytes = std::size_t{128}
-                                      << 20U;  // limit for the films in a page, kept in memory
+                                      << 20U;  // largest size of a film in a page [bytes], since
+                                               // films are kept in memory
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Limit of the rows of all logs together, about 1 MB.
+/// Largest number of rows of all logs together, which gives a page of about 1 MB.
 constexpr std::size_t kRows = 7500;
 
 std::string Escaped(const std::string& text) {
@@ -44,15 +46,15 @@ std::string Escaped(const std::string& text) {
   return markup;
 }
 
-/// Serializes JSON for a script element; text in the JSON cannot close the element.
+/// Serializes JSON for a script element. Text in the JSON cannot end the element.
 std::string ScriptJson(const ordered_json& json) {
-  // Invalid UTF-8 is replaced, since names of entries are not shown and were not checked.
+  // Invalid UTF-8 is replaced here, since the keys have not passed through Readable.
   const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {
     if (c == '<') {
-      safe += "\\u003c";  // the character occurs only inside strings
+      safe += "\\u003c";  // in JSON, '<' occurs only inside strings
     } else {
       safe += c;
     }
@@ -91,7 +93,7 @@ std::string PageTitle(const ordered_json& data) {
   return title;
 }
 
-/// Whether the path is a study, but neither a run nor a comparison.
+/// Whether the path is that of a study, but not of a run or a comparison.
 bool IsStudyAlone(const fs::path& path) {
   return !IsRunFolder(path) && !HasComparison(path) && StudyTable(path);
 }

@@ -22,7 +22,8 @@ nlohmann::ordered_json PointsJson(const std::vector<Vec2>& points) {
 }  // namespace
 
 nlohmann::ordered_json RoadsJson(const std::filesystem::path& folder) {
-  constexpr double kSpacing = 1.5;  // spacing that deviates 3 cm from an arc of 10 m [m]
+  constexpr double kSpacing = 1.5;  // spacing of points [m]; deviates by 3 cm from an arc with a
+                                    // radius of 10 m
   const RoadPaint paint =
       PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
   nlohmann::ordered_json json{{"bands", nlohmann::ordered_json::array()},

@@ -5,9 +5,9 @@
 
 namespace trackbed {
 
-/// Pavement and paint of a run folder's road network, for map and replay. Each of `bands` has
-/// `left` and `right`; each of `lines` has `points`, `width` and `yellow`. Points are listed as x,
-/// y, x, y, ... [m].
+/// Returns the pavement and road marks of the road network in a run folder, for the map and the 3D
+/// replay. Each entry of `bands` (pavement) has its edges `left` and `right`; each entry of `lines`
+/// (road marks) has `points`, `width` and `yellow`. Points are listed as x, y, x, y, ... [m].
 nlohmann::ordered_json RoadsJson(const std::filesystem::path& folder);
 
 }  // namespace trackbed

@@ -7,21 +7,21 @@
 
 namespace trackbed {
 
-/// Name of the log column that the page shows under `name` in a plant's `log`.
+/// Returns the name of the log column that the page's data has under `name` in a plant's `log`.
 const char* ColumnOfChannel(const std::string& name);
 
 /// Whether the folder contains a finished run.
 bool IsRunFolder(const std::filesystem::path& folder);
 
-/// Data of one run, shown as `name`, with at most `row_limit` rows per log. RunData throws
-/// InputError if the folder does not match its metrics.json.
+/// Returns the data of one run, with at most `row_limit` rows per log. The page shows the run as
+/// `name`. Throws InputError if the files in the folder do not match its metrics.json.
 nlohmann::ordered_json RunData(const std::filesystem::path& folder, const std::string& name,
                                std::size_t row_limit);
 
-/// Whether the run was completed, read from metrics.json only.
+/// Whether the run was completed. Reads only metrics.json.
 bool IsComplete(const std::filesystem::path& folder);
 
-/// Number of plants, read from metrics.json only.
+/// Returns the number of plants in the run. Reads only metrics.json.
 std::size_t PlantCount(const std::filesystem::path& folder);
 
 }  // namespace trackbed

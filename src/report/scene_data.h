@@ -7,37 +7,38 @@
 
 #include "trackbed/world/world.h"
 
-/// Data of the 3D scene of a run.
+/// Computes the data of the 3D scene of a run.
 namespace trackbed {
 
-/// The vehicle of a run's model.xml, as in ReadVehicleShape: {bodies, geoms, meshes}. VehicleJson
-/// throws the errors of CompileScene.
+/// Returns the shape of the vehicle in a run's model.xml, as read by ReadVehicleShape: {bodies,
+/// geoms, meshes}. Throws the errors of CompileScene.
 nlohmann::ordered_json VehicleJson(const std::filesystem::path& model);
 
-/// Motion of a vehicle on a plant, from the plant's state log: {t, channels}. The channels of the
-/// motion are those of the joints that the log contains, and the pose of the free joint. The motion
-/// has at most `row_limit` evenly spaced rows, up to 30 per second, including the last row. Angles
-/// of spinning wheels are not wrapped to one turn. With wind, `wind` is the velocity of the air at
-/// the rear axle, {x, y}. MotionJson throws the errors of ReadCsvExcerpt. MotionJson throws
+/// Returns the motion of a vehicle, from the state log of its plant: {t, channels}. The channels
+/// are the joints that the log contains, and the pose of the free joint. The motion has at most
+/// `row_limit` evenly spaced rows, up to 30 per second, and includes the last row. Angles of
+/// spinning wheels are not wrapped to one turn. If the world has wind, the field `wind` is the
+/// velocity of the air at the rear axle, {x, y}. Throws the errors of ReadCsvExcerpt, and
 /// InputError for a log without rows.
 nlohmann::ordered_json MotionJson(const std::filesystem::path& states,
                                   const nlohmann::ordered_json& vehicle, const World& world,
                                   std::size_t row_limit);
 
-/// Indices of at most `row_limit` evenly spaced moments, up to 30 per second, including the first
-/// and the last. RowsOfMotion is empty if `times` is empty.
+/// Returns the indices of at most `row_limit` evenly spaced times, up to 30 per second, including
+/// the first and the last. The result is empty if `times` is empty.
 std::vector<std::size_t> RowsOfMotion(const std::vector<double>& times, std::size_t row_limit);
 
-/// Elevation of uneven ground on a grid around the run: {x, y, step, columns, z}, with rows along
-/// y. GroundJson is null for flat ground.
+/// Returns the elevation of uneven ground on a grid around the run, as {x, y, step, columns, z};
+/// null for flat ground. The rows of the grid follow each other along y.
 nlohmann::ordered_json GroundJson(const World& world, double low_x, double low_y, double high_x,
                                   double high_y);
 
-/// Numbers as base64. If `scale` is below 1e-3 (meter or radian), the format is {i2, offset, scale}
-/// with int16. For a larger `scale`, the format is {f4} with little-endian float32.
+/// Encodes numbers as base64. If the resolution of int16 over the range of the numbers is 1e-3 or
+/// finer (meters or radians), the format is {i2, offset, scale} with int16. Otherwise the format is
+/// {f4} with float32. Both formats are little-endian.
 nlohmann::ordered_json ChannelJson(const std::vector<double>& values);
 
-/// Numbers as base64 in the format {f4}.
+/// Encodes numbers as base64 in the format {f4}, which contains float32.
 nlohmann::ordered_json FloatsJson(const std::vector<double>& values);
 
 }  // namespace trackbed

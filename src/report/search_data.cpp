@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kIntervals = 10;  // number of intervals of a key's range in which runs are
-                                        // counted
+constexpr std::size_t kIntervals = 10;  // number of intervals into which a key's range is divided,
+                                        // to count the runs in each
 
 std::optional<std::size_t> FindColumn(const TextTable& table, const std::string& name) {
   const auto found = std::find(table.columns().begin(), table.columns().end(), name);
@@ -30,7 +30,8 @@ std::optional<std::size_t> FindColumn(const TextTable& table, const std::string&
              : std::optional(static_cast<std::size_t>(found - table.columns().begin()));
 }
 
-/// Equal intervals of a key's range. On a logarithmic range, the intervals have equal ratios.
+/// Divides a key's range into equal intervals. On a logarithmic range, all intervals have the same
+/// ratio of their ends.
 class Intervals {
  public:
   explicit Intervals(const JsonValue& distribution)
@@ -43,8 +44,8 @@ class Intervals {
     if (kind_ == "log_uniform" && !(from_ > 0.0)) {
       distribution.At("from").Refuse("a number above 0");
     }
-    // Intervals of whole numbers have equal widths. A range of fewer than ten numbers is divided
-    // into single numbers.
+    // A range of whole numbers is also divided into intervals of equal width; with fewer than ten
+    // numbers, each number is an interval.
     constexpr auto kMaxCount = static_cast<double>(kIntervals);
     count_ = kind_ == "integer" ? static_cast<std::size_t>(std::min(kMaxCount, to_ - from_ + 1.0))
                                 : kIntervals;
@@ -57,7 +58,8 @@ class Intervals {
                          : kind_ == "integer"   ? (value - from_ + 0.5) / (to_ - from_ + 1.0)
                                                 : (value - from_) / (to_ - from_);
     const double interval = std::floor(place * static_cast<double>(count_));
-    // The position of a value outside the domain of the logarithm is not a number.
+    // Values below the range, or for which the logarithm is not defined, are counted in the first
+    // interval.
     return interval > 0.0
                ? static_cast<std::size_t>(std::min(interval, static_cast<double>(count_ - 1)))
                : 0;
@@ -70,7 +72,7 @@ class Intervals {
   std::size_t count_;
 };
 
-/// Rows that were run, and therefore have a robustness.
+/// The rows of a study that have a robustness, because their runs gave a result.
 struct Runs {
   explicit Runs(const TextTable& all) : table(all) {
     const std::optional<std::size_t> column = FindColumn(all, "robustness");
@@ -87,7 +89,7 @@ struct Runs {
   std::vector<double> robustness;  ///< robustness of each of `rows`
 };
 
-/// Number of runs and failures in each interval of a key.
+/// Returns the numbers of runs and failures in each interval of a key's range.
 ordered_json CoverageJson(const JsonValue& distribution, std::size_t column, const Runs& runs) {
   const Intervals intervals(distribution);
   std::vector<std::size_t> tried(intervals.count(), 0);
@@ -102,8 +104,8 @@ ordered_json CoverageJson(const JsonValue& distribution, std::size_t column, con
   return {{"tried", tried}, {"failed", failed}};
 }
 
-/// Runs of the search with a lower robustness than all runs before. The best value of the search
-/// changes only at the runs that BestSoFar returns.
+/// Returns the runs of the search whose robustness is lower than that of all earlier runs, as pairs
+/// of row and robustness.
 ordered_json BestSoFar(const Runs& runs, std::size_t searched) {
   ordered_json best = ordered_json::array();
   std::optional<double> least;
@@ -116,9 +118,9 @@ ordered_json BestSoFar(const Runs& runs, std::size_t searched) {
   return best;
 }
 
-/// The entry of a key in `margins` of falsify.json. The range in which the run passes if this key
-/// alone is varied is given as a pair. On a side without a passing run, the range ends at the
-/// nominal value.
+/// Formats the entry of a key in `margins` of falsify.json. The result has the range, as a pair, in
+/// which the run passes if only this key is varied. If no run passes on one side of the nominal
+/// value, the range ends at the nominal value.
 ordered_json MarginJson(const JsonValue& margin) {
   const auto number = [&](const char* name) -> ordered_json {
     const std::optional<JsonValue> value = margin.Find(name);
@@ -189,7 +191,7 @@ ordered_json SearchData(const fs::path& file, const TextTable& table) {
     return nullptr;
   }
   const JsonValue sweep = ReadJson(description);
-  // The folder may contain the outcome of an earlier search in another study.
+  // Without `search` in sweep.json, falsify.json in the same folder belongs to an earlier study.
   const std::optional<JsonValue> search = sweep.Find("search");
   if (!search) {
     return nullptr;

@@ -22,9 +22,9 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMaxShownRows = 4000;  // limit of rows that are shown individually
+constexpr std::size_t kMaxShownRows = 4000;  // largest number of rows that are shown individually
 
-/// Converts a number to a number, an empty cell to null, and any other cell to text.
+/// Converts a cell of a table to JSON: a number, null for an empty cell, or text.
 ordered_json CellJson(const std::string& cell) {
   if (cell.empty()) {
     return nullptr;
@@ -33,7 +33,8 @@ ordered_json CellJson(const std::string& cell) {
   return number ? ordered_json(Rounded(*number)) : ordered_json(cell);
 }
 
-/// Content of sweep.json next to the table; empty if that file is missing.
+/// Returns the description of a study, read from the sweep.json next to the table; empty if that
+/// file is missing.
 ordered_json StudyDescription(const fs::path& table) {
   const fs::path file = table.parent_path() / run_folder::kSweepJson;
   std::error_code ignored;
@@ -42,7 +43,8 @@ ordered_json StudyDescription(const fs::path& table) {
   }
   const JsonValue json = ReadJson(file);
   const bool complete = json.At("complete").Flag();
-  // A row of the table has the study's row number only if no row is missing.
+  // The position of a row in the table equals its row number in the study only if no rows are
+  // missing.
   const bool has_all = complete && !json.Find("shard");
   const auto text_of = [](const std::optional<JsonValue>& text) {
     return text ? text->Text() : std::string();
@@ -63,7 +65,8 @@ ordered_json StudyDescription(const fs::path& table) {
           {"text", json.json().dump(2)}};
 }
 
-/// A bisected key counts as the first output, because it is the result of the study.
+/// Describes the columns of a study's table. A bisected key is treated as the first output, because
+/// its value is the result of the study.
 ordered_json ColumnsJson(const TextTable& table, const std::string& file,
                          const std::string& bisected = "") {
   const std::vector<std::string>& names = table.columns();
@@ -103,9 +106,8 @@ std::optional<fs::path> StudyTable(const fs::path& path) {
 }
 
 TextTable ReadStudyTable(const fs::path& file) {
-  const bool is_own = file.filename() == run_folder::kSweepCsv;  // whether the table is the study's
-                                                                 // own and not a copy under another
-                                                                 // name
+  // Whether the file is the table of the study itself, and not a copy under another name.
+  const bool is_own = file.filename() == run_folder::kSweepCsv;
   return ReadTextCsv(is_own ? run_folder::RequireFile(file) : file);
 }
 
@@ -139,14 +141,14 @@ ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& befo
   }
   if (ordered_json search = SearchData(file, table); !search.is_null()) {
     study["search"] = std::move(search);
-    study["statistics"] = nullptr;  // no statistics: a search prefers the worst region, so its rows
-                                    // are not a random sample
+    study["statistics"] = nullptr;  // no statistics, since the runs of a search concentrate on the
+                                    // worst region and are not a random sample
   } else {
     study["statistics"] = StudyStatistics(table);
   }
   if (before) {
     const TextTable other = ReadStudyTable(*before);
-    ColumnsJson(other, before->string());  // checks that it is the table of a study
+    ColumnsJson(other, before->string());  // checks that the table is that of a study
     study["difference"] = StudyDifference(other, before->string(), table, file.string());
     study["difference"]["before"] =
         before->parent_path().filename() != "" ? before->parent_path().string() : before->string();

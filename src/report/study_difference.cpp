@@ -28,7 +28,7 @@ Cells ParametersOf(const TextTable& table) {
           table.columns().begin() + static_cast<std::ptrdiff_t>(PlaceOf(table, "status"))};
 }
 
-/// Row numbers, keyed by the settings of the rows.
+/// Returns the number of each row, keyed by the row's settings.
 std::map<Cells, std::size_t> RowsBySetting(const TextTable& table, const std::string& file) {
   const auto parameters = static_cast<std::ptrdiff_t>(PlaceOf(table, "status"));
   std::map<Cells, std::size_t> rows;

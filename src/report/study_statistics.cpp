@@ -11,12 +11,12 @@
 #include "src/report/numbers.h"
 #include "trackbed/analysis/statistics.h"
 
-// Statistics of a study for its page (statistics.h): the pass rate, and statistics per output. The
-// statistics of an output are quantiles, distribution function, first-order sensitivity indices of
-// the varied parameters, mean in each class of a parameter, and rank correlations with other
-// outputs. Rows with a result are used, and outputs with fewer than 20 values are omitted. For
-// large studies, StudyRowsToShow selects evenly spaced rows plus the ten lowest and ten highest
-// values of each output.
+// Computes the statistics of a study for its page (statistics.h): the pass rate, and statistics of
+// each output. The statistics of an output are its quantiles, its distribution function, its
+// first-order sensitivity to each varied parameter, its mean in each class of a parameter, and its
+// rank correlations with other outputs. Only rows with a result are used, and outputs with fewer
+// than 20 values are omitted. For large studies, StudyRowsToShow selects evenly spaced rows, plus
+// the rows with the ten lowest and ten highest values of each output.
 namespace trackbed {
 namespace {
 
@@ -24,17 +24,18 @@ using nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
 constexpr std::size_t kMinRows = 20;
-constexpr std::size_t kMaxEffectClasses = 12;      // Largest number of classes of a parameter in a
-                                                   // chart.
-constexpr std::size_t kMaxCorrelatedOutputs = 24;  // Largest number of correlated outputs.
-constexpr std::size_t kMaxStaircasePoints = 200;   // Largest number of points of a distribution
-                                                   // function.
+constexpr std::size_t kMaxEffectClasses = 12;      // Largest number of classes of a parameter that
+                                                   // are shown in a chart.
+constexpr std::size_t kMaxCorrelatedOutputs = 24;  // Largest number of outputs whose correlations
+                                                   // are computed.
+constexpr std::size_t kMaxStaircasePoints = 200;   // Largest number of points of a drawn
+                                                   // distribution function.
 
 ordered_json IntervalJson(const Interval& interval) {
   return {Rounded(interval.low), Rounded(interval.high)};
 }
 
-/// Columns of a study's table, sorted by kind.
+/// Indices of the columns of a study's table, grouped by kind.
 struct StudyColumns {
   explicit StudyColumns(const TextTable& table) {
     const std::vector<std::string>& names = table.columns();
@@ -49,7 +50,7 @@ struct StudyColumns {
     }
   }
 
-  /// Whether the column has a non-empty cell and all such cells are numbers.
+  /// Whether the column has at least one non-empty cell, and all non-empty cells are numbers.
   static bool IsNumeric(const TextTable& table, std::size_t column) {
     bool any = false;
     for (const std::vector<std::string>& row : table.rows()) {
@@ -67,13 +68,14 @@ struct StudyColumns {
   std::vector<std::size_t> outputs;
 };
 
-/// Values of an output, with the rows that contain them.
+/// Values of an output, with the numbers of the rows that have them.
 struct Sample {
   std::vector<std::size_t> rows;
   std::vector<double> values;
 };
 
-/// Number of classes for numbers, so that each has about thirty rows.
+/// Returns the number of classes into which a numeric parameter is divided, so that each class has
+/// about thirty rows.
 std::size_t ClassesFor(std::size_t rows) {
   return std::clamp<std::size_t>(rows / 30, 2, 64);
 }
@@ -131,7 +133,7 @@ class StudyAnalysis {
   }
 
  private:
-  /// Correlation of each pair of outputs, over the rows that have both.
+  /// Computes the rank correlation of each pair of outputs, over the rows that have both outputs.
   [[nodiscard]] ordered_json Correlations() const {
     ordered_json json = ordered_json::array();
     const std::size_t count = std::min(columns_.outputs.size(), kMaxCorrelatedOutputs);
@@ -221,7 +223,7 @@ class StudyAnalysis {
     return json;
   }
 
-  /// Mean of the output in each class of a parameter.
+  /// Computes the mean of an output in each class of a parameter.
   [[nodiscard]] static ordered_json EffectsOf(const Classes& classes, const Sample& sample,
                                               bool is_rate) {
     std::vector<std::vector<double>> values(classes.names.size());

@@ -13,15 +13,15 @@
 namespace trackbed {
 namespace {
 
-constexpr std::uint32_t kMaxPixels = 8192;         // Largest number of pixels along a side of a
-                                                   // picture.
-constexpr std::uint32_t kMaxHeightSamples = 4096;  // Largest number of samples along a side of a
-                                                   // height field.
-constexpr std::uint32_t kMaxFaces = 200000;        // MuJoCo's own limit of the faces of an STL
-                                                   // file.
-constexpr std::uint32_t kMaxFacets = 256;          // Largest number of facets along a side of a
+constexpr std::uint32_t kMaxPixels = 8192;         // Largest width and height of a picture [px].
+constexpr std::uint32_t kMaxHeightSamples = 4096;  // Largest number of rows and columns of a height
+                                                   // field.
+constexpr std::uint32_t kMaxFaces = 200000;        // Largest number of faces of an STL file, which
+                                                   // is MuJoCo's own limit.
+constexpr std::uint32_t kMaxFacets = 256;          // Largest number of facets along one side of a
                                                    // drawn sphere or plane.
-/// MuJoCo's error texts hold about 500 characters, which limits the words in them.
+/// Largest length of a word in the model. MuJoCo's buffer for error texts, which may contain such a
+/// word, has about 500 characters.
 constexpr std::size_t kMaxWordLength = 200;
 
 std::string LowerExtension(const std::filesystem::path& file) {
@@ -41,7 +41,7 @@ std::optional<Number> ReadNumber(std::string_view content, std::size_t offset) {
   return number;
 }
 
-/// PNG stores numbers in network byte order.
+/// Reads a big-endian number, as used in PNG files.
 std::optional<std::uint32_t> ReadBigEndian(std::string_view content, std::size_t offset) {
   if (content.size() < offset + 4) {
     return std::nullopt;
@@ -53,7 +53,8 @@ std::optional<std::uint32_t> ReadBigEndian(std::string_view content, std::size_t
   return number;
 }
 
-/// Checks a PNG file (W3C, Portable Network Graphics, Second Edition, sections 5.2 and 11.2.2).
+/// Checks the header of a PNG file (W3C, Portable Network Graphics, Second Edition, sections 5.2
+/// and 11.2.2).
 std::string PngError(std::string_view content) {
   constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
   if (!content.starts_with(kSignature) || content.size() < 16 || content.substr(12, 4) != "IHDR") {
@@ -71,7 +72,8 @@ std::string PngError(std::string_view content) {
   return "";
 }
 
-/// An STL file has a header of 80 bytes, the count of triangles, then 50 bytes per triangle.
+/// Checks an STL file, which consists of a header of 80 bytes, the number of triangles, and 50
+/// bytes per triangle.
 std::string StlError(std::string_view content) {
   constexpr std::size_t kHeader = 84;
   constexpr std::size_t kFace = 50;
@@ -82,7 +84,8 @@ std::string StlError(std::string_view content) {
   return "";
 }
 
-/// MuJoCo's height field format has the counts of rows and columns, then the heights.
+/// Checks a file in MuJoCo's height field format, which consists of the numbers of rows and
+/// columns, followed by the heights.
 std::string HeightFieldError(std::string_view content) {
   const auto rows = ReadNumber<std::int32_t>(content, 0);
   const auto columns = ReadNumber<std::int32_t>(content, 4);
@@ -106,8 +109,8 @@ std::string HeightFieldError(std::string_view content) {
   return "";
 }
 
-/// Length of the longest word of an attribute. The lists in attributes consist of numbers, and
-/// names consist of one word.
+/// Returns the length of the longest word of an attribute. An attribute is either a list of words,
+/// such as numbers, or a name.
 std::size_t LongestWord(std::string_view text) {
   std::size_t longest = 0;
   while (!text.empty()) {

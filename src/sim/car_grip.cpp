@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// The slide joint between a wheel and the chassis. -1 if the wheel has no such joint.
+/// Returns the slide joint between a wheel and the chassis; -1 if there is no such joint.
 int SpringJoint(const mjModel& model, int wheel, int chassis) {
   for (int body = wheel; body > 0 && body != chassis; body = model.body_parentid[body]) {
     for (int i = 0; i < model.body_jntnum[body]; ++i) {
@@ -26,9 +26,10 @@ int SpringJoint(const mjModel& model, int wheel, int chassis) {
   return -1;
 }
 
-/// Roll stiffness of an axle's springs and anti-roll bars [N m/rad]. The roll stiffness is infinite
-/// without springs: if the wheels are fixed to the chassis or rest on the stops of their joints.
-/// With the left wheel up and the right wheel down by z, the roll angle is 2 z/track.
+/// Returns the roll stiffness of an axle's springs and anti-roll bars [N m/rad]. Without springs,
+/// the roll stiffness is infinite, because the wheels are fixed to the chassis or rest on the stops
+/// of their joints. The stiffness is computed for a left wheel that moves up and a right wheel that
+/// moves down by z, so the roll angle is 2 z/track.
 double SuspensionStiffness(const mjModel& model, int left, int right, double track) {
   if (left < 0 || right < 0) {
     return std::numeric_limits<double>::infinity();
@@ -61,8 +62,8 @@ LongitudinalForces Forces(const CarModel& car) {
                             .top_speed = params.top_speed};
   forces.brake_force =
       2.0 * (parts.brake_torque_front + parts.brake_torque_rear) / params.wheel_radius;
-  // VehicleParams has the acceleration of the brakes alone. The acceleration of the motor in
-  // VehicleParams has the rolling resistance subtracted.
+  // In VehicleParams, the acceleration limit of the brakes excludes the rolling resistance, and the
+  // limit of the motor has the rolling resistance already subtracted.
   forces.rolling_mass = forces.brake_force / params.braking.by_force;
   forces.rolling_resistance =
       std::max(0.0, forces.drive_force - forces.rolling_mass * params.driving.by_force);

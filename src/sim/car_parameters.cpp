@@ -15,13 +15,13 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/spelling.h"
 
-// Reads car parameters by name from a compiled model, and writes them into its scene.
+// Reads car parameters by name from a compiled model, and writes new values into the model's scene.
 //
 // A parameter is an entry of <custom><numeric>, a range of an actuator, or a property of the whole
-// vehicle. For a property of the whole vehicle, the chassis gets new mass, center of gravity and
-// inertia. The new values of the chassis and the other bodies (parallel axis theorem) give the
-// wanted total. The spring preload follows the changed wheel loads, so the ride height at rest
-// stays.
+// vehicle. A property of the whole vehicle is changed through the mass, center of gravity and
+// inertia of the chassis. The new values for the chassis are chosen such that the chassis and the
+// other bodies together have the wanted property (parallel axis theorem). The spring preload is
+// adapted to the changed wheel loads, so the ride height at rest does not change.
 namespace trackbed {
 namespace {
 
@@ -31,11 +31,12 @@ using tinyxml2::XMLElement;
   throw InputError(Problem{.file = car.file(), .key = name, .message = std::move(message)});
 }
 
-/// Properties of the whole vehicle. Setting a property of the whole vehicle changes the mass,
-/// center or inertia of the chassis.
+/// Properties of the whole vehicle, which are set by changing the mass, center of gravity or
+/// inertia of the chassis.
 enum class Mass { kMass, kCgToRear, kCgHeight, kYawInertia };
 
-/// An actuator range that is symmetric, or whose upper end is the parameter.
+/// An actuator range that is a parameter. The parameter is the upper end of the range; some ranges
+/// are symmetric.
 struct ActuatorRange {
   const char* actuator;
   const char* attribute;
@@ -71,7 +72,7 @@ const std::map<std::string, ActuatorRange>& Ranges() {
   return table;
 }
 
-/// A numeric and the index of one of its numbers, such as "steering_curve[3]".
+/// The name of a numeric and the index of one of its numbers, as in "steering_curve[3]".
 struct NumericName {
   std::string name;
   std::size_t index = 0;
@@ -99,8 +100,9 @@ std::vector<double> NumericData(const CarModel& car, const std::string& name) {
   return {data, data + model.numeric_size[id]};
 }
 
-/// The numeric that holds the value of `name`. The numeric is `name` itself or, without the suffix
-/// "_front" or "_rear", the numeric for both axles.
+/// Returns the name of the numeric that has the value of parameter `name`. If the model has no
+/// numeric `name`, the result is `name` without the suffix "_front" or "_rear", which is the name
+/// of the numeric for both axles.
 std::string NumericInModel(const CarModel& car, const std::string& name) {
   if (!NumericData(car, name).empty()) {
     return name;
@@ -170,7 +172,7 @@ XMLElement* FindNamed(XMLElement& root, const char* section, const std::string& 
   return nullptr;
 }
 
-/// The numbers of an attribute, up to the first word that is not a number.
+/// Returns the numbers of an attribute, up to the first word that is not a number.
 std::vector<double> ParseNumbers(const char* attribute) {
   std::vector<double> numbers;
   std::string_view rest = attribute == nullptr ? "" : attribute;
@@ -190,14 +192,14 @@ std::string Text(const std::vector<double>& values) {
   return fmt::format("{}", fmt::join(values, " "));
 }
 
-/// Puts a comment before the element.
+/// Inserts an XML comment before the element.
 void AddComment(XMLElement& element, const std::string& text) {
   if (text.empty()) {
     return;
   }
   std::string safe = text;
   for (std::size_t at = 0; (at = safe.find("--", at)) != std::string::npos;) {
-    safe.replace(at, 2, "- -");  // the characters "--" would end the comment
+    safe.replace(at, 2, "- -");  // XML does not allow "--" inside a comment
   }
   tinyxml2::XMLDocument& document = *element.GetDocument();
   tinyxml2::XMLNode* comment = document.NewComment((" " + safe + " ").c_str());
@@ -220,8 +222,8 @@ void SetNumeric(const CarModel& car, XMLElement& root, const CarParameter& param
     element = Custom(root).InsertNewChildElement("numeric");
     element->SetAttribute("name", name.c_str());
   } else {
-    data = ParseNumbers(element->Attribute("data"));  // the numbers include those that were set
-                                                      // earlier
+    data = ParseNumbers(element->Attribute("data"));  // the numbers may already have been changed
+                                                      // by an earlier parameter
     data.resize(NumericData(car, name).size());
   }
   CheckIndex(car, parameter.name, index, data);
@@ -237,7 +239,7 @@ void SetRange(XMLElement& root, const ActuatorRange& range, const CarParameter& 
   AddComment(*element, parameter.origin.empty() ? "" : parameter.name + ": " + parameter.origin);
 }
 
-/// Changes the preload of the springs so that each wheel carries `more` [N] in addition.
+/// Changes the preload of the springs for additional wheel loads `more` [N].
 void PreloadSprings(const CarModel& car, XMLElement& root, const std::array<double, 4>& more) {
   const mjModel& model = *car.get();
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
@@ -262,7 +264,7 @@ void PreloadSprings(const CarModel& car, XMLElement& root, const std::array<doub
   }
 }
 
-/// Sets the chassis' <inertial> so that the whole vehicle has the wanted properties.
+/// Sets the <inertial> of the chassis such that the whole vehicle has the wanted properties.
 void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, double>& wanted,
                const std::string& origin) {
   XMLElement* chassis = FindInWorld(root, "body", "chassis");
@@ -289,7 +291,8 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   const double old_x = MassOf(car, Mass::kCgToRear);
   const double old_z = MassOf(car, Mass::kCgHeight);
   const double rest = old_mass - own;
-  const double rest_x = old_mass * old_x - own * position[0];  // first moments
+  const double rest_x = old_mass * old_x - own * position[0];  // first mass moments of the other
+                                                               // bodies
   const double rest_z = old_mass * old_z - own * position[2];
   const double mass = value(Mass::kMass);
   const double x = value(Mass::kCgToRear);
@@ -300,8 +303,8 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   }
   const double new_x = (mass * x - rest_x) / new_chassis_mass;
   const double new_z = (mass * value(Mass::kCgHeight) - rest_z) / new_chassis_mass;
-  // Yaw inertia of the other bodies about the vehicle's center of gravity: about the old center,
-  // then about the new one.
+  // Yaw inertia of the other bodies, first about the vehicle's old center of gravity, then about
+  // the new one.
   const double y2 = position[1] * position[1];
   const double rest_yaw = MassOf(car, Mass::kYawInertia) - inertia[2] -
                           own * ((position[0] - old_x) * (position[0] - old_x) + y2);
@@ -316,8 +319,9 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   }
   inertial->SetAttribute("mass", new_chassis_mass);
   inertial->SetAttribute("pos", Numbers({new_x, position[1], new_z}).c_str());
-  // Roll and pitch inertia scale with the mass of the chassis. No principal moment of a body may
-  // exceed the sum of the other two, so the roll and pitch inertia are raised if needed.
+  // Roll and pitch inertia are scaled in proportion to the mass of the chassis. Roll and pitch
+  // inertia are then increased if necessary, since no principal moment of inertia may exceed the
+  // sum of the other two.
   const double heavier = new_chassis_mass / own;
   double roll = inertia[0] * heavier;
   double pitch = inertia[1] * heavier;
@@ -373,7 +377,7 @@ Scene WithCarParameters(const CarModel& car, const std::vector<CarParameter>& pa
   }
   scene.xml = Print(document);
   scene.lines.clear();
-  scene.trusted = true;  // the scene was compiled before, and only numbers have changed
+  scene.trusted = true;  // the scene has been compiled before, and only numbers have changed since
   return scene;
 }
 

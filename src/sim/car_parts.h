@@ -13,26 +13,27 @@ struct VehicleDescription {
   VehicleParams params;
 };
 
-/// Names of the coefficients that a car with a tyre description must have. The names are those of
-/// the required MagicFormulaFields.
+/// Text that lists the tyre coefficients that a car must have if it has any: the required
+/// MagicFormulaFields.
 inline constexpr const char* kNeededCoefficients =
     "p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both axles under these names or of each with "
     "_front and _rear";
 
-/// Names of the elements that WithPayload adds.
+/// MJCF names of the body and the keyframe that WithPayload adds.
 inline constexpr const char* kPayloadBody = "payload";
 inline constexpr const char* kLadenKeyframe = "laden";
 
-/// The parts of a car. SteeredParts throws InputError naming the car's file if the car has no
-/// steered wheels. Messages name `needed_by`, the feature that needs the parts.
+/// Returns the parts of a car. Throws InputError naming the car's file if the car has no steered
+/// wheels. The message also names the feature that needs the parts, `needed_by`.
 const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by);
 
-/// The tyres of a car. RequireTyres throws InputError naming the car's file and the missing
-/// coefficients if the car has no tyres.
+/// Returns the tyre parameters of a car. If the car's file has none, throws InputError naming the
+/// file and the missing coefficients.
 const CarTyres& RequireTyres(const CarModel& car, const std::string& needed_by);
 
-/// Throws InputError naming `file` and every missing part. If all parts exist, the error names
-/// every part that does not meet the requirements of docs/models.md.
+/// Finds and checks the parts of a vehicle in its compiled model. Throws InputError naming `file`
+/// and every missing part. If all parts exist, the error lists every part that violates
+/// docs/models.md.
 VehicleDescription DescribeVehicle(const mjModel_& model, const std::string& file);
 
 }  // namespace trackbed

@@ -7,9 +7,9 @@
 #include "src/sim/mujoco_plant.h"
 #include "src/sim/wheel_contacts.h"
 
-// The MuJoCo plant of a car with steered front wheels. A step of the plant has three parts:
+// The MuJoCo plant of a car with steered front wheels. CarPlant implements three parts of a step:
 //   1. Act: the steering servo turns at a limited rate, or the angle is prescribed. Motor or brakes
-//      give the wanted acceleration plus the driving resistance.
+//      apply the torque for the wanted acceleration and the driving resistance.
 //   2. ApplyWheelForces: Magic Formula tyres (magic_formula_tyres.h) and dry friction act on the
 //      wheels.
 //   3. Finish: the front wheels follow the rack, or the prescribed angle, at Ackermann angles. The
@@ -17,11 +17,12 @@
 namespace trackbed {
 namespace {
 
-/// Armature so large that no torque of a car noticeably changes a joint's speed [kg m^2].
+/// Armature inertia that is so large that no torque of a car noticeably changes the speed of a
+/// joint [kg m^2].
 constexpr double kLocked = 1e8;
 
-/// With Magic Formula tyres, springs of the plant carry the car. With contact tyres, MuJoCo's
-/// contacts carry the car.
+/// Returns how the ground supports the car: by springs for Magic Formula tyres, by MuJoCo's
+/// contacts for contact tyres.
 TyreSupport SupportFor(const PlantSetup& setup) {
   return SelectTyreLaw(setup.car, setup.tyre) == TyreLaw::kMagicFormula ? TyreSupport::kSprings
                                                                         : TyreSupport::kContacts;
@@ -40,7 +41,7 @@ class CarPlant final : public MujocoPlant {
     if (SupportFor(setup) == TyreSupport::kSprings) {
       tyres_.emplace(car(), model());
       for (const int spin : parts.spin_dof) {
-        model().dof_frictionloss[spin] = 0.0;  // HoldWheels applies the friction instead
+        model().dof_frictionloss[spin] = 0.0;  // HoldWheels applies this friction instead of MuJoCo
       }
     }
     linked_ = ReleaseLinkage();
@@ -110,13 +111,14 @@ class CarPlant final : public MujocoPlant {
 
   bool prescribed_;                           // Whether the steering angle is prescribed.
   bool hold_ = false;                         // Whether the brakes hold the car at rest.
-  bool linked_ = false;                       // Whether the front wheels follow the rack.
-  FrontAngles slopes_;                        // Derivative of the wheel angle with respect to the
-                                              // rack angle.
-  std::optional<MagicFormulaTyres> tyres_;    // Tyre forces of the plant; none: MuJoCo's contacts
-                                              // hold the wheels.
-  std::array<double, 4> bearing_friction_{};  // Friction of the wheels' bearings [N m].
-  std::array<double, 4> dry_friction_{};      // Dry friction of bearings and brakes [N m].
+  bool linked_ = false;                       // Whether the front wheels are coupled to the rack.
+  FrontAngles slopes_;                        // Derivatives of the front wheel angles with respect
+                                              // to the rack angle.
+  std::optional<MagicFormulaTyres> tyres_;    // Magic Formula tyres; nullopt if the car has contact
+                                              // tyres.
+  std::array<double, 4> bearing_friction_{};  // Friction torque of the bearing of each wheel [N m].
+  std::array<double, 4> dry_friction_{};      // Largest dry friction torque of bearing and brake on
+                                              // each wheel [N m].
 };
 
 void CarPlant::Steer(double wanted) {
@@ -127,10 +129,10 @@ void CarPlant::Steer(double wanted) {
       std::clamp(rate, -params.steering_rate, params.steering_rate);
 }
 
-/// Disables the model's coupling of the front wheels to the rack. The coupling's polynomial is an
-/// approximation. The error of the polynomial would make the front tyres push against each other.
-/// FollowRack sets Ackermann angles instead of the polynomial coupling. ReleaseLinkage returns
-/// false if the model does not couple both front wheels to the rack by joint equalities.
+/// Disables the model's coupling of the front wheels to the rack. In the model, the coupling is an
+/// approximate polynomial, whose error would make the front tyres push against each other. Instead,
+/// FollowRack sets exact Ackermann angles. Returns false if the model does not couple both front
+/// wheels to the rack by joint equalities.
 bool CarPlant::ReleaseLinkage() {
   const CarParts& parts = car().parts();
   const auto follows_rack = [&](int joint_dof) {
@@ -151,7 +153,8 @@ bool CarPlant::ReleaseLinkage() {
   for (std::size_t w = 0; w < coupling.size(); ++w) {
     mj::DisableEquality(model(), data(), coupling[w]);
     const int dof = parts.steer_dof[w];
-    // The rack also has to turn the wheels, at a ratio of about 1.
+    // Adds the inertia and damping of the steered wheels to the rack, which turns the wheels at a
+    // ratio of about 1.
     model().dof_armature[parts.rack_dof] += model().dof_M0[dof];
     model().dof_damping[parts.rack_dof] += model().dof_damping[dof];
     model().dof_damping[dof] = 0.0;
@@ -160,7 +163,7 @@ bool CarPlant::ReleaseLinkage() {
   return true;
 }
 
-/// Applies the wheels' torques about their steering axes to the rack. The torques of the wheels are
+/// Applies the torques of the front wheels about their steering axes to the rack. The torques are
 /// those of the last step.
 void CarPlant::LoadRack() {
   const CarParts& parts = car().parts();
@@ -185,13 +188,15 @@ void CarPlant::FollowRack() {
 void CarPlant::Propel(const Command& command) {
   const CarParts& parts = car().parts();
   const double radius = car().params().wheel_radius;
-  double rolling_mass = car().unladen().mass;  // mass including the rotating inertia of the wheels
+  double rolling_mass = car().unladen().mass;  // mass of the car, to which the rotational inertia
+                                               // of the wheels is added
   for (const double inertia : parts.spin_inertia) {
     rolling_mass += inertia / (radius * radius);
   }
   const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
   const double resistance = Resistance(command.gear);
-  // The brakes hold a car at rest until it is commanded to move and its motor can climb the slope.
+  // The brakes hold a car at rest until a motion is commanded and the motor is strong enough for
+  // the slope.
   const bool overcomes_resistance = along_gear > 0.0 && DriveLimit() > resistance;
   const bool stands = Speed() * command.gear < kAtRestSpeed;
   hold_ = !overcomes_resistance && (hold_ || stands);
@@ -200,14 +205,15 @@ void CarPlant::Propel(const Command& command) {
     Brake(0.0, false);
     return;
   }
-  // Torque at the wheels that motor or brakes must add to the driving resistance [N m].
+  // Wheel torque that gives the commanded acceleration against the driving resistance [N m]; the
+  // motor applies a positive torque, the brakes a negative one.
   const double torque = along_gear * rolling_mass * radius + resistance;
   const bool drive = torque > 0.0 && !hold_;
   data().ctrl[parts.drive_actuator] = drive ? command.gear * std::min(torque, DriveLimit()) : 0.0;
   Brake(drive ? 0.0 : -torque, hold_);
 }
 
-/// Largest drive torque at the present speed [N m].
+/// Returns the largest drive torque at the present speed [N m].
 double CarPlant::DriveLimit() const {
   const CarParts& parts = car().parts();
   const double full = parts.drive_limit * std::abs(Speed());
@@ -228,12 +234,12 @@ void CarPlant::Brake(double torque, bool hold) {
   }
 }
 
-/// Applies the dry friction of bearings and brakes: the torque that stops a wheel within the step,
-/// clamped to the available friction.
+/// Applies the dry friction of bearings and brakes. The friction torque is the torque that stops
+/// the wheel within the step, clamped to the available friction.
 void CarPlant::HoldWheels() {
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const int dof = car().parts().spin_dof[w];
-    // The drive torque is that of the last step; it is small when the brakes act.
+    // The drive torque in this sum is that of the last step, which is small when the brakes act.
     const double torque = data().qfrc_applied[dof] + data().qfrc_passive[dof] -
                           data().qfrc_bias[dof] + data().qfrc_actuator[dof];
     const double inertia = car().parts().spin_inertia[w] + model().dof_armature[dof];
@@ -242,7 +248,8 @@ void CarPlant::HoldWheels() {
   }
 }
 
-/// Driving resistance of bearings, tyres, air and slope along the gear, as wheel torque [N m].
+/// Returns the driving resistance of bearings, tyres, air and slope in the direction of the gear,
+/// as a wheel torque [N m].
 double CarPlant::Resistance(int gear) const {
   double dry = tyres_ ? tyres_->RollingMoment() : 0.0;
   for (const double friction : bearing_friction_) {
@@ -252,8 +259,8 @@ double CarPlant::Resistance(int gear) const {
   return dry + gear * (Drag() + climb) * car().params().wheel_radius;
 }
 
-/// Sine of the slope angle at the center of gravity, interpolated between the slopes under the
-/// axles.
+/// Returns the sine of the slope angle at the center of gravity, interpolated between the slopes
+/// under the two axles.
 double CarPlant::Grade() const {
   const Ground& ground = car().scene().ground;
   if (IsFlat(ground)) {
@@ -268,7 +275,8 @@ double CarPlant::Grade() const {
   return rise / std::hypot(1.0, rise);
 }
 
-/// Gives the wheels the speed with which they reach `steering` at the end of the step.
+/// Sets the steering speeds of the front wheels such that they reach the angle `steering` at the
+/// end of the step.
 void CarPlant::PrescribeVelocity(double steering) {
   const CarParts& parts = car().parts();
   const double timestep = model().opt.timestep;
@@ -294,8 +302,8 @@ std::array<WheelState, 4> CarPlant::ContactWheels() const {
   std::array<WheelState, 4> wheels;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const WheelContact& contact = contacts[w];
-    // The reference of the slip is the rolling speed, but at least the speed below which a car
-    // counts as standing.
+    // Slip is relative to the rolling speed, but at least to the speed below which a car counts as
+    // standing.
     const double reference = std::max(std::abs(contact.rolling_speed), kAtRestSpeed);
     wheels[w] = {.normal_force = std::max(0.0, contact.up.dot(forces[w])),
                  .longitudinal_force = contact.forward.dot(forces[w]),

@@ -4,9 +4,9 @@
 
 namespace trackbed {
 
-/// The friction coefficient of MuJoCo's contact between a tyre and the ground. As in MuJoCo, the
-/// geom of the higher priority determines the coefficient. For equal priorities, the friction is
-/// the larger coefficient. `tyre` is the index of a geom.
+/// Returns the friction coefficient of MuJoCo's contact between a tyre and the ground. As in
+/// MuJoCo, the geom with the higher priority determines the coefficient. If the priorities are
+/// equal, the larger coefficient of the two geoms is used. `tyre` is the index of the tyre's geom.
 double ContactFriction(const mjModel& model, int tyre);
 
 }  // namespace trackbed

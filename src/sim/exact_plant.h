@@ -8,15 +8,15 @@
 
 namespace trackbed {
 
-/// The car's parameters with the steering of the setup. If the setup prescribes the wheel angle,
-/// the wheels reach it at once.
+/// Returns the car's parameters. If the setup prescribes the wheel angle, the steering actuator
+/// practically has no limits.
 VehicleParams Steered(const PlantSetup& setup);
 
-/// The start of a run as a state of the rear axle.
+/// Converts the start of a run to a state of the rear axle.
 KinematicState InPlane(const StartState& start);
 
-/// A plant made of a planar car that follows its commands exactly, such as KinematicCar or
-/// SingleTrackCar. The plant's wheels spin without slip, which only films show.
+/// A plant made of a planar car model that follows its commands exactly, such as KinematicCar or
+/// SingleTrackCar. The wheels rotate as if they rolled without slip; only films show this rotation.
 template <typename Car>
 class ExactPlant final : public Plant {
  public:
@@ -57,8 +57,8 @@ class ExactPlant final : public Plant {
     return model_.FlatConfiguration(state_.pose, state_.steering, spin_);
   }
 
-  /// An unstable car spins ever faster and diverges. The limit of divergence is the limit that
-  /// MuJoCo uses.
+  /// Whether a coordinate exceeds the limit at which MuJoCo also reports divergence. An unstable
+  /// car spins ever faster until it exceeds the limit.
   [[nodiscard]] bool diverged() const override {
     constexpr double kMaxCoordinate = 1e10;
     const Pose2& pose = car_.state().pose;

@@ -10,14 +10,15 @@ using Eigen::Vector3d;
 
 void AddForce(const mjModel& model, mjData& data, int body, const Vector3d& point_W,
               const Vector3d& force_W, const Vector3d& moment_W) {
-  int moved = body;  // body that joints move: `body` or its nearest ancestor with joints
+  int moved = body;  // nearest body with joints: `body` itself or an ancestor
   while (moved > 0 && model.body_dofnum[moved] == 0) {
     moved = model.body_parentid[moved];
   }
   if (moved == 0) {
     return;
   }
-  // MuJoCo gives a joint's motion, rotation and translation, at the tree's center of mass.
+  // In mjData::cdof, MuJoCo stores the motion of a joint (rotation, then translation) at the center
+  // of mass of the kinematic tree.
   const Vector3d center_W(data.subtree_com + 3 * model.body_rootid[body]);
   const Vector3d about_center = moment_W + (point_W - center_W).cross(force_W);
   for (int dof = model.body_dofadr[moved] + model.body_dofnum[moved] - 1; dof >= 0;

@@ -14,23 +14,23 @@
 #include "src/sim/mujoco_compat.h"
 #include "trackbed/core/error.h"
 
-// Checks every number of a compiled model against a table of bounds. CheckModel checks the arrays
-// of mjModel by the macro MJMODEL_POINTERS, and numbers under <custom> by name. The options, the
-// names of joints and the actuators are checked last. Up to 20 problems are collected, each with
-// the name of its object, and thrown as one InputError.
+// Checks every number of a compiled model against a table of bounds. The macro MJMODEL_POINTERS
+// lists the arrays of mjModel; numbers under <custom> are checked by name. Then the options, the
+// joint names and the actuators are checked. Up to 20 problems, each with the name of its object,
+// are thrown as one InputError.
 namespace trackbed {
 namespace {
 
 /// The largest magnitude that MuJoCo accepts in a simulation.
 constexpr double kMaxMagnitude = 1e10;
 
-/// Largest magnitude of the numbers with this name, well beyond any vehicle.
+/// Largest magnitude of the numbers with this name, far beyond that of any vehicle.
 struct Bound {
   std::string_view name;
   double largest;
 };
 
-/// Bounds of numbers under <custom>, in SI units.
+/// Bounds of the numbers under <custom>, in SI units.
 constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
                                    Bound{"steering_wheel_rate", 1e3},
                                    Bound{"steering_rate", 1e3},
@@ -49,12 +49,12 @@ constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
                                    Bound{"rolling_resistance", 1.0},
                                    Bound{"camber_gain_front", 1e1},
                                    Bound{"camber_gain_rear", 1e1}};
-constexpr double kMaxCoefficient = 1e3;  // bound of a tyre's Magic Formula coefficients, such as
-                                         // "p_cx1"
+constexpr double kMaxCoefficient = 1e3;  // bound of the Magic Formula coefficients of a tyre, such
+                                         // as "p_cx1"
 
-/// Bounds of the compiled model's arrays that hold numbers of the file, in SI units. MuJoCo
-/// computes its other arrays from the checked arrays, or only draws them. Arrays that a version of
-/// MuJoCo lacks are skipped.
+/// Bounds of those arrays of the compiled model that contain numbers from the file, in SI units.
+/// The other arrays are computed from these arrays or are used only for drawing. Arrays that do not
+/// exist in a version of MuJoCo are skipped.
 constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"qpos_spring", kMaxMagnitude},
                                   Bound{"body_pos", 1e5},
@@ -151,7 +151,8 @@ constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"key_mpos", kMaxMagnitude},
                                   Bound{"key_mquat", kMaxMagnitude},
                                   Bound{"key_ctrl", kMaxMagnitude}};
-/// Arrays that must not be negative, since negative numbers would add energy.
+/// Arrays whose numbers must not be negative, since negative numbers would add energy to the
+/// simulation.
 constexpr std::array<std::string_view, 9> kNonNegative{
     "jnt_stiffness",  "dof_damping",     "dof_armature",     "dof_frictionloss", "tendon_stiffness",
     "tendon_damping", "tendon_armature", "actuator_damping", "actuator_armature"};
@@ -179,7 +180,7 @@ class ModelChecker {
   }
 
  private:
-  /// Keeps only the first problems, since an invalid number is often repeated in many rows.
+  /// Returns only the first problems, since an invalid number is often repeated in many rows.
   static std::vector<Problem> FirstOf(std::vector<Problem> problems) {
     constexpr std::size_t kMaxProblems = 20;
     problems.resize(std::min(problems.size(), kMaxProblems));
@@ -190,13 +191,14 @@ class ModelChecker {
     problems_.push_back({file_, 0, 0, std::move(name), std::move(message)});
   }
 
-  /// The name of an object, or "joint 3" if it has no name.
+  /// Returns the name of an object, or a text such as "joint 3" if the object has no name.
   [[nodiscard]] std::string Named(int type, const char* kind, int id) const {
     const char* name = mj_id2name(&m_, type, id);
     return name == nullptr ? fmt::format("{} {}", kind, id) : name;
   }
 
-  /// The object that row `row` of an array belongs to. `rows` is MuJoCo's name of the array's size.
+  /// Returns the name of the object that row `row` of an array describes. `rows` is MuJoCo's name
+  /// for the number of rows.
   [[nodiscard]] std::string Owner(std::string_view rows, int row) const {
     struct Kind {
       std::string_view rows;
@@ -241,13 +243,13 @@ class ModelChecker {
     }
   }
 
-  /// Skips arrays of indices, of flags, and of numbers that are only drawn.
+  /// Skips arrays of indices, flags, and numbers that are used only for drawing.
   template <typename Other>
   void CheckArray(std::string_view, std::string_view, const Other*, int, int) {}
 
   void CheckArrays() {
     const mjModel* m = &m_;
-    // Model sizes have 64 bits since MuJoCo 3.11, but not those in its macro.
+    // Since MuJoCo 3.11, sizes in mjModel have 64 bits, but the sizes in the macro do not.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
     MJMODEL_POINTERS_PREAMBLE(m)
@@ -298,10 +300,10 @@ class ModelChecker {
     check("impratio", option.impratio, 1e4);
   }
 
-  /// Joint names become columns of CSV files, before their units.
+  /// Joint names become column names of CSV files, followed by the unit.
   void CheckJointNames() {
-    std::set<std::string, std::less<>> taken{"x", "y", "z"};  // names of the columns of the
-                                                              // chassis' position
+    std::set<std::string, std::less<>> taken{"x", "y", "z"};  // column names of the position of the
+                                                              // chassis
     for (int joint = 0; joint < m_.njnt; ++joint) {
       const int type = m_.jnt_type[joint];
       if (type != mjJNT_HINGE && type != mjJNT_SLIDE) {

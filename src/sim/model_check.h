@@ -6,11 +6,12 @@ struct mjModel_;
 
 namespace trackbed {
 
-/// Checks a compiled model before any of its data is used. Every number must be finite and within
-/// the range of a vehicle, and gravity must point down. Names of joints, which become log columns,
-/// must be plain and unique.
+/// Checks a compiled model before its data is used. Every number must be finite and in a range that
+/// is plausible for vehicles, and gravity must point down. Joint names become names of log columns,
+/// so they must be unique and consist of plain characters.
 ///
-/// Throws InputError with every problem, each under the name of the body, joint, geom or number.
+/// Throws InputError that lists all problems, each with the name of the body, joint, geom or number
+/// concerned.
 void CheckModel(const mjModel_& model, const std::string& file);
 
 }  // namespace trackbed

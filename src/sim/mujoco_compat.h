@@ -9,14 +9,14 @@
 #include <span>
 #include <string>
 
-/// Covers the differences between MuJoCo versions in the physics. Supported versions are 2.2.2, 3.3
-/// and newer, and 4.0.1. If headers of two versions declare different members, templates test for
-/// them with `requires`. Only templates may name a member that a version lacks. If the headers
-/// declare different enumerators, the version number decides. docs/how-to/mujoco-versions.md lists
-/// the differences, and render/mujoco_compat.h has those of drawing.
+/// Hides the differences between MuJoCo versions in the physics. Supported versions are 2.2.2, 3.3
+/// and newer, and 4.0.1. If a struct member exists only in some versions, a template tests for it
+/// with `requires`, since only a template may name a missing member. If enumerators differ, the
+/// code depends on the version number. docs/how-to/mujoco-versions.md lists the differences;
+/// render/mujoco_compat.h handles those in drawing.
 namespace trackbed::mj {
 
-/// Adds a file to a virtual file system. AddFile returns 0 on success.
+/// Adds a file to MuJoCo's virtual file system. Returns 0 on success.
 template <std::same_as<mjVFS> Vfs>
 int AddToVfs(Vfs& vfs, const std::string& file, const std::string& content) {
   const auto size = static_cast<int>(content.size());
@@ -32,12 +32,13 @@ int AddToVfs(Vfs& vfs, const std::string& file, const std::string& content) {
   }
 }
 
-/// Size of the saved model [bytes]; negative if MuJoCo cannot save a model that large.
+/// Returns the size of the model in saved form [bytes]; negative if the model is too large for
+/// MuJoCo to save.
 inline std::int64_t SizeOf(const mjModel& model) {
   return static_cast<std::int64_t>(mj_sizeModel(&model));
 }
 
-/// Disables an equality constraint. The flag of the constraint is in mjData since MuJoCo 3.0, and
+/// Disables an equality constraint. The flag of a constraint is in mjData since MuJoCo 3.0, and was
 /// in mjModel before.
 template <std::same_as<mjModel> Model, std::same_as<mjData> Data>
 void DisableEquality(Model& model, [[maybe_unused]] Data& data, int equality) {
@@ -60,8 +61,8 @@ bool HasOneControlEach(const Model& model) {
   }
 }
 
-/// Index into `act` of an actuator's state. -1 if the actuator has no state. Before MuJoCo 2.3, the
-/// last actuators were those with a state, one number each.
+/// Returns the index of an actuator's state in mjData::act; -1 if the actuator has no state. Before
+/// MuJoCo 2.3, the actuators with a state were the last ones, and each had a single state.
 template <std::same_as<mjModel> Model>
 int ActivationAddress(const Model& model, int actuator) {
   if constexpr (requires { model.actuator_actadr; }) {
@@ -72,8 +73,8 @@ int ActivationAddress(const Model& model, int actuator) {
   }
 }
 
-/// Moment of an actuator about a degree of freedom, after mj_transmission. The matrix of moments is
-/// sparse since MuJoCo 3.2.5.
+/// Returns the moment arm of an actuator for a degree of freedom, as computed by mj_transmission.
+/// MuJoCo stores the moment arms in a sparse matrix since version 3.2.5.
 template <std::same_as<mjData> Data>
 mjtNum ActuatorMoment([[maybe_unused]] const mjModel& model, const Data& data, int actuator,
                       int dof) {
@@ -90,12 +91,13 @@ mjtNum ActuatorMoment([[maybe_unused]] const mjModel& model, const Data& data, i
   }
 }
 
-/// Locks the joints `dofs` by an armature. The model must be at rest in its initial configuration.
+/// Locks the joints `dofs` with a large armature inertia. The model must be at rest in its initial
+/// configuration.
 ///
-/// The constraint solver scales its tolerance by the trace of the inertia matrix. Before MuJoCo
-/// 3.17, the trace was that of the compiled model. Since MuJoCo 3.17, the trace includes the
-/// armature. LockJoints reduces the tolerance by as much as the trace grows. With the larger
-/// tolerance, contacts would be solved a thousand times less exactly.
+/// MuJoCo's constraint solver scales its tolerance by the trace of the inertia matrix. An armature
+/// that is set after compilation is included in the trace since MuJoCo 3.17, but not in earlier
+/// versions. LockJoints therefore divides the tolerance by the factor by which the trace grows.
+/// Without this correction, contacts would be solved a thousand times less accurately.
 inline void LockJoints(mjModel& model, std::span<const int> dofs, double armature) {
 #if mjVERSION_HEADER >= 3017000
   const double trace = std::accumulate(model.dof_M0, model.dof_M0 + model.nv, 0.0);
@@ -106,30 +108,31 @@ inline void LockJoints(mjModel& model, std::span<const int> dofs, double armatur
   }
 }
 
-/// Iterations of the constraint solver in the last step. MuJoCo counts iterations per island since
-/// 3.0.
+/// Returns the number of iterations of the constraint solver in the last step. Since MuJoCo 3.0,
+/// iterations are counted separately for each island.
 template <std::same_as<mjData> Data>
 int SolverIterations(const Data& data) {
   if constexpr (requires { data.solver_niter; }) {
-    return data.solver_niter[0];  // without islands, the first entry is for all constraints
+    return data.solver_niter[0];  // without islands, the first entry counts for all constraints
   } else {
     return data.solver_iter;
   }
 }
 
-/// Text of a warning of MuJoCo's simulation; `info` was an int before 3.0.
+/// Returns the text of a warning from MuJoCo's simulation. Before MuJoCo 3.0, `info` was an int.
 inline const char* WarningText(int warning, int info) {
   return [&]<typename Info>(const char* (*text)(int, Info)) {
     return text(warning, static_cast<Info>(info));
   }(mju_warningText);
 }
 
-/// Sets the options under which all versions compute the same motion.
+/// Sets options such that all MuJoCo versions compute the same motion.
 ///
-/// Islands (on by default since 3.3.6) are solved separately and stop separately. With islands, a
-/// laden car creeps, and a run differs from 2.2.2 by millimeters instead of rounding. The mid-phase
-/// of collision detection (since 2.3.3) takes a geom's bounding box from the compiled model.
-/// RoadContact moves planes out of their boxes, so a car on contact tyres would fall through
+/// Constraint islands, which are on by default since MuJoCo 3.3.6, are disabled. The solver stops
+/// separately for each island, so a laden car would creep, and runs would differ from those of
+/// 2.2.2 by millimeters instead of rounding errors. The mid-phase of collision detection, which
+/// exists since 2.3.3, is disabled. The mid-phase uses the bounding boxes of the compiled model,
+/// but RoadContact moves planes out of these boxes, so a car on contact tyres would fall through
 /// terrain.
 inline void SetCommonOptions([[maybe_unused]] mjModel& model) {
 #if mjVERSION_HEADER >= 233

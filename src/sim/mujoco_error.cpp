@@ -4,8 +4,9 @@
 
 #include "trackbed/core/error.h"
 
-// Handlers of the calling thread, which precede the global ones. MuJoCo exports the functions for
-// thread-local handlers, for example for its Python bindings, but mujoco.h does not declare them.
+// Functions that set the handlers of the calling thread, which take precedence over the global
+// handlers. MuJoCo exports these functions, for example for its Python bindings, but mujoco.h does
+// not declare them.
 extern "C" {
 #if mjVERSION_HEADER >= 3010000
 mjfLogHandler _mjPRIVATE_setTlsLogHandler(mjfLogHandler handler);  // returns the previous handler

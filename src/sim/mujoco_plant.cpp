@@ -14,10 +14,11 @@
 #include "trackbed/sim/mujoco_error.h"
 
 // Simulates a vehicle with MuJoCo. A step of the plant has five parts:
-//   1. The derived class sets actuators and brakes (Act). The planes under the tyres follow the
-//      ground, moving obstacles get their planned state, and tyre contacts get the road's friction.
+//   1. The derived class sets actuators and brakes (Act). The planes under the tyres are moved
+//      along the ground, moving obstacles are set to their planned state, and the road's friction
+//      is set on the tyre contacts.
 //   2. mj_step1 computes the positions and velocities on which the forces of part 3 depend.
-//   3. Air, lateral push and wheels apply their forces (ApplyWheelForces).
+//   3. The forces of the air, of the lateral push and of the wheels (ApplyWheelForces) are applied.
 //   4. mj_step2 integrates the motion.
 //   5. The derived class ends the step (Finish).
 namespace trackbed {
@@ -30,7 +31,8 @@ Vector3d Vec(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// Whether any two geoms of bodies that move relative to each other may touch.
+/// Whether there are two geoms that may touch and belong to bodies that move relative to each
+/// other.
 bool HasCollidableGeoms(const mjModel& model) {
   const auto may_touch = [&](int a, int b) {
     return model.body_weldid[model.geom_bodyid[a]] != model.body_weldid[model.geom_bodyid[b]] &&
@@ -105,7 +107,8 @@ void MujocoPlant::RollWheels(std::span<const int> spin_dof, const StartState& st
 void MujocoPlant::Begin() {
   const MujocoErrorScope errors;
   if (!HasCollidableGeoms(*model_)) {
-    model_->opt.disableflags |= mjDSBL_CONTACT;  // the search for contacts takes 11 % of a step
+    model_->opt.disableflags |= mjDSBL_CONTACT;  // saves the search for contacts, which takes 11 %
+                                                 // of a step
   }
   ground_.Place(*model_, *data_);
   MoveObstacles();
@@ -133,7 +136,7 @@ void MujocoPlant::Step(const Command& command) {
   distance_ += std::abs(Speed()) * model_->opt.timestep;
 }
 
-/// Sets moving obstacles to their planned positions and speeds, even after a collision.
+/// Sets moving obstacles to their planned positions and speeds, which a collision does not change.
 void MujocoPlant::MoveObstacles() {
   for (const Slider& slider : sliders_) {
     data_->qpos[slider.qpos] = slider.speed * data_->time;
@@ -187,7 +190,7 @@ double MujocoPlant::Yaw() const {
   return std::atan2(2.0 * (q[0] * q[3] + q[1] * q[2]), 1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]));
 }
 
-/// Unit vector along the heading: Direction(Yaw()).
+/// Returns the unit vector along the heading, equal to Direction(Yaw()).
 Vec2 MujocoPlant::Ahead() const {
   const mjtNum* q = ChassisPosition() + 3;
   return Vec2(1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]), 2.0 * (q[0] * q[3] + q[1] * q[2]))
@@ -205,22 +208,22 @@ double MujocoPlant::Drag() const {
   return -0.5 * kAirDensity * air_V.norm() * air_V.x() * car_.chassis().aerodynamics.drag_area;
 }
 
-/// The road's friction factor under each wheel. UpdateRoadFriction also sets the friction of the
-/// tyres' contacts.
+/// Returns the road's friction factor under each wheel, and sets the friction of the tyre contacts
+/// accordingly.
 MujocoPlant::Road MujocoPlant::UpdateRoadFriction() {
   const std::span<const int> wheels = car_.wheels();
   Road road{};
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const mjtNum* hub = data_->xpos + 3 * wheels[w];
     road[w] = RoadFactor(world_, {hub[0], hub[1]});
-    // Only sliding friction is scaled: torsional and rolling friction are lengths, not road
-    // properties.
+    // Only the sliding friction is scaled. The coefficients of torsional and rolling friction are
+    // lengths, which do not depend on the road.
     model_->geom_friction[3 * car_.tyres()[w]] = tyre_friction_[w] * road[w];
   }
   return road;
 }
 
-/// Velocity of the air relative to the car, in the world frame [m/s].
+/// Returns the velocity of the air relative to the car, in the world frame [m/s].
 Vector3d MujocoPlant::AirSpeed() const {
   const mjtNum* at = ChassisPosition();
   const Vec2 wind = WindAt(world_, {at[0], at[1]}, data_->time);
@@ -269,12 +272,14 @@ VehicleState MujocoPlant::Observe() const {
   const VehicleParams& params = car_.params();
   const mjtNum* position = ChassisPosition();
   const Matrix3d R_WV = ChassisRotation();
-  const Vector3d v_W = Vec(ChassisVelocity());             // Velocity of the origin of V.
-  const Vector3d w_W = R_WV * Vec(ChassisVelocity() + 3);  // Free joints spin in their own frame.
+  const Vector3d v_W = Vec(ChassisVelocity());             // Velocity of the origin of the vehicle
+                                                           // frame V.
+  const Vector3d w_W = R_WV * Vec(ChassisVelocity() + 3);  // MuJoCo gives the angular velocity of a
+                                                           // free joint in the body's frame.
   const mjtNum* qacc = data_->qacc + car_.chassis().chassis_dof;
   const Vector3d a_W = Vec(qacc);
   const Vector3d alpha_W = R_WV * Vec(qacc + 3);
-  // Velocities and the pose are those of points at ground height; accelerations are those of the
+  // The velocities and the pose refer to points at ground height, and the accelerations to the
   // center of gravity.
   const Vector3d v_cg_W = v_W + w_W.cross(R_WV * Vector3d(params.cg_to_rear, 0.0, 0.0));
   const Vector3d to_cg_W = R_WV * Vector3d(params.cg_to_rear, 0.0, car_.chassis().cg_height);
@@ -294,7 +299,7 @@ VehicleState MujocoPlant::Observe() const {
   state.longitudinal_acceleration = ahead.dot(a_cg_W.head<2>());
   state.lateral_acceleration = left.dot(a_cg_W.head<2>());
   const double cg_speed = ahead.dot(v_cg_W.head<2>());
-  // Sideslip is set to 0 at rest, where it would consist of rounding errors.
+  // At rest, the sideslip angle is set to 0, since it would consist of rounding errors.
   state.sideslip =
       v_cg_W.head<2>().norm() < kAtRestSpeed ? 0.0 : std::atan(state.lateral_speed / cg_speed);
   const Wheels wheels = ObserveWheels();
@@ -317,7 +322,7 @@ double MujocoPlant::obstacle_force() const {
     const auto is = [&](const std::vector<bool>& kind, int geom) {
       return kind[static_cast<std::size_t>(geom)];
     };
-    // Contacts of obstacles with the ground or with each other are no collisions of the car.
+    // Only contacts between an obstacle and the car are collisions.
     if ((is(is_obstacle_, contact.geom1) && is(is_of_car_, contact.geom2)) ||
         (is(is_obstacle_, contact.geom2) && is(is_of_car_, contact.geom1))) {
       std::array<mjtNum, 6> force{};

@@ -15,8 +15,8 @@
 
 namespace trackbed {
 
-/// Base of the MuJoCo plants, with the vehicle's state, the road, the air and external forces.
-/// Derived classes drive the wheels of the vehicle.
+/// Base class of the MuJoCo plants, which handles the vehicle's state, the road, the air and
+/// external forces. Derived classes drive the wheels.
 class MujocoPlant : public Plant {
  public:
   void Step(const Command& command) final;
@@ -29,13 +29,14 @@ class MujocoPlant : public Plant {
   [[nodiscard]] bool diverged() const final;
   [[nodiscard]] std::string divergence() const final;
   [[nodiscard]] double wheel_gap() const final;
-  /// Constraint rows of the last step: contacts, joint limits, dry friction and couplings.
+  /// Returns the number of constraint rows in the last step, from contacts, joint limits, dry
+  /// friction and couplings.
   [[nodiscard]] int constraint_rows() const { return data_->nefc; }
 
  protected:
-  /// The road's friction factor under each wheel, in the order of CarModel::wheels().
+  /// Friction factor of the road under each wheel, in the order of CarModel::wheels().
   using Road = std::array<double, 4>;
-  /// Wheel states that the derived class observes.
+  /// Steering and wheel states, as observed by the derived class.
   struct Wheels {
     double actuator = 0.0;  ///< Value for VehicleState::steering_actuator.
     double steering = 0.0;  ///< Value for VehicleState::steering.
@@ -44,10 +45,10 @@ class MujocoPlant : public Plant {
 
   /// Initializes position and velocity from `setup.start`, without the spin of the wheels.
   explicit MujocoPlant(const PlantSetup& setup, TyreSupport support = TyreSupport::kContacts);
-  /// Sets the speeds of the wheels' spin joints to rolling without slip. The joints are in the
-  /// order of CarModel::wheels().
+  /// Sets the speeds of the wheels' spin joints to those of rolling without slip. `spin_dof` has
+  /// the joints in the order of CarModel::wheels().
   void RollWheels(std::span<const int> spin_dof, const StartState& start);
-  /// Begin() must be called after spin and actuators are set, and before the first step.
+  /// Begin() must be called after the spin and the actuators are set, and before the first step.
   void Begin();
 
   /// Sets actuators and brakes; called before a step.
@@ -63,9 +64,9 @@ class MujocoPlant : public Plant {
   [[nodiscard]] const mjModel& model() const { return *model_; }
   [[nodiscard]] mjData& data() { return *data_; }
   [[nodiscard]] const mjData& data() const { return *data_; }
-  /// Forward speed over the ground [m/s].
+  /// Returns the forward speed over the ground [m/s].
   [[nodiscard]] double Speed() const;
-  /// Aerodynamic drag, positive against a forward motion [N].
+  /// Returns the aerodynamic drag [N], which is positive if it opposes forward motion.
   [[nodiscard]] double Drag() const;
 
  private:
@@ -89,15 +90,16 @@ class MujocoPlant : public Plant {
 
   const CarModel& car_;
   const World& world_;
-  MujocoModel model_;  // own copy of the model, which brakes and road change
+  MujocoModel model_;  // own copy of the model, which the brakes and the road modify
   MujocoData data_;
   RoadContact ground_;
   std::vector<Slider> sliders_;
   std::vector<bool> is_obstacle_;          // For each geom, whether it is an obstacle.
   std::vector<bool> is_of_car_;            // For each geom, whether it belongs to the car.
-  std::array<double, 4> tyre_friction_{};  // Friction of the tyre contacts for a road factor of 1.
+  std::array<double, 4> tyre_friction_{};  // Friction coefficient of each tyre contact on a road
+                                           // with friction factor 1.
   double yaw_ = 0.0;                       // Heading, unwrapped [rad].
-  double distance_ = 0.0;                  // Distance driven [m].
+  double distance_ = 0.0;                  // Driven distance [m].
   double pending_lateral_force_ = 0.0;     // Lateral force to the left, for the coming step [N].
 };
 

@@ -21,7 +21,7 @@ namespace {
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Lets a car with locked brakes settle on its springs.
+/// Simulates a car with locked brakes until it has settled on its springs.
 class Settling {
  public:
   explicit Settling(const CarModel& car)
@@ -34,15 +34,17 @@ class Settling {
     }
   }
 
-  /// Simulates until the car is at rest. Run() returns false if the car is not at rest after 30 s.
+  /// Simulates until the car is at rest. Returns false if the car is not at rest after 30 s of
+  /// simulated time.
   bool Run() {
     const MujocoErrorScope errors;
-    constexpr double kMaxSettlingTime = 30.0;  // Longest time of settling [s].
-    // With springs of 1 Hz and more, a car this slow is less than a micrometer from its
-    // equilibrium.
-    constexpr double kRestSpeed = 1e-6;  // Speeds at rest [m/s], [rad/s].
+    constexpr double kMaxSettlingTime = 30.0;  // Longest simulated time [s].
+    // On springs with a natural frequency of 1 Hz or more, a car that is slower than this is less
+    // than a micrometer from its equilibrium.
+    constexpr double kRestSpeed = 1e-6;  // Speed below which a joint is at rest [m/s], [rad/s].
     constexpr double kCheckInterval = 0.5;
-    // Checks the largest speed of an interval, since the car is also slow at its turning points.
+    // The largest speed within an interval is checked, since an oscillating car is also slow at its
+    // turning points.
     double fastest = 0.0;
     for (double next = kCheckInterval; data_->time < kMaxSettlingTime;) {
       mj_step(model_.get(), data_.get());
@@ -64,7 +66,8 @@ class Settling {
     return false;
   }
 
-  /// The settled configuration, moved to the origin with heading along x and straight wheels.
+  /// Returns the settled qpos, with the car moved to the origin, its heading along x, and its
+  /// wheels straight.
   [[nodiscard]] std::vector<double> Position() const {
     std::vector<double> qpos(data_->qpos, data_->qpos + model_->nq);
     const auto chassis = static_cast<std::size_t>(car_.parts().chassis_qpos);

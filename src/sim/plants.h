@@ -4,7 +4,7 @@
 
 namespace trackbed {
 
-// The actuators of a planar plant follow each command at once. For actuators with delays see
+// In planar plants, the actuators follow each command immediately. Delays are added in
 // steering_filter_plant.h.
 
 std::unique_ptr<Plant> MakeIdealKinematicPlant(const PlantSetup& setup, ReferencePoint reference);

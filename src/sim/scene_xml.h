@@ -9,22 +9,23 @@
 /// XML helpers for composing a scene.
 namespace trackbed {
 
-/// Parses the text of a composed scene. ParseComposed throws InternalError if the text is not XML.
+/// Parses the text of a composed scene. Throws InternalError if the text is not valid XML.
 void ParseComposed(const std::string& xml, tinyxml2::XMLDocument& document);
 
 std::string Print(const tinyxml2::XMLDocument& document);
 
-/// Formats numbers for an attribute, such as "1 0 0.5". Each number has its shortest form that
-/// reads back exactly.
+/// Formats numbers for an attribute, such as "1 0 0.5". Each number has the shortest form that is
+/// read back exactly.
 std::string Numbers(std::initializer_list<double> values);
 
-/// The first element of a kind ("body", "geom") and name in the worldbodies below `parent`; null if
-/// it is missing.
+/// Finds the first element of this kind ("body", "geom", …) and name in the <worldbody> elements
+/// below `parent`; null if there is no such element.
 tinyxml2::XMLElement* FindInWorld(tinyxml2::XMLElement& parent, std::string_view kind,
                                   std::string_view name);
 
-/// The composed model without visual geoms. MuJoCo discards geoms that collide with nothing and
-/// that no other element refers to. Discarding visual geoms keeps the line numbers.
+/// Returns the composed model with the option that makes MuJoCo discard visual geoms. MuJoCo then
+/// discards geoms that collide with nothing and that no other element refers to. The line numbers
+/// of the model do not change.
 std::string DiscardLooks(const std::string& xml);
 
 }  // namespace trackbed

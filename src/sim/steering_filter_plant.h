@@ -6,8 +6,8 @@
 
 namespace trackbed {
 
-/// Wraps `plant` in the steering response of its car, unless the response is ideal or the setup
-/// prescribes the wheel angle.
+/// Wraps `plant` in a plant that applies the car's steering response to each command. Returns
+/// `plant` itself if the response is ideal or the setup prescribes the wheel angle.
 std::unique_ptr<Plant> WithSteeringResponse(std::unique_ptr<Plant> plant, const PlantSetup& setup);
 
 }  // namespace trackbed

@@ -5,8 +5,8 @@
 
 namespace trackbed {
 
-/// The response of a steering actuator that turns the wheels by up to `limit` [rad] to both sides.
-/// The response is ideal if the model does not describe it.
+/// Reads the response of a steering actuator that turns the wheels by at most `limit` [rad] to each
+/// side. If the model does not describe a response, the result is the ideal response.
 SteeringResponse ReadSteeringResponse(const Numerics& numerics, double limit);
 
 }  // namespace trackbed

@@ -26,7 +26,7 @@ std::string ErrnoText(int error) {
   return std::generic_category().message(error);
 }
 
-/// Writes the whole text to a pipe. WriteAll returns false if the reader has closed the pipe.
+/// Writes all of the data to a pipe. Returns false if the reader has closed the pipe.
 bool WriteAll(int pipe, const char* data, std::size_t size) {
   while (size > 0) {
     const ssize_t written = ::write(pipe, data, size);
@@ -50,7 +50,7 @@ void Limit(int resource, rlim_t value) {
   ::setrlimit(static_cast<__rlimit_resource>(resource), &limit);
 }
 
-/// Address space of this process [bytes].
+/// Returns the size of this process's address space [bytes].
 std::size_t AddressSpace() {
   std::size_t pages = 0;
   std::ifstream("/proc/self/statm") >> pages;
@@ -59,10 +59,11 @@ std::size_t AddressSpace() {
 
 [[noreturn]] void RunChildProcess(const std::function<std::string()>& compute, std::size_t space,
                                   int seconds, int pipe) {
-  // The process must die with its parent, whose file locks it has inherited.
+  // The child process must end together with its parent, because it has inherited the parent's file
+  // locks.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Libraries that call exit() would flush buffers copied from the parent process; some also print
-  // an error.
+  // Redirects standard streams to /dev/null. A library that calls exit() would flush buffers copied
+  // from the parent process, and might print an error.
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     ::dup2(nowhere, stream);
@@ -75,8 +76,8 @@ std::size_t AddressSpace() {
 #else
   static_cast<void>(space);
 #endif
-  // The waiting process reports a crash, so the signal handlers of the program or of a sanitizer
-  // are disabled.
+  // Disables the signal handlers of the program or of a sanitizer, since the parent process reports
+  // a crash.
   for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) {
     ::signal(crash, SIG_DFL);
   }
@@ -86,10 +87,11 @@ std::size_t AddressSpace() {
   std::memcpy(header.data(), &size, sizeof size);
   const bool written =
       WriteAll(pipe, header.data(), header.size()) && WriteAll(pipe, result.data(), result.size());
-  ::_exit(written ? 0 : 1);  // skips exit handlers and buffers copied from the parent
+  ::_exit(written ? 0 : 1);  // ends without running exit handlers or flushing buffers copied from
+                             // the parent
 }
 
-/// Reads the pipe until its other end is closed, or until the time `until`.
+/// Reads from the pipe until its other end is closed or the time `until` is reached.
 std::string ReadUntil(int pipe, std::chrono::steady_clock::time_point until) {
   std::string text;
   std::array<char, 65536> block{};
@@ -136,7 +138,7 @@ SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std:
     RunChildProcess(compute, space, seconds, pipe[1]);
   }
   ::close(pipe[1]);
-  // Waits for twice the processor time, in case the machine is busy.
+  // The wall-clock limit is twice the limit of processor time, in case the machine is busy.
   const std::string text =
       ReadUntil(pipe[0], std::chrono::steady_clock::now() + std::chrono::seconds(2 * seconds));
   ::close(pipe[0]);

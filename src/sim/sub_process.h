@@ -7,19 +7,19 @@ namespace trackbed {
 
 /// Result of a computation in a separate process.
 struct SubProcessOutcome {
-  bool finished = false;  ///< whether the function returned; `result` is then its return value
+  bool finished = false;  ///< Whether the function returned; then `result` is its return value.
   std::string result;
-  std::string cause;  ///< reason if the function did not return: "Segmentation fault", "exit code
-                      ///< 1"
+  std::string cause;  ///< Reason why the function did not return, such as "Segmentation fault" or
+                      ///< "exit code 1".
 };
 
-/// Calls `compute` in a copy of this process. The copy can open no file. The copy may allocate
-/// `memory` bytes and use `seconds` of processor time. No error in the copy, not even a crash,
-/// affects this process. The copy's output is discarded.
+/// Calls `compute` in a copy of this process. The copy cannot open files, can allocate at most
+/// `memory` bytes, and can use at most `seconds` of processor time. An error or crash in the copy
+/// does not affect this process. The output of the copy is discarded.
 ///
-/// `compute` must not throw and must not use a lock that another thread may hold. InSubProcess
-/// throws RunError if no process can be started. Under sanitizers, which map terabytes, the process
-/// has no memory limit.
+/// `compute` must not throw, and must not use a lock that another thread may hold. InSubProcess
+/// throws RunError if no process can be started. In builds with sanitizers, which map terabytes of
+/// address space, the memory is not limited.
 SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std::size_t memory,
                                int seconds);
 

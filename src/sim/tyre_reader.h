@@ -9,21 +9,21 @@
 
 namespace trackbed {
 
-/// The optional numbers under a model's <custom>.
+/// Reads the optional numbers under <custom> in a model.
 class Numerics {
  public:
-  /// Callback that gets the number's name and an error message.
+  /// Function that gets the name of a number and an error message.
   using ErrorCallback = std::function<void(const std::string& name, const std::string& message)>;
 
   Numerics(const mjModel_& model, ErrorCallback add_error)
       : model_(model), add_error_(std::move(add_error)) {}
 
   [[nodiscard]] bool Has(const std::string& name) const;
-  /// The `count` numbers with this name; null if there are none.
+  /// Returns the `count` numbers with this name; null if there are none.
   [[nodiscard]] const double* Find(const std::string& name, int count) const;
-  /// All numbers with this name; empty if there are none.
+  /// Returns all numbers with this name; empty if there are none.
   [[nodiscard]] std::span<const double> List(const std::string& name) const;
-  /// Reads a number into `value`, which stays unchanged if the number does not exist.
+  /// Sets `value` to the number with this name. If there is no such number, `value` is unchanged.
   void Read(const std::string& name, double& value) const;
 
   [[nodiscard]] const mjModel_& model() const { return model_; }
@@ -36,7 +36,7 @@ class Numerics {
   ErrorCallback add_error_;
 };
 
-/// The tyres of the car; none if the model has no coefficient of a tyre.
+/// Reads the tyre parameters of a car; nullopt if the model has no tyre coefficients.
 std::optional<CarTyres> ReadTyres(const Numerics& numerics);
 
 }  // namespace trackbed

@@ -27,9 +27,9 @@ TyreTouch TyreShape::On(const Ground& ground, const Vector3d& center_W,
   Vec2 under = center_W.head<2>();
   double share = 1.0;
   Vec2 last = Vec2::Zero();
-  // Fixed-point iteration for the lowest point of the tyre. The iteration contracts by tyre radius
-  // times ground curvature. On crests sharper than the tyre, the iteration oscillates, so the step
-  // is halved.
+  // Finds the lowest point of the tyre by fixed-point iteration. Each iteration reduces the error
+  // by a factor of tyre radius times ground curvature. On crests sharper than the tyre, the
+  // iteration would oscillate, so the step is halved.
   for (int i = 0; i < 20; ++i) {
     touch.normal_W = GroundNormal(ground, under);
     const Vector3d normal_T = R_WT.transpose() * touch.normal_W;

@@ -8,25 +8,30 @@ struct mjModel_;
 
 namespace trackbed {
 
-/// The point of a tyre that is nearest to the ground, or deepest in it, in the world frame.
+/// The point of a tyre that is nearest to the ground or deepest below its surface, in the world
+/// frame.
 struct TyreTouch {
-  Eigen::Vector3d lowest_W;  ///< The tyre's lowest point along the ground's normal.
+  Eigen::Vector3d lowest_W;  ///< Lowest point of the tyre along the ground's normal.
   Eigen::Vector3d normal_W;  ///< Normal of the ground.
-  double gap = 0.0;          ///< Distance from the ground to the lowest point along the normal [m].
+  double gap = 0.0;          ///< Distance of the lowest point from the ground, along the normal
+                             ///< [m].
 };
 
-/// An ellipsoid about the tyre's axis y. The ellipsoid equals MuJoCo's geom of the tyre.
+/// Shape of a tyre: an ellipsoid of revolution about the tyre's y axis, which equals the tyre's
+/// geom in MuJoCo.
 ///
-/// The contact is exact if the ground's radius of curvature exceeds the tyre's radius. On ground
-/// that curves up more sharply, a real tyre touches at two points, and the ellipsoid at one.
+/// The computed contact is exact if the ground's radius of curvature exceeds the tyre's radius. In
+/// a sharper dip, a real tyre touches the ground at two points, but the computed contact is a
+/// single point.
 class TyreShape {
  public:
   TyreShape() = default;
-  /// Takes the shape of a geom of `model`. For geoms that are not round in all directions, the
-  /// shape is that of the rim.
+  /// Takes the shape of a geom of `model`. A geom other than a sphere or an ellipsoid is treated as
+  /// a thin disk.
   TyreShape(const mjModel_& model, int geom);
 
-  /// Contact with the ground of a tyre at this center and with this orientation R_WT.
+  /// Returns the contact of the tyre with the ground, if the tyre has this center and the
+  /// orientation R_WT.
   [[nodiscard]] TyreTouch On(const Ground& ground, const Eigen::Vector3d& center_W,
                              const Eigen::Matrix3d& R_WT) const;
 

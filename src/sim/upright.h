@@ -6,9 +6,9 @@
 
 namespace trackbed {
 
-/// Orientation R_WB of a body on ground of slope `slope` (dz/dx and dz/dy). The body's z axis is
-/// the ground's normal, and its x axis is along `yaw` as seen from above. On flat ground, the
-/// orientation is exactly the rotation by `yaw`.
+/// Returns the orientation R_WB of a body that stands on ground with the slope (dz/dx, dz/dy). The
+/// body's z axis is the ground's normal, and its x axis points along `yaw` as seen from above. On
+/// flat ground, the result is exactly the rotation by `yaw`.
 Eigen::Quaterniond Upright(const Vec2& slope, double yaw);
 
 }  // namespace trackbed

@@ -7,11 +7,12 @@ namespace trackbed {
 
 double TopSpeed(const Traction& traction) {
   const double drag = 0.5 * kAirDensity * traction.drag_area;
-  const double by_force = std::sqrt(std::max(0.0, traction.force) / drag);  // infinite without drag
+  // Infinite if there is no drag.
+  const double by_force = std::sqrt(std::max(0.0, traction.force) / drag);
   if (traction.power <= 0.0) {
     return std::isfinite(by_force) ? by_force : 0.0;
   }
-  // Power left beyond the driving resistance [W], which decreases with the speed.
+  // Power that remains after the driving resistance [W]; it decreases with the speed.
   const auto spare = [&](double v) {
     return traction.power - (traction.rolling + drag * v * v) * v;
   };

@@ -13,7 +13,7 @@ namespace trackbed {
 namespace {
 
 constexpr int kMaxTriangles = 20000;
-constexpr int kDrawnGroups = 3;  // groups that MuJoCo's viewer shows by default
+constexpr int kDrawnGroups = 3;  // number of geom groups that MuJoCo's viewer shows by default
 
 template <std::size_t count, typename Number>
 std::array<double, count> Copied(const Number* values) {
@@ -41,7 +41,8 @@ std::vector<ShapeJoint> JointsOf(const mjModel& model, int body) {
   return joints;
 }
 
-/// As in MuJoCo, a geom with the default color has the color of its material.
+/// Returns the color of a geom. As in MuJoCo, a geom with the default color has the color of its
+/// material.
 std::array<double, 4> DrawnColor(const mjModel& model, int geom) {
   const float* own = model.geom_rgba + 4 * geom;
   const int material = model.geom_matid[geom];
@@ -75,7 +76,7 @@ ShapeMesh MeshOf(const mjModel& model, int mesh) {
           {faces, faces + 3 * model.mesh_facenum[mesh]}};
 }
 
-/// The bounding box of a mesh, as a mesh.
+/// Returns the bounding box of a mesh, as a mesh.
 ShapeMesh Bounds(const ShapeMesh& mesh) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low{kInfinity, kInfinity, kInfinity};

@@ -20,8 +20,9 @@ bool IsRoad(const mjModel& model, int geom) {
   return name != nullptr && std::string_view(name).starts_with("ground");
 }
 
-/// Calls `call` with wheel, contact, index of the contact, and a sign. Contact forces act on the
-/// second geom. Multiplied by the sign, a contact force acts on the wheel.
+/// Calls `call` for each contact of a wheel with the road, with the wheel, the contact, the
+/// contact's index, and a sign. In MuJoCo, contact forces act on the second geom; multiplied by the
+/// sign, the force is that on the wheel.
 template <typename Call>
 void ForEachRoadContact(const CarModel& car, const mjModel& model, const mjData& data,
                         const Call& call) {
@@ -71,8 +72,8 @@ std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel
   up.fill(Vector3d::Zero());
   point.fill(Vector3d::Zero());
   std::array<double, 4> weight{};
-  // On a rough road, a wheel may touch at several points. The mean of the points, weighted by
-  // depth, is taken.
+  // On a rough road, a wheel may have several contact points. The contact is the mean of these
+  // points, weighted by penetration depth.
   ForEachRoadContact(car, model, data,
                      [&](std::size_t w, const mjContact& contact, int, double sign) {
                        const double depth = std::max(contact.includemargin - contact.dist, 1e-9);
@@ -100,7 +101,8 @@ std::array<Vector3d, 4> RoadForces(const CarModel& car, const mjModel& model, co
       car, model, data, [&](std::size_t w, const mjContact& contact, int i, double sign) {
         std::array<mjtNum, 6> force{};
         mj_contactForce(&model, &data, i, force.data());
-        for (int axis = 0; axis < 3; ++axis) {  // rows of the contact's frame
+        for (int axis = 0; axis < 3; ++axis) {  // the three rows of the contact's frame are the
+                                                // axes of the force
           forces[w] += sign * force[static_cast<std::size_t>(axis)] * Vec(contact.frame + 3 * axis);
         }
       });

@@ -7,11 +7,11 @@
 
 struct mjData_;
 
-/// Motion and forces of the MuJoCo car's wheels at their contacts with the road.
+/// Motion and forces of a MuJoCo car's wheels at their contacts with the road.
 namespace trackbed {
 
-/// One wheel at its contact with the road. Vectors are in the world frame. The tyre axes are
-/// forward, left and up (the road's normal).
+/// The contact of one wheel with the road. Vectors are in the world frame. The axes of the tyre
+/// point forward, to the left, and up along the road's normal.
 struct WheelContact {
   bool touches = false;
   Eigen::Vector3d point;
@@ -22,21 +22,25 @@ struct WheelContact {
   Eigen::Vector3d hub_velocity;      ///< Velocity of the hub [m/s].
   Eigen::Vector3d angular_velocity;  ///< Angular velocity of the wheel [rad/s].
   double rolling_speed = 0.0;        ///< Forward speed v_x of the hub [m/s].
-  double spin = 0.0;                 ///< Spin Omega about the spin axis, positive forward [rad/s].
-  double slip_speed_x = 0.0;  ///< Omega R - v_x, against the patch's motion over the road [m/s].
-  double slip_speed_y = 0.0;  ///< Speed v_y of the patch over the road, to the left [m/s].
+  double spin = 0.0;                 ///< Angular speed Omega about the spin axis, positive for
+                                     ///< forward rolling [rad/s].
+  double slip_speed_x = 0.0;  ///< Longitudinal slip speed Omega R - v_x [m/s]; opposite in sign to
+                              ///< the motion of the contact patch over the road.
+  double slip_speed_y = 0.0;  ///< Speed v_y of the contact patch over the road, to the left [m/s].
 };
 
-/// Motion of a wheel that touches at `point`, from the present positions and velocities. `up` is
-/// the road's normal at `point`.
+/// Computes the motion of a wheel that touches the road at `point`, from the positions and
+/// velocities in `data`. `up` is the road's normal at `point`.
 WheelContact ContactAt(const CarModel& car, const mjModel_& model, const mjData_& data,
                        std::size_t wheel, const Eigen::Vector3d& point, const Eigen::Vector3d& up);
 
-/// Contacts of all wheels, found by MuJoCo. A wheel in the air is treated as one on a level road.
+/// Returns the contacts of all wheels that MuJoCo has found. For a wheel in the air, the result is
+/// that of a level road below the wheel.
 std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel_& model,
                                               const mjData_& data);
 
-/// The road's contact forces on the wheels in the last solver call, in the world frame [N].
+/// Returns the contact force of the road on each wheel, as computed by MuJoCo's last call of the
+/// constraint solver, in the world frame [N].
 std::array<Eigen::Vector3d, 4> RoadForces(const CarModel& car, const mjModel_& model,
                                           const mjData_& data);
 

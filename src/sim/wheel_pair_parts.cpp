@@ -135,7 +135,7 @@ class WheelPairReader final : private PartsReader {
   }
 
   void ReadLimits() {
-    // In a turn with a radius of half the track, the inner wheel is at rest.
+    // If the turning radius is half the track, the inner wheel is at rest.
     if (!(turning_radius_ >= 0.5 * params_.track_rear)) {
       AddError("turning_radius", fmt::format("must be at least half the track, {:.4g} m, so that "
                                              "the inner wheel does not reverse; found {:.4g}",
@@ -184,9 +184,10 @@ class WheelPairReader final : private PartsReader {
     params_.top_speed = (parts_.wheel_speed - parts_.servo_slack) * radius;
   }
 
-  /// Positions of other supports on the ground at qpos0, ahead of the driven wheels [m]. Other
-  /// supports are spheres, ellipsoids and capsules. Each support is treated as the only one, since
-  /// with several supports the loads depend on springs.
+  /// Returns the positions of all other supports that touch the ground at qpos0, such as caster
+  /// wheels, relative to the driven wheels, positive forward [m]. Spheres, ellipsoids and capsules
+  /// can be supports. Each support is treated as if it were the only one, since the loads on
+  /// several supports depend on springs.
   [[nodiscard]] std::vector<double> OtherSupports() const {
     constexpr double kMaxGroundGap = 1e-3;  // [m]
     std::vector<double> ahead;
@@ -204,10 +205,11 @@ class WheelPairReader final : private PartsReader {
     return ahead;
   }
 
-  /// Half height of a round geom [m]; 0 for other types of geoms.
+  /// Returns half the height of a round geom [m]; 0 for other types of geoms.
   [[nodiscard]] double HalfHeight(int geom) const {
     const mjtNum* size = m_.geom_size + 3 * geom;
-    const mjtNum* up = data_->geom_xmat + 9 * geom + 6;  // the world's z axis in the geom's frame
+    const mjtNum* up = data_->geom_xmat + 9 * geom + 6;  // components of the world's z axis in the
+                                                         // geom's frame
     switch (m_.geom_type[geom]) {
       case mjGEOM_SPHERE:
         return size[0];
@@ -227,7 +229,7 @@ class WheelPairReader final : private PartsReader {
   }
 
   WheelPairParts parts_;
-  int free_ = -1;  // joint
+  int free_ = -1;  // index of the free joint
   std::array<int, 2> spin_{};
   int footprint_ = -1;           // Index of the site.
   double servo_torque_ = 0.0;    // Largest torque of one motor [N m].

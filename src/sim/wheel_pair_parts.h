@@ -10,10 +10,11 @@ namespace trackbed {
 /// The driven wheels of a differential drive, in the order of WheelPairParts.
 inline constexpr std::array<const char*, 2> kDrivenWheels{"left", "right"};
 
-/// Whether a model describes a differential drive, which drives single wheels and has no steering.
+/// Whether a model describes a vehicle with differential drive, which drives each wheel separately
+/// and has no steering.
 bool IsWheelPair(const mjModel_& model);
 
-/// Same as DescribeVehicle, for a differential drive.
+/// Finds and checks the parts like DescribeVehicle, but for a vehicle with differential drive.
 VehicleDescription DescribeWheelPair(const mjModel_& model, const std::string& file);
 
 }  // namespace trackbed

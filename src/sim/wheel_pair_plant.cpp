@@ -9,8 +9,9 @@
 namespace trackbed {
 namespace {
 
-/// Two wheels on speed servos that have an integral part. Without the integral part, turns would be
-/// too wide. In a turn, the center of gravity needs a yaw moment m l_g v psi' from the motors.
+/// A vehicle with two driven wheels, each controlled by a speed servo with an integral part. In a
+/// turn, the motors must apply the yaw moment m l_g v psi', because the center of gravity is not on
+/// the axle. Without an integral part, turns would therefore be too wide.
 class WheelPairPlant final : public MujocoPlant {
  public:
   explicit WheelPairPlant(const PlantSetup& setup)
@@ -42,7 +43,7 @@ class WheelPairPlant final : public MujocoPlant {
     for (std::size_t w = 0; w < parts.spin_dof.size(); ++w) {
       const double wanted = speeds[static_cast<Eigen::Index>(w)] / params.wheel_radius;
       const double missing = wanted - data().qvel[parts.spin_dof[w]];
-      // Anti-windup: the integral asks for at most the full torque.
+      // Anti-windup: the integral part is limited to that of the full torque.
       integral_[w] = hold ? 0.0
                           : std::clamp(integral_[w] + missing * timestep / parts.integral_time,
                                        -parts.servo_slack, parts.servo_slack);
@@ -52,7 +53,7 @@ class WheelPairPlant final : public MujocoPlant {
     }
   }
 
-  /// Sets the servos to the present wheel speeds, so that they give no torque.
+  /// Sets the servos' commands to the present wheel speeds, so that the servos apply no torque.
   void Coast() {
     const WheelPairParts& parts = car().wheel_pair();
     wanted_speed_ = Speed();
@@ -63,20 +64,20 @@ class WheelPairPlant final : public MujocoPlant {
     }
   }
 
-  /// Commanded speed for the coming step, along the gear.
+  /// Returns the commanded speed for the coming step, in the direction of the gear [m/s].
   [[nodiscard]] double NextSpeed(int gear, double acceleration, double speed) const {
     const WheelPairParts& parts = car().wheel_pair();
     const double radius = car().params().wheel_radius;
-    // At a larger difference of speeds, the torque saturates. Limiting the difference avoids
-    // windup.
+    // The torque saturates if commanded and actual speed differ by more than this slack. Limiting
+    // the difference to the slack avoids windup.
     const double slack = parts.servo_slack * radius;
     const double wanted = gear * wanted_speed_;
     const double change = acceleration * model().opt.timestep;
     const double next = change > 0.0 ? std::min(wanted + change, std::max(wanted, speed + slack))
                                      : std::max(wanted + change, std::min(wanted, speed - slack));
-    // Near the motors' largest speed, less the servos' integral part, the vehicle slows down and
-    // does not leave its curve. The outer wheel runs at 1 + |tan delta|/2 times the vehicle's
-    // speed.
+    // Limits the speed so that both motors stay below their largest speed, with a reserve for the
+    // servos' integral part. The vehicle then slows down in a turn instead of leaving its curve.
+    // The outer wheel is 1 + |tan delta|/2 times as fast as the vehicle.
     const double fastest =
         (parts.wheel_speed * radius - slack) / (1.0 + 0.5 * std::abs(std::tan(ratio_)));
     return std::clamp(next, 0.0, fastest);
@@ -88,9 +89,9 @@ class WheelPairPlant final : public MujocoPlant {
     const double left = radius * data().qvel[spin[0]];
     const double right = radius * data().qvel[spin[1]];
     const double speed = 0.5 * (left + right);
-    // The ratio tan(delta) is relative to the speed. Below this speed, the measured ratio
-    // tan(delta) is blended into the commanded one [m/s]. At rest, the ratio would consist of
-    // rounding errors.
+    // Speed below which the measured ratio tan(delta) is blended into the commanded ratio [m/s].
+    // The measured ratio is a difference of wheel speeds divided by the speed, so at rest it would
+    // consist of rounding errors.
     constexpr double kCrawl = 0.1;
     const double wanted = std::tan(ratio_);
     const double missing = right - left - speed * wanted;
@@ -99,9 +100,9 @@ class WheelPairPlant final : public MujocoPlant {
   }
 
   double wanted_speed_;                       // Commanded speed [m/s].
-  double ratio_;                              // Steering ratio delta, limited in its rate [rad].
+  double ratio_;                              // Steering angle delta after the rate limit [rad].
   std::array<double, 2> integral_{};          // Integral part of the servos [rad/s].
-  std::array<double, 2> bearing_friction_{};  // Friction of the bearings [N m].
+  std::array<double, 2> bearing_friction_{};  // Friction torque of each wheel's bearing [N m].
 };
 
 }  // namespace

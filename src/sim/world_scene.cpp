@@ -15,35 +15,37 @@
 #include "trackbed/sim/scene.h"
 
 /// Adds ground and obstacles of a world to the scene of a car:
-///   - WithGround adds the plane, and height fields for terrain, bumps and side slopes. WithGround
-///     also adds a plane under each wheel, which RoadContact keeps tangent to the exact ground.
+///   - WithGround adds the ground plane, and height fields for terrain, bumps and side slopes.
+///     WithGround also adds a plane under each wheel, which RoadContact keeps tangent to the exact
+///     ground.
 ///   - WithObstacles adds a box per obstacle, with two slide joints if the obstacle moves.
-///     WithObstacles also adds the walls of the map, and a shell for the car that touches obstacles
-///     only.
+///     WithObstacles also adds the walls of the map, and a shell of the car that can touch only
+///     obstacles.
 namespace trackbed {
 namespace {
 
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Thickness of a height field below its lowest sample [m]. The base of the height field lies below
-/// the plane.
+/// Thickness of a height field below its lowest sample [m]. The base of the height field is below
+/// the ground plane.
 constexpr double kBase = 0.1;
 
-/// Heights over a rectangle, in MuJoCo's format.
+/// Heights on a grid over a rectangle, in MuJoCo's format.
 struct HeightField {
   double lowest = 0.0;   ///< Lowest z of the samples [m].
   double highest = 0.0;  ///< Highest z of the samples [m].
   std::string file;
 };
 
-/// Number of cells along a side of a height field.
+/// Returns the number of cells along a side of a height field.
 int CellsAlong(double side) {
   constexpr double kCell = 0.05;  // [m]
   return std::clamp(static_cast<int>(std::ceil(side / kCell)), 16, 256);
 }
 
-/// Samples heights at `columns` by `rows` points along the box's length and width.
+/// Samples heights on a grid with `columns` points along the box's length and `rows` points along
+/// its width.
 HeightField Sample(const OrientedBox& box, std::int32_t columns, std::int32_t rows,
                    const std::function<double(const Vec2& point_W)>& height_at) {
   std::vector<double> heights;
@@ -76,14 +78,15 @@ HeightField Sample(const Feature& feature, const Ground& ground) {
                 [&](const Vec2& p) { return ground.grade.dot(p) + Rise(feature, p); });
 }
 
-/// The rectangle that a range of a terrain's blocks covers.
+/// Returns the rectangle that a rectangular range of terrain blocks covers.
 OrientedBox BlocksAt(const Terrain::Size& size, int column, int row, int columns, int rows) {
   const Vec2 sides = Terrain::kBlock * Vec2(columns, rows);
   const Vec2 middle = size.low + Terrain::kBlock * Vec2(column, row) + 0.5 * sides;
   return {{middle.x(), middle.y(), 0.0}, sides.x(), sides.y()};
 }
 
-/// Whether a point is inside refined blocks or between two of them, not on their outer border.
+/// Whether a point is inside a refined block or on the border between two refined blocks, but not
+/// on their outer border.
 bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
   const Terrain::Size& size = terrain.size();
   constexpr double kProbeOffset = 1e-3 * Terrain::kBlock;
@@ -97,9 +100,9 @@ bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
          refined(kProbeOffset, -kProbeOffset) && refined(kProbeOffset, kProbeOffset);
 }
 
-/// Calls `add(box, field)` for the height fields that make up a terrain. Each refined block is one
-/// field, with a sample at each of its nodes. Coarse fields cover the rest of the terrain and are
-/// lowered under the refined fields.
+/// Calls `add(box, field)` for each height field of a terrain. Each refined block becomes one
+/// height field, with a sample at each node of the block. Coarse fields cover the rest of the
+/// terrain and are lowered under the refined fields.
 void SampleTerrain(
     const Terrain& terrain,
     const std::function<void(const OrientedBox& box, const HeightField& field)>& add) {
@@ -114,9 +117,11 @@ void SampleTerrain(
       }
     }
   }
-  constexpr int kMaxBlocks = 64;       // A field of this many blocks has 257 samples along a side.
-  constexpr double kCoarseDrop = 4.0;  // Drop of the coarse field, steeper than the refined ground
-                                       // [m].
+  constexpr int kMaxBlocks = 64;  // Largest number of blocks along a side of a coarse height
+                                  // field, which then has 257 samples.
+  // Depth by which a coarse field is lowered below refined blocks [m]; the resulting step is
+  // steeper than any refined ground.
+  constexpr double kCoarseDrop = 4.0;
   for (int row = 0; row < size.rows; row += kMaxBlocks) {
     for (int column = 0; column < size.columns; column += kMaxBlocks) {
       const int columns = std::min(kMaxBlocks, size.columns - column);
@@ -138,7 +143,8 @@ void Place(XMLElement& geom, const Eigen::Vector3d& position, const Eigen::Quate
   geom.SetAttribute("quat", Numbers({turn.w(), turn.x(), turn.y(), turn.z()}).c_str());
 }
 
-/// Adds a copy of the geom `ground`, with its friction, looks and other attributes.
+/// Adds a copy of the geom `ground` under another name, with the same friction, appearance and
+/// other attributes.
 XMLElement& AddLike(XMLElement& ground, const std::string& name) {
   XMLElement* geom = ground.ShallowClone(ground.GetDocument())->ToElement();
   ground.Parent()->InsertEndChild(geom);
@@ -168,7 +174,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   int count = 0;
   const auto add = [&](const OrientedBox& box, const HeightField& field, const char* rgba) {
     if (field.highest == field.lowest) {
-      return;  // flat, for example a side slope of 0
+      return;  // flat ground, for example a side slope of 0
     }
     const std::string name = fmt::format("ground_{}", count);
     const std::string file = name + ".hfield";
@@ -195,14 +201,14 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     });
   }
   for (const Bump& bump : ground.bumps) {
-    // The color makes the bump visible.
+    // The bump has a distinct color, so that it is visible.
     add(Extent(bump), Sample(bump, ground), "1 0.93 0.68 1");
   }
   for (const Superelevation& side_slope : ground.side_slopes) {
     add(Extent(side_slope), Sample(side_slope, ground), nullptr);
   }
   if (count > 0) {
-    // Handles both sets of wheel names: those of a car and of a differential drive.
+    // The list has the wheel names of a car and of a vehicle with differential drive.
     for (const auto& [wheel, index] :
          {std::pair("fl", 0), std::pair("fr", 1), std::pair("rl", 2), std::pair("rr", 3),
           std::pair("left", 0), std::pair("right", 1)}) {
@@ -212,7 +218,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
       XMLElement& geom = AddLike(*plane, fmt::format("ground_{}", wheel));
       geom.SetAttribute("contype", 0);
       geom.SetAttribute("conaffinity", WheelPlaneBit(static_cast<std::size_t>(index)));
-      geom.SetAttribute("group", 4);  // a group that is not drawn
+      geom.SetAttribute("group", 4);  // geom group that is not drawn
     }
   }
   scene.xml = Print(document);
@@ -221,11 +227,12 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   return scene;
 }
 
-/// Mass of an obstacle [kg], so heavy that no car can move it.
+/// Mass of an obstacle [kg], which is so large that no car can move the obstacle.
 constexpr double kHeavy = 1e6;
 
-/// Inserts a body that slides over the ground, with the joints `name`_x and `name`_y. All
-/// attributes of the joints are set, since the car's defaults must not apply.
+/// Inserts a body that can slide over the ground along the joints `name`_x and `name`_y. All
+/// attributes of the joints are set explicitly, so that the defaults in the car's file do not
+/// apply.
 XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2& place) {
   XMLElement* body = bodies.InsertNewChildElement("body");
   body->SetAttribute("name", name.c_str());
@@ -243,8 +250,9 @@ XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2
   return body;
 }
 
-/// Moving obstacles touch only the car. Contacts of moving obstacles with the ground, with static
-/// obstacles and with each other are excluded, since their motion is prescribed.
+/// Excludes contacts of moving obstacles with the ground, with static obstacles and with each
+/// other, since the motion of these obstacles is prescribed. Moving obstacles can touch only the
+/// car.
 void ExcludeContacts(XMLElement& root, const std::vector<std::string>& sliders) {
   if (sliders.empty()) {
     return;
@@ -263,7 +271,7 @@ void ExcludeContacts(XMLElement& root, const std::vector<std::string>& sliders) 
   }
 }
 
-/// Appends zeros for the new joints to the keyframes. The coordinates of the joints are relative to
+/// Appends a zero for each new joint to the keyframes, since the joint coordinates are relative to
 /// the initial position.
 void ExtendKeyframes(XMLElement& root, int joints) {
   for (XMLElement* frame = root.FirstChildElement("keyframe"); frame != nullptr;
@@ -283,7 +291,8 @@ void ExtendKeyframes(XMLElement& root, int joints) {
   }
 }
 
-/// Lets the car's shell and wheels collide with the geom.
+/// Sets the collision bits of an obstacle's geom, so that the car's shell and wheels can collide
+/// with the obstacle.
 void MakeObstacle(XMLElement& geom, const char* rgba) {
   geom.SetAttribute("contype", 1);
   geom.SetAttribute("conaffinity", 3);
@@ -291,7 +300,7 @@ void MakeObstacle(XMLElement& geom, const char* rgba) {
   geom.SetAttribute("rgba", rgba);
 }
 
-/// Adds the walls of the world's map, whose ground is flat.
+/// Adds the walls of the world's map. Worlds with a map have flat ground.
 void AddWalls(XMLElement& bodies, const World& world) {
   const std::vector<OrientedBox>& walls = MapWalls(world);
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -318,9 +327,10 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   XMLElement* chassis = FindInWorld(root, "body", "chassis");
   TRACKBED_CHECK(chassis != nullptr, "the car has no body 'chassis'");
 
-  // Bit 1 is the default of all geoms. Bit 2 belongs to the shell alone. The shell thereby touches
-  // obstacles but not, for example, the car's own wheels. The shell ends a tenth of the car's
-  // height above the ground, so that it does not scrape on soft springs.
+  // In contype and conaffinity, 1 is the default of all geoms, and 2 is used only for the shell.
+  // The shell can therefore touch obstacles, but not, for example, the car's own wheels. The lower
+  // end of the shell is a tenth of the car's height above the ground, so that the shell does not
+  // scrape the ground on soft springs.
   const double half_height = 0.45 * vehicle.height;
   XMLElement* shell = chassis->InsertNewChildElement("geom");
   shell->SetAttribute("name", "shell");

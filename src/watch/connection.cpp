@@ -13,10 +13,11 @@
 
 #include "src/watch/own_host.h"
 
-// Connections of the watch server on Boost.Beast, all in one thread. HttpConnection answers GET and
-// HEAD with the page. HttpConnection checks Host and Origin first, so that pages of other sites can
-// neither read nor control the run. An upgrade request turns the connection into a LiveConnection.
-// A LiveConnection reads commands of the page and writes news to it, one message at a time.
+// Connections of the watch server, implemented with Boost.Beast in a single thread. HttpConnection
+// answers GET and HEAD requests with the page. HttpConnection first checks the headers Host and
+// Origin, so that pages of other sites can neither read nor control the run. An upgrade request
+// turns the connection into a LiveConnection, which reads commands from the page and sends new rows
+// to it, one message at a time.
 namespace trackbed {
 namespace {
 
@@ -27,13 +28,13 @@ namespace websocket = beast::websocket;
 using asio::ip::tcp;
 using beast::error_code;
 
-constexpr std::uint32_t kMaxHeaderBytes = 8192;  // bytes
-constexpr std::size_t kMaxMessageBytes = 4096;   // bytes
+constexpr std::uint32_t kMaxHeaderBytes = 8192;  // [bytes]
+constexpr std::size_t kMaxMessageBytes = 4096;   // [bytes]
 constexpr std::chrono::seconds kRequestTime{15};
-constexpr std::chrono::seconds kPageTime{600};  // Time limit for sending a page; with a film, the
-                                                // page may have 170 MB.
-constexpr std::chrono::seconds kIdleTime{60};   // Longest silence of a client, which is pinged
-                                                // after half of it.
+constexpr std::chrono::seconds kPageTime{600};  // Time limit for sending a page, which may have 170
+                                                // MB if it contains a film.
+constexpr std::chrono::seconds kIdleTime{60};   // Longest time without data from a client; after
+                                                // half of it, the server pings the client.
 
 std::string_view View(beast::string_view text) {
   return {text.data(), text.size()};
@@ -41,7 +42,7 @@ std::string_view View(beast::string_view text) {
 
 }  // namespace
 
-/// Reads commands of the page and sends news to it, one message at a time.
+/// Reads commands from a page, and sends new rows to the page, one message at a time.
 class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
  public:
   LiveConnection(beast::tcp_stream stream, LiveRun& run) : socket_(std::move(stream)), run_(run) {
@@ -113,7 +114,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   websocket::stream<beast::tcp_stream> socket_;
   LiveRun& run_;
   beast::flat_buffer buffer_;
-  std::string message_;  // message that is being written
+  std::string message_;  // message that is being sent
   LiveRun::Cursor cursor_;
   bool is_open_ = false;
   bool writes_ = false;
@@ -121,7 +122,8 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
 
 namespace {
 
-/// Answers requests in sequence, until the client closes the connection or requests a WebSocket.
+/// Answers HTTP requests one after the other, until the client closes the connection or requests a
+/// WebSocket.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(tcp::socket socket, const Site& site, Connections& connections)
@@ -170,7 +172,8 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
 
   void Upgrade(const Request& request) {
     const std::string_view origin = View(request[http::field::origin]);
-    // A request without Origin does not come from a browser, so no other page can have caused it.
+    // A request without the header Origin does not come from a browser, so a page of another site
+    // cannot have caused it.
     const bool own = request.count(http::field::origin) == 0 ||
                      IsOwnOrigin(origin, View(request[http::field::host]));
     if (!own) {
@@ -216,7 +219,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response.set(http::field::content_type, content.type);
     response.set(http::field::cache_control, "no-store");
     response.set("Referrer-Policy", "no-referrer");
-    // Other sites must neither embed nor read this page.
+    // Sets headers that forbid other sites to embed or read the page.
     response.set(http::field::x_frame_options, "DENY");
     response.set("X-Content-Type-Options", "nosniff");
     response.set("Cross-Origin-Resource-Policy", "same-origin");

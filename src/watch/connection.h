@@ -10,32 +10,32 @@
 
 namespace trackbed {
 
-/// The content that a server serves.
+/// The content that a server offers.
 struct Site {
-  boost::asio::ip::address address;           ///< Listening address of the server.
-  std::shared_ptr<const std::string> page{};  ///< Page, shared with connections that are still
-                                              ///< writing it.
-  LiveRun* live = nullptr;                    ///< The run; null if no run is in progress.
+  boost::asio::ip::address address;           ///< IP address at which the server listens.
+  std::shared_ptr<const std::string> page{};  ///< HTML page, shared with connections that are still
+                                              ///< sending it.
+  LiveRun* live = nullptr;  ///< The run in progress; null if no run is in progress.
 };
 
-/// A WebSocket connection that keeps itself alive while operations are pending.
+/// A WebSocket connection. The object owns itself while operations are pending.
 class LiveConnection;
 
-/// The connections of a server, all in one thread.
+/// The connections of a server, which all run in one thread.
 class Connections {
  public:
-  /// Serves HTTP on a new connection, and a WebSocket if the client requests one. `site` must
-  /// outlive the Connections object.
+  /// Serves HTTP on a new connection, and a WebSocket if the client requests it. `site` must
+  /// outlive this object.
   void Add(boost::asio::ip::tcp::socket socket, const Site& site);
 
-  /// Sends news to each WebSocket that is not writing.
+  /// Sends new messages on each WebSocket that is not busy sending.
   void SendUpdates();
 
-  /// Forgets closed connections.
+  /// Removes closed connections.
   void Forget();
   [[nodiscard]] std::size_t size() const { return open_.size(); }
 
-  /// Adds a connection that has become a WebSocket.
+  /// Adds a connection that has been upgraded to a WebSocket.
   void AddLive(const std::shared_ptr<LiveConnection>& live);
 
  private:

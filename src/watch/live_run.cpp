@@ -89,8 +89,9 @@ std::size_t LiveRun::IndexOf(const std::string& plant) const {
 }
 
 void LiveRun::Add(std::size_t index, const RunLog& log, const Table& configurations) {
-  constexpr double kPosePeriod = 1.0 / 30.0;  // Period of poses [s], as in reports.
-  constexpr double kRounding = 1e-6;          // Tolerance of times [s].
+  constexpr double kPosePeriod = 1.0 / 30.0;  // Time between two poses of the replay, as in reports
+                                              // [s].
+  constexpr double kRounding = 1e-6;          // Tolerance for rounding errors of times [s].
   const std::lock_guard lock(mutex_);
   Plant& plant = plants_[index];
   plant.added[kRows].push_back(plant.text.LastRow(log));
@@ -133,8 +134,8 @@ std::string LiveRun::StateText() const {
 }
 
 std::optional<std::string> LiveRun::RowsText(Cursor& cursor) const {
-  constexpr std::size_t kMessage = 80000;  // approximate size of a message in bytes for all kinds,
-                                           // plus one row of each
+  constexpr std::size_t kMessage = 80000;  // approximate size of a message, over all kinds of rows
+                                           // [bytes]; one more row of each kind may exceed it
   const std::size_t most = kMessage / (kAdded.size() * plants_.size());
   cursor.places.resize(plants_.size());
   bool any = false;

@@ -15,48 +15,50 @@
 
 namespace trackbed {
 
-/// A run in progress, shared by several threads. Threads of the plants add rows; connections send
-/// them. All functions of LiveRun are thread-safe.
+/// The data of a run in progress. The threads of the plants add rows, and connections send the rows
+/// to pages. All functions of LiveRun are thread-safe.
 class LiveRun {
  public:
-  /// `first` is the ReportData at the beginning of the run, as for LivePage. `id` identifies the
-  /// run.
+  /// `first` is the ReportData at the beginning of the run, which LivePage also gets. `id`
+  /// identifies the run.
   LiveRun(const nlohmann::ordered_json& first, std::string id, double control_period, double speed,
           bool paused);
 
-  /// Hooks for the simulation of a plant and for its end.
+  /// Returns the hooks for the simulation of a plant.
   DriveHooks HooksOf(const std::string& plant);
   void EndOf(const std::string& plant);
 
-  /// Releases the plants from the clock and ends them at once.
+  /// Ends the simulations of all plants immediately, including those that wait for the clock.
   void Interrupt();
-  /// Called when the report of the run can be loaded.
+  /// Tells all pages that the report of the run can be loaded.
   void Finish();
 
-  /// The part of the run that a connection has sent to its page.
+  /// Records which part of the run a connection has already sent to its page.
   struct Cursor {
-    std::string state;                                 ///< State that was sent last.
-    std::vector<std::array<std::size_t, 3>> places{};  ///< Numbers of sent rows, poses and plans of
-                                                       ///< each plant.
+    std::string state;                                 ///< State message that was sent last.
+    std::vector<std::array<std::size_t, 3>> places{};  ///< For each plant, the numbers of rows,
+                                                       ///< poses and plans sent so far.
     bool finished = false;
   };
 
-  /// The next message for a page as JSON; none if the page is up to date. The messages are:
+  /// Returns the next message for a page as JSON; nullopt if the page is up to date. The messages
+  /// are:
   ///   {"type": "state", "id", "paused", "speed"}  speed is a number or "max"
   ///   {"type": "rows", "plants": [{"first": [row, pose, plan], "rows", "poses", "plans"}, ...]}
   ///   {"type": "finished"}                        after all rows
-  /// Rows are those of LiveRows, and a message has at most about 100 kB.
+  /// LiveRows formats the rows. A message has at most about 100 kB.
   std::optional<std::string> Next(Cursor& cursor) const;
 
-  /// Executes a command of a page: {"do": "pause" | "resume" | "step"}, or {"do": "speed", "speed":
-  /// number | "max"}. Execute returns the error in the message; empty if the command was executed.
+  /// Executes a command from a page: {"do": "pause" | "resume" | "step"}, or {"do": "speed",
+  /// "speed": number | "max"}. Returns a text on the error in the command; empty if the command was
+  /// executed.
   std::string Execute(std::string_view message);
 
  private:
   struct Plant {
     std::string name;
     LiveRows text;
-    std::array<std::vector<std::string>, 3> added{};  // added rows, poses and plans
+    std::array<std::vector<std::string>, 3> added{};  // rows, poses and plans added so far
     std::size_t configurations_seen = 0;
     double next_pose = 0.0;  // [s]
     std::size_t changes_seen = 0;

@@ -23,7 +23,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::size_t kMaxConnections = 64;
-/// Interval between checks for news.
+/// Interval between two checks for new rows of the run.
 constexpr std::chrono::milliseconds kTick{40};
 
 tcp::endpoint EndpointOf(const std::string& host, int port) {
@@ -88,7 +88,7 @@ class Server::Implementation {
       if (error == asio::error::operation_aborted) {
         return;
       }
-      if (error) {  // an error such as missing file descriptors: retry later
+      if (error) {  // after an error such as a lack of file descriptors, retries later
         wait_to_accept_ = true;
         return;
       }

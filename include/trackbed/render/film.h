@@ -34,7 +34,8 @@ struct FilmOptions {
   std::string camera = "chase";  ///< Name of the camera, one of Cameras().
   /// Quality of the pictures, "draft" or "film". A draft has one sample per pixel, and a dark patch
   /// under the car instead of a shadow. The quality "film" has four samples per pixel, for smooth
-  /// edges, and the shadows of the model's lamps; it takes about four times as long.
+  /// edges, and the shadows of the model's lamps. Rendering with "film" takes about four times as
+  /// long.
   std::string quality = "draft";
   /// The OpenGL library: "osmesa", "egl" or "auto". With "auto", the environment variable MUJOCO_GL
   /// selects the library. If MUJOCO_GL is not set, the library is EGL if the program links EGL,
@@ -42,8 +43,8 @@ struct FilmOptions {
   std::string gl = "auto";
   /// Name of the inset, from Cameras() or FlatInsets(); empty: no inset.
   std::string inset{};
-  std::vector<std::string> overlays =
-      DefaultOverlays();  ///< Names of the overlays, from Overlays().
+  std::vector<std::string> overlays = DefaultOverlays();  ///< Names of the overlays, from
+                                                          ///< Overlays().
   /// Plants of the run to show side by side, each in a separate part of the picture. If empty, a
   /// single picture shows one plant as the car and the other plants as ghosts.
   std::vector<std::string> plants{};
@@ -59,9 +60,9 @@ struct FilmOptions {
 /// Contents of a finished film.
 struct FilmReport {
   int frames = 0;
-  double duration = 0.0;  ///< Simulated time from the first to the last frame [s].
-  std::string
-      car;  ///< Plant that is shown as the car; with several plants side by side, the leftmost.
+  double duration = 0.0;            ///< Simulated time from the first to the last frame [s].
+  std::string car;                  ///< Plant that is shown as the car; with several plants side by
+                                    ///< side, the leftmost.
   std::vector<std::string> ghosts;  ///< Plants shown as translucent cars.
 };
 

@@ -38,11 +38,11 @@ enum class FilmPlace {
 /// maximum or minimum, so extreme values remain. Quantities are in SI units and radians, as in the
 /// files.
 ///
-/// Errors: InputError naming a missing or broken file. InputError if a path is of none of these
-/// kinds, or if a comparison, study or identification is combined with other paths. InputError if
-/// two studies vary different keys or have no row in common. InputError if a run is given twice, or
-/// if a comparison does not match the present logs of its runs. The cost is proportional to the
-/// size of the logs: a fifth of a second for a run of 60 s on two plants.
+/// Errors: InputError naming a missing or broken file. InputError if a path is neither a run, a
+/// comparison, a study nor an identification, or if one of the latter three is combined with other
+/// paths. InputError if two studies vary different keys or have no row in common. InputError if a
+/// run is given twice, or if a comparison does not match the present logs of its runs. The cost is
+/// proportional to the size of the logs: a fifth of a second for a run of 60 s on two plants.
 nlohmann::ordered_json ReportData(const std::vector<std::filesystem::path>& paths);
 
 /// Makes the complete HTML page from the data of a report. Text from files is escaped, so that it

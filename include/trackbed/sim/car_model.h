@@ -35,10 +35,10 @@ inline constexpr double kAirDensity = 1.225;  ///< Air density by ISO 2533 at se
 /// an area. The longitudinal and the lateral force have separate areas; an area of 0 means no
 /// force.
 struct CarAerodynamics {
-  double drag_area = 0.0;  ///< Area C_d A for wind along x [m^2].
-  double side_area = 0.0;  ///< Area C_s A for wind along y [m^2].
-  std::array<double, 2>
-      center_of_pressure{};  ///< Position x and z of the point where the force acts [m].
+  double drag_area = 0.0;                      ///< Area C_d A for wind along x [m^2].
+  double side_area = 0.0;                      ///< Area C_s A for wind along y [m^2].
+  std::array<double, 2> center_of_pressure{};  ///< Position x and z of the point where the force
+                                               ///< acts [m].
 };
 
 /// Indices, in the compiled model, of the parts that every vehicle has. The MJCF names of the parts

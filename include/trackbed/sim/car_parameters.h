@@ -27,8 +27,8 @@ namespace trackbed {
 struct CarParameter {
   std::string name;
   double value = 0.0;
-  std::string
-      origin{};  ///< Comment that is written next to the parameter in the model; empty: no comment.
+  std::string origin{};  ///< Comment that is written next to the parameter in the model; empty: no
+                         ///< comment.
 };
 
 /// Returns the value of a parameter in the model. For an unknown name, throws InputError, which

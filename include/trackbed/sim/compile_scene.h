@@ -18,8 +18,8 @@ enum class Looks {
 /// A scene that is not `trusted` is compiled, and stepped once, in a separate process. The reason
 /// is that MuJoCo's readers of meshes, textures and composites do not validate their input and may
 /// crash. The separate process cannot open files, and is limited to a minute of processor time and
-/// 2 GB of memory (unlimited under the address sanitizer). Its compiled model is byte for byte the
-/// same as a model compiled in this process.
+/// 2 GB of memory (unlimited under the address sanitizer). The model compiled there is byte for
+/// byte the same as a model compiled in this process.
 ///
 /// Errors: InputError, with the line in the car's file, if the scene does not compile, if MuJoCo
 /// crashes or does not finish, or if the model would need more than 1 GB. RunError if no process

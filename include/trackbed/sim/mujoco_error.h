@@ -12,7 +12,7 @@ namespace trackbed {
 ///
 /// Guarantees: other threads and the global handlers (mju_setLogHandler, mju_user_error,
 /// mju_user_warning) are not affected. The destructor restores the thread's previous handlers.
-/// Instances may be nested; they must be destroyed in the thread that created them, in reverse
+/// Instances may be nested, and must be destroyed in the thread that created them, in reverse
 /// order. The cost is a few nanoseconds.
 class MujocoErrorScope {
  public:

@@ -4,8 +4,8 @@
 
 namespace trackbed {
 
-/// A payload, which is a point mass fixed to the chassis. Its position is given in the car's frame:
-/// x forward from the rear axle, y to the left, z up from the ground.
+/// A payload, which is a point mass fixed to the chassis. The position of a payload is given in the
+/// car's frame: x forward from the rear axle, y to the left, z up from the ground.
 struct Payload {
   std::optional<double> mass;   ///< Mass [kg], > 0; only one of `mass` and `share` may be given.
   std::optional<double> share;  ///< Mass as a fraction of the car's mass, > 0.

@@ -29,7 +29,8 @@ enum class TyreLaw {
 
 /// How the commanded steering angle reaches the road wheels.
 enum class SteeringInput {
-  kActuator,  ///< The car's steering actuator follows the command within its rate and angle limits.
+  kActuator,    ///< The car's steering actuator follows the command within its rate and angle
+                ///< limits.
   kPrescribed,  ///< The wheels follow the command exactly and immediately, for validation.
 };
 

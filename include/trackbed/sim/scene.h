@@ -12,9 +12,9 @@ namespace trackbed {
 
 /// Simulation options of a run, which override the options in the car's file.
 struct SceneOptions {
-  double timestep = 0.002;  ///< Timestep of the simulation [s].
-  std::optional<double>
-      steering_rate;  ///< Steering rate limit at the road wheels [rad/s], instead of the car's own.
+  double timestep = 0.002;              ///< Timestep of the simulation [s].
+  std::optional<double> steering_rate;  ///< Steering rate limit at the road wheels [rad/s], instead
+                                        ///< of the car's own.
   /// Additional folders whose files the car's file may include or use as assets.
   std::vector<std::filesystem::path> asset_folders{};
 };
@@ -30,7 +30,7 @@ struct Scene {
   std::string xml;
   std::vector<SceneAsset> assets;
   /// For each element of `xml`, in document order, its line in the car's file; 0 for an element
-  /// that is not from the car's file. Empty if unknown.
+  /// that is not from the car's file. The list is empty if the lines are unknown.
   std::vector<int> lines;
   Ground ground{};  ///< Shape of the ground, which the geom `ground` and the height fields on it
                     ///< represent.

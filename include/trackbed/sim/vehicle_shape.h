@@ -16,8 +16,8 @@ struct ShapeJoint {
   Type type = Type::kFree;
   std::array<double, 3> axis{};    ///< Unit vector along the axis, in the body's frame.
   std::array<double, 3> anchor{};  ///< Position of the joint in the body's frame [m].
-  std::string
-      channel;  ///< Column of a state log with the joint's coordinate, such as "steer_fl_rad".
+  std::string channel;             ///< Column of a state log with the joint's coordinate, such as
+                                   ///< "steer_fl_rad".
 };
 
 /// A body, with its pose relative to its parent when all joints are at zero.
@@ -25,13 +25,15 @@ struct ShapeBody {
   int parent = -1;  ///< Index of the parent body; -1: the world.
   std::array<double, 3> position{};
   std::array<double, 4> quaternion{1.0, 0.0, 0.0, 0.0};  ///< Orientation as w, x, y, z.
-  std::vector<ShapeJoint> joints;  ///< Joints, in the order in which MuJoCo applies them.
+  std::vector<ShapeJoint> joints;                        ///< Joints, in the order in which MuJoCo
+                                                         ///< applies them.
 };
 
 /// A geom of a body, as MuJoCo draws it.
 struct ShapeGeom {
   int body = 0;
-  std::string type;  ///< Type of the geom: sphere, capsule, ellipsoid, cylinder, box or mesh.
+  std::string type;              ///< Type of the geom: sphere, capsule, ellipsoid, cylinder, box or
+                                 ///< mesh.
   std::array<double, 3> size{};  ///< Size parameters as defined by MuJoCo (half lengths and radii)
                                  ///< [m]; unused for a mesh.
   std::array<double, 3> position{};

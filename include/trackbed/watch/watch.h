@@ -25,8 +25,8 @@ struct WatchOptions {
 
 /// Callbacks, which are called in the caller's thread. Each callback may be empty.
 struct WatchHooks {
-  std::function<void(const std::string& url)>
-      serving{};  ///< Called when the server can be reached at `url`.
+  std::function<void(const std::string& url)> serving{};  ///< Called when the server can be reached
+                                                          ///< at `url`.
   /// Returns whether to stop the server; called several times per second.
   std::function<bool()> interrupted{};
   /// Called after the run has ended and its folder has been written.
@@ -37,7 +37,7 @@ struct WatchHooks {
 /// means infinity. Returns nullopt for other texts.
 std::optional<double> ParseSpeed(std::string_view text);
 
-/// Runs a scenario like RunMission, but with all plants synchronized by one clock, and serves a
+/// Runs a scenario like RunScenario, but with all plants synchronized by one clock, and serves a
 /// page of the run. During the run, the map, the replay and the charts on the page grow. Buttons
 /// pause the run, advance it by one control period, and set its speed. Any number of pages can show
 /// and control the run. After the run, the run folder is written, and the page becomes the report
@@ -45,12 +45,12 @@ std::optional<double> ParseSpeed(std::string_view text);
 /// found, the page shows the report immediately.
 ///
 /// Guarantees: the files of the run folder, except timing.json, are byte for byte those of
-/// RunMission and WriteRunFolder. Other machines can connect only if WatchOptions::host allows it.
+/// RunScenario and WriteRunFolder. Other machines can connect only if WatchOptions::host allows it.
 /// Pages of other web sites, opened in a browser on this machine, can never read or control the run
 /// (src/watch/server.h lists the limits). There is no encryption and no password: anybody who can
 /// reach the address can see and control the run. Errors: InputError for an invalid address or
 /// scenario. RunError if the port is in use or the folder cannot be written. Exceptions of the
-/// hooks are rethrown. The cost is that of RunMission, plus memory for the rows as text, about 0.3
+/// hooks are rethrown. The cost is that of RunScenario, plus memory for the rows as text, about 0.3
 /// kB per control period.
 RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFolder& folder,
                    const WatchOptions& options, const WatchHooks& hooks);

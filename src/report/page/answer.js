@@ -1,10 +1,11 @@
-// The first screen. The first screen shows how each run ended, and the distances of each car from
-// its path and from the other cars. The first screen also has remarks on the moment of the largest
-// distance, and the margins to the expectations.
+// Draws the first screen of a report. The screen shows how each run ended, the distances of each
+// car from its path and from the other cars, remarks on the moment of the largest distance, and the
+// margins to the expectations.
 
-const MOST_ROWS = 4;  // number of listed plants, the largest distance from the path first
+const MOST_ROWS = 4;  // largest number of listed plants; plants with the largest distance from the
+                      // path come first
 
-/** Text on a status of metrics.json, such as "rolled over". */
+/** Returns a status of metrics.json as text, such as "rolled over". */
 function statusText(status) {
   return status.replace(/_/g, ' ');
 }
@@ -16,7 +17,7 @@ function endText({ end }) {
     + (end.cause ? ` (${end.cause})` : '');
 }
 
-/** The point where a track is furthest from its path: {size, side, s, t}. */
+/** Finds the point where a track is furthest from its path: {size, side, s, t}. */
 function furthestFromPath(track) {
   const size = valueOf(track.numbers, 'cross_track.max');
   if (size === null) return null;
@@ -25,7 +26,7 @@ function furthestFromPath(track) {
   return { size, t, s: valueOf(track.numbers, 'cross_track.max_s'), side: signed < 0 ? 'right' : 'left' };
 }
 
-/** The point where two tracks are furthest apart at equal station. */
+/** Finds the point where two tracks are furthest apart at equal station. */
 function furthestApart(pair) {
   if (!pair.curve) return null;
   const value = (name) => valueOf(pair.numbers, `position.${name}`);
@@ -33,9 +34,9 @@ function furthestApart(pair) {
 }
 
 /**
- * The moment that the page shows first. This is the first of the following that exists: the first
- * collision or roll-over, the largest distance between cars, the largest distance of a car from its
- * path, the first end of a run that did not arrive.
+ * The time that the page shows when it is opened: the first collision or roll-over or, in this
+ * order, the time of the largest distance between cars, the time of the largest distance of a car
+ * from its path, or the end of the first run that did not arrive.
  */
 const keyMoment = (() => {
   const broken = d3.min(tracks, brokenAt);
@@ -47,7 +48,10 @@ const keyMoment = (() => {
   return ended ? ended.end.t : 0;
 })();
 
-/** The last friction patch of the world that contains the car at a moment. */
+/**
+ * Returns the friction patch under a car at a time; the last one in the world's list if there are
+ * several.
+ */
 function patchUnder(track, time) {
   const { x, y } = poseAt(track, time);
   return runs[track.run].world.patches.filter((patch) => {
@@ -58,7 +62,7 @@ function patchUnder(track, time) {
   }).pop();
 }
 
-/** Remarks on a car during the three seconds up to a moment. */
+/** Returns remarks on what a car did during the three seconds before a moment. */
 function remarks(track, moment) {
   const list = [];
   const before = track.log.t.filter((t) => t <= moment);
@@ -78,7 +82,7 @@ function remarks(track, moment) {
     const friction = (patchUnder(track, t) || world).friction;
     return Math.abs(valueAt(track, 'lateral_acceleration', t) || 0) / (friction * car.grip_acceleration);
   };
-  // A model without tyres may exceed the available grip.
+  // The kinematic plant has no tyres and may exceed the available grip, so it gets no remark.
   const used = track.plant === 'kinematic' ? 0 : d3.max(times, share) || 0;
   if (used > 0.8) list.push(`uses ${used > 1 ? 'all' : `${Math.round(100 * used)} %`} of the tyres' lateral grip`);
   const asked = d3.max(times, (t) => Math.abs(valueAt(track, 'steering_command', t) - valueAt(track, 'steering', t))) || 0;
@@ -89,7 +93,8 @@ function remarks(track, moment) {
 }
 
 /**
- * Draws a bar from zero to a value, with a mark at the limit. Several charts can share the scale.
+ * Draws a bar from zero to a value, with a mark at the limit. With the same `most`, several bars
+ * share a scale.
  */
 function drawBar(parent, { value, limit, most, css, good }) {
   const bar = parent.append('span').attr('class', `bar ${good === false ? 'bad' : ''}`).attr('aria-hidden', 'true');
@@ -101,12 +106,12 @@ function drawBar(parent, { value, limit, most, css, good }) {
 }
 
 /**
- * Draws the summary. Collisions and roll-overs are first. Then follows the car furthest from its
- * path, with place and distance, then the other cars.
+ * Draws the summary: first collisions and roll-overs, then the car furthest from its path, with
+ * place and distance, then the other cars.
  */
 function drawSentence(parent) {
-  const NEAR = 0.1;  // half the width of a tyre; a car up to this far away counts as on the path
-                     // [m]
+  const NEAR = 0.1;  // distance up to which a car counts as on the path [m]; half the width of a
+                     // tyre
   const found = tracks.map((track) => ({ track, far: furthestFromPath(track) })).filter(({ far }) => far)
     .sort((a, b) => b.far.size - a.far.size);
   const broken = tracks.filter((track) => brokenAt(track) !== undefined).sort((a, b) => brokenAt(a) - brokenAt(b));
@@ -132,7 +137,7 @@ function drawSentence(parent) {
   }
   if (!found.length) return;
   const [{ track, far }, ...others] = found;
-  // After a collision, the distances refer to the time before the collision.
+  // After a collision or roll-over, the distances are those before that event.
   if (broken.length) say('Before: ');
   else if (far.size < NEAR) say(tracks.length > 1 ? 'No car leaves the path: ' : 'The car keeps to the path: ');
   name(track);
@@ -148,7 +153,7 @@ function drawSentence(parent) {
 function drawManeuverRows(parent) {
   const rows = rowsOf(tracks.map((track) => track.numbers))
     .filter((row) => row.path.startsWith('maneuver.') && row.path !== 'maneuver.passed' && (row.limit || row.headline))
-    // If the standard has limits, quantities without a limit are omitted.
+    // If the standard sets a limit for any quantity, quantities without a limit are omitted.
     .filter((row, _, all) => row.limit || !all.some((other) => other.limit));
   if (!rows.length) return;
   const list = parent.append('ul').attr('class', 'rows');
@@ -204,14 +209,20 @@ function drawAnswerRows(parent) {
   }
 }
 
-/** Text on the result of a check, such as "0.151 ≤ 0.155 rad/s", "rolled over" or "no, not yes". */
+/**
+ * Returns the result of a check as text, such as "0.151 ≤ 0.155 rad/s", "rolled over" or "no, not
+ * yes".
+ */
 function measuredText({ relation, bound, found, unit, met }) {
   const told = (value) => statusText(brief(value, unit));
   if (relation === 'equals') return met ? told(found) : `${told(found)}, not ${told(bound)}`;
   return `${told(found)} ${relation === 'at_most' ? '≤' : '≥'} ${told(bound)}${unit ? ` ${unit}` : ''}`;
 }
 
-/** Utilization of a check's bound. It is at most 1 if the check is met, and above 1 otherwise. */
+/**
+ * Returns how much of a check's bound is used. The value is at most 1 if the check is met, and
+ * above 1 otherwise.
+ */
 function shareOfBound({ relation, bound, found }) {
   if (typeof bound !== 'number' || typeof found !== 'number' || relation === 'equals') return null;
   if (relation === 'at_most') return bound > 0 ? found / bound : null;
@@ -224,7 +235,7 @@ function drawExpectationBars(parent) {
   if (!all.length) return;
   const panel = parent.append('div').attr('class', 'panel limits');
   panel.append('h2').text('Expectations');
-  // Failed checks are first, then those nearest to their limits.
+  // Failed checks come first, followed by the checks that are nearest to their limits.
   const order = [...all].sort((a, b) => a.check.met - b.check.met || (b.share || 0) - (a.share || 0));
   const list = panel.append('ul');
   for (const { run, check, share } of order.slice(0, MOST)) {

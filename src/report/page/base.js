@@ -1,10 +1,11 @@
-// Code that all parts of the page share: data, tracks, current moment, formatting of numbers.
+// Code shared by all parts of the page: data, tracks, the current time of the page, formatting of
+// numbers.
 
 const data = JSON.parse(document.getElementById('data').textContent);
 const runs = data.runs || [];
 const root = d3.select('#report');
 
-/** Formats a number with four digits. Other values are shown unchanged. */
+/** Formats a number with four digits. Returns any other value as text, unchanged. */
 function shown(value) {
   if (value === null || value === undefined || Number.isNaN(value)) return '–';
   if (value === true) return 'yes';
@@ -22,13 +23,13 @@ function brief(value, unit) {
   if (typeof value !== 'number') return shown(value);
   const size = Math.abs(value);
   if (Number.isInteger(value) || size >= 1e6) return shown(value);
-  // Lengths, angles and times are not more accurate than four decimals.
+  // Lengths, angles and times are accurate to four decimals at most.
   if (size < 5e-5 && ['m', 'rad', 's'].includes(unit)) return '0.0000';
   if (size < 5e-5) return d3.format('.1~e')(value).replace(/-/g, '−');
   return d3.format(size >= 100 ? '.1~f' : size < 0.01 ? '.4~f' : '.3~r')(value).replace('-', '−');
 }
 
-/** Formats a length to centimeters. Lengths below 10 cm are formatted to millimeters. */
+/** Formats a length, rounded to centimeters or, below 10 cm, to millimeters. */
 function meters(value) {
   return `${fixed(value, Math.abs(value) < 0.0995 ? 3 : 2)} m`;
 }
@@ -47,7 +48,10 @@ function section(id, title) {
   return made;
 }
 
-/** All plants of all runs, each with a color. If possible, the color is that of the film. */
+/**
+ * All plants of all runs ("tracks"), each with a color. If possible, a plant has the same color as
+ * in films.
+ */
 const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
   run: r,
   plant: plant.name,
@@ -80,7 +84,7 @@ const tracks = runs.flatMap((run, r) => run.plants.map((plant) => ({
 const lastMoment = () => d3.max(tracks, (track) => track.log.t[track.log.t.length - 1]) || 0;
 let duration = lastMoment();
 
-/** Position of a moment between two rows of a log, clamped to the ends of the log. */
+/** Returns the position of a time between two rows of a log, clamped to the ends of the log. */
 function placeAt(log, time) {
   const next = Math.min(Math.max(d3.bisectRight(log.t, time), 1), log.t.length - 1);
   if (next < 1) return { row: 0, next: 0, part: 0 };
@@ -89,12 +93,12 @@ function placeAt(log, time) {
   return { row, next, part: Math.min(Math.max(part, 0), 1) };
 }
 
-/** Time of a collision or roll-over; undefined if there was neither. */
+/** Returns the time of a collision or roll-over; undefined if there was neither. */
 function brokenAt({ end }) {
   return ['collided', 'rolled_over'].includes(end.status) ? end.t : undefined;
 }
 
-/** Linear interpolation between rows, constant beyond the ends. */
+/** Interpolates linearly between rows. Beyond the ends, the result is the end value. */
 function interpolated(xs, ys, x) {
   if (xs.length < 2) return ys[0];
   const next = Math.min(Math.max(d3.bisectRight(xs, x), 1), xs.length - 1);
@@ -102,7 +106,7 @@ function interpolated(xs, ys, x) {
   return ys[next - 1] + Math.min(Math.max(part, 0), 1) * (ys[next] - ys[next - 1]);
 }
 
-/** Value of a quantity at a moment; null after the end of the run. */
+/** Returns the value of a quantity at a time; null after the end of the run. */
 function valueAt(track, name, time) {
   const values = track.log[name];
   const end = track.log.t[track.log.t.length - 1];
@@ -111,7 +115,7 @@ function valueAt(track, name, time) {
   return values[row] + part * (values[next] - values[row]);
 }
 
-/** The car's pose at a moment. After the end of the run, it is the last pose. */
+/** Returns the car's pose at a time. After the end of the run, the result is the last pose. */
 function poseAt(track, time) {
   const { x, y, yaw } = track.log;
   const { row, next, part } = placeAt(track.log, time);
@@ -123,7 +127,7 @@ function poseAt(track, time) {
   };
 }
 
-// The current moment that map, charts and films show, and the listeners to its changes.
+// The current time, which map, charts and films show. Listeners are notified of its changes.
 const bus = d3.dispatch('time', 'visibility', 'scheme', 'play', 'rows');
 let now = 0;
 
@@ -132,7 +136,7 @@ function setTime(time, from) {
   bus.call('time', null, now, from);
 }
 
-/** Called by live.js when logs have grown while a run is in progress. */
+/** Called by live.js when rows were added to the logs of a run in progress. */
 function rowsAdded() {
   duration = lastMoment();
   bus.call('rows');

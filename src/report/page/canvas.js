@@ -1,7 +1,7 @@
-// The canvas of the 3D replay. The canvas is created before the data and the libraries are loaded.
-// Starting the graphics can take a browser most of a second, which then overlaps with loading.
+// Creates the canvas of the 3D replay before the data and the libraries are loaded. A browser may
+// need most of a second to start its graphics, which then overlaps with loading.
 
-/** The WebGL context of a canvas; null if the browser has no WebGL. */
+/** Returns the WebGL context of a canvas; null if the browser does not support WebGL. */
 function webGlOf(canvas) {
   const wanted = { alpha: false, antialias: true, stencil: false };
   try {

@@ -1,16 +1,17 @@
-// Charts in a column, with a common cursor at the current moment of the page.
+// Draws a column of charts, with a common cursor at the current time of the page.
 
-// Titles and readouts of the charts are elements of the page. The legend of dygraphs would set a
-// style attribute, which the Content-Security-Policy forbids.
+// Titles and readouts of the charts are ordinary elements of the page. The legend of the library
+// dygraphs is not used, because it sets a style attribute, which the Content-Security-Policy
+// forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
-/** Round values for ticks that are about `pixels` apart. */
+/** Returns a function that chooses ticks at round values, about `pixels` apart. */
 function ticksEvery(pixels, name) {
   return (from, to, length) => d3.ticks(from, to, Math.max(2, Math.round(length / pixels)))
     .map((value) => ({ v: value, label: name(value) }));
 }
 
-// The graph of each plot, used to place elements over the graph.
+// The dygraphs object of each plot, used to place elements over the plot.
 const graphs = new WeakMap();
 
 function fixed(number, digits) {
@@ -19,9 +20,9 @@ function fixed(number, digits) {
 }
 
 /**
- * Limits near the lines, and the range of values that shows limits and lines. The range is null if
- * the default range suffices. Values after a line's `until` are not results and do not affect the
- * range.
+ * Returns the limits that are near the lines, and the range of values that contains these limits
+ * and the lines. The range is null if the default range suffices. Values after a line's `until` are
+ * not valid results and do not affect the range.
  */
 function limitsToDraw(lines, limits, places) {
   const isCut = lines.some(({ until }) => until !== undefined);
@@ -37,7 +38,7 @@ function limitsToDraw(lines, limits, places) {
   return { limits: near, range: [low - room, high + room] };
 }
 
-/** Description of a chart for screen readers: the range of each line. */
+/** Returns a description of a chart for screen readers, which gives the range of each line. */
 function chartText({ title, unit, lines, limits, axis }) {
   const ranges = lines.filter(({ pattern }) => !pattern || lines.every((line) => line.pattern)).map(({ label, values }) => {
     const [low, high] = d3.extent(values.filter((value) => value !== null));
@@ -48,18 +49,19 @@ function chartText({ title, unit, lines, limits, axis }) {
 }
 
 /**
- * Draws charts into `list`; `key` distinguishes them from other charts. `axis` has {values, unit,
- * at, timeOf}: positions of the rows, and conversions from time to position and back. A chart has
- * {name, title, unit, note, lines, limits, readouts}; a line {label, color, tracks, values,
- * pattern, width, until}; a readout {label, tracks, sign, text}, where `text` gives the value at a
- * moment. Each limit is drawn as a line.
+ * Draws charts into `list`; `key` distinguishes them from other groups of charts. `axis` is
+ * {values, unit, at, timeOf}: the positions of the rows along the axis, and functions that convert
+ * a time to a position and back. A chart is {name, title, unit, note, lines, limits, readouts}. A
+ * line is {label, color, tracks, values, pattern, width, until}. A readout is {label, tracks, sign,
+ * text}, where the function `text` returns the value at a time. Each limit is drawn as a horizontal
+ * line.
  */
 function drawCharts(list, key, axis, charts) {
   const drawn = [];
   let busy = false;
   const isShown = ({ tracks: own }) => own.every((track) => track.visible);
 
-  /** Runs `act`, unless another chart's update triggered the call. */
+  /** Runs `act`, unless the call was caused by the update of another chart. */
   const together = (act) => {
     if (busy) return;
     busy = true;
@@ -105,7 +107,8 @@ function drawCharts(list, key, axis, charts) {
       ...(range ? { valueRange: range } : {}),
       underlayCallback: (canvas, area, dygraph) => {
         canvas.save();
-        // There are no results after the last car's collision or roll-over.
+        // Grays out the time after the last car's collision or roll-over, where there are no valid
+        // results.
         if (lines.length && lines.every(({ until }) => until !== undefined)) {
           const x = dygraph.toDomXCoord(d3.max(lines, ({ until }) => until));
           canvas.fillStyle = cssColor('--grid');
@@ -148,7 +151,7 @@ function drawCharts(list, key, axis, charts) {
       },
     });
     const cursor = plot.append('div').attr('class', 'cursor');
-    // A horizontal touch gesture moves the cursor; a vertical one scrolls the page.
+    // A horizontal touch gesture moves the cursor, and a vertical gesture scrolls the page.
     plot.on('pointermove pointerdown', () => {
       const event = d3.event;
       if (event.pointerType === 'mouse') return;
@@ -196,8 +199,7 @@ function drawCharts(list, key, axis, charts) {
     for (const { graph, lines } of drawn) together(() => graph.updateOptions(look(lines)));
     setTime(now);
   });
-  // The charts adjust their widths with a delay. After the charts have adjusted their widths, the
-  // cursor is placed again.
+  // The charts adapt their widths with a delay, so the cursor is placed again after that.
   new ResizeObserver(() => {
     for (const { graph } of drawn) graph.resize();
     placeCursors(now);

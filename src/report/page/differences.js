@@ -1,4 +1,4 @@
-// Differences between runs at equal station, as a table and as curves.
+// Draws the differences between runs at equal station, as a table and as curves.
 
 const DIFFERENCES = [
   { name: 'position', title: 'Distance', unit: 'm', digits: 4 },
@@ -17,8 +17,8 @@ function nameOfPair(first, second) {
 }
 
 /**
- * Style of a pair's curve. Its color is that of the second run, and pairs with equal colors have
- * different dashes.
+ * The compared pairs, with the style of each pair's curve. The color is that of the second plant,
+ * and pairs with equal colors have different dashes.
  */
 const pairs = (() => {
   const times = new Map();
@@ -40,9 +40,13 @@ function signOfPair(parent, pair) {
     .attr('stroke-dasharray', pair.pattern && pair.pattern.join(' '));
 }
 
-/** Draws a row for each pair, with size and place of the differences, and the tolerances. */
+/**
+ * Draws a table with a row for each pair, which has the sizes and places of the differences, and
+ * the tolerances.
+ */
 function drawDifferences() {
-  // For the plants of one run, the section `between` already shows these differences.
+  // For the plants of a single run, the section `between` of the page already shows these
+  // differences.
   if (!pairs.length || (runs.length === 1 && !pairs.some((pair) => pair.tolerances))) return;
   const made = section('differences', 'Differences at equal station');
   const table = made.append('div').attr('class', 'panel scroll').append('table');
@@ -81,7 +85,8 @@ function drawDifferenceCharts(parent) {
   const values = Array.from(new Set(own.flatMap((pair) => pair.curve.s))).sort(d3.ascending);
   const spread = ({ curve }, name) => values.map((at) => (
     at < curve.s[0] || at > curve.s[curve.s.length - 1] ? null : interpolated(curve.s, curve[name], at)));
-  // At equal station, all first runs are at nearly the same time.
+  // All pairs share the conversion between station and time of the first pair, since the times are
+  // nearly equal.
   const { s, t } = own[0].curve;
   const axis = { values, unit: 'm', at: (time) => interpolated(t, s, time), timeOf: (at) => interpolated(s, t, at) };
   drawCharts(parent.append('div').attr('class', 'series'), 'differences', axis, DIFFERENCES.map((quantity) => ({

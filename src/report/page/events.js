@@ -1,6 +1,6 @@
-// Events on the time line.
+// Draws the events of a run on the time line.
 
-// Mark of each kind of event, and its name in the legend.
+// For each kind of event, its mark and its name in the legend.
 const EVENT_KINDS = {
   collided: { mark: 'M-5 -5L5 5M-5 5L5 -5', name: 'collision' },
   rolled_over: { mark: 'M-5.5 4.5H5.5L0 -5.5Z', name: 'roll-over', filled: true },
@@ -12,7 +12,10 @@ const EVENT_KINDS = {
   astray: { mark: 'M0 -7V7', name: 'furthest from the path' },
 };
 
-/** All events in the order of time: {t, to, kind, text, track}. Only intervals have `to`. */
+/**
+ * Returns all events in the order of time: {t, to, kind, text, track}. Only events with a duration
+ * have `to`.
+ */
 function eventsOf() {
   const events = [];
   for (const track of tracks) {
@@ -38,11 +41,14 @@ function eventsOf() {
   return events.sort((a, b) => a.t - b.t);
 }
 
-/** Draws the time line. Below it, each track has a lane with the marks of its events. */
+/**
+ * Draws the time line, with a lane for each track below, which has marks for the track's events.
+ */
 function drawEventTrack(parent) {
-  const all = data.live ? [] : eventsOf();  // extremes are unknown while a run is in progress
+  const all = data.live ? [] : eventsOf();  // no events while a run is in progress, when the
+                                            // extremes are not yet known
   const LANE = 20;
-  const SIDE = 9;  // distance of the slider's knob from the slider's ends
+  const SIDE = 9;  // smallest distance of the knob's center from the ends of the slider [px]
   const own = tracks.filter((track) => all.some((event) => event.track === track));
   const figure = parent.append('div').attr('class', 'event-track');
   drawTimeSlider(figure.append('div').attr('class', 'time-line'), 'track');
@@ -96,14 +102,17 @@ function drawEventTrack(parent) {
   }
 }
 
-/** Draws a button with a text for each event without duration. */
+/**
+ * Draws a button for each event without duration. A click on the button shows the time of the
+ * event.
+ */
 function drawEvents(parent) {
   const MOST = 16;
   if (data.live) return;
   const events = eventsOf().filter(({ kind }) => kind !== 'limit');
   if (!events.length) return;
   const list = parent.append('div').attr('class', 'events').attr('role', 'group').attr('aria-label', 'Events');
-  // If there are too many events, adopted plans are dropped first.
+  // If there are too many events, buttons for new plans are dropped first.
   const kept = events.length > MOST ? [...events].sort((a, b) => (a.kind === 'plan') - (b.kind === 'plan')).slice(0, MOST) : events;
   for (const { t, text, track } of kept.sort((a, b) => a.t - b.t)) {
     const button = list.append('button').attr('type', 'button').attr('title', `${track.label}: show this moment`)

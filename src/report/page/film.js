@@ -1,4 +1,4 @@
-// Films of the runs, synchronized with the cursor of the page.
+// Shows the films of the runs, synchronized with the current time of the page.
 
 function drawFilms(parent) {
   const filmed = runs.filter((run) => run.film);
@@ -8,8 +8,8 @@ function drawFilms(parent) {
     const figure = films.append('figure').attr('class', 'panel');
     const video = figure.append('video').attr('playsinline', '').attr('preload', 'auto').attr('tabindex', 0)
       .attr('aria-label', `Film of ${run.name}`).property('muted', true).node();
-    // The browser's controls cover the film's strip and captions, so they are shown only during
-    // use.
+    // The video controls of the browser cover the film's charts and captions, so the controls are
+    // shown only while the video is in use.
     const showControls = (use) => () => { video.controls = use; };
     for (const event of ['mouseenter', 'focus', 'click']) video.addEventListener(event, showControls(true));
     for (const event of ['mouseleave', 'blur']) video.addEventListener(event, showControls(false));
@@ -21,7 +21,8 @@ function drawFilms(parent) {
       video.src = URL.createObjectURL(new Blob([bytes], { type: 'video/mp4' }));
       delete run.film.base64;
     }
-    // Moves the cursor while the film plays, since the video's own event is too infrequent.
+    // A timer moves the page's cursor while the film plays, since the video's own event occurs too
+    // rarely.
     let ticking = null;
     video.addEventListener('play', () => {
       ticking = d3.timer(() => setTime(video.currentTime, 'film'));

@@ -1,4 +1,5 @@
-// Result of an identification: estimates, their accuracy, and the model before and after the fit.
+// Shows the result of an identification: estimates, their accuracy, and the model before and after
+// the fit.
 
 const parameterStatus = {
   identified: '', at_lower_bound: 'at its lower bound', at_upper_bound: 'at its upper bound', not_identified: 'not identified', unfinished: 'not finished',
@@ -29,7 +30,7 @@ function drawIdentificationHead(found) {
   ]);
 }
 
-/** Draws an estimate between its bounds, with two standard errors. */
+/** Draws an estimate between its bounds, with an error bar of two standard errors to each side. */
 function drawRange(cell, { from, to, start, value, standard_error: error }) {
   const width = 150;
   const x = d3.scaleLinear().domain([from, to]).range([4, width - 4]).clamp(true);

@@ -1,5 +1,5 @@
-// Page of a run in progress. The live page receives rows from the server of the run and controls
-// the run.
+// Page of a run in progress, which receives rows from the server of the run, and sends commands
+// that control the run.
 
 const SPEEDS = [0.1, 0.5, 1, 2, 5, 10, 'max'];
 const live = {
@@ -7,7 +7,7 @@ const live = {
   state: null,       // last state received from the server: {id, paused, speed}
   connected: false,
   finished: false,
-  following: true,   // whether the page shows the newest moment
+  following: true,   // whether the page always shows the newest state
 };
 
 function ask(message) {
@@ -17,7 +17,7 @@ function ask(message) {
 const togglePause = () => ask({ do: live.state && live.state.paused ? 'resume' : 'pause' });
 const stepOnce = () => ask({ do: 'step' });
 
-/** Appends rows after the first `first` entries of the columns. */
+/** Keeps the first `first` entries of each column and appends the new rows. */
 function putRows(columns, first, rows) {
   columns.forEach((column, i) => {
     column.length = Math.min(column.length, first);
@@ -26,8 +26,8 @@ function putRows(columns, first, rows) {
 }
 
 /**
- * Appends rows to the logs. `first` is the number of earlier rows. After reconnecting, the server
- * sends all rows again.
+ * Appends rows to the logs. `first` has the numbers of earlier rows, poses and plans. After a
+ * reconnection, the server sends all rows again.
  */
 function takeRows(plants) {
   plants.forEach(({ first, rows, poses, plans }, i) => {
@@ -40,8 +40,8 @@ function takeRows(plants) {
 }
 
 /**
- * Draws new rows. The rate is limited so that the browser has three quarters of its time for other
- * work.
+ * Draws new rows. The rate of drawing is limited, so that the browser has three quarters of its
+ * time for other work.
  */
 const drawSoon = (() => {
   let waiting = false;
@@ -67,10 +67,11 @@ function take(message) {
     drawSoon();
   } else if (message.type === 'finished') {
     live.finished = true;
-    window.history.scrollRestoration = 'manual';  // Scroll to the verdict, which is at the top.
-    window.location.reload();  // Reloading the page loads the report.
+    window.history.scrollRestoration = 'manual';  // After reloading, the page starts at the top,
+                                                  // where the verdict is.
+    window.location.reload();  // The server now has the finished report.
   } else if (message.type === 'state') {
-    // The server now shows another run.
+    // Reloads the page if the server now has another run.
     if (message.id !== data.live.id) window.location.reload();
     live.state = message;
     showState();
@@ -78,7 +79,7 @@ function take(message) {
 }
 
 function connect() {
-  const AGAIN = 1000;  // time until the next attempt [ms]
+  const AGAIN = 1000;  // time until the next attempt to connect [ms]
   live.socket = new WebSocket(`ws://${window.location.host}/live`);
   live.socket.addEventListener('open', () => { live.connected = true; });
   live.socket.addEventListener('message', (event) => take(JSON.parse(event.data)));
@@ -128,7 +129,7 @@ function drawControls(parent) {
     speed.property('value', state.speed);
   };
 
-  // Selecting another moment ends the display of the newest one.
+  // If the user selects an earlier time, the page stops following the newest state.
   bus.on('time.live', (time, from) => {
     if (from !== 'live' && live.following && time < duration) setFollowing(false);
   });

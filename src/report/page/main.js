@@ -1,4 +1,4 @@
-// Assembles the parts of the page.
+// Draws all parts of the page in order.
 
 function drawDrive() {
   const drive = section('drive', tracks.length ? 'Run' : 'Map');
@@ -49,4 +49,4 @@ if (data.study) {
   drawExpectations();
   drawScenarios();
 }
-if (!data.live) drawFoot();  // a live page is drawn by live.js
+if (!data.live) drawFoot();  // live.js draws the page of a run in progress

@@ -1,5 +1,5 @@
-// Map in meters, with x to the right and y up. The scales are equal unless the path is long and
-// narrow.
+// Draws a map with x to the right and y up, in meters. The scales of x and y are equal unless the
+// path is long and narrow.
 
 function extentOfMap() {
   const xs = [];
@@ -31,18 +31,19 @@ function lineText(x, y, count) {
   return text;
 }
 
-/** Reverses the order of points x, y, x, y, ... */
+/** Reverses the order of points in a list x, y, x, y, ... */
 function backwards(points) {
   return d3.range(points.length / 2 - 1, -1, -1).flatMap((i) => [points[2 * i], points[2 * i + 1]]);
 }
 
 /**
- * Quantity that colors the path: {track, points: [{t, value}], most, name}. With several cars, it
- * is the distance of the pair that is furthest apart. Otherwise it is the cross-track error of the
- * track that is furthest from its path.
+ * Returns the quantity that colors a driven path: {track, points: [{t, value}], most, name}. If
+ * cars are compared, the quantity is the distance between the two cars that are furthest apart.
+ * Otherwise the quantity is the cross-track error of the car that is furthest from its path.
  */
 function shadeOfMap() {
-  if (data.live) return null;  // the largest values are not known while a run is in progress
+  if (data.live) return null;  // no colors while a run is in progress, when the largest value is
+                               // not yet known
   const pair = pairs.filter((one) => one.curve)
     .sort((a, b) => d3.max(b.curve.position) - d3.max(a.curve.position))[0];
   if (pair) {
@@ -61,9 +62,13 @@ function shadeOfMap() {
   };
 }
 
-const LATERAL = 10;  // factor by which a button enlarges distances from the path
+const LATERAL = 10;  // factor by which distances from the path are enlarged when the user presses a
+                     // button
 
-/** Path and pose of a track, with distances from the planned path enlarged by `factor`. */
+/**
+ * Returns the driven path and the pose of a track, with distances from the planned path multiplied
+ * by `factor`.
+ */
 function enlarged(track, factor) {
   const { log } = track;
   const shift = (pose, crossTrack, headingError) => {
@@ -92,7 +97,7 @@ function placed(pose) {
 
 function drawMap(parent) {
   let extent = extentOfMap();
-  // Stretches y for narrow paths: a lane change is 150 m long and 4 m wide.
+  // Stretches y for long, narrow paths; a lane change, for example, is 150 m long and 4 m wide.
   const slender = (extent.x[1] - extent.x[0]) / (extent.y[1] - extent.y[0]);
   const stretch = slender > 6 ? Math.min(8, Math.floor(slender / 3)) : 1;
   const margin = { left: 50, right: 12, top: 52, bottom: 38 };
@@ -106,7 +111,7 @@ function drawMap(parent) {
   const xName = svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end').text('x [m]');
   const yName = svg.append('text').attr('class', 'axis-name').text(`y [m]${stretch > 1 ? `, stretched ${stretch}×` : ''}`);
 
-  // Elements that are equal in several runs are drawn once.
+  // Elements that are identical in several runs are drawn only once.
   const once = new Set();
   const fresh = (kind, thing) => {
     const key = kind + JSON.stringify(thing);
@@ -148,7 +153,7 @@ function drawMap(parent) {
     }
     const { walls } = run.world;
     if (walls && fresh('walls', walls)) {
-      // In a frame aligned with the map's rows, each wall is an axis-aligned rectangle.
+      // In a frame aligned with the rows of the map, each wall is an axis-aligned rectangle.
       const [c, s] = [Math.cos(walls.yaw), Math.sin(walls.yaw)];
       const text = walls.boxes.map(([x, y, length, width]) =>
         `M${c * x + s * y - length / 2} ${c * y - s * x - width / 2}h${length}v${width}h${-length}z`).join('');
@@ -174,7 +179,7 @@ function drawMap(parent) {
     shading.selectAll('*').remove();
     if (!shade || !(shade.most > 0)) return;
     const way = ways[shade.track.id];
-    // Draws about 300 colored pieces; more would not be distinguishable.
+    // Draws the path in about 300 colored pieces, since more would not be distinguishable.
     const step = Math.max(1, Math.floor(shade.points.length / 300));
     for (let i = 0; i + 1 < shade.points.length; i += step) {
       const next = Math.min(i + step, shade.points.length - 1);
@@ -197,7 +202,7 @@ function drawMap(parent) {
     return { layer, way, newPlans, trail: layer.append('path').attr('class', 'trail') };
   });
 
-  /** Draws the elements that grow with the logs. */
+  /** Draws the elements that grow while a run is in progress. */
   function drawGrown() {
     for (const { obstacle, way } of moving) {
       way.attr('d', `M${obstacle.x} ${obstacle.y}l${obstacle.vx * duration} ${obstacle.vy * duration}`);
@@ -244,8 +249,7 @@ function drawMap(parent) {
       .domain([(margin.left - left) / k, (right - left) / k]);
     const y = d3.scaleLinear().range([bottom, margin.top])
       .domain([(base - bottom) / kY, (base - margin.top) / kY]);
-    // Ticks at equal distances on the screen along both axes. The ticks are in meters if the scales
-    // are equal.
+    // Returns ticks at round numbers of meters, about 60 pixels apart on either axis.
     const ticks = (scale, perMeter) => {
       const step = d3.tickStep(0, 60 / perMeter, 1);
       return d3.range(Math.ceil(scale.domain()[0] / step), Math.floor(scale.domain()[1] / step) + 1).map((i) => i * step);
@@ -262,7 +266,8 @@ function drawMap(parent) {
   }
 
   const zoom = d3.zoom().scaleExtent([0.5, 400])
-    // One finger or the wheel scrolls the page. Two fingers, or Ctrl and the wheel, zoom.
+    // One finger or the mouse wheel scrolls the page. Two fingers, or the wheel with the Ctrl key,
+    // zoom the map.
     .filter(() => {
       const event = d3.event;
       if (event.type === 'wheel') return event.ctrlKey || event.metaKey || document.activeElement === svg.node();
@@ -297,7 +302,7 @@ function drawMap(parent) {
 
   new ResizeObserver(() => {
     const width = frame.node().clientWidth;
-    // The map is as high as the path needs, limited by the style sheet.
+    // The map is as high as the path needs, within the limits of the style sheet.
     const needed = (stretch * (width - margin.left - margin.right) * (extent.y[1] - extent.y[0]))
       / (extent.x[1] - extent.x[0]) + margin.top + margin.bottom;
     frame.style('height', `${Math.max(280, needed)}px`);
@@ -332,7 +337,7 @@ function drawMap(parent) {
   }));
 }
 
-// Playback with one clock for the whole page.
+// Playback of the run, with one clock for the whole page.
 const playback = { timer: null, speed: 1 };
 
 function stopPlaying() {
@@ -356,7 +361,7 @@ function togglePlaying() {
   bus.call('play', null, true);
 }
 
-// Setting the time by any other means stops the playback.
+// Playback stops when the time is set by any other part of the page.
 bus.on('time.playback', (time, from) => {
   if (from !== 'clock' && playback.timer) stopPlaying();
 });

@@ -1,5 +1,5 @@
-// Phase planes with a mark at the current moment. The phase planes are longitudinal over lateral
-// acceleration, yaw rate over steering angle, and yaw rate over sideslip angle.
+// Draws phase planes, with a mark at the current time: longitudinal over lateral acceleration, yaw
+// rate over steering angle, and yaw rate over sideslip angle.
 
 const PHASE_PLANES = [
   {
@@ -16,7 +16,10 @@ const PHASE_PLANES = [
   },
 ];
 
-/** Radius of the lateral grip with the world's friction; null if the runs differ in it. */
+/**
+ * Returns the largest lateral acceleration that the world's friction permits; null if the runs have
+ * different values.
+ */
 function gripRadius() {
   const radii = new Set(runs.map(({ car, world }) => world.friction * car.grip_acceleration));
   return radii.size === 1 ? Array.from(radii)[0] : null;
@@ -28,13 +31,13 @@ function drawPhasePlane(parent, plane) {
   const figure = parent.append('figure').attr('class', 'panel').attr('data-plane', plane.name);
   const caption = figure.append('figcaption').text(plane.title);
   const radius = plane.equal ? gripRadius() : null;
-  // Number of rows up to a collision or roll-over.
+  // Returns the number of rows before a collision or roll-over, or of all rows if there is neither.
   const rowsOfTrack = (track) => (brokenAt(track) === undefined ? track.log.t.length : d3.bisectRight(track.log.t, brokenAt(track)));
   const all = (axis) => own.flatMap((track) => track.log[plane[axis]].slice(0, rowsOfTrack(track)));
   const reach = (axis) => Math.max(1e-6, d3.max(all(axis), Math.abs)) * 1.08;
   let [xMost, yMost] = [reach('x'), reach('y')];
-  // While a run is in progress, the range of the accelerations is unknown. While a run is in
-  // progress, the circle is always shown.
+  // While a run is in progress, the range of the accelerations is not yet known, so the grip circle
+  // is always shown.
   const isShown = radius && (data.live || radius < 3 * Math.max(xMost, yMost));
   const setReach = () => {
     [xMost, yMost] = [reach('x'), reach('y')];
@@ -70,7 +73,7 @@ function drawPhasePlane(parent, plane) {
     const { clientWidth: width, clientHeight: height } = svg.node();
     const [w, h] = [width - margin.left - margin.right, height - margin.top - margin.bottom];
     if (w <= 0 || h <= 0) return;
-    // With equal units on both axes, the grip limit is drawn as a circle.
+    // Both axes of this plane have the same scale, so the grip limit is a circle.
     const unit = Math.min(w, h) / 2;
     const [xReach, yReach] = plane.equal ? [(xMost * w) / 2 / unit, (yMost * h) / 2 / unit] : [xMost, yMost];
     const x = d3.scaleLinear().domain([-xReach, xReach]).range([margin.left, margin.left + w]);

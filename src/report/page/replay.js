@@ -1,14 +1,14 @@
-// 3D replay at the current moment of the page.
+// Draws the 3D replay, at the current time of the page.
 
-const MOST_NAMED = 4;  // number of translucent cars that are named
+const MOST_NAMED = 4;  // largest number of ghosts whose names are shown
 const CAMERAS = [['follow', 'Follow'], ['orbit', 'Orbit'], ['driver', 'Driver']];
 
-/** The color of a track for WebGL. */
+/** Returns the color of a track for WebGL. */
 function solidColor(track) {
   return cssColor(`--scene-${track.color}`) || '#888888';
 }
 
-/** The path driven so far, as a growing strip. */
+/** Makes the path that a car has driven so far, as a growing strip on the ground. */
 function trailOf(track, motion, height, width, level) {
   const { t, channels: { x_m: xs, y_m: ys } } = motion;
   let rows = [];
@@ -38,7 +38,7 @@ function trailOf(track, motion, height, width, level) {
   };
 }
 
-/** A dashed line along a plan. */
+/** Makes a dashed line along a plan. */
 function planMesh(line, height, color, level) {
   const points = evenly(line, 0.5);
   if (points.length < 3) return null;
@@ -48,8 +48,8 @@ function planMesh(line, height, color, level) {
 
 function makeReplay(canvas, context) {
   const renderer = new THREE.WebGLRenderer({ canvas, context });
-  // Checking a shader for errors waits for the shader's compilation. If errors were checked,
-  // shaders would be compiled one at a time.
+  // A check of a shader for errors waits until the shader is compiled. Without these checks,
+  // several shaders are compiled at the same time.
   renderer.debug.checkShaderErrors = false;
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
@@ -80,7 +80,7 @@ function makeReplay(canvas, context) {
       ghost: make({ color: solidColor(track), ghost: true }),
       use: tyreUse(track),
       wind: windAt(track),
-      // Trails overlap, so later ones are narrower and drawn on top.
+      // Trails overlap, so the trails of later tracks are narrower and drawn on top.
       trail: trailOf(track, motion, height, 0.34 / (1 + track.id), 6 + track.id),
     };
   });
@@ -120,10 +120,12 @@ function makeReplay(canvas, context) {
     drawNewPlans();
   });
 
-  // The car shown first: preferably one with contact dynamics.
+  // The car that is shown first, preferably on a MuJoCo plant.
   const lead = cars.find(({ track }) => track.plant.startsWith('mujoco')) || cars[cars.length - 1];
 
-  /** Pose of a car. The heading is averaged over one second to steady the camera. */
+  /**
+   * Returns the pose of a car, and its heading averaged over one second, which steadies the camera.
+   */
   function framing(car, time) {
     const moments = [-0.5, -0.25, 0, 0.25, 0.5].map((dt) => poseAt(car.track, Math.min(Math.max(time + dt, 0), duration)));
     const x = d3.mean(moments, (pose) => Math.cos(pose.yaw));
@@ -163,12 +165,12 @@ function makeReplay(canvas, context) {
     return camera;
   }
 
-  let firstPicture = null;  // time of the first picture since the page was opened [ms]
+  let firstPicture = null;  // time from the opening of the page to the first picture [ms]
   let shown = { kind: 'follow', apart: false, forces: Boolean(dials) };
-  let views = [];  // views drawn last, as {car, camera, viewport}, for tests and labels
+  let views = [];  // views of the last picture, as {car, camera, viewport}, for tests and labels
   const orbit = new THREE.Vector3(-8, -7, 5);
 
-  /** Current distance between two cars [m]. */
+  /** Returns the current distance between two cars [m]. */
   function apartNow(one, other) {
     const [a, b] = [one, other].map((car) => car.solid.root.matrix.elements);
     return Math.hypot(a[12] - b[12], a[13] - b[13], a[14] - b[14]);
@@ -176,11 +178,11 @@ function makeReplay(canvas, context) {
 
   function drawView(car, camera, viewport, others) {
     for (const each of cars) {
-      // Hides ghosts around the driver, which would cover the road.
+      // Hides ghosts near the driver, since they would cover the road.
       const around = shown.kind === 'driver' && each !== car
         && Math.hypot(...['x', 'y'].map((axis) => poseAt(each.track, now)[axis] - poseAt(car.track, now)[axis])) < runs[car.track.run].car.length;
       const visible = each.track.visible && !around;
-      // Hides the driver's own car.
+      // Hides the car itself in the driver's view.
       each.solid.group.visible = visible && each === car && shown.kind !== 'driver';
       each.ghost.group.visible = visible && each !== car && others && each.ghost.fade(apartNow(each, car));
       each.trail.mesh.visible = visible && (others || each === car);
@@ -204,7 +206,7 @@ function makeReplay(canvas, context) {
   function draw(time) {
     const [width, high] = [canvas.clientWidth, canvas.clientHeight];
     if (width <= 0 || high <= 0) return;
-    // setSize allocates new buffers even if the size is unchanged.
+    // setSize is called only after a change, since it always allocates new buffers.
     if (canvas.width !== Math.floor(width * pixelRatio) || canvas.height !== Math.floor(high * pixelRatio)) {
       renderer.setSize(width, high, false);
     }
@@ -250,8 +252,8 @@ function makeReplay(canvas, context) {
 }
 
 /**
- * Viewports of the views, in several rows if necessary: {x, y, width, height}. y is measured from
- * the bottom.
+ * Returns the viewports of the views, in several rows if necessary, as {x, y, width, height}. y is
+ * measured from the bottom of the canvas.
  */
 function gridOf(count, width, height) {
   const GAP = 2;
@@ -260,7 +262,7 @@ function gridOf(count, width, height) {
   const columns = Math.ceil(count / lines);
   return d3.range(count).map((i) => {
     const [column, line] = [i % columns, Math.floor(i / columns)];
-    // The last row of views may have fewer views, which are then wider.
+    // If the last row has fewer views, they are wider.
     const inLine = line + 1 < lines ? columns : count - columns * (lines - 1);
     const [x0, x1] = [column, column + 1].map((k) => Math.round((k * width) / inLine));
     const [y0, y1] = [lines - 1 - line, lines - line].map((k) => Math.round((k * height) / lines));
@@ -271,7 +273,7 @@ function gridOf(count, width, height) {
   });
 }
 
-/** Text on the state of a track at a moment, such as "4.62 m/s, 1.31 m right of the path". */
+/** Returns the state of a track at a time as text, such as "4.62 m/s, 1.31 m right of the path". */
 function stateText(track, time) {
   const moment = Math.min(time, track.log.t[track.log.t.length - 1]);
   const [speed, off] = [valueAt(track, 'speed', moment), valueAt(track, 'cross_track', moment)];
@@ -283,7 +285,7 @@ function stateText(track, time) {
   ].filter(Boolean).join(', ');
 }
 
-/** Draws the legend of the scene's colors. */
+/** Draws the legend of the colors in the scene. */
 function drawSceneKey(parent) {
   const key = parent.append('p').attr('class', 'key');
   const sign = (name, style, kind = 'line') => {
@@ -365,7 +367,7 @@ function drawReplay(parent) {
   drawEventTrack(panel);
   drawSceneKey(panel);
 
-  // Dragging orbits the camera around the car.
+  // Dragging with the mouse moves the camera around the car.
   const eye = new THREE.PerspectiveCamera();
   eye.up.set(0, 0, 1);
   eye.position.copy(replay.orbit);
@@ -421,7 +423,7 @@ function drawReplay(parent) {
         });
     });
   }
-  // Browsers do not print a WebGL canvas, so an image replaces it.
+  // Browsers do not print a WebGL canvas, so an image replaces the canvas in print.
   const still = frame.append('img').attr('class', 'still').attr('alt', '');
   window.addEventListener('beforeprint', () => {
     replay.draw(now);

@@ -1,14 +1,20 @@
-// Static scenery: ground, road, friction patches, obstacles, cones, trees.
+// Makes the scenery of the 3D scene: ground, road, friction patches, obstacles, cones, trees.
 
 const ROAD = { dash: 3, gap: 6, line: 0.12, post: 10 };  // [m]
 
-/** Deterministic pseudo-random number in [0, 1), so that the scenery is the same on every page. */
+/**
+ * Returns a deterministic pseudo-random number in [0, 1), so that the scenery is the same on every
+ * page.
+ */
 function scattered(n) {
   const x = Math.sin(n * 127.1 + 311.7) * 43758.5453;
   return x - Math.floor(x);
 }
 
-/** Elevation of the ground at a point, interpolated in the run's elevation grid. */
+/**
+ * Returns a function that gives the elevation of the ground at a point, interpolated in the run's
+ * elevation grid.
+ */
 function heightOf(ground) {
   if (!ground) return () => 0;
   const z = numbersOf(ground.z);
@@ -24,12 +30,13 @@ function heightOf(ground) {
   };
 }
 
-/** Grainy texture that makes motion over a surface visible. */
+/** Makes a grainy texture, on which motion over a surface is visible. */
 function grain(light, spread, repeat) {
   const size = 128;
   const pixels = new Uint8Array(3 * size * size);
   for (let i = 0; i < size * size; ++i) {
-    // The texture has fine grain, and patches of four texels that stay visible from a distance.
+    // The texture has fine grain, and also coarse grain of 4 by 4 texels, which remains visible
+    // from a distance.
     const coarse = scattered(7919 + Math.floor((i % size) / 4) + 64 * Math.floor(i / size / 4));
     const shade = 1 + spread * (0.75 * scattered(i) + 0.35 * coarse - 0.55);
     for (let c = 0; c < 3; ++c) pixels[3 * i + c] = Math.min(255, 255 * light[c] * shade);
@@ -41,12 +48,16 @@ function grain(light, spread, repeat) {
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearMipMapLinearFilter;
   texture.generateMipmaps = true;
-  texture.anisotropy = 2;  // larger values are slow without graphics hardware
+  texture.anisotropy = 2;  // anisotropic filtering; larger values are slow without graphics
+                           // hardware
   texture.needsUpdate = true;
   return texture;
 }
 
-/** Evenly spaced points along a line: {x, y, nx, ny}. (nx, ny) is the unit normal to the left. */
+/**
+ * Returns evenly spaced points along a line, as {x, y, nx, ny}, where (nx, ny) is the unit normal
+ * to the left.
+ */
 function evenly(line, step) {
   const points = [];
   let left = 0;
@@ -62,8 +73,9 @@ function evenly(line, step) {
 }
 
 /**
- * A strip on the ground between two offsets to the left of the points [m]. `shares` adds fractions
- * of each point's `width` to the offsets. `keep` selects the pieces.
+ * Makes a strip on the ground along a line. The edges of the strip are at two offsets to the left
+ * of the points [m]. `shares` adds fractions of each point's `width` to the offsets. `keep` selects
+ * the pieces to draw.
  */
 function strip(points, from, to, height, lift, keep = () => true, shares = [0, 0]) {
   const positions = [];
@@ -89,7 +101,10 @@ function strip(points, from, to, height, lift, keep = () => true, shares = [0, 0
   return geometry;
 }
 
-/** A mesh on the ground. A higher `level` is drawn above lower ones without flickering. */
+/**
+ * Makes a flat mesh on the ground. Meshes with a higher `level` are drawn above those with a lower
+ * level, without flickering.
+ */
 function flat(geometry, color, level, more = {}) {
   const material = new THREE.MeshLambertMaterial({
     color, side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -level, polygonOffsetUnits: -4 * level, ...more,
@@ -134,14 +149,14 @@ function groundMesh(ground, extent) {
   }
   const mesh = new THREE.Mesh(geometry, material);
   mesh.receiveShadow = true;
-  // Level ground is drawn below all other objects. Level ground writes no depths, which are too
+  // Level ground is drawn first and does not write to the depth buffer, whose resolution is too
   // coarse for such a large plane.
   material.depthWrite = Boolean(ground);
   mesh.renderOrder = -1;
   return mesh;
 }
 
-/** Asphalt along a line, with edge lines, dashed lane lines and posts. */
+/** Makes the asphalt along a line, with edge lines, dashed lane lines and posts. */
 function roadMeshes(line, { width, lanes }, height) {
   const points = evenly(line, 0.5);
   if (points.length < 3) return [];
@@ -169,8 +184,8 @@ function roadMeshes(line, { width, lanes }, height) {
 }
 
 /**
- * Asphalt between the edges of a track, with edge lines and a start line. Both edges have equal
- * numbers of points.
+ * Makes the asphalt between the edges of a track, with edge lines and a start line. Both edges of
+ * the track must have the same number of points.
  */
 function trackMeshes({ left, right }, height) {
   const points = [...right.x.keys(), 0].map((i) => {
@@ -191,8 +206,8 @@ function trackMeshes({ left, right }, height) {
 }
 
 /**
- * Strips on the ground between pairs of lines, in one geometry. The lines of a pair have equal
- * numbers of points x, y, x, y, ...
+ * Makes strips on the ground between pairs of lines, in one geometry. Both lines of a pair must
+ * have the same number of points, listed as x, y, x, y, ...
  */
 function bandsGeometry(bands, height, lift) {
   const positions = [];
@@ -216,7 +231,7 @@ function bandsGeometry(bands, height, lift) {
   return geometry;
 }
 
-/** The band between the two edges of a painted line. */
+/** Returns the two edges of a painted line. */
 function bandOfLine({ points, width }) {
   const band = { left: [], right: [] };
   const last = points.length - 2;
@@ -230,7 +245,7 @@ function bandOfLine({ points, width }) {
   return band;
 }
 
-/** Pavement and paint of a road network. */
+/** Makes the pavement and road marks of a road network. */
 function networkMeshes({ bands, lines }, height) {
   const painted = (yellow, paint) => flat(bandsGeometry(lines.filter((line) => line.yellow === yellow).map(bandOfLine), height, 0.008),
     paint, 2, { emissive: new THREE.Color(paint), emissiveIntensity: 0.3 });
@@ -241,7 +256,7 @@ function networkMeshes({ bands, lines }, height) {
   ];
 }
 
-/** Trees away from roads, driven paths and obstacles. */
+/** Makes trees at places away from roads, driven paths and obstacles. */
 function treeMeshes(extent, busy, height) {
   const MOST = 160;
   const CLEAR = 14;  // [m]
@@ -266,7 +281,7 @@ function treeMeshes(extent, busy, height) {
   return [crown];
 }
 
-/** A rectangle on the ground, subdivided to follow the elevation. */
+/** Makes a rectangle on the ground, subdivided so that it follows the elevation. */
 function areaGeometry({ x, y, yaw, length, width }, height, lift) {
   const count = Math.max(2, Math.min(80, Math.ceil(length / 2)));
   const points = d3.range(count + 1).map((i) => {
@@ -276,7 +291,7 @@ function areaGeometry({ x, y, yaw, length, width }, height, lift) {
   return strip(points, -width / 2, width / 2, height, lift);
 }
 
-/** The walls of a map near the run, on flat ground. */
+/** Makes the walls of a map that are near the run. Worlds with a map have flat ground. */
 function wallsMesh({ yaw, height, boxes }, extent) {
   const SEEN = 150;  // [m]
   const near = boxes.filter(([x, y, length, width]) => {
@@ -296,7 +311,8 @@ function wallsMesh({ yaw, height, boxes }, extent) {
 }
 
 /**
- * Draws an obstacle as a box. An obstacle that moves and has the size of a car is drawn as a car.
+ * Makes the shape of an obstacle: a car if the obstacle moves and has the size of a car, otherwise
+ * a box.
  */
 function obstacleShape(box, make) {
   const [moves, isCar] = [box.vx !== 0 || box.vy !== 0, box.length > 3 && box.length < 6 && box.width > 1.4 && box.width < 2.3];
@@ -314,7 +330,8 @@ function obstacleShape(box, make) {
   const [along, across] = [box.length / car.length, box.width / car.width];
   vehicle.group.scale.set(along, across, 0.5 * (along + across));
   vehicle.group.position.x = -along * (car.length / 2 - car.rear_overhang);
-  // Models of vehicles face along x, but the obstacle may move backwards.
+  // Vehicle models face along x. If the obstacle moves in the opposite direction, the car is turned
+  // around.
   const facing = Math.cos(Math.atan2(box.vy, box.vx) - box.yaw) < 0 ? Math.PI : 0;
   const holder = new THREE.Group();
   vehicle.group.position.applyAxisAngle(new THREE.Vector3(0, 0, 1), facing);
@@ -323,7 +340,10 @@ function obstacleShape(box, make) {
   return holder;
 }
 
-/** An obstacle of the world. Until a car detects the obstacle, only its edges are drawn. */
+/**
+ * Makes an obstacle of the world. Until the planner detects the obstacle, only the edges of its box
+ * are drawn.
+ */
 function makeObstacle(scene, box, height, make) {
   const node = new THREE.Group();
   node.rotation.z = box.yaw;
@@ -394,13 +414,16 @@ function drawScenery(scene, height, makers) {
       scene.add(mesh);
     }
   }
-  // The scene has no trees if the world has a map. It also has none while a run without a plan is
-  // in progress, because the path is unknown.
+  // The scene has no trees if the world has a map. During a run without a plan, there are no trees
+  // either, because they might stand on the path, which is not yet known.
   const hasTrees = !runs.some((run) => run.world.walls) && (!data.live || runs.some((run) => run.plan && run.plan.line));
   if (hasTrees) for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
   return {
     update: (time) => obstacles.forEach(({ shape }) => shape.place(time)),
-    /** Draws those obstacles as solid that a car has detected at a moment. */
+    /**
+     * Draws the obstacles that the planner of a track has detected by `time` as solid, and the
+     * others as outlines.
+     */
     know: (track, time) => {
       for (const { run, index, box, shape } of obstacles) {
         if (!box.known_later) continue;

@@ -1,4 +1,4 @@
-// Charts over time.
+// Draws the charts over time.
 
 const QUANTITIES = [
   { name: 'cross_track', title: 'Cross-track error', unit: 'm', digits: 4, note: 'positive: left of the path' },
@@ -11,8 +11,8 @@ const QUANTITIES = [
 ];
 
 /**
- * The times of all logs, and each track's values at these times. A value is null if the track has
- * no row at that time.
+ * Returns the times of all logs together, and a function that gives each track's values at these
+ * times. A value is null if the track has no row at that time.
  */
 function commonTimes() {
   const times = Array.from(new Set(tracks.flatMap((track) => track.log.t))).sort(d3.ascending);
@@ -25,8 +25,8 @@ function commonTimes() {
 }
 
 /**
- * Limits of a quantity by the expectations and by the car. A signed quantity has limits of both
- * signs.
+ * Returns the limits of a quantity, from the expectations and from the car. A signed quantity has a
+ * positive and a negative limit.
  */
 function limitsOf(name) {
   const metric = {
@@ -37,7 +37,7 @@ function limitsOf(name) {
   }[name];
   const limits = runs.flatMap((run) => run.expectations)
     .filter((check) => check.metric === metric && typeof check.bound === 'number').map((check) => check.bound);
-  // The car's limit is shown only if it is below twice the largest steering angle.
+  // The car's steering limit is shown only if it is less than twice the largest steering angle.
   const steering = d3.max(tracks, (track) => d3.max(track.log.steering, Math.abs));
   if (name === 'steering') limits.push(...runs.map((run) => run.car.steering_limit).filter((limit) => limit > 0 && limit < 2 * steering));
   return Array.from(new Set(name === 'clearance' ? limits : limits.flatMap((limit) => [limit, -limit])));
@@ -56,7 +56,7 @@ function drawSeries(parent) {
     return {
       ...quantity,
       limits: limitsOf(quantity.name),
-      // Commanded values are drawn below measured ones.
+      // Commanded values are drawn first, below the measured values.
       lines: [
         ...(quantity.asked ? own.map((track) => line(track, quantity.asked, { pattern: [5, 4], width: 1.2 })) : []),
         ...own.map((track) => line(track, quantity.name, { width: 1.6 })),
@@ -77,5 +77,6 @@ function drawSeries(parent) {
       for (const one of lines) one.values = anew(one.tracks[0], one.quantity);
     }
   });
-  drawCharts(list, 'series', axis, charts);  // drawn after the listener of new rows is registered
+  drawCharts(list, 'series', axis, charts);  // charts are drawn after the listener for new rows is
+                                             // registered
 }

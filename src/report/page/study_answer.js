@@ -1,12 +1,13 @@
-// First part of a study's page, with one sentence per output.
+// Draws the first part of a study's page, with one line per output.
 
-// Texts on the result of a bisection, by the status of its row.
+// Texts for the result of a bisection, by the status of its row.
 const BISECTED = {
   found: 'passes up to', passes_at_to: 'passes in all of its range, up to', fails_at_from: 'fails in all of its range',
 };
 
 /**
- * Text on the varied parameters of a row, such as "control.distance = 2 m, mission.speed = 5 m/s".
+ * Returns the varied parameters of a row as text, such as "control.distance = 2 m, mission.speed =
+ * 5 m/s".
  */
 function pointText(row, varied) {
   return varied.map(({ name, unit, index }) => `${name} = ${shown(row.cells[index])}${unit ? ` ${unit}` : ''}`).join(', ');

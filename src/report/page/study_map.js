@@ -1,9 +1,10 @@
-// Map of an output, or of the pass rate, over two parameters of a study.
+// Draws a color map of an output, or of the pass rate, over two parameters of a study.
 
 /**
- * Cells of the map along a parameter: {names, find, place}. `place` converts a value to a position
- * in cells. There is one cell per value. Many numbers get equal intervals. A search gets the
- * intervals of the key's range.
+ * Returns the cells of the map along a parameter: {names, find, place}. `find` returns the cell of
+ * a value, and `place` its position in units of cells. In a search, the cells are the intervals
+ * into which the key's range is divided. Otherwise, each value has a cell; if there are many
+ * numbers, cells are equal intervals.
  */
 function stepsOfMap(column, { rows, isNumber, key }) {
   if (key) {
@@ -32,8 +33,8 @@ function stepsOfMap(column, { rows, isNumber, key }) {
 }
 
 /**
- * Draws a value in each cell: the mean of an output or the pass rate. For a search, it is the
- * lowest robustness.
+ * Draws a map whose cells show the mean of an output, the pass rate or, for a search, the lowest
+ * robustness.
  */
 function drawStudyMap(parent, { parameters, outputs, rows, isGood, isNumber, nameOf, search }) {
   const choices = choicesIn(parent);
@@ -77,7 +78,8 @@ function drawStudyMap(parent, { parameters, outputs, rows, isGood, isNumber, nam
 }
 
 /**
- * Color scale from dark to bright: {color, at}. `at` gives the value at a fraction of the scale.
+ * Returns a color scale from dark to bright, as {color, at}. `color` gives the color of a value,
+ * and `at` the value at a fraction of the scale.
  */
 function colorsFrom([least, most]) {
   return {
@@ -118,7 +120,7 @@ function drawMapCells(place, { title, nameX, nameY, columns, lines, values, text
     svg.append('path').attr('class', `sign-of ${mark.kind} on-map`).attr('d', signOfPoint(mark.kind))
       .attr('transform', `translate(${margin.left + columns.place(mark.x) * wide} ${height - margin.bottom - lines.place(mark.y) * high})`);
   }
-  // Draws the color scale of the map.
+  // Draws the color bar of the map.
   const bar = svg.append('g').attr('transform', `translate(${margin.left} ${height - 30})`);
   const steps = 40;
   const length = Math.min(220, width - margin.left - 60);

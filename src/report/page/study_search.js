@@ -1,6 +1,7 @@
-// A search: its result, the margins of each key, its history, and the tried parts of the ranges.
+// Draws a search for failures: its result, the margins of each key, its history, and the tried
+// parts of the ranges.
 
-// Phases of a search, with the appearance of their runs.
+// Phases of a search, with the symbol and color of their runs.
 const PHASES = [
   { name: 'nominal', label: 'nominal point', symbol: d3.symbolDiamond, color: 'var(--text)' },
   { name: 'search', label: 'search', symbol: d3.symbolCircle, color: 'var(--track-0)' },
@@ -32,8 +33,8 @@ function keyValue(value) {
 }
 
 /**
- * Position of a value in its range, from 0 to 1. In logarithmic ranges, equal ratios get equal
- * widths. Whole numbers get equal widths.
+ * Returns the position of a value in its range, from 0 to 1. In a logarithmic range, equal ratios
+ * have equal widths. In a range of whole numbers, each number has the same width.
  */
 function placeInRange({ kind, from, to }, value) {
   if (kind === 'log_uniform') return Math.log(value / from) / Math.log(to / from);
@@ -45,13 +46,18 @@ function valueInRange({ kind, from, to }, place) {
   return kind === 'integer' ? from - 0.5 + place * (to - from + 1) : from + place * (to - from);
 }
 
-/** Ticks at 1, 2 and 5 times powers of ten. If there are many, only powers of ten have ticks. */
+/**
+ * Returns ticks at 1, 2 and 5 times powers of ten or, if these are too many, only at powers of ten.
+ */
 function ticksOfLogarithm(scale) {
   const digits = (list) => scale.ticks(100).filter((tick) => list.includes(Math.round(tick / 10 ** Math.floor(Math.log10(tick) + 1e-9))));
   return digits([1, 2, 5]).length > 10 ? digits([1]) : digits([1, 2, 5]);
 }
 
-/** The marked points of a search. Each has its values by key. */
+/**
+ * Returns the points of a search that have a mark, each with its values by key: the nominal point
+ * and the counterexample, if any.
+ */
 function marksOfSearch({ keys, counterexample }) {
   const nominal = { kind: 'point', at: Object.fromEntries(keys.map(({ name, nominal: value }) => [name, value])) };
   return counterexample ? [nominal, { kind: 'counterexample', at: counterexample.settings }] : [nominal];
@@ -68,7 +74,7 @@ function signIn(legend, text) {
   return svg;
 }
 
-/** Draws the legend of the marked points. */
+/** Draws the legend of the marked points of a search. */
 function drawSigns(legend, search) {
   for (const { kind } of marksOfSearch(search)) {
     signIn(legend, kind === 'point' ? 'nominal point' : 'counterexample').append('path').attr('class', `sign-of ${kind}`).attr('d', signOfPoint(kind));
@@ -147,8 +153,8 @@ function drawMargins(parent, { keys, counterexample }) {
 }
 
 /**
- * A scale for values: {scale, ticks, note}. It is linear, or symmetric logarithmic if the values
- * differ by orders of magnitude.
+ * Returns a scale for values of the robustness, as {scale, ticks, note}. The scale is linear, or
+ * symmetric logarithmic if the values differ by orders of magnitude.
  */
 function scaleOfRobustness(values) {
   const sizes = values.map(Math.abs).filter((size) => size > 0).sort(d3.ascending);
@@ -166,8 +172,8 @@ function scaleOfRobustness(values) {
 }
 
 /**
- * Color scale of the robustness. Failed runs are red and passed runs blue. Colors are darker with
- * the distance from 0, and never white.
+ * Returns the color scale of the robustness. Failed runs are red and passed runs blue. Colors
+ * become darker with increasing distance from 0, and are never white.
  */
 function colorsOfRobustness(cells) {
   const values = cells.filter((value) => value !== null);
@@ -211,7 +217,7 @@ function drawHistory(parent, { search, rows, of, isGood, bus, tooltip }) {
       + `${there.filter((row) => !isGood(row)).length} failed, the lowest is ${brief(lowest)}`);
     const margin = { left: 56, right: 18, top: 30, bottom: 44 };
     const { scale: y, ticks, note } = scaleOfRobustness(values);
-    // Leaves room for marks at the ends of the axis.
+    // Leaves space for marks at the ends of the axis.
     y.range([height - margin.bottom - 12, margin.top + 8]);
     const x = d3.scaleLinear().domain([0, Math.max(1, d3.max(rows, (row) => row.number) || 1)]).range([margin.left + 8, width - margin.right - 8]);
     svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - margin.bottom})`)
@@ -282,7 +288,7 @@ function drawCoverage(parent, { search, rows, of, isGood, bus, tooltip }) {
       .attr('d', (row) => `M${at(row.cells[key.column])} ${isGood(row) ? top + 3 : middle + 2}v${middle - top - 5}`)
       .on('mouseenter click', tooltip.show).on('mouseleave', tooltip.hide);
     const axis = (key.kind === 'log_uniform' ? d3.scaleLog() : d3.scaleLinear()).domain([key.from, key.to]).range([at(key.from), at(key.to)]);
-    // The axis has ticks at both ends of the range, and between the ends if there is room.
+    // The axis has ticks at both ends of the range and, if there is space, between the ends.
     const inner = (key.kind === 'log_uniform' ? ticksOfLogarithm(axis)
       : axis.ticks(Math.max(2, Math.min(key.kind === 'integer' ? key.to - key.from : 8, width / 70))))
       .filter((tick) => axis(tick) > at(key.from) + 36 && axis(tick) < at(key.to) - 36);

@@ -1,6 +1,10 @@
-// Statistics over all rows of a study: distributions, influence of the parameters, worst rows.
+// Draws statistics over all rows of a study: distributions, influence of the parameters, worst
+// rows.
 
-/** A row of drop-down lists. `add` returns a function that returns the selected value. */
+/**
+ * Makes a row of drop-down lists. `add` adds a list and returns a function that gives the list's
+ * selected value.
+ */
 function choicesIn(parent) {
   const choices = parent.append('div').attr('class', 'choices');
   return {
@@ -20,7 +24,7 @@ function percent(share, digits = 1) {
   return `${fixed(100 * share, digits)} %`;
 }
 
-/** Adds a panel with a title and an empty drawing of the given height. */
+/** Adds a panel with a title and an empty drawing of the given height [px]. */
 function figureIn(parent, title, unit, name, height) {
   const figure = parent.append('figure').attr('class', 'panel').attr('data-output', name);
   const caption = figure.append('figcaption').attr('title', name).text(title);
@@ -75,7 +79,7 @@ function drawDistributions(parent, { outputs, statistics, nameOf }) {
   }
 }
 
-/** Draws bars that start at 0, with their intervals, one below the other. */
+/** Draws horizontal bars that start at 0, one below the other, with their confidence intervals. */
 function drawBars(parent, title, name, bars, { domain, format, formatTick }) {
   const row = 30;
   const { svg, width, height } = figureIn(parent, title, '', name, bars.length * row + 48);
@@ -100,7 +104,7 @@ function drawBars(parent, title, name, bars, { domain, format, formatTick }) {
   });
 }
 
-/** Draws the rank correlations of the other outputs with a chosen one. */
+/** Draws the rank correlations between a chosen output and the other outputs. */
 function drawCorrelations(parent, { outputs, statistics, nameOf }) {
   const known = outputs.filter(({ name }) => statistics.correlations.some((pair) => pair.outputs.includes(name)));
   const choices = choicesIn(parent);
@@ -128,7 +132,7 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
     const column = columns.find(({ name }) => name === of.name);
     return [i, column ? nameOf(column) : 'pass rate'];
   });
-  // The list of outputs starts with the pass rate if the statistics contain it.
+  // If the statistics contain the pass rate, the list of outputs starts with it.
   const rate = statistics.outputs.findIndex(({ name }) => name === 'passed');
   const choices = choicesIn(parent);
   const chosen = choices.add('Of', 'influence-of', named, Math.max(rate, 0), draw);
@@ -193,7 +197,10 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
   }
 }
 
-/** Draws the worst rows. If `lowest`, the worst values of the first output are its lowest ones. */
+/**
+ * Draws the worst rows by a chosen output. If `lowest` is true, the lowest values are initially
+ * treated as the worst; otherwise the highest.
+ */
 function drawWorst(parent, { study, outputs, parameters, rows, nameOf, lowest }) {
   const choices = choicesIn(parent);
   const chosen = choices.add('By', 'worst-by', outputs.map((column) => [column.index, nameOf(column)]), outputs[0].index, draw);
@@ -226,7 +233,8 @@ function shellWord(word) {
 }
 
 /**
- * Draws the differences of two studies, after minus before. Rows with equal settings are paired.
+ * Draws the differences between two studies, after minus before a change. Rows with equal settings
+ * are paired.
  */
 function drawDifference(parent, { study, columns }) {
   const { rows, only_before: before, only_after: after, outputs } = study.difference;

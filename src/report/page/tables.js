@@ -1,4 +1,4 @@
-// Texts and tables of a report of runs.
+// Draws the texts and tables of a report on runs.
 
 function badge(parent, good, text) {
   return parent.append('span').attr('class', `badge ${good ? 'good' : 'bad'}`).text(text);
@@ -8,7 +8,7 @@ function verdictOf(run) {
   if (!run.complete) return { good: false, text: 'interrupted' };
   if (run.verdict.passed === null) return { good: true, text: 'not judged' };
   if (!run.verdict.passed) return { good: false, text: 'failed' };
-  // The run passes although it did not arrive, because its end was expected.
+  // A run that did not arrive can still pass, if the scenario expects this end.
   const ends = Array.from(new Set(run.plants.map(({ end }) => end.status))).filter((status) => status !== 'arrived');
   return { good: true, text: ends.length ? `as expected: ${ends.map(statusText).join(', ')}` : 'passed' };
 }
@@ -32,7 +32,7 @@ function drawHead() {
     const { good, text } = verdictOf(runs[0]);
     badge(heading, good, text).attr('id', 'verdict');
   }
-  // A comparison without failures and additional notes is shown as a badge.
+  // A comparison without failures and additional notes is shown only as a badge.
   const verdicts = (data.comparison || {}).verdicts || [];
   const isBrief = ({ failures, notes }) => runs.length === 1 && !failures.length && notes.every((note) => runs[0].verdict.notes.includes(note));
   for (const { passed } of verdicts.filter(isBrief)) {
@@ -80,7 +80,7 @@ function drawReasons(parent, failures, notes) {
   for (const note of notes) list.append('li').attr('class', 'note').text(written(note));
 }
 
-/** Union of the rows of several lists of numbers, in order. Each path occurs once. */
+/** Merges the rows of several lists of numbers, in order. In the result, each path occurs once. */
 function rowsOf(lists) {
   const rows = new Map();
   for (const list of lists) {
@@ -90,7 +90,7 @@ function rowsOf(lists) {
       before = path;
     }
   }
-  // Rows that only a later list has keep their position in the later list.
+  // A row that occurs only in a later list is placed after the row that precedes it in that list.
   const order = [];
   for (const row of rows.values()) {
     const at = order.findIndex((other) => other.path === row.before);
@@ -109,17 +109,17 @@ function upperFirst(text) {
   return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/** Whether a value meets a limit of a standard: {relation, bound}. */
+/** Whether a value meets a limit of a standard, given as {relation, bound}. */
 function keeps(value, { relation, bound }) {
   return relation === 'at_most' ? value <= bound : value >= bound;
 }
 
-/** Text on a limit of a standard, such as "at most 0.35". */
+/** Returns a limit of a standard as text, such as "at most 0.35 to pass". */
 function limitText(limit, unit) {
   return limit ? `${limit.relation === 'at_most' ? 'at most' : 'at least'} ${brief(limit.bound)}${unit ? ` ${unit}` : ''} to pass` : '';
 }
 
-/** Draws the quantities of a maneuver, with units and limits. */
+/** Draws the metrics of a standard maneuver, with units and limits. */
 function drawManeuver() {
   const own = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.path.startsWith('maneuver.')
     && (row.unit || row.headline) && !['maneuver.begin', 'maneuver.end'].includes(row.path));
@@ -135,13 +135,13 @@ function drawManeuver() {
 }
 
 /**
- * Draws the headline numbers on one card each. If there are many, draws a table with a row per
- * track.
+ * Draws the most important metrics, each on a card or, with more than two tracks, in a table with a
+ * row per track.
  */
 function drawHeadline() {
   if (!tracks.length) return;
   const all = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.headline);
-  // Quantities of a maneuver are in a separate section.
+  // The metrics of a maneuver are in a separate section.
   const rows = all.filter((row) => !row.path.startsWith('maneuver.'));
   const made = section('headline');
   if (tracks.length > 2) {
@@ -153,7 +153,8 @@ function drawHeadline() {
 }
 
 /**
- * Text on the bound of a metric, such as "at most 0.5"; null unless all runs expect the same bound.
+ * Returns the expected bound of a metric as text, such as "at most 0.5"; null unless all runs
+ * expect the same bound.
  */
 function askedOf(path) {
   const asked = new Set(runs.flatMap((run) => run.expectations).filter((check) => check.metric === path
@@ -255,7 +256,7 @@ function drawLegend(parent) {
   }
 }
 
-/** Draws a table with one row per number and one column per list. */
+/** Draws a table of metrics, with one row per metric and one column per list. */
 function drawNumbers(parent, columns) {
   const table = parent.append('div').attr('class', 'panel scroll').append('table');
   const head = table.append('thead').append('tr');
@@ -294,7 +295,9 @@ function drawExpectations() {
   }
 }
 
-/** Draws the resolved scenarios. Highlights lines that are missing in some of them. */
+/**
+ * Draws the resolved scenarios of the runs. Lines that are not in all scenarios are highlighted.
+ */
 function drawScenarios() {
   const lines = runs.map((run) => run.resolved.replace(/\n$/, '').split('\n'));
   const common = new Set(lines[0].filter((line) => lines.every((other) => other.includes(line))));

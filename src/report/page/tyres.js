@@ -1,13 +1,14 @@
-// Tyres in the 3D scene: size and direction of the used grip, and skid marks.
+// Draws the grip used by each tyre in the 3D scene, as size and direction of its force, and skid
+// marks.
 
 const WHEELS = ['fl', 'fr', 'rl', 'rr'];
-const DIAL = 0.62;  // Radius of the circle of full grip [m].
-const SKID = { use: 0.9, width: 0.17 };  // Fraction of the grip from which a tyre skids, and tyre
-                                         // width [m].
+const DIAL = 0.62;  // Radius of the circle that represents full grip [m].
+const SKID = { use: 0.9, width: 0.17 };  // Used fraction of the grip above which a tyre leaves a
+                                         // skid mark, and tyre width [m].
 
 /**
- * Used fraction of the tyres' grip over time: {t, at(wheel, time), used(wheel, row)}; null if the
- * log has no tyre forces.
+ * Returns the used fraction of each tyre's grip over time, as {t, at(wheel, time), used(wheel,
+ * row)}; null if the log has no tyre forces.
  */
 function tyreUse(track) {
   if (!track.tyres) return null;
@@ -24,15 +25,18 @@ function tyreUse(track) {
   };
 }
 
-/** Ground positions below the wheels by name: {x, y, z, yaw}. Omits wheels high above the ground. */
+/**
+ * Returns the position {x, y, z, yaw} on the ground below each wheel, by the wheel's name. Wheels
+ * high above the ground are omitted.
+ */
 function wheelPlaces(vehicle, model, height) {
   const places = {};
   for (const wheel of WHEELS) {
     const i = model.bodies.findIndex((body) => body.joints.some(({ channel }) => channel === `spin_${wheel}_rad`));
     if (i < 0) continue;
     const { elements } = vehicle.nodes[i].matrix;
-    // The wheel spins about its y axis, which keeps its direction. The forward direction is to the
-    // right of the wheel's axis.
+    // The wheel spins about its y axis, so the direction of this axis does not depend on the spin.
+    // The forward direction is 90 degrees to the right of the y axis.
     const yaw = Math.atan2(-elements[4], elements[5]);
     const [x, y] = [elements[12], elements[13]];
     if (elements[14] - height(x, y) > 0.5) continue;  // skips a wheel in the air
@@ -41,7 +45,7 @@ function wheelPlaces(vehicle, model, height) {
   return places;
 }
 
-/** A flat arrow of length 1 along x. */
+/** Makes a flat arrow of length 1 along x. */
 function arrowGeometry() {
   const shape = new THREE.Shape();
   for (const [i, [x, y]] of [[0, 0.07], [0.62, 0.07], [0.62, 0.2], [1, 0], [0.62, -0.2], [0.62, -0.07], [0, -0.07]].entries()) {
@@ -51,12 +55,15 @@ function arrowGeometry() {
   return new THREE.ShapeBufferGeometry(shape);
 }
 
-/** Draws a circle of full grip on the ground below each wheel, with the tyre force as an arrow. */
+/**
+ * Makes a circle on the ground below each wheel, whose radius represents full grip, with the tyre
+ * force as an arrow.
+ */
 function makeDials(scene) {
   const ring = new THREE.RingBufferGeometry(DIAL - 0.03, DIAL, 48);
   const disc = new THREE.CircleBufferGeometry(DIAL, 48);
   const arrow = arrowGeometry();
-  // The material is visible through the car.
+  // Makes a material that is visible through the car.
   const over = (color, opacity) => new THREE.MeshBasicMaterial({ color, transparent: true, opacity, depthTest: false, depthWrite: false, side: THREE.DoubleSide });
   const dials = WHEELS.map(() => {
     const group = new THREE.Group();
@@ -90,7 +97,7 @@ function makeDials(scene) {
   };
 }
 
-/** Skid marks of tyres that use nearly all their grip. The marks grow with time. */
+/** Makes skid marks where tyres use nearly all of their grip. The marks grow with time. */
 function makeSkidMarks(track, vehicle, motion, model, height) {
   const use = tyreUse(track);
   if (!use) return null;

@@ -1,25 +1,25 @@
-// The vehicle in the 3D scene. The run's model gives the shape of the vehicle. The state log gives
-// the pose, by the kinematics of the joints.
+// Makes the vehicle of the 3D scene. The vehicle's shape comes from the run's model, and its pose
+// from the state log, by forward kinematics of the joints.
 
 const GHOST = 0.42;  // opacity of a ghost
 
-/** Decodes a channel: base64 of float32, or of int16 with offset and scale. */
+/** Decodes a channel, which is base64 of float32, or of int16 with offset and scale. */
 function numbersOf(channel) {
   const bytes = Uint8Array.from(atob(channel.f4 || channel.i2), (c) => c.charCodeAt(0));
   if (channel.f4) return new Float32Array(bytes.buffer);
   return Float64Array.from(new Int16Array(bytes.buffer), (steps) => channel.offset + channel.scale * steps);
 }
 
-/** Motion of a track: times, and channels by name. */
+/** Returns the motion of a track: the times, and the channels by name. */
 function motionOf(track) {
   const { motion } = runs[track.run].plants.find((plant) => plant.name === track.plant);
-  // While a run is in progress, the channels grow.
+  // While a run is in progress, the channels grow, so they must be ordinary arrays.
   const numbers = (channel) => (data.live ? Array.from(numbersOf(channel)) : numbersOf(channel));
   const channels = Object.fromEntries(Object.entries(motion.channels).map(([name, channel]) => [name, numbers(channel)]));
   return { t: numbers(motion.t), channels };
 }
 
-/** Converts a quaternion (w, x, y, z) of MuJoCo. */
+/** Converts a quaternion (w, x, y, z) of MuJoCo to three.js. */
 function quaternionOf([w, x, y, z]) {
   return new THREE.Quaternion(x, y, z, w);
 }
@@ -36,7 +36,10 @@ function shapeOf(geom, meshes) {
   }
 }
 
-/** Body color of a vehicle. It is the color of most meshes or, without meshes, of most shapes. */
+/**
+ * Returns the body color of a vehicle, which is the most frequent color of its meshes or, without
+ * meshes, of its shapes.
+ */
 function paintOf({ geoms }) {
   const meshes = geoms.filter(({ type }) => type === 'mesh');
   const counts = d3.nest().key(({ rgba }) => rgba.join()).rollup((list) => list.length).entries(meshes.length ? meshes : geoms);
@@ -44,9 +47,10 @@ function paintOf({ geoms }) {
 }
 
 /**
- * Returns a function that makes a vehicle. A vehicle has its shapes under `group`, the `nodes` of
- * its bodies, and `pose(motion, time)`, which moves it. All vehicles of a run share the shapes. The
- * body gets the given color. A ghost is translucent and has that color everywhere.
+ * Returns a function that makes a vehicle. The vehicle has a `group` with its shapes, the `nodes`
+ * of its bodies, and the function `pose(motion, time)`, which moves it. All vehicles of a run share
+ * the shapes. The vehicle's body has the given color; a ghost is translucent and has this color
+ * everywhere.
  */
 function vehicleMaker(model) {
   const meshes = model.meshes.map(({ vertices, faces }) => {
@@ -74,7 +78,7 @@ function vehicleMaker(model) {
       const material = new THREE.MeshLambertMaterial({
         color: ghost || geom.rgba.join() === paint ? new THREE.Color(color) : new THREE.Color(r, g, b),
         transparent: ghost || a < 1, opacity: ghost ? GHOST : a, depthWrite: true,
-        // If ghost and solid car coincide, the solid car covers the ghost.
+        // Draws a ghost behind a solid car that coincides with it.
         polygonOffset: ghost, polygonOffsetFactor: 4, polygonOffsetUnits: 40,
       });
       materials.push(material);
@@ -107,7 +111,7 @@ function vehicleMaker(model) {
           } else if (joint.type === 'slide') {
             position.add(new THREE.Vector3(...joint.axis).multiplyScalar(at(joint.channel)).applyQuaternion(rotation));
           } else {
-            // The joint rotates about its anchor, which stays fixed.
+            // The joint rotates the body about its anchor, which stays fixed.
             const anchor = new THREE.Vector3(...joint.pos);
             const turn = new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(...joint.axis).normalize(), at(joint.channel));
             const before = anchor.clone().applyQuaternion(rotation);
@@ -121,8 +125,8 @@ function vehicleMaker(model) {
       }
     }
     /**
-     * Fades a ghost out near the solid car, because the ghost would only blur the car. Returns
-     * whether the ghost is visible at this distance [m].
+     * Fades a ghost out near the solid car, which the ghost would only blur. Returns whether the
+     * ghost is visible at the distance `apart` from the car [m].
      */
     function fade(apart) {
       const [from, to] = [0.05, 0.3];

@@ -1,12 +1,13 @@
-// Wind in the 3D scene: arrows on the ground around the car with the air's velocity at the car, and
-// the areas of gusts.
+// Draws the wind in the 3D scene: arrows on the ground around the car, which show the velocity of
+// the air at the car, and outlines of the areas of gusts.
 
-const WIND = { spacing: 6, reach: 3, least: 0.5, perSpeed: 1 / 3, longest: 4.5 };  // units of the
-                                                                                   // values: [m],
-                                                                                   // cells, [m/s],
-                                                                                   // [s], [m]
+// Units: [m], cells, [m/s], [s], [m].
+const WIND = { spacing: 6, reach: 3, least: 0.5, perSpeed: 1 / 3, longest: 4.5 };
 
-/** Air velocity at a car, as a function at(time) that gives {x, y, speed}; null without wind. */
+/**
+ * Returns a function that gives the air velocity {x, y, speed} at a car for a time; null if there
+ * is no wind.
+ */
 function windAt(track) {
   const { motion } = runs[track.run].plants.find((plant) => plant.name === track.plant);
   if (!motion.wind) return null;

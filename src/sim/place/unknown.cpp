@@ -4,8 +4,8 @@ namespace trackbed {
 
 const char* PlaceOfData();
 
-/// Used by a program linked to static libraries without CMake, for which the package's folder is
-/// unknown.
+/// Throws InputError. This version of PlaceOfData is used in programs that were linked to static
+/// libraries without CMake, where the package's folder is unknown.
 const char* PlaceOfData() {
   throw InputError(Problem{
       .message = "the folder of models/ and scenarios/ is not known: set the environment variable "
