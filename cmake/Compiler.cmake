@@ -18,8 +18,8 @@ target_compile_options(
             -Wimplicit-fallthrough
             # Designated initializers may omit members with defaults.
             -Wno-missing-field-initializers
-            # Clang blames our sources for a deprecated function that libstdc++'s stable_sort calls.
-            # GCC reports our own uses.
+            # Clang reports a deprecated function that libstdc++'s stable_sort calls as a warning in our
+            # sources. GCC still reports deprecated functions that our sources call.
             $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
             # Debian 12's Boost 1.74 casts integers outside an enumeration's range, which is an
             # error for Clang 16 and later. Clang 20 no longer has the flag.
@@ -30,7 +30,7 @@ target_compile_options(
             -ffp-contract=off
             $<$<BOOL:${TRACKBED_WARNINGS_AS_ERRORS}>:-Werror>)
 if(TRACKBED_FUZZ)
-  # Clang's coverage instrumentation for libFuzzer.
+  # Adds Clang's coverage instrumentation for libFuzzer.
   target_compile_options(
     trackbed_compiler INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
                                 -fno-omit-frame-pointer)

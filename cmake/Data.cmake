@@ -1,5 +1,5 @@
-# How sim finds models/ and scenarios/ although no installed file contains a path (DataFolder in
-# trackbed/sim/scene.h). It looks beside the program first, then in the result of PlaceOfData:
+# Lets the module sim find models/ and scenarios/ although no installed file contains a path. DataFolder
+# (trackbed/sim/scene.h) looks beside the program first, then in the result of PlaceOfData, defined by:
 #   shared library of sim   the folder beside the library
 #   static libraries        a source file written by each CMake build (Place.cmake); in other builds
 #                           libtrackbed_default_place.a, which trackbed.pc links, reports an error

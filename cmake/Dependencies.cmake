@@ -10,7 +10,7 @@ set(TRACKBED_MUJOCO ${default_mujoco} CACHE STRING "MuJoCo: wheel, debian or a f
 include(LibraryDependencies)
 include(MujocoVersion)
 
-# Loaded at run time: the build needs only the headers, tests also the libraries.
+# EGL and FFmpeg are loaded at run time: the build needs only their headers, tests also the libraries.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 add_library(egl::egl ALIAS PkgConfig::egl)
@@ -34,21 +34,21 @@ else()
   find_package(GTest QUIET)
 endif()
 
-# OMPL: required by the benchmarks; tests compare with it if it is installed.
+# OMPL is required by the benchmarks. Tests compare with OMPL if it is installed.
 if(TRACKBED_BENCH)
   find_package(ompl REQUIRED CONFIG PATHS /usr/share/ompl/cmake)
 elseif(TRACKBED_BUILD_TESTS)
   find_package(ompl QUIET CONFIG PATHS /usr/share/ompl/cmake)
 endif()
 if(ompl_FOUND)
-  # Debian's 1.5.2 also lists libraries that only its own build needs.
+  # Debian's OMPL 1.5.2 also lists libraries that only OMPL's own build needs.
   list(GET OMPL_LIBRARIES 0 ompl_library)
   add_library(ompl::ompl INTERFACE IMPORTED)
   target_link_libraries(ompl::ompl INTERFACE ${ompl_library})
   target_include_directories(ompl::ompl INTERFACE ${OMPL_INCLUDE_DIR})
 endif()
 
-# JavaScript that the reports contain, and its licenses.
+# Finds the JavaScript libraries that reports contain, and their licenses.
 macro(trackbed_find_script variable package file)
   find_file(${variable} ${file} PATHS ${ARGN} NO_DEFAULT_PATH)
   if(NOT ${variable})

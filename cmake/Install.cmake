@@ -8,13 +8,13 @@
 #                        this component needs GoogleTest
 #   trackbed::cli        the program; its module is trackbed::cli_library
 #
-# What each module links: docs/how-to/embed.md.
+# docs/how-to/embed.md lists the libraries that each module links.
 include(CMakePackageConfigHelpers)
 
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/trackbed)
 set(data_folder ${CMAKE_INSTALL_DATADIR}/trackbed)
 
-# One header and one target for all modules.
+# Defines one header and one target for all modules.
 add_library(trackbed_library INTERFACE)
 trackbed_link_folder(${PROJECT_BINARY_DIR}/modules/library trackbed/trackbed.h
                      ${PROJECT_SOURCE_DIR}/include/trackbed/trackbed.h)
@@ -48,7 +48,7 @@ if(TRACKBED_MUJOCO_FOLDER)
   install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/include/mujoco DESTINATION ${mujoco_folder}/include)
   install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/lib/ DESTINATION ${mujoco_folder}/lib
           FILES_MATCHING PATTERN libmujoco.so* PATTERN cmake EXCLUDE)
-  # A wheel has them in licenses/, an archive beside include/ and lib/.
+  # A wheel has the license files in licenses/, an archive beside include/ and lib/.
   file(GLOB licenses ${TRACKBED_MUJOCO_FOLDER}/licenses/* ${TRACKBED_MUJOCO_FOLDER}/LICENSE*
        ${TRACKBED_MUJOCO_FOLDER}/THIRD_PARTY_NOTICES*)
   install(FILES ${licenses} DESTINATION ${CMAKE_INSTALL_DOCDIR}/mujoco)
@@ -60,7 +60,7 @@ if(NOT BUILD_SHARED_LIBS)
 endif()
 install(TARGETS ${installed} trackbed EXPORT trackbedTargets)
 install(EXPORT trackbedTargets NAMESPACE trackbed:: DESTINATION ${package_folder})
-# Without scenarios/validation, which replays the tests' recordings.
+# Leaves out scenarios/validation, which replays recordings of tests/.
 install(DIRECTORY models scenarios DESTINATION ${data_folder} PATTERN validation EXCLUDE)
 
 set(mujoco_of_package debian)

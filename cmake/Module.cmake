@@ -45,7 +45,7 @@ function(trackbed_module path)
   file(GLOB sources CONFIGURE_DEPENDS ${ARG_SOURCE_DIR}/*.cpp)
   if(ARG_STATIC)
     add_library(trackbed_${name} STATIC ${sources})
-    if(BUILD_SHARED_LIBS) # as the precompiled headers that it shares
+    if(BUILD_SHARED_LIBS) # as for the precompiled headers that the target shares
       set_target_properties(trackbed_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
     endif()
   else()
@@ -82,7 +82,7 @@ function(trackbed_module path)
     set(checks trackbed_${name}_header_checks)
     add_library(${checks} OBJECT EXCLUDE_FROM_ALL ${header_checks})
     target_link_libraries(${checks} PRIVATE trackbed_${name} trackbed_compiler)
-    # Compilation is the only check, so no optimization.
+    # The checks only compile the headers, so no optimization is needed.
     target_compile_options(${checks} PRIVATE -O0)
     add_dependencies(header_checks ${checks})
   endif()

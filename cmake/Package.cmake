@@ -35,13 +35,13 @@ function(trackbed_owner_of library variable)
   endif()
 endfunction()
 
-# Requires OSMesa, or EGL with Mesa's drivers. One group of alternatives cannot express this, two
-# can.
+# The package requires OSMesa, or EGL with Mesa's drivers. One group of alternatives cannot express
+# this condition, but two groups can.
 set(depends "libosmesa6 | libegl1" "libosmesa6 | libgl1-mesa-dri")
 if(TRACKBED_VIDEO)
   foreach(library IN ITEMS avformat avcodec swscale avutil)
     trackbed_owner_of(${library} owner)
-    list(APPEND depends ${owner}) # does nothing if it is empty
+    list(APPEND depends ${owner}) # does nothing if `owner` is empty
   endforeach()
 endif()
 list(JOIN depends ", " CPACK_DEBIAN_PACKAGE_DEPENDS)

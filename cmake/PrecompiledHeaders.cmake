@@ -2,22 +2,22 @@
 #
 # Precompiles the headers on which most sources spend half of their compile time.
 # KIND also selects the optimization:
-#   NUMERICS  standard containers, fmt, Eigen
-#   LIGHT     JSON as well, at -O1: targets that read, write and judge; optimizing their code took a
-#             third of the compile time without benefit
+#   NUMERICS  standard containers, fmt and Eigen, with the optimization of the preset
+#   LIGHT     also JSON, with -O1: for targets that read, write and evaluate results; full optimization
+#             of these targets took a third of the compile time without benefit
 #   TESTS     as LIGHT, with GoogleTest
 #
 # All targets of a kind share one precompiled header, because GCC takes the optimization level from
 # it. The compiler rejects a precompiled header if a macro that its headers read has another value
 # in the target. Such macros come from libraries: in Debian 13 tinyxml2 defines _FILE_OFFSET_BITS.
 # Therefore targets with such macros share a second header, compiled with these macros. If
-# TRACKBED_MACROS_OF_PRECOMPILED misses a macro, GCC warns and parses the headers as text. Public
-# headers are still compiled alone, without it (header_checks).
+# TRACKBED_MACROS_OF_PRECOMPILED misses a macro, GCC warns and parses the headers as text. The
+# target header_checks still compiles each public header alone, without a precompiled header.
 option(TRACKBED_PRECOMPILED_HEADERS "Precompile the headers that most sources include" ON)
 
 set(light $<$<CONFIG:Release>:-O1>)
-# Macros that the precompiled headers may read: reserved names, which system headers read, and the
-# libraries' macros.
+# Names of macros that the precompiled headers may read: reserved names, which system headers read, and
+# macros of the libraries.
 set(TRACKBED_MACROS_OF_PRECOMPILED "^(_|NDEBUG|EIGEN_|FMT_|JSON_|NLOHMANN_|GTEST_|GMOCK_)")
 
 # Sets OUT to the macros that libraries define for TARGET and that the precompiled headers may read.

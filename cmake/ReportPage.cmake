@@ -16,7 +16,7 @@ add_custom_command(
   COMMENT "Putting the page of the reports together"
   VERBATIM)
 target_sources(trackbed_report PRIVATE ${page_text})
-# With this target, Ninja can build the page alone; through the module it would first build all
-# modules below.
+# With this target, Ninja can build the report page alone; to build the page through the module, Ninja
+# would first build all modules below it.
 add_custom_target(trackbed_page_text DEPENDS ${page_text})
 add_dependencies(trackbed_report trackbed_page_text)

@@ -41,9 +41,9 @@ function(trackbed_shared_properties target)
     PROPERTIES VERSION ${PROJECT_VERSION}
                SOVERSION ${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR}
                INSTALL_RPATH "${TRACKBED_LIBRARY_RPATH}"
-               DEFINE_SYMBOL "") # there are no export macros
-  # The linker rejects a library that uses symbols it does not link. Not with sanitizers: Clang's
-  # sanitizer symbols are in the program.
+               DEFINE_SYMBOL "") # the headers have no export macros
+  # The linker rejects a library with symbols that its own linked libraries do not define. This check
+  # is off with sanitizers, because Clang's sanitizer symbols are in the program.
   if(NOT TRACKBED_SANITIZE)
     target_link_options(${target} PRIVATE LINKER:-z,defs)
   endif()

@@ -10,7 +10,7 @@ file(RENAME ${root}/share/zsh/site-functions ${root}/share/zsh/vendor-completion
 file(COPY ${CPACK_TRACKBED_FILES}/copyright ${CPACK_TRACKBED_FILES}/licenses DESTINATION ${doc})
 file(COPY ${CPACK_TRACKBED_FILES}/changelog DESTINATION ${doc})
 file(GLOB pages ${root}/share/man/man1/*.1)
-# -n: no name and time, so that the same input gives the same package.
+# The option -n omits name and time, so that the same input gives the same package.
 execute_process(COMMAND gzip -9n ${doc}/changelog ${pages} COMMAND_ERROR_IS_FATAL ANY)
 
 file(MAKE_DIRECTORY ${root}/share/lintian/overrides)
@@ -25,7 +25,8 @@ if(mujoco)
   execute_process(COMMAND strip --strip-unneeded ${mujoco} COMMAND_ERROR_IS_FATAL ANY)
 endif()
 
-# Finds the packages of the libraries that the program and the carried MuJoCo link. CPack's own call would first look into each of a thousand files.
+# Finds the packages of the libraries that the program and the packaged MuJoCo link. CPack's own call of
+# dpkg-shlibdeps would first inspect each of a thousand files.
 set(work ${CPACK_TEMPORARY_DIRECTORY}.shlibdeps)
 file(WRITE ${work}/debian/control "")
 execute_process(

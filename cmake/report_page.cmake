@@ -16,7 +16,8 @@ function(put part text)
       PARENT_SCOPE)
 endfunction()
 
-# The source expression that allows exactly this text in the page's Content-Security-Policy.
+# Sets a variable to the source expression that allows exactly the given text in the page's
+# Content-Security-Policy.
 function(allow source text)
   string(SHA256 digest "${text}")
   string(TOUPPER ${digest} digest)
