@@ -82,7 +82,7 @@ Scenario RouteOf(std::size_t planner) {
     scenario.drive.time_limit = 20.0;
     try {
       CheckScenario(scenario);
-      if (PlanMission(scenario, LoadCar(scenario)).ok()) {
+      if (PlanScenario(scenario, LoadCar(scenario)).ok()) {
         return scenario;
       }
     } catch (const InputError&) {
@@ -120,7 +120,7 @@ TEST_P(WhatARoadHolds, IsNotExceededByAnyPlan) {
     GTEST_SKIP() << "reverse segments are not replanned";
   }
   const CarModel car = LoadCar(route);
-  const FeasiblePlan alone = PlanMission(route, car);
+  const FeasiblePlan alone = PlanScenario(route, car);
   ASSERT_TRUE(alone.ok()) << alone->reason;
   std::size_t planned = 0;
   for (std::size_t road = 0; road < kRoads.size(); ++road) {
@@ -145,8 +145,7 @@ TEST_P(WhatARoadHolds, IsNotExceededByAnyPlan) {
       const Record record = RecordRun(scenario);
       planned += record.plan_ok ? 1U : 0U;
       for (const Finding& finding : Check(record)) {
-        // The program checks each direction alone (docs/reliability.md): not the friction circle.
-        if (finding.kind.starts_with("plan_") && finding.kind != "plan_combined") {
+        if (finding.kind.starts_with("plan_")) {
           ADD_FAILURE() << fmt::format("friction {}, grade {}, {}: [{}] {}", kRoads[road],
                                        kGrades[slope][0], kGrades[slope][1], finding.kind,
                                        finding.text);

@@ -80,6 +80,17 @@ double LateralOver(const RoadHold& road, const Path& path, const Stations& piece
                   road.Lateral(path, piece.to, curvature));
 }
 
+/// The acceleration that the plan needs over a piece of its path, along and across together.
+RoadHold::Combined CombinedOver(const RoadHold& road, const Plan& plan, const PathPiece& piece) {
+  const auto [from, to] = piece.stations;
+  const Path& path = plan.reference.path;
+  const double v_from = plan.reference.speed.SpeedAt(from);
+  const double v_to = plan.reference.speed.SpeedAt(to);
+  const double along = to > from ? 0.5 * (v_to * v_to - v_from * v_from) / (to - from) : 0.0;
+  const double across = std::max(v_from * v_from, v_to * v_to) * piece.curvature;
+  return road.Both(path, from, along, std::copysign(across, path.At(0.5 * (from + to)).curvature));
+}
+
 /// Whether the g-g-v diagram of the car determined the plan's speeds.
 bool IsAtLimit(const Plan& plan, const PlanRequest& request) {
   return request.limits || plan.diagnostics.speed_profile;
@@ -117,9 +128,10 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
   WorstExcess speed("speed", "m/s", Remedy::kLowerSpeed);
   WorstExcess rate("steering rate along the path", "rad/s", Remedy::kLowerSpeed);
   WorstExcess slope("pull of gravity", "m/s^2", Remedy::kNone);
+  WorstExcess combined("combined acceleration", "m/s^2", Remedy::kGentlerBends);
   const Path& path = plan.reference.path;
   const RoadHold road(request);
-  const bool holds_slopes = road.flat() || IsAtLimit(plan, request);
+  const bool is_at_limit = IsAtLimit(plan, request);
   ForEachPiece(path, vehicle, kCheckSpacing, [&](const PathPiece& piece) {
     const double s = piece.stations.from;
     const double v =
@@ -130,14 +142,18 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
     steering.Take(SteeringForCurvature(vehicle, piece.curvature), vehicle.steering_limit, s);
     lateral.Take(v * v * piece.curvature, LateralOver(road, path, piece.stations), s);
     speed.Take(v, vehicle.top_speed, s);
-    if (!holds_slopes) {
-      const RoadHold::Pull pull = road.Slope(path, s);
-      slope.Take(pull.pull, pull.hold, s);
+    if (is_at_limit) {
+      return;
     }
+    const RoadHold::Pull pull = road.Slope(path, s);
+    slope.Take(pull.pull, pull.hold, s);
+    const RoadHold::Combined both = CombinedOver(road, plan, piece);
+    combined.Take(both.required, both.limit, s);
   });
   slope.AddTo(found);
   steering.AddTo(found);
   lateral.AddTo(found);
+  combined.AddTo(found);
   rate.AddTo(found);
   speed.AddTo(found);
 }
@@ -225,6 +241,66 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
       caps.push_back({from, to, speed});
     }
   });
+  return caps;
+}
+
+bool Has(const std::vector<Excess>& excesses, Remedy remedy) {
+  return std::any_of(excesses.begin(), excesses.end(),
+                     [&](const Excess& excess) { return excess.remedy == remedy; });
+}
+
+/// Reduced acceleration limits that leave grip for bends: at most 0.7, about 1/sqrt(2), of what the
+/// road holds.
+SpeedLimits LeaveGripForBends(const SpeedLimits& limits, const Path& path,
+                              const PlanRequest& request) {
+  constexpr double kShare = 0.7;
+  const RoadHoldLimits hold = MinRoadHold(path, {0.0, path.length()}, request);
+  SpeedLimits gentler = limits;
+  if (hold.braking > 0.0) {
+    gentler.deceleration = std::min(gentler.deceleration, kShare * hold.braking);
+  }
+  if (hold.driving > 0.0) {
+    gentler.acceleration = std::min(gentler.acceleration, kShare * hold.driving);
+  }
+  return gentler;
+}
+
+/// Speed caps for each bend in which the plan exceeds the friction ellipse. A bend is a stretch of
+/// the path without straights. The caps keep the bend within the ellipse even while the car speeds
+/// up or slows down at the limits.
+std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request,
+                                  const SpeedLimits& limits) {
+  const Path& path = plan.reference.path;
+  const RoadHold road(request);
+  std::vector<SpeedCap> caps;
+  std::vector<SpeedCap> bend;
+  bool is_exceeded = false;
+  const auto finish_bend = [&] {
+    if (is_exceeded) {
+      caps.insert(caps.end(), bend.begin(), bend.end());
+    }
+    bend.clear();
+    is_exceeded = false;
+  };
+  ForEachPiece(path, request.vehicle, kCheckSpacing, [&](const PathPiece& piece) {
+    if (piece.curvature == 0.0) {
+      finish_bend();
+      return;
+    }
+    const auto [from, to] = piece.stations;
+    const double curvature = path.At(0.5 * (from + to)).curvature;
+    double lateral = std::numeric_limits<double>::infinity();
+    for (const double s : {from, to}) {
+      for (const double along : {-limits.deceleration, limits.acceleration}) {
+        lateral = std::min(lateral, road.LateralBeside(path, s, curvature, along));
+      }
+    }
+    bend.push_back({from, to, std::sqrt(std::max(0.0, lateral) / piece.curvature)});
+    const RoadHold::Combined both = CombinedOver(road, plan, piece);
+    is_exceeded = is_exceeded || (both.limit > 0.0 && both.required > both.limit);
+  });
+  finish_bend();
+  std::erase_if(caps, [&](const SpeedCap& cap) { return cap.speed >= limits.speed; });
   return caps;
 }
 
@@ -340,9 +416,7 @@ Plan Repaired(Plan plan, const PlanRequest& request) {
   if (first.empty()) {
     return plan;
   }
-  const bool hopeless = std::any_of(first.begin(), first.end(), [](const Excess& excess) {
-    return excess.remedy == Remedy::kNone;
-  });
+  const bool hopeless = Has(first, Remedy::kNone);
   if (request.infeasible == InfeasiblePolicy::kAllow) {
     AddOnce(plan.notes, "infeasible, kept anyway: " + Listed(first));
     return plan;
@@ -351,7 +425,7 @@ Plan Repaired(Plan plan, const PlanRequest& request) {
     return Refuse(first, plan);
   }
   const std::vector<SpeedCap> caps = CapsFor(plan, request);
-  const double slowest = MinSpeedOf(caps, request.speed.speed);
+  double slowest = MinSpeedOf(caps, request.speed.speed);
   if (slowest < kMinPlanSpeed) {
     return Refuse(first, plan);
   }
@@ -364,11 +438,17 @@ Plan Repaired(Plan plan, const PlanRequest& request) {
   std::vector<Excess> left = first;
   for (int i = 0; i < kMaxAttempts && !left.empty(); ++i) {
     limits = ReduceAccelerations(limits, left);
+    if (Has(left, Remedy::kGentlerBends)) {
+      limits = LeaveGripForBends(limits, plan.reference.path, request);
+      const std::vector<SpeedCap> bends = CapsInBends(slower, request, limits);
+      slower.caps.insert(slower.caps.end(), bends.begin(), bends.end());
+      slowest = MinSpeedOf(bends, slowest);
+    }
     SetSpeeds(slower, request.start_speed, limits);
     left = FindExcesses(slower, request);
   }
-  if (!left.empty()) {
-    return Refuse(left, plan);
+  if (!left.empty() || slowest < kMinPlanSpeed) {
+    return Refuse(left.empty() ? first : left, plan);
   }
   slower.notes.push_back(fmt::format("{}: at {:.3g} m/s {}",
                                      DescribeSpeedChanges(request.speed, limits, slowest),
@@ -399,6 +479,11 @@ std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request) {
   CheckPath(plan, request, found);
   CheckSteeringRate(plan, request, found);
   CheckAcceleration(plan, request, found);
+  // Another excess is closer to the cause: the combined acceleration is only listed alone.
+  if (found.size() > 1) {
+    std::erase_if(found,
+                  [](const Excess& excess) { return excess.remedy == Remedy::kGentlerBends; });
+  }
   return found;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "trackbed/world/world.h"
 
@@ -82,6 +83,39 @@ double RoadHold::Driving(const Path& path, double s) const {
   const PathPoint at = path.At(s);
   const Tilt tilt = TiltAt(at);
   return SubtractGravity(MaxAcceleration(request_.vehicle, Factor(at.pose) * tilt.load), tilt.up);
+}
+
+RoadHold::Demand RoadHold::DemandAt(const Path& path, double s, double along, double side) const {
+  const PathPoint at = uniform() ? PathPoint{} : path.At(s);
+  const Tilt tilt = TiltAt(at);
+  const double road = uniform() ? request_.friction : Factor(at.pose) * tilt.load;
+  const double up = along < 0.0 ? -tilt.up : tilt.up;
+  const double left = side < 0.0 ? -tilt.left : tilt.left;
+  return {.grip_along = request_.vehicle.friction_longitudinal * kGravity * road,
+          .grip_across = MaxLateralAcceleration(request_.vehicle, road),
+          .along = std::abs(along) + kGravity * std::max(0.0, up),
+          .pull_across = kGravity * std::max(0.0, left)};
+}
+
+RoadHold::Combined RoadHold::Both(const Path& path, double s, double along, double across) const {
+  const Demand demand = DemandAt(path, s, along, across);
+  if (!demand.is_known()) {
+    return {};
+  }
+  const double across_demand = std::abs(across) + demand.pull_across;
+  const double required = std::hypot(demand.along, across_demand);
+  const double share =
+      std::hypot(demand.along / demand.grip_along, across_demand / demand.grip_across);
+  return {required, share > 0.0 ? required / share : 0.0};
+}
+
+double RoadHold::LateralBeside(const Path& path, double s, double curvature, double along) const {
+  const Demand demand = DemandAt(path, s, along, curvature);
+  if (!demand.is_known()) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double share = demand.along / demand.grip_along;
+  return demand.grip_across * std::sqrt(std::max(0.0, 1.0 - share * share)) - demand.pull_across;
 }
 
 RoadHold::Pull RoadHold::Slope(const Path& path, double s) const {

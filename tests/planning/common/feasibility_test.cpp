@@ -54,8 +54,9 @@ std::vector<std::string> Kinds(const Plan& plan, const PlanRequest& request) {
 }
 
 TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {
-  // v^2/r = mu g: 0.9 * 9.81 * 20 m gives 13.29 m/s. The ramp before the arc is long enough for the
-  // wheels at any speed.
+  // The car brakes with 1.5 m/s^2 on the ramp before the arc, where the curvature is nearly that of
+  // the arc. The friction circle leaves v^2/r = sqrt((mu g)^2 - 1.5^2) for the bend: 13.19 m/s with
+  // mu g = 0.9 * 9.81 m/s^2 and r = 20 m. The ramp is long enough for the wheels at any speed.
   PlanRequest request = Request(18.0, {{0.0, 0.0}});
   const std::vector<CoursePiece> pieces{{.length = 200.0, .curvature = 0.0},
                                         {.length = 60.0, .curvature_to = 0.05},
@@ -65,14 +66,63 @@ TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {
   const Plan plan = Course(request, pieces);
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.notes.size(), 1U);
-  const double limit = std::sqrt(0.9 * 9.81 * 20.0);
-  EXPECT_NEAR(plan.reference.speed.SpeedAt(275.0), limit, Tolerance(1e-9));
+  const auto limit = [](double grip) { return std::sqrt(20.0 * std::sqrt(grip * grip - 2.25)); };
+  EXPECT_NEAR(plan.reference.speed.SpeedAt(275.0), limit(0.9 * 9.81), Tolerance(1e-9));
   EXPECT_TRUE(FindExcesses(plan, request).empty());
-  // With half the friction, the speed falls by a factor of sqrt(2).
   request.friction = 0.5;
   const Plan wet = Course(request, pieces);
   ASSERT_TRUE(wet.ok()) << wet.reason;
-  EXPECT_NEAR(wet.reference.speed.SpeedAt(275.0), limit * std::sqrt(0.5), Tolerance(1e-9));
+  EXPECT_NEAR(wet.reference.speed.SpeedAt(275.0), limit(0.45 * 9.81), Tolerance(1e-9));
+}
+
+TEST(Feasibility, DrivesABendAtTheLimitIfItNeverBrakesInIt) {
+  // The arc begins at once and the car enters it at its limit: v^2/r = mu g.
+  PlanRequest request = Request(std::sqrt(0.9 * 9.81 * 20.0), {{0.0, 0.0}});
+  request.start_steering = SteeringForCurvature(request.vehicle, 0.05);
+  const Plan plan = Course(request, {{.length = 30.0, .curvature = 0.05},
+                                     {.length = 60.0, .curvature_to = 0.0},
+                                     {.length = 200.0, .curvature = 0.0}});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_TRUE(plan.notes.empty()) << plan.notes[0];
+  EXPECT_EQ(plan.reference.speed.SpeedAt(29.0), request.speed.speed);
+}
+
+/// Largest share of the friction ellipse over a plan, from finite differences of its speed.
+double LargestShare(const Plan& plan, double grip_along, double grip_across) {
+  constexpr double kSpacing = 0.05;  // [m]
+  double largest = 0.0;
+  const auto square = [&](double s) { return std::pow(plan.reference.speed.SpeedAt(s), 2.0); };
+  for (double s = 0.0; s + kSpacing < plan.reference.path.length(); s += kSpacing) {
+    const double along = 0.5 * (square(s + kSpacing) - square(s)) / kSpacing;
+    const double across = square(s) * std::abs(plan.reference.path.At(s).curvature);
+    largest = std::max(largest, std::hypot(along / grip_along, across / grip_across));
+  }
+  return largest;
+}
+
+TEST(Feasibility, KeepsBrakingInABendWithinTheFrictionEllipse) {
+  // An arc of 50 m tightens to 20 m, so that the car brakes within the bend. Longitudinal and
+  // lateral friction differ.
+  for (const double friction : {1.0, 0.5, 0.3}) {
+    PlanRequest request = Request(18.0, {{0.0, 0.0}});
+    request.vehicle.friction_longitudinal = 0.6;
+    request.friction = friction;
+    const Plan plan = Course(request, {{.length = 200.0, .curvature = 0.0},
+                                       {.length = 60.0, .curvature_to = 0.02},
+                                       {.length = 40.0, .curvature = 0.02},
+                                       {.length = 60.0, .curvature_to = 0.05},
+                                       {.length = 30.0, .curvature = 0.05},
+                                       {.length = 60.0, .curvature_to = 0.0},
+                                       {.length = 200.0, .curvature = 0.0}});
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    EXPECT_TRUE(FindExcesses(plan, request).empty());
+    // The check of a piece takes its largest curvature and speed, so nothing is beyond the ellipse.
+    EXPECT_LE(LargestShare(plan, 0.6 * 9.81 * friction, 0.9 * 9.81 * friction),
+              1.0 + Tolerance(1e-6))
+        << friction;
+    // The car is not needlessly slow: with 0.7 of the grip for braking, sqrt(1 - 0.49) remain.
+    EXPECT_GE(LargestShare(plan, 0.6 * 9.81 * friction, 0.9 * 9.81 * friction), 0.71) << friction;
+  }
 }
 
 TEST(Feasibility, RefusesOrAllowsAsTheScenarioSays) {
@@ -211,9 +261,11 @@ TEST(Feasibility, SlowsDownMoreWhereTheRoadFallsToTheOutside) {
     return plan.reference.speed.SpeedAt(260.5);
   };
   // In the arc of the left bend the car heads along y. A fall along x is one to its right, outside:
-  // v^2 = 20 m (8.83 * 0.995 - 0.976) m/s^2.
-  EXPECT_NEAR(slowest(-0.1), 12.5, 0.05);
-  EXPECT_NEAR(slowest(0.0), 13.29, 0.01);
+  // Before the arc the car brakes with 1.5 m/s^2, and the fall along its heading of 1.5 rad pulls
+  // with 9.81 * 0.0995 cos(1.5) = 0.07 m/s^2: v^2 = 20 m (sqrt((8.83 * 0.995)^2 - 1.57^2) - 0.974)
+  // m/s^2. On the flat road v^2 = 20 m sqrt(8.83^2 - 1.5^2) m/s^2.
+  EXPECT_NEAR(slowest(-0.1), 12.386, 0.01);
+  EXPECT_NEAR(slowest(0.0), 13.191, 0.01);
   EXPECT_NEAR(slowest(0.1), slowest(0.0), 0.05);  // a bank that helps does not count
 }
 

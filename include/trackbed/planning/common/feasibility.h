@@ -26,6 +26,9 @@
 ///     maximum. The deceleration is also within the grip of tyres and brakes under the load on the
 ///     slope, minus gravity downhill.
 ///   * The acceleration is within the limits of the run and the tyres, minus gravity uphill.
+///   * The accelerations along and across the path, each with gravity's pull against it, are
+///   together within the
+///     friction ellipse with the semi-axes mu_x g cos(theta) and mu_y g cos(theta).
 ///   * The car can stand on and climb every slope on the way.
 ///   * The speed v is at most the car's top speed.
 ///
@@ -40,6 +43,7 @@ enum class Remedy {
   kLowerSpeed,      ///< A lower speed on the same path.
   kGentlerBraking,  ///< A smaller deceleration.
   kGentlerDriving,  ///< A smaller acceleration.
+  kGentlerBends,    ///< Less speed in bends, and smaller accelerations.
 };
 
 /// A limit of the car that a plan exceeds.

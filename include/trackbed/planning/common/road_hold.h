@@ -28,6 +28,23 @@ class RoadHold {
   /// Largest acceleration [m/s^2]. 0 if unknown, or if gravity exceeds the grip.
   [[nodiscard]] double Driving(const Path& path, double s) const;
 
+  /// The acceleration that a plan needs along and across the path together, and its limit.
+  struct Combined {
+    double required = 0.0;  ///< Required acceleration, with gravity's pull against it [m/s^2].
+    double limit =
+        0.0;  ///< Limit in the same direction, by the friction ellipse [m/s^2]; 0: unknown.
+  };
+
+  /// Combines the acceleration `along` the path [m/s^2], positive forwards, with v^2 kappa =
+  /// `across` [m/s^2], positive to the left.
+  [[nodiscard]] Combined Both(const Path& path, double s, double along, double across) const;
+
+  /// Largest v^2 |kappa| [m/s^2] at a station with that signed curvature, while the car accelerates
+  /// with `along` [m/s^2]. Negative if gravity and `along` need more than the grip; infinite if
+  /// unknown.
+  [[nodiscard]] double LateralBeside(const Path& path, double s, double curvature,
+                                     double along) const;
+
   /// Gravity's pull along the slope, and the largest pull that tyres, brakes and drive can hold.
   struct Pull {
     double pull = 0.0;  ///< Pull of gravity [m/s^2], >= 0.
@@ -50,6 +67,19 @@ class RoadHold {
     double left = 0.0;  ///< Sine of the rise to the left of the car.
   };
 
+  /// Grip and demand at a station.
+  struct Demand {
+    double grip_along =
+        0.0;  ///< Semi-axis of the friction ellipse along the path [m/s^2]; 0: unknown.
+    double grip_across = 0.0;  ///< Semi-axis across the path [m/s^2]; 0: unknown.
+    double along = 0.0;  ///< Acceleration along the path, with gravity's pull against it [m/s^2].
+    double pull_across = 0.0;  ///< Gravity's pull toward the outside of the bend [m/s^2], >= 0.
+
+    [[nodiscard]] bool is_known() const { return grip_along > 0.0 && grip_across > 0.0; }
+  };
+
+  /// `side` has the sign of the curvature.
+  [[nodiscard]] Demand DemandAt(const Path& path, double s, double along, double side) const;
   [[nodiscard]] double Factor(const Pose2& pose) const;
   [[nodiscard]] Tilt TiltAt(const PathPoint& at) const;
 
