@@ -13,7 +13,7 @@
 #include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
-namespace {
+namespace metrics_test {
 
 /// A run at `speed` that steers as cos(t), by a car of understeer gradient K that is always in
 /// steady state.
@@ -322,5 +322,5 @@ TEST(Status, IsOfTheContactAndNotOfTheEnd) {
   EXPECT_DOUBLE_EQ(measured()["lateral_acceleration_max"].get<double>(), 0.5);
 }
 
-}  // namespace
+}  // namespace metrics_test
 }  // namespace trackbed

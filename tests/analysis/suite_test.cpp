@@ -10,7 +10,7 @@
 #include "trackbed/core/error.h"
 
 namespace trackbed {
-namespace {
+namespace suite_test {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
@@ -234,5 +234,5 @@ TEST(JUnit, SaysWhy) {
   EXPECT_STREQ(xml.test(4).FirstChildElement("skipped")->Attribute("message"), "interrupted");
 }
 
-}  // namespace
+}  // namespace suite_test
 }  // namespace trackbed

@@ -13,7 +13,7 @@
 #include "tests/audit/checker.h"
 
 namespace audit {
-namespace {
+namespace check_plan {
 
 constexpr double kGravity = 9.81;  // [m/s^2]
 constexpr double kTurn = 6.283185307179586;
@@ -343,11 +343,11 @@ class PlanCheck {
   std::vector<Finding> findings_;
 };
 
-}  // namespace
+}  // namespace check_plan
 
 std::vector<Finding> CheckPlan(const trackbed::Table& rows, const Record& record,
                                const Drive* taken_up_in, bool kept, const Tolerances& tolerances) {
-  return PlanCheck(rows, record, taken_up_in, kept, tolerances).Run();
+  return check_plan::PlanCheck(rows, record, taken_up_in, kept, tolerances).Run();
 }
 
 }  // namespace audit

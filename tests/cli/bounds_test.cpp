@@ -27,7 +27,7 @@ using ::testing::Not;
 
 // --- pipes ---------------------------------------------------------------------------------------
 
-std::string Scenario(const std::string& rest) {
+std::string ScenarioText(const std::string& rest) {
   return "schema: 1\nname: a\nvehicle: {model: prius}\n" + rest;
 }
 
@@ -36,20 +36,25 @@ std::vector<std::pair<std::string, std::string>> ScenariosThatNamePipes() {
   const std::string route = "mission: {speed: 3, waypoints: [[0, 0], [60, 0]]}\n";
   const std::string astar = "plan: {method: astar}\n";
   return {
-      {"path.csv", Scenario("mission: {speed: 3}\nplan: {method: path_file, file: path.csv}\n")},
-      {"path.json", Scenario("mission: {speed: 3}\nplan: {method: path_file, file: path.json}\n")},
-      {"path.xml", Scenario("mission: {speed: 3}\nplan: {method: path_file, file: path.xml}\n")},
+      {"path.csv",
+       ScenarioText("mission: {speed: 3}\nplan: {method: path_file, file: path.csv}\n")},
+      {"path.json",
+       ScenarioText("mission: {speed: 3}\nplan: {method: path_file, file: path.json}\n")},
+      {"path.xml",
+       ScenarioText("mission: {speed: 3}\nplan: {method: path_file, file: path.xml}\n")},
       {"track.csv",
-       Scenario("mission: {speed: 3, track: {file: track.csv}}\nplan: {method: center_line}\n")},
-      {"map.yaml", Scenario(route + astar + "world: {map: {file: map.yaml}}\n")},
-      {"map.map", Scenario(route + astar + "world: {map: {file: map.map, cell: 1}}\n")},
-      {"image.pgm", Scenario(route + astar + "world: {map: {file: ros.yaml}}\n")},
-      {"roads.xodr", Scenario("mission: {speed: 3, route: [{road: a, lane: 1, s: 0}]}\n"
-                              "plan: {method: lane_route}\nworld: {road_network: roads.xodr}\n")},
-      {"record.csv", Scenario("record: {file: record.csv}\ndrive: {plants: [recorded]}\n")},
-      {"log_map.yaml", Scenario("record: {file: log.csv, map: log_map.yaml}\n"
-                                "drive: {plants: [recorded]}\n")},
-      {"playback.csv", Scenario(route + "control: {method: playback, file: playback.csv}\n")},
+       ScenarioText(
+           "mission: {speed: 3, track: {file: track.csv}}\nplan: {method: center_line}\n")},
+      {"map.yaml", ScenarioText(route + astar + "world: {map: {file: map.yaml}}\n")},
+      {"map.map", ScenarioText(route + astar + "world: {map: {file: map.map, cell: 1}}\n")},
+      {"image.pgm", ScenarioText(route + astar + "world: {map: {file: ros.yaml}}\n")},
+      {"roads.xodr",
+       ScenarioText("mission: {speed: 3, route: [{road: a, lane: 1, s: 0}]}\n"
+                    "plan: {method: lane_route}\nworld: {road_network: roads.xodr}\n")},
+      {"record.csv", ScenarioText("record: {file: record.csv}\ndrive: {plants: [recorded]}\n")},
+      {"log_map.yaml", ScenarioText("record: {file: log.csv, map: log_map.yaml}\n"
+                                    "drive: {plants: [recorded]}\n")},
+      {"playback.csv", ScenarioText(route + "control: {method: playback, file: playback.csv}\n")},
       {"model.xml", "schema: 1\nname: a\nvehicle: {model: model.xml}\n" + route + astar},
   };
 }
@@ -145,8 +150,8 @@ TEST(LongPath, OfTwoHundredKilometersIsChecked) {
 TEST(LongRoute, IsRefusedWithItsLeg) {
   const TempFolder folder;
   folder.Write("s.yaml",
-               Scenario("mission: {speed: 3, waypoints: [[0, 0], [90000, 0], [-90000, 0]]}\n"
-                        "plan: {method: dubins}\n"));
+               ScenarioText("mission: {speed: 3, waypoints: [[0, 0], [90000, 0], [-90000, 0]]}\n"
+                            "plan: {method: dubins}\n"));
   const Outcome refused = Bounded(folder, "check s.yaml");
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(
@@ -185,13 +190,14 @@ TEST(WrongNumber, OfAMapEndsInTime) {
   const fs::path maps = fs::path(TRACKBED_SOURCE_DIR) / "scenarios/maps";
   fs::copy(maps / "hall.yaml", folder.path() / "hall.yaml");
   fs::copy(maps / "hall.pgm", folder.path() / "hall.pgm");
-  folder.Write("s.yaml", Scenario("mission: {speed: 3, waypoints: [[0, 0], [10, 0]]}\n"
-                                  "plan: {method: astar}\nworld: {map: {file: hall.yaml}}\n"));
+  folder.Write("s.yaml", ScenarioText("mission: {speed: 3, waypoints: [[0, 0], [10, 0]]}\n"
+                                      "plan: {method: astar}\nworld: {map: {file: hall.yaml}}\n"));
   TrySlips(folder, "hall.yaml", 0, 20);
   fs::copy(maps / "old_town.map", folder.path() / "old_town.map");
-  folder.Write("s.yaml",
-               Scenario("mission: {speed: 3, waypoints: [[0, 0], [10, 0]]}\nplan: {method: astar}\n"
-                        "world: {map: {file: old_town.map, cell: 0.5}}\n"));
+  folder.Write(
+      "s.yaml",
+      ScenarioText("mission: {speed: 3, waypoints: [[0, 0], [10, 0]]}\nplan: {method: astar}\n"
+                   "world: {map: {file: old_town.map, cell: 0.5}}\n"));
   TrySlips(folder, "old_town.map", 0, 8);
   TrySlips(folder, "s.yaml", 10, 30);
 }
@@ -220,7 +226,7 @@ std::pair<Outcome, double> Ended(const TempFolder& folder, const std::string& ar
 
 /// A scenario whose plan draws two million samples in vain.
 std::string VainSearch() {
-  return Scenario(
+  return ScenarioText(
       "mission: {speed: 3, waypoints: [[0, 0], [80, 0]]}\n"
       "world: {obstacles: [{box: {x: 70, y: 0, length: 1, width: 60}}, "
       "{box: {x: 90, y: 0, length: 1, width: 60}}, {box: {x: 80, y: 30, length: 21, width: 1}}, "

@@ -18,7 +18,7 @@
 #include "trackbed/core/file.h"
 
 namespace trackbed {
-namespace {
+namespace docs_commands_test {
 
 namespace fs = std::filesystem;
 
@@ -251,5 +251,5 @@ TEST(DocumentedCommands, AreFoundOnManyPages) {
   EXPECT_GE(DocumentedCommands().size(), 100U);
 }
 
-}  // namespace
+}  // namespace docs_commands_test
 }  // namespace trackbed

@@ -16,7 +16,7 @@
 #include "trackbed/core/file.h"
 
 namespace trackbed {
-namespace {
+namespace foreign_files_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -214,5 +214,5 @@ TEST_P(ForeignFiles, OfOtherNamesAreInNobodysWay) {
   }
 }
 
-}  // namespace
+}  // namespace foreign_files_test
 }  // namespace trackbed

@@ -8,7 +8,7 @@
 #include "trackbed/core/file.h"
 
 namespace trackbed {
-namespace {
+namespace import_test {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
@@ -83,5 +83,5 @@ TEST(Import, IsNoScenarioToCheckOrTest) {
   EXPECT_EQ(checked.code, 0) << checked.output;
 }
 
-}  // namespace
+}  // namespace import_test
 }  // namespace trackbed

@@ -24,7 +24,7 @@
 // kinematic car, the published experiment (Skackauskas et al. 2017), single updates against a grid,
 // and closed-loop runs with every search method.
 namespace trackbed {
-namespace {
+namespace optimal_steering_test {
 
 constexpr double kRounding = 1e-12;  // a few operations on numbers below 100
 constexpr double kDegree = kPi / 180.0;
@@ -536,5 +536,5 @@ TEST(OptimalSteering, GoesOnStraightBeyondTheEnd) {
   EXPECT_LE(std::abs(trace.steerings.back()), Tolerance(0.02));
 }
 
-}  // namespace
+}  // namespace optimal_steering_test
 }  // namespace trackbed

@@ -10,7 +10,7 @@
 #include "trackbed/vehicle/kinematic_car.h"
 
 namespace trackbed {
-namespace {
+namespace playback_test {
 
 constexpr double kRounding = 1e-12;  // a few operations on numbers below 100
 
@@ -110,5 +110,5 @@ TEST(Playback, OfAccelerationGivesItsIntegral) {
   }
 }
 
-}  // namespace
+}  // namespace playback_test
 }  // namespace trackbed

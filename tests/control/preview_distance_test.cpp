@@ -16,7 +16,7 @@
 #include "trackbed/control/steering_controller.h"
 
 namespace trackbed {
-namespace {
+namespace preview_distance_test {
 
 constexpr double kPeriod = 0.02;     // [s]
 constexpr double kRounding = 1e-12;  // for a distance of meters after a few operations
@@ -178,5 +178,5 @@ TEST(PreviewDistance, KeepsTheCarInASharpSlowTurn) {
             1.4 * fast);
 }
 
-}  // namespace
+}  // namespace preview_distance_test
 }  // namespace trackbed

@@ -9,7 +9,7 @@
 #include "trackbed/core/error.h"
 
 namespace trackbed {
-namespace {
+namespace recording_file_test {
 
 using testing::ElementsAre;
 
@@ -134,5 +134,5 @@ TEST(ReadRecording, KnowsWhatACarCanBeAskedFor) {
       "r.csv:2: speed_mps: 0 is out of range; must be above 0 and at most 100");
 }
 
-}  // namespace
+}  // namespace recording_file_test
 }  // namespace trackbed

@@ -10,7 +10,7 @@
 #include "trackbed/control/controllers.h"
 
 namespace trackbed {
-namespace {
+namespace stanley_test {
 
 double Steer(const StanleyOptions& options, const Path& path, const Pose2& pose, double speed) {
   const VehicleParams car = ReferenceCar();
@@ -68,5 +68,5 @@ TEST(Stanley, KeepsTheSingleTrackCarInASteadyTurn) {
   EXPECT_LT(LargestOffset(rows, rows.size() * 9 / 10), 2e-3);
 }
 
-}  // namespace
+}  // namespace stanley_test
 }  // namespace trackbed

@@ -10,7 +10,7 @@
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
-namespace {
+namespace steering_profile_test {
 
 // Rounding of sines of a few dozen radians, times amplitudes below 1.
 constexpr double kRounding = 1e-14;
@@ -187,5 +187,5 @@ TEST(SweptSine, BetweenEqualFrequenciesIsASine) {
   }
 }
 
-}  // namespace
+}  // namespace steering_profile_test
 }  // namespace trackbed

@@ -10,7 +10,7 @@
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
-namespace {
+namespace pose_test {
 
 // Rounding: a few operations on coordinates below 100 m, 100 * 2^-52 each.
 constexpr double kRounding = 1e-13;
@@ -141,5 +141,5 @@ TEST(MoveOnArc, SmallTurnsAreAsExactAsLargeOnes) {
   }
 }
 
-}  // namespace
+}  // namespace pose_test
 }  // namespace trackbed

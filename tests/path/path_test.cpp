@@ -16,7 +16,7 @@
 // Tests Path: evaluation against closed forms of lines, arcs and clothoids, projection against
 // brute force, sampling, cutting, and SegmentsThrough on a curve with known curvature.
 namespace trackbed {
-namespace {
+namespace path_test {
 
 // Rounding: a few operations per segment on coordinates below 100 m.
 constexpr double kRounding = 1e-12;
@@ -675,5 +675,5 @@ TEST(SplitIntoLegs, EndWhereTheDirectionChanges) {
   EXPECT_EQ(SplitIntoLegs(Path()).front().to, 0.0);
 }
 
-}  // namespace
+}  // namespace path_test
 }  // namespace trackbed

@@ -15,7 +15,7 @@
 // Tests speed profiles: constant acceleration between knots, trapezoids with caps against
 // hand-computed knots, and random profiles against their limits.
 namespace trackbed {
-namespace {
+namespace reference_test {
 
 // Rounding: a few operations on numbers below 1000.
 constexpr double kRounding = 1e-12;
@@ -307,5 +307,5 @@ TEST(Excerpt, IsTheReferenceOfALeg) {
   }
 }
 
-}  // namespace
+}  // namespace reference_test
 }  // namespace trackbed

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/geometry/oriented_box.h"
 #include "trackbed/path/path.h"
 
 /// Calls of public functions, for entries_test.cpp.
@@ -19,6 +20,8 @@ struct Entry {
 
 inline constexpr double kWell = 0.0;
 inline const double kNone = std::numeric_limits<double>::quiet_NaN();
+
+inline const trackbed::OrientedBox kBox{{1.0, 2.0, 0.3}, 3.0, 2.0};
 
 inline double SumOf(const trackbed::Pose2& pose) {
   return pose.x + pose.y + pose.yaw;

@@ -14,12 +14,6 @@ namespace properties {
 
 using namespace trackbed;
 
-namespace {
-
-const OrientedBox kBox{{1.0, 2.0, 0.3}, 3.0, 2.0};
-
-}  // namespace
-
 const Path& Bend() {
   static const Path path({}, {{.length = 20.0},
                               {.length = 10.0, .curvature = 0.0, .sharpness = 0.01},

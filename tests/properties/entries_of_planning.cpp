@@ -22,12 +22,6 @@ namespace properties {
 
 using namespace trackbed;
 
-namespace {
-
-const OrientedBox kBox{{1.0, 2.0, 0.3}, 3.0, 2.0};
-
-}  // namespace
-
 std::vector<Entry> OfPlanning() {
   const VehicleParams car = ScaledCar(1.0);
   const auto rrt = [](Vec2 start, double inflation, double expand) {

@@ -16,8 +16,6 @@ using namespace trackbed;
 
 namespace {
 
-const OrientedBox kBox{{1.0, 2.0, 0.3}, 3.0, 2.0};
-
 World WorldWithAll() {
   World world;
   world.friction_patches = {{{{5.0, 0.0, 0.0}, 2.0, 2.0}, 0.5}};

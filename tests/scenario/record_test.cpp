@@ -13,7 +13,7 @@
 #include "trackbed/scenario/scenario.h"
 
 namespace trackbed {
-namespace {
+namespace record_test {
 
 namespace fs = std::filesystem;
 using testing::ElementsAre;
@@ -228,5 +228,5 @@ TEST(DrivenPlantNames, HaveTheRecordLast) {
   EXPECT_EQ(DrivenPlantNames().size(), 6U);
 }
 
-}  // namespace
+}  // namespace record_test
 }  // namespace trackbed

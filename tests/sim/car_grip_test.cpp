@@ -12,7 +12,7 @@
 
 /// Compares the g-g-v diagram of a car with the MuJoCo car.
 namespace trackbed {
-namespace {
+namespace car_grip_test {
 
 constexpr double kSpeed = 25.0;  // [m/s]
 
@@ -147,5 +147,5 @@ TEST(CarGrip, OfADifferentialDriveIsItsFriction) {
   EXPECT_NEAR(diagram.MaxLateral({}), MaxLateralAcceleration(car.params(), 1.0), Tolerance(1e-12));
 }
 
-}  // namespace
+}  // namespace car_grip_test
 }  // namespace trackbed

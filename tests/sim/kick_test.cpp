@@ -8,7 +8,7 @@
 
 // Tests Plant::ApplyLateralOffset and Plant::ApplyLateralForce.
 namespace trackbed {
-namespace {
+namespace kick_test {
 
 const CarModel& Prius() {
   static const CarModel car(ComposeScene(FindModel("prius", ""), {}), "prius");
@@ -86,5 +86,5 @@ TEST(ApplyLateralForce, MovesTheSingleTrackCarAndNotTheKinematicOne) {
   EXPECT_EQ(kinematic->Observe().pose.y, 0.0);
 }
 
-}  // namespace
+}  // namespace kick_test
 }  // namespace trackbed

@@ -12,7 +12,7 @@
 #include "trackbed/sim/plant.h"
 
 namespace trackbed {
-namespace {
+namespace payload_test {
 
 constexpr double kGravity = 9.81;  // [m/s^2], MuJoCo's default
 
@@ -175,5 +175,5 @@ TEST(Payload, IsRefusedWhereTheCarFallsOver) {
   }
 }
 
-}  // namespace
+}  // namespace payload_test
 }  // namespace trackbed

@@ -13,7 +13,7 @@
 #include "trackbed/core/error.h"
 
 namespace trackbed {
-namespace {
+namespace single_track_plant_test {
 
 constexpr double kGravity = 9.81;
 constexpr auto kNoLook = [](double, const VehicleState&) {};
@@ -325,5 +325,5 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
   }
 }
 
-}  // namespace
+}  // namespace single_track_plant_test
 }  // namespace trackbed

@@ -18,7 +18,7 @@
 // Tests the MuJoCo scene of a world: height fields against closed forms, contact with the ground
 // and with obstacles, and start poses on uneven ground.
 namespace trackbed {
-namespace {
+namespace world_scene_test {
 
 MujocoData MakeData(const CarModel& car) {
   return MakeMujocoData(*car.get());
@@ -321,5 +321,5 @@ TEST(FlatConfiguration, IsThatOfTheScenesGround) {
   EXPECT_NEAR(row[5], -std::sin(0.5 * std::atan(0.1)), Tolerance(1e-12));  // nose up
 }
 
-}  // namespace
+}  // namespace world_scene_test
 }  // namespace trackbed

@@ -9,7 +9,7 @@
 
 // Plans around obstacles and to goals with headings, driven on both plants.
 namespace trackbed {
-namespace {
+namespace routes_test {
 
 std::filesystem::path File(const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml");
@@ -57,5 +57,5 @@ TEST(Routes, MeetAGoalWithItsHeading) {
   EXPECT_GT(SplitIntoLegs(either.plan->reference.path).size(), 1U);
 }
 
-}  // namespace
+}  // namespace routes_test
 }  // namespace trackbed

@@ -12,7 +12,7 @@
 #include "trackbed/core/error.h"
 
 namespace trackbed {
-namespace {
+namespace scenario_testing_test {
 
 namespace fs = std::filesystem;
 
@@ -267,5 +267,5 @@ TEST(HitTheBox, IsFeltByTheContactDynamics) {
   }
 }
 
-}  // namespace
+}  // namespace scenario_testing_test
 }  // namespace trackbed

@@ -7,7 +7,7 @@
 #include "trackbed/testing/scenario_testing.h"
 
 namespace trackbed {
-namespace {
+namespace single_track_test {
 
 std::filesystem::path File(const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml");
@@ -41,5 +41,5 @@ TEST(SingleTrack, UndersteersAsMujocosCarOnItsTyresDoes) {
   EXPECT_THAT(run, testing::Not(StaysWithin("kinematic", "single_track", 5.0)));
 }
 
-}  // namespace
+}  // namespace single_track_test
 }  // namespace trackbed

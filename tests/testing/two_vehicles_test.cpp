@@ -11,7 +11,7 @@
 
 /// A steered car and a differential-drive vehicle on the same slalom.
 namespace trackbed {
-namespace {
+namespace two_vehicles_test {
 
 std::filesystem::path File(const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml");
@@ -76,5 +76,5 @@ TEST(DiffDrive, IsDisturbedAsCarsAre) {
   }
 }
 
-}  // namespace
+}  // namespace two_vehicles_test
 }  // namespace trackbed

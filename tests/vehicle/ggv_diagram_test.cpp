@@ -9,7 +9,7 @@
 #include "trackbed/core/error.h"
 
 namespace trackbed {
-namespace {
+namespace ggv_diagram_test {
 
 // Rounding: a few operations on numbers below 100.
 constexpr double kRounding = 1e-13;
@@ -71,5 +71,5 @@ TEST(GgvDiagram, RejectsWhatIsNoDiagram) {
   EXPECT_THROW(GgvDiagram(kCar, {section, section}), InternalError);
 }
 
-}  // namespace
+}  // namespace ggv_diagram_test
 }  // namespace trackbed

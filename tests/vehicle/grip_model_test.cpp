@@ -8,7 +8,7 @@
 #include "trackbed/core/error.h"
 
 namespace trackbed {
-namespace {
+namespace grip_model_test {
 
 constexpr double kGrip = 0.9;
 // Largest forces are found by halving 40 m/s^2 sixteen times.
@@ -149,5 +149,5 @@ TEST(GripModel, RejectsCarsThatDoNotStand) {
   EXPECT_THROW(MaxLateralForce(car, 1.0, 0.0), PreconditionError);
 }
 
-}  // namespace
+}  // namespace grip_model_test
 }  // namespace trackbed

@@ -9,7 +9,7 @@
 #include "tests/tolerance.h"
 
 namespace trackbed {
-namespace {
+namespace magic_formula_test {
 
 /// The tyre parameters of CommonRoad's BMW 320i.
 MagicFormula Bmw() {
@@ -189,5 +189,5 @@ TEST(MagicFormula, LoadSensitivityIsPacejkas) {
   EXPECT_NEAR(heaviest / 6000.0, 0.9 - 0.1 * 0.5, Tolerance(2e-5));
 }
 
-}  // namespace
+}  // namespace magic_formula_test
 }  // namespace trackbed

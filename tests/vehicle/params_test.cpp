@@ -12,7 +12,7 @@
 #include "trackbed/core/angle.h"
 
 namespace trackbed {
-namespace {
+namespace params_test {
 
 // Rounding: some ten operations on numbers of order one.
 constexpr double kRounding = 1e-14;
@@ -145,5 +145,5 @@ TEST(AxleSpeedsFor, StopsTheInnerWheelOnHalfTheTrack) {
   EXPECT_NEAR(wheels.right, 4.0, Tolerance(kRounding));
 }
 
-}  // namespace
+}  // namespace params_test
 }  // namespace trackbed

@@ -8,7 +8,7 @@
 #include "tests/vehicle/reference_car.h"
 
 namespace trackbed {
-namespace {
+namespace steering_actuator_test {
 
 SteeringLimits Limits() {
   return {ReferenceCar().steering_limit, ReferenceCar().steering_rate};
@@ -52,5 +52,5 @@ TEST(MoveSteering, StaysWhereItIsWanted) {
   EXPECT_EQ(move.At(1.0), 0.2);
 }
 
-}  // namespace
+}  // namespace steering_actuator_test
 }  // namespace trackbed

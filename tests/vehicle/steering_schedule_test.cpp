@@ -16,7 +16,7 @@
 // Tests steering schedules: against the state machine of listing F.1 and printed tables
 // (Skackauskas, dissertation), and the roll-out's order of convergence and closed forms.
 namespace trackbed {
-namespace {
+namespace steering_schedule_test {
 
 constexpr double kSpeed = 3.0;
 const double kSlope = ReferenceCar().steering_rate / kSpeed;
@@ -335,5 +335,5 @@ TEST(SteeringSchedule, ValueAtTheEndOfThePeriodDrivesTheScheduleAtAnyPeriod) {
   }
 }
 
-}  // namespace
+}  // namespace steering_schedule_test
 }  // namespace trackbed

@@ -18,7 +18,7 @@
 // crest), checks the accelerations of random profiles against the diagram, and compares a lap with
 // calc_vel_profile of TUM's trajectory_planning_helpers (Heilmeier et al.).
 namespace trackbed {
-namespace {
+namespace limit_profile_test {
 
 constexpr double kGrip = 0.8;  // mu
 // The squared speed is bisected to 2^-24 relative in each interval; the errors of some hundred
@@ -414,5 +414,5 @@ TEST(LimitProfile, RejectsNumbersThatAreNone) {
   EXPECT_THROW(LimitSpeedsAround(stations, 10.0, car, {.speed = 1.0}), PreconditionError);
 }
 
-}  // namespace
+}  // namespace limit_profile_test
 }  // namespace trackbed

@@ -11,7 +11,7 @@
 #include "trackbed/planning/common/plan.h"
 
 namespace trackbed {
-namespace {
+namespace speed_at_limit_test {
 
 constexpr double kGrip = 8.0;  // [m/s^2]
 
@@ -176,5 +176,5 @@ TEST(SpeedAtLimit, RefusesAPathThatIsTooTight) {
   EXPECT_NE(refused.reason.find("steering angle"), std::string::npos) << refused.reason;
 }
 
-}  // namespace
+}  // namespace speed_at_limit_test
 }  // namespace trackbed

@@ -11,7 +11,7 @@
 #include "trackbed/planning/registry/planners.h"
 
 namespace trackbed {
-namespace {
+namespace lane_change_test {
 
 constexpr double kRounding = 1e-9;
 
@@ -143,5 +143,5 @@ TEST(GateMargins, SeeConesThatStandBetweenPoses) {
   EXPECT_TRUE(std::isinf(GateMargins(gates, Car(), {{20.0, 0.0, 0.0}})[0]));
 }
 
-}  // namespace
+}  // namespace lane_change_test
 }  // namespace trackbed

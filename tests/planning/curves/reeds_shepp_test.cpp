@@ -13,7 +13,7 @@
 #include "trackbed/planning/curves/dubins.h"
 
 namespace trackbed {
-namespace {
+namespace reeds_shepp_test {
 
 /// The end accuracy that the header guarantees.
 constexpr double kEnd = 1e-9;
@@ -111,5 +111,5 @@ TEST(ReedsShepp, RefusesRadiiThatAreNone) {
   EXPECT_THROW(ReedsShepp({}, {1.0, 0.0, 0.0}, 0.0), InternalError);
 }
 
-}  // namespace
+}  // namespace reeds_shepp_test
 }  // namespace trackbed

@@ -23,7 +23,7 @@
 // radii, and against laws such as mirror symmetry. The last section rolls out the plans open loop
 // with the kinematic car.
 namespace trackbed {
-namespace {
+namespace fillet_test {
 
 using ::testing::HasSubstr;
 
@@ -1091,5 +1091,5 @@ TEST(OpenLoop, MirroredPlanDrivesMirrored) {
   }
 }
 
-}  // namespace
+}  // namespace fillet_test
 }  // namespace trackbed

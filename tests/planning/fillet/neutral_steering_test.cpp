@@ -17,7 +17,7 @@
 
 // Fillet plans of a car whose wheels are at the neutral steering angle d_0 between its turns.
 namespace trackbed {
-namespace {
+namespace neutral_steering_test {
 
 using testing::HasSubstr;
 
@@ -202,5 +202,5 @@ TEST(NeutralSteering, EveryObjectivePlansWithIt) {
   }
 }
 
-}  // namespace
+}  // namespace neutral_steering_test
 }  // namespace trackbed

@@ -17,7 +17,7 @@
 // Tests replanning: predicted conflicts with standing and moving boxes, the choice of action
 // (proceed, stop, brake, detour), and random scenes.
 namespace trackbed {
-namespace {
+namespace replan_test {
 
 constexpr SpeedLimits kSpeed{3.0, 1.0, 2.0};
 constexpr double kFront = 4.45 - 0.825;  // of the reference car, ahead of its rear axle [m]
@@ -459,5 +459,5 @@ TEST(Replan, NamesItsKinds) {
   EXPECT_STREQ(ToString(ReplanKind::kStop), "stop");
 }
 
-}  // namespace
+}  // namespace replan_test
 }  // namespace trackbed
