@@ -13,8 +13,9 @@
 #include "trackbed/scenario/study.h"
 #include "trackbed/sim/car_model.h"
 
-/// Every tests/data/bad/NAME.yaml has one fault, and NAME.expected holds the exact message. If
-/// NAME.expected is missing, the test prints its required content.
+/// Every tests/data/bad/SECTION/NAME.yaml has one fault, and NAME.expected holds the exact message.
+/// If NAME.expected is missing, the test prints its required content. Files that the scenarios name
+/// are in tests/data/bad.
 namespace trackbed {
 namespace {
 
@@ -29,7 +30,7 @@ fs::path BadFolder() {
 std::vector<fs::path> FilesWith(const std::string& extension) {
   std::vector<fs::path> files;
   std::error_code none;  // without files, the last test fails
-  for (const auto& entry : fs::directory_iterator(BadFolder(), none)) {
+  for (const auto& entry : fs::recursive_directory_iterator(BadFolder(), none)) {
     if (entry.path().extension() == extension) {
       files.push_back(entry.path());
     }
@@ -50,14 +51,12 @@ std::string WithoutFolder(std::string message) {
 /// The message for a file: from the reader, or from loading the car that it names. Studies have the
 /// key `scenario`.
 std::string MessageFor(const fs::path& file) {
-  const std::vector<std::string> cameras{"chase", "side", "top"};
   try {
     if (IsStudy(file)) {
-      CheckPoints(StudyPoints(ReadStudy(file, {}, cameras)), true);
+      CheckPoints(StudyPoints(ReadStudy(file)), true);
       return kNoError;
     }
-    const Scenario scenario =
-        ParseScenario(ReadFile(file), file.filename().string(), file.parent_path(), {}, cameras);
+    const Scenario scenario = ParseScenario(ReadFile(file), file.filename().string(), BadFolder());
     const fs::path model = FindModel(scenario.vehicle.model, scenario.folder);
     const CarModel car(ComposeScene(model, {.timestep = scenario.drive.timestep}), model.string());
   } catch (const InputError& error) {
