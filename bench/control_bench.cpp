@@ -20,7 +20,7 @@ namespace {
 /// A car that weaves along the route of three turns, at most 5 cm beside its plan.
 class Route {
  public:
-  Route() : scenario_(Read()), car_(LoadCar(scenario_)), plan_(PlanMission(scenario_, car())) {
+  Route() : scenario_(Read()), car_(LoadCar(scenario_)), plan_(PlanScenario(scenario_, car())) {
     const Path& path = plan_.reference.path;
     for (double s = 0.5; s < path.length() - 0.5; s += 0.06) {
       VehicleState state;

@@ -82,7 +82,7 @@ struct Drive {
   explicit Drive(const std::string& name)
       : scenario(ReadScenario(DataFolder() / "scenarios" / (name + ".yaml"))),
         car(LoadCar(scenario)),
-        plan(PlanMission(scenario, car.params())) {}
+        plan(PlanScenario(scenario, car.params())) {}
 
   [[nodiscard]] std::unique_ptr<Plant> MakePlant() const {
     return trackbed::MakePlant("mujoco", {.car = car,

@@ -30,7 +30,7 @@ class RunFolder {
   RunFolder() {
     Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
     scenario.drive.time_limit = kFrames;
-    WriteRunFolder(RunMission(scenario), run());
+    WriteRunFolder(RunScenario(scenario), run());
   }
   [[nodiscard]] std::filesystem::path run() const { return folder_.path() / "run"; }
   [[nodiscard]] std::filesystem::path film() const { return folder_.path() / "film.mp4"; }

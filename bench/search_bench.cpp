@@ -142,7 +142,7 @@ void TimeRoute(benchmark::State& state, SearchMethod method, double limit) {
   scenario.plan->global.Get<FilletOptions>().search.method = method;
   const CarModel car = LoadCar(scenario);
   for ([[maybe_unused]] auto round : state) {
-    benchmark::DoNotOptimize(PlanMission(scenario, car.params())->status);
+    benchmark::DoNotOptimize(PlanScenario(scenario, car.params())->status);
   }
   state.counters["limit_s"] = limit;
 }

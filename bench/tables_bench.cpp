@@ -27,7 +27,7 @@ void TimePlanner(benchmark::State& state, const PlannerEntry& planner) {
   scenario.plan = {planner.defaults, std::nullopt};
   const CarModel car = LoadCar(scenario);
   for ([[maybe_unused]] auto round : state) {
-    const FeasiblePlan plan = PlanMission(scenario, car.params());
+    const FeasiblePlan plan = PlanScenario(scenario, car.params());
     if (!plan.ok()) {
       state.SkipWithError(plan->reason.c_str());
       break;
@@ -38,11 +38,11 @@ void TimePlanner(benchmark::State& state, const PlannerEntry& planner) {
 /// How much faster than the clock the mission is driven.
 void TimeDrive(benchmark::State& state, const Scenario& scenario, const std::string& plant) {
   const CarModel car = LoadCar(scenario);
-  const FeasiblePlan plan = PlanMission(scenario, car.params());
+  const FeasiblePlan plan = PlanScenario(scenario, car.params());
   double simulated = 0.0;
   const Stopwatch stopwatch;
   for ([[maybe_unused]] auto round : state) {
-    simulated += DrivePlant(scenario, car, plan, plant).rows.back().state.time;
+    simulated += SimulateScenario(scenario, car, plan, plant).rows.back().state.time;
   }
   state.counters["real_time_factor"] = simulated / stopwatch.Seconds();
 }

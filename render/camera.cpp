@@ -11,8 +11,9 @@
 namespace trackbed::render {
 namespace {
 
-/// Mean of `value(time + offset)`, weighted by a triangle of +-0.8 s. The weighted mean has a
-/// continuous derivative, so the camera starts and stops turning smoothly.
+/// Returns the weighted mean of `value` from 0.8 s before to 0.8 s after `time`, with triangular
+/// weights. The triangular weights make the derivative of the mean continuous, so the camera starts
+/// and stops turning smoothly.
 template <typename Function>
 auto Smooth(double time, Function value) {
   constexpr int kHalf = 16;
@@ -29,23 +30,24 @@ auto Smooth(double time, Function value) {
   return std::array<double, 2>{sum[0] / weights, sum[1] / weights};
 }
 
-/// Moves a pose computed for the plane z = 0 onto the ground around the car.
+/// Adapts a camera pose that was computed for the plane z = 0 to the height and slope of the ground
+/// around the car.
 void LiftOnto(CameraPose& pose, const CameraSubject& subject, double time) {
   const Point car = subject.Position(time);
   pose.ground_z = subject.SmoothGround(time) +
                   subject.grade().dot(Vec2(pose.target_x - car.x, pose.target_y - car.y));
   pose.target_z += pose.ground_z;
-  // The camera's elevation follows the slope, so that the hill does not hide the car.
+  // The camera's elevation angle follows the slope, so that a hill does not hide the car.
   pose.elevation += std::atan(subject.grade().dot(Direction(pose.azimuth)));
 }
 
 CameraPose Chase(const CameraSubject& subject, double time, double /*aspect*/) {
   const Point car = subject.Position(time);
-  // In reverse the camera looks backward, in the car's direction of motion. When the car changes to
-  // reverse, the camera turns past the car's right side.
+  // In reverse gear, the camera looks backward, in the car's direction of motion. When the car
+  // changes to reverse gear, the camera swings to the front along the car's right side.
   const double heading = subject.SmoothHeading(time) + kPi * subject.SmoothReverse(time);
-  // The camera looks at a point ahead of the rear axle, so that the road ahead fills the picture.
-  // The camera is close enough to keep the car above the strip and the caption.
+  // The camera aims at a point ahead of the rear axle, so that the road ahead fills the frame. The
+  // camera is close enough to keep the car above the strip and the caption.
   const double size = subject.box().scale();
   const double ahead = 1.0 * size;
   CameraPose pose;
@@ -67,9 +69,10 @@ CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   const Point car = subject.Position(time);
   const double heading = subject.SmoothHeading(time);
   const double size = subject.box().scale();
-  const double ahead = 1.4 * size;  // Distance from a typical car's rear axle to its middle [m].
-  const double width = 9.0 * size;  // Width of the picture at the car's distance: two car lengths
-                                    // [m].
+  // Distance from the rear axle of a typical car to the middle of the car [m].
+  const double ahead = 1.4 * size;
+  // Width of the area that the camera sees at the car's distance [m]: two car lengths.
+  const double width = 9.0 * size;
   constexpr double kViewAngle = 28.0 * kPi / 180.0;
   CameraPose pose;
   pose.target_x = car.x + ahead * std::cos(heading);
@@ -77,9 +80,10 @@ CameraPose Side(const CameraSubject& subject, double time, double aspect) {
   pose.target_z = 0.7 * size;
   pose.paint_scale = size;
   pose.view_angle = kViewAngle;
-  // Limits the aspect so that portrait pictures also show the whole car.
+  // Limits the aspect ratio, so that frames in portrait format also show the whole car.
   pose.distance = 0.5 * width / (std::tan(0.5 * kViewAngle) * std::clamp(aspect, 0.2, 16.0 / 9.0));
-  // The camera looks from the right, with the sun not behind it: shadows give depth.
+  // The camera looks from the car's right side. Seen from the right side, the sun is not behind the
+  // camera, so that shadows are visible.
   pose.azimuth = heading + 0.5 * kPi;
   pose.elevation = -12.0 * kPi / 180.0;
   LiftOnto(pose, subject, time);
@@ -90,10 +94,12 @@ CameraPose Driver(const CameraSubject& subject, double time, double aspect) {
   const Point car = subject.Position(time);
   const double heading = subject.Heading(time);
   const CarBox& box = subject.box();
-  constexpr double kFieldOfView = 66.0 * kPi / 180.0;  // horizontal angle of view
+  // horizontal angle of view of the driver's camera
+  constexpr double kFieldOfView = 66.0 * kPi / 180.0;
   CameraPose pose;
   pose.inside = true;
-  // The camera is at the driver's eye: in the middle of the car, to the left, below the roof.
+  // The camera is at the driver's eye: midway along the car, left of the center line, below the
+  // roof.
   const Vec2 eye = ToWorld({car.x, car.y, heading}, {box.middle, 0.45 * box.half_width});
   pose.distance = 8.0 * subject.box().scale();
   pose.paint_scale = subject.box().scale();
@@ -127,15 +133,17 @@ CameraPose Orbit(const CameraSubject& subject, double time, double /*aspect*/) {
 }
 
 CameraPose Top(const CameraSubject& subject, double time, double aspect) {
-  // The camera has a narrow lens high up, so that vertical objects hardly lean away from the
-  // center.
+  // The camera is high above the ground and has a narrow angle of view, so that perspective hardly
+  // distorts vertical objects.
   constexpr double kViewAngle = 20.0 * kPi / 180.0;
   const double size = subject.box().scale();
-  const double margin = 5.0 * size;          // Margin around the route [m].
-  const double follow_height = 34.0 * size;  // Height of ground from the picture's bottom to its
-                                             // top [m].
-  const double fit_height = 60.0 * size;     // On routes larger than this height, the car would
-                                             // have too few pixels.
+  // Margin between the route and the edges of the frame [m].
+  const double margin = 5.0 * size;
+  // Length of the ground shown from the bottom to the top of the frame [m].
+  const double follow_height = 34.0 * size;
+  // Maximum extent of a route that is shown as a whole [m]; in a view of a larger route, the car
+  // would be too small.
+  const double fit_height = 60.0 * size;
   const Point low = subject.lowest();
   const Point high = subject.highest();
   const double needed =
@@ -151,7 +159,7 @@ CameraPose Top(const CameraSubject& subject, double time, double aspect) {
     pose.target_x = 0.5 * (low.x + high.x);
     pose.target_y = 0.5 * (low.y + high.y);
   } else {
-    // The camera looks ahead, since the road ahead matters more than the road behind.
+    // The camera aims ahead of the car, since the road ahead matters more than the road behind.
     const Point car = subject.SmoothPosition(time);
     const double heading = subject.SmoothHeading(time);
     pose.target_x = car.x + 6.0 * size * std::cos(heading);
@@ -172,8 +180,7 @@ CameraSubject::CameraSubject(const Recording& recording)
       lowest_(car_.Position(car_.begin())),
       highest_(lowest_),
       box_(FindCarBox(*recording.model)) {
-  constexpr double kStandstillSpeed = 0.05;  // a car slower than this speed counts as standing
-                                             // [m/s]
+  constexpr double kStandstillSpeed = 0.05;  // speed below which a car is treated as standing [m/s]
   double reverse = 0.0;
   for (const double at : car_.log().times()) {
     const double speed = car_.ReadingsAt(at).speed;
@@ -227,12 +234,7 @@ double CameraSubject::SmoothReverse(double time) const {
 
 const std::vector<Camera>& CameraTable() {
   static const std::vector<Camera> table{
-      {"chase", "behind and above the car, turning with it; swings round in reverse", &Chase},
-      {"side", "from the car's right, a little above, going along with it", &Side},
-      {"driver", "from the driver's seat, turning with the car", &Driver},
-      {"orbit", "once around the car in 24 s", &Orbit},
-      {"top", "straight down, north up: the whole route if it is small, else around the car", &Top},
-  };
+      {"chase", &Chase}, {"side", &Side}, {"driver", &Driver}, {"orbit", &Orbit}, {"top", &Top}};
   return table;
 }
 

@@ -8,8 +8,9 @@
 
 namespace trackbed::render {
 
-/// Camera pose: looks at `target` from `distance` [m], along `azimuth` and `elevation` [rad].
-/// Azimuth is 0 to the east and pi/2 to the north; a negative elevation looks down.
+/// Pose of a camera that looks at `target` from `distance` [m], in the direction `azimuth` and
+/// `elevation` [rad]. An azimuth of 0 means looking east and pi/2 north; at a negative elevation,
+/// the camera looks down.
 struct CameraPose {
   double target_x = 0;
   double target_y = 0;
@@ -17,40 +18,43 @@ struct CameraPose {
   double distance = 1;
   double azimuth = 0;
   double elevation = 0;
-  double view_angle = 0.7;  ///< Vertical angle of view [rad].
-  double ground_z = 0;      ///< Height of the ground at the target [m].
-  double paint_scale = 1;   ///< Factor on the width of lines on the ground that keeps them visible.
-  bool inside = false;      ///< Whether the camera is inside the car; then the car is not drawn.
+  double view_angle = 0.7;  ///< Vertical angle of view of the camera [rad].
+  double ground_z = 0;      ///< Height of the ground at the camera's target [m].
+  /// Factor on the width of lines painted on the ground, to keep these lines visible.
+  double paint_scale = 1;
+  bool inside = false;  ///< Whether the camera is inside the car; if so, the car is not drawn.
 };
 
-/// Subject of a camera: the car's smoothed motion, and the extent of the route.
+/// The subject of a camera: the smoothed motion of the car, and the extent of the route.
 ///
-/// The whole run is known, so the motion is smoothed symmetrically in time, without lag or
-/// overshoot.
+/// As the recording contains the whole run, the car's motion is smoothed symmetrically in time,
+/// without lag or overshoot.
 class CameraSubject {
  public:
   explicit CameraSubject(const Recording& recording);
 
-  /// The driven position of the car's rear-axle center [m].
+  /// Position of the car's rear-axle center, not averaged over time [m].
   [[nodiscard]] Point Position(double time) const { return car_.Position(time); }
   /// Position and heading of the car, averaged over about a second around `time`.
   [[nodiscard]] Point SmoothPosition(double time) const;
   [[nodiscard]] double SmoothHeading(double time) const;
   /// Height of the ground under the car, averaged over about a second around `time` [m].
   [[nodiscard]] double SmoothGround(double time) const;
-  /// Weighted fraction of the time around `time` in reverse gear, in [0, 1]. A car at rest counts
-  /// as in the gear of its last motion.
+  /// Returns the weighted fraction, in [0, 1], of the time around `time` that the car spends in
+  /// reverse gear. For a car at rest, the gear of the car's last motion counts.
   [[nodiscard]] double SmoothReverse(double time) const;
   /// Start time of the recording [s].
   [[nodiscard]] double begin() const { return car_.begin(); }
-  /// The driven heading, without averaging [rad].
+  /// Heading of the car, not averaged over time [rad].
   [[nodiscard]] double Heading(double time) const { return car_.Heading(time); }
-  /// Middle and half sides of the car's footprint in the vehicle frame, and its height [m].
+  /// Center and half sides of the car's footprint in the vehicle frame [m], and the car's height
+  /// [m].
   [[nodiscard]] const CarBox& box() const { return box_; }
-  /// Slope of the ground plane, without bumps and other features: dz/dx and dz/dy.
+  /// Slope of the ground plane without bumps and other features, as (dz/dx, dz/dy).
   [[nodiscard]] const Vec2& grade() const { return recording_.world.ground.grade; }
 
-  /// The bounding rectangle of the plan, the replanned paths and every plant's path [m].
+  /// One corner of the rectangle that contains the plan, the replanned paths and every plant's path
+  /// [m].
   [[nodiscard]] Point lowest() const { return lowest_; }
   [[nodiscard]] Point highest() const { return highest_; }
 
@@ -60,20 +64,21 @@ class CameraSubject {
   Point lowest_;
   Point highest_;
   CarBox box_;
-  std::vector<double> reverse_;  // 1 in reverse gear, else 0; one value per row of the car's log
+  std::vector<double> reverse_;  // for each row of the car's log: 1 if the car is in reverse gear,
+                                 // else 0
 };
 
 struct Camera {
   std::string_view name;
-  std::string_view summary;
-  /// `aspect` is the picture's width / height.
+  /// `aspect` is the ratio of a frame's width to its height.
   CameraPose (*pose)(const CameraSubject& subject, double time, double aspect);
 };
 
-/// The registry of cameras; the first is the default.
+/// Returns the poses of all cameras of CameraNames(), in the same order.
 const std::vector<Camera>& CameraTable();
 
-/// Throws InputError under `key`, with the nearest name, if there is no such camera.
+/// Returns the camera with the given name. Throws InputError for the option `key`, suggesting the
+/// most similar name, if no camera has this name.
 const Camera& FindCamera(const std::string& name, const char* key = "camera");
 
 }  // namespace trackbed::render

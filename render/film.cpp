@@ -14,6 +14,7 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/scenario/cameras.h"
 #include "trackbed/sim/mujoco_error.h"
 
 namespace trackbed {
@@ -66,7 +67,8 @@ void CheckOptions(const FilmOptions& options, bool even_sides) {
   CheckGl(options.gl);
 }
 
-/// Reads one recording of all plants, or one for each named plant.
+/// Reads a separate recording for each plant in `plants` or, if `plants` is empty, a single
+/// recording with all plants.
 std::vector<render::Recording> ReadRecordings(const fs::path& folder,
                                               const std::vector<std::string>& plants) {
   std::vector<render::Recording> recordings;
@@ -96,7 +98,8 @@ Times RecordedTimes(const std::vector<render::Recording>& recordings) {
 }
 
 void CheckTime(const char* key, double time, const Times& allowed) {
-  // Recorded times are sums of steps, so rounding may make the end smaller than displayed.
+  // The recorded end of the run may be slightly earlier than displayed, since recorded times are
+  // sums of time steps with rounding errors.
   constexpr double kRounding = 1e-6;
   if (!(time >= allowed.begin - kRounding && time <= allowed.end + kRounding)) {
     throw InputError(Problem{.key = key,
@@ -105,7 +108,7 @@ void CheckTime(const char* key, double time, const Times& allowed) {
   }
 }
 
-/// The time range of the film; by default the whole run.
+/// Returns the time range of the film, which is the whole run by default.
 Times RequestedTimes(const FilmOptions& options, const Times& run) {
   Times times = run;
   if (options.from) {
@@ -129,8 +132,8 @@ void MakeParent(const fs::path& output) {
 
 std::vector<FilmChoice> Cameras() {
   std::vector<FilmChoice> cameras;
-  for (const render::Camera& camera : render::CameraTable()) {
-    cameras.push_back({std::string(camera.name), std::string(camera.summary)});
+  for (const CameraName& camera : CameraNames()) {
+    cameras.push_back({camera.name, camera.summary});
   }
   return cameras;
 }
@@ -185,7 +188,8 @@ FilmReport RenderFilm(const fs::path& run_folder, const fs::path& output,
                                                      .quick = painter.quality().quick}));
 
   FilmReport report;
-  // The tolerance keeps a last frame at the end despite rounding.
+  // The tolerance ensures that a last frame exactly at the end of the film is drawn despite
+  // rounding errors.
   report.frames = static_cast<int>(std::floor((end - begin) * options.fps + 1e-6)) + 1;
   report.duration = (report.frames - 1) / options.fps;
   const std::vector<render::PlantRecording>& plants = recordings.front().plants;

@@ -103,7 +103,7 @@ int Main(int count, char** arguments) {
                "usage: trackbed_falsification STUDY.yaml GRID.csv METHOD[,METHOD]... SEEDS\n");
     return 2;
   }
-  const CheckedSearch search = CheckSearch(ReadStudy(arguments[1], {}, {}, PossibleMetrics));
+  const CheckedSearch search = CheckSearch(ReadStudy(arguments[1], {}, PossibleMetrics));
   for (const SearchKey& key : search.space.keys()) {
     if (key.step <= 0.0) {
       throw RunError(fmt::format("{} has no step", key.key));

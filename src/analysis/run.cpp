@@ -24,18 +24,18 @@
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/scene.h"
 
-// Plans and runs a scenario, then writes its run folder. PlanRun computes the plan. DriveRun
+// Plans and runs a scenario, then writes its run folder. PlanRun computes the plan. SimulateRun
 // simulates all plants (simulate_plants.cpp) and computes the metrics of each plant (metrics.cpp).
-// DriveRun compares each pair of plants (compare.cpp) and judges the results (verdict.cpp).
-// WriteRunFolder writes the results together with all inputs: resolved scenario, model, map, track
-// and recordings. A run can therefore be repeated from its folder.
+// SimulateRun also compares each pair of plants (compare.cpp) and computes the verdict
+// (verdict.cpp). WriteRunFolder writes the results together with all inputs: resolved scenario,
+// model, map, track and recordings. A run can therefore be repeated from its folder.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Largest spacing of points in plan.csv [m].
+/// Largest distance between two consecutive points in plan.csv [m].
 constexpr double kPlanSpacing = 0.1;
 
 Table PlanTable(const Reference& reference) {
@@ -57,8 +57,8 @@ Table PlanTable(const Reference& reference) {
   return table;
 }
 
-/// Returns a table with the knots of the open-loop steering schedule delta(D): steering angle over
-/// distance.
+/// Returns a table with the knots of the open-loop steering schedule delta(D), which is the
+/// steering angle as a function of the distance driven.
 Table ScheduleTable(const SteeringSchedule& schedule) {
   Table table({"distance_m", "steering_rad"});
   for (const SteeringSchedule::Knot& knot : schedule.knots()) {
@@ -122,8 +122,9 @@ void AddUnlessEmpty(const Table& table, const std::string& name, ResultWriter& w
 
 /// Returns the fraction of the log rows in which at least one loaded tyre slides.
 double SlidingShare(const RunLog& log) {
-  constexpr double kSlip = 0.1;     // Slip ratio or slip angle above which a tyre slides.
-  constexpr double kAtLeast = 1.0;  // Speed below which rounding dominates the slip [m/s].
+  constexpr double kSlip = 0.1;  // Slip ratio or slip angle above which a tyre slides.
+  // Speed below which rounding errors dominate the computed slip [m/s].
+  constexpr double kAtLeast = 1.0;
   const auto slides = [&](const LogRow& row) {
     return std::abs(row.state.speed) > kAtLeast && row.state.wheels &&
            std::any_of(
@@ -161,18 +162,18 @@ ordered_json Versions() {
       {"trackbed", Version()}, {"physics", PhysicsVersion()}, {"optimizer", OptimizerVersion()}};
 }
 
-RunResult RunMission(const Scenario& scenario, const RunHooks& hooks) {
+RunResult RunScenario(const Scenario& scenario, const RunHooks& hooks) {
   CheckScenario(scenario);
-  return RunMission(scenario, LoadCar(scenario), hooks);
+  return RunScenario(scenario, LoadCar(scenario), hooks);
 }
 
-RunResult RunMission(const Scenario& scenario, CarCache& cars, const RunHooks& hooks) {
+RunResult RunScenario(const Scenario& scenario, CarCache& cars, const RunHooks& hooks) {
   CheckScenario(scenario);
-  return RunMission(scenario, *cars.Load(scenario), hooks);
+  return RunScenario(scenario, *cars.Load(scenario), hooks);
 }
 
-RunResult RunMission(const Scenario& scenario, const CarModel& car, const RunHooks& hooks) {
-  return DriveRun(PlanRun(scenario, car), car, hooks);
+RunResult RunScenario(const Scenario& scenario, const CarModel& car, const RunHooks& hooks) {
+  return SimulateRun(PlanRun(scenario, car), car, hooks);
 }
 
 RunResult PlanRun(const Scenario& scenario, const CarModel& car) {
@@ -181,7 +182,7 @@ RunResult PlanRun(const Scenario& scenario, const CarModel& car) {
   result.scene = car.scene();
   result.vehicle = car.params();
   const Stopwatch planning;
-  result.plan = PlanMission(scenario, car);
+  result.plan = PlanScenario(scenario, car);
   result.planning_time = planning.Seconds();
   if (!result.plan.ok()) {
     result.verdict = {.passed = false,
@@ -202,8 +203,8 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
     metrics.tracking->overspeed_limit = OverspeedLimit(log, scenario, car.unladen());
   }
   if (log.plant == kRecordedPlant) {
-    // Clear the steering limits, which belong to the model, because the measured wheels belong to
-    // the real vehicle.
+    // Clear the steering limits, because the limits of the car model do not apply to the real
+    // vehicle that was recorded.
     metrics.steering_rate_limit = 0.0;
     metrics.steering_limit = 0.0;
   }
@@ -217,7 +218,7 @@ PlantMetrics MeasurePlant(const RunResult& result, const RunLog& log, const CarM
 
 }  // namespace
 
-RunResult DriveRun(RunResult planned, const CarModel& car, const RunHooks& hooks) {
+RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& hooks) {
   RunResult result = std::move(planned);
   if (!result.plan.ok()) {
     return result;

@@ -13,8 +13,8 @@
 namespace trackbed {
 namespace {
 
-/// Simulates one plant and measures the computing time. The computing time excludes the caller's
-/// hook `logged`.
+/// Simulates one plant and measures the computing time, without the time spent in the caller's hook
+/// `logged`.
 SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
                              const std::string& plant, DriveHooks hooks) {
   DriveTiming timing{.plant = plant};
@@ -36,7 +36,7 @@ SimulatedPlant SimulatePlant(const RunResult& planned, const CarModel& car,
     };
   }
   const Stopwatch driving;
-  RunLog log = DrivePlant(planned.scenario, car, planned.plan, plant, hooks);
+  RunLog log = SimulateScenario(planned.scenario, car, planned.plan, plant, hooks);
   timing.wall_time = driving.Seconds() - waited;
   timing.real_time_factor = log.rows.back().state.time / timing.wall_time;
   timing.update_mean = timing.updates > 0 ? steering / timing.updates : 0.0;

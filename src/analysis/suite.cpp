@@ -32,9 +32,9 @@ void Drive(const std::function<Scenario(const fs::path&)>& read,
            const std::function<bool()>& interrupted, CarCache& cars, SuiteCase& one) {
   const Scenario scenario = read(one.file);
   one.name = scenario.name;
-  const RunResult run = RunMission(scenario, cars, {.drive = [&](const std::string&) {
-                                     return DriveHooks{.interrupted = interrupted};
-                                   }});
+  const RunResult run = RunScenario(scenario, cars, {.drive = [&](const std::string&) {
+                                      return DriveHooks{.interrupted = interrupted};
+                                    }});
   one.status = run.interrupted       ? CaseStatus::kInterrupted
                : !run.verdict.judged ? CaseStatus::kNotJudged
                : run.verdict.passed  ? CaseStatus::kPassed
@@ -65,8 +65,8 @@ void RunCase(const std::function<Scenario(const fs::path&)>& read,
   one.wall_time = took.count();
 }
 
-/// Reports test cases in the order of their files. A case is reported as soon as that case and all
-/// earlier cases have finished.
+/// Reports the results of test cases in the order of the scenario files. A case is reported as soon
+/// as that case and all earlier cases have finished.
 class OrderedCases {
  public:
   OrderedCases(const std::vector<SuiteCase>& cases,
@@ -123,7 +123,7 @@ std::string Seconds(double time) {
   return fmt::format("{:.3f}", time);
 }
 
-/// Adds a child element that describes why a test case did not pass; adds nothing if the case
+/// Adds an XML element that describes why a test case did not pass; adds nothing if the test case
 /// passed.
 void AddOutcome(tinyxml2::XMLElement& element, const SuiteCase& one) {
   struct Kind {

@@ -18,7 +18,8 @@ namespace {
 
 using CarKey = std::tuple<std::string, double, double>;
 
-/// Returns the key that identifies the compiled model of a scenario's car, without obstacles.
+/// Returns a key that is equal for scenarios whose compiled car models, without obstacles, are
+/// equal.
 CarKey MakeCarKey(const Scenario& scenario) {
   return {FindModel(scenario.vehicle.model, scenario.folder).string(), scenario.drive.timestep,
           scenario.vehicle.steering_rate.value_or(0.0)};
@@ -33,7 +34,7 @@ Scenario Bare(Scenario scenario) {
   return scenario;
 }
 
-/// Checks only one scenario for each key and collects the problems that the checks report.
+/// Checks only the first scenario with each key, and collects the problems that the checks report.
 template <typename Key>
 class OncePerKey {
  public:
@@ -62,8 +63,8 @@ class OncePerKey {
   std::vector<Problem> problems_;
 };
 
-/// Constructs each plant with its car, because some plants need elements that the car's model may
-/// lack.
+/// Checks that each plant can be constructed with the scenario's car, because some plants need
+/// elements that the car's model may lack.
 void CheckPlants(const CheckedStudy& checked, const Scenario& scenario) {
   std::vector<Problem> problems;
   const World bare;
@@ -112,8 +113,8 @@ std::string HashOfModel(const Scenario& scenario) {
   return hash.Finish();
 }
 
-/// Adds the SHA-256 of each input file of the scenario to `hashes`, keyed by the source of the
-/// file. A map consists of two files.
+/// Adds the SHA-256 of each input file of the scenario to `hashes`, keyed by the kind and the name
+/// of the file, such as "path lane.csv". The two files of a map share one key and one hash.
 void AddInputHashes(const Scenario& scenario, std::map<std::string, std::string>& hashes) {
   std::map<std::string, std::string> contents;
   for (const InputFile& file : InputFiles(scenario)) {
@@ -168,12 +169,12 @@ std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario&
   const RunHooks hooks{.drive = [&](const std::string&) {
     return DriveHooks{.progress = {}, .interrupted = interrupted};
   }};
-  RunResult result = RunMission(scenario, *checked.cars, hooks);
+  RunResult result = RunScenario(scenario, *checked.cars, hooks);
   if (result.interrupted) {
     return std::nullopt;
   }
   const bool passed = result.verdict.passed;
-  // If planning failed, the verdict has a single failure, which gives the reason.
+  // If planning failed, the verdict contains a single failure message with the reason.
   RunOutcome outcome{.status = !result.plan.ok()        ? "no_plan"
                                : !result.verdict.judged ? "driven"
                                : passed                 ? "passed"

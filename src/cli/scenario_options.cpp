@@ -22,15 +22,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Returns the names of the cameras, which the scenario module needs but cannot access itself.
-std::vector<std::string> CameraNames() {
-  std::vector<std::string> names;
-  for (const FilmChoice& camera : Cameras()) {
-    names.push_back(camera.name);
-  }
-  return names;
-}
-
 /// Appends the scenario files in `folder`, then the scenario files in its subfolders.
 void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::path>& files) {
   std::vector<fs::path> own;
@@ -107,19 +98,16 @@ std::vector<Override> ScenarioOptions::Overrides() const {
 }
 
 Scenario ScenarioOptions::Read(const fs::path& file) const {
-  return ReadScenario(FindScenario(file), Overrides(), CameraNames(), PossibleMetrics,
-                      Paths(asset_folders));
+  return LoadScenario(FindScenario(file), Overrides(), Paths(asset_folders));
 }
 
 Scenario ScenarioOptions::Parse(const std::string& yaml, const std::string& name,
                                 const fs::path& folder) const {
-  return ParseScenario(yaml, name, folder, Overrides(), CameraNames(), PossibleMetrics,
-                       Paths(asset_folders));
+  return ParseScenario(yaml, name, folder, Overrides(), PossibleMetrics, Paths(asset_folders));
 }
 
 Study ScenarioOptions::ReadStudyFile(const fs::path& file) const {
-  return ReadStudy(FindScenario(file), Overrides(), CameraNames(), PossibleMetrics,
-                   Paths(asset_folders));
+  return ReadStudy(FindScenario(file), Overrides(), PossibleMetrics, Paths(asset_folders));
 }
 
 std::vector<fs::path> ShippedScenarios(FolderContent content) {

@@ -68,7 +68,7 @@ DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet) {
   OutputFolder folder(run.folder, names);
   std::unique_ptr<ProgressBar> bar;
   std::optional<FinishingResult> finishing;
-  RunResult result = RunMission(
+  RunResult result = RunScenario(
       run.scenario, car, {.drive = [&](const std::string& plant) {
         bar.reset();
         bar = std::make_unique<ProgressBar>(fmt::format("{} {}", run.scenario.name, plant), quiet);

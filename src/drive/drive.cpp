@@ -48,8 +48,8 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
   return config;
 }
 
-RunLog DrivePlant(const Scenario& scenario, const CarModel& car, const FeasiblePlan& plan,
-                  const std::string& plant_name, const DriveHooks& hooks) {
+RunLog SimulateScenario(const Scenario& scenario, const CarModel& car, const FeasiblePlan& plan,
+                        const std::string& plant_name, const DriveHooks& hooks) {
   if (plant_name == kRecordedPlant) {
     return RecordedLog(scenario, car);
   }

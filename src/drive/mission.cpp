@@ -24,7 +24,8 @@ void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   const auto slowest =
       std::min_element(plan->caps.begin(), plan->caps.end(),
                        [](const SpeedCap& a, const SpeedCap& b) { return a.speed < b.speed; });
-  constexpr double kNotedFraction = 0.99;  // fraction of the mission's speed
+  // Fraction of the mission's speed below which a turn counts as slower.
+  constexpr double kNotedFraction = 0.99;
   if (plan->notes.empty() && slowest != plan->caps.end() &&
       slowest->speed < kNotedFraction * speed) {
     plan.AddNote(fmt::format("speed reduced to {:.3g} m/s in a turn at s = {:.4g} m",
@@ -42,7 +43,7 @@ void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
   }
 }
 
-/// Returns the distinct friction factors in a world.
+/// Returns the distinct friction coefficients in a world.
 std::vector<double> Roads(const World& world) {
   std::vector<double> roads{world.friction};
   for (const FrictionPatch& patch : world.friction_patches) {
@@ -61,8 +62,8 @@ LaneMission MakeLaneMission(const Scenario& scenario) {
              : LaneMission{};
 }
 
-/// Returns the data for planning speeds at the limit; none if the mission does not ask for such
-/// speeds. `diagram` returns the g-g-v diagram for given friction factors.
+/// Returns the data for planning speeds at the car's limit; none if the mission does not ask for
+/// such speeds. `diagram` returns the g-g-v diagram for given friction coefficients.
 template <typename Diagram>
 std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const Diagram& diagram) {
   const auto& profile = scenario.mission.speed_profile;
@@ -84,7 +85,8 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
   }
   std::vector<OrientedBox> known;
   for (const Obstacle& obstacle : scenario.world.obstacles) {
-    // Skip moving obstacles in a run with replanning: the replanner handles them.
+    // Skip moving obstacles in a run with replanning, because the replanner handles moving
+    // obstacles.
     const bool for_later = obstacle.moves() && scenario.plan->replan;
     if (!for_later && IsKnown(obstacle, 0.0, FootprintAt(vehicle, start.pose))) {
       known.push_back(obstacle.footprint);
@@ -149,14 +151,14 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
 
 }  // namespace
 
-FeasiblePlan PlanMission(const Scenario& scenario, const CarModel& car) {
+FeasiblePlan PlanScenario(const Scenario& scenario, const CarModel& car) {
   return PlanWith(scenario, car.unladen(),
                   LimitsFor(scenario, [&](const std::vector<double>& roads) {
                     return ComputeGgv(car, scenario.vehicle.tyre, roads);
                   }));
 }
 
-FeasiblePlan PlanMission(const Scenario& scenario, const VehicleParams& vehicle) {
+FeasiblePlan PlanScenario(const Scenario& scenario, const VehicleParams& vehicle) {
   return PlanWith(scenario, vehicle, LimitsFor(scenario, [&](const std::vector<double>& roads) {
                     return FrictionGgv(vehicle, roads);
                   }));

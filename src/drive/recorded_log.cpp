@@ -62,7 +62,7 @@ class RecordedCar final : public Plant {
 
 RunLog RecordedLog(const Scenario& scenario, const CarModel& car) {
   TRACKBED_REQUIRE(scenario.record && scenario.record->data,
-                   "DrivePlant: the plant {} needs a record", kRecordedPlant);
+                   "SimulateScenario: the plant {} needs a record", kRecordedPlant);
   const RecordedDrive& drive = *scenario.record->data;
   const DriveSpec& spec = scenario.drive;
   RunLog log{.plant = kRecordedPlant, .configurations = Table({"t_s"})};

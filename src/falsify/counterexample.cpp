@@ -9,12 +9,12 @@
 namespace trackbed {
 namespace {
 
-/// Builds expectations that describe the outcome of a run: the expectations that the run met, and
+/// Builds expectations that every repetition of a run meets: the expectations that the run met, and
 /// the negations of the expectations that the run violated.
 class OutcomeExpectations {
  public:
-  /// Adds the expectation that describes the outcome of a check. Returns false if no expectation
-  /// can describe this outcome.
+  /// Adds an expectation that is met if and only if a check has the same outcome again. Returns
+  /// false if no expectation can express this outcome.
   bool Add(const Check& check) {
     switch (check.reason) {
       case CheckReason::kSteeringRate:
@@ -40,8 +40,9 @@ class OutcomeExpectations {
         break;
     }
     if (!check.other.empty()) {
-      return check.met;  // a check between two plants needs no new expectation, because the section
-                         // `between` is kept
+      // A met check between two plants needs no new expectation, because the scenario keeps the
+      // section `between`; a violated check cannot be negated.
+      return check.met;
     }
     return check.relation == Relation::kEquals ? AddEqual(check) : AddLimit(check);
   }
@@ -112,11 +113,12 @@ class OutcomeExpectations {
   std::vector<std::pair<std::string, PlantExpectation>> plants_;
 };
 
-/// Runs the scenario and returns whether it passes. Passes() also returns false if the scenario is
-/// invalid, because a negated requirement is too long or nested too deeply.
+/// Runs the scenario and returns whether it passes. Passes() also returns false for an invalid
+/// scenario; a scenario is invalid, for example, if a negated requirement is too long or nested too
+/// deeply.
 bool Passes(const Scenario& scenario) {
   try {
-    return RunMission(scenario).verdict.passed;
+    return RunScenario(scenario).verdict.passed;
   } catch (const InputError&) {
     return false;
   }

@@ -14,17 +14,19 @@
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_parameters.h"
 
-// Identifies parameters of a car model from recorded drives (records). The cost is the loss of the
-// prediction residuals over all windows (residuals.cpp), plus priors. The cost is minimized by
-// Gauss-Newton steps in a trust region, from several starts (estimator.cpp). Parameters without
-// effect on the cost are fixed first. The covariance (linear_model.cpp) then shows whether the
-// records determine each parameter better than its bounds do. If the records do not determine all
-// parameters, the least determined parameter is fixed and the estimate is repeated. Finally, all
-// records are replayed with the start values and with the fitted values.
+// Identifies parameters of a car model from recorded drives (records). The cost is the sum of the
+// losses of all prediction residuals in all windows (residuals.cpp), plus the terms of the priors.
+// The cost is minimized by Gauss-Newton steps in a trust region, from several starts
+// (estimator.cpp). Parameters without effect on the cost are fixed before the search. The
+// covariance of the estimate (linear_model.cpp) shows whether the records determine each parameter
+// better than the parameter's bounds do. If the records do not determine all parameters, the
+// parameter with the largest variance is fixed and the search is repeated. Finally, all records are
+// replayed with the start values and with the fitted values.
 namespace trackbed {
 namespace {
 
-/// Correlation of two estimates above which their parameters are hard to distinguish.
+/// Correlation of two estimated parameters above which the records hardly distinguish the
+/// parameters.
 constexpr double kStrongCorrelation = 0.95;
 
 /// Rethrows the error. Problems of a parameter are reported at the line of the study file that
@@ -46,16 +48,17 @@ constexpr double kStrongCorrelation = 0.95;
 }
 
 bool IsAt(double value, double bound, const IdentifiedParameter& parameter) {
-  constexpr double kBoundTolerance = 1e-4;  // tolerance as a fraction of the parameter's range
+  // Distance that still counts as equal, as a fraction of the parameter's range.
+  constexpr double kBoundTolerance = 1e-4;
   return std::abs(value - bound) <= kBoundTolerance * (parameter.to - parameter.from);
 }
 
-/// Returns the free parameter with the largest standard deviation, if that deviation exceeds the
-/// deviation of a uniform distribution between the parameter's bounds. Returns none if the records
-/// determine all parameters.
+/// Returns the free parameter with the largest standard deviation, if this standard deviation is
+/// larger than that of a uniform distribution between the parameter's bounds. Returns none if the
+/// records determine all parameters.
 std::optional<std::size_t> LeastDetermined(const Eigen::MatrixXd& covariance) {
   std::optional<std::size_t> least;
-  // Standard deviation of a uniform distribution over the range.
+  // Standard deviation of a uniform distribution over an interval of length 1.
   double worst = 1.0 / std::sqrt(12.0);
   for (Eigen::Index i = 0; i < covariance.rows(); ++i) {
     const double deviation = std::sqrt(covariance(i, i));
@@ -73,8 +76,9 @@ double Correlation(const Eigen::MatrixXd& covariance, std::size_t a, std::size_t
   return covariance(i, j) / std::sqrt(covariance(i, i) * covariance(j, j));
 }
 
-/// Stores the model with the estimated parameters in the result. Unless the search was interrupted,
-/// ReplayRecords also replays the records, both with the start values and with the estimates.
+/// Stores the car model with the estimated parameters in the result. Unless the search was
+/// interrupted, ReplayRecords also replays the records, both with the start values and with the
+/// estimates.
 void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
                    IdentificationResult& result) {
   std::vector<CarParameter> start;
@@ -107,7 +111,7 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
       const RunHooks run_hooks{.drive = [&](const std::string&) {
         return DriveHooks{.interrupted = hooks.interrupted};
       }};
-      return DriveRun(PlanRun(scenario, car), car, run_hooks);
+      return SimulateRun(PlanRun(scenario, car), car, run_hooks);
     };
     IdentifiedRecord record{
         .name = scenario.name, .held_out = held_out, .start = run(start), .fitted = run(fitted)};
@@ -124,8 +128,8 @@ void ReplayRecords(const ResidualModel& model, const IdentificationHooks& hooks,
   }
 }
 
-/// Estimates the parameters. Parameters that cannot be estimated are fixed, until the records
-/// determine all free parameters.
+/// Estimates the parameters. Fix parameters that the records do not determine, one after the other,
+/// until the records determine all free parameters.
 void Estimate(Estimator& estimator, const ResidualModel& model, ProgressCounter& work,
               IdentificationResult& result) {
   const Identification& study = result.study;
@@ -248,7 +252,8 @@ IdentificationResult Identify(const Identification& study, const IdentificationH
   try {
     Estimator estimator(result.study, model, work);
     if (!std::isfinite(estimator.best_cost())) {
-      static_cast<void>(model.CarsAt(estimator.start()));  // throws the error that gives the reason
+      // Throws an InputError that explains why the cost is not finite.
+      static_cast<void>(model.CarsAt(estimator.start()));
     }
     result.start_cost = estimator.best_cost();
     result.windows = static_cast<int>(model.windows());

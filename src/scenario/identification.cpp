@@ -25,7 +25,7 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   if (study.parameters.empty()) {
     add_error("parameters", "needs at least one parameter");
   }
-  // Largest number of parameters that QuadraticProgram supports.
+  // Largest number of parameters, because QuadraticProgram supports no more variables.
   constexpr std::size_t kMaxParameters = 40;
   if (study.parameters.size() > kMaxParameters) {
     add_error("parameters",
@@ -55,8 +55,8 @@ void CheckParameters(Identification& study, const YAML::Node& root, ReaderContex
   }
 }
 
-/// Reads the listed scenario files. Adds a problem for each scenario that has no recorded drive or
-/// has another vehicle than the first scenario.
+/// Reads the scenario files that the identification file lists. Adds a problem for each scenario
+/// that has no recorded drive or has another vehicle than the first scenario.
 std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const std::string& list,
                                   const fs::path& folder, const std::vector<fs::path>& assets,
                                   const Scenario* first, const YAML::Node& root,
@@ -67,7 +67,7 @@ std::vector<Scenario> ReadRecords(const std::vector<std::string>& files, const s
     const auto add_error = [&](std::string message) {
       context.AddError(NodeAt(root, key).Mark(), key, std::move(message));
     };
-    Scenario scenario = ReadScenario(folder / files[i], {}, {}, {}, assets);
+    Scenario scenario = ReadScenario(folder / files[i], {}, {}, assets);
     if (!scenario.record) {
       add_error(fmt::format("{} has no record to compare with", files[i]));
       continue;

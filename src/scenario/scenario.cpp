@@ -25,20 +25,23 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
+#include "trackbed/scenario/cameras.h"
 #include "trackbed/scenario/map_file.h"
 #include "trackbed/sim/scene.h"
 
 // Reads a scenario. ReadScenario parses the YAML, applies the overrides, visits all keys (visit.h)
 // and reads the files that the keys name (inputs.cpp). Finally, ReadScenario checks rules between
 // keys (cross_check.cpp), requirements and names of metrics. All problems are collected and
-// reported in the order of the file. ResolvedYaml writes the scenario back as YAML. The resolved
-// scenario contains all default values explicitly, and names all files as in a run folder.
+// reported in the order of the file. ResolvedYaml converts a scenario that was read to YAML (the
+// resolved scenario). The resolved scenario contains all default values explicitly; its file names
+// are the names of the copies in a run folder.
 namespace trackbed {
 namespace {
 
-/// Removes expectations on plants that are not run. The function is called only if the command line
-/// overrides drive.plants. A scenario file must be consistent, but a user who overrides the plants
-/// should not have to edit the expectations.
+/// Removes expectations on plants that the scenario does not run. DropUnusedExpectations is called
+/// only if the command line overrides drive.plants, because a user who overrides the plants should
+/// not have to edit the expectations. In a scenario file, an expectation on a plant that is not run
+/// is an error.
 void DropUnusedExpectations(Scenario& scenario) {
   std::erase_if(scenario.expect.plants,
                 [&](const auto& entry) { return !Drives(scenario, entry.first); });
@@ -48,11 +51,12 @@ void DropUnusedExpectations(Scenario& scenario) {
   });
 }
 
-/// Finds expectations on metrics that no run of the scenario can have, and returns pairs of key and
-/// message.
+/// Finds expectations on metrics that no run of the scenario can have, and returns for each such
+/// expectation the key and an error message.
 std::vector<std::pair<std::string, std::string>> UnknownMetrics(
     const Expectations& expect, const std::vector<std::string>& possible) {
-  // Metrics to suggest; of each list, only the metrics of the first element.
+  // Metrics that an error message may suggest; for metrics in lists, only the metrics of the first
+  // list element.
   std::vector<std::string> shown;
   std::copy_if(possible.begin(), possible.end(), std::back_inserter(shown),
                [](const std::string& path) {
@@ -80,7 +84,7 @@ std::vector<std::pair<std::string, std::string>> UnknownMetrics(
 
 Scenario ParseScenario(const std::string& yaml, const std::string& name,
                        const std::filesystem::path& folder, const std::vector<Override>& overrides,
-                       const std::vector<std::string>& cameras, const MetricPaths& metrics,
+                       const MetricPaths& metrics,
                        const std::vector<std::filesystem::path>& asset_folders) {
   YAML::Node root = LoadYaml(yaml, name);
   ReaderContext context{.file = name, .overridden = {}, .problems = {}};
@@ -103,7 +107,11 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
   }
   const std::vector<Problem> of_inputs = ReadInputs(scenario, context, add_error);
   const std::string& camera = scenario.render.camera;
-  if (!cameras.empty() && std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
+  std::vector<std::string> cameras;
+  for (const CameraName& each : CameraNames()) {
+    cameras.push_back(each.name);
+  }
+  if (std::find(cameras.begin(), cameras.end(), camera) == cameras.end()) {
     add_error("render.camera", "unknown " + UnknownName(camera, cameras));
   }
   if (std::find(context.overridden.begin(), context.overridden.end(), "drive.plants") !=
@@ -136,10 +144,10 @@ Scenario ParseScenario(const std::string& yaml, const std::string& name,
 }
 
 Scenario ReadScenario(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                      const std::vector<std::string>& cameras, const MetricPaths& metrics,
+                      const MetricPaths& metrics,
                       const std::vector<std::filesystem::path>& asset_folders) {
-  return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides, cameras,
-                       metrics, asset_folders);
+  return ParseScenario(ReadInput(file), file.string(), file.parent_path(), overrides, metrics,
+                       asset_folders);
 }
 
 RenderSpec ReadRenderSpec(const std::filesystem::path& file) {
@@ -228,7 +236,8 @@ std::string OneLine(Options options) {
   YamlWriter writer(out);
   Visit(writer, options);
   out << YAML::EndMap;
-  const std::string text = out.c_str();  // the emitted text is enclosed in braces
+  // The writer encloses the text in braces, which are removed.
+  const std::string text = out.c_str();
   return text.substr(1, text.size() - 2);
 }
 
@@ -255,8 +264,9 @@ std::string ResolvedYaml(const Scenario& scenario) {
   const StartState start = InitialState(scenario);
   const bool planner_sets_start =
       scenario.plan && PlannerFor(scenario.plan->global).start != nullptr;
-  // If a recorded drive or the planner determines the start, the initial steering angle is not
-  // written, because DrivePlant and InitialState compute the angle.
+  // If a recorded drive or the planner determines the initial state, write the initial steering
+  // angle only if the user has specified the angle, because SimulateScenario and InitialState
+  // compute the angle again.
   const std::optional<double> steering =
       scenario.record || planner_sets_start ? scenario.mission.start.steering : start.steering;
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed, steering};

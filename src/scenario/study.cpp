@@ -15,18 +15,20 @@
 #include "trackbed/optimize/search.h"
 
 // Computes the points of a study. The grid is the Cartesian product of `list` and all lists of
-// values. Grid points are numbered by mixed-radix numbers: `list` is the lowest digit, followed by
-// the keys from last to first. Conditions (`when`) can drop keys from a point. Points that become
-// duplicates because keys were dropped are removed. At each grid point, keys with distributions
-// take the quantiles of a unit sample (sampling.cpp). Keys that take their values from columns of
-// the same file share a coordinate of the sample. Derived keys (derived_keys.cpp) are computed
-// last. The scenario of a point is the base scenario with the point's settings as overrides.
-// Problems of a point are reported at the lines of the study file that cause them.
+// values. Grid points are numbered by mixed-radix numbers: the lowest digit is the index in `list`,
+// followed by the value indices of the varied keys, from the last key to the first key. At some
+// points, conditions (`when`) can drop keys. If dropped keys make points equal, only one of the
+// equal points is kept. At each grid point, the values of keys with distributions are quantiles at
+// the coordinates of a sample of the unit cube (sampling.cpp). Keys that take their values from
+// columns of the same CSV file share one coordinate of the sample. The values of derived keys
+// (derived_keys.cpp) are computed last, from the values of the other keys. The scenario of a point
+// is the base scenario with the point's settings as overrides. Each problem of a point is reported
+// at the line of the study file that causes the problem.
 namespace trackbed {
 namespace {
 
-/// File name under which ParseScenario reports problems of overrides. A study passes its settings
-/// to ParseScenario as overrides.
+/// File name that ParseScenario uses in problems of overrides; a study passes its settings to
+/// ParseScenario as overrides.
 constexpr const char* kOverride = "--set";
 
 std::string OverrideKey(const Override& override_text) {
@@ -96,7 +98,7 @@ class Problems {
  private:
   struct Found {
     Problem problem;
-    std::vector<Setting> point;  // settings of the first point with this problem
+    std::vector<Setting> point;  // settings of the first point that has this problem
     std::size_t count = 0;
   };
 
@@ -106,8 +108,8 @@ class Problems {
   std::map<std::tuple<std::string, std::string, std::string>, std::size_t> known_;
 };
 
-/// Rejects command line overrides of keys that the study varies, because one of the two values
-/// would be lost.
+/// Rejects command line overrides of keys that the study varies, because a run can use only one of
+/// the two values.
 void CheckOverrides(const Study& study) {
   std::vector<Problem> problems;
   for (const Override& override_text : study.overrides) {
@@ -133,7 +135,7 @@ bool Holds(const Condition& condition, const Study& study, const std::vector<Set
   if (found == point.end()) {
     found = std::find_if(study.set.begin(), study.set.end(), is_key);
     if (found == study.set.end()) {
-      return false;  // the key to which the condition refers was itself dropped
+      return false;  // the key to which the condition refers was dropped from this point
     }
   }
   return std::any_of(
@@ -208,7 +210,7 @@ Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
   std::for_each(own, all.end(), add);
   try {
     return ParseScenario(study.scenario_text, study.scenario.string(), study.scenario.parent_path(),
-                         overrides, study.cameras, study.metrics, study.asset_folders);
+                         overrides, study.metrics, study.asset_folders);
   } catch (const InputError& error) {
     std::vector<Problem> problems = error.problems();
     for (Problem& problem : problems) {
@@ -282,8 +284,9 @@ std::vector<Setting> StudyPoints::OfGrid(std::size_t combination) const {
   if (!study_.list.empty()) {
     listed = study_.list[digit(study_.list.size())];
   }
-  // Among the varied keys, the last key is the lowest digit of the point number. The conditions of
-  // a key can depend only on earlier keys.
+  // Read the digits of the point number from the last varied key to the first key, because the last
+  // key has the lowest digit. The conditions are evaluated in the order of the keys, because a
+  // condition of a key can depend only on earlier keys.
   std::vector<std::size_t> chosen(study_.vary.size());
   for (std::size_t k = study_.vary.size(); k-- > 0;) {
     if (!study_.vary[k].distribution) {
@@ -359,8 +362,9 @@ const std::vector<std::string>& StudySearches() {
     }
     all.emplace_back("surrogate");
     for (const SearchEntry& entry : Searches()) {
-      if (entry.method != SearchMethod::kSlsqp) {  // SLSQP needs gradients, which finite
-                                                   // differences of runs cannot provide
+      // Leave out SLSQP, which needs gradients: finite differences between runs are too inaccurate
+      // for gradients.
+      if (entry.method != SearchMethod::kSlsqp) {
         all.emplace_back(entry.name);
       }
     }
@@ -413,7 +417,8 @@ void CheckPoints(const StudyPoints& points, bool all) {
     } else {
       const BisectSpec& bisect = *study.bisect;
       const bool at_from = is_valid(settings, bisect.from);
-      // Check a third value with many digits, because bisection tries arbitrary values.
+      // Check also a value with many digits between the two bounds, because the bisection tries
+      // arbitrary values.
       good = is_valid(settings, bisect.to) && at_from &&
              is_valid(settings, bisect.from + 0.3819660112501051 * (bisect.to - bisect.from));
     }

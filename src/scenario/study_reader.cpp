@@ -10,11 +10,11 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/scenario/study.h"
 
-// Reads a study file. The reader visits the study's keys (study_visit.h) and reads the sections
-// that contain scenario keys through callbacks (variation_reader.cpp). Finally, the reader checks
-// rules between the keys of the study. For example, a condition may only use keys that are set
-// earlier, and settings must not overwrite each other. All problems are collected and reported in
-// the order of the file.
+// Reads a study file. The reader visits the keys of the study (study_visit.h); callbacks read the
+// sections whose keys are keys of a scenario (variation_reader.cpp). Finally, the reader checks
+// rules that concern several keys of the study. For example, a condition may use only keys that are
+// set before the condition, and no setting may overwrite an earlier setting. All problems are
+// collected and reported in the order of the file.
 namespace trackbed {
 namespace {
 
@@ -280,8 +280,8 @@ class StudyReader {
     if (search.method == "direct" && search.restarts > 1) {
       refuse("restarts", "direct does the same each time; 1 at most");
     }
-    // Require enough runs for about three rounds of DIRECT. The first round evaluates the center
-    // and two points per key.
+    // Require enough runs for about three rounds of DIRECT. The first round of DIRECT evaluates the
+    // center of the search space and two points for each key.
     if (search.method == "direct" && search.runs < 4 * (2 * keys + 1)) {
       refuse("runs", fmt::format("{} for direct and {} keys; at least {}", search.runs, keys,
                                  4 * (2 * keys + 1)));
@@ -388,12 +388,11 @@ bool IsStudy(const std::filesystem::path& file) {
 }
 
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides,
-                const std::vector<std::string>& cameras, const MetricPaths& metrics,
+                const MetricPaths& metrics,
                 const std::vector<std::filesystem::path>& asset_folders) {
   Study study =
       StudyReader(file, LoadYaml(ReadInput(file), file.string(), "a study"), asset_folders).Read();
   study.overrides = overrides;
-  study.cameras = cameras;
   study.metrics = metrics;
   study.asset_folders = asset_folders;
   return study;

@@ -47,7 +47,7 @@ class IsNotFalsifiedMatcher {
 FalsifyResult FalsifyStudy(const std::filesystem::path& file,
                            const std::vector<Override>& overrides) {
   const auto threads = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  return Falsify(CheckSearch(ReadStudy(file, overrides, {}, PossibleMetrics)), {.jobs = threads});
+  return Falsify(CheckSearch(ReadStudy(file, overrides, PossibleMetrics)), {.jobs = threads});
 }
 
 void PrintTo(const FalsifyResult& result, std::ostream* out) {

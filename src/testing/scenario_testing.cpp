@@ -10,9 +10,9 @@
 #include "trackbed/analysis/verdict.h"
 #include "trackbed/core/error.h"
 
-// Defines GoogleTest matchers for scenario runs. Each matcher wraps a function that returns failure
-// texts in a RunMatcher. Most matchers apply the same check to every plant. A run without a plan or
-// without plants never matches.
+// Defines GoogleTest matchers for scenario runs. Each matcher is a RunMatcher, which contains a
+// function that returns the reasons why a run does not match. Most matchers apply the same check to
+// every plant. A run without a plan or without plants never matches.
 namespace trackbed {
 namespace {
 
@@ -49,8 +49,8 @@ class RunMatcher {
   Failures failures_;
 };
 
-/// Returns a function that applies `check` to every plant of a run. The function `check` returns an
-/// empty text for a plant that passes.
+/// Returns a function that applies `check` to every plant of a run. The function `check` must
+/// return an empty text for a plant that passes the check, otherwise a failure message.
 Failures ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
   return [check = std::move(check)](const RunResult& run) {
     std::vector<std::string> failures;
@@ -67,7 +67,7 @@ Failures ForEveryPlant(std::function<std::string(const PlantMetrics&)> check) {
 }
 
 /// Describes how a metric of a plant violates its bound; returns an empty text if the bound is met.
-/// The text `format` receives the value, the station and the time of the metric.
+/// The value, the station and the time of the metric are inserted into the format string `format`.
 std::string DescribeFailure(const PlantMetrics& plant, const char* metric, Relation relation,
                             double bound, const char* format) {
   const Check check = CheckMetric(plant, metric, relation, bound);
@@ -107,31 +107,7 @@ class DifferenceBoundsMatcher {
   DifferenceBounds bounds_;
 };
 
-const RunLog& FindLog(const RunResult& run, const std::string& plant) {
-  std::vector<std::string> driven;
-  for (const RunLog& log : run.logs) {
-    if (log.plant == plant) {
-      return log;
-    }
-    driven.push_back(log.plant);
-  }
-  throw InputError(
-      Problem{.message = fmt::format("the run {} has no plant {}; it has: {}", run.scenario.name,
-                                     plant, fmt::join(driven, ", "))});
-}
-
 }  // namespace
-
-PlantComparison Compare(const RunResult& run, const std::string& first, const std::string& second) {
-  return ComparePlants(FindLog(run, first), FindLog(run, second));
-}
-
-PlantComparison Compare(const RunResult& first, const RunResult& second, const std::string& plant) {
-  PlantComparison comparison = ComparePlants(FindLog(first, plant), FindLog(second, plant));
-  comparison.first = first.scenario.name + "/" + plant;
-  comparison.second = second.scenario.name + "/" + plant;
-  return comparison;
-}
 
 void PrintTo(const PlantComparison& comparison, std::ostream* out) {
   *out << fmt::format(
@@ -144,14 +120,6 @@ void PrintTo(const PlantComparison& comparison, std::ostream* out) {
 
 testing::Matcher<const PlantComparison&> DiffersByAtMost(const DifferenceBounds& bounds) {
   return DifferenceBoundsMatcher(bounds);
-}
-
-RunResult RunScenario(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  return RunMission(ReadScenario(file, overrides, {}, PossibleMetrics));
-}
-
-RunResult RunScenario(const Scenario& scenario) {
-  return RunMission(scenario);
 }
 
 void PrintTo(const RunResult& run, std::ostream* out) {

@@ -20,16 +20,17 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Random id that distinguishes this run from others served on the same port.
+/// Returns a random id that distinguishes this run from other runs served on the same port.
 std::string NewId() {
   std::random_device random;
   return fmt::format("{:08x}{:08x}", random(), random());
 }
 
-/// ReportData at the beginning of the run, with the first row of each plant's log. Reports are read
-/// from run folders, so a run folder is written, hidden inside the output folder.
+/// Returns the report data at the beginning of the run, with the first row of each plant's log. The
+/// function ReportData needs a run folder, so a temporary run folder is written, hidden inside the
+/// output folder.
 ordered_json DataAtBegin(const RunResult& planned, const CarModel& car, const fs::path& folder) {
-  const RunResult begun = DriveRun(
+  const RunResult begun = SimulateRun(
       planned, car,
       {.drive = [](const std::string&) { return DriveHooks{.interrupted = [] { return true; }}; },
        .together = true});
@@ -40,7 +41,7 @@ ordered_json DataAtBegin(const RunResult& planned, const CarModel& car, const fs
 }
 
 std::string PageOf(const std::vector<fs::path>& paths) {
-  // The server has no other files, so films are embedded in the page.
+  // The server serves only the page and no other files, so videos are embedded in the page.
   return ReportPageOf(paths, paths.front() / run_folder::kReport, FilmPlace::kEmbedded);
 }
 
@@ -51,13 +52,13 @@ void Serve(Server& server, const WatchHooks& hooks, const std::atomic<bool>& fai
   server.Run([&] { return failed || (hooks.interrupted && hooks.interrupted()); });
 }
 
-/// Reports the end of a run in the server's thread. The run ends in the simulation thread.
+/// Passes the end of a run from the simulation thread to the server's thread.
 class RunFinisher {
  public:
   RunFinisher(const OutputFolder& folder, Server& server, const WatchHooks& hooks)
       : folder_(folder), server_(server), hooks_(hooks) {}
 
-  /// Writes the run folder, and shows its page unless the run was interrupted.
+  /// Writes the run folder, and serves its report unless the run was interrupted.
   void Report(const RunResult& result, LiveRun* live) {
     WriteRunFolder(result, folder_);
     if (result.interrupted) {
@@ -72,7 +73,7 @@ class RunFinisher {
     });
   }
 
-  /// Calls `finished` only once.
+  /// Calls the hook `finished` unless it was already called.
   void NotifyFinished(const RunResult& result) {
     if (!std::exchange(notified_, true) && hooks_.finished) {
       hooks_.finished(result);
@@ -83,7 +84,8 @@ class RunFinisher {
   const OutputFolder& folder_;
   Server& server_;
   const WatchHooks& hooks_;
-  bool notified_ = false;  // whether `finished` was called; used in the server's thread
+  bool notified_ = false;  // whether the hook `finished` was called; used only in the server's
+                           // thread
 };
 
 }  // namespace
@@ -106,10 +108,10 @@ RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFo
   server.Show(LivePage(first, id), &live);
   std::future<void> driven = std::async(std::launch::async, [&] {
     try {
-      result = DriveRun(std::move(result), car,
-                        {.drive = [&](const std::string& plant) { return live.HooksOf(plant); },
-                         .ended = [&](const std::string& plant) { live.EndOf(plant); },
-                         .together = true});
+      result = SimulateRun(std::move(result), car,
+                           {.drive = [&](const std::string& plant) { return live.HooksOf(plant); },
+                            .ended = [&](const std::string& plant) { live.EndOf(plant); },
+                            .together = true});
       finisher.Report(result, &live);
     } catch (...) {
       failed = true;
@@ -119,12 +121,13 @@ RunResult WatchRun(const Scenario& scenario, const CarModel& car, const OutputFo
   try {
     Serve(server, hooks, failed);
   } catch (...) {
-    live.Interrupt();  // otherwise `driven` would wait for the end of the run
+    live.Interrupt();  // otherwise the destructor of `driven` would wait for the end of the run
     throw;
   }
   live.Interrupt();
   driven.get();
-  finisher.NotifyFinished(result);  // needed if the run ended together with the server
+  // calls the hook `finished` if the server stopped before the end of the run was reported
+  finisher.NotifyFinished(result);
   return result;
 }
 

@@ -19,7 +19,7 @@ using testing::IsEmpty;
 
 /// A short open-loop run of the plants, without a path.
 RunResult Turn(const std::string& plants, const std::string& more = "") {
-  return RunMission(
+  return RunScenario(
       ParseScenario("schema: 1\nname: turn\nmission: {duration: 1, speed: 3}\n"
                     "control: {method: constant_steering, steering: 0.1}\ndrive: {plants: [" +
                         plants + "]}\n" + more,

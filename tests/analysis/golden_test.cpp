@@ -18,7 +18,7 @@
 #include "trackbed/scenario/record.h"
 
 namespace trackbed {
-namespace {
+namespace golden_test {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
@@ -54,7 +54,7 @@ class Golden : public testing::TestWithParam<std::string> {};
 // measurement.
 TEST_P(Golden, MetricsAreWithinTheirTolerances) {
   const TempFolder folder;
-  WriteRunFolder(RunMission(ReadScenario(kScenarios / (GetParam() + ".yaml"))), folder.path());
+  WriteRunFolder(RunScenario(ReadScenario(kScenarios / (GetParam() + ".yaml"))), folder.path());
   const json metrics = json::parse(ReadFile(folder.path() / run_folder::kMetricsJson));
   const TextTable golden =
       ReadTextCsv(GoldenFile(GetParam(), metrics.at("versions").at("physics").get<std::string>()));
@@ -92,5 +92,5 @@ TEST(GoldenMetrics, AreThereForEveryScenario) {
       << "scripts/golden makes them";
 }
 
-}  // namespace
+}  // namespace golden_test
 }  // namespace trackbed

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 std::map<std::string, std::string> RunAndRead(const fs::path& out) {
   Scenario scenario =
       ReadScenario(fs::path(TRACKBED_SOURCE_DIR) / "scenarios" / "playback_lane_change.yaml");
-  WriteRunFolder(RunMission(scenario), out, {.mcap = true});
+  WriteRunFolder(RunScenario(scenario), out, {.mcap = true});
   std::map<std::string, std::string> files;
   for (const auto& entry : fs::directory_iterator(out)) {
     if (entry.path().filename() != "timing.json") {
@@ -32,7 +32,7 @@ std::map<std::string, std::string> RunAndRead(const fs::path& out) {
 }
 
 // A program that embeds Trackbed may set its user's locale, for C and for C++.
-TEST(RunMission, WritesTheSameBytesInALocaleWithADecimalComma) {
+TEST(RunScenario, WritesTheSameBytesInALocaleWithADecimalComma) {
   const TempFolder folder;
   const auto expected = RunAndRead(folder.path() / "point");
   Shell(folder, "localedef -i de_DE -f UTF-8 ./de_DE.UTF-8");

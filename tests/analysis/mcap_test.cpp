@@ -126,7 +126,7 @@ RunResult DriveAndPass(const std::vector<std::string>& plants = {"kinematic"}) {
   scenario.mission.waypoints = {{0.0, 0.0}, {120.0, 0.0}};
   scenario.drive.plants = plants;
   scenario.expect = {};
-  return RunMission(scenario);
+  return RunScenario(scenario);
 }
 
 TEST(Mcap, HoldsTheRun) {

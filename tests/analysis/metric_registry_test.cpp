@@ -10,7 +10,7 @@
 #include "trackbed/core/error.h"
 
 namespace trackbed {
-namespace {
+namespace metric_registry_test {
 
 using testing::Contains;
 using testing::HasSubstr;
@@ -132,7 +132,7 @@ TEST(RegisterMetric, MakesAMetricLikeAnyOther) {
   const Scenario scenario = ParseScenario(yaml, "own.yaml", ".");
   EXPECT_THAT(PossibleMetrics(scenario), Contains("test_half_way_s"));
   EXPECT_THAT(PossibleOutputs(scenario), Contains("metrics.*.test_half_way"));
-  const RunResult run = RunMission(scenario);
+  const RunResult run = RunScenario(scenario);
   // 1 s at 3 m/s.
   EXPECT_EQ(run.verdict.failures,
             std::vector<std::string>{
@@ -145,5 +145,5 @@ TEST(RegisterMetric, MakesAMetricLikeAnyOther) {
               HasSubstr("conflicts with the metric 'test_half_way'"));
 }
 
-}  // namespace
+}  // namespace metric_registry_test
 }  // namespace trackbed

@@ -28,7 +28,7 @@ Scenario BeforeAWall(const std::string& rest = "") {
 }
 
 TEST(PartialPlan, IsDrivenToItsEndAndNotPassed) {
-  const RunResult run = RunMission(BeforeAWall());
+  const RunResult run = RunScenario(BeforeAWall());
   ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
   ASSERT_EQ(run.metrics.size(), 2U);
   EXPECT_FALSE(run.verdict.passed);
@@ -58,13 +58,13 @@ TEST(PartialPlan, PassesWhereThatIsWhatIsExpected) {
   const Scenario scenario = BeforeAWall(
       "drive: {plants: [kinematic]}\n"
       "expect: {metrics: [{metric: status, equals: partial}]}\n");
-  const RunResult run = RunMission(scenario);
+  const RunResult run = RunScenario(scenario);
   EXPECT_TRUE(run.verdict.passed) << testing::PrintToString(run.verdict.failures);
   EXPECT_THAT(run.verdict.notes.at(0), HasSubstr("kinematic: the plan ends "));
 }
 
 TEST(PartialPlan, StandsInTheFilesOfTheRun) {
-  const RunResult run = RunMission(BeforeAWall("drive: {plants: [kinematic]}\n"));
+  const RunResult run = RunScenario(BeforeAWall("drive: {plants: [kinematic]}\n"));
   const TempFolder folder;
   WriteRunFolder(run, folder.path());
   const auto plan = nlohmann::json::parse(ReadFile(folder.path() / "plan.json"));
@@ -93,7 +93,7 @@ TEST(PartialPlan, StaysOneWhenItIsPlannedAgainOnTheWay) {
       "  replan: {along: {method: frenet}, detour: {method: rrt, safe_distance: 0.6}}\n"
       "drive: {plants: [kinematic]}\n",
       "wall.yaml", ".");
-  const RunResult run = RunMission(scenario);
+  const RunResult run = RunScenario(scenario);
   ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
   ASSERT_FALSE(run.plan->partial.empty());
   EXPECT_GT(run.metrics[0].plan_changes, 0);

@@ -120,7 +120,7 @@ RunResult Weave(const fs::path& folder) {
                   "drive: {{plants: [kinematic, mujoco]}}\n",
                   kSmallCar),
       "weave.yaml", "/");
-  RunResult result = RunMission(scenario);
+  RunResult result = RunScenario(scenario);
   WriteRunFolder(result, OutputFolder(folder));
   return result;
 }
@@ -132,7 +132,7 @@ TEST(RecordedRuns, GiveTheStatesOfATrackbedLogAgain) {
   for (const RunLog& log : original.logs) {
     auto drive = std::make_shared<const RecordedDrive>(
         ImportLog(folder.path() / "weave" / run_folder::LogCsv(log.plant), map));
-    const RunResult again = RunMission(RecordScenario(drive, kSmallCar));
+    const RunResult again = RunScenario(RecordScenario(drive, kSmallCar));
     ASSERT_EQ(again.logs.size(), 1U);
     const RunLog& recorded = again.logs.front();
     EXPECT_EQ(recorded.plant, "recorded");
@@ -177,7 +177,7 @@ TEST(RecordedRuns, AreReplayedExactlyByThePlantThatTheyAreOf) {
       {.metric = "recorded.yaw_rate.relative_rms", .max = 0.01}};
   scenario.expect.between = {
       {.plants = {"recorded", "kinematic"}, .bounds = {.position_max = 0.01}}};
-  const RunResult result = RunMission(scenario);
+  const RunResult result = RunScenario(scenario);
   EXPECT_TRUE(result.verdict.passed) << testing::PrintToString(result.verdict.failures);
   // The measured angle at the end of a period is the actuator's command at its beginning. The
   // actuator moves there at its full rate and then waits: up to a period early. 0.5 rad/s over 20
@@ -201,7 +201,7 @@ TEST(RecordedRuns, AreWrittenAndComparedAsRuns) {
   const TempFolder folder;
   auto drive = std::make_shared<const RecordedDrive>(
       ImportLog(kLogs / "autoware.csv", ReadLogMap(kMaps / "autoware.yaml")));
-  const RunResult result = RunMission(RecordScenario(drive, kSmallCar));
+  const RunResult result = RunScenario(RecordScenario(drive, kSmallCar));
   WriteRunFolder(result, OutputFolder(folder.path() / "run"));
   EXPECT_THAT(
       folder.path() / "run",

@@ -31,7 +31,7 @@ Scenario CornerWith(const std::string& expect) {
       "schema: 1\nname: required\nmission: {speed: 3, waypoints: [[0, 0], [30, 0], [30, 30]]}\n"
       "plan: {method: fillet}\ndrive: {plants: [kinematic, single_track]}\nexpect:\n" +
           expect,
-      "required", TRACKBED_SOURCE_DIR "/tests/data/models", {}, {}, PossibleMetrics);
+      "required", TRACKBED_SOURCE_DIR "/tests/data/models", {}, PossibleMetrics);
 }
 
 /// A log of positions, one row per second, at stations 10 m apart.
@@ -89,7 +89,7 @@ TEST(RequirementMetrics, ThatNoSampleDecidesOrThatCannotBeEvaluatedAreNotMet) {
 }
 
 TEST(RequirementMetrics, AreChecksOfTheVerdictAndMetrics) {
-  const RunResult run = RunMission(
+  const RunResult run = RunScenario(
       CornerWith("  requirements:\n"
                  "    - {name: lane, formula: always abs(cross_track_m) < 5}\n"
                  "    - {name: slow, formula: always speed_mps <= 2}\n"

@@ -86,7 +86,7 @@ TEST(RunFolder, RepeatsAPlaybackFromItsOwnRecording) {
   const TempFolder folder;
   const auto out = [&](const char* name) { return folder.path() / name; };
   const auto run = [&](const Scenario& scenario, const char* name) {
-    WriteRunFolder(RunMission(scenario), out(name));
+    WriteRunFolder(RunScenario(scenario), out(name));
     return ReadFile(out(name) / "kinematic.csv");
   };
   const std::string first =
@@ -99,7 +99,7 @@ TEST(RunFolder, RepeatsThePathOfAFileFromItsOwnPoints) {
   const TempFolder folder;
   const auto out = [&](const char* name) { return folder.path() / name; };
   const auto run = [&](const Scenario& scenario, const char* name) {
-    WriteRunFolder(RunMission(scenario), out(name));
+    WriteRunFolder(RunScenario(scenario), out(name));
     return ReadFile(out(name) / "kinematic.csv");
   };
   const std::string first =
@@ -115,7 +115,7 @@ TEST(RunFolder, RepeatsARouteOnItsOwnRoads) {
   const TempFolder folder;
   const auto out = [&](const char* name) { return folder.path() / name; };
   const auto run = [&](const Scenario& scenario, const char* name) {
-    WriteRunFolder(RunMission(scenario), out(name));
+    WriteRunFolder(RunScenario(scenario), out(name));
     return ReadFile(out(name) / "kinematic.csv");
   };
   const std::string first =
@@ -160,7 +160,7 @@ TEST(RunFolder, ListsWhateverARunAndItsComparisonWrite) {
   const TempFolder folder;
   // Contains searched turns and a replan.
   const RunResult run =
-      RunMission(Read("obstacle_appears", {"plan.global={method: fillet, objective: turn_local}",
+      RunScenario(Read("obstacle_appears", {"plan.global={method: fillet, objective: turn_local}",
                                            "drive.time_limit=25", "expect={}"}));
   ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
   WriteRunFolder(run, folder.path(), {.mcap = true});
@@ -180,7 +180,7 @@ TEST(RunFolder, LosesEveryFileOfAnEarlierRun) {
   }
   folder.Write("manifest.json", nlohmann::json{{"results", {{"run", files}}}}.dump());
   folder.Write("notes.txt", "mine");
-  WriteRunFolder(RunMission(Read("steering_circle",
+  WriteRunFolder(RunScenario(Read("steering_circle",
                                  {"drive.plants=[kinematic]", "expect={}", "mission.duration=1"})),
                  folder.path());
   EXPECT_THAT(folder.Names(),

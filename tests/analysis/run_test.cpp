@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(Seeds, Routes, testing::Values("three_turns", "winding"
                          [](const auto& route) { return route.param; });
 
 TEST_P(Routes, PreviewTracksThemOnEveryPlant) {
-  const RunResult result = RunMission(Load(GetParam()));
+  const RunResult result = RunScenario(Load(GetParam()));
   EXPECT_TRUE(result.verdict.passed) << testing::PrintToString(result.verdict.failures);
   ASSERT_EQ(result.metrics.size(), 2U);
   for (const PlantMetrics& metrics : result.metrics) {
@@ -72,7 +72,7 @@ TEST_P(Routes, StopWhereTheSchedulePredicts) {
   const bool is_a = std::string(GetParam()) == "three_turns";
   const double converged = is_a ? 0.1285 : 0.0104;
   for (const double period : {0.001, 0.002, 0.004, 0.01, 0.02}) {
-    const RunResult result = RunMission(
+    const RunResult result = RunScenario(
         Load(GetParam(), {"control={method: schedule}", "expect={}", "drive.plants=[kinematic]",
                           "drive.timestep=0.001", fmt::format("drive.control_period={}", period)}));
     const TrackingMetrics& tracking = *Of(result, "kinematic").tracking;
@@ -87,7 +87,7 @@ TEST_P(Routes, StopWhereTheSchedulePredicts) {
 
 TEST(OpenLoop, MujocoStaysNearTheKinematicCarOnContacts) {
   for (const char* route : {"three_turns", "winding"}) {
-    const RunResult result = RunMission(
+    const RunResult result = RunScenario(
         Load(route, {"control={method: schedule}", "expect={}", "vehicle.tyre=contact"}));
     // The physical servo lags by 10 to 15 ms, 4 cm of road at either end of each ramp, which mostly
     // cancels; a remaining heading error of one milliradian is 8 cm after 80 m.
@@ -98,7 +98,7 @@ TEST(OpenLoop, MujocoStaysNearTheKinematicCarOnContacts) {
 }
 
 TEST(SteeringCircle, HasTheKinematicRadiusOnContacts) {
-  const RunResult result = RunMission(Load("steering_circle", {"vehicle.tyre=contact"}));
+  const RunResult result = RunScenario(Load("steering_circle", {"vehicle.tyre=contact"}));
   EXPECT_TRUE(result.verdict.passed) << testing::PrintToString(result.verdict.failures);
   const double radius = 2.7 / std::tan(kPi / 18.0);  // 15.3125 m
   for (const RunLog& log : result.logs) {
@@ -127,8 +127,8 @@ TEST(Run, TurnedStartGivesTheTurnedRun) {
   for (Vec2& waypoint : turned.mission.waypoints) {
     waypoint = ToWorld(moved, waypoint);
   }
-  const RunResult a = RunMission(straight);
-  const RunResult b = RunMission(turned);
+  const RunResult a = RunScenario(straight);
+  const RunResult b = RunScenario(turned);
   for (std::size_t i = 0; i < a.logs.size(); ++i) {
     const auto& rows = a.logs[i].rows;
     ASSERT_EQ(rows.size(), b.logs[i].rows.size());
@@ -151,7 +151,7 @@ TEST(Run, TurnedStartGivesTheTurnedRun) {
 TEST(Run, StartsOffItsPathAndReturnsToIt) {
   for (const char* start : {"{y: 0.5, yaw: 0.1, speed: 0}", "{y: -1, yaw: -0.2}", "{y: 3}"}) {
     const RunResult result =
-        RunMission(Load("three_turns", {fmt::format("mission.start={}", start),
+        RunScenario(Load("three_turns", {fmt::format("mission.start={}", start),
                                         "plan.infeasible=allow", "expect={}"}));
     for (const PlantMetrics& metrics : result.metrics) {
       SCOPED_TRACE(metrics.plant + std::string(" from ") + start);
@@ -173,8 +173,8 @@ std::map<std::string, std::string> FilesIn(const fs::path& folder) {
 TEST(WriteRunFolder, GivesTheSameBytesEveryTime) {
   const TempFolder folder;
   const Scenario scenario = Load("three_turns", {"drive.time_limit=12"});
-  WriteRunFolder(RunMission(scenario), folder.path() / "a");
-  WriteRunFolder(RunMission(scenario), folder.path() / "b");
+  WriteRunFolder(RunScenario(scenario), folder.path() / "a");
+  WriteRunFolder(RunScenario(scenario), folder.path() / "b");
   auto a = FilesIn(folder.path() / "a");
   auto b = FilesIn(folder.path() / "b");
   std::vector<std::string> names;
@@ -193,7 +193,7 @@ TEST(WriteRunFolder, GivesTheSameBytesEveryTime) {
 TEST(WriteRunFolder, TellsWhatTheControllerDidAndWhatItTook) {
   const TempFolder folder;
   const RunResult result =
-      RunMission(Load("winding", {"drive.time_limit=12", "drive.plants=[kinematic]", "expect={}",
+      RunScenario(Load("winding", {"drive.time_limit=12", "drive.plants=[kinematic]", "expect={}",
                                   "control={method: optimal_steering, search: {method: crs2}}"}));
   WriteRunFolder(result, folder.path());
   const Table table = ToTable(result.logs.front());
@@ -217,9 +217,9 @@ TEST(WriteRunFolder, TellsWhatTheControllerDidAndWhatItTook) {
 
 TEST(WriteRunFolder, ResolvedScenarioRunsToTheSameBytes) {
   const TempFolder folder;
-  WriteRunFolder(RunMission(Load("winding", {"drive.time_limit=5"})), folder.path() / "a");
+  WriteRunFolder(RunScenario(Load("winding", {"drive.time_limit=5"})), folder.path() / "a");
   const Scenario again = ReadScenario(folder.path() / "a" / "scenario.resolved.yaml");
-  WriteRunFolder(RunMission(again), folder.path() / "b");
+  WriteRunFolder(RunScenario(again), folder.path() / "b");
   auto a = FilesIn(folder.path() / "a");
   auto b = FilesIn(folder.path() / "b");
   a.erase("timing.json");
@@ -229,9 +229,9 @@ TEST(WriteRunFolder, ResolvedScenarioRunsToTheSameBytes) {
 
 TEST(WriteRunFolder, LeavesNothingOfAnEarlierRun) {
   const TempFolder folder;
-  WriteRunFolder(RunMission(Load("winding", {"drive.time_limit=1"})), folder.path());
+  WriteRunFolder(RunScenario(Load("winding", {"drive.time_limit=1"})), folder.path());
   folder.Write("notes.txt", "mine");
-  WriteRunFolder(RunMission(Load("steering_circle",
+  WriteRunFolder(RunScenario(Load("steering_circle",
                                  {"drive.plants=[kinematic]", "expect={}", "mission.duration=1"})),
                  folder.path());
   const auto files = FilesIn(folder.path());
@@ -244,7 +244,7 @@ TEST(WriteRunFolder, LeavesNothingOfAnEarlierRun) {
 
 TEST(WriteRunFolder, WritesTheColumnsOfTheContract) {
   const TempFolder folder;
-  WriteRunFolder(RunMission(Load("three_turns", {"drive.time_limit=1"})), folder.path());
+  WriteRunFolder(RunScenario(Load("three_turns", {"drive.time_limit=1"})), folder.path());
   const std::vector<std::string> common{"t_s",
                                         "x_m",
                                         "y_m",
@@ -290,7 +290,7 @@ TEST(WriteRunFolder, WritesTheColumnsOfTheContract) {
 
 TEST(Run, WithoutAPlanFailsWithTheReason) {
   const RunResult result =
-      RunMission(Load("three_turns", {"mission.waypoints=[[0, 0], [40, 0], [20, 0]]"}));
+      RunScenario(Load("three_turns", {"mission.waypoints=[[0, 0], [40, 0], [20, 0]]"}));
   EXPECT_FALSE(result.verdict.passed);
   EXPECT_THAT(
       result.verdict.failures,
@@ -307,12 +307,12 @@ std::string LogsOf(const RunResult& result) {
   return text;
 }
 
-TEST(RunMission, GivesTheSameWithAllPlantsTogether) {
+TEST(RunScenario, GivesTheSameWithAllPlantsTogether) {
   const Scenario scenario = Load("three_turns", {"drive.time_limit=2"});
   std::mutex mutex;
   std::set<std::string> ended;
   std::map<std::string, std::size_t> rows;
-  const RunResult together = RunMission(
+  const RunResult together = RunScenario(
       scenario, {.drive =
                      [&](const std::string& plant) {
                        return DriveHooks{.logged = [&, plant](const RunLog& log, const Table&) {
@@ -326,7 +326,7 @@ TEST(RunMission, GivesTheSameWithAllPlantsTogether) {
                        ended.insert(plant);
                      },
                  .together = true});
-  const RunResult in_turn = RunMission(scenario);
+  const RunResult in_turn = RunScenario(scenario);
   EXPECT_EQ(LogsOf(together), LogsOf(in_turn));
   EXPECT_EQ(MetricsJson(together), MetricsJson(in_turn));
   EXPECT_THAT(ended, testing::ElementsAre("kinematic", "mujoco"));
@@ -335,7 +335,7 @@ TEST(RunMission, GivesTheSameWithAllPlantsTogether) {
   }
 }
 
-TEST(RunMission, InterruptsTheOtherPlantsWhereOneFails) {
+TEST(RunScenario, InterruptsTheOtherPlantsWhereOneFails) {
   std::promise<void> fails;
   const std::shared_future<void> failed = fails.get_future().share();
   int rows = 0;
@@ -357,24 +357,24 @@ TEST(RunMission, InterruptsTheOtherPlantsWhereOneFails) {
                 .logged = [&, plant](const RunLog& log, const Table&) { logged(plant, log); }};
           },
       .together = true};
-  EXPECT_THROW(RunMission(Load("three_turns"), hooks), RunError);
+  EXPECT_THROW(RunScenario(Load("three_turns"), hooks), RunError);
   EXPECT_LT(rows, 2000);  // the whole run has 2364
 }
 
-TEST(DriveRun, OfAPlanIsTheRestOfTheMission) {
+TEST(SimulateRun, OfAPlanIsTheRestOfTheMission) {
   const Scenario scenario = Load("three_turns", {"drive.time_limit=1"});
   const CarModel car = LoadCar(scenario);
   const RunResult planned = PlanRun(scenario, car);
   EXPECT_TRUE(planned.plan.ok());
   EXPECT_TRUE(planned.logs.empty());
-  EXPECT_EQ(LogsOf(DriveRun(planned, car)), LogsOf(RunMission(scenario)));
+  EXPECT_EQ(LogsOf(SimulateRun(planned, car)), LogsOf(RunScenario(scenario)));
 }
 
 TEST(Run, KeepsTheLogWhenInterrupted) {
   const TempFolder folder;
   int asked = 0;
   const RunResult result =
-      RunMission(Load("three_turns"), {.drive = [&](const std::string&) {
+      RunScenario(Load("three_turns"), {.drive = [&](const std::string&) {
                    return DriveHooks{.progress = {}, .interrupted = [&] { return ++asked > 100; }};
                  }});
   EXPECT_TRUE(result.interrupted);
@@ -388,7 +388,7 @@ TEST(Run, KeepsTheLogWhenInterrupted) {
 TEST(Run, CallsTheCallersHooksAsWellAsItsOwn) {
   int updates = 0;
   double longest = 0.0;
-  const RunResult result = RunMission(Load("three_turns", {"drive.plants=[kinematic]"}),
+  const RunResult result = RunScenario(Load("three_turns", {"drive.plants=[kinematic]"}),
                                       {.drive = [&](const std::string&) {
                                         return DriveHooks{.steered = [&](double seconds) {
                                           ++updates;
@@ -402,7 +402,7 @@ TEST(Run, CallsTheCallersHooksAsWellAsItsOwn) {
 }
 
 TEST(Verdict, SaysWhatWasExpectedAndWhatWasWhereAndWhen) {
-  const RunResult result = RunMission(
+  const RunResult result = RunScenario(
       Load("three_turns", {"drive.plants=[kinematic]", "control={method: preview, distance: 5}",
                            "expect={max_cross_track: 0.1, reach_goal: 0.00001}"}));
   EXPECT_FALSE(result.verdict.passed);
@@ -416,7 +416,7 @@ TEST(Verdict, SaysWhatWasExpectedAndWhatWasWhereAndWhen) {
 }
 
 TEST(Verdict, FailsADriveThatDoesNotArrive) {
-  const RunResult result = RunMission(
+  const RunResult result = RunScenario(
       Load("three_turns", {"drive.plants=[kinematic]", "drive.time_limit=3", "expect={}"}));
   EXPECT_THAT(
       result.verdict.failures,
@@ -424,7 +424,7 @@ TEST(Verdict, FailsADriveThatDoesNotArrive) {
 }
 
 TEST(Drive, LogsCommandActuatorAndMeasurementApart) {
-  const RunResult result = RunMission(Load("three_turns", {"drive.time_limit=12", "expect={}"}));
+  const RunResult result = RunScenario(Load("three_turns", {"drive.time_limit=12", "expect={}"}));
   const RunLog& log = FindLog(result, "mujoco");
   double command_ahead = 0.0;
   double measured_behind = 0.0;

@@ -51,7 +51,7 @@ TEST(PossibleMetrics, AreThoseOfTheRun) {
   const Scenario scenario = ReadScenario(
       std::string(TRACKBED_SOURCE_DIR) + "/scenarios/disturbed.yaml", {"drive.plants=[kinematic]"});
   const std::vector<std::string> possible = PossibleMetrics(scenario);
-  for (const auto& [path, value] : CollectOutputs(RunMission(scenario))) {
+  for (const auto& [path, value] : CollectOutputs(RunScenario(scenario))) {
     const std::string start = "metrics.kinematic.";
     if (path.starts_with(start)) {
       EXPECT_THAT(possible, testing::Contains(path.substr(start.size())));
@@ -177,7 +177,7 @@ TEST(DriveOnce, ComesToWhatARunOfTheScenarioComesTo) {
   for (const StudyPoint& point : AllPoints(checked.points)) {
     const std::optional<RunOutcome> outcome = DriveOnce(checked, point.scenario);
     ASSERT_TRUE(outcome.has_value());
-    const RunResult run = RunMission(point.scenario);
+    const RunResult run = RunScenario(point.scenario);
     EXPECT_EQ(outcome->passed, run.verdict.passed);
     EXPECT_EQ(outcome->status, run.verdict.passed ? "passed" : "failed");
     EXPECT_EQ(Reproducible(outcome->outputs), Reproducible(CollectOutputs(run)));
@@ -223,7 +223,7 @@ TEST(DriveOnce, DrivesEveryPointAsIfItWereAlone) {
   for (const StudyPoint& point : AllPoints(checked.points)) {
     const std::optional<RunOutcome> outcome = DriveOnce(checked, point.scenario);
     EXPECT_EQ(Reproducible(outcome->outputs),
-              Reproducible(CollectOutputs(RunMission(point.scenario))))
+              Reproducible(CollectOutputs(RunScenario(point.scenario))))
         << point.settings[0].key;
     different.insert(Reproducible(outcome->outputs));
   }
@@ -242,7 +242,7 @@ TEST(DriveOnce, DisturbsEveryPointInItsOwnWay) {
   std::set<std::string> distances;
   for (const StudyPoint& point : AllPoints(checked.points)) {
     const Outputs outputs = DriveOnce(checked, point.scenario)->outputs;
-    EXPECT_EQ(Reproducible(outputs), Reproducible(CollectOutputs(RunMission(point.scenario))));
+    EXPECT_EQ(Reproducible(outputs), Reproducible(CollectOutputs(RunScenario(point.scenario))));
     EXPECT_EQ(outputs.count("metrics.mujoco.recovery_time"), point.scenario.disturb.kicks.size());
     distances.insert(outputs.at("metrics.mujoco.distance"));
   }

@@ -54,8 +54,8 @@ TrackDrive DriveOnKidney(const std::string& mission, const std::string& plan,
       ParseScenario(text, "blocked_lap.yaml",
                     std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "tracks");
   CarModel car = LoadCar(scenario);
-  const FeasiblePlan planned = PlanMission(scenario, car);
-  RunLog log = DrivePlant(scenario, car, planned, "kinematic");
+  const FeasiblePlan planned = PlanScenario(scenario, car);
+  RunLog log = SimulateScenario(scenario, car, planned, "kinematic");
   return {scenario, std::move(car), planned, std::move(log)};
 }
 
@@ -127,8 +127,8 @@ TEST(TrackReplanning, GoesOnToTheNextLap) {
                                          {BoxOn(Kidney(), 300.0, 1.0)});
   Scenario twice = drive.scenario;
   twice.mission.track->laps = 2;
-  const FeasiblePlan plan = PlanMission(twice, drive.car);
-  const RunLog log = DrivePlant(twice, drive.car, plan, "kinematic");
+  const FeasiblePlan plan = PlanScenario(twice, drive.car);
+  const RunLog log = SimulateScenario(twice, drive.car, plan, "kinematic");
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   const std::vector<LapMetrics> laps = MeasureLaps(log, plan);
   ASSERT_EQ(laps.size(), 2U);

@@ -15,7 +15,7 @@
 
 // Effects of the limited steering rate on turns, predicted and measured.
 namespace trackbed {
-namespace {
+namespace turns_test {
 
 Scenario Load(const std::string& name, const std::vector<Override>& overrides) {
   return ReadScenario(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/" + name + ".yaml", overrides);
@@ -24,7 +24,7 @@ Scenario Load(const std::string& name, const std::vector<Override>& overrides) {
 TEST(Turns, OfTheKinematicCarAreAsPredicted) {
   for (const char* name : {"three_turns", "winding"}) {
     const RunResult run =
-        RunMission(Load(name, {"control.method=schedule", "drive.plants=[kinematic]"}));
+        RunScenario(Load(name, {"control.method=schedule", "drive.plants=[kinematic]"}));
     ASSERT_EQ(run.metrics[0].turns.size(), 3U);
     for (const TurnMetrics& turn : run.metrics[0].turns) {
       // Between rows 0.06 m apart the yaw deviates from a line by kappa' ds^2/8 = 0.0056 * 0.0036/8
@@ -37,7 +37,7 @@ TEST(Turns, OfTheKinematicCarAreAsPredicted) {
 }
 
 TEST(Turns, SayWhereAndWhenTheyWereMeasured) {
-  const RunResult run = RunMission(Load("three_turns", {"drive.plants=[kinematic]"}));
+  const RunResult run = RunScenario(Load("three_turns", {"drive.plants=[kinematic]"}));
   const std::vector<IsolatedTurn>& planned = run.plan->turns;
   const std::vector<TurnMetrics>& turns = run.metrics[0].turns;
   ASSERT_EQ(turns.size(), planned.size());
@@ -50,7 +50,7 @@ TEST(Turns, SayWhereAndWhenTheyWereMeasured) {
 }
 
 TEST(Turns, OnContactsLagByTheServo) {
-  const RunResult run = RunMission(
+  const RunResult run = RunScenario(
       Load("three_turns", {"control.method=schedule", "drive.plants=['mujoco:contact']"}));
   ASSERT_EQ(run.metrics[0].turns.size(), 3U);
   for (const TurnMetrics& turn : run.metrics[0].turns) {
@@ -94,7 +94,7 @@ TEST_P(HeadingDeficit, OfAStepOnContactsIsTheClosedForm) {
   const CarModel car = LoadCar(scenario);
   ASSERT_NEAR(car.params().steering_rate, rate, 1e-12);
   const RunLog log =
-      DrivePlant(scenario, car, PlanMission(scenario, car.params()), "mujoco:contact");
+      SimulateScenario(scenario, car, PlanScenario(scenario, car.params()), "mujoco:contact");
   // Compares a curvature step with the ramp: the deficit after the wheels have settled, five lags
   // after the ramp.
   const double ramp_time = delta / rate;
@@ -116,5 +116,5 @@ INSTANTIATE_TEST_SUITE_P(Speeds, HeadingDeficit,
                                            Ramp{5.0, 30.0, 1.0}, Ramp{3.0, 15.0, 0.5},
                                            Ramp{3.0, 10.0, 2.0}, Ramp{8.0, 40.0, 3.0}));
 
-}  // namespace
+}  // namespace turns_test
 }  // namespace trackbed

@@ -17,7 +17,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 
 RunResult Drive(const std::string& yaml) {
-  return RunMission(ParseScenario("schema: 1\nname: verdict\n" + yaml, "verdict",
+  return RunScenario(ParseScenario("schema: 1\nname: verdict\n" + yaml, "verdict",
                                   TRACKBED_SOURCE_DIR "/tests/data/models"));
 }
 

@@ -155,7 +155,7 @@ Record RecordRun(trackbed::Scenario scenario) {
   scenario.drive.state_period = scenario.drive.timestep;
   trackbed::CheckScenario(scenario);
   const trackbed::CarModel model = trackbed::LoadCar(scenario);
-  const trackbed::RunResult result = trackbed::RunMission(scenario, model);
+  const trackbed::RunResult result = trackbed::RunScenario(scenario, model);
   Record record{
       .name = scenario.name, .plan_ok = result.plan.ok(), .blocked = result.plan->blocked};
   record.car = CarFrom(model);

@@ -7,7 +7,7 @@ namespace audit {
 
 /// Runs a scenario and returns the data for the checker. Configurations are recorded at every
 /// physics step, regardless of the scenario's state_period. Throws InputError like
-/// trackbed::RunMission.
+/// trackbed::RunScenario.
 Record RecordRun(trackbed::Scenario scenario);
 
 }  // namespace audit

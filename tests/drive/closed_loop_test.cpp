@@ -377,7 +377,7 @@ TEST(LoopConfig, HasTheDefaultsOfScenarios) {
   EXPECT_EQ(config.steering_input, drive.steering);
 }
 
-TEST(DrivePlant, IsTheLoopOfTheScenariosParts) {
+TEST(SimulateScenario, IsTheLoopOfTheScenariosParts) {
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: parts\nseed: 3\n"
       "mission: {speed: 3, waypoints: [[0, 0], [0, 6]], headings: [0, 3.1416], start: {speed: 0}}\n"
@@ -386,8 +386,8 @@ TEST(DrivePlant, IsTheLoopOfTheScenariosParts) {
       "drive: {plants: [kinematic]}\n",
       "parts.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const FeasiblePlan plan = PlanMission(scenario, car.unladen());
-  const RunLog driven = DrivePlant(scenario, car, plan, "kinematic");
+  const FeasiblePlan plan = PlanScenario(scenario, car.unladen());
+  const RunLog driven = SimulateScenario(scenario, car, plan, "kinematic");
   EXPECT_EQ(driven.plant, "kinematic");
   const auto plant = MakePlant(
       "kinematic", {.car = car, .world = scenario.world, .start = InitialState(scenario)});
@@ -403,14 +403,14 @@ TEST(DrivePlant, IsTheLoopOfTheScenariosParts) {
   EXPECT_EQ(own.status, driven.status);
 }
 
-TEST(DrivePlant, RefusesAPlanThatIsNotOk) {
+TEST(SimulateScenario, RefusesAPlanThatIsNotOk) {
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: none\nmission: {speed: 3, waypoints: [[0, 0], [30, 0]]}\n"
       "plan: {method: dubins}\ncontrol: {method: preview}\n",
       "none.yaml", ".");
   Plan plan;
   plan.status = PlanStatus::kUTurn;
-  EXPECT_THROW(DrivePlant(scenario, LoadCar(scenario), Drivable(plan), "kinematic"),
+  EXPECT_THROW(SimulateScenario(scenario, LoadCar(scenario), Drivable(plan), "kinematic"),
                PreconditionError);
 }
 

@@ -33,9 +33,9 @@ struct Driven {
 
 Driven Drive(const Scenario& scenario) {
   const CarModel car = LoadCar(scenario);
-  FeasiblePlan plan = PlanMission(scenario, car.params());
+  FeasiblePlan plan = PlanScenario(scenario, car.params());
   EXPECT_TRUE(plan.ok()) << plan->reason;
-  RunLog log = DrivePlant(scenario, car, plan, scenario.drive.plants.front());
+  RunLog log = SimulateScenario(scenario, car, plan, scenario.drive.plants.front());
   return {plan, std::move(log)};
 }
 

@@ -21,7 +21,7 @@ constexpr double kWheelbase = 2.7;  // of the Prius [m]
 RunLog Drive(const std::string& yaml) {
   const Scenario scenario = ParseScenario("schema: 1\nname: disturbed\n" + yaml, "test.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  return DrivePlant(scenario, car, PlanMission(scenario, car.unladen()),
+  return SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()),
                     scenario.drive.plants.front());
 }
 
@@ -291,7 +291,7 @@ TEST(PayloadOnTheWay, StaysInTheCarInAWorld) {
   const CarModel car = LoadCar(scenario);
   EXPECT_NEAR(car.params().mass, 1517.0, Tolerance(1e-9));
   EXPECT_NEAR(car.unladen().mass, 1317.0, Tolerance(1e-9));
-  const RunLog log = DrivePlant(scenario, car, PlanMission(scenario, car.unladen()), "mujoco");
+  const RunLog log = SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   // The car does not bounce at the start. 1 % of its weight is twice the load change of the unladen
   // car's wheels in the first step.

@@ -34,7 +34,7 @@ Outcome Drive(const std::string& plant, double speed, double range, double place
                   speed, "'" + plant + "'", range, place, more),
       "test.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const RunLog log = DrivePlant(scenario, car, PlanMission(scenario, car.unladen()), plant);
+  const RunLog log = SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), plant);
   Outcome outcome{.clearance = 1e9, .status = log.status};
   for (const LogRow& row : log.rows) {
     outcome.clearance = std::min(outcome.clearance, row.clearance.value_or(1e9));

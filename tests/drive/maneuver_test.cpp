@@ -10,13 +10,13 @@
 
 // Runs of maneuvers over time: the car follows the specified steering and speed.
 namespace trackbed {
-namespace {
+namespace maneuver_test {
 
 RunLog Drive(const std::string& control, const std::string& rest) {
   const Scenario scenario = ParseScenario(
       fmt::format("schema: 1\nname: maneuver\ncontrol: {}\n{}\n", control, rest), "test.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  return DrivePlant(scenario, car, PlanMission(scenario, car.params()),
+  return SimulateScenario(scenario, car, PlanScenario(scenario, car.params()),
                     scenario.drive.plants.front());
 }
 
@@ -76,5 +76,5 @@ TEST(Maneuver, StepsInOnePeriodWhenPrescribed) {
   EXPECT_EQ(At(log, 1.02).steering, 0.1);
 }
 
-}  // namespace
+}  // namespace maneuver_test
 }  // namespace trackbed

@@ -50,7 +50,7 @@ Scenario Toward(const std::string& plan, const std::string& waypoints) {
 
 RunLog Drive(const Scenario& scenario, const std::string& plant) {
   const CarModel car = LoadCar(scenario);
-  return DrivePlant(scenario, car, PlanMission(scenario, car.unladen()), plant);
+  return SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), plant);
 }
 
 TEST(MapWalls, AreHitAsBoxesAre) {
@@ -104,13 +104,13 @@ TEST(MapWalls, StopACarThatReplans) {
   scenario.world.map = MapWith(kWall);
   // The plan itself is refused where a wall is in its way.
   const CarModel car = LoadCar(scenario);
-  EXPECT_FALSE(PlanMission(scenario, car.unladen()).ok());
+  EXPECT_FALSE(PlanScenario(scenario, car.unladen()).ok());
   World empty;
   std::swap(scenario.world, empty);
-  const FeasiblePlan straight = PlanMission(scenario, car.unladen());
+  const FeasiblePlan straight = PlanScenario(scenario, car.unladen());
   std::swap(scenario.world, empty);
   for (const char* plant : {"kinematic", "mujoco:magic_formula"}) {
-    const RunLog log = DrivePlant(scenario, LoadCar(scenario), straight, plant);
+    const RunLog log = SimulateScenario(scenario, LoadCar(scenario), straight, plant);
     EXPECT_EQ(log.status, DriveStatus::kBlocked) << plant;
     for (const LogRow& row : log.rows) {
       // Motions may fall short of the safe distance by a centimeter between their samples, the

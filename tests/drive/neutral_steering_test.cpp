@@ -22,9 +22,9 @@ TEST(NeutralSteering, CarDrivesWhatItsPlanPredicts) {
       "test.yaml", ".");
   EXPECT_EQ(InitialState(scenario).steering, 0.02);
   const CarModel car = LoadCar(scenario);
-  const FeasiblePlan plan = PlanMission(scenario, car.unladen());
+  const FeasiblePlan plan = PlanScenario(scenario, car.unladen());
   ASSERT_TRUE(plan.ok()) << plan->reason;
-  const RunLog log = DrivePlant(scenario, car, plan, "kinematic");
+  const RunLog log = SimulateScenario(scenario, car, plan, "kinematic");
   const LogRow& first = log.rows.front();
   const LogRow& last = log.rows.back();
   EXPECT_EQ(first.state.steering, 0.02);

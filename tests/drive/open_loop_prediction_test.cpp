@@ -59,13 +59,13 @@ bool Agrees(const std::string& mission, const std::string& plan) {
                         "2000}\n",
                     "open_loop", TRACKBED_SOURCE_DIR);
   const CarModel car = LoadCar(scenario);
-  const FeasiblePlan made = PlanMission(scenario, car.unladen());
+  const FeasiblePlan made = PlanScenario(scenario, car.unladen());
   if (!made.ok()) {
     return false;
   }
   SCOPED_TRACE(mission + "\n" + plan);
   const nlohmann::json predicted = DiagnosticsJson(made)["open_loop"];
-  const RunLog log = DrivePlant(scenario, car, made, "kinematic");
+  const RunLog log = SimulateScenario(scenario, car, made, "kinematic");
   const VehicleState& end = log.rows.back().state;
   EXPECT_NEAR(end.speed, 0.0, 0.01);
   EXPECT_NEAR((end.pose.position() - made->goal.position()).norm(),

@@ -47,7 +47,7 @@ RunLog LogOf(const ChangedCar& drive) {
                   drive.start, drive.speed, drive.plant, drive.keys),
       "fault.yaml", folder.path());
   const CarModel car = LoadCar(scenario);
-  RunLog log = DrivePlant(scenario, car, PlanMission(scenario, car.unladen()), drive.plant);
+  RunLog log = SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), drive.plant);
   EXPECT_FALSE(log.rows.empty());
   EXPECT_GT(log.configurations.rows(), 0U);
   return log;

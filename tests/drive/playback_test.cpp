@@ -50,7 +50,7 @@ Scenario Replay(const Recording& recording, const std::string& plant, SteeringIn
 RunLog Drive(const Scenario& scenario) {
   CheckScenario(scenario);
   const CarModel car = LoadCar(scenario);
-  return DrivePlant(scenario, car, PlanMission(scenario, car.params()),
+  return SimulateScenario(scenario, car, PlanScenario(scenario, car.params()),
                     scenario.drive.plants.front());
 }
 

@@ -23,7 +23,7 @@ FeasiblePlan StraightPlan() {
       "schema: 1\nname: straight\nmission: {speed: 3, waypoints: [[0, 0], [100, 0]]}\n"
       "plan: {method: dubins}\ncontrol: {method: preview}\n",
       "straight.yaml", ".");
-  return PlanMission(scenario, Prius());
+  return PlanScenario(scenario, Prius());
 }
 
 Obstacle BoxAt(double x, double y) {

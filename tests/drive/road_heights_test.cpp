@@ -45,8 +45,8 @@ RoadDrive DriveOn(const std::string& heights, const std::string& tyre, double sp
           tyre, world, speed, infeasible, more),
       "heights.yaml", folder.path());
   CarModel car = LoadCar(scenario);
-  FeasiblePlan plan = PlanMission(scenario, car.unladen());
-  RunLog log = DrivePlant(scenario, car, plan, "mujoco");
+  FeasiblePlan plan = PlanScenario(scenario, car.unladen());
+  RunLog log = SimulateScenario(scenario, car, plan, "mujoco");
   return {std::move(car), plan, std::move(log)};
 }
 
@@ -192,7 +192,7 @@ double SpeedAtLimitOnArc(const std::string& heights) {
       "route: [{road: 1, lane: -1, s: 5}, {road: 1, lane: -1, s: 195}]}\n"
       "plan: {method: lane_route}\n",
       "arc.yaml", folder.path());
-  const Plan plan = PlanMission(scenario, LoadCar(scenario));
+  const Plan plan = PlanScenario(scenario, LoadCar(scenario));
   EXPECT_TRUE(plan.ok()) << plan.reason;
   return plan.reference.speed.SpeedAt(110.0);
 }

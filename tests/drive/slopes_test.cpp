@@ -34,8 +34,8 @@ Outcome Drive(const std::string& car_name, const std::string& plant, double grad
                   car_name, 20 * direction, grade, infeasible, plant),
       "slope.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const FeasiblePlan plan = PlanMission(scenario, car.unladen());
-  const RunLog log = DrivePlant(scenario, car, plan, plant);
+  const FeasiblePlan plan = PlanScenario(scenario, car.unladen());
+  const RunLog log = SimulateScenario(scenario, car, plan, plant);
   Outcome outcome{.status = log.status};
   double squares = 0.0;
   double count = 0.0;
@@ -89,7 +89,7 @@ TEST(Braking, OfNothingCoasts) {
       "0}}}\ndrive: {plants: [mujoco]}\n",
       "coast.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const RunLog log = DrivePlant(scenario, car, PlanMission(scenario, car.unladen()), "mujoco");
+  const RunLog log = SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
   double before = 0.0;
   for (const LogRow& row : log.rows) {
     if (row.state.time <= 1.0) {

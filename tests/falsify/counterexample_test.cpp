@@ -13,14 +13,14 @@ namespace {
 using testing::HasSubstr;
 
 RunResult RunOf(const std::string& file, const std::vector<Override>& overrides) {
-  return RunMission(
-      ReadScenario(TRACKBED_SOURCE_DIR "/scenarios/" + file, overrides, {}, PossibleMetrics));
+  return RunScenario(
+      ReadScenario(TRACKBED_SOURCE_DIR "/scenarios/" + file, overrides, PossibleMetrics));
 }
 
 /// Reads the regression from its file and runs it.
 RunResult RunAgain(const Regression& regression, const RunResult& failed) {
-  return RunMission(ParseScenario(RegressionYaml(regression, failed), "counterexample.yaml",
-                                  failed.scenario.folder, {}, {}, PossibleMetrics));
+  return RunScenario(ParseScenario(RegressionYaml(regression, failed), "counterexample.yaml",
+                                   failed.scenario.folder, {}, PossibleMetrics));
 }
 
 void ExpectKept(const RunResult& failed) {
@@ -42,7 +42,7 @@ TEST(Counterexample, OfALimitPassesAndFailsWhenItIsMended) {
   EXPECT_THAT(RegressionYaml(regression, failed), HasSubstr("#   kinematic: maximum cross-track"));
   Scenario mended = regression.scenario;
   mended.control = RunOf("winding.yaml", {"drive.plants=[kinematic]"}).scenario.control;
-  EXPECT_FALSE(RunMission(mended).verdict.passed);
+  EXPECT_FALSE(RunScenario(mended).verdict.passed);
 }
 
 TEST(Counterexample, OfTheCorridorThatEveryRunHas) {

@@ -34,7 +34,7 @@ CheckedSearch MakeSearch(const TempFolder& folder, const std::string& search,
                              "outputs: [metrics.kinematic.cross_track.max]\n"
                              "search: " +
                                  search + "\n" + more),
-                {}, {}, PossibleMetrics));
+                {}, PossibleMetrics));
 }
 
 TEST(Falsify, FindsTheSmallestPreviewDistanceThatFails) {
@@ -141,7 +141,7 @@ TEST(Falsify, CountsPointsWithoutAScenarioAndWithoutAPlan) {
                                  "  control.distance: {distribution: uniform, from: -2, to: 4}\n"
                                  "nominal: {plan.radius: 20, control.distance: 2.5}\n"
                                  "search: {method: sobol, runs: 16, stop: false}\n"),
-      {}, {}, PossibleMetrics));
+      {}, PossibleMetrics));
   const FalsifyResult result = Falsify(search);
   EXPECT_GT(result.refused, 2U);
   EXPECT_GT(result.violations, 2U);

@@ -79,7 +79,7 @@ CheckedSearch Check(const TempFolder& folder, const std::string& keys) {
       folder.Write("study.yaml", "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR
                                  "/scenarios/winding.yaml\nset: {drive.plants: [kinematic]}\n" +
                                      keys),
-      {}, {}, PossibleMetrics));
+      {}, PossibleMetrics));
 }
 
 std::string Problems(const std::string& keys) {

@@ -23,7 +23,7 @@ CheckedStudy MakeSample(const TempFolder& folder) {
                    "  {metric: status, equals: time_limit}, {metric: distance, max: 7}]}}\n"
                    "vary: {mission.speed: {distribution: uniform, from: 1, to: 3}}\n"
                    "sample: {count: 400, method: random, seed: 3}\n"),
-      {}, {}, PossibleMetrics));
+      {}, PossibleMetrics));
 }
 
 TEST(Verify, GivesTheSameForAnyNumberOfJobsAndAfterAnInterruption) {

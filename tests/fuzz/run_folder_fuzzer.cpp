@@ -36,7 +36,7 @@ void WriteFolders() {
       "corner.yaml",
       "schema: 1\nname: corner\nmission: {speed: 3, waypoints: [[0, 0], [20, 0], [20, 20]]}\n"
       "plan: {method: fillet}\ndrive: {plants: [kinematic], time_limit: 1}\n");
-  WriteRunFolder(RunMission(ReadScenario(scenario)), fuzz::Folder() / kRun);
+  WriteRunFolder(RunScenario(ReadScenario(scenario)), fuzz::Folder() / kRun);
   WriteComparison(CompareFolders({fuzz::Folder() / kRun, fuzz::Folder() / kRun}, {}, {}),
                   fuzz::Folder() / kComparison);
   const CheckedStudy study = CheckStudy(ReadStudy(

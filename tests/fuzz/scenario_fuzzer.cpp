@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   return fuzz::Expect([&] {
     const Scenario scenario =
-        ParseScenario(yaml, "fuzz.yaml", fuzz::Folder(), overrides, {"chase"}, PossibleMetrics);
+        ParseScenario(yaml, "fuzz.yaml", fuzz::Folder(), overrides, PossibleMetrics);
     static_cast<void>(ResolvedYaml(scenario));
   });
 }

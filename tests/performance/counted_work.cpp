@@ -33,7 +33,7 @@ void Loop(const std::string& plant, int count) {
   Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
   scenario.drive.time_limit = count * kTimestep;
   const CarModel car = LoadCar(scenario);
-  DrivePlant(scenario, car, PlanMission(scenario, car.params()), plant);
+  SimulateScenario(scenario, car, PlanScenario(scenario, car.params()), plant);
 }
 
 /// Plans three turns with the genetic search.
@@ -41,7 +41,7 @@ void PlanTurns(int count) {
   const Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
   const CarModel car = LoadCar(scenario);
   for (int i = 0; i < count; ++i) {
-    PlanMission(scenario, car.params());
+    PlanScenario(scenario, car.params());
   }
 }
 

@@ -76,9 +76,9 @@ long AllocationsOfRun(const std::string& plant, double duration) {
   Scenario scenario = ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
   scenario.drive.time_limit = duration;
   const CarModel car = LoadCar(scenario);
-  const FeasiblePlan plan = PlanMission(scenario, car.params());
+  const FeasiblePlan plan = PlanScenario(scenario, car.params());
   const long before = allocations;
-  static_cast<void>(DrivePlant(scenario, car, plan, plant));
+  static_cast<void>(SimulateScenario(scenario, car, plan, plant));
   return allocations - before;
 }
 

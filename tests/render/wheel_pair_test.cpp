@@ -15,7 +15,7 @@ TEST(WheelPair, IsSeenWhereItWasDriven) {
       ReadScenario(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "slalom.yaml");
   scenario.vehicle.model = "diff_drive";
   scenario.drive.time_limit = 1.0;
-  const RunResult run = RunMission(scenario);
+  const RunResult run = RunScenario(scenario);
   const TempFolder folder;
   WriteRunFolder(run, folder.path());
   const MujocoErrorScope errors;

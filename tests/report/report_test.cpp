@@ -192,7 +192,7 @@ TEST(ReportData, RefusesFilesOfTwoRuns) {
   const TempFolder folder;
   const auto run = [&](const std::string& speed) {
     WriteRunFolder(
-        RunMission(ParseScenario("schema: 1\nname: s\nmission: {speed: " + speed +
+        RunScenario(ParseScenario("schema: 1\nname: s\nmission: {speed: " + speed +
                                      ", waypoints: [[0, 0], [20, 0], [20, 20]]}\nplan: {method: "
                                      "fillet}\ndrive: {plants: [kinematic]}\n",
                                  "s.yaml", ".")),
@@ -230,7 +230,7 @@ TEST(ReportData, ShowsAMissionWithoutAPlan) {
   const TempFolder folder;
   const fs::path run = DriveCorner(folder, "run", "");
   const fs::path none = folder.path() / "none";
-  WriteRunFolder(RunMission(ParseScenario(
+  WriteRunFolder(RunScenario(ParseScenario(
                      "schema: 1\nname: none\nmission: {speed: 3, waypoints: [[0, 0], [10, "
                      "0], [10, 10]]}\nplan: {method: fillet}\n",
                      "none.yaml", ".")),
@@ -521,7 +521,7 @@ TEST(ReportPage, StaysSmall) {
       "schema: 1\nname: minute\nmission: {speed: 3, waypoints: [[0, 0], [70, 0], [70, 70], [150, "
       "70]]}\nplan: {method: fillet}\ncontrol: {method: preview}\ndrive: {plants: [kinematic, ";
   const auto drive = [&](const std::string& name, const std::string& others) {
-    WriteRunFolder(RunMission(ParseScenario(minute + others + "]}\n", "minute.yaml", ".")),
+    WriteRunFolder(RunScenario(ParseScenario(minute + others + "]}\n", "minute.yaml", ".")),
                    folder.path() / name);
     return folder.path() / name;
   };

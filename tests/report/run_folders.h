@@ -42,7 +42,7 @@ inline std::filesystem::path DriveCorner(const TempFolder& folder, const std::st
       "plan: {method: fillet}\n" +
       keys;
   const std::filesystem::path out = folder.path() / name;
-  WriteRunFolder(RunMission(ParseScenario(yaml, "corner.yaml", ".")), out);
+  WriteRunFolder(RunScenario(ParseScenario(yaml, "corner.yaml", ".")), out);
   ForgetHashes(out);  // tests change files
   return out;
 }

@@ -98,7 +98,7 @@ TEST(PathFileScenario, ReadsFilesBelowItsFolderAlone) {
   folder.Write("scenarios/x", "");
   const Scenario allowed =
       ParseScenario(Text("file: ../p.csv, columns: {x: east, y: north}"), "test.yaml",
-                    folder.path() / "scenarios", {}, {}, {}, {folder.path()});
+                    folder.path() / "scenarios", {}, {}, {folder.path()});
   EXPECT_NE(allowed.plan->global.Get<PathFileOptions>().path, nullptr);
   try {
     ParseScenario(Text("file: ../p.csv"), "test.yaml", folder.path() / "scenarios");

@@ -427,7 +427,7 @@ TEST(ParseScenario, AsksForMetricsThatARunCanHave) {
           "control: {method: constant_steering, steering: 0.1}\n"
           "expect:\n  mujoco: {metrics: [{metric: \"" +
               metric + "\", max: 1}]}\n",
-          "s.yaml", ".", {}, {}, [](const Scenario& scenario) {
+          "s.yaml", ".", {}, [](const Scenario& scenario) {
             EXPECT_EQ(scenario.name, "s");
             return std::vector<std::string>{"time", "turns[0].at", "turns[1].at"};
           });

@@ -31,7 +31,7 @@ class StudyFiles : public testing::Test {
 
   [[nodiscard]] Study Read(const std::string& keys,
                            const std::vector<Override>& overrides = {}) const {
-    return ReadStudy(folder_.Write("study.yaml", kHead + keys), overrides, {"chase"});
+    return ReadStudy(folder_.Write("study.yaml", kHead + keys), overrides);
   }
 
   /// What a user is told of a study and its points, without the folder.
@@ -44,8 +44,7 @@ class StudyFiles : public testing::Test {
                                          const std::vector<Override>& overrides = {}) const {
     std::string message = "no error";
     try {
-      CheckPoints(StudyPoints(ReadStudy(folder_.Write("study.yaml", text), overrides, {"chase"})),
-                  true);
+      CheckPoints(StudyPoints(ReadStudy(folder_.Write("study.yaml", text), overrides)), true);
     } catch (const InputError& error) {
       message = error.what();
     }

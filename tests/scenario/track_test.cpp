@@ -69,7 +69,7 @@ TEST(MissionTrack, MayLieInAFolderThatIsAllowed) {
   const std::filesystem::path file = folder.Write("there/ring.csv", TrackCsv(Ring()));
   const auto read = [&](const std::vector<std::filesystem::path>& allowed) {
     return ParseScenario(kLapScenario, "laps.yaml", folder.path() / "here",
-                         {"mission.track.file=" + file.string()}, {}, {}, allowed);
+                         {"mission.track.file=" + file.string()}, {}, allowed);
   };
   EXPECT_THROW(read({}), InputError);
   EXPECT_EQ(read({folder.path() / "there"}).mission.track->data->points(), Ring());

@@ -97,11 +97,11 @@ const std::string kTwoPlants =
     "drive: {plants: [kinematic, mujoco]}\n"
     "expect: {reach_goal: 0.5}\n";
 
-// A watched run writes the same bytes as RunMission: the clock, pauses and threads change nothing.
+// A watched run writes the same bytes as RunScenario: the clock, pauses and threads change nothing.
 TEST(Watch, LeavesTheBytesOfARun) {
   const TempFolder folder;
   const Scenario scenario = Corner(kTwoPlants);
-  WriteRunFolder(RunMission(scenario), folder.path() / "run");
+  WriteRunFolder(RunScenario(scenario), folder.path() / "run");
   WatchedRun run(scenario, folder.path() / "watched", {.speed = kMax, .paused = true});
   Listener client(run.port());
   for (std::size_t rows = 1; rows <= 5; ++rows) {
@@ -252,7 +252,7 @@ TEST(Watch, KeepsTheLogOfAnInterruptedRun) {
 TEST(Watch, LeavesTheEarlierResultUntilTheRunHasEnded) {
   const TempFolder folder;
   const fs::path out = folder.path() / "out";
-  WriteRunFolder(RunMission(Corner()), out);
+  WriteRunFolder(RunScenario(Corner()), out);
   const auto before = Files(out);
   WatchedRun run(Corner("drive: {plants: [kinematic]}\nseed: 5\n"), out, {.paused = true});
   LiveClient client(run.port());
@@ -303,7 +303,7 @@ TEST(Watch, RefusesWhatIsNoAddress) {
 TEST(Watch, ServesAFinishedRun) {
   const TempFolder folder;
   const fs::path out = folder.path() / "out";
-  WriteRunFolder(RunMission(Corner()), out);
+  WriteRunFolder(RunScenario(Corner()), out);
   std::future<std::string> body;
   WatchReport(
       {out}, {},

@@ -1,4 +1,5 @@
-// Kinematic against dynamic tracking in a test of your own: drive a scenario, say what must hold.
+// Compares kinematic with dynamic tracking in a GoogleTest: drives a scenario and checks what must
+// hold.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -6,11 +6,11 @@
 
 using namespace trackbed;
 
-/// The path's mean curvature over the distance in which the wheels turn, corrected by the
-/// cross-track and heading errors of the rear axle.
+/// Options of a controller that steers by the mean curvature of the path near the car, corrected by
+/// the cross-track and heading errors of the rear axle.
 struct FeedforwardOptions {
-  double time = 2.0;      ///< of the mean [s], > 0
-  double distance = 6.0;  ///< over which errors die out [m], > 0
+  double time = 2.0;      ///< Driving time over which the curvature is averaged [s], > 0.
+  double distance = 6.0;  ///< Driven distance over which tracking errors decay [m], > 0.
 };
 
 void Visit(KeyVisitor& keys, FeedforwardOptions& options) {
@@ -23,7 +23,7 @@ class FeedforwardController final : public SteeringController {
  public:
   explicit FeedforwardController(const FeedforwardOptions& options) : options_(options) {}
 
-  // kappa = kappa_mean - 2 psi/d - e/d^2: errors decay as exp(-s/d), critically damped.
+  // kappa = kappa_mean - 2 psi/d - e/d^2: tracking errors decay as exp(-s/d), critically damped.
   double Steer(const ControlInput& input) override {
     const Path& path = input.reference.path;
     const double speed = std::max(std::abs(input.state.speed), 0.1);

@@ -6,10 +6,11 @@
 
 using namespace trackbed;
 
-/// Straight on, an S to the lane on the left, straight on.
+/// Options of a planner that drives straight on, changes to the lane on the left by two arcs, and
+/// drives straight on.
 struct SidestepOptions {
-  double offset = 3.5;   ///< to the left [m], > 0
-  double radius = 15.0;  ///< of both arcs [m], > 0
+  double offset = 3.5;   ///< Distance of the lane on the left from the start lane [m], > 0.
+  double radius = 15.0;  ///< Radius of both arcs of the lane change [m], > 0.
 };
 
 void Visit(KeyVisitor& keys, SidestepOptions& options) {
@@ -17,9 +18,9 @@ void Visit(KeyVisitor& keys, SidestepOptions& options) {
   keys.Field({"radius", "m", "of both arcs"}, options.radius, Need::kOptional, kPositive);
 }
 
-/// What plan.json and `trackbed plan` show of it, besides what all planners have.
+/// Values that plan.json and `trackbed plan` show only for this planner.
 struct SidestepDiagnostics {
-  double turn = 0.0;  ///< heading change of each arc [rad]
+  double turn = 0.0;  ///< Heading change along each arc [rad].
 };
 
 void Visit(DiagnosticsVisitor& out, const SidestepDiagnostics& own) {
@@ -41,7 +42,8 @@ Plan PlanWith(const SidestepOptions& options, const PlanRequest& request) {
                                       {.length = 15.0}};
   plan.reference.path = Path(request.start, segments);
   const double length = plan.reference.path.length();
-  plan.caps = PlanSteps(request.vehicle, segments, 0.3).caps;  // the wheels need time to turn
+  // Drive slowly at the curvature steps, because the wheels need time to turn.
+  plan.caps = PlanSteps(request.vehicle, segments, 0.3).caps;
   plan.reference.speed = StopAtEnd(length, request.start_speed, request.speed, plan.caps);
   plan.schedule = CourseSchedule(request.vehicle, segments, request.speed.speed, plan.caps);
   plan.schedule_speed = plan.reference.speed;

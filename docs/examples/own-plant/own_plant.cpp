@@ -3,8 +3,8 @@
 
 using namespace trackbed;
 
-/// The kinematic car behind a power steering of first order: the wanted angle reaches its actuator
-/// with a time constant of 0.2 s.
+/// The kinematic car with a slow power steering, which passes the commanded steering angle to the
+/// car's actuator through a first-order filter with a time constant of 0.2 s.
 class LaggingPlant final : public Plant {
  public:
   explicit LaggingPlant(const PlantSetup& setup)
@@ -27,8 +27,8 @@ class LaggingPlant final : public Plant {
 
  private:
   std::unique_ptr<Plant> car_;
-  double step_;      // of the filter, timestep over time constant
-  double steering_;  // that the actuator is asked for [rad]
+  double step_;      // Gain of the filter per step: timestep divided by time constant.
+  double steering_;  // Filtered steering angle, the command to the car's actuator [rad].
 };
 
 int main(int argc, char** argv) {

@@ -11,27 +11,28 @@
 /// A study: many runs of one scenario with different values of some keys.
 namespace trackbed {
 
-/// A key of the scenario, its value, and the position in the study's file.
+/// A key of the scenario, the value of the key, and the position of the setting in the study's
+/// file.
 struct Setting {
-  std::string key;    ///< Dotted key, as for --set.
-  std::string value;  ///< Value as YAML on one line.
-  int line = 0;       ///< Line number from 1.
-  int column = 0;     ///< Column number from 1.
+  std::string key;    ///< Dotted key, as in the command-line option --set.
+  std::string value;  ///< Value of the key, as YAML on one line.
+  int line = 0;       ///< Line number in the study's file, from 1.
+  int column = 0;     ///< Column number in the study's file, from 1.
 };
 
-/// A bisection for the highest passing value of a key.
+/// A bisection that finds the highest value of a key with which the run passes.
 struct BisectSpec {
-  std::string key;         ///< Dotted key of a number.
-  double from = 0.0;       ///< Value that is expected to pass.
-  double to = 0.0;         ///< Value above `from` that is expected to fail.
-  double tolerance = 0.0;  ///< Tolerance of the result.
+  std::string key;         ///< Dotted key of the number to bisect.
+  double from = 0.0;       ///< Value with which the run is expected to pass.
+  double to = 0.0;         ///< Value above `from` with which the run is expected to fail.
+  double tolerance = 0.0;  ///< Maximum error of the value that the bisection finds.
   int line = 0;
   int column = 0;
 };
 
 /// An output that the study's table lists for every run.
 struct OutputSpec {
-  std::string path;  ///< Dotted path, such as "metrics.mujoco.cross_track.max".
+  std::string path;  ///< Dotted path of the output, such as "metrics.mujoco.cross_track.max".
   int line = 0;
   int column = 0;
 };
@@ -40,7 +41,7 @@ struct OutputSpec {
 struct KeepSpec {
   enum class Rows {
     kNone,
-    kFailed,  ///< Rows that did not pass.
+    kFailed,  ///< Rows whose run did not pass.
     kAll,
     kHighest,  ///< The `count` rows with the highest values of the output `by`.
     kLowest,   ///< The `count` rows with the lowest values of the output `by`.
@@ -50,131 +51,150 @@ struct KeepSpec {
   std::string by{};
 };
 
-/// Formats the selection as in files: "worst 10 by metrics.mujoco.cross_track.max".
+/// Formats the selection in the notation of study files, such as "worst 10 by
+/// metrics.mujoco.cross_track.max".
 std::string ToString(const KeepSpec& keep);
 
-/// A condition that holds if a key of the study has one of the given values.
+/// A condition, which is true if a key of the study has one of the given values.
 struct Condition {
   std::string key;
-  std::vector<std::string> values;  ///< Values, each as YAML on one line.
+  std::vector<std::string> values;  ///< Values of the key, each as YAML on one line.
 };
 
-/// A key that varies between runs.
+/// A key of the scenario whose value differs between the runs of a study.
 struct Variation {
   std::string key;  ///< Dotted key.
   int line = 0;
   int column = 0;
-  std::vector<Setting> alternatives{};         ///< Values in the grid; empty if the key is sampled.
+  /// Values of the key in the grid; empty if the key is sampled.
+  std::vector<Setting> alternatives{};
   std::optional<Distribution> distribution{};  ///< Distribution of a sampled key.
-  /// The CSV file with the key's values. All keys of the same file take their values from the same
-  /// row.
+  /// The CSV file that contains the values of the key. In each run, all keys with the same CSV file
+  /// take their values from the same row.
   std::string rows_of{};
-  /// The key is only set if all of these conditions hold.
+  /// Conditions; the key is only set in runs in which all conditions hold.
   std::vector<Condition> when{};
 };
 
 /// A key whose value is computed from other keys.
 struct DerivedKey {
   std::string key;      ///< Dotted key.
-  std::string formula;  ///< Formula over keys of the study.
+  std::string formula;  ///< Formula that computes the value from other keys of the study.
   int line = 0;
   int column = 0;
 };
 
-/// How `trackbed falsify` searches the keys with distributions for a run that fails.
+/// Options of `trackbed falsify`, which varies the keys with distributions to find a run that
+/// fails.
 struct SearchSpec {
   std::string method = "surrogate";  ///< One of StudySearches().
   int runs = 200;                    ///< Maximum number of runs of the search.
-  /// Number of parallel NLopt searches, which share the runs. With 0, there are two, or one for
-  /// `direct`.
+  /// Number of parallel NLopt searches, which together use the maximum number of runs. The value 0
+  /// means two searches, or one search with the method `direct`.
   int restarts = 0;
-  /// Population of the methods crs2, esch and isres. With 0, the population is 4 n + 4 for n keys.
+  /// Population size of the methods crs2, esch and isres. The value 0 means a population of 4 n + 4
+  /// for n keys.
   int population = 0;
-  /// Method for the last quarter of the runs: "none", "nelder_mead" or "cobyla".
+  /// Local search method for the last quarter of the runs: "none", "nelder_mead" or "cobyla".
   std::string finish = "none";
   std::uint64_t seed = 1;
-  bool stop = true;         ///< Whether to stop at the first violation.
-  int shrink_runs = 200;    ///< Maximum number of runs to shrink the counterexample.
-  double tolerance = 0.01;  ///< Tolerance of shrinking, as a fraction of each key's range.
+  /// Whether the search stops at the first run that violates an expectation.
+  bool stop = true;
+  int shrink_runs = 200;  ///< Maximum number of runs to shrink the counterexample.
+  /// Tolerance for shrinking the counterexample, as a fraction of each key's range.
+  double tolerance = 0.01;
 };
 
-/// The allowed values of SearchSpec::method: "random", "latin_hypercube", "sobol", "surrogate"
-/// (dlib), and NLopt's searches that need no gradients.
+/// Returns the allowed values of SearchSpec::method: "random", "latin_hypercube", "sobol",
+/// "surrogate" (dlib), and the NLopt methods that need no gradients.
 const std::vector<std::string>& StudySearches();
 
-/// Every run of a grid sets one alternative of each key of `vary` and one point of `list`. Sampled
-/// keys give `sample.count` runs at each point of the grid. All points of the grid use the same
-/// sample, so that the grid compares equal conditions.
+/// A study: many runs of one scenario with different values of some keys. The runs form a grid:
+/// each run sets one of the alternatives of each key in `vary`, and the keys of one point in
+/// `list`. If keys are sampled, `sample.count` runs are made at each point of the grid. All points
+/// of the grid use the same sample, so that the points can be compared under equal conditions.
 struct Study {
   std::string name;
-  std::string file;                ///< File name as the user gave it.
-  std::filesystem::path scenario;  ///< Scenario file, resolved from the study's folder.
-  std::string scenario_text;       ///< Content of the scenario when the study was read.
-  /// Overrides from the command line, which take precedence over `set`.
+  std::string file;  ///< File name as the user gave it.
+  /// Path of the scenario file; a path in the study is relative to the study's folder.
+  std::filesystem::path scenario;
+  /// Content of the scenario file at the time at which the study was read.
+  std::string scenario_text;
+  /// Overrides of keys from the command line, which take precedence over `set`.
   std::vector<Override> overrides;
-  std::vector<std::string> cameras;                  ///< Argument of ReadScenario.
   MetricPaths metrics;                               ///< Argument of ReadScenario.
   std::vector<std::filesystem::path> asset_folders;  ///< Argument of ReadScenario.
   std::vector<Setting> set;                          ///< Settings that apply to every run.
-  std::vector<Variation> vary;                       ///< Varied keys, in the file's order.
-  std::vector<std::vector<Setting>> list;  ///< Points that each set several keys; may be empty.
-  std::optional<SampleSpec> sample;        ///< Sample for the keys of `vary` with distributions.
-  std::optional<SearchSpec> search;        ///< Search over the keys of `vary` with distributions.
-  std::vector<Setting> nominal;            ///< Point toward which a counterexample is shrunk.
-  std::vector<DerivedKey> derive;          ///< Computed keys, in the file's order.
-  int repeat = 1;                          ///< Number of runs per point, with consecutive seeds.
-  std::optional<BisectSpec> bisect;        ///< Bisection at every point of the grid.
+  /// Keys that vary between runs, in the order of the file.
+  std::vector<Variation> vary;
+  /// Points of the list, each of which sets several keys; may be empty.
+  std::vector<std::vector<Setting>> list;
+  /// Options of the sample for the keys of `vary` with distributions.
+  std::optional<SampleSpec> sample;
+  /// Options for a search over the keys of `vary` with distributions.
+  std::optional<SearchSpec> search;
+  /// Nominal values of the searched keys, toward which a counterexample is shrunk.
+  std::vector<Setting> nominal;
+  /// Keys whose values are computed, in the order of the file.
+  std::vector<DerivedKey> derive;
+  /// Number of runs at each point, with consecutive random seeds.
+  int repeat = 1;
+  /// Bisection to carry out at every point of the grid; nullopt: no bisection.
+  std::optional<BisectSpec> bisect;
   std::vector<OutputSpec> outputs;
   KeepSpec keep{};
 };
 
-/// A point of a study.
+/// A point of a study: the settings of one run, and the scenario with these settings.
 struct StudyPoint {
-  std::vector<Setting> settings;  ///< Settings of `vary`, `list` and `derive`.
-  Scenario scenario;              ///< Scenario with these settings, and the bisected key at `from`.
-  std::string refused{};          ///< Reason why the scenario is invalid; empty if it is valid.
+  std::vector<Setting> settings;  ///< Settings at this point, from `vary`, `list` and `derive`.
+  /// Scenario with the settings of this point; a bisected key has the value `from`.
+  Scenario scenario;
+  /// Reason why the scenario at this point is invalid; empty if the scenario is valid.
+  std::string refused{};
 };
 
-/// Whether the file has the key `scenario`, which studies have and scenarios do not. False if the
-/// file cannot be read.
+/// Returns true if the file has the key `scenario`, which studies have but scenarios do not.
+/// Returns false if the file cannot be read.
 bool IsStudy(const std::filesystem::path& file);
 
-/// Reads a study and the text of its scenario, as strictly as ReadScenario. InputError lists
-/// **every** problem of the study's keys, including keys that overwrite each other.
+/// Reads a study and the text of the study's scenario, and rejects any invalid key. Throws
+/// InputError, which lists **every** problem of the study's keys, including keys that overwrite
+/// each other.
 Study ReadStudy(const std::filesystem::path& file, const std::vector<Override>& overrides = {},
-                const std::vector<std::string>& cameras = {}, const MetricPaths& metrics = {},
+                const MetricPaths& metrics = {},
                 const std::vector<std::filesystem::path>& asset_folders = {});
 
-/// Reads the scenario at a point, with the bisected key set to `bisected`. Throws the InputErrors
-/// of ReadScenario. Problems of the study's settings are reported at their place in the study's
-/// file.
+/// Reads the scenario at a point, with the bisected key set to `bisected`. Throws InputError in the
+/// same cases as ReadScenario. For a problem in a setting of the study, the InputError states the
+/// position in the study's file.
 Scenario ReadPoint(const Study& study, const std::vector<Setting>& settings,
                    std::optional<double> bisected = {});
 
-/// Makes the point with the given settings and the derived keys. If the scenario is invalid,
-/// StudyPoint::refused is the first problem.
+/// Makes the point of the study with the given settings, and computes the derived keys. If the
+/// scenario is invalid, StudyPoint::refused is the first problem.
 StudyPoint PointWith(const Study& study, std::vector<Setting> settings);
 
-/// Returns the number at a key of a scenario with all defaults filled in; nullopt if there is no
-/// such key.
+/// Returns the number that a key has in the scenario, including default values; nullopt if there is
+/// no such key.
 std::optional<double> NumberAt(const Scenario& scenario, const std::string& key);
 
-/// The points of a study, computed on demand and not stored. In the grid, the last key changes
-/// fastest. Points of the list change faster than all keys of `vary`; points of the sample change
-/// faster than the list.
+/// The points of a study, which are computed on demand and not stored. Points are ordered as in
+/// nested loops: the keys of `vary` are the outer loops in the order of the file, `list` is the
+/// next inner loop, and the sample is the innermost loop.
 ///
-/// Guarantees: a point depends only on the study. The object is immutable: several threads may read
-/// points at the same time. Points of the grid that differ only in a key whose condition does not
-/// hold are merged.
+/// Guarantees: the same study always has the same points. Several threads may read points at the
+/// same time, because StudyPoints cannot be changed after construction. If points of the grid
+/// differ only in a key whose condition does not hold, only one of these points is kept.
 class StudyPoints {
  public:
-  /// InputError if keys have distributions and there is no `sample`.
+  /// Throws InputError if keys have distributions but the study has no section `sample`.
   explicit StudyPoints(Study study);
 
   [[nodiscard]] const Study& study() const { return study_; }
   [[nodiscard]] std::size_t size() const { return combinations_ * samples(); }
-  /// Returns the settings of the point with index `i`. InputError if a formula has no value at this
-  /// point.
+  /// Returns the settings of the point with index `i`. Throws InputError if a formula cannot be
+  /// evaluated at this point.
   [[nodiscard]] std::vector<Setting> Settings(std::size_t i) const;
   /// Returns the point with index `i`. If the scenario is invalid, StudyPoint::refused is the first
   /// problem.
@@ -186,22 +206,26 @@ class StudyPoints {
   void KeepDistinctPoints();
 
   Study study_;
-  std::size_t combinations_ = 1;         // Number of combinations in the grid.
-  std::vector<std::size_t> distinct_{};  // Indices of the distinct combinations; empty: all.
-  Eigen::MatrixXd unit_sample_;          // One row per point of the sample.
-  std::vector<int> dimensions_;          // Column of each key of `vary`; -1: not sampled.
+  std::size_t combinations_ = 1;  // Number of points in the grid.
+  // Indices of the distinct points of the grid; empty if all points are distinct.
+  std::vector<std::size_t> distinct_{};
+  // Sample with one row per point and one column per sampled key.
+  Eigen::MatrixXd unit_sample_;
+  // Column in `unit_sample_` of each key of `vary`; -1 if the key is not sampled.
+  std::vector<int> dimensions_;
 };
 
-/// Returns the points that are checked before a study runs: all, or 1000 evenly spaced points,
-/// including the first and the last.
+/// Returns the indices of the points that are checked before a study is run: all points, or 1000
+/// evenly spaced points that include the first and the last point.
 std::vector<std::size_t> PointsToCheck(const StudyPoints& points);
 
-/// Checks the points of PointsToCheck. InputError lists each problem once, with one of the affected
-/// points unless all points are affected. Bisections are checked at both ends and at a value in
-/// between. If `all` is true, every point must be valid; otherwise one valid point is enough.
+/// Checks the scenarios at the points from PointsToCheck. Throws InputError, which lists each
+/// problem once, with one of the affected points unless all points are affected. For a bisection,
+/// the scenario is checked at both ends of the bisected range and at one value in between. If `all`
+/// is true, every point must be valid; otherwise one valid point is enough.
 void CheckPoints(const StudyPoints& points, bool all);
 
-/// Formats a value for a table: numbers in their shortest form, other values as YAML.
+/// Formats a value for a table: a number in the shortest form, any other value as YAML.
 std::string CellText(const std::string& value);
 
 }  // namespace trackbed

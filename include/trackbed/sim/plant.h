@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,12 +14,12 @@
 #include "trackbed/vehicle/steering_response.h"
 #include "trackbed/world/world.h"
 
-/// The interface of plants (simulated vehicles), and the registry of plants.
+/// Defines the interface of plants (simulated vehicles) and the registry of plants.
 namespace trackbed {
 
 /// A simulated vehicle, advanced one physics step at a time. The built-in plants throw
-/// PreconditionError for commands, displacements and forces that are not finite; the plant is then
-/// unchanged.
+/// PreconditionError if a command, displacement or force is not finite; the state of the plant is
+/// then unchanged.
 class Plant {
  public:
   virtual ~Plant() = default;
@@ -26,115 +27,121 @@ class Plant {
   /// Advances the simulation by one timestep of the model.
   virtual void Step(const Command& command) = 0;
 
-  /// Displaces the car instantaneously by `left` [m] to its left, and puts it on the ground at the
-  /// new position. The velocities of the car are unchanged.
+  /// Displaces the car instantaneously by `left` [m] to its left, and puts the car on the ground at
+  /// the new position. The displacement does not change the velocities of the car.
   virtual void ApplyLateralOffset(double left) = 0;
 
-  /// Applies a horizontal force to the left [N] at the center of gravity during the next step. In
-  /// plants that do not simulate forces, ApplyLateralForce has no effect.
+  /// Applies a horizontal force to the left [N] at the car's center of gravity during the next
+  /// step. In plants that do not simulate forces, ApplyLateralForce has no effect.
   virtual void ApplyLateralForce(double force) = 0;
 
-  /// Returns the present state of the vehicle. In plants that simulate forces, the accelerations
-  /// and wheel forces are those of the last step.
+  /// Returns the present state of the vehicle. In plants that simulate forces, the returned
+  /// accelerations and wheel forces are those of the last step.
   [[nodiscard]] virtual VehicleState Observe() const = 0;
 
-  /// Pose and obstacle force of Observe(), which are cheap enough for every physics step.
+  /// Return only the pose and only the obstacle force of Observe(); unlike Observe(), these
+  /// functions are fast enough to be called in every physics step.
   [[nodiscard]] virtual Pose2 pose() const = 0;
   [[nodiscard]] virtual double obstacle_force() const { return 0.0; }
 
-  /// Returns the present configuration. CarModel::configuration_columns has the names of the
-  /// values.
+  /// Returns the present configuration vector. CarModel::configuration_columns returns the names of
+  /// the components.
   [[nodiscard]] virtual std::vector<double> Configuration() const = 0;
 
   /// Whether the simulation has diverged. A diverged plant must not be stepped.
   [[nodiscard]] virtual bool diverged() const = 0;
 
-  /// Returns the reason for the divergence of the simulation; empty if unknown.
+  /// Returns the reason why the simulation has diverged; empty if unknown.
   [[nodiscard]] virtual std::string divergence() const { return ""; }
 
   /// Returns the smallest distance between an undeformed tyre and the road below it [m]. The
-  /// distance is negative while a tyre is deflected by its load. Plants that cannot leave the road
-  /// return 0.
+  /// distance is negative while the load deflects the tyre. Plants whose wheels cannot leave the
+  /// road return 0.
   [[nodiscard]] virtual double wheel_gap() const { return 0.0; }
 };
 
-/// The arguments for making a plant. PlantSetup keeps references to the car and the world, which
-/// must outlive the plant.
+/// The arguments from which a plant is made. PlantSetup holds references to the car and the world,
+/// both of which must outlive the plant.
 struct PlantSetup {
   const CarModel& car;
   const World& world;
   StartState start;
   TyreLaw tyre = TyreLaw::kAuto;
   SteeringInput steering = SteeringInput::kActuator;
-  /// State of the car's steering response after earlier commands; its timestep must be that of the
-  /// car. Nullopt: the steady state at the initial wheel angle.
+  /// State of the car's steering response after earlier commands. The filter must have the same
+  /// timestep as the car. If `filter` is nullopt, the steering response starts in its steady state
+  /// at the initial wheel angle.
   std::optional<SteeringFilter> filter{};
 };
 
-/// Returns the tyre law that `tyre` means for a car: replaces kAuto, and returns other laws
-/// unchanged.
+/// Returns the tyre law that the option `tyre` selects for a car: kAuto is replaced by the law that
+/// suits the car, and other laws are returned unchanged.
 TyreLaw SelectTyreLaw(const CarModel& car, TyreLaw tyre);
 
-/// An entry of the plant registry.
+/// A plant in the registry of plants.
 struct PlantEntry {
   const char* name;
-  const char* summary;  ///< One-line summary for users.
-  std::unique_ptr<Plant> (*make)(const PlantSetup& setup);
+  const char* summary;  ///< One-line description of the plant for users.
+  std::function<std::unique_ptr<Plant>(const PlantSetup& setup)> make;
 };
 
-/// Name under which the record of a real vehicle appears among the plants of a run
-/// (scenario/record.h). No plant in the registry may have this name.
+/// Name under which the recorded drive of a real vehicle appears among the plants of a run
+/// (scenario/record.h). No plant in the registry may have the name kRecordedPlant.
 inline constexpr const char* kRecordedPlant = "recorded";
 
 /// Returns all plants, beginning with the built-in plants: `kinematic` (KinematicCar with the rear
 /// axle as reference point), `single_track` (SingleTrackCar) and `mujoco` (the MJCF car, with the
-/// tyre law of the setup). The plants `mujoco:contact` and `mujoco:magic_formula` use the named
-/// tyre law instead of that of the setup.
+/// tyre law of the setup). The plants `mujoco:contact` and `mujoco:magic_formula` use the tyre law
+/// in their name instead of the tyre law of the setup.
 ///
-/// The plants `kinematic` and `single_track` follow the commanded acceleration exactly and ignore
-/// the world: obstacles, friction, grades and wind. In `single_track`, a tyre has a constant
-/// cornering stiffness, which does not depend on the road's friction. `single_track` needs a car
-/// with tyre coefficients; otherwise InputError names the car's file and the missing coefficients.
-/// An unstable car on `single_track` spins ever faster; it counts as diverged when a coordinate
-/// exceeds 1e10 m or rad.
+/// The plants `kinematic` and `single_track` follow the commanded acceleration exactly, and ignore
+/// the obstacles, friction, grades and wind of the world. In `single_track`, a tyre has a constant
+/// cornering stiffness, which does not depend on the road's friction. The plant `single_track`
+/// requires a car with tyre coefficients; if coefficients are missing, making the plant throws
+/// InputError with the car's file and the missing coefficients. An unstable car on `single_track`
+/// spins ever faster, and counts as diverged when a coordinate exceeds 1e10 m or rad.
 ///
-/// A run starts without slip, unless the start state has a lateral speed or a yaw rate, which
-/// `kinematic` ignores. In MuJoCo, the springs start with the deflection of a car at rest.
+/// A run starts without slip unless the start state has a lateral speed or a yaw rate. The plant
+/// `kinematic` ignores the lateral speed and the yaw rate of the start state. In the MuJoCo plant,
+/// the springs start with the deflection of a car at rest.
 ///
 /// The steering response of a car (VehicleParams::steering_response) applies to every plant,
-/// including user-defined plants, because the plant receives the output of a SteeringFilter.
-/// Prescribed steering bypasses the steering response.
+/// including user-defined plants, because the plant receives the output of a SteeringFilter. If the
+/// steering is prescribed (SteeringInput::kPrescribed), the steering response is not used.
 ///
 /// ApplyLateralForce has no effect on `kinematic`, or on `single_track` at rest.
 ///
 /// The MuJoCo plant converts a commanded acceleration in the direction of the gear to a drive
-/// torque on the differential. A deceleration becomes dry friction of the brakes. The braking
-/// torque is distributed between front and rear in proportion to the model's brake torques. Drive
-/// and brake torques are clamped to the model's limits. The conversion uses the car's mass without
-/// payload. The angle of the steering actuator changes at every physics step, at most at the
-/// model's rate limit.
+/// torque on the differential. The MuJoCo plant converts a commanded deceleration to dry friction
+/// of the brakes. The braking torque is distributed between the front and rear wheels in proportion
+/// to their largest brake torques in the model. Drive and brake torques are clamped to the model's
+/// limits. The torques are computed from the car's mass without payload. The angle of the steering
+/// actuator is updated in every physics step, and changes at most at the model's rate limit.
 ///
-/// A vehicle with differential drive can only run on `kinematic`, and on `mujoco` with the tyre law
-/// kContact. MakePlant throws InputError for other plants, and for prescribed steering in MuJoCo.
-/// For differential drive, the MuJoCo plant integrates the commanded acceleration to a speed
-/// command, and a torque-limited servo controls the speed of each wheel. The measured steering
-/// angle is atan((v_R - v_L)/v), where v_L and v_R are the speeds of the wheels and v is their
-/// mean. Below 0.1 m/s, the measured angle blends into the actuator's angle: the difference of
-/// their tangents is weighted by (v/0.1 m/s)^2.
+/// A vehicle with differential drive can only be simulated by the plants `kinematic` and `mujoco`,
+/// the latter with the tyre law kContact. For a vehicle with differential drive, MakePlant throws
+/// InputError if another plant is requested, or if prescribed steering is requested in MuJoCo. For
+/// a vehicle with differential drive, the MuJoCo plant integrates the commanded acceleration to a
+/// speed command, and a torque-limited servo controls the speed of each wheel. The measured
+/// steering angle of a differential drive is atan((v_R - v_L)/v), where v_L and v_R are the speeds
+/// of the wheels and v is their mean. At speeds v below 0.1 m/s, the measured angle blends into the
+/// actuator's angle: the difference between the tangents of the two angles is weighted by (v/0.1
+/// m/s)^2.
 const std::vector<PlantEntry>& Plants();
 
 /// Adds a plant to the registry, so that scenarios, `trackbed list`, messages and reports can use
-/// its name. Call RegisterPlant at the start of main, because it invalidates references to entries
-/// and is not thread-safe. Throws PreconditionError if the name is already in use or is
-/// kRecordedPlant.
+/// its name. Call RegisterPlant at the start of main, because RegisterPlant is not thread-safe and
+/// invalidates references to registry entries. Throws PreconditionError if the name is already in
+/// use or is kRecordedPlant.
 void RegisterPlant(PlantEntry entry);
 
-/// Makes the named plant. Throws InputError, which suggests the most similar name, if there is no
-/// such plant. Throws PreconditionError if the start state is not finite.
+/// Makes the plant with the given name. If the registry has no plant of this name, throws
+/// InputError, which suggests the most similar name. Throws PreconditionError if the start state is
+/// not finite.
 std::unique_ptr<Plant> MakePlant(const std::string& name, const PlantSetup& setup);
 
-/// Makes a kinematic plant with the given reference point. With kCenterOfGravity, `start.speed` and
-/// the commanded acceleration refer to the center of gravity.
+/// Makes a plant that simulates a KinematicCar with the given reference point. With
+/// kCenterOfGravity, `start.speed` and the commanded acceleration refer to the center of gravity.
 std::unique_ptr<Plant> MakeKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
 
 }  // namespace trackbed

@@ -1,6 +1,6 @@
 // Draws the events of a run on the time line.
 
-// For each kind of event, its mark and its name in the legend.
+// For each kind of event: the mark on the time line and the name in the legend.
 const EVENT_KINDS = {
   collided: { mark: 'M-5 -5L5 5M-5 5L5 -5', name: 'collision' },
   rolled_over: { mark: 'M-5.5 4.5H5.5L0 -5.5Z', name: 'roll-over', filled: true },
@@ -45,10 +45,11 @@ function eventsOf() {
  * Draws the time line, with a lane for each track below, which has marks for the track's events.
  */
 function drawEventTrack(parent) {
-  const all = data.live ? [] : eventsOf();  // no events while a run is in progress, when the
-                                            // extremes are not yet known
+  // no events are drawn while a run is in progress, because the extremes are not yet known
+  const all = data.live ? [] : eventsOf();
   const LANE = 20;
-  const SIDE = 9;  // smallest distance of the knob's center from the ends of the slider [px]
+  // smallest distance between the center of the slider's knob and the ends of the slider [px]
+  const SIDE = 9;
   const own = tracks.filter((track) => all.some((event) => event.track === track));
   const figure = parent.append('div').attr('class', 'event-track');
   drawTimeSlider(figure.append('div').attr('class', 'time-line'), 'track');
@@ -112,7 +113,7 @@ function drawEvents(parent) {
   const events = eventsOf().filter(({ kind }) => kind !== 'limit');
   if (!events.length) return;
   const list = parent.append('div').attr('class', 'events').attr('role', 'group').attr('aria-label', 'Events');
-  // If there are too many events, buttons for new plans are dropped first.
+  // If there are too many events for the row of buttons, buttons for new plans are omitted first.
   const kept = events.length > MOST ? [...events].sort((a, b) => (a.kind === 'plan') - (b.kind === 'plan')).slice(0, MOST) : events;
   for (const { t, text, track } of kept.sort((a, b) => a.t - b.t)) {
     const button = list.append('button').attr('type', 'button').attr('title', `${track.label}: show this moment`)

@@ -1,0 +1,105 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/support/temp_folder.h"
+#include "trackbed/analysis/run.h"
+#include "trackbed/core/error.h"
+#include "trackbed/scenario/cameras.h"
+
+/// The functions of the public face: LoadScenario, RunScenario, Find and Compare.
+namespace trackbed {
+namespace {
+
+using testing::HasSubstr;
+
+const char* const kCorner =
+    "schema: 1\nname: corner\nmission: {speed: 3, waypoints: [[0, 0], [30, 0], [30, 30]]}\n"
+    "plan: {method: fillet}\ndrive: {plants: [kinematic, single_track]}\n";
+
+std::string ErrorOf(const std::string& more) {
+  const TempFolder folder;
+  try {
+    LoadScenario(folder.Write("corner.yaml", kCorner + more));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(LoadScenario, RefusesWhatTheProgramRefuses) {
+  EXPECT_EQ(
+      ErrorOf("expect: {metrics: [{metric: cross_track.max, max: 1}]}\nrender: {camera: side}\n"),
+      "");
+  EXPECT_THAT(ErrorOf("expect: {metrics: [{metric: cross_trak.max, max: 1}]}\n"),
+              HasSubstr("did you mean 'cross_track.max'"));
+  EXPECT_THAT(ErrorOf("render: {camera: chas}\n"), HasSubstr("did you mean 'chase'"));
+}
+
+TEST(RunScenario, HasThePlantsThatItSimulated) {
+  const TempFolder folder;
+  const RunResult run = RunScenario(folder.Write("corner.yaml", kCorner), {"mission.speed=2"});
+  ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
+  const auto car = run.Find("kinematic");
+  ASSERT_TRUE(car);
+  EXPECT_EQ(&car->log, &run.logs[0]);
+  EXPECT_EQ(&car->metrics, &run.metrics[0]);
+  EXPECT_EQ(car->log.plant, "kinematic");
+  EXPECT_FALSE(run.Find("mujoco"));
+  EXPECT_EQ(run.scenario.mission.speed, 2.0);
+}
+
+TEST(Compare, IsThatOfTheRunsTable) {
+  const TempFolder folder;
+  const std::filesystem::path file = folder.Write("corner.yaml", kCorner);
+  const RunResult run = RunScenario(file);
+  const PlantComparison apart = Compare(run, "kinematic", "single_track");
+  ASSERT_EQ(run.comparisons.size(), 1U);
+  EXPECT_EQ(apart.position.max, run.comparisons[0].position.max);
+  EXPECT_GT(apart.position.max, 0.0);
+  const PlantComparison same = Compare(run, RunScenario(file), "kinematic");
+  EXPECT_EQ(same.position.max, 0.0);
+  EXPECT_EQ(same.first, "corner/kinematic");
+  try {
+    static_cast<void>(Compare(run, "kinematic", "mujoco"));
+    ADD_FAILURE() << "no error";
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("has no plant mujoco; it has: kinematic, single_track"));
+  }
+}
+
+/// The kinematic car with a constant error of its steering.
+class CrookedPlant final : public Plant {
+ public:
+  CrookedPlant(std::unique_ptr<Plant> car, double error) : car_(std::move(car)), error_(error) {}
+  void Step(const Command& command) override {
+    Command crooked = command;
+    crooked.steering += error_;
+    car_->Step(crooked);
+  }
+  void ApplyLateralOffset(double left) override { car_->ApplyLateralOffset(left); }
+  void ApplyLateralForce(double force) override { car_->ApplyLateralForce(force); }
+  [[nodiscard]] VehicleState Observe() const override { return car_->Observe(); }
+  [[nodiscard]] Pose2 pose() const override { return car_->pose(); }
+  [[nodiscard]] std::vector<double> Configuration() const override { return car_->Configuration(); }
+  [[nodiscard]] bool diverged() const override { return car_->diverged(); }
+
+ private:
+  std::unique_ptr<Plant> car_;
+  double error_;  // [rad]
+};
+
+TEST(RunScenario, TakesPlantsFromFunctionsWithState) {
+  const double error = 0.05;  // [rad]
+  RegisterPlant({.name = "crooked",
+                 .summary = "the kinematic car with a steering error",
+                 .make = [error](const PlantSetup& setup) -> std::unique_ptr<Plant> {
+                   return std::make_unique<CrookedPlant>(MakePlant("kinematic", setup), error);
+                 }});
+  const TempFolder folder;
+  const RunResult run =
+      RunScenario(folder.Write("corner.yaml", kCorner), {"drive.plants=[kinematic, crooked]"});
+  EXPECT_GT(Compare(run, "kinematic", "crooked").position.max, 0.01);
+}
+
+}  // namespace
+}  // namespace trackbed
