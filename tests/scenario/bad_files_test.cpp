@@ -40,10 +40,13 @@ std::vector<fs::path> FilesWith(const std::string& extension) {
 }
 
 /// Messages contain the folder of the file, which differs between machines.
-std::string WithoutFolder(std::string message) {
-  const std::string folder = BadFolder().string() + "/";
-  for (std::size_t at = message.find(folder); at != std::string::npos; at = message.find(folder)) {
-    message.erase(at, folder.size());
+std::string WithoutFolder(std::string message, const fs::path& file) {
+  for (const fs::path& path : {file.parent_path(), BadFolder()}) {
+    const std::string folder = path.string() + "/";
+    for (std::size_t at = message.find(folder); at != std::string::npos;
+         at = message.find(folder)) {
+      message.erase(at, folder.size());
+    }
   }
   return message;
 }
@@ -60,7 +63,7 @@ std::string MessageFor(const fs::path& file) {
     const fs::path model = FindModel(scenario.vehicle.model, scenario.folder);
     const CarModel car(ComposeScene(model, {.timestep = scenario.drive.timestep}), model.string());
   } catch (const InputError& error) {
-    return WithoutFolder(error.what());
+    return WithoutFolder(error.what(), file);
   }
   return kNoError;
 }
