@@ -1,0 +1,123 @@
+#include "src/planning/common/feasible_speeds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace trackbed::feasible_speeds {
+
+double LateralOver(const RoadHold& road, const Path& path, const Stations& piece) {
+  if (road.uniform()) {
+    return road.Lateral(path, piece.from, 0.0);
+  }
+  const double curvature = path.At(0.5 * (piece.from + piece.to)).curvature;
+  return std::min(road.Lateral(path, piece.from, curvature),
+                  road.Lateral(path, piece.to, curvature));
+}
+
+RoadHold::Combined CombinedOver(const RoadHold& road, const Plan& plan, const PathPiece& piece) {
+  const auto [from, to] = piece.stations;
+  const Path& path = plan.reference.path;
+  const double v_from = plan.reference.speed.SpeedAt(from);
+  const double v_to = plan.reference.speed.SpeedAt(to);
+  const double along = to > from ? 0.5 * (v_to * v_to - v_from * v_from) / (to - from) : 0.0;
+  const double across = std::max(v_from * v_from, v_to * v_to) * piece.curvature;
+  return road.Both(path, from, along, std::copysign(across, path.At(0.5 * (from + to)).curvature));
+}
+
+bool EndsAtStop(const std::vector<Stations>& legs, double s) {
+  constexpr double kEqualityTolerance = 1e-6;  // [m]
+  return std::any_of(legs.begin(), legs.end(), [&](const Stations& leg) {
+    return &leg != &legs.back() && std::abs(leg.to - s) < kEqualityTolerance;
+  });
+}
+
+std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
+  const VehicleParams& vehicle = request.vehicle;
+  const Path& path = plan.reference.path;
+  std::vector<SpeedCap> caps;
+  const double wanted = request.speed.speed;
+  // If the plan drives at the limit, use only a share of the steering rate, because the controllers
+  // need the rest.
+  const double rate =
+      vehicle.steering_rate * (request.limits ? request.limits->options.share : 1.0);
+  if (vehicle.top_speed > 0.0 && vehicle.top_speed < wanted) {
+    caps.push_back({0.0, path.length(), vehicle.top_speed});
+  }
+  const auto add = [&](const Stations& piece, double speed) {
+    if (!caps.empty() && caps.back().speed == speed && caps.back().to == piece.from) {
+      caps.back().to = piece.to;  // extend the previous cap over this piece
+    } else if (speed < wanted * (1.0 - kRounding)) {
+      caps.push_back({piece.from, piece.to, speed});
+    }
+  };
+  const RoadHold road(request);
+  ForEachPiece(path, vehicle, kCheckSpacing, [&](const PathPiece& piece) {
+    double speed = rate / piece.slope;
+    if (vehicle.friction_lateral > 0.0 && !request.limits) {
+      const double lateral = LateralOver(road, path, piece.stations);
+      speed = std::min(speed, std::sqrt(lateral / piece.curvature));
+    }
+    add(piece.stations, speed);  // on a straight, the speed is infinite and no cap is added
+  });
+  const std::vector<Stations> legs = SplitIntoLegs(path, plan.stops);
+  ForEachRamp(plan.schedule, [&](double from, double to, double slope) {
+    const double speed = rate / slope;
+    if (speed < wanted * (1.0 - kRounding) && !EndsAtStop(legs, to)) {
+      caps.push_back({from, to, speed});
+    }
+  });
+  return caps;
+}
+
+SpeedLimits LeaveGripForBends(const SpeedLimits& limits, const Path& path,
+                              const PlanRequest& request) {
+  constexpr double kShare = 0.7;
+  const RoadHoldLimits hold = MinRoadHold(path, {0.0, path.length()}, request);
+  SpeedLimits gentler = limits;
+  if (hold.braking > 0.0) {
+    gentler.deceleration = std::min(gentler.deceleration, kShare * hold.braking);
+  }
+  if (hold.driving > 0.0) {
+    gentler.acceleration = std::min(gentler.acceleration, kShare * hold.driving);
+  }
+  return gentler;
+}
+
+std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request,
+                                  const SpeedLimits& limits) {
+  const Path& path = plan.reference.path;
+  const RoadHold road(request);
+  std::vector<SpeedCap> caps;
+  std::vector<SpeedCap> bend;
+  bool is_exceeded = false;
+  const auto finish_bend = [&] {
+    if (is_exceeded) {
+      caps.insert(caps.end(), bend.begin(), bend.end());
+    }
+    bend.clear();
+    is_exceeded = false;
+  };
+  ForEachPiece(path, request.vehicle, kCheckSpacing, [&](const PathPiece& piece) {
+    if (piece.curvature == 0.0) {
+      finish_bend();
+      return;
+    }
+    const auto [from, to] = piece.stations;
+    const double curvature = path.At(0.5 * (from + to)).curvature;
+    double lateral = std::numeric_limits<double>::infinity();
+    for (const double s : {from, to}) {
+      for (const double along : {-limits.deceleration, limits.acceleration}) {
+        lateral = std::min(lateral, road.LateralBeside(path, s, curvature, along));
+      }
+    }
+    bend.push_back({from, to, std::sqrt(std::max(0.0, lateral) / piece.curvature)});
+    const RoadHold::Combined both = CombinedOver(road, plan, piece);
+    is_exceeded = is_exceeded || (both.limit > 0.0 && both.required > both.limit);
+  });
+  finish_bend();
+  std::erase_if(caps, [&](const SpeedCap& cap) { return cap.speed >= limits.speed; });
+  return caps;
+}
+
+}  // namespace trackbed::feasible_speeds

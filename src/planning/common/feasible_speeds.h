@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cmath>
+#include <vector>
+
+#include "trackbed/planning/common/path_pieces.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/road_hold.h"
+
+/// Speeds at which a car can drive the path of a plan, for MakeFeasible.
+namespace trackbed::feasible_speeds {
+
+/// Relative tolerance of a limit.
+inline constexpr double kRounding = 1e-6;
+/// Distance between checked points along the path [m].
+inline constexpr double kCheckSpacing = 0.1;
+
+/// Calls `call` for each stretch of the steering schedule on which the wheels turn, with its start,
+/// its end and the slope of the steering angle.
+template <typename Call>
+void ForEachRamp(const SteeringSchedule& schedule, const Call& call) {
+  const std::vector<SteeringSchedule::Knot>& knots = schedule.knots();
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const double length = knots[i].distance - knots[i - 1].distance;
+    const double turned = std::abs(knots[i].steering - knots[i - 1].steering);
+    if (turned > 0.0) {
+      call(knots[i - 1].distance, knots[i].distance, turned / length);
+    }
+  }
+}
+
+/// Returns the largest lateral acceleration v^2 |kappa| that the road permits at both ends of a
+/// piece of the path.
+double LateralOver(const RoadHold& road, const Path& path, const Stations& piece);
+
+/// Returns the combined longitudinal and lateral acceleration that the plan requires on a piece of
+/// its path, together with the limit.
+RoadHold::Combined CombinedOver(const RoadHold& road, const Plan& plan, const PathPiece& piece);
+
+/// Returns whether a leg ends at the station s with an intermediate stop, at which the wheels may
+/// turn at standstill.
+bool EndsAtStop(const std::vector<Stations>& legs, double s);
+
+/// Returns the speed caps that enforce the limits of steering rate, top speed and lateral
+/// acceleration. The lateral acceleration gets no cap if the g-g-v diagram determines the plan's
+/// speeds.
+std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request);
+
+/// Returns acceleration limits reduced to at most 0.7 (about 1/sqrt(2)) of the road's grip, which
+/// leaves grip for bends.
+SpeedLimits LeaveGripForBends(const SpeedLimits& limits, const Path& path,
+                              const PlanRequest& request);
+
+/// Returns speed caps for each bend in which the plan exceeds the friction ellipse. A bend here is
+/// a stretch of the path between two straights. With these caps, the car stays within the friction
+/// ellipse in the bend even if it speeds up or slows down at the acceleration limits.
+std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request,
+                                  const SpeedLimits& limits);
+
+}  // namespace trackbed::feasible_speeds
