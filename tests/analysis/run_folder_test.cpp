@@ -161,7 +161,7 @@ TEST(RunFolder, ListsWhateverARunAndItsComparisonWrite) {
   // Contains searched turns and a replan.
   const RunResult run =
       RunScenario(Read("obstacle_appears", {"plan.global={method: fillet, objective: turn_local}",
-                                           "drive.time_limit=25", "expect={}"}));
+                                            "drive.time_limit=25", "expect={}"}));
   ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
   WriteRunFolder(run, folder.path(), {.mcap = true});
   WriteComparison(CompareRun(run, std::nullopt), folder.path());
@@ -181,7 +181,7 @@ TEST(RunFolder, LosesEveryFileOfAnEarlierRun) {
   folder.Write("manifest.json", nlohmann::json{{"results", {{"run", files}}}}.dump());
   folder.Write("notes.txt", "mine");
   WriteRunFolder(RunScenario(Read("steering_circle",
-                                 {"drive.plants=[kinematic]", "expect={}", "mission.duration=1"})),
+                                  {"drive.plants=[kinematic]", "expect={}", "mission.duration=1"})),
                  folder.path());
   EXPECT_THAT(folder.Names(),
               testing::UnorderedElementsAre("scenario.resolved.yaml", "model.xml", "kinematic.csv",

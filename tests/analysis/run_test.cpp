@@ -152,7 +152,7 @@ TEST(Run, StartsOffItsPathAndReturnsToIt) {
   for (const char* start : {"{y: 0.5, yaw: 0.1, speed: 0}", "{y: -1, yaw: -0.2}", "{y: 3}"}) {
     const RunResult result =
         RunScenario(Load("three_turns", {fmt::format("mission.start={}", start),
-                                        "plan.infeasible=allow", "expect={}"}));
+                                         "plan.infeasible=allow", "expect={}"}));
     for (const PlantMetrics& metrics : result.metrics) {
       SCOPED_TRACE(metrics.plant + std::string(" from ") + start);
       EXPECT_EQ(metrics.status, DriveStatus::kArrived);
@@ -194,7 +194,7 @@ TEST(WriteRunFolder, TellsWhatTheControllerDidAndWhatItTook) {
   const TempFolder folder;
   const RunResult result =
       RunScenario(Load("winding", {"drive.time_limit=12", "drive.plants=[kinematic]", "expect={}",
-                                  "control={method: optimal_steering, search: {method: crs2}}"}));
+                                   "control={method: optimal_steering, search: {method: crs2}}"}));
   WriteRunFolder(result, folder.path());
   const Table table = ToTable(result.logs.front());
   const std::size_t first = table.columns().size() - 5;
@@ -232,7 +232,7 @@ TEST(WriteRunFolder, LeavesNothingOfAnEarlierRun) {
   WriteRunFolder(RunScenario(Load("winding", {"drive.time_limit=1"})), folder.path());
   folder.Write("notes.txt", "mine");
   WriteRunFolder(RunScenario(Load("steering_circle",
-                                 {"drive.plants=[kinematic]", "expect={}", "mission.duration=1"})),
+                                  {"drive.plants=[kinematic]", "expect={}", "mission.duration=1"})),
                  folder.path());
   const auto files = FilesIn(folder.path());
   EXPECT_FALSE(files.contains("plan.csv"));
@@ -375,8 +375,8 @@ TEST(Run, KeepsTheLogWhenInterrupted) {
   int asked = 0;
   const RunResult result =
       RunScenario(Load("three_turns"), {.drive = [&](const std::string&) {
-                   return DriveHooks{.progress = {}, .interrupted = [&] { return ++asked > 100; }};
-                 }});
+                    return DriveHooks{.progress = {}, .interrupted = [&] { return ++asked > 100; }};
+                  }});
   EXPECT_TRUE(result.interrupted);
   ASSERT_EQ(result.logs.size(), 1U);
   EXPECT_EQ(result.logs[0].status, DriveStatus::kInterrupted);
@@ -389,12 +389,12 @@ TEST(Run, CallsTheCallersHooksAsWellAsItsOwn) {
   int updates = 0;
   double longest = 0.0;
   const RunResult result = RunScenario(Load("three_turns", {"drive.plants=[kinematic]"}),
-                                      {.drive = [&](const std::string&) {
-                                        return DriveHooks{.steered = [&](double seconds) {
-                                          ++updates;
-                                          longest = std::max(longest, seconds);
-                                        }};
-                                      }});
+                                       {.drive = [&](const std::string&) {
+                                         return DriveHooks{.steered = [&](double seconds) {
+                                           ++updates;
+                                           longest = std::max(longest, seconds);
+                                         }};
+                                       }});
   ASSERT_EQ(result.timing.size(), 1U);
   EXPECT_GT(updates, 100);
   EXPECT_EQ(updates, result.timing[0].updates);

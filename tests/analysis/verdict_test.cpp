@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 RunResult Drive(const std::string& yaml) {
   return RunScenario(ParseScenario("schema: 1\nname: verdict\n" + yaml, "verdict",
-                                  TRACKBED_SOURCE_DIR "/tests/data/models"));
+                                   TRACKBED_SOURCE_DIR "/tests/data/models"));
 }
 
 TEST(Verdict, FailsACarThatPassesThroughAThinWallBetweenTwoRows) {

@@ -22,7 +22,7 @@ RunLog Drive(const std::string& yaml) {
   const Scenario scenario = ParseScenario("schema: 1\nname: disturbed\n" + yaml, "test.yaml", ".");
   const CarModel car = LoadCar(scenario);
   return SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()),
-                    scenario.drive.plants.front());
+                          scenario.drive.plants.front());
 }
 
 /// An open-loop run of the kinematic car.
@@ -291,7 +291,8 @@ TEST(PayloadOnTheWay, StaysInTheCarInAWorld) {
   const CarModel car = LoadCar(scenario);
   EXPECT_NEAR(car.params().mass, 1517.0, Tolerance(1e-9));
   EXPECT_NEAR(car.unladen().mass, 1317.0, Tolerance(1e-9));
-  const RunLog log = SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
+  const RunLog log =
+      SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   // The car does not bounce at the start. 1 % of its weight is twice the load change of the unladen
   // car's wheels in the first step.

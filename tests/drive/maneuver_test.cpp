@@ -17,7 +17,7 @@ RunLog Drive(const std::string& control, const std::string& rest) {
       fmt::format("schema: 1\nname: maneuver\ncontrol: {}\n{}\n", control, rest), "test.yaml", ".");
   const CarModel car = LoadCar(scenario);
   return SimulateScenario(scenario, car, PlanScenario(scenario, car.params()),
-                    scenario.drive.plants.front());
+                          scenario.drive.plants.front());
 }
 
 const VehicleState& At(const RunLog& log, double time) {

@@ -51,7 +51,7 @@ RunLog Drive(const Scenario& scenario) {
   CheckScenario(scenario);
   const CarModel car = LoadCar(scenario);
   return SimulateScenario(scenario, car, PlanScenario(scenario, car.params()),
-                    scenario.drive.plants.front());
+                          scenario.drive.plants.front());
 }
 
 TEST(Playback, OnPrescribedWheelsGivesTheRecordedAngleAndSpeed) {

@@ -19,7 +19,8 @@ TEST(Replanning, KeepsAMotionThatLeadsPastWhatNewOnesDoNot) {
       "5}}}\ncontrol: {method: preview}\ndrive: {plants: [kinematic]}\n",
       "lattice.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const RunLog log = SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "kinematic");
+  const RunLog log =
+      SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "kinematic");
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   EXPECT_GE(log.changes.size(), 1u);
 }
@@ -36,7 +37,8 @@ TEST(Replanning, EndsWithACollision) {
       "control: {method: preview}\ndrive: {plants: [mujoco]}\n",
       "struck.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const RunLog log = SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
+  const RunLog log =
+      SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
   EXPECT_EQ(log.status, DriveStatus::kCollided);
   ASSERT_TRUE(log.contact_time);
   EXPECT_GE(log.changes.size(), 1u);
@@ -58,7 +60,8 @@ TEST(Replanning, GoesOnOnceWhatCrossesTheRoadIsGone) {
       "control: {method: preview}\ndrive: {plants: [mujoco]}\n",
       "crossing.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const RunLog log = SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
+  const RunLog log =
+      SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
   EXPECT_EQ(log.status, DriveStatus::kArrived);
   const auto stands = [](const LogRow& row) { return std::abs(row.state.speed) < 0.01; };
   EXPECT_TRUE(std::any_of(log.rows.begin() + 100, log.rows.end() - 500, stands));

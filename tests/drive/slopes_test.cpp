@@ -89,7 +89,8 @@ TEST(Braking, OfNothingCoasts) {
       "0}}}\ndrive: {plants: [mujoco]}\n",
       "coast.yaml", ".");
   const CarModel car = LoadCar(scenario);
-  const RunLog log = SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
+  const RunLog log =
+      SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
   double before = 0.0;
   for (const LogRow& row : log.rows) {
     if (row.state.time <= 1.0) {

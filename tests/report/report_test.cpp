@@ -193,9 +193,9 @@ TEST(ReportData, RefusesFilesOfTwoRuns) {
   const auto run = [&](const std::string& speed) {
     WriteRunFolder(
         RunScenario(ParseScenario("schema: 1\nname: s\nmission: {speed: " + speed +
-                                     ", waypoints: [[0, 0], [20, 0], [20, 20]]}\nplan: {method: "
-                                     "fillet}\ndrive: {plants: [kinematic]}\n",
-                                 "s.yaml", ".")),
+                                      ", waypoints: [[0, 0], [20, 0], [20, 20]]}\nplan: {method: "
+                                      "fillet}\ndrive: {plants: [kinematic]}\n",
+                                  "s.yaml", ".")),
         folder.path() / speed);
     return folder.path() / speed;
   };
