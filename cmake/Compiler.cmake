@@ -2,7 +2,7 @@ set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
-# Linked by every target of the project.
+# Defines trackbed_compiler, the compiler options with which every target of the project is built.
 add_library(trackbed_compiler INTERFACE)
 target_compile_options(
   trackbed_compiler
@@ -16,21 +16,25 @@ target_compile_options(
             -Wnon-virtual-dtor
             -Woverloaded-virtual
             -Wimplicit-fallthrough
-            # Designated initializers may omit members with defaults.
+            # Allow designated initializers that omit members with default values.
             -Wno-missing-field-initializers
-            # Clang reports a deprecated function that libstdc++'s stable_sort calls as a warning in our
-            # sources. GCC still reports deprecated functions that our sources call.
+            # Turn off Clang's warning about deprecated functions, because Clang also reports a
+            # deprecated function that is called inside stable_sort of libstdc++. GCC still reports
+            # the deprecated functions that Trackbed's sources call.
             $<$<CXX_COMPILER_ID:Clang>:-Wno-deprecated-declarations>
             # Debian 12's Boost 1.74 casts integers outside an enumeration's range, which is an
-            # error for Clang 16 and later. Clang 20 no longer has the flag.
+            # error for Clang 16 and later. Clang 20 no longer has the flag that disables this
+            # error.
             $<$<AND:$<CXX_COMPILER_ID:Clang>,$<VERSION_GREATER_EQUAL:$<CXX_COMPILER_VERSION>,16>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,20>>:-Wno-enum-constexpr-conversion>
-            # The report page is one long string literal (ReportPage.cmake).
+            # Allow long string literals, because the report page is a single literal
+            # (ReportPage.cmake).
             $<$<CXX_COMPILER_ID:Clang>:-Wno-overlength-strings>
-            # No fused multiply-add, so that the arithmetic is the same on every machine.
+            # Disable fused multiply-add instructions, so that floating-point results are the same
+            # on every machine.
             -ffp-contract=off
             $<$<BOOL:${TRACKBED_WARNINGS_AS_ERRORS}>:-Werror>)
 if(TRACKBED_FUZZ)
-  # Adds Clang's coverage instrumentation for libFuzzer.
+  # Instruments the code with Clang's coverage counters, which libFuzzer needs.
   target_compile_options(
     trackbed_compiler INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
                                 -fno-omit-frame-pointer)
@@ -47,7 +51,7 @@ if(TRACKBED_SANITIZE)
     INTERFACE ${TRACKBED_SANITIZER_FLAGS}
               -fno-sanitize-recover=all
               -fno-omit-frame-pointer
-              # GCC 12 reports instrumented std::regex as uninitialized.
+              # With sanitizers, GCC 12 wrongly reports uninitialized variables in std::regex.
               $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
   target_link_options(trackbed_compiler INTERFACE ${TRACKBED_SANITIZER_FLAGS})
 endif()

@@ -1,5 +1,5 @@
-# Libraries come from Debian (scripts/packages/). MuJoCo may also come from the wheel that
-# scripts/setup unpacks. Nothing is downloaded here.
+# Finds all libraries among the installed Debian packages (scripts/packages/). MuJoCo may also come
+# from the Python wheel that scripts/setup unpacks. CMake itself downloads nothing.
 include_guard()
 if(NOT DEFINED TRACKBED_MUJOCO AND EXISTS ${PROJECT_SOURCE_DIR}/build/mujoco)
   set(default_mujoco wheel)
@@ -10,7 +10,8 @@ set(TRACKBED_MUJOCO ${default_mujoco} CACHE STRING "MuJoCo: wheel, debian or a f
 include(LibraryDependencies)
 include(MujocoVersion)
 
-# EGL and FFmpeg are loaded at run time: the build needs only their headers, tests also the libraries.
+# EGL and FFmpeg are loaded at run time: the build needs only the headers of EGL and FFmpeg, and the
+# tests also need the libraries.
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(egl REQUIRED IMPORTED_TARGET egl)
 add_library(egl::egl ALIAS PkgConfig::egl)
@@ -19,7 +20,8 @@ if(TRACKBED_VIDEO)
   add_library(ffmpeg::ffmpeg ALIAS PkgConfig::ffmpeg)
 endif()
 
-# trackbed_headers_of(TARGET LIBRARY): gives the target the library's headers without linking it.
+# trackbed_headers_of(TARGET LIBRARY): adds the library's include folders to the target, without
+# linking the library.
 function(trackbed_headers_of target library)
   target_include_directories(${target}
                              PRIVATE $<BUILD_INTERFACE:$<TARGET_PROPERTY:${library},INTERFACE_INCLUDE_DIRECTORIES>>)
@@ -27,14 +29,14 @@ endfunction()
 
 find_package(CLI11 2 REQUIRED)
 
-# The module testing consists of GoogleTest matchers and is not built without GoogleTest.
+# The module `testing` consists of GoogleTest matchers and is built only if GoogleTest is found.
 if(TRACKBED_BUILD_TESTS)
   find_package(GTest REQUIRED)
 else()
   find_package(GTest QUIET)
 endif()
 
-# OMPL is required by the benchmarks. Tests compare with OMPL if it is installed.
+# The benchmarks require OMPL. The tests compare results with OMPL only if OMPL is installed.
 if(TRACKBED_BENCH)
   find_package(ompl REQUIRED CONFIG PATHS /usr/share/ompl/cmake)
 elseif(TRACKBED_BUILD_TESTS)

@@ -1,10 +1,11 @@
-# Installs README.md and docs/ with the linked files, so that links and pictures work without the
-# source tree. Models, scenarios and headers become links to their installed locations; files of
-# tests/, src/ and other folders are copied.
+# Installs README.md, docs/ and all files that these pages link, so that links and pictures work
+# without the source tree. Models, scenarios and headers become links to their installed locations;
+# files of tests/, src/ and other folders are copied.
 install(FILES README.md CHANGELOG.md CONTRIBUTING.md LICENSE NOTICE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(DIRECTORY docs DESTINATION ${CMAKE_INSTALL_DOCDIR} PATTERN inputs.sha256 EXCLUDE)
 
-# trackbed_install_link(NAME FOLDER): makes NAME beside the pages a link to the installed FOLDER.
+# trackbed_install_link(NAME FOLDER): creates, in the folder of the installed pages, the link NAME
+# to the installed FOLDER.
 function(trackbed_install_link name folder)
   file(RELATIVE_PATH target /${CMAKE_INSTALL_DOCDIR} /${folder})
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/package/links)

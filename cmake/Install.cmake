@@ -1,6 +1,6 @@
 # `cmake --install` installs the program, the package `trackbed` for CMake and pkg-config, the
-# models and scenarios, and the documentation. All paths are relative to the package or the program,
-# so the installation can be moved.
+# models and scenarios, and the documentation. All installed paths are relative to the CMake package
+# or to the program, so the installation can be moved.
 #
 #   trackbed::trackbed   the library: all modules but testing
 #   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_fillet
@@ -14,7 +14,8 @@ include(CMakePackageConfigHelpers)
 set(package_folder ${CMAKE_INSTALL_LIBDIR}/cmake/trackbed)
 set(data_folder ${CMAKE_INSTALL_DATADIR}/trackbed)
 
-# Defines one header and one target for all modules.
+# Defines the target trackbed::trackbed and the header trackbed/trackbed.h, each of which covers all
+# modules.
 add_library(trackbed_library INTERFACE)
 trackbed_link_folder(${PROJECT_BINARY_DIR}/modules/library trackbed/trackbed.h
                      ${PROJECT_SOURCE_DIR}/include/trackbed/trackbed.h)
@@ -42,13 +43,14 @@ set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
 set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)
 set_target_properties(trackbed PROPERTIES EXPORT_NAME cli)
 # Installs MuJoCo from the wheel or the archive into a private folder with the layout of an archive.
-# Projects that link Trackbed compile against its headers.
+# Projects that link Trackbed compile against MuJoCo's headers in this folder.
 set(mujoco_folder ${CMAKE_INSTALL_LIBDIR}/trackbed/mujoco)
 if(TRACKBED_MUJOCO_FOLDER)
   install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/include/mujoco DESTINATION ${mujoco_folder}/include)
   install(DIRECTORY ${TRACKBED_MUJOCO_FOLDER}/lib/ DESTINATION ${mujoco_folder}/lib
           FILES_MATCHING PATTERN libmujoco.so* PATTERN cmake EXCLUDE)
-  # A wheel has the license files in licenses/, an archive beside include/ and lib/.
+  # A wheel of MuJoCo contains the license files in licenses/; an archive contains the license files
+  # beside the folders include/ and lib/.
   file(GLOB licenses ${TRACKBED_MUJOCO_FOLDER}/licenses/* ${TRACKBED_MUJOCO_FOLDER}/LICENSE*
        ${TRACKBED_MUJOCO_FOLDER}/THIRD_PARTY_NOTICES*)
   install(FILES ${licenses} DESTINATION ${CMAKE_INSTALL_DOCDIR}/mujoco)
@@ -60,7 +62,8 @@ if(NOT BUILD_SHARED_LIBS)
 endif()
 install(TARGETS ${installed} trackbed EXPORT trackbedTargets)
 install(EXPORT trackbedTargets NAMESPACE trackbed:: DESTINATION ${package_folder})
-# Leaves out scenarios/validation, which replays recordings of tests/.
+# Does not install scenarios/validation, because these scenarios replay recordings in tests/, which
+# is not installed.
 install(DIRECTORY models scenarios DESTINATION ${data_folder} PATTERN validation EXCLUDE)
 
 set(mujoco_of_package debian)

@@ -1,5 +1,5 @@
-# Dependencies of Trackbed's libraries, for Trackbed's own build and for projects that link the
-# installed package. Projects that link shared libraries (trackbed_SHARED) need only the
+# Finds the dependencies of Trackbed's libraries, for Trackbed's own build and for projects that
+# link the installed package. Projects that link shared libraries (trackbed_SHARED) need only the
 # dependencies of public headers.
 find_package(fmt REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)

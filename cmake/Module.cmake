@@ -1,20 +1,21 @@
 # trackbed_module(PATH [STATIC] [SOURCE_DIR DIR] [KIND NUMERICS|LIGHT] [MODULES module...]
 #                 [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
 #
-# Adds one library per module, static or shared (Shared.cmake); with STATIC, always static. Public
-# headers are in include/trackbed/PATH, sources in src/PATH (or DIR). PATH is `core`, or
-# `planning/fillet` for a part of a larger module; its target is then trackbed_planning_fillet,
-# exported as trackbed::planning_fillet. MODULES must be declared before, so that the calls are in
-# the order of the modules, from the bottom up.
+# Adds one library for a module; the library is static or shared (Shared.cmake), but always static
+# with the option STATIC. Public headers are in include/trackbed/PATH, sources are in src/PATH (or
+# DIR). PATH is a name such as `core`, or a path such as `planning/fillet` for a part of a larger
+# module. The target of `planning/fillet` is trackbed_planning_fillet, exported as
+# trackbed::planning_fillet. The modules in MODULES must be declared before this module, so that the
+# calls are in the order of the modules, from the bottom up.
 #
 # A target sees only headers of the modules that it links: in the build tree, each module has a
 # separate include directory with a link to its headers.
-# KIND is explained in PrecompiledHeaders.cmake; default: NUMERICS.
-# The target header_checks, which is not part of `all`, compiles each public header alone.
+# PrecompiledHeaders.cmake explains the argument KIND; default: NUMERICS. The target header_checks,
+# which is not part of `all`, compiles each public header alone.
 set_property(GLOBAL PROPERTY TRACKBED_MODULES "")
 add_custom_target(header_checks)
 
-# Makes DIR/LINK a link to the folder SOURCE.
+# Creates the symbolic link DIR/LINK to the folder SOURCE.
 function(trackbed_link_folder dir link source)
   get_filename_component(parent ${dir}/${link} DIRECTORY)
   file(MAKE_DIRECTORY ${parent})
@@ -82,7 +83,7 @@ function(trackbed_module path)
     set(checks trackbed_${name}_header_checks)
     add_library(${checks} OBJECT EXCLUDE_FROM_ALL ${header_checks})
     target_link_libraries(${checks} PRIVATE trackbed_${name} trackbed_compiler)
-    # The checks only compile the headers, so no optimization is needed.
+    # Compile the header checks without optimization, because the compiled code is never run.
     target_compile_options(${checks} PRIVATE -O0)
     add_dependencies(header_checks ${checks})
   endif()

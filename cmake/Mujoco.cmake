@@ -8,9 +8,9 @@
 #                      include/mujoco/mujoco.h and lib/libmujoco.so
 #
 # Sets TRACKBED_MUJOCO_FOLDER to the folder of the wheel or the archive, which `cmake --install`
-# copies; empty for the system's MuJoCo.
+# copies; TRACKBED_MUJOCO_FOLDER is empty for the system's MuJoCo.
 
-# Defines mujoco::mujoco from the folder `root`.
+# Defines the target mujoco::mujoco with the headers and the library in the folder `root`.
 function(trackbed_mujoco_of root)
   file(GLOB libraries ${root}/lib/libmujoco.so.*.*.* ${root}/lib/libmujoco.so)
   if(NOT libraries OR NOT EXISTS ${root}/include/mujoco/mujoco.h)
@@ -25,15 +25,15 @@ endfunction()
 
 set(TRACKBED_MUJOCO_FOLDER "")
 if(TARGET mujoco::mujoco)
-  # The including project has already defined the target.
+  # Nothing to do: the including project has already defined the target mujoco::mujoco.
 elseif(TRACKBED_MUJOCO STREQUAL "debian")
   find_package(mujoco CONFIG QUIET)
   if(NOT mujoco_FOUND)
     message(FATAL_ERROR "TRACKBED_MUJOCO=debian: no CMake package mujoco; install Debian's libmujoco-dev, "
                         "or set mujoco_DIR")
   endif()
-  # Debian's 2.2.2 exports a missing folder of libqhull-dev, for which CMake would reject the
-  # target.
+  # Debian's MuJoCo 2.2.2 exports an include folder of libqhull-dev that may not exist; CMake would
+  # reject the target because of a missing folder.
   get_target_property(folders mujoco::mujoco INTERFACE_INCLUDE_DIRECTORIES)
   set(existing "")
   foreach(folder IN LISTS folders)

@@ -1,5 +1,6 @@
-# Compares the headers of mujoco::mujoco with its library, and rejects versions that Trackbed does
-# not support. Sets TRACKBED_MUJOCO_VERSION. docs/how-to/mujoco-versions.md lists the differences.
+# Checks that the headers and the library of mujoco::mujoco have the same version, and rejects
+# versions that Trackbed does not support. Sets TRACKBED_MUJOCO_VERSION.
+# docs/how-to/mujoco-versions.md lists the differences between the MuJoCo versions.
 set(program ${PROJECT_BINARY_DIR}/mujoco_version/version.cpp)
 file(CONFIGURE OUTPUT ${program} CONTENT [[#include <mujoco/mujoco.h>
 
@@ -18,7 +19,8 @@ endif()
 set(mujoco_headers ${CMAKE_MATCH_1})
 set(mujoco_library ${CMAKE_MATCH_2})
 set(TRACKBED_MUJOCO_VERSION ${CMAKE_MATCH_3})
-# Each configuration repeats the check, because the library may have been replaced.
+# Repeat the check of MuJoCo's version at each configuration, because the library may have been
+# replaced.
 unset(mujoco_version_exit CACHE)
 unset(mujoco_version_compiles CACHE)
 if(NOT mujoco_headers EQUAL mujoco_library)

@@ -1,19 +1,20 @@
 # `cpack -G DEB` in the build folder makes one Debian package of everything that `cmake --install`
-# installs, for the suite on which it is built. scripts/package builds, makes and checks it;
-# docs/how-to/install.md describes it for users.
+# installs, for the Debian release on which the package is built. scripts/package builds Trackbed,
+# makes the package and checks the package. docs/how-to/install.md describes the package for users.
 #
-# finish_package.cmake determines the dependencies of linked libraries with dpkg-shlibdeps. This
-# file adds the libraries that are loaded at run time for drawing and encoding, and suggests those
-# that find_package(trackbed) needs.
+# finish_package.cmake determines the dependencies of linked libraries with dpkg-shlibdeps.
+# Package.cmake adds dependencies on the libraries that are loaded at run time for drawing and
+# encoding, and suggests the packages that find_package(trackbed) needs.
 find_program(DPKG_QUERY dpkg-query)
 mark_as_advanced(DPKG_QUERY)
-# Static libraries only: Debian requires separate packages for shared ones.
+# Make a Debian package only of static libraries, because Debian requires separate packages for
+# shared libraries.
 if(NOT DPKG_QUERY OR BUILD_SHARED_LIBS)
   return()
 endif()
 
 # The package must contain the licenses of all code in the program and libraries. Boost's license
-# requires no text beside object code.
+# does not require that its text accompanies compiled code.
 set(carried_packages node-d3 libjs-dygraphs libjs-three libeigen3-dev nlohmann-json3-dev libcli11-dev)
 foreach(package IN LISTS carried_packages)
   if(NOT EXISTS /usr/share/doc/${package}/copyright)
@@ -35,8 +36,8 @@ function(trackbed_owner_of library variable)
   endif()
 endfunction()
 
-# The package requires OSMesa, or EGL with Mesa's drivers. One group of alternatives cannot express
-# this condition, but two groups can.
+# The package requires OSMesa, or EGL with Mesa's drivers. A single list of alternatives cannot
+# express the condition "OSMesa, or both EGL and Mesa's drivers", but two lists can.
 set(depends "libosmesa6 | libegl1" "libosmesa6 | libgl1-mesa-dri")
 if(TRACKBED_VIDEO)
   foreach(library IN ITEMS avformat avcodec swscale avutil)
@@ -46,7 +47,8 @@ if(TRACKBED_VIDEO)
 endif()
 list(JOIN depends ", " CPACK_DEBIAN_PACKAGE_DEPENDS)
 
-# Packages that LibraryDependencies.cmake finds; the program needs none of them.
+# Suggests the packages of the libraries that LibraryDependencies.cmake searches; the program runs
+# without these packages.
 set(suggests
     g++ libfmt-dev libeigen3-dev libboost-dev nlohmann-json3-dev libyaml-cpp-dev libtinyxml2-dev libproj-dev
     libmuparser-dev libnlopt-dev libnlopt-cxx-dev libssl-dev libpng-dev libdlib-dev libcsv-dev)
@@ -61,7 +63,8 @@ if(TARGET trackbed_testing)
 endif()
 list(JOIN suggests ", " CPACK_DEBIAN_PACKAGE_SUGGESTS)
 
-# The version contains the suite, so that a package for Debian 13 replaces the one for Debian 12.
+# The package's version contains the Debian release, so that a package for Debian 13 replaces a
+# package for Debian 12.
 set(CPACK_DEBIAN_PACKAGE_VERSION ${PROJECT_VERSION})
 file(STRINGS /etc/os-release suite REGEX "^VERSION_ID=")
 if(suite MATCHES "([0-9]+)")
@@ -80,7 +83,8 @@ if(TRACKBED_MUJOCO_FOLDER)
 endif()
 configure_file(packaging/copyright.in package/copyright @ONLY)
 
-# Debian's changelog lists versions of the package. CHANGELOG.md is installed in addition.
+# Writes the changelog that Debian requires, which lists versions of the Debian package. Trackbed's
+# own CHANGELOG.md is also installed.
 set(changed "Thu, 01 Jan 1970 00:00:00 +0000")
 if(GIT_EXECUTABLE)
   execute_process(COMMAND ${GIT_EXECUTABLE} -C ${PROJECT_SOURCE_DIR} log -1 --format=%aD OUTPUT_VARIABLE committed
@@ -96,7 +100,7 @@ file(CONFIGURE OUTPUT package/changelog CONTENT [[trackbed (@CPACK_DEBIAN_PACKAG
  -- @TRACKBED_MAINTAINER@  @changed@
 ]] @ONLY)
 
-# Variables for finish_package.cmake: files in addition to those of `cmake --install`.
+# Pass to finish_package.cmake the folders with files that `cmake --install` does not install.
 set(CPACK_TRACKBED_FILES ${PROJECT_BINARY_DIR}/package)
 set(CPACK_TRACKBED_PACKAGING ${PROJECT_SOURCE_DIR}/packaging)
 

@@ -1,6 +1,6 @@
 # Writes trackbed.pc for builds without CMake: the modules' link libraries in pkg-config syntax. A
-# program that links static modules must link everything that they use. A program that links shared
-# modules, and the compiler, need only the dependencies of public headers.
+# program that links static modules must also link all libraries that the modules use. A program
+# that links shared modules needs only the dependencies of public headers, and so does the compiler.
 
 set(mujoco -lmujoco)
 if(TRACKBED_MUJOCO_FOLDER)
@@ -8,8 +8,9 @@ if(TRACKBED_MUJOCO_FOLDER)
   set(mujoco "-L${folder} -Wl,-rpath,${folder} -lmujoco")
 endif()
 
-# pkg-config names, or linker options: libcsv and MuJoCo have no .pc file. Boost is header-only. For
-# proj.pc, `--static` would require libraries of curl that only static programs need.
+# Maps each library to its pkg-config name, or to linker options if no suitable .pc file exists, as
+# for libcsv and MuJoCo. Boost is header-only. PROJ is linked by a linker option, because
+# `pkg-config --static` with proj.pc would require libraries of curl that only static programs need.
 set(pkg_config_names
     fmt::fmt=fmt
     Eigen3::Eigen=eigen3
@@ -36,7 +37,8 @@ foreach(module IN LISTS modules)
   if(module STREQUAL "testing")
     continue()
   endif()
-  # The linker requires libraries after their users, so the modules are listed from the top down.
+  # The linker requires each library after the libraries that use it, so the modules are listed from
+  # the top down.
   if(module STREQUAL "sim" AND NOT BUILD_SHARED_LIBS)
     list(PREPEND libs -ltrackbed_default_place)
   endif()
@@ -46,7 +48,7 @@ foreach(module IN LISTS modules)
   else()
     get_target_property(links trackbed_${name} LINK_LIBRARIES)
   endif()
-  # Excludes modules and libraries that only Trackbed's own build uses.
+  # Exclude Trackbed's own modules and libraries that only Trackbed's own build uses.
   list(FILTER links EXCLUDE REGEX "^trackbed_|^\\$<")
   foreach(library IN LISTS links)
     if(NOT ";${pkg_config_names};" MATCHES ";${library}=([^;]*);")

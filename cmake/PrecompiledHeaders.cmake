@@ -1,23 +1,24 @@
 # trackbed_precompile(TARGET KIND)
 #
-# Precompiles the headers on which most sources spend half of their compile time.
-# KIND also selects the optimization:
+# Lets TARGET use a precompiled header with the headers that take half of the compile time of most
+# sources. KIND also selects the optimization:
 #   NUMERICS  standard containers, fmt and Eigen, with the optimization of the preset
 #   LIGHT     also JSON, with -O1: for targets that read, write and evaluate results; full optimization
 #             of these targets took a third of the compile time without benefit
 #   TESTS     as LIGHT, with GoogleTest
 #
 # All targets of a kind share one precompiled header, because GCC takes the optimization level from
-# it. The compiler rejects a precompiled header if a macro that its headers read has another value
-# in the target. Such macros come from libraries: in Debian 13 tinyxml2 defines _FILE_OFFSET_BITS.
-# Therefore targets with such macros share a second header, compiled with these macros. If
-# TRACKBED_MACROS_OF_PRECOMPILED misses a macro, GCC warns and parses the headers as text. The
-# target header_checks still compiles each public header alone, without a precompiled header.
+# the precompiled header. The compiler rejects a precompiled header if the header reads a macro that
+# has another value in the target. Libraries define such macros: for example, tinyxml2 in Debian 13
+# defines _FILE_OFFSET_BITS. Targets whose libraries define such macros therefore share a second
+# precompiled header, compiled with these macros. If a macro does not match
+# TRACKBED_MACROS_OF_PRECOMPILED, GCC warns and parses the headers as text. The target header_checks
+# still compiles each public header alone, without a precompiled header.
 option(TRACKBED_PRECOMPILED_HEADERS "Precompile the headers that most sources include" ON)
 
 set(light $<$<CONFIG:Release>:-O1>)
-# Names of macros that the precompiled headers may read: reserved names, which system headers read, and
-# macros of the libraries.
+# Regular expression for the names of macros that the precompiled headers may read: reserved names,
+# which system headers read, and macros of the libraries.
 set(TRACKBED_MACROS_OF_PRECOMPILED "^(_|NDEBUG|EIGEN_|FMT_|JSON_|NLOHMANN_|GTEST_|GMOCK_)")
 
 # Sets OUT to the macros that libraries define for TARGET and that the precompiled headers may read.
@@ -47,7 +48,8 @@ function(trackbed_library_macros target out)
   set(${out} "${macros}" PARENT_SCOPE)
 endfunction()
 
-# Sets OUT to the target with the precompiled header of KIND, compiled with the macros that follow.
+# Sets OUT to the target with the precompiled header of KIND, compiled with the macros in the
+# remaining arguments.
 function(trackbed_precompiled_header kind out)
   string(TOLOWER trackbed_${kind}_pch target)
   set(headers "")
@@ -60,7 +62,8 @@ function(trackbed_precompiled_header kind out)
     list(APPEND headers <gmock/gmock.h> <gtest/gtest.h>)
     list(APPEND libraries GTest::gmock)
   endif()
-  # Every target links fmt through core, so its macros need no second header.
+  # Ignore the macros of fmt: every target links fmt through the module core, so these macros need
+  # no second precompiled header.
   set(macros ${ARGN})
   get_target_property(common fmt::fmt INTERFACE_COMPILE_DEFINITIONS)
   list(REMOVE_ITEM macros ${common})
@@ -81,7 +84,8 @@ function(trackbed_precompiled_header kind out)
   if(kind MATCHES "LIGHT|TESTS")
     target_compile_options(${target} PRIVATE ${light})
   endif()
-  # GCC uses a precompiled header only with the flags it was compiled with.
+  # GCC uses a precompiled header only if the target has the same compiler flags as the header, such
+  # as position-independent code.
   if(BUILD_SHARED_LIBS AND NOT kind STREQUAL "TESTS")
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   endif()
@@ -98,7 +102,8 @@ if(TRACKBED_PRECOMPILED_HEADERS)
   endif()
 endif()
 
-# Called at the end of the folder, where the target has all its libraries.
+# Sets the precompiled header of a target. CMake calls this function at the end of the folder, when
+# the target already links all its libraries.
 function(trackbed_use_precompiled_header target kind)
   trackbed_library_macros(${target} macros)
   trackbed_precompiled_header(${kind} header ${macros})

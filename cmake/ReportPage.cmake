@@ -1,5 +1,5 @@
-# Generates the report page as C++ from src/report/page/ and its libraries, whenever one of them
-# changes.
+# Generates the C++ file with the report page from src/report/page/ and the JavaScript libraries,
+# whenever one of these files changes.
 set(page_folder ${PROJECT_SOURCE_DIR}/src/report/page)
 set(page_text ${PROJECT_BINARY_DIR}/report/page_text.cpp)
 file(GLOB page_parts CONFIGURE_DEPENDS ${page_folder}/*)

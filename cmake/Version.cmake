@@ -1,4 +1,5 @@
-# Adds trackbed_version, a library with the version from git, updated at each build.
+# Adds trackbed_version, a library that returns the version determined by git; each build updates
+# the version.
 find_package(Git QUIET)
 set(TRACKBED_VERSION_FILE ${PROJECT_BINARY_DIR}/version/version.cpp)
 add_custom_target(

@@ -1,22 +1,25 @@
-# Run by cpack after it has installed everything into the folder that it packs: adds the files that
-# Debian's policy requires.
+# Adds the files that Debian's policy requires to the package. cpack runs this script after
+# installing all other files into the folder to be packed.
 set(root ${CPACK_TEMPORARY_INSTALL_DIRECTORY}${CPACK_PACKAGING_INSTALL_PREFIX})
 set(doc ${root}/share/doc/trackbed)
 
-# Debian's zsh looks for completions of packages in vendor-completions.
+# Move the zsh completions to vendor-completions, where Debian's zsh looks for the completions of
+# packages.
 file(MAKE_DIRECTORY ${root}/share/zsh)
 file(RENAME ${root}/share/zsh/site-functions ${root}/share/zsh/vendor-completions)
 
 file(COPY ${CPACK_TRACKBED_FILES}/copyright ${CPACK_TRACKBED_FILES}/licenses DESTINATION ${doc})
 file(COPY ${CPACK_TRACKBED_FILES}/changelog DESTINATION ${doc})
 file(GLOB pages ${root}/share/man/man1/*.1)
-# The option -n omits name and time, so that the same input gives the same package.
+# The option -n of gzip omits the name and the time of a file, so that equal inputs yield equal
+# packages.
 execute_process(COMMAND gzip -9n ${doc}/changelog ${pages} COMMAND_ERROR_IS_FATAL ANY)
 
 file(MAKE_DIRECTORY ${root}/share/lintian/overrides)
 file(COPY_FILE ${CPACK_TRACKBED_PACKAGING}/lintian-overrides ${root}/share/lintian/overrides/trackbed)
 
-# CPACK_STRIP_FILES does not strip static libraries and files that were not built here.
+# Strip the debug symbols here, because CPACK_STRIP_FILES skips static libraries and files that this
+# build did not compile.
 file(GLOB libraries ${root}/lib/*.a)
 execute_process(COMMAND strip --strip-debug --remove-section=.comment --remove-section=.note
                         --enable-deterministic-archives ${libraries} COMMAND_ERROR_IS_FATAL ANY)
@@ -25,8 +28,8 @@ if(mujoco)
   execute_process(COMMAND strip --strip-unneeded ${mujoco} COMMAND_ERROR_IS_FATAL ANY)
 endif()
 
-# Finds the packages of the libraries that the program and the packaged MuJoCo link. CPack's own call of
-# dpkg-shlibdeps would first inspect each of a thousand files.
+# Finds the Debian packages of the libraries that the program and the packaged MuJoCo link. If CPack
+# called dpkg-shlibdeps itself, CPack would first inspect each of about a thousand files.
 set(work ${CPACK_TEMPORARY_DIRECTORY}.shlibdeps)
 file(WRITE ${work}/debian/control "")
 execute_process(

@@ -1,12 +1,14 @@
-# Installs into pages_folder the files and folders of `source` that the pages link and no other rule
-# installs: those of tests/, src/, render/, cmake/, scripts/, packaging/, bench/ and .ci/.
+# Installs into pages_folder the files and folders of `source` that the pages link and that no other
+# rule installs: files and folders in tests/, src/, render/, cmake/, scripts/, packaging/, bench/
+# and .ci/.
 file(GLOB_RECURSE pages ${source}/docs/*.md)
 list(APPEND pages ${source}/README.md ${source}/CHANGELOG.md ${source}/CONTRIBUTING.md)
 set(linked "")
 foreach(page IN LISTS pages)
   get_filename_component(folder ${page} DIRECTORY)
   file(READ ${page} text)
-  # Square brackets would join list elements.
+  # Remove the square brackets of links, because CMake does not split a list at semicolons between
+  # brackets.
   string(REPLACE "](" "LINK:" text "${text}")
   string(REGEX MATCHALL "LINK:[^)#: ;]+" links "${text}")
   foreach(link IN LISTS links)

@@ -1,6 +1,7 @@
-# Writes OUTPUT, a C++ file that defines the texts of src/report/page_text.h.
+# Writes OUTPUT, a C++ file that defines the texts declared in src/report/page_text.h.
 
-# page.html contains placeholders <!-- part -->, each on a separate line.
+# Replaces the placeholders in page.html, which have the form <!-- part --> and are each on a
+# separate line.
 file(READ ${PAGE}/page.html page)
 function(put part text)
   string(FIND "${page}" "<!-- ${part} -->" place)
@@ -16,8 +17,8 @@ function(put part text)
       PARENT_SCOPE)
 endfunction()
 
-# Sets a variable to the source expression that allows exactly the given text in the page's
-# Content-Security-Policy.
+# Sets the variable `source` to the expression (a hash) that allows the script or style `text` in
+# the page's Content-Security-Policy.
 function(allow source text)
   string(SHA256 digest "${text}")
   string(TOUPPER ${digest} digest)
@@ -59,7 +60,7 @@ foreach(part IN ITEMS base map events charts phase_planes series differences fil
 endforeach()
 allow(script_source "${script}")
 put(script "<script>${script}</script>")
-# Only reports of runs have a 3D scene.
+# Keep the 3D libraries in separate texts, because only reports of runs contain a 3D scene.
 file(READ ${THREE_SCRIPT} three)
 file(READ ${ORBIT_CONTROLS_SCRIPT} orbit_controls)
 allow(three_source "${three}")
@@ -73,14 +74,16 @@ put("style source" "${style_source}")
 put("script sources"
     "${d3_source} ${dygraphs_source} ${three_source} ${orbit_controls_source} ${canvas_source} ${script_source}")
 
-# Only the page of a live run (trackbed watch) has this script and may connect to its server.
+# Only the page of a live run (trackbed watch) contains the script live.js and may connect to the
+# server of `trackbed watch`.
 file(READ ${PAGE}/live.js live)
 set(live "\n\"use strict\";\n${live}")
 allow(live_source "${live}")
 set(live_source " ${live_source}; connect-src 'self'")
 set(live_script "<script>${live}</script>\n")
 
-# The page is split at the texts that differ between reports.
+# Split the page at the placeholders of texts that differ between reports, such as the title and the
+# data.
 foreach(cut IN ITEMS live_source title data live_script)
   string(REPLACE "_" " " mark ${cut})
   string(FIND "${page}" "<!-- ${mark} -->" place)

@@ -8,13 +8,14 @@
 
 #include "trackbed/core/error.h"
 
-// Draws anti-aliased shapes: a pixel's coverage is estimated from the signed distance of its center
-// to the shape's edge, with a transition one pixel wide. Arrows are drawn with 4 by 4 samples per
-// pixel. Glyphs are large bitmaps, averaged down to the wanted size.
+// Draws anti-aliased shapes: a pixel's coverage is estimated from the signed distance between its
+// center and the shape's edge, with a transition one pixel wide. The coverage by arrows is computed
+// from 4 by 4 samples per pixel. Glyphs are large bitmaps that are averaged down to the wanted
+// size.
 namespace trackbed::render {
 namespace {
 
-/// Returns the mean of the glyph's pixels that one pixel of the smaller mask covers.
+/// Returns the mean of the glyph's pixels that are covered by one pixel of the smaller mask.
 std::uint8_t AverageOver(const Image& glyph, double left, double top, double step) {
   const double right = std::min(left + step, static_cast<double>(glyph.width));
   const double bottom = std::min(top + step, static_cast<double>(glyph.height));
@@ -34,7 +35,7 @@ std::array<std::uint8_t, 3> Blended(const std::array<std::uint8_t, 3>& under, Co
   const std::array<float, 3> rgb{color.r, color.g, color.b};
   std::array<std::uint8_t, 3> blended{};
   for (std::size_t i = 0; i < 3; ++i) {
-    // Rounds a non-negative number by adding 0.5; std::lround takes ten times as long.
+    // Rounds a non-negative number by adding 0.5, since std::lround takes ten times as long.
     const double value = under[i] + alpha * (255.0 * static_cast<double>(rgb[i]) - under[i]);
     blended[i] = static_cast<std::uint8_t>(value + 0.5);  // NOLINT(bugprone-incorrect-roundings)
   }
@@ -96,8 +97,8 @@ void Canvas::Blend(int x, int y, Color color, double alpha) {
 void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double alpha) {
   const double center_x = rectangle.left + 0.5 * rectangle.width;
   const double center_y = rectangle.top + 0.5 * rectangle.height;
-  // The new value of a pixel away from the edges depends only on its old value, so a lookup table
-  // is used. Most pixels of a panel are away from the edges.
+  // For pixels not at the panel's edges, the new value depends only on the old value, so a lookup
+  // table is used. Most pixels of a panel are not at its edges.
   const int inner_left = std::max(0, static_cast<int>(std::ceil(rectangle.left + radius)) + 1);
   const int inner_right = std::min(
       image_.width, static_cast<int>(std::floor(rectangle.left + rectangle.width - radius)) - 1);
@@ -121,8 +122,8 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
           }
         }
       }
-      // Signed distance of the pixel's center from the rounded outline; the edge fades over one
-      // pixel.
+      // Signed distance of the pixel's center from the rounded outline [px]; the edge fades over
+      // one pixel.
       const double across = std::abs(x + 0.5 - center_x) - 0.5 * rectangle.width + radius;
       const double down = std::abs(y + 0.5 - center_y) - 0.5 * rectangle.height + radius;
       const double outside =
@@ -133,8 +134,8 @@ void Canvas::Fill(const Rectangle& rectangle, double radius, Color color, double
 }
 
 void Canvas::Arrow(double middle_x, double middle_y, double length, double direction, Color color) {
-  // Dimensions of an arrow, as fractions of its length: along the arrow from its middle, and across
-  // it.
+  // Dimensions of an arrow as fractions of the arrow's length: along the arrow from its middle, and
+  // across the arrow.
   constexpr double kNeck = 0.10;
   constexpr double kShaft = 0.08;
   constexpr double kHead = 0.26;
@@ -142,7 +143,7 @@ void Canvas::Arrow(double middle_x, double middle_y, double length, double direc
     return std::abs(along) <= 0.5 &&
            std::abs(beside) <= (along < kNeck ? kShaft : kHead * (0.5 - along) / (0.5 - kNeck));
   };
-  constexpr int kSamples = 4;  // samples along each side of a pixel
+  constexpr int kSamples = 4;  // number of samples along each side of a pixel
   const double reach = 0.6 * length;
   const double cosine = std::cos(direction);
   const double sine = std::sin(direction);
@@ -181,12 +182,13 @@ Canvas::Box Canvas::BoxAround(const std::vector<CanvasPoint>& points, double rea
 
 void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color color,
                     double alpha) {
-  const double reach = 0.5 * width + 0.5;  // the edge fades over half a pixel
+  const double reach = 0.5 * width + 0.5;  // the edge of the line fades over half a pixel
   const Box all = BoxAround(points, reach);
   if (points.size() < 2 || all.right <= all.left || all.bottom <= all.top) {
     return;
   }
-  // Segments overlap at their joints, so each pixel gets the maximum coverage of all segments.
+  // Segments of the polyline overlap at their joints, so each pixel gets the maximum coverage of
+  // all segments.
   const auto columns = static_cast<std::size_t>(all.right - all.left);
   std::vector<float> covered(columns * static_cast<std::size_t>(all.bottom - all.top));
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -224,8 +226,9 @@ void Canvas::Stroke(const std::vector<CanvasPoint>& points, double width, Color 
 }
 
 void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha) {
-  double area = 0.0;  // twice the polygon's signed area; the sign gives the orientation of the
-                      // corners
+  // twice the polygon's signed area, whose sign tells whether the corners are in counterclockwise
+  // order
+  double area = 0.0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const CanvasPoint& a = corners[i];
     const CanvasPoint& b = corners[(i + 1) % corners.size()];
@@ -257,9 +260,9 @@ void Canvas::FillConvex(const std::vector<CanvasPoint>& corners, Color color, do
   };
   const Box box = BoxAround(corners, 0.5);
   for (int y = box.top; y < box.bottom; ++y) {
-    // Finds the columns that the polygon covers partly and those it covers fully. The range of
-    // columns has a margin of one pixel for rounding. Only the few pixels between partly and fully
-    // covered columns are compared with all edges.
+    // Finds the columns of a row that the polygon covers partly, and the columns that it covers
+    // fully. The range of partly covered columns has a margin of one pixel for rounding. Only the
+    // few pixels in partly covered columns are compared with all edges.
     double left = box.left;
     double right = box.right;
     double whole_left = box.left;

@@ -10,22 +10,22 @@
 
 namespace trackbed::render {
 
-/// A font whose large black-and-white glyphs are averaged down to any smaller size. Unlike MuJoCo's
-/// text, text in this font has smooth edges.
+/// A font whose large black-and-white glyphs are averaged down to any smaller size. Unlike text
+/// drawn by MuJoCo, text in this font has smooth edges.
 class Font {
  public:
   static constexpr char kFirst = ' ';
   static constexpr char kLast = '~';
 
-  /// `glyphs` has a picture for each character from kFirst to kLast, white on black, all of equal
+  /// `glyphs` has an image for each character from kFirst to kLast, white on black, all of equal
   /// height.
   explicit Font(std::vector<Image> glyphs);
 
-  /// Returns the width of a line of text [px] whose glyph cells are `size` px high. Characters
-  /// without a glyph are drawn as '?'.
+  /// Returns the width [px] of a line of text whose glyph cells are `size` px high. A character
+  /// without a glyph is drawn as '?'.
   [[nodiscard]] double Width(std::string_view text, double size) const;
 
-  /// Coverage of each pixel of one character's cell, in [0, 255], with rows from the top.
+  /// Coverage of each pixel in the cell of one character, from 0 to 255, with rows from the top.
   struct Mask {
     int width = 0;
     int height = 0;
@@ -42,14 +42,14 @@ class Font {
   std::map<double, std::vector<Mask>> masks_;
 };
 
-/// A position in a picture [px], from its top left corner.
+/// Position in an image [px], measured from the top left corner.
 struct CanvasPoint {
   double x = 0;
   double y = 0;
 };
 
-/// Draws flat shapes and text on a picture. Coordinates are pixels from the top left; shapes are
-/// clipped at the picture's edges.
+/// Draws two-dimensional shapes and text on an image. Coordinates are in pixels from the top left
+/// corner; shapes are clipped at the image's edges.
 class Canvas {
  public:
   Canvas(Image& image, Font& font) : image_(image), font_(font) {}
@@ -64,24 +64,24 @@ class Canvas {
   /// Draws a filled rectangle with smooth rounded corners.
   void Fill(const Rectangle& rectangle, double radius, Color color, double alpha);
 
-  /// Draws an arrow of the given length and middle. A `direction` of 0 points to the right, pi/2
-  /// up.
+  /// Draws an arrow with the given length and middle point. An arrow with `direction` 0 points to
+  /// the right, and with pi/2 up.
   void Arrow(double middle_x, double middle_y, double length, double direction, Color color);
 
   /// Draws a polyline with smooth edges and round ends and joints.
   void Stroke(const std::vector<CanvasPoint>& points, double width, Color color, double alpha);
 
-  /// Draws a filled convex polygon with smooth edges. The corners may be in clockwise or
-  /// counterclockwise order.
+  /// Draws a filled convex polygon with smooth edges. The corners of the polygon may be given in
+  /// clockwise or counterclockwise order.
   void FillConvex(const std::vector<CanvasPoint>& corners, Color color, double alpha);
 
-  /// Draws one line of text; `left` and `top` are the corner of the first glyph cell. Capitals
-  /// occupy about a fifth to three quarters of the cell's height. Returns the position of the next
-  /// character.
+  /// Draws one line of text; `left` and `top` are the corner of the first glyph cell. Capital
+  /// letters extend from about a fifth to three quarters of the cell's height. Returns the
+  /// horizontal position at which the next character would be drawn [px].
   double Text(double left, double top, std::string_view text, double size, Color color);
 
  private:
-  /// A rectangle of pixels, which excludes column `right` and row `bottom`.
+  /// A rectangle of pixels, without the pixels in column `right` and row `bottom`.
   struct Box {
     int left = 0;
     int top = 0;
@@ -89,7 +89,7 @@ class Canvas {
     int bottom = 0;
   };
   /// Returns the bounding box of the points, enlarged by `reach` [px] on each side and clipped to
-  /// the picture.
+  /// the image.
   [[nodiscard]] Box BoxAround(const std::vector<CanvasPoint>& points, double reach) const;
   void Blend(int x, int y, Color color, double alpha);
 

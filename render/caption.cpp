@@ -9,28 +9,31 @@
 #include "render/tyre_forces.h"
 #include "trackbed/core/angle.h"
 
-// Draws the caption in panels: title, note and wind at the top left, the legend at the top right.
-// The readings stand above the panels at the bottom. Text sizes follow Layout; the legend shrinks
-// and the note is shortened to fit.
+// Draws the caption of a frame in panels: title, note and wind at the top left, the legend at the
+// top right. The readings of the caption are drawn above the panels at the bottom of the frame.
+// Text sizes are determined by Layout; the legend is drawn smaller and the note is shortened if
+// necessary to fit.
 namespace trackbed::render {
 namespace {
 
 struct Reading {
   std::string label;
   std::string value;
-  std::string widest;  // longest possible text of the value, which keeps the columns in place when
-                       // numbers change
+  // longest possible text of the value; determines the column width, so that columns stay in place
+  // when numbers change
+  std::string widest;
 };
 
-/// Formats a number with its sign, or without a sign if it rounds to zero.
+/// Formats a number with a plus or minus sign, or without a sign if it rounds to zero.
 std::string Signed(double value, int digits, const char* unit) {
   const std::string text = fmt::format("{:+.{}f}", value, digits);
   const bool zero = text.find_first_not_of("+-0.") == std::string::npos;
   return fmt::format("{}{}", zero ? text.substr(1) : text, unit);
 }
 
-/// Formats a lateral and a longitudinal difference as "0.98 m left, 0.12 m ahead". The longitudinal
-/// difference is the difference of the stations, if both stations are known.
+/// Formats a lateral and a longitudinal difference between two cars, as "0.98 m left, 0.12 m
+/// ahead". If the stations of both cars are known, the longitudinal difference is the difference of
+/// these stations.
 std::string RelativePositionText(const RelativePosition& apart) {
   const double ahead = apart.station.value_or(apart.ahead);
   return fmt::format("{:.2f} m {}, {:.2f} m {}", std::abs(apart.left),
@@ -60,13 +63,13 @@ std::vector<Reading> ReadingsToShow(const Readings& readings) {
   return shown;
 }
 
-/// Draws the readings in a slim bar above `bottom` [px]. The bar has several lines if the picture
-/// is too narrow for one. Returns the top of the bar [px].
+/// Draws the readings in a narrow bar above the row `bottom` [px]. The bar with the readings has
+/// several lines if the frame is too narrow for one line. Returns the top row of the bar [px].
 double DrawReadings(Canvas& canvas, const Font& font, const Layout& layout, double width,
                     double bottom, const Readings& readings) {
   const double space = 0.4 * layout.pad;  // gap between a label and its value
   const double widest = width - 2.0 * (layout.margin + layout.pad);
-  // Lines of readings; each reading has the position of its left edge.
+  // Lines of readings; each reading is stored with the position of its left edge.
   std::vector<std::vector<std::pair<Reading, double>>> lines(1);
   double pen = 0.0;
   double longest = 0.0;
@@ -156,17 +159,18 @@ void DrawSymbol(Canvas& canvas, const LegendEntry& entry, double left, double to
   }
 }
 
-/// Returns the size of the legend's letters. The size shrinks until the legend fits into half of
-/// the picture's height, but not below the smallest readable size.
+/// Returns the size of the legend's letters [px]. The letters are made smaller until the legend
+/// fits into half of the frame's height, but not smaller than the smallest readable size.
 double LegendLetters(const Layout& layout, int height, int lines) {
   constexpr double kMaxHeightShare = 0.5;
-  constexpr double kMinLabelShare = 0.75;  // factor on the size of labels
+  // minimum size of the legend's labels, as a fraction of their normal size
+  constexpr double kMinLabelShare = 0.75;
   const double room = kMaxHeightShare * height - layout.margin - 1.2 * layout.pad;
   return std::round(
       std::clamp(room / std::max(1, lines), kMinLabelShare * layout.label, layout.label));
 }
 
-/// Draws the legend and returns the bottom of its panel [px].
+/// Draws the legend and returns the bottom row of the legend's panel [px].
 double DrawLegend(Canvas& canvas, const Font& font, const Layout& layout, const Image& image,
                   const std::vector<LegendEntry>& legend) {
   int lines = 0;
@@ -205,7 +209,7 @@ double TitlePanel(const Layout& layout) {
   return TitleSize(layout) + 0.8 * layout.pad;
 }
 
-/// Returns the top of the panel of a caption line [px]. Line 0 is the title.
+/// Returns the top of the panel for a line of the caption [px]. Line 0 of the caption is the title.
 double TopOfLine(const Layout& layout, int line) {
   return layout.margin + line * (TitlePanel(layout) + 0.5 * layout.pad);
 }
@@ -219,7 +223,8 @@ void DrawLine(Canvas& canvas, const Font& font, const Layout& layout, int line,
   canvas.Text(layout.margin + layout.pad, top + 0.4 * layout.pad, text, size, kValue);
 }
 
-/// Draws the wind as an arrow. An arrow that points up is wind along the camera's azimuth.
+/// Draws the direction of the wind as an arrow. The arrow points up if the wind blows along the
+/// camera's azimuth.
 void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, int line, const Vec2& wind,
               double azimuth) {
   constexpr double kCalm = 0.05;  // wind speed below which no arrow is drawn [m/s]
@@ -239,7 +244,7 @@ void DrawWind(Canvas& canvas, const Font& font, const Layout& layout, int line, 
   canvas.Text(layout.margin + 1.6 * layout.pad + arrow, top + 0.4 * layout.pad, text, size, kValue);
 }
 
-/// Shortens folder names that are too long for a picture.
+/// Shortens the name of a folder if it is too long for a frame.
 std::string Shortened(const std::string& title) {
   constexpr std::size_t kMaxTitleLength = 32;
   return title.size() <= kMaxTitleLength ? title : title.substr(0, kMaxTitleLength - 3) + "...";
@@ -292,8 +297,7 @@ Rows DrawCaption(Image& image, Font& font, const Caption& caption, const Reading
   int line = 0;
   DrawLine(canvas, font, layout, line++, Shortened(caption.title));
   if (!caption.note.empty()) {
-    constexpr double kShare = 0.7;  // largest width of the note, as a fraction of the picture's
-                                    // width
+    constexpr double kShare = 0.7;  // maximum width of the note, as a fraction of the frame's width
     const double width = kShare * image.width - 2.0 * layout.pad;
     DrawLine(canvas, font, layout, line++, Fitting(font, caption.note, TitleSize(layout), width));
   }

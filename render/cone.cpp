@@ -7,10 +7,10 @@
 namespace trackbed::render {
 
 void AddCone(mjvScene& scene, const Point& foot) {
-  // A cone consists of cylinders, whose radii are listed from bottom to top.
-  constexpr std::array<double, kConePieces> kRadii{0.15, 0.11, 0.08, 0.05};  // Radii [m].
-  constexpr double kHalf = 0.0625;                                           // Half the height of
-                                                                             // one cylinder [m].
+  // Radii of the cylinders that form a cone [m], from bottom to top.
+  constexpr std::array<double, kConePieces> kRadii{0.15, 0.11, 0.08, 0.05};
+  // Half the height of each cylinder of a cone [m].
+  constexpr double kHalf = 0.0625;
   constexpr std::array<float, 4> kOrange{0.95F, 0.35F, 0.05F, 1.0F};
   constexpr std::array<float, 4> kWhite{0.95F, 0.95F, 0.95F, 1.0F};
   for (std::size_t i = 0; i < kConePieces; ++i) {

@@ -6,7 +6,7 @@
 
 namespace trackbed::render {
 
-/// Number of cylinders that make up a traffic cone, since MuJoCo has no cone shape.
+/// Number of cylinders that form a traffic cone, since MuJoCo has no cone shape.
 inline constexpr std::size_t kConePieces = 4;
 
 /// Adds a traffic cone, half a meter high, that stands at `foot`. AddCone does nothing if the scene

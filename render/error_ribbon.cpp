@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kWidth = 0.26;  // [m]
 
-/// Formats a length as "5 cm" or "2 m".
+/// Formats a length for the legend, as "5 cm" or "2 m".
 std::string Length(double meters) {
   return meters < 1.0 ? fmt::format("{:.3g} cm", 100.0 * meters) : fmt::format("{:.3g} m", meters);
 }
@@ -74,8 +74,9 @@ bool HasErrorScale(const Recording& recording) {
 
 std::vector<double> ErrorFractions(const Recording& recording) {
   constexpr double kSteps = 16.0;
-  constexpr double kHysteresis = 0.6;  // threshold for a color change, as a fraction of a color
-                                       // step; above 0.5, so that there is hysteresis
+  // deviation of the error from the present color's value at which the color changes, as a fraction
+  // of a color step; above 0.5, so that there is hysteresis
+  constexpr double kHysteresis = 0.6;
   const PlantRecording& car = recording.plants.front();
   std::vector<double> fractions;
   double step = -1.0;

@@ -15,11 +15,13 @@ namespace {
 
 using Kind = RunEvent::Kind;
 
-constexpr double kMinTextDuration = 1.5;  // Shortest time for which a line of text is shown [s].
-constexpr double kFlash = 0.6;            // Duration of a flash [s].
-constexpr double kSide = 0.4;             // Side of a mark [m].
-constexpr double kRim = 0.07;             // Width of the dark rim around the mark [m].
-constexpr double kHeight = 0.030;         // Height of the marks, above all trails [m].
+// Minimum time for which the text of an event is shown [s].
+constexpr double kMinTextDuration = 1.5;
+constexpr double kFlash = 0.6;  // Duration of the flash in a collision or roll-over [s].
+constexpr double kSide = 0.4;   // Side of an event's mark [m].
+constexpr double kRim = 0.07;   // Width of the dark rim around a mark [m].
+// Height of the marks above the ground, higher than all trails [m].
+constexpr double kHeight = 0.030;
 constexpr Color kDetected{0.98F, 0.98F, 0.98F};
 constexpr Color kRimColor{0.05F, 0.06F, 0.08F};
 
@@ -86,8 +88,7 @@ class EventMarks : public Overlay {
     for (const RunEvent& event : events_) {
       if (event.from <= context.time &&
           context.time <= std::max(event.to, event.from + kMinTextDuration)) {
-        // If several new plans are adopted in quick succession, only the text of the last one is
-        // shown.
+        // If several plans are adopted in quick succession, only the text of the last one is shown.
         if (!shown.empty() && event.kind == Kind::kNewPlan) {
           std::erase_if(shown, [](const RunEvent* other) { return other->kind == Kind::kNewPlan; });
         }
@@ -131,7 +132,7 @@ class EventMarks : public Overlay {
     const double c = std::cos(heading);
     const double s = std::sin(heading);
     const auto square = [&](double side, double height, const Color& color) {
-      // AddRibbonPiece lengthens a piece by 0.15 of its width.
+      // compensates that AddRibbonPiece lengthens a piece by 0.15 of its width
       const double half = 0.5 * side / 1.15;
       AddPiece(context, recording_.world, Beside(event.place, -half * c, -half * s),
                Beside(event.place, half * c, half * s), {color, side, height});
@@ -152,7 +153,8 @@ class EventMarks : public Overlay {
     }
   }
 
-  /// Draws the line of text in a panel. Returns the bottom of the next panel above it [px].
+  /// Draws the text of an event in a panel. Returns the position of the lower edge of the next
+  /// panel above [px].
   static double DrawLine(Canvas& canvas, const Font& font, const Layout& layout, double first,
                          double bottom, const RunEvent& event) {
     const double tall = layout.label + 0.6 * layout.pad;
@@ -172,7 +174,7 @@ class EventMarks : public Overlay {
     return top - 0.4 * layout.pad;
   }
 
-  /// Draws a fading frame around the picture.
+  /// Draws a fading border around the frame.
   static void Flash(Canvas& canvas, const Layout& layout, const PictureContext& context,
                     double since) {
     if (since < 0.0 || since >= kFlash) {

@@ -4,9 +4,9 @@
 
 namespace trackbed::render {
 
-/// Draws a mark on the ground for each event of events.h, at the car's position at the event's
-/// start. While an event lasts, a line of text about it is shown above the readings. In a collision
-/// or a roll-over, a frame around the picture flashes.
+/// Draws a mark on the ground for each event of events.h, at the car's position at the start of the
+/// event. While an event lasts, its text is shown above the readings. In a collision or a
+/// roll-over, a border around the frame flashes.
 OverlayEntry EventOverlay();
 
 }  // namespace trackbed::render

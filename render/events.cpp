@@ -54,11 +54,14 @@ void AddRateLimits(const Recording& recording, std::vector<RunEvent>& events) {
   if (!actuator || recording.steering_rate <= 0.0) {
     return;
   }
-  constexpr double kShare = 0.98;     // Fraction of the maximum rate that counts as the maximum,
-                                      // because the log is rounded.
-  constexpr double kReached = 1e-6;   // Tolerance for reaching the command [rad], as for
-                                      // steering_saturated_fraction in metrics.json.
-  constexpr double kSameEvent = 0.5;  // Longest gap between two periods of one event [s].
+  // Fraction of the maximum steering rate above which the steering counts as being at the rate
+  // limit, because the log is rounded.
+  constexpr double kShare = 0.98;
+  // Tolerance within which the steering counts as having reached its command [rad], as for
+  // steering_saturated_fraction in metrics.json.
+  constexpr double kReached = 1e-6;
+  // Maximum gap between two periods at the rate limit that count as one event [s].
+  constexpr double kSameEvent = 0.5;
   const std::size_t command = log.Require("steering_command_rad");
   const std::vector<double>& times = log.times();
   const Table& rows = log.table();
@@ -99,9 +102,10 @@ void AddCollision(const Recording& recording, std::vector<RunEvent>& events) {
 }
 
 void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
-  constexpr double kRolledOverCosine = 0.5;  // Cosine of 60 degrees, the lean at which a run ends
-                                             // with the status rolled_over.
-  constexpr double kLeaningCosine = 0.87;    // Cosine of 30 degrees.
+  // Cosine of the lean at which a run ends with the status rolled_over, 60 degrees.
+  constexpr double kRolledOverCosine = 0.5;
+  // Cosine of the lean at which a roll-over event begins, 30 degrees.
+  constexpr double kLeaningCosine = 0.87;
   const PlantRecording& car = recording.plants.front();
   const std::vector<double>& times = car.times();
   const auto first = std::find_if(times.begin(), times.end(),
@@ -110,8 +114,8 @@ void AddRollOver(const Recording& recording, std::vector<RunEvent>& events) {
     return;
   }
   const double over = recording.roll_over_time.value_or(first == times.end() ? 0.0 : *first);
-  // States are recorded less often than rows of the log, so the last state may be earlier than
-  // `over`.
+  // The last recorded state may be earlier than `over`, because states are recorded less often than
+  // rows of the log.
   auto from = std::upper_bound(times.begin(), times.end(), over);
   while (from != times.begin() && car.Upright(*(from - 1)) < kLeaningCosine) {
     --from;

@@ -6,8 +6,9 @@ namespace trackbed::render {
 namespace {
 
 constexpr Color kGate{0.98F, 0.98F, 0.98F};
-constexpr double kWidth = 0.14;    // Width of the lines [m].
-constexpr double kHeight = 0.005;  // Height of the lines, below plans and trails [m].
+constexpr double kWidth = 0.14;  // Width of the gate lines [m].
+// Height of the gate lines above the ground, below plans and trails [m].
+constexpr double kHeight = 0.005;
 
 class GateLines : public Overlay {
  public:

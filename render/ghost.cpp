@@ -13,20 +13,23 @@
 namespace trackbed::render {
 namespace {
 
-constexpr float kGhostAlpha = 0.22F;  // alpha of a ghost; MuJoCo draws translucent surfaces twice,
-                                      // so the opacity is 1 - 0.78^2 = 0.39
+// alpha value of a ghost; MuJoCo draws translucent surfaces twice, so the opacity is 1 - 0.78^2 =
+// 0.39
+constexpr float kGhostAlpha = 0.22F;
 constexpr float kGhostTint = 0.7F;
-// Parts that are smaller than this fraction of a ghost's largest part are not drawn. Small parts
-// such as spokes and lamps are not recognizable in a ghost, and drawing them would triple the
-// rendering time.
+// A part of a ghost is not drawn if its size is below this fraction of the ghost's largest part.
+// Small parts such as spokes and lamps are not recognizable in a ghost, and drawing them would
+// triple the rendering time.
 constexpr float kGhostDetail = 0.125F;
-// Ghosts are drawn farther from the camera than their true position, by this distance [m]. A ghost
-// that coincides with the car is therefore hidden by the car and does not flicker on its surface.
-// Footprint and trail show differences between car and ghost that are smaller than this distance.
+// Distance by which a ghost is drawn farther from the camera than its true position [m]. A ghost
+// that coincides with the car is therefore hidden by the car and does not flicker on the car's
+// surface. Smaller differences between car and ghost are visible by the ghost's footprint and
+// trail.
 constexpr double kGhostBehind = 0.10;
-constexpr double kFootprintWidth = 0.06;    // Width of the footprint's lines [m].
-constexpr std::size_t kFootprintMax = 100;  // Maximum number of pieces of a footprint; enough for
-                                            // pieces of 0.25 m around a car of 8 m by 3 m.
+constexpr double kFootprintWidth = 0.06;  // Width of the lines of a ghost's footprint [m].
+// Maximum number of pieces in the outline of a footprint; enough for pieces of 0.25 m around a car
+// of 8 m by 3 m.
+constexpr std::size_t kFootprintMax = 100;
 
 float LargestSide(const mjvGeom& geom) {
   return std::max({geom.size[0], geom.size[1], geom.size[2]});

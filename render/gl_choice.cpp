@@ -12,14 +12,14 @@
 namespace trackbed::render {
 namespace {
 
-/// Converts a text to lower case, as MuJoCo's Python package does with the variable MUJOCO_GL.
+/// Converts the value of MUJOCO_GL to lower case, as MuJoCo's Python package does.
 std::string Lowered(std::string text) {
   std::transform(text.begin(), text.end(), text.begin(),
                  [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   return text;
 }
 
-/// Returns the requested library; nullopt for "auto".
+/// Returns the OpenGL library that the option requests; nullopt for "auto".
 std::optional<GlLibrary> RequestedLibrary(const std::string& gl, const std::string& mujoco_gl) {
   if (gl == "egl" || gl == "osmesa") {
     return gl == "egl" ? GlLibrary::kEgl : GlLibrary::kOsmesa;
@@ -59,7 +59,7 @@ GlSurroundings ReadGlSurroundings() {
   if (const char* wish = std::getenv("MUJOCO_GL"); wish != nullptr) {
     surroundings.mujoco_gl = wish;
   }
-  // Searches for OpenGL's functions in the same places and order as render/glad/glad.c of MuJoCo.
+  // Searches for the OpenGL functions in the same places and order as MuJoCo's render/glad/glad.c.
   void* const process = dlopen(nullptr, RTLD_NOW);
   if (process != nullptr) {
     if (dlsym(process, "eglGetProcAddress") != nullptr) {

@@ -5,14 +5,14 @@
 
 namespace trackbed::render {
 
-/// Libraries that can create an OpenGL context without a display.
+/// Kinds of libraries that can create an OpenGL context without a display.
 enum class GlLibrary { kOsmesa, kEgl };
 
 /// Returns the name of a library: "OSMesa" or "EGL".
 const char* NameOf(GlLibrary library);
 
-/// An OpenGL context without a display. The context is current in its thread from construction to
-/// destruction, so a thread can have at most one GlContext.
+/// An OpenGL context without a display. The OpenGL context is current in its thread from
+/// construction to destruction, so a thread can have at most one GlContext.
 class GlContext {
  public:
   GlContext() = default;
@@ -21,7 +21,8 @@ class GlContext {
   GlContext& operator=(const GlContext&) = delete;
 
   [[nodiscard]] virtual GlLibrary library() const = 0;
-  /// Returns the address of the OpenGL function with this name; null if there is no such function.
+  /// Returns the address of the OpenGL function with the given name; null if there is no such
+  /// function.
   [[nodiscard]] virtual void* Function(const char* name) const = 0;
 
   /// Returns OpenGL's version and renderer, such as "4.5 (Compatibility Profile) Mesa 22.3.6,
@@ -40,9 +41,9 @@ struct GlFiles {
 /// missing or cannot create a context.
 std::unique_ptr<GlContext> MakeOsmesaContext(const std::string& file);
 
-/// Makes an OpenGL context on the first graphics card whose driver can create one, else with Mesa's
-/// software renderer. Otherwise MakeEglContext behaves like MakeOsmesaContext. On destruction, the
-/// EGL context restores the context that was current before.
+/// Makes an OpenGL context with EGL on the first graphics card whose driver can create one, else
+/// with Mesa's software renderer. In all other respects, MakeEglContext behaves like
+/// MakeOsmesaContext. On destruction, the EGL context restores the context that was current before.
 std::unique_ptr<GlContext> MakeEglContext(const std::string& file);
 
 }  // namespace trackbed::render

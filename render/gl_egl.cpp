@@ -1,4 +1,5 @@
-// EGL_NO_X11 keeps EGL from including the X11 headers, which define macros such as None.
+// Defining EGL_NO_X11 keeps EGL's headers from including the X11 headers, which define macros such
+// as None.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -15,7 +16,7 @@ namespace {
 
 constexpr const char* kPackage = "libegl1, with libgl1-mesa-dri";
 
-/// Pointers to the functions of EGL 1.5, from a library that is loaded on first use.
+/// Pointers to the functions of EGL 1.5, in a shared library that is loaded on first use.
 struct EglFunctions {
   explicit EglFunctions(const RuntimeLibrary& library)
       : get_address(library.Find<decltype(eglGetProcAddress)>("eglGetProcAddress")),
@@ -66,7 +67,8 @@ std::vector<EGLDisplay> OffscreenDisplays(const EglFunctions& egl) {
   return displays;
 }
 
-/// The OpenGL context, surfaces and display that are current in this thread.
+/// The OpenGL context, surfaces and display that are current in this thread, saved to be restored
+/// later.
 struct Current {
   explicit Current(const EglFunctions& egl)
       : api(egl.query_api()),
@@ -120,8 +122,8 @@ class EglContext final : public GlContext {
   }
 
  private:
-  /// Creates an OpenGL context on the display and makes it current. Returns EGL_SUCCESS or an EGL
-  /// error code.
+  /// Creates an OpenGL context on the display and makes the context current. Returns EGL_SUCCESS or
+  /// an EGL error code.
   EGLint Start(EGLDisplay display) {
     constexpr std::array<EGLint, 5> kConfigAttributes{
         EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_NONE};
@@ -140,7 +142,7 @@ class EglContext final : public GlContext {
     if (context_ == EGL_NO_CONTEXT) {
       return egl_.get_error();
     }
-    // The context needs no surface, since MuJoCo draws into its own buffers.
+    // The OpenGL context needs no surface, since MuJoCo draws into its own buffers.
     if (egl_.make_current(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
       const EGLint error = egl_.get_error();
       egl_.destroy(display, context_);

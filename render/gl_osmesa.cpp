@@ -8,8 +8,8 @@
 namespace trackbed::render {
 namespace {
 
-// Mesa 25.1 removed OSMesa and its header <GL/osmesa.h>. The declarations of that header are
-// repeated here, so that one build works with and without OSMesa.
+// Mesa 25.1 removed OSMesa and its header <GL/osmesa.h>. The declarations of this header are
+// repeated here, so that the same build works with and without OSMesa.
 struct OsmesaState;
 using OsmesaCreate = OsmesaState*(unsigned format, int depth_bits, int stencil_bits, int accum_bits,
                                   OsmesaState* share);
@@ -55,7 +55,7 @@ class OsmesaContext final : public GlContext {
   OsmesaMakeCurrent* make_current_;
   OsmesaDestroy* destroy_;
   OsmesaGetProcAddress* get_address_;
-  // Window buffer, which OSMesa requires but MuJoCo does not use.
+  // Buffer for the window's pixels, which OSMesa requires but MuJoCo does not use.
   std::array<std::uint8_t, std::size_t{4} * kWindowSize * kWindowSize> window_{};
   OsmesaState* state_;
 };

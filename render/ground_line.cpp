@@ -5,11 +5,11 @@
 namespace trackbed::render {
 namespace {
 
-// Largest deviation of a thinned line from the original [m]: a twentieth of the narrowest ribbon's
-// width.
+// Maximum deviation of a thinned line from the original line [m]: a twentieth of the narrowest
+// ribbon's width.
 constexpr double kLineTolerance = 0.005;
-constexpr std::size_t kMaxPieces = 3000;  // Largest number of pieces of a line.
-// Beyond this distance from the camera's target, paint would be thinner than a pixel [m].
+constexpr std::size_t kMaxPieces = 3000;  // Maximum number of pieces into which a line is divided.
+// Distance from the camera's target beyond which paint would be thinner than a pixel [m].
 constexpr double kPaintRange = 250.0;
 
 bool IsNear(const Point& a, const Point& b, const CameraPose& camera) {
@@ -32,7 +32,7 @@ std::vector<Point> Thinned(const std::vector<Point>& line) {
 }
 
 std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners) {
-  // On uneven ground, the pieces of a line are short enough to follow the surface.
+  // The pieces of a line on uneven ground are short enough to follow the surface.
   const double longest = IsFlat(recording.world.ground) ? 1e6 : 0.25;
   std::vector<Point> points;
   for (std::size_t i = 0; i < corners.size(); ++i) {

@@ -9,13 +9,13 @@
 namespace trackbed::render {
 namespace {
 
-// Lowest and highest position of patches above the ground [m]; all ribbons are higher.
+// Minimum and maximum height of friction patches above the ground [m]; all ribbons are higher.
 constexpr double kMinPaintHeight = 0.0010;
 constexpr double kMaxPaintHeight = 0.0018;
 
-constexpr double kIce = 0.25;       // Largest friction factor of a patch that is drawn as ice.
-constexpr float kIceAlpha = 0.45F;  // Alpha of ice; MuJoCo draws translucent surfaces twice, so the
-                                    // opacity is 1 - 0.55^2 = 0.70.
+constexpr double kIce = 0.25;  // Maximum friction factor of a patch that is drawn as ice.
+// Alpha value of ice; MuJoCo draws translucent surfaces twice, so the opacity is 1 - 0.55^2 = 0.70.
+constexpr float kIceAlpha = 0.45F;
 constexpr float kWetAlpha = 0.35F;
 
 float FrictionAlpha(double friction) {
@@ -53,9 +53,9 @@ class Tiler {
       : ground_(ground), tolerance_(tolerance), tiles_(tiles) {}
 
   void Cut(const OrientedBox& box, const Tile& like, double above) {
-    constexpr double kMaxTileSide = 2.0;  // Largest side of a tile on ground that is not a plane
-                                          // [m].
-    constexpr double kMinTileSide = 0.1;  // Smallest side of a tile [m].
+    // Maximum side of a tile on ground that is not a plane [m].
+    constexpr double kMaxTileSide = 2.0;
+    constexpr double kMinTileSide = 0.1;  // Minimum side of a tile [m].
     if (IsPlane(ground_, box)) {
       Add(box, like, above);
       return;
@@ -69,14 +69,14 @@ class Tiler {
       along = std::max(along, Bend(ground_, at(-1.0, side), at(1.0, side)));
       across = std::max(across, Bend(ground_, at(side, -1.0), at(side, 1.0)));
     }
-    // Twisted ground may be straight along all the lines checked above, so twist is checked
+    // Twisted ground may be straight along all the lines checked above, so the twist is checked
     // separately.
     const auto height = [&](double x, double y) { return GroundHeight(ground_, at(x, y)); };
     const double twist = 0.25 * std::abs(height(1.0, 1.0) + height(-1.0, -1.0) - height(1.0, -1.0) -
                                          height(-1.0, 1.0));
     double& longer = box.length >= box.width ? along : across;
     longer = std::max(longer, twist);
-    // Halves the tile along the side on which the ground deviates more from a straight line. Sides
+    // Halves the side of the tile along which the ground deviates more from a straight line. Sides
     // longer than kMaxTileSide are always halved, since the few checked lines may miss bumps.
     along = box.length > kMaxTileSide ? 1e3 * box.length : box.length > kMinTileSide ? along : 0.0;
     across = box.width > kMaxTileSide ? 1e3 * box.width : box.width > kMinTileSide ? across : 0.0;
@@ -95,7 +95,8 @@ class Tiler {
 
  private:
   void Add(const OrientedBox& box, const Tile& like, double above) {
-    // The tile passes through the ground at the middles of its sides, where neighboring tiles meet.
+    // The plane of the tile touches the ground at the middles of its sides, where neighboring tiles
+    // meet.
     std::array<Eigen::Vector3d, 4> sides;
     const std::array<Vec2, 4> ways{{{1.0, 0.0}, {-1.0, 0.0}, {0.0, 1.0}, {0.0, -1.0}}};
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
@@ -131,8 +132,7 @@ Color PatchColor(double friction) {
   if (friction > 1.0) {
     return {0.52F, 0.42F, 0.30F};
   }
-  // With increasing friction, the color changes from that of a wet road to that of a nearly dry
-  // road.
+  // As friction increases, the color changes from that of a wet road to that of a nearly dry road.
   const auto dry = static_cast<float>((friction - kIce) / (1.0 - kIce));
   return {0.16F + 0.34F * dry, 0.24F + 0.29F * dry, 0.36F + 0.17F * dry};
 }

@@ -10,13 +10,13 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kSide = 10.0;  // side of the square of ground that the texture covers [m]
+constexpr double kSide = 10.0;  // side of the ground square that one copy of the texture covers [m]
 constexpr double kLineSpacing = 5.0;
 constexpr double kLineWidth = 0.05;
 constexpr double kLineLight = 1.12;
 
-/// Returns a pseudorandom number in [-1, 1] for a corner of a lattice. The number is the same in
-/// every film.
+/// Returns a pseudorandom number in [-1, 1] that belongs to a corner of a lattice. The pseudorandom
+/// number of a corner is the same in every film.
 double Scattered(std::uint32_t x, std::uint32_t y, std::uint32_t octave) {
   std::uint32_t h = x * 374761393U + y * 668265263U + octave * 2246822519U;
   h = (h ^ (h >> 13U)) * 1274126177U;

@@ -6,7 +6,7 @@
 
 namespace trackbed::render {
 
-/// A picture: 8-bit RGB, rows from the top, no padding.
+/// An image with 8-bit RGB pixels; rows from the top, no padding.
 struct Image {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
@@ -27,7 +27,7 @@ struct Image {
   }
 };
 
-/// Red, green, blue in [0, 1].
+/// Color as red, green and blue in [0, 1].
 struct Color {
   float r = 0;
   float g = 0;

@@ -13,7 +13,8 @@ namespace trackbed::render {
 struct FlatView {
   std::string_view name;
   std::string_view summary;
-  /// Draws the recording at `time` [s] in this view, into the picture.
+  /// Draws the recording at the simulated time `time` [s] in this view, into the image of the
+  /// inset.
   void (*draw)(const Recording& recording, Image& image, Font& font, double time);
 };
 
@@ -26,8 +27,8 @@ struct Inset {
   const FlatView* view = nullptr;
 };
 
-/// Finds a camera or a flat view by name. If no camera or view has this name, throws InputError for
-/// the option `inset`, which suggests the most similar name.
+/// Returns the camera or flat view with the given name. Throws InputError for the option `inset`,
+/// suggesting the most similar name, if no camera or view has this name.
 Inset FindInset(const std::string& name);
 
 }  // namespace trackbed::render

@@ -9,7 +9,7 @@
 namespace trackbed::render {
 namespace {
 
-/// Maps each side of a cell to the sides to which a piece of a contour line connects it.
+/// Maps each side of a cell to the neighboring sides to which pieces of a contour line connect it.
 using Neighbors = std::map<int, std::vector<int>>;
 
 void Join(Neighbors& neighbors, int a, int b) {
@@ -17,8 +17,8 @@ void Join(Neighbors& neighbors, int a, int b) {
   neighbors[b].push_back(a);
 }
 
-/// Removes the contour line that begins at the side `first` from `neighbors`, and returns its
-/// sides.
+/// Removes the contour line that begins at the cell side `first` from `neighbors`, and returns the
+/// cell sides that the line crosses.
 std::vector<int> TakeLine(Neighbors& neighbors, int first) {
   std::vector<int> line{first};
   while (!neighbors[line.back()].empty()) {
@@ -71,8 +71,8 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
   Neighbors neighbors;
   for (int row = 0; row + 1 < rows_; ++row) {
     for (int column = 0; column + 1 < columns_; ++column) {
-      // Corners are numbered counterclockwise from the lower left; side i is between corners i and
-      // i + 1.
+      // Corners of a cell are numbered counterclockwise from the lower left; side i is between
+      // corners i and i + 1.
       const std::array<bool, 4> above{Value(column, row) >= level, Value(column + 1, row) >= level,
                                       Value(column + 1, row + 1) >= level,
                                       Value(column, row + 1) >= level};
@@ -87,8 +87,8 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
       if (cut.size() == 2) {
         Join(neighbors, sides[cut[0]], sides[cut[1]]);
       } else if (cut.size() == 4) {
-        // A line separates each corner above the level from the rest of the cell. The line crosses
-        // the two sides that meet at the corner.
+        // A piece of a contour line separates each corner above the level from the rest of the
+        // cell. A piece around a corner crosses the two sides of the cell that meet at the corner.
         for (std::size_t i = 0; i < 4; ++i) {
           if (above[i]) {
             Join(neighbors, sides[(i + 3) % 4], sides[i]);
@@ -97,7 +97,7 @@ std::vector<std::vector<Vec2>> IsolineGrid::At(double level) const {
       }
     }
   }
-  // Collects open lines first, then closed ones.
+  // Collects first the open contour lines, then the closed ones.
   std::vector<int> begins;
   for (const auto& [side, others] : neighbors) {
     if (others.size() == 1) {

@@ -13,13 +13,14 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kLength = 40.0;  // Shown length of the path [m].
-constexpr double kBehind = 0.75;  // Fraction of the shown length behind the car.
-constexpr double kFill = 0.85;    // Fraction of half the inset's height that the largest
-                                  // cross-track error of the run fills.
+constexpr double kLength = 40.0;  // Length of the path that the lateral view shows [m].
+// Fraction of the shown length of the path that is behind the car.
+constexpr double kBehind = 0.75;
+// Fraction of half the inset's height that the largest cross-track error of the run takes up.
+constexpr double kFill = 0.85;
 constexpr double kGridAlpha = 0.35;
 
-/// Indices of the log columns with the car's station and cross-track error.
+/// Indices of the log columns that contain the car's station and cross-track error.
 struct AlongPath {
   std::size_t station;
   std::size_t left;
@@ -31,8 +32,8 @@ std::optional<AlongPath> FindAlongPath(const TimedTable& log) {
   return station && left ? std::optional(AlongPath{*station, *left}) : std::nullopt;
 }
 
-/// Returns the height of letters in an inset of this height [px]. An inset is at most 0.3 times as
-/// high as the picture.
+/// Returns the height of letters in an inset with this height [px]. The height of an inset is at
+/// most 0.3 times that of the frame.
 double LetterSize(int height) {
   return std::clamp(std::round(0.085 * height), 11.0, 23.0);
 }
@@ -55,7 +56,7 @@ void LateralView::DrawAxes(Canvas& canvas, Font& font, int width, int height, do
   const double scale = PixelsPerMeter(width, height);
   const double hairline = std::max(1.0, 0.005 * height);
   const double letters = LetterSize(height);
-  // Draws two or three grid lines on each side of the path, at round distances.
+  // Draws two or three grid lines on each side of the path, at round distances from the path.
   const double reach = 0.5 * height / (kMagnification * scale);
   const double apart = RoundedUp(reach / 4.0);
   for (double left = apart; left < reach; left += apart) {
@@ -108,8 +109,8 @@ void LateralView::Draw(Image& image, Font& font, double time) const {
     for (std::size_t row = 0; row < log.times().size() && log.times()[row] <= time; ++row) {
       const CanvasPoint point = Place(width, height, car, log.table().at(row, along->station),
                                       log.table().at(row, along->left));
-      // Skips points that are less than half a pixel from the previous one, and most points outside
-      // the picture.
+      // Skips points that are less than half a pixel from the previous point, and most points
+      // outside the inset.
       if (point.x > -2.0 &&
           (line.empty() || std::hypot(point.x - line.back().x, point.y - line.back().y) > 0.5)) {
         line.push_back(point);

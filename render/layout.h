@@ -5,7 +5,7 @@
 
 #include "render/image.h"
 
-/// Sizes of the panels and text that are drawn over a picture.
+/// Sizes of the panels and text that are drawn over a frame.
 namespace trackbed::render {
 
 inline constexpr Color kPanel{0.06F, 0.07F, 0.09F};
@@ -13,23 +13,23 @@ inline constexpr double kPanelAlpha = 0.66;
 inline constexpr Color kLabel{0.70F, 0.74F, 0.78F};
 inline constexpr Color kValue{1.00F, 1.00F, 1.00F};
 
-/// Sizes of the picture's panels and text [px]. The sizes are proportional to the picture's height,
-/// with a minimum that keeps text readable down to 640x360. In smaller pictures, panels and text
-/// shrink further to fit.
+/// Sizes of the panels and text of a frame [px]. The sizes of panels and text are proportional to
+/// the frame's height, with a minimum that keeps text readable down to 640x360. In frames smaller
+/// than 640x360, panels and text shrink further to fit.
 struct Layout {
-  double margin;  ///< Distance from the picture's edge to a panel.
+  double margin;  ///< Distance from the edge of the frame to a panel.
   double pad;     ///< Distance from a panel's edge to its text.
-  double label;   ///< Height of a text cell.
+  double label;   ///< Height of the cell of a character.
   double value;
-  double gap;       ///< Gap between columns of text.
-  double hairline;  ///< Thickness of thin lines.
+  double gap;       ///< Horizontal gap between columns of text.
+  double hairline;  ///< Thickness of thin lines in panels.
 
   Layout(int width, int height) {
     const double scale = height / 720.0;
-    // At the smallest readable size, legend and title side by side need about 400 px of width. All
-    // panels, stacked vertically, need 250 px of height at the smallest readable size.
+    // At the smallest readable size, legend and title side by side need a width of about 400 px. At
+    // the smallest readable size, all panels stacked vertically need a height of 250 px.
     const double shrink = std::min({1.0, width / 400.0, height / 270.0});
-    // Limits the sizes in tall, narrow pictures, such as each of two pictures side by side.
+    // Limits the sizes in tall, narrow frames, such as each of two frames side by side.
     const double widest = width / 960.0;
     const auto size = [&](double of_height, double least) {
       return std::max(of_height * std::min(scale, widest), least * shrink);
@@ -41,7 +41,7 @@ struct Layout {
     gap = size(30.0, 16.0);
     hairline = size(2.0, 1.2);
   }
-  /// Radius of a panel's corners.
+  /// Radius of the rounded corners of a panel.
   [[nodiscard]] double round() const { return 0.7 * pad; }
 };
 

@@ -4,12 +4,12 @@
 
 #include <concepts>
 
-/// Hides the differences between MuJoCo versions in the drawing functions. Differences in the
-/// physics are handled in src/sim/mujoco_compat.h.
+/// Hides the API differences between MuJoCo versions from the drawing functions. The differences in
+/// the simulation functions are handled in src/sim/mujoco_compat.h.
 namespace trackbed::render::mj {
 
-/// Returns the index of a material's color texture; -1 if the material has none. Since MuJoCo 3.2,
-/// a material can have several textures, one per role.
+/// Returns the index of a material's color texture; -1 if the material has no color texture. Since
+/// MuJoCo 3.2, a material can have several textures, one per role.
 inline int ColorTexture(const mjModel& model, int material) {
 #if mjVERSION_HEADER >= 320
   const int* of_roles = model.mat_texid + mjNTEXROLE * material;
@@ -19,10 +19,10 @@ inline int ColorTexture(const mjModel& model, int material) {
 #endif
 }
 
-/// Pixels of a texture, row by row.
+/// Pixel values of a texture, row by row.
 struct TexturePixels {
   mjtByte* first;
-  int channels;  ///< number of bytes per pixel, the first three of which are red, green and blue
+  int channels;  ///< number of bytes per pixel; the first three bytes are red, green and blue
 };
 
 template <std::same_as<mjModel> Model>
@@ -34,7 +34,8 @@ TexturePixels Pixels(Model& model, int texture) {
   }
 }
 
-/// Removes the texture from a shape. Since MuJoCo 3.2, shapes use their material's texture.
+/// Removes the texture from a shape. The material is removed because, since MuJoCo 3.2, the texture
+/// of a shape is that of its material.
 template <std::same_as<mjvGeom> Geom>
 void RemoveTexture(Geom& geom) {
   if constexpr (requires { geom.matid; }) {

@@ -10,17 +10,19 @@
 #include "render/scene_handle.h"
 #include "trackbed/sim/mujoco_handles.h"
 
-// Draws each obstacle with an appearance that depends on its size (ChooseLook). An obstacle looks
-// like the run's own car stretched to the obstacle's box, or like a wall, cone, post or crate. The
-// obstacle's box in MuJoCo's scene is recolored, or replaced by other shapes. Until shortly after
-// the planner detects an obstacle, the edges of the obstacle's box are drawn as an outline.
+// Draws each obstacle with an appearance that depends on the obstacle's size (ChooseLook). An
+// obstacle is drawn as the run's own car stretched to the obstacle's box, or as a wall, cone, post
+// or crate. The obstacle's box in MuJoCo's scene is recolored, or replaced by other shapes. Until
+// shortly after the planner detects an obstacle, an outline along the edges of the obstacle's box
+// is drawn.
 namespace trackbed::render {
 namespace {
 
-constexpr double kOutlineDuration = 1.5;  // Time for which the outline stays after the planner
-                                          // detects an obstacle [s].
-constexpr double kEdge = 0.05;            // Thickness of outlines and of a crate's edges [m].
-constexpr std::size_t kEdges = 12;        // Number of edges of a box.
+// Time for which the outline of an obstacle stays visible after the planner has detected it [s].
+constexpr double kOutlineDuration = 1.5;
+// Thickness of the outlines of obstacles and of the edges of crates [m].
+constexpr double kEdge = 0.05;
+constexpr std::size_t kEdges = 12;  // Number of edges of a box.
 
 constexpr Color kUnknown{0.98F, 0.98F, 0.98F};
 constexpr Color kWood{0.72F, 0.61F, 0.44F};
@@ -32,7 +34,7 @@ constexpr Color kConeOrange{0.95F, 0.35F, 0.05F};
 constexpr std::array<Color, 4> kCarPaints{
     {{0.72F, 0.73F, 0.75F}, {0.28F, 0.29F, 0.31F}, {0.62F, 0.57F, 0.48F}, {0.86F, 0.86F, 0.84F}}};
 
-/// An obstacle's box in the world: pose, half sides and opacity of its geom in the scene.
+/// Box of an obstacle in the world: pose, half sides and opacity of its geom in the scene.
 struct Block {
   Eigen::Vector3d center;
   RowMajorMatrix3 axes;
@@ -48,8 +50,8 @@ struct Block {
       }
     }
   }
-  /// Returns a point of the block. Each coordinate is a fraction of the block's half side, from -1
-  /// to 1.
+  /// Returns a point of the obstacle's box. Each coordinate of the point is a fraction of the box's
+  /// half side, from -1 to 1.
   [[nodiscard]] Eigen::Vector3d At(double along, double across, double up) const {
     return center + axes * Eigen::Vector3d(along * half[0], across * half[1], up * half[2]);
   }
@@ -78,8 +80,8 @@ void AddEdges(mjvScene& scene, const Block& block, const Color& color, float emi
   }
 }
 
-/// The shapes of the run's own car, without small parts. The car is scaled so that its bounding box
-/// has half sides of 1.
+/// Shapes of the run's own car, without small parts. The car is scaled so that its bounding box has
+/// half sides of 1.
 class CarParts {
  public:
   explicit CarParts(const Recording& recording) {
@@ -120,10 +122,10 @@ class CarParts {
 
   [[nodiscard]] std::size_t count() const { return parts_.size(); }
 
-  /// Draws the car, stretched to the size of the block. `forward` is the car's direction along the
-  /// block's longer side, 1 or -1.
+  /// Draws the car, stretched to the size of the obstacle's box. `forward` is the car's direction
+  /// along the longer side of the box, 1 or -1.
   void Add(mjvScene& scene, const Block& block, double forward, const Color& paint) const {
-    // The car is turned so that its length is along the longer side of the block.
+    // The car is turned so that its length is along the longer side of the box.
     RowMajorMatrix3 turn = RowMajorMatrix3::Identity() * forward;
     turn(2, 2) = 1.0;
     Eigen::Vector3d half(block.half[0], block.half[1], block.half[2]);
@@ -131,8 +133,8 @@ class CarParts {
       std::swap(half.x(), half.y());
       turn << 0.0, -forward, 0.0, forward, 0.0, 0.0, 0.0, 0.0, 1.0;
     }
-    // The matrix also stretches the car, so it is not a pure rotation. MuJoCo uses the matrix
-    // unchanged and normalizes the normals.
+    // This rotation matrix also stretches the car, so it is not a pure rotation. MuJoCo uses the
+    // stretched rotation matrix unchanged and normalizes the surface normals.
     const RowMajorMatrix3 stretched = block.axes * turn * half.cwiseProduct(scale_).asDiagonal();
     for (const Part& part : parts_) {
       if (scene.ngeom >= scene.maxgeom) {
@@ -159,7 +161,7 @@ class CarParts {
  private:
   struct Part {
     mjvGeom geom;
-    Eigen::Vector3d center;  // position of the part relative to the middle of the car's box
+    Eigen::Vector3d center;  // position of the car's part relative to the middle of the car's box
     RowMajorMatrix3 axes;
     bool painted;
   };
@@ -167,8 +169,9 @@ class CarParts {
   std::vector<Part> parts_;
 };
 
-/// Fills the block with a stack of cylinders or boxes of equal height. `layers` has their
-/// horizontal sizes, relative to the block, and their colors, from bottom to top.
+/// Fills the obstacle's box with a stack of cylinders or boxes of equal height. `layers` has the
+/// horizontal size relative to the box and the color of each piece of the stack, from bottom to
+/// top.
 void AddStack(mjvScene& scene, const Block& block, mjtGeom type,
               const std::vector<std::pair<double, Color>>& layers) {
   const double tall = 1.0 / static_cast<double>(layers.size());
@@ -228,8 +231,8 @@ class Obstacles : public Overlay {
   }
 
  private:
-  // Object type that marks a geom which other shapes replace. MuJoCo has no object type with this
-  // number.
+  // Number of an object type, used to mark a geom that other shapes replace. MuJoCo has no object
+  // type with this number.
   static constexpr int kReplaced = -1;
 
   void AddOne(SceneContext& context, std::size_t i, mjvGeom* own) const {
@@ -237,8 +240,8 @@ class Obstacles : public Overlay {
     const Block block(*own);
     const double since = context.time - known_[i];
     if (since < kOutlineDuration) {
-      // The outline is slightly larger than the obstacle's shape, so that the shape does not hide
-      // it.
+      // The outline is drawn slightly larger than the obstacle's shape, so that the shape does not
+      // hide the outline.
       Block outline = block;
       for (double& half : outline.half) {
         half += since < 0.0 ? 0.0 : kEdge;
@@ -283,8 +286,8 @@ class Obstacles : public Overlay {
     }
   }
 
-  /// Returns the direction, 1 or -1, in which a car faces along the block's longer side, from the
-  /// obstacle's velocity.
+  /// Returns the direction, 1 or -1, in which an obstacle drawn as a car faces along the box's
+  /// longer side, from the obstacle's velocity.
   [[nodiscard]] double ForwardOf(std::size_t i, const Block& block) const {
     const Vec2& velocity = recording_.world.obstacles[i].velocity;
     const int side = block.half[0] >= block.half[1] ? 0 : 1;

@@ -15,8 +15,8 @@ Eigen::Vector3d Eye(const CameraPose& camera) {
           camera.target_z - camera.distance * std::sin(camera.elevation)};
 }
 
-/// Whether the segment between two points intersects a box. Points and corners are given in the
-/// frame of the box.
+/// Whether the segment between two points intersects a box. The two points and the corners of the
+/// box are given in the frame of the box.
 bool Crosses(const Eigen::Vector3d& from, const Eigen::Vector3d& to, const Eigen::Vector3d& low,
              const Eigen::Vector3d& high) {
   double enters = 0.0;
@@ -68,7 +68,9 @@ double HiddenShare(const UprightBox& box, const CameraPose& camera, const CarBox
 
 double FadedAlpha(double hidden_share) {
   constexpr double kMinAlpha = 0.25;
-  constexpr double kAll = 0.3;  // hidden fraction of the car from which the opacity is kMinAlpha
+  // fraction of the car that must be hidden for an obstacle's opacity to reach the minimum
+  // kMinAlpha
+  constexpr double kAll = 0.3;
   const double part = std::clamp(hidden_share / kAll, 0.0, 1.0);
   return 1.0 - (1.0 - kMinAlpha) * part * part * (3.0 - 2.0 * part);
 }

@@ -11,7 +11,7 @@
 namespace trackbed::render {
 namespace {
 
-// Minimum side of the buffer [px], since a glyph of the largest font must fit into it.
+// Minimum side of the rendering buffer [px]; a glyph of the largest font must fit into this buffer.
 constexpr int kMinBufferSide = 128;
 
 void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
@@ -22,16 +22,17 @@ void CopyFlipped(const std::vector<std::uint8_t>& from, Image& to) {
   }
 }
 
-/// Averages each square of `side` by `side` samples into a pixel, and reverses the order of the
+/// Averages each square of `side` by `side` samples into one pixel, and reverses the order of the
 /// rows. `side` must be a power of two.
 void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) {
   const auto step = static_cast<std::size_t>(side);
   const auto width = static_cast<std::size_t>(to.width);
   const std::size_t row = 3 * width * step;
   const auto samples = static_cast<unsigned>(side * side);
-  const int shift = std::countr_zero(samples);  // The sum is divided by a bit shift, since a
-                                                // division would dominate the run time.
-  std::vector<std::uint16_t> columns(row);      // Sums of the samples over `side` rows.
+  // The sum of samples is divided by a bit shift, since a division would dominate the run time.
+  const int shift = std::countr_zero(samples);
+  // Sums of the samples over `side` rows, for each pixel of a row.
+  std::vector<std::uint16_t> columns(row);
   for (int y = 0; y < to.height; ++y) {
     std::fill(columns.begin(), columns.end(), std::uint16_t{0});
     const auto first = static_cast<std::size_t>(to.height - 1 - y) * step;
@@ -44,7 +45,7 @@ void AverageFlipped(const std::vector<std::uint8_t>& from, int side, Image& to) 
     const std::uint16_t* column = columns.data();
     std::uint8_t* pixel = to.Pixel(0, y);
     for (std::size_t x = 0; x < width; ++x, pixel += 3) {
-      // Sums start at half the divisor, so that the division rounds to nearest.
+      // The sums start at half the divisor, so that the division rounds to nearest.
       std::array<unsigned, 3> sums{samples / 2, samples / 2, samples / 2};
       for (std::size_t i = 0; i < step; ++i, column += 3) {
         sums[0] += column[0];

@@ -10,24 +10,26 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
-// Outputs of a film. FrameOutput writes numbered PNG files with libpng; render/video/ has the
-// formats encoded by FFmpeg. BackgroundOutput passes pictures to another output in a separate
-// thread, through a queue of at most two pictures that a mutex guards. An exception in the writing
-// thread is rethrown by the next call. EncodePng adds a PNG chunk that identifies Trackbed as the
-// author.
+// Implements the outputs to which a film is written. The class FrameOutput writes numbered PNG
+// files with libpng; render/video/ contains the formats that FFmpeg encodes. The class
+// BackgroundOutput passes frames to another output in a separate thread, through a queue of at most
+// two frames that a mutex guards. An exception in the writing thread of BackgroundOutput is
+// rethrown by the next call. The function EncodePng adds a PNG chunk that identifies Trackbed as
+// the author.
 namespace trackbed::render {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kHeaderSize = 33;  // length of a PNG file's signature and IHDR chunk [bytes]
+// total length of a PNG file's signature and IHDR chunk [bytes]
+constexpr std::size_t kHeaderSize = 33;
 
-/// Writes one PNG file per picture, into a hidden folder until the film is complete. On completion,
-/// the frames of an earlier film of the same name are removed, so that frames of two films are
-/// never mixed. The frames of an earlier film are the files that are numbered from 0 without a gap.
-/// If one of these files was not written by Trackbed, RunError is thrown. If neither Finish() nor
-/// Keep() is called, the frames of the earlier film stay. If there is no earlier film, the new
-/// frames written so far stay instead.
+/// Writes one PNG file per frame, into a hidden folder until the film is complete. On completion,
+/// the PNG files of an earlier film of the same name are removed, so that frames of two films are
+/// never mixed. The PNG files of an earlier film are those that are numbered from 0 without a gap.
+/// Throws RunError if one of these PNG files was not written by Trackbed. If neither Finish() nor
+/// Keep() is called, the PNG files of the earlier film stay. If neither is called and there is no
+/// earlier film, the new PNG files written so far stay.
 class FrameOutput : public FilmOutput {
  public:
   explicit FrameOutput(fs::path output) : output_(std::move(output)), frames_(output_) {
@@ -43,14 +45,14 @@ class FrameOutput : public FilmOutput {
       try {
         FrameOutput::Finish();
       } catch (const RunError&) {
-        // The error is ignored, because a destructor must not throw.
+        // An error is ignored here, because a destructor must not throw.
       }
     }
   }
 
   void Add(const Image& image) override {
     const fs::path frame = FrameName(output_, next_);
-    RequireOwn(frame);  // also checks files after a gap in the numbers
+    RequireOwn(frame);  // the check includes PNG files after a gap in the numbers
     WriteNewFile(frames_.path() / frame.filename(), EncodePng(image), frame);
     ++next_;
   }
@@ -61,8 +63,9 @@ class FrameOutput : public FilmOutput {
     while (frames > 0 && IsThere(old)) {
       ++old;
     }
-    // Frames are removed in reverse order. If removing a frame fails, the remaining frames are
-    // still numbered from 0 without a gap, so the next film can remove them.
+    // The PNG files are removed in reverse order of their numbers. If the removal of a file fails,
+    // the remaining files are still numbered from 0 without a gap, so the next film can remove
+    // them.
     while (old > 0) {
       const fs::path name = FrameName(output_, --old);
       if (!fs::remove(name, error)) {
@@ -99,7 +102,7 @@ class FrameOutput : public FilmOutput {
   int next_ = 0;
 };
 
-/// Returns the registry of film formats.
+/// Returns the registry of the film formats.
 const std::array<FilmFormat, 4>& FormatTable() {
   static const std::array<FilmFormat, 4> table{{
       {".mp4", "video", true, VideoOpener()},
@@ -163,7 +166,7 @@ void BackgroundOutput::Rethrow() {
 
 void BackgroundOutput::Write(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
-  // After a stop request, the thread still writes all waiting pictures.
+  // After a stop request, the writing thread still writes all frames in the queue.
   while (changed_.wait(lock, stop, [this] { return !waiting_.empty(); })) {
     Image image = std::move(waiting_.front());
     waiting_.pop_front();
@@ -222,8 +225,8 @@ std::string EncodePng(const Image& image) {
   png.width = static_cast<png_uint_32>(image.width);
   png.height = static_cast<png_uint_32>(image.height);
   png.format = PNG_FORMAT_RGB;
-  png.flags = PNG_IMAGE_FLAG_FAST;  // fast compression: a third of the time, for files that are a
-                                    // few percent larger
+  // fast compression: takes a third of the time, for files that are a few percent larger
+  png.flags = PNG_IMAGE_FLAG_FAST;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string bytes(size, '\0');
   if (png_image_write_to_memory(&png, bytes.data(), &size, 0, image.rgb.data(), 0, nullptr) == 0) {

@@ -15,7 +15,7 @@
 
 namespace trackbed::render {
 
-/// Destination to which a film's pictures are written.
+/// Destination to which the frames of a film are written.
 class FilmOutput {
  public:
   FilmOutput() = default;
@@ -24,17 +24,17 @@ class FilmOutput {
   FilmOutput& operator=(const FilmOutput&) = delete;
 
   virtual void Add(const Image& image) = 0;
-  /// Completes the file. Finish() must be called after the last picture.
+  /// Completes the file. Finish() must be called after the last frame.
   virtual void Finish() = 0;
-  /// Called instead of Finish() after an error. Keep() keeps the pictures written so far if each
-  /// picture is a separate file.
+  /// Keep() is called instead of Finish() after an error. Keep() preserves the frames written so
+  /// far if each frame is a separate file.
   virtual void Keep() {}
 };
 
-/// Writes pictures to another output in a separate thread, while the next picture is drawn. At most
-/// two pictures wait in the queue; with a full queue, Add() blocks. An exception in the writing
-/// thread is rethrown by the next call, and no more pictures are written. If another exception
-/// destroys this object, the pictures in the queue are still written.
+/// Writes frames to another output in a separate thread, while the next frame is drawn. At most two
+/// frames wait in the queue; if the queue is full, Add() blocks. An exception in the writing thread
+/// is rethrown by the next call, and no more frames are written. If another exception destroys this
+/// object, the frames in the queue are still written.
 class BackgroundOutput : public FilmOutput {
  public:
   explicit BackgroundOutput(std::unique_ptr<FilmOutput> output);
@@ -49,45 +49,46 @@ class BackgroundOutput : public FilmOutput {
   void Rethrow();
 
   std::unique_ptr<FilmOutput> output_;
-  std::mutex mutex_;  // guards the members below, except for the thread
+  // protects the members below, except for the thread, against concurrent access
+  std::mutex mutex_;
   std::condition_variable_any changed_;
   std::deque<Image> waiting_;
-  std::vector<Image> free_images_;  // pictures that have been written and whose memory is reused
+  std::vector<Image> free_images_;  // memory of frames that have already been written, to be reused
   bool writing_ = false;
   std::exception_ptr failure_;
-  std::jthread thread_;  // declared last, so that it is joined before the other members are
-                         // destroyed
+  // the thread is declared last, so that it is joined before the other members are destroyed
+  std::jthread thread_;
 };
 
-/// Properties shared by all pictures of a film.
+/// Properties shared by all frames of a film.
 struct FilmPictures {
   int width = 0;   ///< [px]
   int height = 0;  ///< [px]
   double fps = 0.0;
-  bool quick = false;  ///< whether to encode a video three times as fast, at the cost of a larger
-                       ///< file
+  /// whether the video is encoded three times as fast, at the cost of a larger file
+  bool quick = false;
 };
 
 using OpenOutput = std::unique_ptr<FilmOutput> (*)(const std::filesystem::path& output,
                                                    const FilmPictures& pictures);
 
-/// A file format of films.
+/// A file format in which films can be written.
 struct FilmFormat {
-  std::string extension;  ///< File name extension, including the dot.
+  std::string extension;  ///< File name extension of the format, including the dot.
   std::string summary;    ///< One-word description of the format.
-  bool even_sides;        ///< Whether width and height must be even.
-  OpenOutput open;        ///< Function that opens an output; null if this build does not support
-                          ///< the format.
+  bool even_sides;        ///< Whether the format requires an even width and height.
+  /// Function that opens an output in this format; null if this build does not support the format.
+  OpenOutput open;
 };
 
-/// Returns the film format that belongs to the file name extension of `output`. If this build does
-/// not support the extension, throws InputError that lists all supported formats.
+/// Returns the film format for the file name extension of `output`. Throws InputError that lists
+/// all supported formats if this build does not support the extension.
 const FilmFormat& FilmFormatFor(const std::filesystem::path& output);
 
-/// Returns the file name of a frame: for "frames/f.png" and frame 7, "frames/f_00007.png".
+/// Returns the file name of a frame, such as "frames/f_00007.png" for "frames/f.png" and frame 7.
 std::filesystem::path FrameName(const std::filesystem::path& output, int frame);
 
-/// Encodes a picture as a PNG file. Throws RunError if the picture cannot be encoded.
+/// Encodes an image as a PNG file. Throws RunError if the image cannot be encoded.
 std::string EncodePng(const Image& image);
 
 }  // namespace trackbed::render

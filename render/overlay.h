@@ -13,54 +13,58 @@
 #include "render/canvas.h"
 #include "render/recording.h"
 
-/// Interface of overlays, which draw over the recorded world. See docs/how-to/add-an-overlay.md.
+/// Interface of overlays, which draw over the recorded world in a film. See
+/// docs/how-to/add-an-overlay.md.
 namespace trackbed::render {
 
-/// Symbol that shows a color in the legend.
+/// Kinds of symbols that show a color in the legend.
 enum class LegendSymbol {
-  kLine,     ///< A line on the ground.
-  kOutline,  ///< Outline of an area or a box.
-  kDiamond,  ///< A mark on the ground.
-  kCross,    ///< A cross on the ground.
-  kDial,     ///< A dial that shows the used friction of a tyre.
+  kLine,     ///< Symbol for a line on the ground.
+  kOutline,  ///< Symbol for the outline of an area or a box.
+  kDiamond,  ///< Symbol for a mark on the ground.
+  kCross,    ///< Symbol for a cross on the ground.
+  kDial,     ///< Symbol for a dial that shows the used friction of a tyre.
 };
 
-/// An entry of the legend, which explains a color in the picture.
+/// An entry of the legend, which explains a color in the frame.
 struct LegendEntry {
   Color color;
   std::string text;
-  std::string note{};         ///< Second line of the entry; may be empty.
-  std::vector<Color> ramp{};  ///< Color scale from left to right, shown instead of a single color.
+  std::string note{};  ///< Second line of the legend entry; may be empty.
+  /// Color scale of the legend entry from left to right, shown instead of a single color.
+  std::vector<Color> ramp{};
   LegendSymbol symbol = LegendSymbol::kLine;
 };
 
-/// The scene of one picture, to which overlays add shapes.
+/// The 3D scene of one frame, to which overlays add shapes.
 struct SceneContext {
   mjvScene& scene;
-  double time;               ///< Time of the picture [s].
-  const CameraPose& camera;  ///< Camera of the picture.
-  mjvCamera& view;           ///< The picture's camera in MuJoCo's format.
-  const mjvOption& visible;  ///< Which parts of a model are visible.
+  double time;               ///< Simulated time that the frame shows [s].
+  const CameraPose& camera;  ///< Camera from which the frame is drawn.
+  mjvCamera& view;           ///< Camera of the frame in MuJoCo's format.
+  /// MuJoCo's options that determine which parts of a model are visible.
+  const mjvOption& visible;
 };
 
-/// A rendered picture on which overlays draw.
+/// A rendered frame on which overlays draw.
 struct PictureContext {
   Image& image;
   Font& font;
   double time;  ///< [s]
   const CameraPose& camera;
-  const mjData& car;  ///< MuJoCo's data of the car at `time`
+  const mjData& car;  ///< MuJoCo's data of the car at the simulated time `time`
   const std::vector<LegendEntry>& legend;
-  double top;     ///< Lower end of the panels at the picture's upper edge [px]; each new panel
-                  ///< increases `top`.
-  double bottom;  ///< Upper end of the panels at the picture's lower edge [px]; each new panel
-                  ///< decreases `bottom`.
-  double left;    ///< Left end of the free space just above `bottom` [px]; each new panel there
-                  ///< increases `left`.
+  /// Lower end of the panels at the frame's upper edge [px]; each new panel increases `top`.
+  double top;
+  /// Upper end of the panels at the frame's lower edge [px]; each new panel decreases `bottom`.
+  double bottom;
+  /// Left end of the free space directly above `bottom` [px]; each new panel there increases
+  /// `left`.
+  double left;
 };
 
-/// Base class of overlays, which draw something over the world of one recording. The default
-/// functions draw nothing.
+/// Base class of overlays; an overlay draws something over the world of one recording. The default
+/// implementations of the functions draw nothing.
 class Overlay {
  public:
   Overlay() = default;
@@ -68,25 +72,26 @@ class Overlay {
   Overlay(const Overlay&) = delete;
   Overlay& operator=(const Overlay&) = delete;
 
-  /// Returns the maximum number of shapes that AddShapes adds to a scene.
+  /// Returns the maximum number of shapes that this overlay adds to a scene in AddShapes.
   [[nodiscard]] virtual std::size_t max_shapes() const { return 0; }
-  /// Adds shapes to the 3D scene, where the car and other objects can hide and shade them. The
-  /// picture's inset also shows these shapes.
+  /// Adds shapes to the 3D scene, where other objects such as the car can hide and shade these
+  /// shapes. The inset of the frame also shows these 3D shapes.
   virtual void AddShapes(SceneContext& /*context*/) {}
-  /// Draws two-dimensional shapes over the picture, but not over its inset.
+  /// Draws two-dimensional shapes over the frame, but not over its inset.
   virtual void Draw(PictureContext& /*context*/) {}
   /// Adds this overlay's entries to the legend, whose first entry is the car.
   virtual void AddLegend(std::vector<LegendEntry>& /*legend*/) const {}
 };
 using OverlayList = std::vector<std::unique_ptr<Overlay>>;
 
-/// Arguments for making the overlays of one recording, for pictures of one size.
+/// Arguments for making the overlays of one recording, for frames of one size.
 struct OverlaySetup {
-  const Recording& recording;             ///< The recording must outlive the overlay.
-  const std::vector<std::string>& shown;  ///< Names of all overlays of the film.
-  std::string title;                      ///< Title of the picture.
-  int width = 0;                          ///< Width of the picture [px].
-  int height = 0;                         ///< Height of the picture [px].
+  /// The recording that the overlay draws; must outlive the overlay.
+  const Recording& recording;
+  const std::vector<std::string>& shown;  ///< Names of all overlays that the film shows.
+  std::string title;                      ///< Title shown in the frame.
+  int width = 0;                          ///< Width of the frame [px].
+  int height = 0;                         ///< Height of the frame [px].
   Font& font;
 
   [[nodiscard]] bool Shows(std::string_view name) const {
@@ -94,12 +99,12 @@ struct OverlaySetup {
   }
 };
 
-/// An entry of the overlay table.
+/// An entry in the table of overlays.
 struct OverlayEntry {
   std::string name;
-  std::string summary;  ///< one-line summary for users
+  std::string summary;  ///< one-line summary of the overlay for users
   std::unique_ptr<Overlay> (*make)(const OverlaySetup& setup);
-  bool by_default = true;  ///< whether films show the overlay by default
+  bool by_default = true;  ///< whether films show this overlay by default
 };
 
 /// Makes the table entry of an overlay class whose constructor takes an OverlaySetup.

@@ -25,7 +25,7 @@
 namespace trackbed::render {
 namespace {
 
-/// Throws InputError with the nearest name if the name of an overlay is unknown.
+/// Throws InputError, suggesting the most similar name, if the name of an overlay is unknown.
 void CheckNames(const std::vector<std::string>& names) {
   std::vector<std::string> known;
   for (const OverlayEntry& entry : OverlayTable()) {
@@ -41,7 +41,8 @@ void CheckNames(const std::vector<std::string>& names) {
 
 }  // namespace
 
-/// The registry has one line per overlay. Later overlays are drawn over earlier ones.
+/// The registry of overlays is defined by one line per overlay. Overlays that are later in the
+/// registry are drawn over earlier ones.
 const std::vector<OverlayEntry>& OverlayTable() {
   static const std::vector<OverlayEntry> table{
       RoadOverlay(),  ReliefOverlay(),  GateOverlay(),  ObstacleOverlay(), SkidMarkOverlay(),
@@ -74,8 +75,8 @@ std::vector<LegendEntry> MakeLegend(const Recording& recording, const OverlayLis
   }
   std::sort(factors.begin(), factors.end());
   factors.erase(std::unique(factors.begin(), factors.end()), factors.end());
-  constexpr std::size_t kMaxFactors = 3;  // largest number of friction factors in the legend; a
-                                          // fourth color would be hard to distinguish
+  // maximum number of friction factors in the legend; a fourth color would be hard to distinguish
+  constexpr std::size_t kMaxFactors = 3;
   for (std::size_t i = 0; i < std::min(factors.size(), kMaxFactors); ++i) {
     legend.push_back({PatchColorOnRoad(factors[i]), fmt::format("friction x{:.3g}", factors[i])});
   }

@@ -14,9 +14,9 @@
 
 namespace trackbed::render {
 
-/// MuJoCo samples its shadow map once per pixel, so multisampling leaves the edges of shadows
-/// jagged. Supersampling smooths these edges at about the same cost: a picture of 1280x720 with
-/// shadows takes 0.29 s, instead of 0.31 s with multisampling.
+/// MuJoCo evaluates its shadow map only once per pixel, so multisampling leaves the edges of
+/// shadows jagged. Supersampling smooths the edges of shadows at about the same cost: a frame of
+/// 1280x720 with shadows takes 0.29 s, instead of 0.31 s with multisampling.
 namespace {
 
 constexpr std::array<Quality, 2> kQualities{{{"draft", 1, false, true}, {"film", 2, true, false}}};
@@ -33,7 +33,7 @@ const Quality& FindQuality(const std::string& name) {
       Problem{.key = "quality", .message = "unknown quality " + UnknownName(name, names)});
 }
 
-/// Prepares the model of the first recording for the Offscreen that draws it.
+/// Prepares the model of the first recording for drawing with Offscreen.
 mjModel& Prepared(std::span<Recording> recordings, const Quality& quality,
                   const CameraPose& camera) {
   for (Recording& recording : recordings) {
@@ -46,7 +46,7 @@ mjModel& Prepared(std::span<Recording> recordings, const Quality& quality,
   return model;
 }
 
-/// Copies a picture into the picture `to`, and clips the parts that do not fit.
+/// Copies an image into the image `to`, and clips the parts that do not fit.
 void Paste(const Image& from, int left, int top, Image& to) {
   const int first_x = std::max(0, -left);
   const int first_y = std::max(0, -top);
@@ -67,7 +67,7 @@ Font ReadFont(Offscreen& offscreen) {
 
 }  // namespace
 
-/// A part of the picture that shows one recording.
+/// A part of the frame that shows one recording.
 struct Painter::Part {
   Part(const OverlaySetup& setup, Recording& a_recording, int a_left, const Quality& quality,
        bool with_inset)
@@ -80,8 +80,8 @@ struct Painter::Part {
         legend(MakeLegend(a_recording, overlays)),
         scene(a_recording, overlays, quality.shadows) {
     if (with_inset) {
-      // The inset has no shadow map, which would take as long as drawing half of the picture's
-      // pixels.
+      // The inset is drawn without a shadow map, which would take as long as drawing half of the
+      // frame's pixels.
       inset = std::make_unique<FilmScene>(a_recording, overlays, false);
     }
   }
@@ -176,8 +176,8 @@ void Painter::Paint(Part& part, double time, Image& image) {
 }
 
 void Painter::PaintInset(Part& part, const PictureContext& context) {
-  // Smallest and largest size of the inset relative to the picture. Between these limits, the inset
-  // is as large as the panels permit.
+  // Minimum and maximum size of the inset relative to the frame. Within these limits, the inset is
+  // as large as the panels permit.
   constexpr double kMinShare = 0.15;
   constexpr double kMaxShare = 0.3;
   const Layout layout(part.width, part.height);

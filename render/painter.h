@@ -19,30 +19,30 @@ namespace trackbed::render {
 /// Settings that trade quality against rendering time.
 struct Quality {
   const char* name;
-  int supersampling;  ///< number of samples along each side of a pixel
+  int supersampling;  ///< number of supersampling samples along each side of a pixel
   bool shadows;
-  bool quick;  ///< whether to encode quickly; see FilmPictures::quick
+  bool quick;  ///< whether the film is encoded quickly; see FilmPictures::quick
 };
 
-/// Draws the pictures of a film, with the recorded worlds, overlays and captions.
+/// Draws the frames of a film, with the recorded worlds, overlays and captions.
 class Painter {
  public:
-  /// The painter keeps references to the recordings and changes their models' visual settings. At
-  /// least one recording is required, and all recordings must have the same model. The recordings
-  /// are shown side by side in parts of the picture, from left to right. `options` determines size,
-  /// cameras, quality and overlays. Throws InputError for unknown names, and RunError if there is
-  /// no off-screen OpenGL.
+  /// A painter keeps references to the recordings and changes the visual settings of their models.
+  /// At least one recording is required, and all recordings must have the same model. The
+  /// recordings are shown side by side in parts of the frame, from left to right. `options`
+  /// determines the size, cameras, quality and overlays of the film. Throws InputError for unknown
+  /// names in `options`, and RunError if there is no off-screen OpenGL.
   Painter(std::span<Recording> recordings, const FilmOptions& options);
   ~Painter();
   Painter(const Painter&) = delete;
   Painter& operator=(const Painter&) = delete;
 
-  /// Draws the picture at `time` [s].
+  /// Draws the frame for the simulated time `time` [s].
   void Paint(double time, Image& image);
 
-  /// Returns the scene of the first recording at `time` [s], as Paint draws it with the main
-  /// camera, but without two-dimensional overlays. The scene is valid until the next call of
-  /// SceneAt or Paint.
+  /// Returns the scene of the first recording at `time` [s], as drawn by Paint with the main
+  /// camera, but without two-dimensional overlays. The returned scene is valid until the next call
+  /// of SceneAt or Paint.
   mjvScene& SceneAt(double time);
   [[nodiscard]] Offscreen& offscreen() { return offscreen_; }
   [[nodiscard]] const Quality& quality() const { return quality_; }

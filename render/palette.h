@@ -5,12 +5,12 @@
 
 #include "render/image.h"
 
-/// Colors of a film, each hue with one meaning: orange for the car, white for the plan, pink for a
-/// replaced plan, violet for the wind. Red shows that a limit is reached. Blue and the other colors
-/// of CarColor show the other plants. The cross-track error has a scale of colors from dark violet
-/// over green to yellow (viridis). The hues are from Okabe and Ito, "Color universal design"
-/// (2008), lightened for contrast with asphalt. People with any common kind of color blindness can
-/// distinguish the hues.
+/// Colors of a film, where each hue has one meaning: orange for the car, white for the plan, pink
+/// for a replaced plan, violet for the wind. The color red shows that a limit is reached. The color
+/// blue and the other colors of CarColor are used for the other plants. The cross-track error is
+/// shown by a color scale from dark violet over green to yellow (viridis). The hues are taken from
+/// Okabe and Ito, "Color universal design" (2008), lightened for contrast with asphalt. People with
+/// any common kind of color blindness can distinguish the hues of a film.
 namespace trackbed::render {
 
 inline constexpr Color kPlanColor{1.00F, 1.00F, 0.97F};
@@ -19,8 +19,8 @@ inline constexpr Color kLimitColor{0.88F, 0.15F, 0.10F};
 inline constexpr Color kWindColor{0.80F, 0.76F, 1.00F};
 inline constexpr Color kGustColor{0.66F, 0.56F, 0.96F};
 
-/// Returns the color of a plant's trail and other marks. Index 0 is the car, and larger indices are
-/// ghosts.
+/// Returns the color of a plant's trail and other marks. Plant 0 is the car; plants with larger
+/// indices are ghosts.
 constexpr Color CarColor(std::size_t car) {
   constexpr std::array<Color, 5> kColors{{{1.00F, 0.55F, 0.05F},
                                           {0.34F, 0.75F, 0.97F},

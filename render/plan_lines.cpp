@@ -10,18 +10,20 @@ namespace {
 
 constexpr double kPlanWidth = 0.48;
 constexpr double kPlanHeight = 0.008;
-// A replaced plan is drawn in a color near that of asphalt, since translucent paint would be darker
-// where two pieces overlap. The line of a replaced plan is narrower than the trails of ghosts, so
-// only the part that no car has driven remains visible.
+// Replaced plans are drawn in an opaque color near that of asphalt, since translucent paint would
+// be darker where two pieces overlap. The line of a replaced plan is narrower than the trails of
+// ghosts, so only its undriven part remains visible.
 constexpr double kAbandonedWidth = 0.24;
 constexpr Color kAsphalt{0.60F, 0.62F, 0.60F};
-constexpr float kAbandonedShare = 0.35F;  // Weight of the plan's color in the mixture with the
-                                          // color of asphalt.
-// Plans that the car followed for less than this time are not shown after they are replaced [s].
-// With two replans per second, all replaced plans together would cover the road with lines.
+// Weight of the plan's color in its mixture with the color of asphalt.
+constexpr float kAbandonedShare = 0.35F;
+// Minimum time for which the car must have followed a plan [s]; otherwise the plan is not shown
+// after it is replaced. If all replaced plans were shown, two replans per second would cover the
+// road with lines.
 constexpr double kBrief = 1.0;
 
-/// Returns the style of a plan's line. `newer` is the number of plans that the car adopted later.
+/// Returns the style of the line that shows a plan. `newer` is the number of plans that the car
+/// adopted later.
 RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
   if (newer == 0) {
     return {color, kPlanWidth * scale, kPlanHeight};
@@ -29,8 +31,8 @@ RibbonStyle PlanStyle(const Color& color, std::size_t newer, double scale) {
   const auto fade = [](float own, float asphalt) {
     return asphalt + kAbandonedShare * (own - asphalt);
   };
-  // Replaced plans often overlap where they rejoin the route, so newer plans are drawn above older
-  // ones.
+  // Replaced plans often overlap where they return to the route, so newer plans are drawn above
+  // older ones.
   return {{fade(color.r, kAsphalt.r), fade(color.g, kAsphalt.g), fade(color.b, kAsphalt.b)},
           kAbandonedWidth * scale,
           std::max(kPlanHeight - 0.001 * static_cast<double>(newer), 0.002)};
@@ -93,7 +95,7 @@ class PlanLines : public Overlay {
   }
 
   const Recording& recording_;
-  std::vector<Line> lines_;  // lines in the order of time
+  std::vector<Line> lines_;  // lines of the plans in the order of time
 };
 
 }  // namespace

@@ -8,15 +8,15 @@
 
 namespace trackbed::render {
 
-/// Projects points of the world into a camera's picture.
+/// Projects points of the world into the image of a camera.
 class Projection {
  public:
-  /// Makes the projection for a picture of this size [px].
+  /// Makes the projection for an image of this size [px].
   Projection(const CameraPose& camera, int width, int height);
 
-  /// Projects a point of the world into the picture; the result may be outside the picture's
-  /// borders. Returns nullopt for a point that is behind the camera, or closer to the camera than a
-  /// tenth of the distance to the camera's target.
+  /// Projects a point of the world into the image; the result may be outside the image's borders.
+  /// Returns nullopt for a point that is behind the camera, or closer to the camera than a tenth of
+  /// the distance to the camera's target.
   [[nodiscard]] std::optional<CanvasPoint> operator()(const Eigen::Vector3d& point_W) const;
 
  private:

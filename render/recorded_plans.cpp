@@ -53,7 +53,7 @@ std::vector<Point> ReadPlan(const fs::path& file) {
   return points;
 }
 
-// The file lists the plans one after the other; each row has the time at which its plan was
+// The plan file lists the plans one after the other; each row has the time at which its plan was
 // adopted.
 std::vector<NewPlan> ReadNewPlans(const fs::path& file) {
   std::vector<NewPlan> plans;
@@ -98,7 +98,8 @@ std::vector<CurvatureProfile> ReadCurvatures(const fs::path& file, double begin)
       profiles.push_back({.from = from[i], .s = {}, .curvature = {}});
     }
     CurvatureProfile& profile = profiles.back();
-    // If several rows have the same station, as at a jump of the curvature, only the first is kept.
+    // If several rows have the same station, as at a jump of the curvature, only the first row is
+    // kept.
     if (profile.s.empty() || s[i] > profile.s.back()) {
       profile.s.push_back(s[i]);
       profile.curvature.push_back(curvature[i]);

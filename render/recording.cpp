@@ -24,10 +24,10 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
-// Reads a run folder for a film: the model, the states and log of each plant, the scenario's world,
-// plans, gates and road. Between recorded rows, positions and joint angles are interpolated
-// linearly, and quaternions linearly with normalization (nlerp). One plant, preferably a MuJoCo
-// plant, is shown as the car; the other plants are ghosts.
+// Reads the data of a run folder that a film needs: the model, the states and log of each plant,
+// the scenario's world, plans, gates and road. Between recorded rows, positions and joint angles
+// are interpolated linearly, and quaternions linearly with normalization (nlerp). One plant,
+// preferably a MuJoCo plant, is shown as the car; the other plants are ghosts.
 namespace trackbed::render {
 namespace {
 
@@ -74,7 +74,7 @@ void CheckAllAreThere(const fs::path& folder, const std::vector<std::string>& pl
   }
 }
 
-/// Returns the plants of the run, beginning with the plant that is shown as the car.
+/// Returns the names of the plants of the run, beginning with the plant that is shown as the car.
 std::vector<std::string> FindPlants(const fs::path& folder) {
   std::vector<std::string> plants = PlantsWithStates(folder);
   CheckAllAreThere(folder, plants);
@@ -84,7 +84,7 @@ std::vector<std::string> FindPlants(const fs::path& folder) {
   return plants;
 }
 
-/// Returns the plants to film: the plants in `selected`, or all plants if `selected` is empty.
+/// Returns the names of the plants to film: `selected` or, if `selected` is empty, all plants.
 std::vector<std::string> SelectPlants(const fs::path& folder, std::vector<std::string> available,
                                       const std::vector<std::string>& selected) {
   for (const std::string& plant : selected) {
@@ -104,8 +104,8 @@ void AddGates(const fs::path& file, Recording& recording) {
     for (const Point& cone : cones) {
       recording.cones.push_back(recording.OnGround(cone));
     }
-    // The cones are in pairs, left and right of the lane, from entry to exit. The outline of a gate
-    // connects its first and its last pair.
+    // The cones of a gate are listed in pairs, left and right of the lane, from entry to exit. The
+    // outline of a gate connects the first and the last pair of its cones.
     if (cones.size() >= 4) {
       const std::size_t last = cones.size() - 1;
       std::vector<Point> corners;
@@ -117,7 +117,7 @@ void AddGates(const fs::path& file, Recording& recording) {
   }
 }
 
-/// Returns the planner's name in a plan.json; empty if the file is missing.
+/// Returns the name of the planner from a plan.json; empty if the file is missing.
 std::string PlannerOf(const fs::path& file) {
   std::error_code ignored;
   if (!fs::exists(file, ignored)) {
@@ -127,8 +127,8 @@ std::string PlannerOf(const fs::path& file) {
   return method ? method->Text() : "";
 }
 
-/// Returns the station in the second log minus the station in the first log [m]; nullopt if a log
-/// has no stations.
+/// Returns the station of the second log's car minus that of the first log's car [m]; nullopt if a
+/// log has no stations.
 std::optional<double> StationBetween(const TimedTable& first, const TimedTable& second,
                                      double time) {
   const std::optional<std::size_t> own = first.Find("s_m");
@@ -139,8 +139,8 @@ std::optional<double> StationBetween(const TimedTable& first, const TimedTable& 
   return second.Value(second.At(time), *other) - first.Value(first.At(time), *own);
 }
 
-/// Returns the car's largest steering rate at the road wheels [rad/s]; 0 if the model has no such
-/// rate.
+/// Returns the car's maximum steering rate at the road wheels [rad/s]; 0 if the model defines no
+/// steering rate.
 double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   const auto number = [&](const char* name) {
     const int id = mj_name2id(&model, mjOBJ_NUMERIC, name);
@@ -150,8 +150,8 @@ double SteeringRate(const mjModel& model, const VehicleSpec& vehicle) {
   return vehicle.steering_rate.value_or(ratio > 0.0 ? number("steering_wheel_rate") / ratio : 0.0);
 }
 
-/// Reads the times of first contact and roll-over from metrics.json. Without metrics.json, the time
-/// of contact is read from the log, and the time of a roll-over is unknown.
+/// Reads the times of first contact and roll-over from metrics.json. If metrics.json is missing,
+/// the time of contact is read from the log, and the time of a roll-over is unknown.
 void ReadMishaps(const fs::path& folder, Recording& recording) {
   const PlantRecording& car = recording.plants.front();
   const fs::path metrics = folder / run_folder::kMetricsJson;
@@ -176,7 +176,7 @@ void ReadMishaps(const fs::path& folder, Recording& recording) {
   }
 }
 
-/// Returns a text on the car's parameters that the scenario changed.
+/// Returns a text that lists the car's parameters that the scenario changed.
 std::string VehicleNote(const VehicleSpec& vehicle) {
   return vehicle.steering_rate
              ? fmt::format("steering rate set to {:.2f} rad/s", *vehicle.steering_rate)
@@ -241,8 +241,8 @@ void PlantRecording::Pose(double time, const mjModel& model, mjData& data) const
   for (std::size_t i = 0; i < 3; ++i) {
     pose[i] = state_.Value(place, pose_columns_[i]);
   }
-  // Quaternions q and -q describe the same rotation, so the sign is chosen that gives the shorter
-  // arc.
+  // The quaternions q and -q describe the same rotation, so the sign with the shorter arc is
+  // chosen.
   double dot = 0.0;
   for (std::size_t i = 3; i < 7; ++i) {
     dot += state_.table().at(place.row, pose_columns_[i]) *
@@ -405,8 +405,9 @@ Recording ReadRecording(const fs::path& folder, const std::vector<std::string>& 
                                    run_folder::RequireFile(folder / run_folder::kScenarioYaml));
   }
   if (recording.world.road_network) {
-    constexpr double kSpacing = 1.0;  // spacing of points along lines [m]; deviates by 1 cm from an
-                                      // arc with a radius of 12 m
+    // spacing of points along lines [m]; a polyline with this spacing deviates by 1 cm from an arc
+    // with a radius of 12 m
+    constexpr double kSpacing = 1.0;
     recording.roads =
         PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
   }

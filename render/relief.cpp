@@ -13,13 +13,14 @@ namespace trackbed::render {
 namespace {
 
 constexpr Color kContour{0.52F, 0.40F, 0.26F};
-constexpr double kWidth = 0.09;     // Width of the contour lines [m].
-constexpr double kHeight = 0.0015;  // Height above the ground, below all other paint [m].
-constexpr double kMargin = 30.0;    // Margin of the area with contour lines around the plan and all
-                                    // driven paths [m].
+constexpr double kWidth = 0.09;  // Width of the contour lines [m].
+// Height of the contour lines above the ground, below all other paint [m].
+constexpr double kHeight = 0.0015;
+// Margin by which the area with contour lines extends beyond the plan and all driven paths [m].
+constexpr double kMargin = 30.0;
 constexpr double kMaxReliefCells = 4e4;
-constexpr double kMinSpan = 0.02;  // height difference below which the ground is treated as level
-                                   // [m]
+// height difference below which the ground is treated as level [m]
+constexpr double kMinSpan = 0.02;
 
 class Relief : public Overlay {
  public:
@@ -79,8 +80,7 @@ class Relief : public Overlay {
     }
   }
 
-  /// Adds contour lines of a bump or side slope at a quarter, a half and three quarters of its
-  /// height.
+  /// Adds contour lines of a bump or side slope at 25 %, 50 % and 75 % of its height.
   template <typename Feature>
   void AddFeature(const Feature& feature) {
     const std::array<Vec2, 4> corners = Extent(feature).Corners();
@@ -90,7 +90,7 @@ class Relief : public Overlay {
       low = low.cwiseMin(corner);
       high = high.cwiseMax(corner);
     }
-    constexpr double kCells = 60.0;  // number of grid cells along the longer side
+    constexpr double kCells = 60.0;  // number of grid cells along the longer side of the area
     const IsolineGrid grid(low, high, (high - low).maxCoeff() / kCells,
                            [&](const Vec2& point) { return Rise(feature, point); });
     for (const double share : {0.25, 0.5, 0.75}) {
@@ -110,8 +110,8 @@ class Relief : public Overlay {
 
   const Recording& recording_;
   std::vector<std::vector<Point>> lines_;
-  double interval_ = 0.0;  // height between contour lines of the whole ground [m]; 0 if there are
-                           // none
+  // height interval between contour lines of the whole ground [m]; 0 if there are no such lines
+  double interval_ = 0.0;
 };
 
 }  // namespace

@@ -10,7 +10,8 @@
 namespace trackbed::render {
 namespace {
 
-/// Returns the distance from a point to a segment, with vertical distances multiplied by five.
+/// Returns the distance between a point and a line segment, with vertical distances multiplied by
+/// five.
 double DistanceToSegment(const Point& p, const Point& a, const Point& b) {
   constexpr double kHeightWeight = 5.0;
   const double dx = b.x - a.x;
@@ -32,8 +33,8 @@ bool Replaces(const std::vector<Point>& points, std::size_t first, std::size_t l
   return true;
 }
 
-/// Thins greedily: extends each piece as far as the tolerance allows, by doubling its length, then
-/// by bisection.
+/// Thins the line greedily: makes each piece as long as the tolerance allows, by doubling its
+/// length, then by bisection.
 std::vector<std::size_t> ThinOnce(const std::vector<Point>& points, double tolerance) {
   constexpr std::size_t kMaxSkipped = 512;
   std::vector<std::size_t> kept{0};
@@ -64,7 +65,7 @@ std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance
     return {};
   }
   std::vector<std::size_t> kept = ThinOnce(points, tolerance);
-  // Doubling the tolerance 30 times makes it larger than any road.
+  // After doubling 30 times, the tolerance is larger than any road.
   for (int doublings = 0; kept.size() > max_pieces + 1 && doublings < 30; ++doublings) {
     tolerance *= 2.0;
     kept = ThinOnce(points, tolerance);
@@ -79,11 +80,11 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   if (length < 1e-6) {
     return;
   }
-  // Neighboring pieces overlap, so they alternate between two heights. At equal heights, a lamp
-  // with shadows would light the overlap twice.
+  // Neighboring pieces of a line overlap, so they alternate between two heights. If the heights
+  // were equal, a lamp with shadows would light the overlap twice.
   constexpr double kStagger = 0.0005;
-  // The angle between neighboring pieces is at most about 15 degrees. An overlap of tan(15/2
-  // degrees) times half the width therefore closes the outer corner.
+  // The angle between neighboring pieces of a line is at most about 15 degrees. An overlap of the
+  // pieces by tan(15/2 degrees) times half the width therefore closes the outer corner.
   const double overlap = 0.15 * 0.5 * style.width;
   RowMajorMatrix3 rotation;
   rotation.col(0) = along / length;
@@ -93,11 +94,11 @@ void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const Ribbo
   const Eigen::Vector3d center = Eigen::Vector3d(a.x, a.y, a.z) + 0.5 * along +
                                  (style.height + (scene.ngeom % 2) * kStagger) * rotation.col(2);
   const std::array<float, 4> rgba{style.color.r, style.color.g, style.color.b, 1.0F};
-  // The piece is a plane, which casts no shadow: MuJoCo draws back faces into its shadow map, and a
-  // plane has none. A thin box would cast speckled shadows on its own upper face, because the
-  // shadow map's depth is too coarse.
+  // The piece is drawn as a plane, which casts no shadow: MuJoCo draws back faces into its shadow
+  // map, and a plane has none. A thin box would cast speckled shadows on its own upper face,
+  // because the shadow map's depth is too coarse.
   if (mjvGeom* piece = AddDecor(scene, mjGEOM_PLANE, size, center, rotation, rgba)) {
-    piece->emission = 0.08F;  // glow that keeps paint brighter than the road, even in the shade
+    piece->emission = 0.08F;  // emission that keeps paint brighter than the road, even in the shade
   }
 }
 

@@ -15,22 +15,24 @@ namespace trackbed::render {
 struct RibbonStyle {
   Color color;
   double width = 0.2;  ///< Width of the line [m].
-  /// Height above the ground [m]; ribbons whose heights differ by less than a millimeter flicker.
+  /// Height of the ribbon above the ground [m]; ribbons whose heights differ by less than a
+  /// millimeter flicker.
   double height = 0.01;
 };
 
-/// Thins a polyline to a few straight pieces. Returns the indices of the kept points, which include
-/// both ends.
+/// Thins a polyline to a few straight pieces. Returns the indices of the kept points of the
+/// polyline, which include both ends.
 ///
-/// The distance of an omitted point from the piece that replaces it is at most the tolerance. The
-/// vertical distance is at most a fifth of the tolerance, so that paint does not sink into the
-/// ground. The tolerance is `tolerance` [m], doubled until at most `max_pieces` pieces are left.
-/// The run time for roads is O(n), since a piece never spans more than 512 points.
+/// The distance between an omitted point and the piece that replaces it is at most the tolerance.
+/// The vertical distance between an omitted point and its piece is at most a fifth of the
+/// tolerance, so that paint does not sink into the ground. The tolerance starts at `tolerance` [m]
+/// and is doubled until at most `max_pieces` pieces are left. The run time is proportional to the
+/// number of points of a road, since a piece never spans more than 512 points.
 std::vector<std::size_t> Thin(const std::vector<Point>& points, double tolerance,
                               std::size_t max_pieces);
 
 /// Appends one straight piece of a line to the scene. The piece extends slightly beyond `a` and
-/// `b`, so that there are no gaps in corners between pieces. `normal` is the ground's normal
+/// `b`, so that there are no gaps between pieces at corners. `normal` is the ground's normal
 /// between `a` and `b`. AddRibbonPiece does nothing if the points coincide or the scene is full.
 void AddRibbonPiece(mjvScene& scene, const Point& a, const Point& b, const RibbonStyle& style,
                     const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ());

@@ -9,50 +9,53 @@
 #include "render/ground_paint.h"
 #include "render/ribbon.h"
 
-// Draws roads on the ground, in layers of different height. Asphalt consists of flat tiles that
-// follow the ground. Gravel verges, edge lines, dashes and road marks are ribbons; posts stand
-// beside the road. The center line of a road comes from the road network, the track or the plan.
-// Along a plan, the center line has a point every 0.5 m. To limit the number of shapes, lines are
-// thinned and pieces far from the camera's target are skipped.
+// Draws roads on the ground in several layers of different height. The asphalt consists of flat
+// tiles that follow the ground. Gravel verges, edge lines, dashes and road marks are ribbons; posts
+// stand beside the road. The center line of a road is taken from the road network, the track or the
+// plan. A center line along a plan has a point every 0.5 m. To limit the number of shapes, lines
+// are thinned and pieces far from the camera's target are omitted.
 namespace trackbed::render {
 namespace {
 
 constexpr Color kRoadColor{0.40F, 0.41F, 0.42F};
 constexpr Color kPaint{0.93F, 0.93F, 0.90F};
 constexpr Color kYellowPaint{0.90F, 0.72F, 0.20F};
-constexpr float kGroundUnderRoad = 0.006F;  // Depth by which the ground is lowered, to stay below
-                                            // the asphalt [m].
-constexpr double kShoulder = 0.4;           // Width of the asphalt outside the edge lines [m].
-constexpr double kLineWidth = 0.14;         // Width of a painted line [m].
-constexpr double kVergeWidth = 1.05;        // Width of the gravel verge, which covers the rough
-                                            // edge of the asphalt [m].
-constexpr double kVergeBegin = 0.22;        // Distance from the center of the edge line to the
-                                            // gravel [m].
+// Depth by which the ground surface is lowered, so that it stays below the asphalt [m].
+constexpr float kGroundUnderRoad = 0.006F;
+// Width of the strip of asphalt outside the edge lines [m].
+constexpr double kShoulder = 0.4;
+constexpr double kLineWidth = 0.14;   // Width of a painted line [m].
+constexpr double kVergeWidth = 1.05;  // Width of the gravel verge, which covers the rough
+                                      // edge of the asphalt [m].
+constexpr double kVergeBegin = 0.22;  // Distance from the center of the edge line to the
+                                      // gravel [m].
 constexpr Color kGravel{0.58F, 0.54F, 0.45F};
-constexpr double kVergeHeight = -0.0015;   // Height of the verge [m]; higher than the asphalt,
-                                           // whose corners the verge covers.
-constexpr double kAsphaltHeight = -0.003;  // Height of the asphalt, below all other paint [m].
-constexpr double kAsphaltRange = 250.0;    // Distance beyond which asphalt would be thinner than a
-                                           // pixel [m].
+// Height of the gravel verge above the ground [m]; higher than the asphalt, whose corners the verge
+// covers.
+constexpr double kVergeHeight = -0.0015;
+// Height of the asphalt above the ground, below all other paint [m].
+constexpr double kAsphaltHeight = -0.003;
+// Distance from the camera's target beyond which asphalt would be thinner than a pixel [m].
+constexpr double kAsphaltRange = 250.0;
 constexpr double kPaintHeight = -0.001;
-constexpr double kDash = 3.0;         // Length of a dash [m].
+constexpr double kDash = 3.0;         // Length of a dash of a lane line [m].
 constexpr double kDashPeriod = 9.0;   // Distance from the start of a dash to the start of the next
                                       // [m].
-constexpr double kPostPeriod = 10.0;  // Distance between posts [m].
-constexpr double kPostRange = 120.0;  // Distance beyond which posts would be thinner than a pixel
-                                      // [m].
-constexpr double kPostHeight = 1.0;   // Height of a post [m].
+constexpr double kPostPeriod = 10.0;  // Distance between two road posts along the road [m].
+// Distance from the camera's target beyond which posts would be thinner than a pixel [m].
+constexpr double kPostRange = 120.0;
+constexpr double kPostHeight = 1.0;  // Height of a road post [m].
 
-/// A point of a line, with the direction to the left of the line.
+/// A point of a line, with the unit vector to the left of the line.
 struct Spot {
   Point point;
   Vec2 left;
 };
 
-/// Returns points every `step` [m] along a line, beginning at its start.
+/// Returns points every `step` [m] along a line, beginning at the start of the line.
 std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
   std::vector<Spot> spots;
-  double ahead = 0.0;  // distance to the next point
+  double ahead = 0.0;  // distance along the line to the next point
   for (std::size_t i = 1; i < line.size(); ++i) {
     const Vec2 from(line[i - 1].x, line[i - 1].y);
     const Vec2 piece = Vec2(line[i].x, line[i].y) - from;
@@ -66,7 +69,8 @@ std::vector<Spot> SpotsAlong(const std::vector<Point>& line, double step) {
   return spots;
 }
 
-/// A road, given by the points of its center line and half its width at each point [m].
+/// A road, given by the points of the road's center line and half the road's width at each point
+/// [m].
 struct Roadway {
   std::vector<Spot> spots;
   std::vector<double> half;
@@ -93,16 +97,17 @@ Roadway AlongTrack(const Track& track) {
 }
 
 bool NearTheCamera(const CameraPose& camera, const Point& place) {
-  constexpr double kNearFraction = 0.6;  // distance that counts as near, as a fraction of the
-                                         // camera's distance from its target
+  // distance from the camera that counts as near, as a fraction of the distance from the camera to
+  // its target
+  constexpr double kNearFraction = 0.6;
   const double level = camera.distance * std::cos(camera.elevation);
   const double x = place.x - camera.target_x + level * std::cos(camera.azimuth);
   const double y = place.y - camera.target_y + level * std::sin(camera.azimuth);
   return !camera.inside && std::hypot(x, y) < kNearFraction * level;
 }
 
-/// Colors the ground like grass and lowers it slightly, so that the depth buffer can separate the
-/// ground from the road.
+/// Colors the ground like grass and lowers the ground slightly, so that the depth buffer can
+/// separate it from the road.
 void PaintGround(const mjModel& model, mjvScene& scene) {
   const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
   for (int i = 0; i < scene.ngeom; ++i) {
@@ -134,7 +139,7 @@ class RoadRibbons : public Overlay {
     if (recording_.track) {
       dashes_.emplace_back(OffsetFrom(way.spots.front(), way.half.front()),
                            OffsetFrom(way.spots.front(), -way.half.front()));
-      return;  // a track has a start line, but neither lanes nor posts
+      return;  // the road of a track has a start line, but neither lanes nor posts
     }
     const int lanes = recording_.road->lanes;
     for (int lane = 1; lane < lanes; ++lane) {
@@ -189,7 +194,7 @@ class RoadRibbons : public Overlay {
   }
 
  private:
-  /// A road mark of the road network.
+  /// A line of paint of the road network, such as an edge line.
   struct NetworkLine {
     std::vector<Point> points;
     RibbonStyle style;
@@ -199,23 +204,25 @@ class RoadRibbons : public Overlay {
   void AddNetwork() {
     for (const PavedBand& band : recording_.roads.bands) {
       for (std::size_t i = 1; i < band.left.size(); ++i) {
-        // Each tile extends across the road, from border to border. Neighboring tiles overlap, so
-        // they alternate between two heights.
+        // Each tile of asphalt extends across the road, from border to border. Neighboring tiles of
+        // asphalt overlap, so they alternate between two heights.
         const Vec2 from = 0.5 * (band.left[i - 1] + band.right[i - 1]);
         const Vec2 to = 0.5 * (band.left[i] + band.right[i]);
         const Vec2 along = to - from;
         const Vec2 center = 0.5 * (from + to);
         const double width = 0.5 * ((band.left[i - 1] - band.right[i - 1]).norm() +
                                     (band.left[i] - band.right[i]).norm());
-        // In a bend, the outer border of a road is longer than the center line.
+        // In a bend, the outer border of a road is longer than its center line.
         const double length = std::max((band.left[i] - band.left[i - 1]).norm(),
                                        (band.right[i] - band.right[i - 1]).norm());
-        constexpr double kTolerance = 0.0007;  // keeps tiles below the paint on them [m]
+        // distance that keeps tiles below the paint on them [m]
+        constexpr double kTolerance = 0.0007;
         Tile like;
         like.color = kRoadColor;
         const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
-        constexpr double kOverlap = 0.1;  // overlap with each neighboring tile [m]; without
-                                          // overlap, the ground would be visible between tiles
+        // overlap of a tile with each neighboring tile [m]; without overlap, the ground would be
+        // visible between tiles
+        constexpr double kOverlap = 0.1;
         const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                               length + 2.0 * kOverlap,
                               width};
@@ -230,7 +237,7 @@ class RoadRibbons : public Overlay {
       for (const Vec2& point : line.points) {
         points.push_back(recording_.OnGround({point.x(), point.y()}));
       }
-      // On uneven ground, lines are not thinned, since a thinned line would sink below the asphalt
+      // Lines on uneven ground are not thinned, since a thinned line would sink below the asphalt
       // at crests.
       const bool flat = IsFlat(recording_.world.ground);
       network_lines_.push_back({flat ? Thinned(points) : points,
@@ -253,8 +260,8 @@ class RoadRibbons : public Overlay {
     return Thinned(line);
   }
 
-  /// Thins the edge of the gravel, with a tolerance of 3 cm. The edge is thinned only on flat
-  /// ground, where no point can sink below the surface.
+  /// Thins the edge of the gravel, with a tolerance of 3 cm. The edge of the gravel is thinned only
+  /// on flat ground, where no point can sink below the surface.
   [[nodiscard]] std::vector<Point> Coarse(const std::vector<Point>& line) const {
     if (!IsFlat(recording_.world.ground)) {
       return line;
@@ -267,8 +274,8 @@ class RoadRibbons : public Overlay {
     return points;
   }
 
-  /// Adds the asphalt as straight pieces, which are longer than the pieces of the edge lines on
-  /// top.
+  /// Adds the asphalt as straight pieces, which are longer than the pieces of the edge lines above
+  /// the asphalt.
   void AddAsphalt(const Roadway& way) {
     constexpr double kCoarse = 0.1;       // [m]
     constexpr double kTolerance = 0.002;  // [m]
@@ -288,12 +295,12 @@ class RoadRibbons : public Overlay {
       const auto first = way.half.begin() + static_cast<std::ptrdiff_t>(kept[i - 1]);
       const auto last = way.half.begin() + static_cast<std::ptrdiff_t>(kept[i]);
       const double width = 2.0 * (*std::max_element(first, last + 1) + kShoulder);
-      const double overlap = 0.15 * 0.5 * width;  // overlap of neighboring pieces, as in
-                                                  // AddRibbonPiece
+      // overlap of neighboring pieces of asphalt, as in AddRibbonPiece
+      const double overlap = 0.15 * 0.5 * width;
       const OrientedBox box{{center.x(), center.y(), std::atan2(along.y(), along.x())},
                             along.norm() + 2.0 * overlap,
                             width};
-      // Neighboring pieces overlap, so they alternate between two heights.
+      // Neighboring pieces of asphalt overlap, so they alternate between two heights.
       const double above = kAsphaltHeight + (i % 2 == 0 ? 0.0 : 0.0008);
       const std::vector<Tile> tiles =
           CutToGround(recording_.world.ground, box, like, above, kTolerance);
@@ -312,7 +319,7 @@ class RoadRibbons : public Overlay {
   static void AddPost(SceneContext& context, const Point& post) {
     const double away =
         std::hypot(post.x - context.camera.target_x, post.y - context.camera.target_y);
-    // Skips posts next to the camera, since they would hide the car.
+    // Omits posts next to the camera, because these posts would hide the car.
     const bool near = NearTheCamera(context.camera, post);
     if (away < kPostRange && !near) {
       const std::array<mjtNum, 3> size{0.06, 0.06, 0.5 * kPostHeight};
@@ -322,7 +329,7 @@ class RoadRibbons : public Overlay {
                    RowMajorMatrix3::Identity(), rgba);
       if (geom != nullptr) {
         geom->category = kCastsShadow;
-        geom->emission = 0.35F;  // glow that keeps the post white on its shaded side
+        geom->emission = 0.35F;  // emission that keeps the post white on its shaded side
       }
     }
   }

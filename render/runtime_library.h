@@ -4,22 +4,23 @@
 
 namespace trackbed::render {
 
-/// A shared library that is loaded on first use, not at program start. OSMesa, LLVM and FFmpeg
-/// together load 140 shared libraries, which many programs do not need. The library is never
-/// unloaded.
+/// A shared library that is loaded on first use, not at program start. Loading on first use saves
+/// time in many programs, since OSMesa, LLVM and FFmpeg together load 140 shared libraries. The
+/// shared library is never unloaded.
 class RuntimeLibrary {
  public:
   enum class Symbols {
     kLocal,
-    kGlobal,  ///< Symbols are also visible to libraries that search the whole process, such as
-              ///< MuJoCo.
+    /// Makes the library's symbols visible also to libraries that search the whole process, such as
+    /// MuJoCo.
+    kGlobal,
   };
 
-  /// Loads the library. Throws RunError naming the library and its Debian package `package` if the
-  /// library cannot be loaded.
+  /// Loads the library. Throws RunError, naming the library and its Debian package `package`, if
+  /// the library cannot be loaded.
   RuntimeLibrary(std::string file, std::string package, Symbols symbols = Symbols::kLocal);
 
-  /// Finds the library's function with this name and the type `Function`. Throws RunError if the
+  /// Returns the library's function with this name and the type `Function`. Throws RunError if the
   /// library has no such function.
   template <typename Function>
   [[nodiscard]] Function* Find(const char* name) const {

@@ -16,20 +16,25 @@
 namespace trackbed::render {
 namespace {
 
-// Beyond this distance from the camera's target, patches would be thinner than a pixel [m].
+// Distance from the camera's target beyond which friction patches would be thinner than a pixel
+// [m].
 constexpr double kPaintRange = 250.0;
 
-constexpr float kPaintShade = 0.86F;  // factor that darkens a plant's color on sunlit bodies
+// factor that darkens the color of a plant on sunlit car bodies
+constexpr float kPaintShade = 0.86F;
 
-constexpr float kSunk = 0.002F;  // depth by which height fields are lowered [m]
+// depth by which height fields are lowered below their true height [m]
+constexpr float kSunk = 0.002F;
 
-// Several nested dark layers make a soft shadow under the car. A shadow map would take half the
-// rendering time of a picture.
+// Several nested dark layers make a soft shadow under the car. A shadow map instead would take half
+// the rendering time of a frame.
 constexpr int kShadowLayers = 6;
-constexpr float kShadowAlpha = 0.055F;  // Alpha of one layer; MuJoCo draws translucent shapes
-                                        // twice.
-constexpr double kShadowSpread = 0.09;  // Widening from one layer to the next [m].
-constexpr double kShadowHeight = 0.03;  // Height of the shadow, above all paint [m].
+// Alpha value of one layer of the shadow; MuJoCo draws translucent shapes twice.
+constexpr float kShadowAlpha = 0.055F;
+// Distance by which each layer of the shadow is wider than the previous one [m].
+constexpr double kShadowSpread = 0.09;
+// Height of the shadow above the ground, higher than all paint [m].
+constexpr double kShadowHeight = 0.03;
 
 std::int64_t MaxGeoms(const Recording& recording, const std::vector<Tile>& patches,
                       const OverlayList& overlays) {
@@ -37,12 +42,13 @@ std::int64_t MaxGeoms(const Recording& recording, const std::vector<Tile>& patch
   for (const auto& overlay : overlays) {
     count += overlay->max_shapes();
   }
-  // Allows for the model's geoms, the shapes that MuJoCo adds, and the shapes of overlays.
+  // The number of geoms allows for the model's geoms, the shapes that MuJoCo adds, and the shapes
+  // of overlays.
   return 2 * recording.model->ngeom + 200 + static_cast<std::int64_t>(count);
 }
 
-/// Whether the camera sees anything beyond the ground. If a camera sees only ground, the sky is not
-/// drawn, which saves a third of the rendering time.
+/// Whether the camera sees anything other than the ground. If a camera sees only ground, the sky is
+/// not drawn, which saves a third of the rendering time.
 bool SeesSky(const mjModel& model, const World& world, const CameraPose& camera) {
   const int ground = mj_name2id(&model, mjOBJ_GEOM, "ground");
   const bool endless = ground >= 0 && model.geom_type[ground] == mjGEOM_PLANE &&
@@ -53,8 +59,8 @@ bool SeesSky(const mjModel& model, const World& world, const CameraPose& camera)
   return !endless || camera.elevation + 0.5 * camera.view_angle > horizon - kHaze;
 }
 
-/// Lowers height fields slightly. Otherwise they would flicker where they coincide with the ground
-/// plane.
+/// Lowers height fields slightly. Height fields that are not lowered would flicker where they
+/// coincide with the ground plane.
 void SinkHeightFields(mjvScene& scene) {
   for (int i = 0; i < scene.ngeom; ++i) {
     if (scene.geoms[i].type == mjGEOM_HFIELD) {
@@ -105,7 +111,8 @@ mjvScene& FilmScene::At(double time, const CameraPose& camera) {
   SinkHeightFields(scene);
   for (int i = 0; i < scene.ngeom; ++i) {
     if (scene.geoms[i].type == mjGEOM_PLANE) {
-      scene.geoms[i].category = mjCAT_DECOR;  // keeps the ground from casting shadows on itself
+      // this keeps the ground from casting shadows on itself
+      scene.geoms[i].category = mjCAT_DECOR;
     }
   }
   FadeOccluders(time, camera);
@@ -139,8 +146,8 @@ void FilmScene::Aim(const CameraPose& camera) {
   camera_.azimuth = camera.azimuth * 180.0 / kPi;
   camera_.elevation = camera.elevation * 180.0 / kPi;
   model.vis.global.fovy = static_cast<float>(camera.view_angle * 180.0 / kPi);
-  // The near clipping plane is as far from the camera as the car allows, because its distance
-  // determines the resolution of the depth buffer.
+  // The near clipping plane is as far from the camera as the car allows, because a larger distance
+  // improves the resolution of the depth buffer.
   model.vis.map.znear = static_cast<float>(0.1 * camera.distance / model.stat.extent);
   model.vis.map.zfar = static_cast<float>((1000.0 + 2.0 * camera.distance) / model.stat.extent);
 }
@@ -211,8 +218,8 @@ void FilmScene::AddContactShadow() {
   }
   const mjtNum* center = car_data_->site_xpos + 3 * site;
   const mjtNum* rotation = car_data_->site_xmat + 9 * site;
-  // The shadow lies in a plane through four points of the ground, one under the middle of each side
-  // of the car's footprint.
+  // The car's soft shadow lies in a plane through four points of the ground, one under the middle
+  // of each side of the car's footprint.
   const Pose2 middle{center[0], center[1], std::atan2(rotation[3], rotation[0])};
   const auto side = [&](double forward, double left) {
     const Vec2 p = ToWorld(
@@ -229,7 +236,7 @@ void FilmScene::AddContactShadow() {
       box_.scale() * kShadowHeight * flat.col(2);
   const std::array<float, 4> rgba{0.0F, 0.0F, 0.02F, kShadowAlpha};
   for (int layer = 0; layer < kShadowLayers; ++layer) {
-    // The smallest layer is inside the car's outline, and the largest is outside.
+    // The smallest layer of the shadow is inside the car's outline, and the largest is outside.
     const double wider = box_.scale() * kShadowSpread * (layer - 0.5 * kShadowLayers);
     const std::array<mjtNum, 3> size{model.site_size[3 * site] + wider,
                                      model.site_size[3 * site + 1] + wider, 0.0005};

@@ -13,25 +13,25 @@
 
 namespace trackbed::render {
 
-/// Drawing properties of a geom of the model.
+/// Drawing properties of one geom of the model.
 struct CarPart {
   bool of_car = false;
-  bool painted = false;  ///< whether the geom has the plant's color
+  bool painted = false;  ///< whether the geom is drawn in the plant's color
 };
 
-/// Finds the drawing properties of each geom of the model.
+/// Returns the drawing properties of each geom of the model.
 std::vector<CarPart> FindCarParts(const mjModel& model);
 
 /// The 3D scene of a film: the recorded world at a given time, with the shapes of overlays.
 class FilmScene {
  public:
-  /// Keeps references to the recording and the overlays. FilmScene changes the lens and the
-  /// clipping planes in the model's visual settings. With `shadows`, MuJoCo computes the shadows of
-  /// the model's lights; otherwise a soft dark patch is drawn under the car.
+  /// A FilmScene keeps references to the recording and the overlays. FilmScene changes the lens and
+  /// the clipping planes in the model's visual settings. If `shadows` is set, MuJoCo computes the
+  /// shadows of the model's lights; otherwise a soft dark patch is drawn under the car.
   FilmScene(Recording& recording, const OverlayList& overlays, bool shadows);
 
-  /// Returns the scene at `time` [s], as seen from `camera`. The scene is valid until the next
-  /// call.
+  /// Returns the scene at `time` [s], as seen from `camera`. The returned scene is valid until the
+  /// next call of At().
   mjvScene& At(double time, const CameraPose& camera);
   /// Returns MuJoCo's data of the car in the scene that At() returned last.
   [[nodiscard]] const mjData& car() const { return *car_data_; }
@@ -48,9 +48,9 @@ class FilmScene {
   const OverlayList& overlays_;
   std::vector<Tile> patches_;
   CarBox box_;
-  std::vector<CarPart> car_parts_;   // Drawing properties of each geom of the model.
-  std::vector<int> obstacle_geoms_;  // Index of each obstacle's geom; -1 if the model has no such
-                                     // geom.
+  std::vector<CarPart> car_parts_;  // Drawing properties of each geom of the model.
+  // Index of each obstacle's geom; -1 if the model has no geom for the obstacle.
+  std::vector<int> obstacle_geoms_;
   MujocoData car_data_;
   SceneHandle scene_;
   mjvOption visible_;

@@ -6,7 +6,7 @@
 
 namespace trackbed::render {
 
-/// Owns an mjvScene and frees it.
+/// Owns an mjvScene and frees the scene on destruction.
 class SceneHandle {
  public:
   SceneHandle(const mjModel& model, std::int64_t max_geoms) {

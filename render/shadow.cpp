@@ -10,18 +10,19 @@
 namespace trackbed::render {
 namespace {
 
-constexpr int kShadowMapSide = 4096;  // side of the shadow map [texels]; a side of 8192 would take
-                                      // a quarter of a picture's rendering time
+// side of the square shadow map [texels]; a side of 8192 would take a quarter of a frame's
+// rendering time
+constexpr int kShadowMapSide = 4096;
 
 }  // namespace
 
 double ShadowReach(const CameraPose& camera) {
   const double half_height = camera.distance * std::tan(0.5 * camera.view_angle);
-  // With a reach of 3.5 half heights of the picture, the side of the map is 7 half heights. The
-  // map's 4096 texels then give 1.6 texels per pixel of a picture with 720 rows.
+  // If the reach is 3.5 half heights of the frame, the side of the shadow map is 7 half heights.
+  // The shadow map's 4096 texels then yield 1.6 texels per pixel of a frame with 720 rows.
   constexpr double kMaxHalfHeights = 3.5;
-  // For a camera that looks down: half the diagonal of a picture with an aspect ratio of up to
-  // 21:9, in half heights of the picture.
+  // Half the diagonal of a frame with an aspect ratio of up to 21:9, in half heights of the frame;
+  // used for a camera that looks down.
   const double seen = 2.5 / std::max(0.1, std::sin(-camera.elevation));
   return half_height * std::min(kMaxHalfHeights, seen);
 }
@@ -33,18 +34,18 @@ void FitShadowMap(mjModel& model, const CameraPose& camera) {
 
 void AimLamps(mjvScene& scene, const CameraPose& camera) {
   const double reach = ShadowReach(camera);
-  // The map is centered ahead of the target, since little ground is visible between camera and
-  // target.
+  // The shadow map is centered beyond the camera's target, since little ground is visible between
+  // camera and target.
   const double ahead = 0.6 * reach * std::cos(camera.elevation);
-  // The map moves in steps, so that its texels stay in place between two steps. The edges of static
-  // shadows therefore do not flicker.
+  // The shadow map moves in steps, so that its texels stay in place between two steps. Moving the
+  // shadow map in steps keeps the edges of static shadows from flickering.
   const double step = 0.1 * reach;
   const auto in_steps = [step](double place) { return step * std::round(place / step); };
   const std::array<double, 3> middle{in_steps(camera.target_x + ahead * std::cos(camera.azimuth)),
                                      in_steps(camera.target_y + ahead * std::sin(camera.azimuth)),
                                      camera.ground_z};
-  // The lamp is so far away that all ground in the map is in front of it, if the elevation of the
-  // lamp is at least 20 degrees.
+  // The lamp is placed so far away that all ground in the shadow map is in front of it, if the
+  // lamp's elevation is at least 20 degrees.
   const double back = 3.0 * reach;
   for (int i = 0; i < scene.nlight; ++i) {
     mjvLight& lamp = scene.lights[i];

@@ -4,18 +4,20 @@
 
 #include "render/camera.h"
 
-/// MuJoCo's shadow map is a square picture of the scene as seen from a lamp. The model sets the
-/// size of the square, whose center is the lamp. Objects outside the square cast no shadow. The
-/// functions in this file center the shadow map on the area that the camera sees.
+/// MuJoCo's shadow map is a square image of the scene as seen from a lamp. The model determines the
+/// size of the shadow map, whose center is at the lamp. Objects outside the square of the shadow
+/// map cast no shadow. The functions of shadow.h center the shadow map on the area that the camera
+/// sees.
 namespace trackbed::render {
 
 /// Returns half the side of the shadow map [m]. For a camera that looks down from above, the shadow
-/// map covers everything visible. For a camera that sees the horizon, the size of the map is
-/// limited. With this limit, a pixel at the camera's target has 1.6 texels of the shadow map, in a
-/// picture with 720 rows. The half side is 18 m for the chase camera and 9 m for the side camera.
+/// map covers everything visible. For a camera that sees the horizon, the size of the shadow map is
+/// limited. At the limit of the size, a pixel at the camera's target has 1.6 texels of the shadow
+/// map, in a frame with 720 rows. Half the side of the shadow map is 18 m for the chase camera and
+/// 9 m for the side camera.
 double ShadowReach(const CameraPose& camera);
 
-/// Sets the size of the shadow map for a camera, whose distance and lens must not change during the
+/// Sets the size of the shadow map for a camera whose distance and lens do not change during the
 /// film. Call FitShadowMap before constructing the Offscreen.
 void FitShadowMap(mjModel& model, const CameraPose& camera);
 

@@ -10,9 +10,10 @@
 namespace trackbed::render {
 namespace {
 
-constexpr double kSkidWidth = 0.17;      // Width of a mark, about that of a tyre [m].
-constexpr double kSkidHeight = 0.003;    // Height of a mark, below plans and trails [m].
-constexpr double kMinSkidLength = 0.15;  // Minimum length of a piece of a mark [m].
+constexpr double kSkidWidth = 0.17;  // Width of a skid mark, about that of a tyre [m].
+// Height of a skid mark above the ground, below plans and trails [m].
+constexpr double kSkidHeight = 0.003;
+constexpr double kMinSkidLength = 0.15;  // Minimum length of a piece of a skid mark [m].
 constexpr Color kRubber{0.10F, 0.10F, 0.11F};
 
 class SkidMarks : public Overlay {
@@ -24,7 +25,7 @@ class SkidMarks : public Overlay {
     }
     const MujocoData data = MakeMujocoData(*recording_.model);
     const PlantRecording& car = recording_.plants.front();
-    std::map<int, Point> begins;  // for each wheel, the point at which its current skid mark starts
+    std::map<int, Point> begins;  // for each wheel, the point at which its present skid mark starts
     for (const double time : car.times()) {
       car.Pose(time, *recording_.model, *data);
       std::map<int, Point> still;
@@ -68,14 +69,14 @@ class SkidMarks : public Overlay {
 
  private:
   struct Piece {
-    double time;  // time at the end of the piece [s]
+    double time;  // time at which the tyre reaches the end of this piece [s]
     Point from;
     Point to;
   };
 
   const Recording& recording_;
   double scale_ = FindCarBox(*recording_.model).scale();
-  std::vector<Piece> pieces_;  // pieces of marks, in the order of time
+  std::vector<Piece> pieces_;  // pieces of skid marks, in the order of time
 };
 
 }  // namespace

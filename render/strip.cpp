@@ -13,10 +13,11 @@ namespace {
 
 constexpr Color kCurvature{0.86F, 0.88F, 0.84F};
 constexpr Color kCommand{1.00F, 1.00F, 1.00F};
-constexpr Color kActual = CarColor(0);   // Color of the actual steering angle, which is the car's
-                                         // color.
-constexpr double kLettersToCell = 0.86;  // Size of labels relative to Layout::label; slightly
-                                         // smaller than the labels of the legend.
+// Color of the curve of the actual steering angle; equal to the car's color.
+constexpr Color kActual = CarColor(0);
+// Size of the chart's labels relative to Layout::label; slightly smaller than the labels of the
+// legend.
+constexpr double kLettersToCell = 0.86;
 
 class StripPanel : public Overlay {
  public:
@@ -31,7 +32,7 @@ class StripPanel : public Overlay {
 
  private:
   Strip strip_;
-  double gap_;  // gap to the next panel [px]
+  double gap_;  // gap between the chart and the next panel [px]
 };
 
 }  // namespace
@@ -52,7 +53,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
   std::vector<double> curvature;
   for (int column = 0; column < columns_; ++column) {
     const double time = begin_ + (end_ - begin_) * column / (columns_ - 1);
-    // The curves end where the car's log ends.
+    // The curves of the chart end where the car's log ends.
     if (time <= recording.plants.front().log().end()) {
       const Readings readings = recording.plants.front().ReadingsAt(time);
       command.push_back(readings.steering_command);
@@ -67,7 +68,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
     std::fill(scratch.rgb.begin(), scratch.rgb.end(), std::uint8_t{0});
     return Canvas(scratch, font);
   };
-  // Largest height of a curve above the middle of the plot [px], which leaves room for the line's
+  // Maximum height of a curve above the middle of the plot [px]; leaves room for the line's
   // thickness.
   const double reach = 0.5 * rows_ - layout_.hairline;
   const auto curve = [&](const std::vector<double>& values, double hairlines) {
@@ -79,7 +80,7 @@ Strip::Strip(const Recording& recording, int width, int height, Font& font)
     blank().Stroke(points, hairlines * layout_.hairline, kValue, 1.0);
     return MakeMask(scratch);
   };
-  // The curve on top is narrower, so both curves are visible where they coincide.
+  // The curve drawn on top is narrower, so that both curves are visible where they coincide.
   command_ = curve(command, 2.6);
   actual_ = curve(actual, 1.1);
   if (most.curvature > 0.0) {
@@ -144,7 +145,8 @@ void Strip::Blend(Image& image, const Mask& mask, Color color, double alpha, int
     for (int column = first; column < right; ++column, pixel += 3) {
       if (share[column] > 0) {
         for (std::size_t i = 0; i < 3; ++i) {
-          // Rounds to nearest in fixed-point arithmetic, in units of 1/65280 (255 times 256).
+          // Rounds the mixed color to nearest in fixed-point arithmetic, in units of 1/65280 (255
+          // times 256).
           const int change = weight * share[column] * (rgb[i] - pixel[i]);
           pixel[i] = static_cast<std::uint8_t>(pixel[i] +
                                                (change + (change < 0 ? -32640 : 32640)) / 65280);

@@ -11,15 +11,15 @@
 
 namespace trackbed::render {
 
-/// A chart at the bottom of the picture, whose time axis covers the whole run. The chart shows the
+/// A chart at the bottom of the frame, whose time axis covers the whole run. The chart shows the
 /// planned curvature at the car's position, and the commanded and actual steering angle up to the
-/// picture's time. Recording::scales determines the ends of the vertical axes.
+/// frame's time. The ends of the vertical axes are determined by Recording::scales.
 class Strip {
  public:
-  /// Makes the chart for pictures of this size [px].
+  /// Makes the chart for frames of this size [px].
   Strip(const Recording& recording, int width, int height, Font& font);
 
-  /// Returns the top of the chart's panel [px].
+  /// Returns the top row of the chart's panel [px].
   [[nodiscard]] double top() const { return panel_.top; }
   void Draw(Image& image, Font& font, double time) const;
 
@@ -41,7 +41,7 @@ class Strip {
   double end_;
   Layout layout_;
   Canvas::Rectangle panel_;
-  // Left edge, top edge and size of the plot, in whole pixels.
+  // Left edge, top edge and size of the chart's plot, in whole pixels.
   int left_ = 0;
   int top_ = 0;
   int columns_ = 0;
@@ -52,7 +52,8 @@ class Strip {
   std::vector<Label> labels_;
 };
 
-/// Returns the overlay that draws the chart. Other panels are placed above the chart.
+/// Returns the overlay that draws the chart of curvature and steering. Panels of later overlays are
+/// placed above the chart.
 OverlayEntry StripOverlay();
 
 }  // namespace trackbed::render

@@ -10,11 +10,12 @@
 
 namespace trackbed::render {
 
-/// A table whose first column is the time. Values between two rows are interpolated.
+/// A table whose first column is the time. Values at times between two rows are interpolated
+/// linearly.
 class TimedTable {
  public:
-  /// Reads the table from `file`. Throws InputError naming the file if it is missing, broken or has
-  /// no rows. All cells must be finite, and the times must increase.
+  /// Reads the table from `file`. Throws InputError naming the file if the file is missing, broken
+  /// or has no rows. All cells of the table must be finite, and the times must increase.
   explicit TimedTable(const std::filesystem::path& file);
 
   [[nodiscard]] double begin() const { return times_.front(); }
@@ -22,20 +23,21 @@ class TimedTable {
   [[nodiscard]] const std::vector<double>& times() const { return times_; }
   [[nodiscard]] const Table& table() const { return table_; }
 
-  /// Returns the index of a column. Throws InputError naming the file and the column if the column
-  /// is missing.
+  /// Returns the index of the column with the given name. Throws InputError naming the file and the
+  /// column if the column is missing.
   [[nodiscard]] std::size_t Require(const std::string& column) const;
-  /// Returns the index of a column; nullopt if the column is missing.
+  /// Returns the index of the column with the given name; nullopt if the column is missing.
   [[nodiscard]] std::optional<std::size_t> Find(const std::string& column) const;
 
-  /// Position of a time between two rows. Interpolated values are (1 - part) * row + part * next.
+  /// Position of a time between two rows of the table. The interpolated value of a column is (1 -
+  /// part) * row + part * next.
   struct Place {
     std::size_t row = 0;
     std::size_t next = 0;
     double part = 0;
   };
-  /// Finds the position of a time between two rows. Times before the first row or after the last
-  /// row are clamped.
+  /// Returns the position of a time between two rows. A time before the first row or after the last
+  /// row is clamped.
   [[nodiscard]] Place At(double time) const;
   [[nodiscard]] double Value(const Place& place, std::size_t column) const;
 

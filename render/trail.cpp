@@ -17,7 +17,7 @@ class Trails : public Overlay {
   explicit Trails(const OverlaySetup& setup) : recording_(setup.recording) {
     const std::size_t cars = setup.Shows("ghosts") ? setup.recording.plants.size() : 1;
     for (std::size_t car = 0; car < cars; ++car) {
-      // If the error ribbon is shown, it replaces the car's trail.
+      // The error ribbon, if shown, replaces the car's trail.
       if (car > 0 || !setup.Shows("error") || !HasErrorScale(setup.recording)) {
         trails_.push_back({car, Trail(setup.recording, car)});
       }
@@ -64,7 +64,7 @@ Trail::Trail(const Recording& recording, std::size_t car, const std::vector<Colo
   for (const double time : plant.times()) {
     driven.push_back(recording.OnGround(plant.Position(time)));
   }
-  // Keeps points where the line bends or changes color.
+  // Keeps points of the trail where its line bends or changes color.
   std::vector<std::size_t> kept = KeptPoints(driven);
   for (std::size_t i = 1; i < colors.size(); ++i) {
     if (Differ(colors[i], colors[i - 1])) {
@@ -84,7 +84,7 @@ Trail::Trail(const Recording& recording, std::size_t car, const std::vector<Colo
 
 void Trail::AddShapes(SceneContext& context, RibbonStyle style) const {
   for (std::size_t i = 1; i < points_.size() && times_[i - 1] < context.time; ++i) {
-    // The last drawn piece ends at the car's present position.
+    // The last piece of the trail ends at the car's present position.
     const Point end = times_[i] <= context.time
                           ? points_[i]
                           : recording_.OnGround(recording_.plants[car_].Position(context.time));

@@ -15,15 +15,15 @@
 namespace trackbed::render {
 namespace {
 
-// Dimensions of the dials, in units of the height of letters.
-constexpr double kRadius = 1.15;   // Radius of a dial.
-constexpr double kBetween = 0.35;  // Gap between two dials.
-// Largest length of the hand relative to the dial's radius, since some tyre laws give forces
-// slightly above friction times load.
+// Dimensions of the tyre dials, in units of the height of letters.
+constexpr double kRadius = 1.15;   // Radius of a tyre dial.
+constexpr double kBetween = 0.35;  // Gap between two tyre dials.
+// Maximum length of the hand relative to the dial's radius; some tyre laws yield forces slightly
+// above friction times load.
 constexpr double kOverflow = 1.12;
 
-/// Returns the model's tyre coefficient for an axle, or else the coefficient for both axles; 0 if
-/// the model has neither.
+/// Returns the model's tyre coefficient for an axle or, if missing, the coefficient for both axles;
+/// 0 if the model has neither.
 double Coefficient(const mjModel& model, const std::string& name, const char* axle) {
   int id = mj_name2id(&model, mjOBJ_NUMERIC, (name + "_" + axle).c_str());
   if (id < 0) {
@@ -178,8 +178,8 @@ void DrawGripDial(Canvas& canvas, const CanvasPoint& center, double radius, cons
   if (tyre == nullptr) {
     return;
   }
-  // Force divided by the friction limit along each axis. Dividing by the limits maps the friction
-  // ellipse to the dial's rim.
+  // Tyre force divided by the friction limit along each axis. Dividing by the friction limits maps
+  // the friction ellipse to the rim of the dial.
   Vec2 share = tyre->force.cwiseQuotient(tyre->most);
   const double use = share.norm();
   if (use > kOverflow) {

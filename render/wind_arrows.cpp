@@ -12,16 +12,17 @@ namespace {
 constexpr double kGustWidth = 0.16;
 constexpr double kGustHeight = 0.006;
 
-constexpr double kSpacing = 5.0;  // Spacing of the arrows [m].
-constexpr int kHalfCount = 4;     // Number of arrows from the middle to each side; 81 arrows in
-                                  // total.
+constexpr double kSpacing = 5.0;  // Spacing of the wind arrows on the ground [m].
+// Number of arrows from the middle arrow to each side; 81 arrows in total.
+constexpr int kHalfCount = 4;
 constexpr double kHeight = 0.004;
 constexpr double kWidth = 0.12;
 constexpr double kMinWindSpeed = 0.5;  // wind speed below which no arrow is drawn [m/s]
 constexpr double kPerSpeed = 1.0 / 3.0;
-constexpr double kMinArrowLength = 0.6;  // Smallest length of an arrow [m], at which only its head
-                                         // is visible.
-constexpr double kMaxArrowLength = 4.0;  // Largest arrow length [m]; below the spacing of 5 m.
+// Minimum length of an arrow [m], at which only the arrow's head is visible.
+constexpr double kMinArrowLength = 0.6;
+// Maximum length of an arrow [m]; below the spacing of 5 m.
+constexpr double kMaxArrowLength = 4.0;
 
 void AddArrow(mjvScene& scene, const Recording& recording, const Vec2& middle, const Vec2& wind,
               double scale) {
@@ -41,7 +42,7 @@ void AddArrow(mjvScene& scene, const Recording& recording, const Vec2& middle, c
   }
 }
 
-/// The outline of an area with a gust.
+/// The outline of an area in which there is a gust.
 struct GustLine {
   Gust gust;
   std::vector<Point> points;

@@ -10,7 +10,7 @@ extern "C" {
 
 namespace trackbed::render {
 
-/// Pointers to the FFmpeg functions that films use, under FFmpeg's names.
+/// Pointers to the FFmpeg functions that films need, under FFmpeg's names.
 struct LibavFunctions {
   decltype(&::avcodec_alloc_context3) avcodec_alloc_context3;
   decltype(&::avcodec_find_encoder_by_name) avcodec_find_encoder_by_name;
@@ -52,8 +52,9 @@ struct LibavFunctions {
   decltype(&::sws_setColorspaceDetails) sws_setColorspaceDetails;
 };
 
-/// Returns the FFmpeg functions. The first call loads FFmpeg's libraries, in the versions whose
-/// headers were used at compile time. Throws RunError if FFmpeg's libraries are missing.
+/// Returns the pointers to the FFmpeg functions. The first call of this function loads FFmpeg's
+/// libraries, in the versions whose headers were used at compile time. Throws RunError if FFmpeg's
+/// libraries are missing.
 const LibavFunctions& Libav();
 
 }  // namespace trackbed::render

@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Writes a film into a single file, which has a temporary name until the film is complete.
+/// Writes a film into a single file, under a temporary name until the film is complete.
 class VideoOutput : public FilmOutput {
  public:
   VideoOutput(fs::path output, FilmCodec codec, const FilmPictures& pictures)
@@ -45,8 +45,10 @@ class VideoOutput : public FilmOutput {
   }
 
   fs::path output_;
-  bool has_boxes_;           // Whether the film is an MP4 file, whose last box is Trackbed's mark.
-  TemporaryFile temporary_;  // Declared before the writer, so that the file outlives the writer.
+  // Whether the film is an MP4 file, at whose end Trackbed adds a box as its mark.
+  bool has_boxes_;
+  // The file is declared before the writer, so that it outlives the writer.
+  TemporaryFile temporary_;
   VideoWriter writer_;
 };
 

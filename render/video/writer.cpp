@@ -42,17 +42,17 @@ struct Recipe {
   const char* encoder;
   const char* container;
   AVPixelFormat pixels;
-  bool bt709;  // whether to convert to BT.709; otherwise RGB as in the pictures
+  bool bt709;  // whether colors are converted to BT.709; otherwise RGB as in the frames
   std::vector<std::pair<const char*, const char*>> encoder_options;
-  // Options for quick encoding, which replace encoder_options.
+  // Encoder options for quick encoding, which replace encoder_options.
   std::vector<std::pair<const char*, const char*>> quick_options;
   std::vector<std::pair<const char*, const char*>> container_options;
 };
 
 const Recipe& EncoderRecipe(FilmCodec codec) {
-  // Option mbtree=0 keeps films reproducible. Unless the width is a multiple of 128, the macroblock
-  // tree of x264 reads past the end of its rows, where the memory differs between runs (seen with
-  // build 164 at widths of 96, 320, 854 and 960 px).
+  // The encoder option mbtree=0 makes films reproducible. Without mbtree=0 and unless the width is
+  // a multiple of 128, the macroblock tree of x264 reads past the end of its rows, where the memory
+  // differs between runs (seen with build 164 at widths of 96, 320, 854 and 960 px).
   static const Recipe h264{"libx264",
                            "mp4",
                            AV_PIX_FMT_YUV420P,
@@ -79,9 +79,9 @@ struct VideoWriter::Encoder {
   std::string name;
   std::unique_ptr<AVFormatContext, FreeFormat> format;
   std::unique_ptr<AVCodecContext, FreeCodec> codec;
-  std::unique_ptr<AVFrame, FreeFrame> picture;  // RGB picture in padded memory, since swscale reads
-                                                // past its end.
-  std::unique_ptr<AVFrame, FreeFrame> frame;    // Picture in the pixel format of the encoder.
+  // RGB frame in padded memory, since swscale reads past the end of a frame.
+  std::unique_ptr<AVFrame, FreeFrame> picture;
+  std::unique_ptr<AVFrame, FreeFrame> frame;  // Frame in the pixel format of the encoder.
   std::unique_ptr<AVPacket, FreePacket> packet;
   std::unique_ptr<SwsContext, FreeScaler> scaler;
   AVStream* stream = nullptr;  // owned by format
@@ -92,7 +92,7 @@ struct VideoWriter::Encoder {
   [[noreturn]] void Fail(const std::string& why) const {
     throw RunError(fmt::format("cannot write {}: {}", name, why));
   }
-  /// Returns `result` unless it is an error code.
+  /// Returns `result` if it is not an error code; otherwise throws.
   int Check(int result) const {
     if (result < 0) {
       Fail(Describe(result));
@@ -135,7 +135,8 @@ struct VideoWriter::Encoder {
 
   void SetOptions(const std::vector<std::pair<const char*, const char*>>& options) const {
     for (const auto& [key, value] : options) {
-      // Also searches the encoder's private options, since some options belong to one encoder only.
+      // The search includes the encoder's private options, since some options belong to one encoder
+      // only.
       Check(Libav().av_opt_set(codec.get(), key, value, AV_OPT_SEARCH_CHILDREN));
     }
   }
@@ -211,7 +212,7 @@ struct VideoWriter::Encoder {
 VideoWriter::VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
                          FilmCodec codec, const FilmPictures& pictures)
     : encoder_(std::make_unique<Encoder>(EncoderRecipe(codec))) {
-  // Disables log output of libav and x264 to the terminal; failures are returned as codes.
+  // Disables log output of libav and x264 to the terminal; failures are reported by error codes.
   Libav().av_log_set_level(AV_LOG_QUIET);
   encoder_->name = shown_name.string();
   encoder_->OpenCodec(pictures);
@@ -240,7 +241,7 @@ void VideoWriter::Finish() {
   Encoder& encoder = *encoder_;
   encoder.Encode(nullptr);
   encoder.Check(Libav().av_write_trailer(encoder.format.get()));
-  // A full disk is only reported when the file is closed.
+  // A full disk is reported only when the file is closed.
   encoder.Check(Libav().avio_closep(&encoder.format->pb));
 }
 

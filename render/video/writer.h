@@ -8,24 +8,25 @@
 
 namespace trackbed::render {
 
-/// Codec and container of a film.
+/// Codec and container format of a film.
 enum class FilmCodec {
-  kH264,  ///< MP4 with libx264: preset superfast and crf 23 (quick: preset ultrafast), yuv420p,
-          ///< BT.709, index at the start of the file.
-  kWebp,  ///< Animated WebP with libwebp_anim: quality 80, endless loop.
+  /// The codec H.264 in MP4, encoded by libx264: preset superfast and crf 23 (quick: preset
+  /// ultrafast), yuv420p, BT.709, index at the start of the file.
+  kH264,
+  kWebp,  ///< Animated WebP, encoded by libwebp_anim: quality 80, endless loop.
   kApng,  ///< Animated PNG: lossless, endless loop.
 };
 
-/// Encodes pictures into a film. The encoder has one thread and writes no dates or versions, so the
-/// same pictures always give the same bytes.
+/// Encodes frames into a film. The encoder uses one thread and writes no dates or versions, so the
+/// same frames always yield the same bytes.
 ///
-/// The file is complete only after Finish(); without Finish(), the destructor leaves a partial
-/// file. On a busy machine, encoding a picture of 1280x720 takes about 25 ms, or 8 ms with quick
-/// encoding. VideoWriter throws RunError naming `shown_name` if encoding or writing fails.
+/// The film's file is complete only after Finish(); without Finish(), the destructor leaves a
+/// partial file. On a busy machine, encoding a frame of 1280x720 takes about 25 ms, or 8 ms with
+/// quick encoding. VideoWriter throws RunError naming `shown_name` if encoding or writing fails.
 class VideoWriter {
  public:
-  /// Opens the file. H.264 requires an even width and height. Messages name the file `shown_name`,
-  /// since `file` may be a temporary name.
+  /// Opens the file. H.264 requires an even width and height. Error messages name the file
+  /// `shown_name`, since `file` may be a temporary name.
   VideoWriter(const std::filesystem::path& file, const std::filesystem::path& shown_name,
               FilmCodec codec, const FilmPictures& pictures);
   ~VideoWriter();

@@ -9,9 +9,9 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// Checks metrics, requirements and differences between runs for a verdict, and words the failure
-// messages. CheckMetric looks a metric up by its path and compares it with a bound. FailureMessage
-// names the plant, the value, the bound, and the station and time of the value.
+// Checks metrics, requirements and differences between runs for a verdict, and writes the failure
+// messages. CheckMetric compares the metric at a given path with a bound. FailureMessage names the
+// plant, the value, the bound, and the station and time of the value.
 namespace trackbed {
 namespace {
 
@@ -35,7 +35,8 @@ std::string MissingMetricReason(const std::string& path, const std::vector<Metri
   }
   std::vector<std::string> paths;
   for (const Metric& metric : metrics) {
-    // Suggest only the metrics of the first turn, because all turns have the same metrics.
+    // In the error message, suggest only the metrics of the first turn, because all turns have the
+    // same metrics.
     if (!metric.path.starts_with("turns[") || metric.path.starts_with("turns[0]")) {
       paths.push_back(metric.path);
     }
@@ -51,8 +52,8 @@ std::optional<double> NumberIn(const MetricValue& value) {
   return number != nullptr ? std::optional(*number) : std::nullopt;
 }
 
-/// Converts a bound to JSON. A text that is valid JSON, such as "true" or "3", is parsed; any other
-/// text stays a text.
+/// Converts a bound to JSON. A bound whose text is valid JSON, such as "true" or "3", becomes that
+/// JSON value; any other text becomes a JSON string.
 ordered_json ParsedBound(const MetricValue& bound) {
   const auto* text = std::get_if<std::string>(&bound);
   const ordered_json parsed =
@@ -86,7 +87,8 @@ std::string Where(const MetricPlace& at) {
   return "";
 }
 
-/// Formats the bound and the measured value, with enough digits that the two texts differ.
+/// Formats the bound and the measured value, with enough digits that the two formatted numbers
+/// differ.
 std::pair<std::string, std::string> NumbersApart(const Check& check) {
   return FormatDistinct(NumberIn(check.bound).value_or(0.0), NumberIn(check.value).value_or(0.0));
 }
@@ -254,7 +256,9 @@ std::string FailureMessage(const Check& check) {
         return fmt::format("did not {}: {} at s = {:.4g} m, t = {:.4g} s{}", check.name,
                            ToText(check.value), check.at.s, check.at.t, check.detail);
       case CheckReason::kNoContact:
-        return "";  // no message, because the check kArrival already reports the contact
+        // No message for this check, because the check kArrival already reports the contact with
+        // the obstacle.
+        return "";
       case CheckReason::kCorridor:
         return CorridorMessage(check);
       case CheckReason::kOverspeed:

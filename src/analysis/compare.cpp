@@ -20,14 +20,14 @@
 // either run has a log row, within the stations that both runs cover. Gaps in the logs of recorded
 // runs are skipped. A difference is the value of the second run minus the value of the first run.
 // The rms difference comes from the exact integral of the squared, piecewise linear difference over
-// arc length. The maximum difference is taken over the compared stations.
+// arc length. The maximum difference is the largest magnitude among the compared stations.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Position of a station between two rows of a trace: the fraction `share` of the way from row
-/// `before` to the next row.
+/// Position between two rows of a trace that corresponds to a station: the fraction `share` of the
+/// way from row `before` to the next row.
 struct Place {
   std::size_t before = 0;
   double share = 0.0;
@@ -51,7 +51,8 @@ Pose2 PoseIn(const Trace& trace, const Place& place) {
           std::lerp(a.yaw, b.yaw, place.share)};
 }
 
-/// Difference between two runs at one station: the second run minus the first run.
+/// Difference between two runs at one station: the state of the second run minus the state of the
+/// first run.
 struct RowDifference {
   double s = 0.0;
   double first_t = 0.0;
@@ -63,7 +64,8 @@ struct RowDifference {
   bool after_gap = false;  // whether a gap in the compared stations precedes this row
 };
 
-/// Returns whether the station `place` lies outside the gaps of a recorded run.
+/// Returns whether the trace has data at `place`, that is, whether `place` is not in a gap of a
+/// recorded run.
 bool IsValid(const Trace& trace, const Place& place) {
   return trace.valid.empty() || ((place.share >= 1.0 || trace.valid[place.before]) &&
                                  (place.share <= 0.0 || trace.valid[place.before + 1]));
@@ -111,7 +113,7 @@ std::vector<RowDifference> DifferencesAtRows(const Trace& first, const Trace& se
 }
 
 /// Computes the maximum and the rms of a quantity over arc length. The function `of` returns the
-/// quantity of a row as a vector. The quantity is assumed to be linear between rows.
+/// value of the quantity in a row, as a vector. The quantity is assumed to be linear between rows.
 template <typename Of>
 Difference ComputeDifference(const std::vector<RowDifference>& rows, const Of& of) {
   Difference difference;
@@ -163,8 +165,9 @@ Trace MakeTrace(const RunLog& log, StationSource source) {
   for (const LogRow& row : log.rows) {
     const VehicleState& state = row.state;
     if (log.contact_time && state.time > *log.contact_time) {
-      break;  // from this row on, an obstacle pushes the car, so the controller does not determine
-              // the motion
+      // Stop here, because from this row on, an obstacle pushes the car and the controller no
+      // longer determines the motion.
+      break;
     }
     const bool projected = row.tracking && source == StationSource::kProjection;
     AddRow(trace, projected ? row.tracking->s : state.distance, state.time, state.pose,

@@ -15,17 +15,19 @@
 #include "trackbed/core/spelling.h"
 
 // Compares the plants of one run, or the plants of two finished runs, pairwise at equal stations
-// (compare.cpp). Plants of one run are compared with each other. Plants of two runs are compared by
-// name, unless two plants are given. Bounds come from the given tolerances and, within one run,
-// from expect.between; the tightest bound applies. The verdict also notes if the runs end with
-// different statuses, have different plans, or have different plants.
+// (compare.cpp). Within one run, each plant is compared with every other plant. Between two runs,
+// plants with equal names are compared, unless the user names the two plants to compare. Bounds on
+// the differences come from the given tolerances and, for plants of one run, from expect.between;
+// the tightest bound applies. The verdict also notes if the runs end with different statuses, have
+// different plans, or have different plants.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Returns only the expectations on the end of a plant's run and on its cross-track error.
+/// Returns only those expectations on a plant that concern how the run ends and how large the
+/// cross-track error is.
 PlantExpectation EndExpectations(const PlantExpectation& expect) {
   PlantExpectation end{.max_cross_track = expect.max_cross_track, .collision = expect.collision};
   std::copy_if(expect.metrics.begin(), expect.metrics.end(), std::back_inserter(end.metrics),
@@ -66,7 +68,7 @@ ComparedPair Pair(const Trace& first, const Trace& second, const DifferenceBound
   return {CompareTraces(first, second), bounds, DifferencesOverArcLength(first, second)};
 }
 
-/// Adds the checks of a compared pair of plants to the verdict.
+/// Adds to the verdict the checks of the differences between two compared plants.
 void Judge(const ComparedPair& pair, Verdict& verdict) {
   if (pair.bounds.any() || !pair.comparison.comparable()) {
     for (Check& check : CheckBounds(pair.bounds, pair.comparison)) {
@@ -79,7 +81,7 @@ void Judge(const ComparedPair& pair, Verdict& verdict) {
 /// A finished run, read from its folder.
 struct FinishedRun {
   fs::path folder;
-  std::string name;  ///< the plant's name in results
+  std::string name;  ///< short name of the run, used in the results of the comparison
   std::vector<FinishedDrive> drives;
   Expectations expect;
 
@@ -116,7 +118,7 @@ FinishedRun ReadRun(const fs::path& folder, const std::string& name) {
   return run;
 }
 
-/// Two finished runs to compare, with distinct names.
+/// The runs of two plants to compare, with distinct names, and the bounds on the differences.
 struct Candidates {
   FinishedDrive first;
   FinishedDrive second;
@@ -197,7 +199,8 @@ void RefuseTwice(const std::vector<std::string>& plants) {
   }
 }
 
-/// Converts the path in plan.csv to a trace.
+/// Converts the planned path in plan.csv to a trace, so that two plans can be compared like two
+/// runs.
 Trace PathIn(const Table& plan) {
   Trace trace{.station = plan.Column("s_m")};
   const auto x = plan.Column("x_m");
@@ -210,8 +213,8 @@ Trace PathIn(const Table& plan) {
   return trace;
 }
 
-/// Tolerance for rounding differences between plans from different builds of Trackbed [m, rad,
-/// m/s].
+/// Largest difference between two plans that counts as a rounding difference, such as between
+/// different builds of Trackbed [m, rad, m/s].
 constexpr double kRounding = 1e-6;
 
 bool HaveSameRows(const Table& first, const Table& second) {

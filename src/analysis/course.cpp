@@ -23,10 +23,11 @@ class ConstantCurvatureCourse {
     path_ = Path({state.pose.x, state.pose.y, course}, {{length, curvature_}});
   }
 
-  /// Projects the car onto the course. The heading error of the returned projection is the change
-  /// of the car's heading since the start, minus the heading change of the course.
+  /// Projects the car's pose onto the reference course. The returned heading error is the change of
+  /// the car's heading since the start of the course, minus the change of the course's heading.
   [[nodiscard]] Projection At(const VehicleState& state) {
-    constexpr double kMaxRowDistance = 5.0;  // maximum distance between rows [m]
+    // Maximum distance that the car drives between two log rows [m].
+    constexpr double kMaxRowDistance = 5.0;
     Projection at =
         path_.Project(state.pose, {station_ - kMaxRowDistance, station_ + kMaxRowDistance});
     station_ = at.s;
@@ -73,9 +74,11 @@ std::vector<ManeuverMetric> MethodMetrics(const BrakingTestOptions& /*options*/)
 
 void Evaluate(const BrakingTestOptions& options, const ManeuverInput& input,
               ManeuverMetrics& metrics) {
-  constexpr double kBraking = 0.5;  // Commanded deceleration that counts as braking, larger than
-                                    // any needed to hold a speed [m/s^2].
-  constexpr double kStandstill = 0.05;  // Speed from which the car stops within a millimeter [m/s].
+  // Commanded deceleration from which the car counts as braking; a car that holds its speed brakes
+  // less [m/s^2].
+  constexpr double kBraking = 0.5;
+  // Speed below which the car counts as standing, because it then stops within a millimeter [m/s].
+  constexpr double kStandstill = 0.05;
   const auto& rows = input.log.rows;
   std::size_t onset = 0;
   while (onset < rows.size() && rows[onset].command.acceleration > -kBraking) {
@@ -145,8 +148,10 @@ void Evaluate(const DisturbanceOptions& options, const ManeuverInput& input,
   const bool straight = !rows.front().tracking;
   Departure departure;
   double yaw_rate = 0.0;
-  std::optional<double> left;  // Time at which the yaw rate deviation first exceeds its bound [s].
-  double back = 0.0;  // Time at which the yaw rate deviation last returns below its bound [s].
+  // Time at which the deviation of the yaw rate exceeds its bound for the first time [s].
+  std::optional<double> left;
+  // Time at which the yaw rate deviation falls below its bound for the last time [s].
+  double back = 0.0;
   for (std::size_t i = from; i < rows.size(); ++i) {
     const VehicleState& state = rows[i].state;
     departure.Take(straight ? course.At(state) : *rows[i].tracking);

@@ -7,11 +7,13 @@
 #include "trackbed/analysis/metric_value.h"
 #include "trackbed/planning/common/plan.h"
 
-/// Evaluates maneuvers for EvaluateManeuver. Each function Evaluate fills in the members values,
-/// passed, missing, begin and end of ManeuverMetrics.
+/// Declares the functions Evaluate, one for each kind of maneuver, which EvaluateManeuver calls.
+/// Each of these functions sets the members values, passed, missing, begin and end of
+/// ManeuverMetrics.
 namespace trackbed {
 
-/// A value measured in a maneuver. Each maneuver lists its metrics next to its evaluation.
+/// Describes a value that is measured in a maneuver. The file that defines the evaluation of a
+/// maneuver also lists the metrics of the maneuver.
 struct ManeuverMetric {
   const char* name;
   const char* label;

@@ -17,19 +17,20 @@ using nlohmann::ordered_json;
 
 namespace {
 
-/// Converts the position of a byte in a text to a line and a column. Byte, line and column are
-/// counted from 1.
+/// Converts the position of a byte in a text to a line and a column. The numbers of the byte, the
+/// line and the column start at 1.
 std::pair<int, int> Position(std::string_view text, std::size_t byte) {
   const std::string_view before = text.substr(0, byte == 0 ? 0 : byte - 1);
-  // In the first line, rfind returns npos, and npos + 1 is 0.
+  // If the byte is in the first line, rfind returns npos, so that `line_begin` becomes npos + 1 =
+  // 0.
   const std::size_t line_begin = before.rfind('\n') + 1;
   return {1 + static_cast<int>(std::count(before.begin(), before.end(), '\n')),
           1 + static_cast<int>(before.size() - line_begin)};
 }
 
-/// Returns the part of an nlohmann::json error message after `mark`. After() thereby removes error
-/// number and position from messages such as "[json.exception.parse_error.101] parse error at line
-/// 1, column 2: unexpected end of input".
+/// Returns the part of an nlohmann::json error message after `mark`. After() removes the error
+/// number and the position from a message such as "[json.exception.parse_error.101] parse error at
+/// line 1, column 2: unexpected end of input".
 std::string_view After(std::string_view mark, std::string_view said) {
   const std::size_t place = said.find(mark);
   return place == std::string_view::npos ? said : said.substr(place + mark.size());
@@ -183,7 +184,8 @@ std::optional<double> JsonValue::NumberOrNull() const {
 }
 
 std::uint64_t JsonValue::Count(std::uint64_t max) const {
-  // Rejects negative numbers, which nlohmann::json stores as signed numbers.
+  // Reject negative numbers; nlohmann::json stores a negative integer as a signed number and a
+  // positive integer as an unsigned number.
   if (!json_->is_number_integer() ||
       (!json_->is_number_unsigned() && json_->get<std::int64_t>() < 0) ||
       json_->get<std::uint64_t>() > max) {

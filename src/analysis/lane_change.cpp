@@ -15,8 +15,8 @@ namespace trackbed {
 
 namespace {
 
-/// Limit of ISO 3888 for the smallest distance from a gate's edge [m]: no corner of the footprint
-/// may leave a gate.
+/// Limit of ISO 3888 for the smallest distance between the car's footprint and a gate's edge [m]:
+/// no corner of the footprint may leave a gate.
 constexpr StandardLimit kInsideGates{StandardLimit::Relation::kAtLeast, 0.0};
 
 }  // namespace
@@ -37,8 +37,8 @@ void Evaluate(const LaneChangeOptions&, const ManeuverInput& input, ManeuverMetr
     metrics.missing = "the plan has no gates";
     return;
   }
-  // Returns the position of the car's foremost corner along the gate, relative to the gate's center
-  // [m].
+  // Returns how far the car's foremost corner is beyond the center of the gate, in the direction of
+  // the gate [m].
   const auto foremost = [&](const LogRow& row, const Gate& gate) {
     double x = -std::numeric_limits<double>::infinity();
     for (const Vec2& corner : FootprintAt(input.vehicle, row.state.pose).Corners()) {

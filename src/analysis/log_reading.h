@@ -5,12 +5,12 @@
 
 #include "trackbed/drive/run_log.h"
 
-/// Interpolates quantities of a log. The argument `of` is a function that returns the quantity of a
-/// log row.
+/// Functions that interpolate a quantity of a log. The argument `of` of these functions is a
+/// function that returns the quantity of one log row.
 namespace trackbed {
 
-/// Interpolates the quantity linearly between log rows at `time` [s]. Before the first row and
-/// after the last row, the quantity is constant.
+/// Interpolates the quantity linearly between log rows at `time` [s]. Times before the first row
+/// yield the value of the first row, and times after the last row yield the value of the last row.
 template <typename Of>
 double ValueAt(const RunLog& log, double time, const Of& of) {
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
@@ -24,7 +24,7 @@ double ValueAt(const RunLog& log, double time, const Of& of) {
   return of(log.rows.back());
 }
 
-/// Returns the first time, at or after row `from`, at which the quantity rises to `level` [s].
+/// Returns the first time at or after row `from` at which the quantity is at least `level` [s].
 /// Returns none if the quantity never reaches `level`.
 template <typename Of>
 std::optional<double> TimeOfReaching(const RunLog& log, std::size_t from, double level,

@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-/// Metrics common to all maneuvers.
+/// Lists the metrics that every maneuver has.
 const std::vector<ManeuverMetric>& CommonMetrics() {
   static const std::vector<ManeuverMetric> metrics{
       {"method", "method", ""},
@@ -31,7 +31,7 @@ std::vector<ManeuverMetric> ListMethodMetrics(const ManeuverOptions& options) {
   return std::visit([](const auto& own) { return MethodMetrics(own); }, options);
 }
 
-/// Fails the maneuver if the car tips over.
+/// Marks the maneuver as failed if the car tips over.
 void CheckRoll(const RunLog& log, ManeuverMetrics& metrics) {
   constexpr double kTippedOver = 0.25 * kPi;  // roll angle from which a car cannot recover [rad]
   const auto tipped = std::find_if(log.rows.begin(), log.rows.end(), [](const LogRow& row) {

@@ -40,7 +40,8 @@ ManifestEntry MakeManifestEntry(std::string_view content) {
 bool Manifest::Lists(const std::string& name) const {
   return others.contains(name) ||
          std::any_of(results.begin(), results.end(), [&](const auto& result) {
-           // A result's file list omits timing.json, because that file differs between equal runs.
+           // The manifest entry of a result omits timing.json, because the computing times differ
+           // even between equal runs.
            return result.second.contains(name) ||
                   (name == run_folder::kTimingJson && IsNameOf(result.first, name));
          });
@@ -101,7 +102,8 @@ std::optional<Manifest> ReadManifest(const fs::path& folder) {
   }
   try {
     Manifest manifest;
-    // Other programs also write a manifest.json, such as for a web page or a browser extension.
+    // The file may be from another program, because web pages and browser extensions also have a
+    // manifest.json.
     const ordered_json json = ParseJson(file);
     if (!json.at("results").is_object() || json.size() > (json.contains("others") ? 2U : 1U)) {
       throw InputError(Problem{.file = file.string(), .message = kNoManifest});
@@ -128,8 +130,9 @@ std::optional<Manifest> ReadManifest(const fs::path& folder) {
 
 namespace {
 
-/// Returns the names of the results that may contain a file with this name. For the files of a run,
-/// the names include the result `plan`, because a new plan makes the files of an old run outdated.
+/// Returns the names of the results that may contain a file with this name. For files that belong
+/// to a run, the returned names include the result `plan`, because a new plan makes the files of an
+/// old run outdated.
 std::vector<std::string> ResultsWith(const std::string& name) {
   std::vector<std::string> results;
   for (const ResultNames& own : AllResultNames()) {

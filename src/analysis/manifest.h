@@ -11,15 +11,16 @@
 #include "trackbed/analysis/output_folder.h"
 #include "trackbed/core/hash.h"
 
-/// manifest.json maps the files of a folder to the results that contain them.
+/// Reads and writes manifest.json, which lists for each result in a folder the files of the result.
 namespace trackbed {
 
-/// Computes the manifest entry of a file, its size and SHA-256, from content added in parts.
+/// Computes the manifest entry of a file (its size and SHA-256) from the file's content, which may
+/// be added in several parts.
 class EntryMaker {
  public:
   void Add(std::string_view content);
-  /// Returns the manifest entry of the content added so far. Finish() must be the last call on an
-  /// EntryMaker.
+  /// Returns the manifest entry of the content added so far. After Finish(), no function of the
+  /// EntryMaker may be called.
   [[nodiscard]] ManifestEntry Finish();
 
  private:
@@ -35,13 +36,14 @@ using ResultFiles = std::map<std::string, ManifestEntry>;
 /// Manifest of a folder: the file entries of each result, keyed by the name of the result.
 struct Manifest {
   std::map<std::string, ResultFiles> results;
-  std::set<std::string> others;  ///< files of results of which other files are missing or replaced
+  /// Files that remain of incomplete results, whose other files were removed or replaced.
+  std::set<std::string> others;
 
   /// Returns whether the manifest lists a file with this name as written by Trackbed.
   [[nodiscard]] bool Lists(const std::string& name) const;
 
-  /// Adds a result to the manifest. Drops every other result that becomes incomplete, because the
-  /// new result replaces one of its files or because one of its files is in `removed`.
+  /// Adds a result to the manifest. Drops every older result that becomes incomplete, because the
+  /// new result replaces one of the older result's files or because `removed` lists such a file.
   void Take(const std::string& result, ResultFiles files, const std::vector<std::string>& removed);
   [[nodiscard]] std::string ToJson() const;
 };

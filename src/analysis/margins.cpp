@@ -13,8 +13,8 @@ std::optional<double> NumberOfValue(const MetricValue& value) {
   return json.is_number() ? std::optional(json.get<double>()) : std::nullopt;
 }
 
-/// Returns the bound of a check as a number. With Relation::kEquals, the bound may be the text of a
-/// number, which is parsed.
+/// Returns the bound of a check as a number. If the bound is a text, as is possible with
+/// Relation::kEquals, NumberOfBound parses the text as a number.
 std::optional<double> NumberOfBound(const MetricValue& bound) {
   const auto* text = std::get_if<std::string>(&bound);
   if (text == nullptr) {

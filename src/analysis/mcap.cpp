@@ -25,7 +25,7 @@ json ArraySchema(const json& items) {
   return {{"type", "array"}, {"items", items}};
 }
 
-// Message schemas of Foxglove, reduced to the fields that Trackbed fills in.
+// JSON schemas of Foxglove messages, reduced to the fields that Trackbed sets.
 const json kTime = Object({{"sec", {{"type", "integer"}}}, {"nsec", {{"type", "integer"}}}});
 const json kVector = Object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}});
 const json kQuaternion = Object({{"x", kNumber}, {"y", kNumber}, {"z", kNumber}, {"w", kNumber}});
@@ -74,8 +74,8 @@ json Cube(const OrientedBox& box, double height, const std::string& id, const st
   return {{"timestamp", Time(time)},
           {"frame_id", frame},
           {"id", id},
-          {"lifetime", Time(0.0)},  // with a lifetime of 0, the viewer shows the entity until a new
-                                    // message replaces the entity
+          // Lifetime 0: the viewer shows the entity until a new message replaces the entity.
+          {"lifetime", Time(0.0)},
           {"frame_locked", true},
           {"cubes", json::array({CubeAt(box, height, color)})}};
 }
@@ -95,8 +95,8 @@ json Walls(const World& world) {
   json entity{{"timestamp", Time(0.0)},
               {"frame_id", "world"},
               {"id", "map"},
-              {"lifetime", Time(0.0)},  // with a lifetime of 0, the viewer shows the entity until a
-                                        // new message replaces the entity
+              // Lifetime 0: the viewer shows the entity until a new message replaces the entity.
+              {"lifetime", Time(0.0)},
               {"frame_locked", true},
               {"cubes", json::array()}};
   for (const OrientedBox& wall : MapWalls(world)) {
@@ -115,7 +115,7 @@ json PosesMessage(const Path& path, double time) {
   return {{"timestamp", Time(time)}, {"frame_id", "world"}, {"poses", poses}};
 }
 
-/// A message with its time, by which messages are sorted.
+/// A message and its time; messages are sorted by time.
 struct Message {
   double time;
   std::uint16_t channel;

@@ -7,7 +7,7 @@
 namespace trackbed {
 namespace {
 
-/// Opcodes of MCAP records.
+/// Opcodes that identify the kinds of records in an MCAP file.
 enum : char {
   kHeader = 0x01,
   kFooter = 0x02,
@@ -24,8 +24,8 @@ enum : char {
 
 const std::string kMagic{"\x89MCAP0\r\n"};
 
-/// Maximum size of a chunk [bytes]. Chunks are small, because a reader must load a whole chunk to
-/// show a single moment.
+/// Maximum size of a chunk [bytes]. Chunks are small, because a viewer must load a whole chunk to
+/// show a single point in time.
 constexpr std::size_t kChunkBytes = std::size_t{1} << 20U;
 
 template <typename Number>
@@ -52,7 +52,7 @@ std::uint32_t Checksum(const std::string& bytes) {
   return crc.checksum();
 }
 
-/// Serializes JSON; invalid UTF-8 becomes U+FFFD.
+/// Converts JSON to text; each invalid UTF-8 sequence becomes the character U+FFFD.
 std::string Dumped(const nlohmann::json& content) {
   return content.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -61,7 +61,7 @@ std::string Dumped(const nlohmann::json& content) {
 
 McapWriter::McapWriter() : out_(kMagic) {
   std::string header;
-  PutText(header, "");  // empty profile: the file conforms to no MCAP profile
+  PutText(header, "");  // the empty profile means that the file conforms to no MCAP profile
   PutText(header, "trackbed");
   PutRecord(out_, kHeader, header);
 }
@@ -87,7 +87,7 @@ std::uint16_t McapWriter::AddChannel(const std::string& topic, const std::string
   Put<std::uint16_t>(record, known->second);
   PutText(record, topic);
   PutText(record, "json");
-  Put<std::uint32_t>(record, 0);  // size of the metadata map: the channel has no metadata
+  Put<std::uint32_t>(record, 0);  // size 0 of the metadata map, because the channel has no metadata
   PutRecord(channel_records_, kChannel, record);
   PutRecord(out_, kChannel, record);
   return channel;
@@ -124,7 +124,7 @@ void McapWriter::CloseChunk() {
   Put(record, chunk_times_.last);
   Put<std::uint64_t>(record, chunk_.size());
   Put(record, Checksum(chunk_));
-  PutText(record, "");  // empty name: the chunk is not compressed
+  PutText(record, "");  // the empty compression name means that the chunk is not compressed
   Put<std::uint64_t>(record, chunk_.size());
   PutRecord(out_, kChunk, record + chunk_);
   const std::size_t end = out_.size();
@@ -170,8 +170,8 @@ std::string McapWriter::Statistics() const {
   Put(record, std::accumulate(counts_.begin(), counts_.end(), std::uint64_t{0}));
   Put(record, static_cast<std::uint16_t>(schemas_.size()));
   Put(record, static_cast<std::uint32_t>(counts_.size()));
-  Put<std::uint32_t>(record, 0);  // number of attachments
-  Put<std::uint32_t>(record, 0);  // number of metadata records
+  Put<std::uint32_t>(record, 0);  // Number of attachments in the file.
+  Put<std::uint32_t>(record, 0);  // Number of metadata records in the file.
   Put(record, chunks_);
   Put(record, times_.first);
   Put(record, times_.last);
@@ -179,8 +179,9 @@ std::string McapWriter::Statistics() const {
   return record;
 }
 
-/// Returns the part of an MCAP file after the data: the groups of summary records, the offsets of
-/// the groups, and the footer. The summary starts at byte `start` of the file.
+/// Returns the part of an MCAP file that follows the messages: the summary records, the offset of
+/// each group of summary records, and the footer. The argument `start` is the position of the
+/// summary in the file [bytes].
 std::string McapWriter::SummaryAt(std::size_t start) {
   std::string statistics;
   PutRecord(statistics, kStatistics, Statistics());
@@ -202,8 +203,8 @@ std::string McapWriter::SummaryAt(std::size_t start) {
   Put<std::uint64_t>(footer, start);
   Put<std::uint64_t>(footer, start + summary.size());
   summary += offsets;
-  // The checksum of the summary covers all its bytes up to the checksum, including the first fields
-  // of the footer.
+  // The checksum covers all bytes from the start of the summary to the checksum itself, including
+  // the first fields of the footer.
   std::string checked = summary;
   checked += kFooter;
   Put<std::uint64_t>(checked, footer.size() + sizeof(std::uint32_t));

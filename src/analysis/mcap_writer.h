@@ -9,22 +9,23 @@
 
 namespace trackbed {
 
-/// Writes an MCAP container (mcap.dev/spec). Schemas and channels come first, then uncompressed
-/// chunks of messages with one index each, then the summary used for seeking. Numbers are
-/// little-endian; all checksums are filled in.
+/// Writes an MCAP container (mcap.dev/spec). The file contains first the schemas and channels, then
+/// uncompressed chunks of messages, each with an index, and last the summary, which viewers use for
+/// seeking. All numbers are little-endian, and McapWriter computes all optional checksums.
 class McapWriter {
  public:
   McapWriter();
 
-  /// Adds a channel before the first message. Channels share a schema if its name and shape are
-  /// equal. AddChannel must precede all messages.
+  /// Adds a channel, and its schema unless an earlier channel has a schema with equal name and
+  /// shape. All channels must be added before the first message.
   std::uint16_t AddChannel(const std::string& topic, const std::string& schema,
                            const nlohmann::json& shape);
 
   /// Adds a message to a channel. Message times [s] must be non-negative and in ascending order.
   void AddMessage(std::uint16_t channel, double time, const nlohmann::json& message);
 
-  /// Returns the content of the MCAP file. Finish must be the last call on an McapWriter.
+  /// Returns the content of the MCAP file. After Finish, no function of the McapWriter may be
+  /// called.
   std::string Finish();
 
  private:
@@ -38,14 +39,15 @@ class McapWriter {
   [[nodiscard]] std::string Statistics() const;
 
   std::string out_;
-  std::map<std::pair<std::string, std::string>, std::uint16_t> schemas_;  ///< Schemas, keyed by
-                                                                          ///< name and shape.
-  std::vector<std::uint32_t> counts_;  ///< Number of messages by channel.
+  /// Number of each schema, keyed by the schema's name and shape.
+  std::map<std::pair<std::string, std::string>, std::uint16_t> schemas_;
+  std::vector<std::uint32_t> counts_;  ///< Number of messages in each channel.
   std::string schema_records_;
   std::string channel_records_;
   std::string chunk_;
   Times chunk_times_;
-  /// Time of each message [ns] and its offset in the current chunk [bytes], by channel.
+  /// For each channel, the time [ns] of each message in the current chunk and the message's offset
+  /// in the chunk [bytes].
   std::map<std::uint16_t, std::vector<std::pair<std::uint64_t, std::uint64_t>>> chunk_messages_;
   std::uint32_t chunks_ = 0;
   std::string chunk_index_records_;

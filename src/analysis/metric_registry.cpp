@@ -15,10 +15,11 @@
 #include "trackbed/planning/registry/planners.h"
 
 // Registry of metrics. Each built-in metric (metric_table.cpp) and each registered metric has one
-// entry. ListMetrics lists the metrics of a run with their paths in metrics.json. The metrics with
-// an entry come first, followed by the sections maneuver, turns[N], laps[N], windows[N] and
-// requirements. DescribeMetric finds label and unit by path. AllMetrics fills every metric that a
-// scenario can have with a dummy value, so that paths can be checked before the run.
+// entry. ListMetrics lists the metrics of a run with their paths in metrics.json. ListMetrics
+// returns first the metrics that have an entry, then the metrics of the sections maneuver,
+// turns[N], laps[N], windows[N] and requirements. DescribeMetric returns the label and the unit of
+// the metric at a path. AllMetrics sets every metric that a run of a scenario can have to a dummy
+// value, so that the paths of metrics can be checked before the run.
 namespace trackbed {
 namespace {
 
@@ -46,14 +47,14 @@ std::optional<MetricReading> ReadMetric(const MetricEntry& entry, const PlantMet
   return found == metrics.measured.end() ? std::nullopt : std::optional(found->second);
 }
 
-/// Returns the paths in metrics.json that belong to a metric entry.
+/// Returns the paths in metrics.json at which the values of a metric entry are written.
 std::vector<std::string> EntryPaths(const MetricEntry& entry) {
   return entry.located ? std::vector{entry.path, entry.path + "_s", entry.path + "_t"}
                        : std::vector{entry.path};
 }
 
 bool IsPath(std::string_view path) {
-  bool begins = true;  // whether a word begins at this character
+  bool begins = true;  // whether a new word of the path must begin at this character
   for (const char c : path) {
     const bool letter = c >= 'a' && c <= 'z';
     const bool inside = (c >= '0' && c <= '9') || c == '_' || c == '.';
@@ -99,7 +100,7 @@ void CheckEntry(const MetricEntry& entry) {
 }
 
 /// Returns the part of a metric path after a list index, such as "lateral_offset" for
-/// "turns[1].lateral_offset". InList stores the list index in `index`.
+/// "turns[1].lateral_offset". InList also stores the list index of the path in `index`.
 std::optional<std::string_view> InList(const char* list, std::string_view path, int& index) {
   const std::string begin = fmt::format("{}[", list);
   const std::size_t close = path.find("].");
@@ -304,7 +305,7 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
     }
     metrics.blocked = scenario.plan->avoid ? "why" : "";
     metrics.partial = MayBePartial(scenario.plan->global) ? "why" : "";
-    // Each waypoint between the first and the last waypoint causes at most one turn.
+    // The path turns at most once at each waypoint between the first and the last waypoint.
     metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
   }
   if (HasObstacles(scenario.world)) {

@@ -13,8 +13,8 @@ namespace {
 using Reading = std::optional<MetricReading>;
 using Read = std::function<Reading(const PlantMetrics&)>;
 
-// Returns the part of a plant's metrics that has the type of `which`. SelectMetrics returns null if
-// the run did not measure that part.
+// Returns the part of a plant's metrics that has the same type as the argument `which`, whose value
+// is ignored. SelectMetrics returns null if the run did not measure this part of the metrics.
 const PlantMetrics* SelectMetrics(const PlantMetrics& metrics, const PlantMetrics* /*which*/) {
   return &metrics;
 }
@@ -31,8 +31,8 @@ const RecordMetrics* SelectMetrics(const PlantMetrics& metrics, const RecordMetr
   return metrics.recorded ? &*metrics.recorded : nullptr;
 }
 
-/// Returns a function that reads the member `value` of the metrics. The value describes the whole
-/// run or the end of the run, according to `span`.
+/// Returns a function that reads the member `value` of the metrics. The argument `span` tells
+/// whether the value describes the whole run or the end of the run.
 template <typename Part, typename T>
 Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
   return [=](const PlantMetrics& metrics) -> Reading {
@@ -41,8 +41,8 @@ Read Of(T Part::*value, MetricSpan span = MetricSpan::kRun) {
   };
 }
 
-/// Returns a function that reads the member `value` of the metrics. The value occurs at the station
-/// in the member `s` and the time in the member `t`.
+/// Returns a function that reads the member `value` of the metrics. The members `s` and `t` contain
+/// the station and the time at which the value occurs.
 template <typename Part, typename T>
 Read At(T Part::*value, double Part::*s, double Part::*t) {
   return [=](const PlantMetrics& metrics) -> Reading {
@@ -55,7 +55,8 @@ Read At(T Part::*value, double Part::*s, double Part::*t) {
 }
 
 Reading Status(const PlantMetrics& metrics) {
-  // A run continues for one second after a collision, so its duration ends at the time of contact.
+  // Use the time of contact as the end of the run, because the simulation continues for one second
+  // after a collision.
   const bool collided = metrics.status == DriveStatus::kCollided;
   return MetricReading{std::string(ToString(metrics.status)),
                        {.span = collided ? MetricSpan::kMoment : MetricSpan::kEnd,
@@ -100,8 +101,8 @@ MetricEntry Headline(MetricEntry entry) {
   return entry;
 }
 
-/// Returns the metric entry, changed so that metrics.json also contains the station and the time of
-/// the value.
+/// Changes a metric entry so that metrics.json also contains the station and the time at which the
+/// value occurs.
 MetricEntry Located(MetricEntry entry) {
   entry.located = true;
   return entry;

@@ -10,7 +10,8 @@ namespace trackbed {
 /// Returns the metrics that Trackbed defines, in the order of metrics.json.
 std::vector<MetricEntry> BuiltInMetrics();
 
-/// A metric of each isolated turn, written to metrics.json under `turns[N]`.
+/// Describes a metric of isolated turns, which metrics.json contains for each turn under
+/// `turns[N]`.
 struct TurnMetricEntry {
   const char* key;
   const char* label;
@@ -20,7 +21,7 @@ struct TurnMetricEntry {
 
 const std::vector<TurnMetricEntry>& TurnMetricTable();
 
-/// A metric of each completed lap, written to metrics.json under `laps[N]`.
+/// Describes a metric of completed laps, which metrics.json contains for each lap under `laps[N]`.
 struct LapMetricEntry {
   const char* key;
   const char* label;
@@ -30,8 +31,9 @@ struct LapMetricEntry {
 
 const std::vector<LapMetricEntry>& LapMetricTable();
 
-/// A metric of the predictions over one horizon, written to metrics.json under `windows[N]`. The
-/// metric is null if there were no prediction windows, or if a quantile is infinite.
+/// Describes a metric of the predictions over one horizon, which metrics.json contains for each
+/// horizon under `windows[N]`. The value in metrics.json is null if the run had no prediction
+/// windows, or if a quantile is infinite.
 struct WindowMetricEntry {
   const char* key;
   const char* label;
@@ -41,11 +43,11 @@ struct WindowMetricEntry {
 
 const std::vector<WindowMetricEntry>& WindowMetricTable();
 
-/// Writes the value of a metric into `json` at the path of the metric: "turns[0].waypoint" becomes
-/// /turns/0/waypoint.
+/// Writes the value of a metric into `json` at the metric's path; for example, the path
+/// "turns[0].waypoint" is the JSON pointer /turns/0/waypoint.
 void PutMetric(const Metric& metric, nlohmann::ordered_json& json);
 
-/// Returns all metrics that a run of the plant can have in the scenario, filled with dummy values.
+/// Returns all metrics that a run of the scenario can have for the plant, with dummy values.
 PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant);
 
 }  // namespace trackbed

@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-/// Averaging window of accelerations and rates [s].
+/// Duration over which measured accelerations and steering rates are averaged [s].
 constexpr double kWindow = 0.1;
 
 void MeasureOverspeed(const LogRow& row, TrackingMetrics& metrics) {
@@ -38,8 +38,9 @@ TrackingMetrics MeasureTracking(const RunLog& log, const Pose2& goal, double cor
   double rows = 0.0;
   for (const LogRow& row : log.rows) {
     if (log.contact_time && row.state.time > *log.contact_time && rows > 0.0) {
-      break;  // from this row on, an obstacle pushes the car, so steering does not determine the
-              // motion
+      // Stop here, because from this row on, an obstacle pushes the car and the steering no longer
+      // determines the motion.
+      break;
     }
     rows += 1.0;
     const Projection& at = *row.tracking;
@@ -83,7 +84,8 @@ ClearanceMetrics MeasureClearance(const RunLog& log) {
   }
   metrics.collision = log.contact_time.has_value();
   if (log.contact_time) {
-    metrics.min_t = *log.contact_time;  // the time of contact lies between two rows
+    // Use the exact time of contact, which lies between two log rows.
+    metrics.min_t = *log.contact_time;
   }
   return metrics;
 }
@@ -99,8 +101,8 @@ void PlaceContact(const RunLog& log, PlantMetrics& metrics) {
   metrics.contact_s = row == log.rows.end() ? metrics.end_s : RowStation(*row);
 }
 
-/// Returns the root mean square of the measured steering rate, where each rate is a mean over one
-/// control period.
+/// Returns the root mean square of the measured steering rate; the rate in each control period is
+/// the change of the steering angle divided by the period.
 double SteeringRateRms(const RunLog& log, double control_period) {
   double squares = 0.0;
   for (std::size_t i = 1; i < log.rows.size(); ++i) {
@@ -127,9 +129,11 @@ std::vector<TurnMetrics> MeasureTurns(const RunLog& log, const Plan& plan,
                                       const VehicleParams& vehicle, StationSource source) {
   std::vector<TurnMetrics> turns;
   const Trace trace = MakeTrace(log, source);
-  // Steered wheels lag behind their actuator only in plants that simulate wheels.
+  // Account for the lag between the steering actuator and the steered wheels only in plants that
+  // simulate wheels.
   const double lag = log.rows.front().state.wheels ? vehicle.steering_lag : 0.0;
-  // After the first change of plan, the stations in the log refer to another path.
+  // Evaluate only turns before the first change of plan, because later stations in the log refer to
+  // another path.
   const double until =
       log.changes.empty() ? std::numeric_limits<double>::infinity() : log.changes.front().station;
   for (const IsolatedTurn& turn : plan.turns) {

@@ -27,18 +27,19 @@
 
 // Writes results into output folders such that a crash leaves no incomplete results. A folder is
 // locked (flock) while it is written. ResultWriter writes all files of a result into a hidden
-// folder, and commits the result by renaming that folder. The files of the result are then moved
-// into the output folder, the manifest last. If a process is killed while it moves files, the next
-// process that locks the folder moves the remaining files. That process also removes results that
-// were not committed. Output folders may come from untrusted sources, so links are never followed.
-// Only files that Trackbed has written are overwritten or removed (own_files.h).
+// folder, and commits the result by renaming that folder. After the commit, ResultWriter moves the
+// files of the result into the output folder, and the manifest last. If a process is killed while
+// it moves files, the next process that locks the folder moves the remaining files. The process
+// that locks the folder next also removes results that were not committed. Output folders may come
+// from untrusted sources, so links are never followed. Only files that Trackbed has written are
+// overwritten or removed (own_files.h).
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Names of two lists in the hidden folders. The first lists the files to remove, as JSON. The
-// second lists the files that were begun, one per line.
+// Names of two files in a hidden folder. The file kObsolete lists the files to remove, as JSON. The
+// file kWritten lists the files whose writing has begun, one name per line.
 constexpr const char* kObsolete = ".obsolete";
 constexpr const char* kWritten = ".written";
 
@@ -97,13 +98,14 @@ std::vector<std::string> ObsoleteNames(const fs::path& complete) {
   try {
     return JsonValue(ParseJson(file), file.string()).Texts();
   } catch (const InputError&) {
-    return {};  // if the list is damaged, no file is removed
+    return {};  // ignore a damaged list, so that no file is removed
   }
 }
 
-/// Removes the obsolete files that a committed result lists. Then moves the files of the result
-/// into the folder, the manifest last. MoveIntoPlace also continues an interrupted move. Files that
-/// Trackbed has not written stay in both folders.
+/// Removes the obsolete files that a committed result lists, and then moves the files of the result
+/// into the output folder, with the manifest last. MoveIntoPlace also continues an interrupted
+/// move. Files that Trackbed has not written stay where they are, in the output folder and in the
+/// hidden folder.
 void MoveIntoPlace(const fs::path& folder) {
   const fs::path complete = folder / run_folder::kComplete;
   const auto fail = [&](const fs::path& file, const std::string& why) {
@@ -184,7 +186,8 @@ void Recover(const fs::path& folder) {
   }
 }
 
-/// Throws RunError if the name of a hidden folder is already in use, for example by a link.
+/// Throws RunError if something other than a folder, such as a link, has the name of a hidden
+/// folder.
 void RequireHiddenFolders(const fs::path& folder) {
   for (const char* name : {run_folder::kPartial, run_folder::kComplete}) {
     static_cast<void>(FolderBelow(folder, name));
@@ -210,7 +213,8 @@ void OutputFolder::Open(For use) {
   }
   lock_ = Descriptor(::open(path_.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (lock_.get() < 0) {
-    return;  // a later read or write reports the absent or unreadable folder
+    // Ignore the error: a later read or write reports that the folder is absent or unreadable.
+    return;
   }
   Lock(use);
   RemoveAbandonedTemporaries(path_);
@@ -297,7 +301,7 @@ ResultWriter::~ResultWriter() {
   try {
     RemovePartial(folder_);
   } catch (const std::exception&) {
-    // Ignores the error: the next process that writes to the folder reports it.
+    // Ignore the error, because the next process that writes to the folder reports the same error.
   }
 }
 

@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the status of the path itself; if the path is a link, returns the status of the link.
+/// Returns the file status of a path; for a link, returns the status of the link and not of its
+/// target.
 fs::file_status StatusOf(const fs::path& path) {
   std::error_code ignored;
   return fs::symlink_status(path, ignored);
@@ -113,22 +114,24 @@ void RemoveHiddenFolder(const fs::path& folder, const std::vector<std::string>& 
 std::vector<std::string> ForeignNames(const fs::path& folder,
                                       const std::vector<std::string>& names) {
   const auto look = [&] {
-    // A running or killed process may have moved only some files of a result into the folder. Read
-    // the manifest of the hidden folder first, because that manifest is moved into the folder last.
+    // Another process may have moved only some files of a result into the folder, because the
+    // process is still running or was killed. Read the manifest of the hidden folder first, because
+    // that manifest is moved into the folder last.
     const std::optional<Manifest> next = ReadManifest(folder / run_folder::kComplete);
     const std::optional<Manifest> manifest = ReadManifest(folder);
     std::vector<std::string> foreign;
     std::copy_if(names.begin(), names.end(), std::back_inserter(foreign),
                  [&](const std::string& name) {
-                   // Skip the manifest itself, which ReadManifest has already checked.
+                   // Skip the manifest, because ReadManifest has already checked that Trackbed
+                   // wrote it.
                    return name != run_folder::kManifest &&
                           !IsOwnOrAbsent(folder, name, manifest ? &*manifest : nullptr) &&
                           !IsOwnOrAbsent(folder, name, next ? &*next : nullptr);
                  });
     return foreign;
   };
-  // Check a second time, because another process may have moved files after the first check read
-  // the manifests.
+  // If the first check finds foreign files, check a second time, because another process may have
+  // moved files after the first check read the manifests.
   return look().empty() ? std::vector<std::string>() : look();
 }
 
@@ -182,8 +185,8 @@ void RemoveResults(const fs::path& folder) {
       Remove(folder / name);
     }
   }
-  Remove(folder / run_folder::kManifest);  // removed last, because the manifest lists Trackbed's
-                                           // other files
+  // Remove the manifest last, because the manifest lists all other files that Trackbed has written.
+  Remove(folder / run_folder::kManifest);
   if (NamesIn(folder).empty()) {
     Remove(folder);
   }

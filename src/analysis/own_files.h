@@ -4,19 +4,21 @@
 #include <string>
 #include <vector>
 
-/// Determines which files of an output folder Trackbed has written and may therefore replace or
-/// remove.
+/// Functions that determine which files in an output folder were written by Trackbed; Trackbed may
+/// replace or remove only these files.
 namespace trackbed {
 
 struct Manifest;
 
-/// Returns whether the folder has no file with this name, or a regular file that Trackbed has
-/// written. A file counts as written by Trackbed if the manifest (null: none) lists the file, if
-/// the file carries a mark (HasMark), or if the file contains the records of a study.
+/// Returns true if the folder contains no file with this name, or if the file with this name is a
+/// regular file that Trackbed has written. A file counts as written by Trackbed if the manifest
+/// (null: none) lists the file, if the file carries a mark (HasMark), or if the file contains the
+/// records of a study.
 bool IsOwnOrAbsent(const std::filesystem::path& folder, const std::string& name,
                    const Manifest* manifest);
 
-/// Throws a RunError that names a file which Trackbed has not written and must not replace.
+/// Throws RunError with the message that Trackbed has not written `file` and therefore does not
+/// replace it.
 [[noreturn]] void FailAsForeign(const std::filesystem::path& file);
 
 /// Removes the regular files with these names from a hidden folder, then removes the folder.

@@ -21,8 +21,8 @@ void ForEachIndex(std::size_t count, int threads, const std::function<bool(std::
       throw;
     }
   };
-  // The destructors of the futures wait for the other threads, even if the work in this thread
-  // throws.
+  // Keep the futures of all other threads: their destructors wait for these threads, even if the
+  // work in this thread throws.
   std::vector<std::future<void>> others;
   const std::size_t workers = std::min(count, static_cast<std::size_t>(std::max(threads, 1)));
   for (std::size_t i = 1; i < workers; ++i) {

@@ -14,12 +14,14 @@ const Segments& SegmentsOf(const PlannedPath& path) {
   return path.plan.reference.path.segments();
 }
 
-/// Returns the distances along the segment at which the curvature may have an extremum: both ends,
-/// and an inner vertex of the quadratic curvature.
+/// Returns the distances along the segment at which the curvature may be largest or smallest: both
+/// ends of the segment, and the vertex of the quadratic curvature if the vertex lies inside the
+/// segment.
 std::vector<double> Extrema(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const double vertex = -segment.sharpness / segment.sharpness_rate;
-  if (vertex > 0.0 && vertex < segment.length) {  // NaN makes the condition false
+  // If the curvature is not quadratic, `vertex` is NaN or infinite and the condition is false.
+  if (vertex > 0.0 && vertex < segment.length) {
     places.push_back(vertex);
   }
   return places;
@@ -57,16 +59,17 @@ double SquaredCurvature(const Segment& segment) {
   return half * (5.0 * square(-kOuter) + 8.0 * square(0.0) + 5.0 * square(kOuter)) / 9.0;
 }
 
-/// Returns the distances along the segment of both ends and of the zeros of the curvature, in
-/// ascending order.
+/// Returns distances along the segment in ascending order: the distances of both ends, and the
+/// distances at which the curvature is 0.
 std::vector<double> Crossings(const Segment& segment) {
   std::vector<double> places{0.0, segment.length};
   const auto add = [&](double d) {
-    if (d > 0.0 && d < segment.length) {  // NaN makes the condition false
+    if (d > 0.0 && d < segment.length) {  // if `d` is NaN, the condition is false
       places.push_back(d);
     }
   };
-  // Compute the roots d of the curvature 0.5 r d^2 + q d + p without cancellation.
+  // Compute the distances d at which the curvature 0.5 r d^2 + q d + p is 0, with a formula that
+  // avoids cancellation errors.
   const double p = segment.curvature;
   const double q = segment.sharpness;
   const double r = segment.sharpness_rate;
@@ -93,10 +96,11 @@ double Turning(const Segments& segments) {
   return turned;
 }
 
-/// Returns the largest curvature jump inside the legs of a path. SplitIntoLegs cuts a path at cusps
-/// and stops.
+/// Returns the largest curvature jump of a path, except at cusps and stops, where SplitIntoLegs
+/// cuts the path into legs.
 double MaxCurvatureJump(const PlannedPath& path) {
-  // Bound of the rounding error of a segment's final curvature [rad/m].
+  // Largest rounding error of the curvature at the end of a segment [rad/m]; smaller jumps count as
+  // 0.
   constexpr double kRounding = 1e-12;
   double largest = 0.0;
   const Path& line = path.plan.reference.path;
@@ -111,8 +115,9 @@ double MaxCurvatureJump(const PlannedPath& path) {
   return largest > kRounding ? largest : 0.0;
 }
 
-/// Computes the minimum clearance along the path. Each step along the path is limited by the
-/// current clearance, because the clearance changes by at most `moved` per meter of path.
+/// Computes the minimum clearance along the path. The length of each step along the path depends on
+/// the clearance at the current station, because the clearance changes by at most `moved` meters
+/// per meter of path.
 std::optional<double> MinClearance(const PlannedPath& path) {
   World known = path.world;
   std::erase_if(known.obstacles, [](const Obstacle& obstacle) {

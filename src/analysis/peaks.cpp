@@ -10,7 +10,7 @@ void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetr
   double sum = 0.0;
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
     if (log.contact_time && log.rows[i].state.time > *log.contact_time) {
-      break;  // from this row on, the obstacle pushes the car
+      break;  // stop here, because from this row on, the obstacle pushes the car
     }
     sum += log.rows[i].state.lateral_acceleration;
     if (i >= rows) {
@@ -30,7 +30,7 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
     const VehicleState& state = log.rows[i].state;
     if (log.contact_time && state.time > *log.contact_time) {
-      break;  // from this row on, an obstacle may turn the wheels
+      break;  // stop here, because from this row on, an obstacle may turn the wheels
     }
     metrics.steering_max = std::max(metrics.steering_max, std::abs(state.steering));
     if (i < window) {
@@ -48,8 +48,8 @@ void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metric
 
 double SaturatedFraction(const RunLog& log, const VehicleParams& vehicle, double begin,
                          double end) {
-  // The tolerance of one microradian is smaller than any relevant change of the command and larger
-  // than the rounding errors of the actuator.
+  // The steering command counts as reached within one microradian, which is smaller than any
+  // relevant change of the command and larger than the rounding errors of the simulated actuator.
   constexpr double kReachedTolerance = 1e-6;
   double saturated = 0.0;
   double periods = 0.0;

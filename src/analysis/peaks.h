@@ -10,13 +10,13 @@ inline double RowStation(const LogRow& row) {
   return row.tracking ? row.tracking->s : row.state.distance;
 }
 
-/// Measures the largest magnitude of the lateral acceleration, averaged over windows of `window`
-/// control periods. Each average includes the rows at both ends of the window. The acceleration is
+/// Measures the largest magnitude of the lateral acceleration after averaging over `window` control
+/// periods. Each average includes the rows at both ends of the window. The acceleration is
 /// averaged, because a single sample may contain the impact of a tyre on the road.
 void MeasureLateralAcceleration(const RunLog& log, std::size_t window, PlantMetrics& metrics);
 
-/// Measures the largest magnitude of the steering angle and of the mean steering rate over `window`
-/// control periods.
+/// Measures the largest magnitude of the steering angle, and the largest magnitude of the steering
+/// rate after averaging over `window` control periods.
 void MeasureSteering(const RunLog& log, std::size_t window, PlantMetrics& metrics);
 
 /// Returns the fraction of the control periods from `begin` to `end` [s] in which the steering

@@ -32,8 +32,8 @@ std::optional<double> ExtentOf(const Check& check) {
   }
   const double left = check.relation == Relation::kAtMost ? *bound - *value : *value - *bound;
   const double margin = *bound == 0.0 ? left : left / std::abs(*bound);
-  // A strict requirement such as `x < y` is violated with margin 0, so the margin must become
-  // negative.
+  // The margin of a violated check must be negative, but a strict requirement such as `x < y` is
+  // violated at margin 0; the margin then becomes the negative number nearest to 0.
   return check.met ? margin : std::min(margin, -std::numeric_limits<double>::min());
 }
 

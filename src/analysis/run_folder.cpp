@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::string_view kStateEnding = ".state.csv";
 
-/// Makes a file name from the name of a plant. Plant names may come from files, so the file name
-/// must not point outside the folder.
+/// Makes a file name from the name of a plant. Plant names may come from untrusted files, so Name()
+/// rejects names with which the file would lie outside the run folder.
 std::string Name(const std::string& plant, std::string_view ending) {
   if (plant.empty() || plant.front() == '.' || plant.find('/') != std::string::npos) {
     throw InputError(Problem{.message = fmt::format("'{}' is no name of a plant", plant)});

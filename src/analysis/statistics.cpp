@@ -14,12 +14,13 @@
 
 // Computes statistics of study tables. Confidence intervals of pass rates are Wilson score
 // intervals (Wilson 1927). Quantiles are interpolated linearly between order statistics. Confidence
-// intervals of means use Student's t distribution. Classify forms one class per value, or classes
-// of about equal size if there are many values. FirstOrderIndices computes the fraction of an
-// output's variance that lies between classes (epsilon squared). The confidence interval of an
-// index is a normal interval from bootstrap resamples. CorrelateRanks computes the rank correlation
-// (Spearman 1904) with the confidence interval of Bonett and Wright (2000). ComparePairs computes
-// paired differences and the sign test.
+// intervals of means use Student's t distribution. Classify assigns the values of a parameter to
+// classes: one class per distinct value, or classes of about equal size if there are many distinct
+// values. FirstOrderIndices computes the fraction of an output's variance that lies between classes
+// (epsilon squared). The confidence interval of epsilon squared assumes a normal distribution,
+// whose standard deviation is estimated by bootstrap resampling. CorrelateRanks computes the rank
+// correlation (Spearman 1904) with the confidence interval of Bonett and Wright (2000).
+// ComparePairs computes paired differences and the sign test.
 namespace trackbed {
 namespace {
 
@@ -27,8 +28,8 @@ namespace {
 /// startup if long doubles have only 64 bits, as under valgrind.
 using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-/// Returns the half width of a confidence interval, in standard deviations of a normal
-/// distribution.
+/// Returns the half width of a confidence interval of a normally distributed quantity, as a
+/// multiple of the standard deviation.
 double NormalReach(double confidence) {
   TRACKBED_REQUIRE(confidence > 0.0 && confidence < 1.0, "confidence {} is not in (0, 1)",
                    confidence);
@@ -40,9 +41,9 @@ double MeanOf(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-/// Computes epsilon squared of an output with a mean near 0, for n rows in B classes: 1 - (W / (n -
-/// B)) / (T / (n - 1)). W is the sum of squares within the classes, and T is the total sum of
-/// squares.
+/// Computes epsilon squared of an output whose mean is near 0, for n rows that are divided into B
+/// classes: 1 - (W / (n - B)) / (T / (n - 1)). W is the sum of squared deviations from the class
+/// means, and T is the sum of squared deviations from the total mean.
 class VarianceShare {
  public:
   explicit VarianceShare(std::size_t classes) : counts_(classes), sums_(classes) {}
@@ -212,7 +213,7 @@ std::vector<std::optional<FirstOrderIndex>> FirstOrderIndices(
       indices[p] = FirstOrderIndex{.index = *index};
     }
   }
-  // A fixed seed gives the same intervals every time.
+  // A fixed seed makes the bootstrap intervals reproducible.
   std::mt19937_64 random(1);  // NOLINT(cert-msc51-cpp)
   std::vector<std::vector<double>> resampled(parameters.size());
   for (int resample = 0; resample < options.resamples; ++resample) {
@@ -305,7 +306,7 @@ std::optional<RankCorrelation> CorrelateRanks(const std::vector<double>& a,
   }
   const double rho = std::clamp(products / std::sqrt(squares_a * squares_b), -1.0, 1.0);
   const double half = z * std::sqrt((1.0 + 0.5 * rho * rho) / static_cast<double>(a.size() - 3));
-  const double center = std::atanh(rho);  // the center is infinite for rho = -1 and rho = 1
+  const double center = std::atanh(rho);  // infinite for rho = -1 and rho = 1
   return RankCorrelation{rho, {std::tanh(center - half), std::tanh(center + half)}};
 }
 

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMinSteadySpeed = 1.0;
 constexpr double kYawAcceleration = 0.05;  // Largest yaw acceleration of a quasi-steady state
                                            // [rad/s^2].
-constexpr double kWindow = 0.5;            // Window of the mean yaw acceleration [s].
+constexpr double kWindow = 0.5;  // Duration over which the yaw acceleration is averaged [s].
 
 /// Sample of a quasi-steady state; samples of right turns are mirrored to left turns.
 struct Sample {
@@ -98,7 +98,8 @@ double Spread(const std::vector<Sample>& samples) {
 
 void EvaluateGradients(const std::vector<Sample>& samples, double from, double to, double wheelbase,
                        ManeuverMetrics& metrics) {
-  // Smallest range of lateral accelerations from which a gradient is computed [m/s^2].
+  // Minimum range of the samples' lateral accelerations; with a smaller range, no gradient is
+  // computed [m/s^2].
   constexpr double kMinSpread = 0.5;
   double highest = 0.0;
   for (const Sample& sample : samples) {

@@ -103,8 +103,8 @@ ordered_json DistributionJson(const Variation& variation) {
   return json;
 }
 
-/// Converts a variation to a JSON list of values, or to an object if the variation has further
-/// parameters.
+/// Converts the variation of a key to a JSON list of its values, or to a JSON object if the
+/// variation has further parameters.
 ordered_json VariationJson(const Variation& variation) {
   ordered_json json = ordered_json::array();
   if (variation.distribution) {

@@ -14,8 +14,8 @@ std::vector<std::string> ParameterKeys(const Study& study);
 /// Returns the column names of a study's table.
 std::vector<std::string> TableColumns(const Study& study);
 
-/// Converts a YAML value to JSON. SettingsJson keeps the type of numbers, booleans and null; other
-/// values become text.
+/// Converts a YAML value to JSON. Numbers, booleans and null keep their type; other values become
+/// JSON strings.
 nlohmann::ordered_json SettingsJson(const std::string& value);
 nlohmann::ordered_json SettingsJson(const std::vector<Setting>& settings);
 

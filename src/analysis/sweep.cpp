@@ -22,17 +22,17 @@
 // (sweep_records.cpp). A row is one repetition of one point of the study. The row numbers depend
 // only on the study, so a shard or a resumed study can run exactly the missing rows. The option
 // `--until` stops sampling when the Wilson intervals of the pass rates are narrow enough at all
-// grid points. The intervals are checked after every kUntilBatch points. WriteSweep writes the
-// table row by row from the records. MergeRecords joins the records of shards and rejects
-// contradicting rows.
+// grid points. The widths of the Wilson intervals are checked after every kUntilBatch points.
+// WriteSweep writes the table of a study row by row from the records. MergeRecords joins the
+// records of shards and rejects contradicting rows.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Returns the rows of the shard that must be run: the rows that are missing in the records. If
-/// `again` lists statuses, returns instead the recorded rows with one of these statuses.
+/// Returns the rows of the shard that must be run. These are the rows that are missing in the
+/// records, or, if `again` lists statuses, the recorded rows with one of these statuses.
 std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptions& options) {
   const std::vector<std::string> columns = records.Columns();
   const auto status = static_cast<std::size_t>(std::find(columns.begin(), columns.end(), "status") -
@@ -54,8 +54,8 @@ std::vector<std::size_t> RowsToRun(const SweepRecords& records, const SweepOptio
   return rows;
 }
 
-/// Counts the rows that passed at each grid point, over the points of the sample that have been run
-/// so far.
+/// Counts the passed rows at each grid point, for the points of the sample that have been run so
+/// far.
 class SampledPassRates {
  public:
   SampledPassRates(const SweepRecords& records, std::size_t repeat, std::size_t samples)
@@ -77,8 +77,8 @@ class SampledPassRates {
     return rows;
   }
 
-  /// Counts which of the rows returned by NextRows passed. Take() returns false if the result of a
-  /// row is missing.
+  /// Counts the passed rows among `rows`, which NextRows has returned. Take() returns false if the
+  /// result of a row is missing.
   bool Take(const std::vector<std::size_t>& rows) {
     for (const std::size_t row : rows) {
       if (!records_.Has(row)) {
@@ -209,7 +209,7 @@ void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords
                  [&](std::size_t row) { return !records.Has(row); });
     run_rows(missing);
     if (next.empty() || !rates.Take(next)) {
-      return;  // all rows have been run, or the study was interrupted
+      return;  // end the loop: all rows have been run, or the study was interrupted
     }
   }
 }
@@ -242,8 +242,8 @@ SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWri
     description["stopped"] = stopped;
   }
   writer.Add(run_folder::kSweepJson, JsonText(description));
-  // Also remove the report and the outcome of a search or verification, which belong to the old
-  // rows.
+  // Also remove the old report and the old outcome of a search or verification, because these files
+  // describe the old rows.
   writer.EndResult(run_folder::kStudy,
                    {run_folder::kReport, run_folder::kFalsifyJson, run_folder::kVerifyJson});
   return summary;
@@ -338,7 +338,7 @@ std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t ro
   const JsonValue header = records.Header();
   std::vector<Override> overrides;
   for (const auto& [key, value] : header.At("set").Members()) {
-    // Write cells with text unchanged and other values as YAML.
+    // Use the value of a text unchanged, and write any other value as JSON, which is valid YAML.
     const nlohmann::ordered_json& json = value.json();
     overrides.push_back(
         fmt::format("{}={}", key, json.is_string() ? json.get<std::string>() : json.dump()));

@@ -18,17 +18,18 @@
 
 #include "trackbed/core/error.h"
 
-// Manages the append-only file with the rows of a study. The first line of the file is the header,
-// which describes the study. Each further line is one row as JSON, preceded by its CRC-32. Load()
-// stores the file offset of every row and truncates the file after the last valid line. A killed
-// process therefore loses at most the row that it was writing. If several lines contain the same
-// row, the last of these lines counts. The file is synchronized to disk once per second.
+// Manages the record file of a study, to which each finished row is appended. The first line of the
+// record file is the header, which describes the study. Each further line contains the CRC-32 of a
+// row and the row as JSON. Load() stores the file offset of every row and truncates the file after
+// the last valid line. If the process is killed, therefore, at most the row that the process was
+// writing is lost. If several lines contain the same row, the last of these lines counts. The
+// record file is synchronized to disk once per second.
 namespace trackbed {
 namespace {
 
 using nlohmann::ordered_json;
 
-// Width of the checksum in a line: eight digits and a space.
+// Number of characters of the checksum at the start of a line: eight digits and a space.
 constexpr std::size_t kChecksumWidth = 9;
 constexpr std::string_view kRowKey = "{\"row\":";
 
@@ -42,8 +43,8 @@ std::string LineOf(std::string_view json) {
   return fmt::format("{:08x} {}\n", Checksum(json), json);
 }
 
-/// Returns the JSON text of a line of the file, without the line feed; none if the checksum does
-/// not match.
+/// Returns the JSON text in a line of the record file, without the line feed; none if the checksum
+/// does not match the text.
 std::optional<std::string_view> JsonOf(std::string_view line) {
   std::uint32_t told = 0;
   if (line.size() <= kChecksumWidth || line[kChecksumWidth - 1] != ' ') {
@@ -100,7 +101,7 @@ void ForEachLine(int descriptor, const std::function<bool(std::string_view, std:
                  const std::function<void(int error)>& fail) {
   constexpr std::size_t kBlock = std::size_t{1} << 20U;
   std::string text;
-  std::int64_t begin = 0;  // offset of the buffered text in the file
+  std::int64_t begin = 0;  // position in the file at which the buffered text starts [bytes]
   for (;;) {
     const std::size_t before = text.size();
     text.resize(before + kBlock);
@@ -131,8 +132,8 @@ void ForEachLine(int descriptor, const std::function<bool(std::string_view, std:
   }
 }
 
-/// Opens the file of records, or creates it together with its header in one step. A killed process
-/// therefore leaves no file without a header.
+/// Opens the record file; if the file does not exist, creates the file together with its header in
+/// one step, so that a killed process leaves no file without a header.
 int OpenOrCreate(const std::filesystem::path& file, const ordered_json& header) {
   constexpr int kFlags = O_RDWR | O_CLOEXEC | O_NOFOLLOW;
   const int descriptor = ::open(file.c_str(), kFlags);
@@ -239,7 +240,7 @@ void SweepRecords::Fail(const char* what, int error) const {
 
 void SweepRecords::Load(const std::optional<ordered_json>& header, std::string_view remedy) {
   bool any_line = false;
-  // The callback take_row returns whether to continue with the next line.
+  // The callback take_row returns true if the next line is to be read.
   const auto take_row = [&](std::string_view json, std::int64_t begin) {
     std::size_t row = 0;
     if (!json.starts_with(kRowKey)) {
@@ -284,7 +285,7 @@ void SweepRecords::Load(const std::optional<ordered_json>& header, std::string_v
                                fmt::join(Differences(*header, this->header()), "; "), remedy)});
   }
   if (!header) {
-    return;  // nothing to do: the file is open for reading only
+    return;  // nothing to do, because the record file is open for reading only
   }
   if (status.st_size > end_ && ::ftruncate(descriptor_.get(), end_) != 0) {
     Fail("write", errno);

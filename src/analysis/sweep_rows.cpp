@@ -17,12 +17,12 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// Runs the rows of a study.
+/// Runs the scenario of a row of a study, and creates the row with the outputs of the run.
 class RowMaker {
  public:
   RowMaker(const Study& study, const RunScenarioOnce& run) : study_(study), run_(run) {}
 
-  /// Runs one repetition of a point of the study; returns none if interrupted.
+  /// Runs one repetition of a point of the study; returns none if the run was interrupted.
   [[nodiscard]] std::optional<SweepRow> Make(const StudyPoint& point,
                                              std::uint64_t repetition) const {
     if (!point.refused.empty()) {
@@ -84,7 +84,7 @@ class RowMaker {
   [[nodiscard]] std::optional<SweepRow> BisectAt(const StudyPoint& point,
                                                  std::uint64_t repetition) const {
     const BisectSpec& spec = *study_.bisect;
-    Outputs best;  // outputs of the run with the largest value that passed
+    Outputs best;  // outputs of the passing run with the largest value of the bisected key
     const Bisection bisection =
         Bisect(spec.from, spec.to, spec.tolerance, [&](double value) -> std::optional<bool> {
           Scenario scenario = ReadPoint(study_, point.settings, value);

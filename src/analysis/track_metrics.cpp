@@ -10,7 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// Tracks the station of the rear axle, which continues to increase from lap to lap.
+/// Computes the station of the rear axle; unlike the station on the track, this station does not
+/// return to 0 after each lap.
 class LapCounter {
  public:
   LapCounter(const Track& track, const Vec2& start) : track_(track) {
@@ -22,8 +23,7 @@ class LapCounter {
 
   [[nodiscard]] double station() const { return station_; }
 
-  /// Moves the counter to the next position of the rear axle and returns the station of that
-  /// position.
+  /// Takes the next position of the rear axle and returns the station of this position.
   double Advance(const Vec2& position) {
     const double s = track_.Locate(position, station_).s;
     // Add whole laps, so that the new station is as near as possible to the previous station.
@@ -36,9 +36,9 @@ class LapCounter {
   double station_ = 0.0;
 };
 
-/// Returns the distance from a point to an edge of the track, among the edge's segments near a
-/// station [m]. The distance is negative outside the track, that is, right of a right edge or left
-/// of a left edge.
+/// Returns the distance from a point to the nearest of those segments of a track edge that are near
+/// a station [m]. The distance is negative outside the track, that is, right of a right edge or
+/// left of a left edge.
 double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point, double share) {
   const auto count = static_cast<std::ptrdiff_t>(edge.size());
   const auto middle = static_cast<std::ptrdiff_t>(share * static_cast<double>(count));
@@ -55,9 +55,9 @@ double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point,
         std::clamp((point - a).dot(along) / std::max(along.squaredNorm(), 1e-12), 0.0, 1.0);
     const Vec2 beside = point - a - part * along;
     const double distance = beside.norm();
-    // At a corner of an edge, two segments are equally near. Of two equally near segments, the
-    // segment with the larger perpendicular distance from the point determines on which side of the
-    // edge the point lies.
+    // At a corner of a track edge, two segments of the edge may be equally near to the point. Of
+    // two equally near segments, the segment with the larger perpendicular distance from the point
+    // determines on which side of the edge the point lies.
     const double across = side * Cross(along, point - a) / std::max(along.norm(), 1e-6);
     const bool equal = std::abs(distance - nearest) < 1e-9;
     if (equal ? std::abs(across) > std::abs(inside) : distance < nearest) {
@@ -68,7 +68,8 @@ double DistanceInside(const TrackEdgeLine& edge, double side, const Vec2& point,
   return std::copysign(nearest, inside);
 }
 
-/// Track margin at one row of the log.
+/// Distance between the car's footprint and the nearest track edge (TrackMargin) at one row of the
+/// log.
 struct Margin {
   double margin = 0.0;  // [m]
   const LogRow* row = nullptr;
@@ -87,7 +88,8 @@ std::vector<Margin> Margins(const MetricInput& input) {
   return margins;
 }
 
-/// Sums the values of `span` over the control periods that begin off the track.
+/// Adds up the values that `span` returns for all control periods at whose beginning the car is off
+/// the track.
 template <typename Span>
 std::optional<MetricReading> SumOffTrack(const MetricInput& input, const Span& span) {
   if (!input.plan.laps.track) {
@@ -117,7 +119,8 @@ std::vector<LapMetrics> MeasureLaps(const RunLog& log, const Plan& plan) {
   if (counter.station() > -1e-6) {
     begin = rows.front().state.time;
   }
-  // Count at most the planned laps: driving beyond the finish line does not start another lap.
+  // Count at most the planned laps: a car that drives beyond the finish line does not start another
+  // lap.
   double next = begin ? track.length() : 0.0;
   double before = counter.station();
   for (std::size_t i = 1; i < rows.size() && laps.size() + 1 < plan.laps.lines.size(); ++i) {

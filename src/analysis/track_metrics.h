@@ -7,7 +7,8 @@
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/track/track.h"
 
-/// Measures laps and track limits of a run on a track (Plan::laps).
+/// Measures the laps of a run on a track (Plan::laps), and how far the car stays within the track's
+/// edges.
 namespace trackbed {
 
 /// Measures the laps that the rear axle completed. The times at which the rear axle crosses the
@@ -18,16 +19,17 @@ std::vector<LapMetrics> MeasureLaps(const RunLog& log, const Plan& plan);
 
 /// Returns the distance from a car's footprint to the nearest edge of the track [m]. If the
 /// footprint crosses an edge, TrackMargin returns the negative distance from the edge to the
-/// footprint's outermost point. `near` is the station of the footprint's center [m]. The footprint
-/// is sampled at its corners and at 15 points on each long side; edges are polylines.
+/// footprint's outermost point. `near` is the station of the footprint's center [m]. The distance
+/// is computed for the footprint's corners and for 15 points on each long side; the track edges are
+/// polylines.
 double TrackMargin(const Track& track, const OrientedBox& footprint, double near);
 
-/// Returns the smallest TrackMargin of the run [m], with its station and time; none without a
-/// track.
+/// Returns the smallest TrackMargin of the run [m], with its station and time; none if the run has
+/// no track.
 std::optional<MetricReading> SmallestTrackMargin(const MetricInput& input);
-/// Returns the total time during which TrackMargin is negative [s]; none without a track.
+/// Returns the total time during which TrackMargin is negative [s]; none if the run has no track.
 std::optional<MetricReading> TimeOffTrack(const MetricInput& input);
-/// Returns the distance driven while TrackMargin is negative [m]; none without a track.
+/// Returns the distance driven while TrackMargin is negative [m]; none if the run has no track.
 std::optional<MetricReading> DistanceOffTrack(const MetricInput& input);
 
 }  // namespace trackbed

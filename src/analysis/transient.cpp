@@ -9,12 +9,13 @@
 namespace trackbed {
 namespace {
 
-// Limits of the standards ISO 19365 and FMVSS 126 for the maneuver sine with dwell.
-constexpr StandardLimit kEarlyRatio{StandardLimit::Relation::kAtMost, 0.35};     // [1]
-constexpr StandardLimit kLateRatio{StandardLimit::Relation::kAtMost, 0.20};      // [1]
-constexpr StandardLimit kDisplacement{StandardLimit::Relation::kAtLeast, 1.83};  // [m]
+// Limits of the standards ISO 19365 and FMVSS 126 for the maneuver sine with dwell: two yaw rate
+// ratios, and the lateral displacement in meters.
+constexpr StandardLimit kEarlyRatio{StandardLimit::Relation::kAtMost, 0.35};
+constexpr StandardLimit kLateRatio{StandardLimit::Relation::kAtMost, 0.20};
+constexpr StandardLimit kDisplacement{StandardLimit::Relation::kAtLeast, 1.83};
 
-/// Road wheel angles smaller than this value count as straight ahead [rad].
+/// Road wheel angle below which the wheels count as pointing straight ahead [rad].
 constexpr double kNoSteering = 1e-4;
 
 double YawRate(const LogRow& row) {
@@ -41,9 +42,12 @@ double MeanAtEnd(const RunLog& log, double duration, const Of& of) {
 
 /// Time and size of a steering step.
 struct Step {
-  std::size_t row = 0;     ///< First row in which the actuator moves.
-  double half_time = 0.0;  ///< Time at which half of the step is reached [s].
-  double steering = 0.0;   ///< Change of the road wheel angle to its steady state [rad].
+  std::size_t row = 0;  ///< First row in which the actuator moves.
+  /// Time at which the steering angle has changed by half of the step [s].
+  double half_time = 0.0;
+  /// Difference between the steady road wheel angle after the step and the angle before the step
+  /// [rad].
+  double steering = 0.0;
 };
 
 std::optional<Step> FindStep(const RunLog& log, double steady) {

@@ -4,12 +4,13 @@
 
 #include <algorithm>
 
-// Judges a run. Each plant must arrive without a collision, or collide if the scenario expects a
-// collision. Each plant must not exceed the actuator's steering rate, and must stay within the
-// default corridor of one car width. Each plant must also meet its expectations, its requirements,
-// and the bounds on its difference from other plants. Explicit expectations replace the default
-// expectations on status and cross-track error. Every check is recorded, even if it is met. A run
-// without expectations, plan and obstacles gets a verdict only if a check fails.
+// Computes the verdict on a run. Each plant must arrive without a collision, or collide if the
+// scenario expects a collision. Each plant must not exceed the steering rate limit of the actuator,
+// and must stay within the default corridor of one car width. Each plant must also meet the
+// expectations and requirements on the plant, and the bounds on its difference from other plants.
+// Explicit expectations replace the default expectations on status and cross-track error. Every
+// check is recorded in the verdict, whether or not the check is met. A run without expectations,
+// plan and obstacles gets a verdict only if a check fails.
 namespace trackbed {
 namespace {
 
@@ -41,7 +42,7 @@ std::string EarlyEndReason(const PlantMetrics& metrics) {
                                     : "";
 }
 
-/// Expectations that apply to one plant: the expectations on all plants, followed by the
+/// The expectations that apply to one plant: first the expectations on all plants, then the
 /// expectations on this plant alone.
 class Expected {
  public:
@@ -62,8 +63,8 @@ class Expected {
     });
   }
 
-  /// Returns whether the scenario expects a collision; none if the scenario specifies no
-  /// expectation.
+  /// Returns whether the scenario expects a collision; none if the scenario says nothing about
+  /// collisions.
   [[nodiscard]] std::optional<bool> Collision() const {
     std::optional<bool> collision;
     for (const PlantExpectation* part : parts_) {
@@ -138,8 +139,8 @@ void JudgeCorridor(const PlantMetrics& metrics, Verdict& verdict) {
   }
 }
 
-/// Checks that the overspeed does not exceed its limit. Otherwise, adds a note with the overspeed
-/// and the limit to the verdict.
+/// Checks that the overspeed does not exceed its limit; if the limit is exceeded, adds a note to
+/// the verdict.
 void JudgeOverspeed(const PlantMetrics& metrics, Verdict& verdict) {
   const TrackingMetrics& tracking = *metrics.tracking;
   if (!tracking.overspeed_limit || !tracking.overspeed_max) {

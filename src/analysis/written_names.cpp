@@ -47,8 +47,8 @@ Names RunNames() {
                       run_folder::kMetricsJson});
 }
 
-/// Returns the fixed parts of a name pattern. For example, the fixed parts of "<plant>.csv" are ""
-/// and ".csv".
+/// Returns the fixed parts of a name pattern, that is, the parts outside angle brackets. For
+/// example, the fixed parts of "<plant>.csv" are "" and ".csv".
 Names FixedParts(const std::string& pattern) {
   Names parts{""};
   for (std::size_t at = 0; at < pattern.size(); ++at) {
@@ -63,8 +63,8 @@ Names FixedParts(const std::string& pattern) {
   return parts;
 }
 
-/// Returns whether `name` matches the pattern. The name must contain the pattern's fixed parts in
-/// order, with at least one character between them.
+/// Returns whether `name` matches the pattern: the name must consist of the pattern's fixed parts
+/// in order, with at least one character between two fixed parts.
 bool Matches(const std::string& pattern, const std::string& name) {
   const Names parts = FixedParts(pattern);
   if (parts.size() == 1) {
@@ -84,8 +84,8 @@ bool Matches(const std::string& pattern, const std::string& name) {
   return at + parts.back().size() <= name.size();
 }
 
-/// Replaces the variable part of a name pattern by each of its known values, and returns the
-/// resulting names. Filled() returns no names if no value is known.
+/// Returns all names that result if each variable part of a name pattern is replaced by its known
+/// values. Filled() returns no names if a variable part has no known value.
 Names Filled(const std::string& pattern, const NameParts& parts) {
   const std::size_t begin = pattern.find('<');
   if (begin == std::string::npos) {
@@ -235,7 +235,8 @@ const std::string& VideoMark() {
 }
 
 bool HasMark(const std::filesystem::path& file) {
-  constexpr std::streamoff kPngHeader = 33;  // size of a PNG's signature and IHDR
+  // Size of the signature and the chunk IHDR at the start of a PNG file.
+  constexpr std::streamoff kPngHeader = 33;
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(std::filesystem::symlink_status(file, ignored))) {
     return false;

@@ -48,7 +48,7 @@ struct CheckPathOptions {
   ScenarioOptions scenario;
 };
 
-/// Makes a valid scenario name from the name of a path file.
+/// Converts the name of a path file to a valid scenario name.
 std::string NameOf(const fs::path& file) {
   std::string name = file.stem().string();
   std::replace_if(
@@ -58,8 +58,8 @@ std::string NameOf(const fs::path& file) {
   return name.empty() ? "path" : name;
 }
 
-/// Returns the text of a scenario in which a car follows the path, without expectations on the car.
-/// The scenario is written as JSON, which is valid YAML.
+/// Returns the text of a scenario in which a car follows the path; the scenario has no
+/// expectations. The scenario is written as JSON, which is valid YAML.
 std::string ScenarioText(const CheckPathOptions& options) {
   const fs::path file = options.file;
   nlohmann::ordered_json plan{
@@ -142,8 +142,9 @@ int Drive(const CheckPathOptions& options, const Scenario& scenario) {
 
 int CheckPathFile(const CheckPathOptions& options) {
   const fs::path file = options.file;
-  static_cast<void>(OpenInput(file));  // if the file cannot be read, the error names the file and
-                                       // not a key of the generated scenario
+  // Open the file here, so that the error message for an unreadable file names the file and not a
+  // key of the generated scenario.
+  static_cast<void>(OpenInput(file));
   const Scenario scenario =
       options.scenario.Parse(ScenarioText(options), "check-path", file.parent_path());
   const auto* plan = scenario.plan ? scenario.plan->global.As<PathFileOptions>() : nullptr;

@@ -10,10 +10,11 @@
 
 #include "src/cli/terminal.h"
 
-// Implements the command line with CLI11: Command and Option wrap CLI11's apps and options.
-// CommandLine prints help in the usual layout, wrapped to the width of the terminal. CommandLine
-// also adds the option --color to every verb, and shorter messages for missing arguments.
-// VisibleVerbs describes all verbs for completion, manual pages and the reference.
+// Implements the command line with the library CLI11: the class Command wraps a CLI11 app, and the
+// class Option wraps a CLI11 option. CommandLine prints help in the usual layout, wrapped to the
+// width of the terminal. CommandLine also adds the option --color to every verb, and shortens
+// CLI11's messages for missing arguments. VisibleVerbs describes all verbs for the shell
+// completion, the manual pages and the reference page.
 namespace trackbed::cli {
 
 Option Option::Required() const {
@@ -59,7 +60,7 @@ Option Option::Range(int low, int high) const {
 }
 
 Option Option::Range(double low, double high) const {
-  // CLI::Range cannot be used, because it accepts NaN.
+  // Do not use CLI::Range here, because CLI::Range accepts NaN.
   option_->check(CLI::Validator(
       [low, high](std::string& text) {
         double value = 0.0;
@@ -122,8 +123,8 @@ namespace {
 
 constexpr const char* kColorOption = "--color";
 
-/// Appends the verbs of `app` and, recursively, the verbs below these verbs to `verbs`. Each name
-/// is preceded by `before`.
+/// Appends the verbs of `app` and, recursively, their subcommands to `verbs`. The text `before`
+/// precedes each name.
 void AddVisibleVerbs(const CLI::App& app, const std::string& before,
                      const std::map<const CLI::App*, std::vector<Example>>& examples,
                      std::vector<CommandInfo>& verbs) {
@@ -183,8 +184,8 @@ std::optional<std::string> Missing(const CLI::App& program) {
 
 namespace {
 
-/// Formats help in the style of other programs: value names are printed as given, and text is
-/// wrapped to the terminal's width.
+/// Formats help texts: value names are printed as given, and text is wrapped to the terminal's
+/// width.
 class HelpFormatter : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool positional) const override {
@@ -256,7 +257,7 @@ Command CommandLine::AddVerb(const std::string& name, const std::string& summary
 
 void CommandLine::Prepare(CLI::App& verb) {
   verb.group("Verbs");
-  verb.footer("");  // otherwise the verb would inherit the footer of its parent verb
+  verb.footer("");  // removes the footer that the verb would otherwise inherit from its parent verb
   verb.add_option_function<std::string>(kColorOption, &ChooseColors,
                                         "Colors: auto (on a terminal, unless NO_COLOR is set), "
                                         "always or never")
@@ -267,8 +268,9 @@ void CommandLine::Prepare(CLI::App& verb) {
 
 namespace {
 
-/// If the command line names a verb and a verb below that verb, makes the required options of the
-/// upper verb optional. CLI11 would otherwise take the lower verb's name as a required argument.
+/// If the command line names a verb and one of its subcommands, makes the required options of the
+/// parent verb optional. CLI11 would otherwise take the name of the subcommand as a required
+/// argument of the parent verb.
 void RequireOnlyOfLowestVerb(CLI::App& program, int argc, char** argv) {
   const auto find = [](CLI::App& app, const char* name) {
     return app.get_subcommands([&](const CLI::App* verb) { return verb->check_name(name); });

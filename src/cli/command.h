@@ -17,7 +17,8 @@ class Option;
 namespace trackbed::cli {
 
 /// Reference to the variable that an option sets. The variable must outlive the parsing of the
-/// command line. OptionTarget stores the address of the variable, so callers must not pass a copy.
+/// command line. OptionTarget stores the address of the variable, so callers must pass the variable
+/// itself and not a copy.
 using OptionTarget = std::variant<
     std::reference_wrapper<std::string>, std::reference_wrapper<int>,
     std::reference_wrapper<std::uint64_t>, std::reference_wrapper<double>,
@@ -25,25 +26,26 @@ using OptionTarget = std::variant<
     std::reference_wrapper<std::optional<double>>, std::reference_wrapper<std::optional<int>>,
     std::reference_wrapper<std::vector<std::string>>, std::reference_wrapper<std::vector<double>>>;
 
-/// Handle of a command line option. The handle is valid as long as the CommandLine exists.
+/// Handle of a command line option. An option handle is valid as long as the CommandLine exists.
 class Option {
  public:
   Option Required() const;
   /// Sets the name of the option's value in help, such as FILE.
   Option TypeName(const std::string& name) const;
-  /// Accepts several values in one word, separated by `separator`.
+  /// Accepts several option values in one word, separated by `separator`.
   Option Delimiter(char separator) const;
-  /// Makes each occurrence of a list option take one word instead of all following words.
+  /// Makes a list option take only the next word of the command line each time the option is given,
+  /// instead of all following words.
   Option OneWord() const;
-  /// Shows the variable's current value as default in help.
+  /// Makes the help show the current value of the option's variable as the default.
   Option ShowDefault() const;
   Option Excludes(const Option& other) const;
   /// Makes this option an alternative to the required option `other`: exactly one of the two
   /// options must be given.
   Option InsteadOf(const Option& other) const;
-  /// Rejects integers outside low..high.
+  /// Makes the option reject integers less than `low` or greater than `high`.
   Option Range(int low, int high) const;
-  /// Rejects numbers outside low..high, and NaN.
+  /// Makes the option reject NaN and numbers less than `low` or greater than `high`.
   Option Range(double low, double high) const;
 
  private:
@@ -55,48 +57,51 @@ class Option {
 
 /// Describes an option or positional argument for the reference pages.
 struct OptionInfo {
-  std::string name;   ///< Names such as "-o,--out"; for a positional argument, its type name.
-  std::string value;  ///< Type name; empty for flags and positional arguments.
+  /// Names of the option, such as "-o,--out"; for a positional argument, the type name.
+  std::string name;
+  /// Type name of the option's value, such as FILE; empty for flags and positional arguments.
+  std::string value;
   std::string text;
-  std::string fallback;  ///< default value; empty if help shows none
+  std::string fallback;  ///< default value that help shows; empty if help shows no default
   bool required = false;
   bool positional = false;
 };
 
 /// An example command shown in help.
 struct Example {
-  std::string text;     ///< Text on what the command does.
-  std::string command;  ///< The command as typed.
+  std::string text;     ///< Explains what the command does.
+  std::string command;  ///< The command as the user types it.
 };
 
 /// Describes a verb for help and the reference pages.
 struct CommandInfo {
   std::string name;
   std::string summary;
-  std::vector<OptionInfo> options;  ///< options except --help and --color, which all verbs have
+  /// All options of the verb except --help and --color, which every verb has.
+  std::vector<OptionInfo> options;
   std::vector<Example> examples;
 };
 
 class CommandLine;
 
-/// Handle of a verb. The handle is valid as long as the CommandLine exists.
+/// Handle of a verb. A verb handle is valid as long as the CommandLine exists.
 class Command {
  public:
   Option AddPositional(const std::string& name, OptionTarget target, const std::string& text) const;
   /// Adds an option; `names` lists its names, such as "-o,--out".
   Option AddOption(const std::string& names, OptionTarget target, const std::string& text) const;
   void AddFlag(const std::string& names, bool& target, const std::string& text) const;
-  /// Adds a verb below this verb, such as "sweep merge". If the added verb is given, this verb is
-  /// not run and requires no options.
+  /// Adds a subcommand to this verb, as in "sweep merge". If the user gives the subcommand, the
+  /// parent verb is not run and requires no options.
   [[nodiscard]] Command AddVerb(const std::string& name, const std::string& summary) const;
-  /// Adds an example to the end of the verb's help.
+  /// Adds an example command to the end of the verb's help text.
   void AddExample(const std::string& text, const std::string& command) const;
-  /// Hides the verb from --help and VisibleVerbs.
+  /// Makes --help and VisibleVerbs omit the verb.
   void Hide() const;
-  /// Sets the action of the verb; `run` returns the exit code. Exceptions of `run` propagate
-  /// through CommandLine::Parse.
+  /// Sets the function `run` that executes the verb and returns the exit code. CommandLine::Parse
+  /// does not catch exceptions that `run` throws.
   void OnRun(std::function<int()> run) const;
-  /// Returns all verbs of the program that --help shows.
+  /// Returns descriptions of all verbs that --help shows.
   [[nodiscard]] std::vector<CommandInfo> VisibleVerbs() const;
 
  private:
@@ -107,8 +112,8 @@ class Command {
   CommandLine* line_;
 };
 
-/// Parses the command line of a program with verbs. Only command.cpp includes CLI11, whose headers
-/// take longer to compile than the verbs.
+/// Parses the command line of a program with verbs. Only command.cpp includes CLI11, because the
+/// headers of CLI11 take longer to compile than the verbs.
 class CommandLine {
  public:
   CommandLine(const std::string& name, const std::string& summary,
@@ -120,13 +125,13 @@ class CommandLine {
   Command AddVerb(const std::string& name, const std::string& summary);
 
   /// Runs the verb that the command line names and returns the verb's exit code. Parse() also
-  /// prints help, the version and errors of usage. Parse() returns `bad_usage` for an error of
-  /// usage and if no verb is given.
+  /// prints the help, the version, or the reason why the command line is invalid. Parse() returns
+  /// `bad_usage` if the command line is invalid or names no verb.
   int Parse(int argc, char** argv, int bad_usage);
 
  private:
   friend class Command;
-  /// Adds the options that all verbs have.
+  /// Adds to a verb the options that all verbs have.
   void Prepare(CLI::App& verb);
 
   std::unique_ptr<CLI::App> app_;

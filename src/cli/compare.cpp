@@ -51,7 +51,9 @@ void PrintComparison(const std::string& name, const RunComparison& result, const
   for (const ComparedPair& pair : result.pairs) {
     const PlantComparison& c = pair.comparison;
     if (!c.comparable()) {
-      continue;  // skip the pair: the verdict reports that these plants are not comparable
+      // Skip this pair of plants, because the verdict already reports that the plants are not
+      // comparable.
+      continue;
     }
     Print("  {} - {}, from {:.4g} m to {:.4g} m\n", c.first, c.second, c.from_s, c.to_s);
     for (const ComparedQuantity& quantity : ComparedQuantities()) {

@@ -18,11 +18,11 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-/// Column heading made from a field name: "ramp_time_s" becomes the words {"ramp", "time"} with the
-/// unit s.
+/// Column heading made from a field name; for example, the field "ramp_time_s" has the heading
+/// words {"ramp", "time"} and the unit s.
 struct Heading {
   Texts words;
-  std::string unit;  ///< empty for dimensionless fields
+  std::string unit;  ///< unit; empty for dimensionless fields
 };
 
 Heading HeadingFor(std::string_view name) {
@@ -50,26 +50,27 @@ Heading HeadingFor(std::string_view name) {
   return heading;
 }
 
-/// A field of the diagnostics as text.
+/// One field of the diagnostics, formatted as text.
 struct TextCell {
-  std::string name;  ///< name, prefixed by the names of enclosing sections
+  std::string name;  ///< name of the field, prefixed by the names of the enclosing sections
   std::string text;
 };
 
-/// The fields of a list element, or of the plan itself.
+/// The fields of one list element in the diagnostics, or the fields of the plan outside all lists.
 struct Fields {
   std::vector<TextCell> cells;
-  Texts remarks;  ///< sentences too long for a column
+  Texts remarks;  ///< texts of several words, which are too long for a column of the table
 };
 
-/// A list in the diagnostics, such as turns, printed as a table with one row per element.
+/// A list in the diagnostics, such as the list of turns, which is printed as a table with one row
+/// per element.
 struct NamedList {
   std::string name;
   std::vector<Fields> rows;
 };
 
-/// Collects the fields and lists of diagnostics. Sections are flattened into names such as
-/// "search_evaluations".
+/// Collects the fields and lists of a plan's diagnostics. The name of a field in a section begins
+/// with the name of the section, as in "search_evaluations".
 class Collector : public DiagnosticsVisitor {
  public:
   Collector(Fields& fields, std::vector<NamedList>& lists, std::string prefix = "")
@@ -133,7 +134,7 @@ class Collector : public DiagnosticsVisitor {
 TextColumns MakeColumns(const NamedList& list) {
   struct Column {
     std::string name;
-    Texts texts;  ///< one text per row; "-" in a row without the field
+    Texts texts;  ///< cells of the column, one per row; the text "-" if a row lacks the field
   };
   std::vector<Column> columns;
   for (std::size_t row = 0; row < list.rows.size(); ++row) {

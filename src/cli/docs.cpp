@@ -60,8 +60,8 @@ std::string VerbTable(const std::vector<CommandInfo>& verbs) {
   return table;
 }
 
-/// Returns the table of a verb's options. The table omits --help, which the page describes once for
-/// all verbs.
+/// Returns a Markdown table of the options of a verb. The table omits the option --help, which the
+/// page describes once for all verbs.
 std::string OptionTable(const CommandInfo& verb) {
   std::string table = "| argument | means |\n|---|---|\n";
   for (const OptionInfo& option : verb.options) {
@@ -95,7 +95,7 @@ std::string KeyTables(const std::vector<KeySection>& sections) {
   return text;
 }
 
-/// Formats names as code, separated by commas.
+/// Formats names as Markdown code, separated by commas.
 std::string NameList(const std::vector<std::string>& names) {
   std::string list;
   for (const std::string& name : names) {
@@ -104,7 +104,8 @@ std::string NameList(const std::vector<std::string>& names) {
   return list;
 }
 
-/// Returns two tables: the files of each kind of result, and the results of each verb.
+/// Returns two Markdown tables: a table of the files of each kind of result, and a table of the
+/// results that each verb writes.
 std::string WrittenNamesTables() {
   std::string tables = "| result | its files |\n|---|---|\n";
   for (const ResultNames& result : AllResultNames()) {
@@ -132,7 +133,8 @@ std::vector<Block> Blocks(const std::vector<CommandInfo>& verbs) {
   return blocks;
 }
 
-/// Returns the page with the generated text of `blocks` between its marker lines.
+/// Returns the page in which the text of each block is inserted between the marker lines of the
+/// block.
 std::string Filled(const std::string& file, const std::string& page, std::vector<Block> blocks) {
   std::vector<std::string> names;
   for (const Block& block : blocks) {

@@ -20,9 +20,10 @@
 #include "trackbed/sim/car_model.h"
 
 // Repeats the experiment of Skackauskas et al. 2017. A primary car drives one lap at a constant
-// steering angle. For a car at another speed, a search finds the constant steering angle with which
-// the car ends at the same place. The experiment runs all speeds with each search method, matched
-// by time and by arc length. The angles found are compared with the published angles.
+// steering angle. For a second car at another speed, a search finds the constant steering angle
+// with which the second car ends at the same place as the primary car. The experiment runs every
+// search method for every speed, with positions compared at equal times and at equal arc lengths.
+// Finally, the experiment compares the angles that the searches found with the published angles.
 namespace trackbed::cli {
 namespace {
 
@@ -35,11 +36,11 @@ constexpr double kDegree = kPi / 180.0;
 struct ExperimentOptions {
   std::string name;
   std::string vehicle = "prius";
-  double steering = 10.0;                          // Steering angle of the primary [deg].
-  double primary_speed = 3.0;                      // Speed of the primary [m/s].
-  double max_steering = 27.0;                      // Largest steering angle [deg].
-  std::vector<double> speeds{2.5, 2.0, 1.5, 1.0};  // Speeds of the car [m/s].
-  std::vector<std::string> searches;               // Search methods; empty: all.
+  double steering = 10.0;      // Steering angle of the primary car [deg].
+  double primary_speed = 3.0;  // Speed of the primary car [m/s].
+  double max_steering = 27.0;  // Largest steering angle that a search may try [deg].
+  std::vector<double> speeds{2.5, 2.0, 1.5, 1.0};  // Speeds of the second car [m/s].
+  std::vector<std::string> searches;               // Search methods to run; empty: all.
   int evaluations = 0;
   std::uint64_t seed = 1;
   std::string out;
@@ -47,8 +48,9 @@ struct ExperimentOptions {
 };
 
 /// Returns the steering angle that the genetic algorithm found in the second stage of Skackauskas
-/// et al. 2017, if published for these options and this speed. In the publication, the primary car
-/// steers 10 deg at 3 m/s. The published angles differ from the primary's 10 deg by at most 2.3 %.
+/// et al. 2017, or none if no angle was published for these options and this speed. In the
+/// publication, the primary car steers 10 deg at 3 m/s. The published angles differ from the
+/// primary car's 10 deg by at most 2.3 %.
 std::optional<double> Published(const ExperimentOptions& options, double speed) {
   struct Row {
     double speed;    // [m/s]
@@ -97,8 +99,8 @@ std::vector<const SearchEntry*> ChosenSearches(const std::vector<std::string>& c
   return entries;
 }
 
-/// Runs all searches and returns the results, ordered by speed, then by matching (time, arc
-/// length), then by search method.
+/// Runs all searches and returns the results, ordered first by speed, then by the kind of matching
+/// (at equal times, at equal arc lengths), then by search method.
 std::vector<Match> MatchAll(const VehicleParams& vehicle, const ExperimentOptions& options,
                             const std::vector<const SearchEntry*>& searches) {
   std::vector<Match> matches;
@@ -146,8 +148,8 @@ std::string ToCsv(const ExperimentOptions& options, const std::vector<Match>& ma
   return table.ToCsv();
 }
 
-/// Returns whether the angles found by a search deviate from the primary car's angle by no more
-/// than the published angles. Only angles matched by arc length count.
+/// Returns whether all steering angles that a search found at equal arc lengths deviate from the
+/// primary car's angle by at most as much as the published angles do.
 bool StaysWithin(const ExperimentOptions& options, const SearchEntry& search,
                  const std::vector<Match>& matches) {
   return std::all_of(matches.begin(), matches.end(), [&](const Match& match) {
@@ -205,8 +207,8 @@ int Experiment(const ExperimentOptions& options) {
   const fs::path file = FindModel(options.vehicle, "");
   const CarModel car(ComposeScene(file, {}), file.string());
   if (!options.out.empty()) {
-    PrepareToWrite(options.out);  // creates the folder before the searches, so that an error
-                                  // appears early
+    // Create the output folder before the searches, so that an error appears early.
+    PrepareToWrite(options.out);
   }
   const std::vector<Match> matches = MatchAll(car.params(), options, searches);
   if (!options.out.empty()) {

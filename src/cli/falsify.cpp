@@ -21,11 +21,11 @@
 #include "trackbed/falsify/counterexample.h"
 #include "trackbed/report/report.h"
 
-// `trackbed falsify` searches a study for a run that fails (falsify.cpp of the library). If a
-// search was interrupted, the verb continues from the recorded runs. The verb writes the table of
-// runs and falsify.json. If a run fails, the verb also writes the run folder of the shrunk
-// counterexample, with a scenario for a test suite. A video and a report of the counterexample are
-// optional.
+// `trackbed falsify` searches a study for a run that fails (falsify.cpp of the library). If an
+// earlier search was interrupted, the verb continues the search from the recorded runs. The verb
+// writes the table of runs and falsify.json. If a run fails, the verb also writes the run folder of
+// the shrunk counterexample, with a scenario for a test suite. On request, the verb also writes a
+// video and a report of the counterexample.
 namespace trackbed::cli {
 namespace {
 
@@ -43,9 +43,9 @@ struct FalsifyVerbOptions {
   ScenarioOptions scenario;
 };
 
-/// Writes the outcome of the search and the table of its runs, which may be fewer than planned. The
-/// outcome contains the hash of the counterexample's run, so that the run folder of another search
-/// is not mistaken for the counterexample.
+/// Writes the outcome of the search and the table of the runs; an interrupted search has fewer runs
+/// than planned. The outcome contains a hash of the counterexample's run, so that the run folder of
+/// another search is not mistaken for the counterexample.
 SweepSummary WriteOutcome(const SweepRecords& records, nlohmann::ordered_json outcome,
                           const OutputFolder& folder) {
   nlohmann::ordered_json header = records.header();
@@ -96,12 +96,12 @@ void ShowCounterexample(const RunResult& run, const FalsifyResult& result,
   }
 }
 
-/// Formats a number such as "18.2", or a dash.
+/// Formats a number such as "18.2"; returns a dash if the number is unknown.
 std::string Cell(const std::optional<double>& value) {
   return value ? fmt::format("{:.5g}", *value) : "-";
 }
 
-/// Formats the range of a key's values in which the run passes, such as "16.4 to 18.2".
+/// Formats the range of a key's values for which the run passes, such as "16.4 to 18.2".
 std::string ReachText(const SearchSpace& space, std::size_t i, const KeyMargin& margin) {
   const auto end = [&](const std::optional<SingleKeyReach>& alone) {
     return alone ? space.Value(i, alone->passes) : space.keys()[i].nominal;
@@ -115,7 +115,7 @@ std::string ReachText(const SearchSpace& space, std::size_t i, const KeyMargin& 
 void PrintMargins(const FalsifyResult& result, const CheckedSearch& search) {
   const ShrinkResult& shrunk = result.shrunk;
   if (shrunk.keys.empty()) {
-    return;  // nothing to print: the counterexample was not shrunk
+    return;  // print nothing, because the counterexample was not shrunk
   }
   const SearchSpace& space = search.space;
   std::vector<TextColumn> columns{{{"key"}, "", {}},

@@ -11,8 +11,8 @@ namespace trackbed::cli {
 /// Adds the command line option --gl, which sets FilmOptions::gl.
 void AddGlOption(const Command& command, std::string& gl);
 
-/// Renders the film of a run folder and shows a progress bar. Ctrl-C cancels the rendering, and no
-/// file is written.
+/// Renders the film of a run from its run folder and shows a progress bar. After Ctrl-C, the
+/// rendering ends without writing a file.
 void FilmRun(const std::filesystem::path& folder, const std::filesystem::path& output,
              const FilmOptions& options, bool quiet);
 

@@ -15,7 +15,8 @@ std::atomic<bool> interrupted{false};
 
 namespace {
 
-// A signal handler can only access global variables.
+// Number of FinishingResult objects; a global variable, because a signal handler can access only
+// global variables.
 std::atomic<int> finishing{0};
 
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
@@ -33,11 +34,11 @@ void OnSignal(int /*signal*/) {
 
 void OnGraceOver(int /*signal*/) {
   if (finishing > 0) {
-    return;  // the destructor ~FinishingResult restarts the timer
+    return;  // wait for the result: the destructor of FinishingResult restarts the timer
   }
   constexpr std::string_view kText = "interrupted: ended in the middle of its work\n";
   if (::write(STDERR_FILENO, kText.data(), kText.size()) < 0) {
-    // Ignores the error: if stderr cannot be written, no error can be shown.
+    // Ignore the failure, because without stderr no error message can be shown.
   }
   ::_exit(kInterrupted);
 }
@@ -50,7 +51,8 @@ void EndOnSignals() {
   sigaction(SIGALRM, &action, nullptr);
   action.sa_handler = OnSignal;
   sigaction(SIGTERM, &action, nullptr);
-  // Closing the terminal (SIGHUP) also ends the run, unless nohup made the process ignore SIGHUP.
+  // Also end the program when the terminal is closed (SIGHUP), unless the program `nohup` made the
+  // process ignore SIGHUP.
   struct sigaction hang_up {};
   sigaction(SIGHUP, nullptr, &hang_up);
   if (hang_up.sa_handler != SIG_IGN) {

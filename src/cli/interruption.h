@@ -4,24 +4,27 @@
 
 /// Ends the program on SIGINT (Ctrl-C), SIGTERM and SIGHUP (closed terminal), with exit code 130.
 ///
-/// The first signal sets `interrupted`, which runs, searches and films poll. Runs, searches and
-/// films then end at their next step and write their results so far. A process that has not ended
-/// after the time kGrace is terminated at once. A result that was not committed by then is lost, as
-/// after SIGKILL, but no file is half written. A second Ctrl-C ends the program at once.
+/// The first signal sets the variable `interrupted`, which runs, searches and films check before
+/// each step. After a signal, runs and searches end at their next step and write the results so
+/// far. A process that has not ended after the grace period kGrace is terminated at once. A result
+/// that was not committed before the end of the grace period is lost, as after SIGKILL, but no file
+/// is half written. A second Ctrl-C ends the program without delay.
 namespace trackbed::cli {
 
-/// Whether a signal has asked the program to end. Runs poll this variable once per control period.
+/// Whether a signal has asked the program to end. Runs check `interrupted` once per control period.
 extern std::atomic<bool> interrupted;
 
-/// Grace period [ms]. A process that has not ended this long after a signal is terminated.
+/// Grace period [ms]. If the process still runs at the end of the grace period after a signal, the
+/// process is terminated.
 inline constexpr int kGrace = 700;
 
-/// Installs the handlers for SIGINT, SIGTERM and SIGHUP. Under nohup, SIGHUP remains ignored.
+/// Installs the handlers for SIGINT, SIGTERM and SIGHUP. If the program `nohup` made the process
+/// ignore SIGHUP, SIGHUP remains ignored.
 void EndOnSignals();
 
-/// Exists while the result of an interrupted run is being written. The time for writing a result
-/// grows with the length of the log. The grace period therefore does not end the process while a
-/// FinishingResult exists.
+/// Object that exists while the result of an interrupted run is being written. The end of the grace
+/// period does not terminate the process while a FinishingResult exists, because writing a result
+/// takes longer for a longer log.
 class FinishingResult {
  public:
   FinishingResult();

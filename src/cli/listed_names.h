@@ -6,7 +6,7 @@
 
 namespace trackbed::cli {
 
-/// Returns the names that `trackbed list KIND` prints, without descriptions. For "kinds",
+/// Returns the names that `trackbed list KIND` prints, without descriptions. For the kind "kinds",
 /// NamesOfKind returns the names of all kinds. NamesOfKind returns nothing for an unknown kind.
 std::vector<std::string> NamesOfKind(std::string_view kind);
 

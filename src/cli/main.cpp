@@ -70,8 +70,8 @@ int Run(int argc, char** argv) {
   for (const Verb& verb : kVerbs) {
     verb.add(line.AddVerb(verb.name, verb.summary));
   }
-  // Report an unknown verb here, because CLI11 would report an unknown verb as an unexpected
-  // argument.
+  // Report an unknown verb before CLI11 parses the command line, because CLI11 would report an
+  // unexpected argument instead of an unknown verb.
   if (argc > 1 && argv[1][0] != '-') {
     std::vector<std::string> names;
     bool known = false;
@@ -94,8 +94,8 @@ namespace trackbed {
 namespace {
 
 /// Opens /dev/null for each closed standard stream. If a standard stream stayed closed, the next
-/// opened file would get the number of the stream, and output would be written into that file. The
-/// opened streams are read-only, so writing to them fails.
+/// opened file would get the stream's file descriptor, and output for the stream would be written
+/// into that file. /dev/null is opened for reading only, so writing to such a stream fails.
 void OccupyClosedStreams() {
   int descriptor = 0;
   do {
@@ -130,7 +130,8 @@ int Main(int argc, char** argv) {
     say(error.what());
     code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const std::system_error& error) {
-    // If fmt throws because output failed, print the same message as for a failed flush.
+    // If fmt throws because stdout cannot be written, print the same error message as for a failed
+    // flush of stdout.
     say(std::ferror(stdout) != 0 ? "cannot write to standard output" : error.what());
     code = cli::interrupted ? cli::kInterrupted : cli::kBadInput;
   } catch (const std::exception& error) {

@@ -24,7 +24,7 @@ namespace trackbed::cli {
 namespace {
 
 void Row(const char* name, double value, const char* unit) {
-  // Print five significant digits, which exceed the accuracy of the values.
+  // Print five significant digits, because the printed parameters are less accurate than that.
   Print("  {:<26} {:>12.5g}{}\n", name, value,
         std::string_view(unit).empty() ? "" : fmt::format(" {}", unit));
 }
@@ -97,7 +97,8 @@ void PrintModel(const CarModel& car, const std::string& file) {
 }
 
 /// Returns the speeds of the g-g-v table, from standstill to the top speed but at most 60 m/s. The
-/// step is 10 m/s, or a tenth of the top speed for vehicles up to 20 m/s.
+/// speeds are 10 m/s apart; for vehicles with a top speed of at most 20 m/s, the speeds are a tenth
+/// of the top speed apart.
 std::vector<double> GgvSpeeds(const GgvDiagram& diagram) {
   constexpr double kMaxTableSpeed = 60.0;  // [m/s]
   const double own = diagram.forces().top_speed;
@@ -144,8 +145,9 @@ void PrintGgv(const GgvDiagram& diagram, const std::string& name) {
   }
 }
 
-/// Returns a table with the boundary of the g-g-v diagram at each speed. Each boundary runs from
-/// full braking through the largest lateral acceleration to full drive.
+/// Returns a table with the boundary of the g-g-v diagram at each speed. Each boundary begins at
+/// the maximum deceleration, passes through the maximum lateral acceleration and ends at the
+/// maximum acceleration.
 Table GgvTable(const GgvDiagram& diagram) {
   Table table({"speed_mps", "lateral_acceleration_mps2", "longitudinal_acceleration_mps2"});
   constexpr int kSteps = 24;

@@ -6,14 +6,14 @@
 
 namespace trackbed::cli {
 
-/// A progress bar in one line on stderr. After two seconds, the progress bar shows the remaining
-/// time. The bar is not printed if stderr is not a terminal, or if `quiet` is set.
+/// A progress bar that occupies one line on stderr. After two seconds, the progress bar shows the
+/// remaining time. The bar is not printed if stderr is not a terminal, or if `quiet` is set.
 class ProgressBar {
  public:
   ProgressBar(std::string label, bool quiet);
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
-  ~ProgressBar();  ///< the destructor clears the line
+  ~ProgressBar();  ///< clears the line with the progress bar
 
   void Show(double fraction);
 
@@ -28,7 +28,8 @@ class ProgressBar {
 
   std::string label_;
   bool visible_;
-  // Time of the first progress; the speed estimate ignores earlier work.
+  // Time and fraction of the first call of Show with a positive fraction; the estimate of the
+  // remaining time ignores all earlier work.
   std::optional<Moment> begun_;
 };
 

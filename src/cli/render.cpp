@@ -35,7 +35,7 @@ struct RenderOptions {
   bool quiet = false;
 };
 
-/// Parses a size such as "1280x720".
+/// Parses an image size in pixels, such as "1280x720".
 std::pair<int, int> ParseSize(const std::string& text) {
   std::pair<int, int> size;
   const char* end = text.data() + text.size();
@@ -62,7 +62,8 @@ std::string Listed(const std::vector<FilmChoice>& choices) {
 int RenderOne(const RenderOptions& options) {
   const fs::path folder = options.folder;
   FilmOptions film;
-  // Options that the user does not give default to the values in the run's scenario.
+  // If the user does not give the size, the frame rate or the camera, take the value in the run's
+  // scenario.
   if (const fs::path resolved = folder / run_folder::kScenarioYaml; fs::exists(resolved)) {
     const RenderSpec render = ReadRenderSpec(run_folder::RequireFile(resolved));
     film = {

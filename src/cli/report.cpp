@@ -43,7 +43,7 @@ int Report(const ReportOptions& options) {
   const FilmPlace film = ParseFilmPlace(options.film);
   const std::vector<fs::path> paths(options.paths.begin(), options.paths.end());
   const fs::path& first = paths.front();
-  // A report of several runs is written outside of the run folders.
+  // Write a report of several runs to the current folder, not into a run folder.
   const fs::path folder = paths.size() > 1          ? fs::path()
                           : fs::is_directory(first) ? first
                                                     : first.parent_path();

@@ -35,8 +35,8 @@ struct RunOptions {
   ScenarioOptions scenario;
 };
 
-/// Replaces the options by those of a study's row: its scenario, and its settings before all other
-/// overrides.
+/// Changes the options so that they repeat one row of a study: the study's scenario file, with the
+/// settings of the row applied before all other overrides.
 void TakeRow(RunOptions& options) {
   const fs::path folder = options.sweep;
   const SweepRecords records(folder / run_folder::kSweepRecords);

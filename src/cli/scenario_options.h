@@ -10,7 +10,7 @@
 
 namespace trackbed::cli {
 
-/// Command line options that all verbs reading scenarios share.
+/// Command line options that are common to all verbs that read scenarios.
 struct ScenarioOptions {
   std::vector<std::string> plants;
   std::vector<std::string> overrides;
@@ -21,8 +21,8 @@ struct ScenarioOptions {
   /// Adds the option --plant and the options that AddKeysTo adds.
   void AddTo(const Command& command);
 
-  /// Adds the options --set, --seed, --allow-assets and --quiet. Verbs with their own options for
-  /// plants use AddKeysTo instead of AddTo.
+  /// Adds the options --set, --seed, --allow-assets and --quiet. A verb that defines its own
+  /// options for plants calls AddKeysTo instead of AddTo.
   void AddKeysTo(const Command& command);
 
   /// Reads a scenario file and applies the options of the command line. Read() throws the same
@@ -30,7 +30,8 @@ struct ScenarioOptions {
   [[nodiscard]] Scenario Read(const std::filesystem::path& file) const;
 
   /// Reads a scenario from text instead of a file, and applies the options of the command line.
-  /// Error messages use `name` as the file name. Relative paths in the scenario start at `folder`.
+  /// Error messages use `name` as the file name. Relative paths in the scenario are relative to
+  /// `folder`.
   [[nodiscard]] Scenario Parse(const std::string& yaml, const std::string& name,
                                const std::filesystem::path& folder) const;
 
@@ -48,25 +49,27 @@ void AddAllowAssets(const Command& command, std::vector<std::string>& folders);
 
 std::vector<std::filesystem::path> Paths(const std::vector<std::string>& names);
 
-/// Kinds of files that verbs read from folders.
+/// Kinds of files for which a verb searches a folder.
 enum class FolderContent { kScenarios, kScenariosAndStudies };
 
-/// Returns all files in the folder `scenarios` of Trackbed's data. The files of each folder precede
-/// the files of its subfolders. The list excludes scenarios/validation, whose recordings are not
-/// installed.
+/// Returns the scenario files (and study files, if `content` asks for studies) that are shipped
+/// with Trackbed. The files of each folder precede the files of its subfolders. The list excludes
+/// scenarios/validation, whose recordings are not installed.
 std::vector<std::filesystem::path> ShippedScenarios(FolderContent content);
 
-/// Resolves a file name on the command line. FindScenario returns an existing file, or a name with
-/// an extension, unchanged. Any other name refers to a shipped scenario or study, such as
-/// "three_turns", "studies/robustness" or "robustness". Throws InputError for an ambiguous name.
-/// For an unknown name, FindScenario throws InputError that suggests the most similar name.
+/// Finds the scenario file or study file that a name on the command line refers to. FindScenario
+/// returns an existing file, or a name with an extension, unchanged. Any other name refers to a
+/// shipped scenario or study, such as "three_turns", "studies/robustness" or "robustness". Throws
+/// InputError if several shipped files match the name. For an unknown name, FindScenario throws
+/// InputError that suggests the most similar name.
 std::filesystem::path FindScenario(const std::filesystem::path& name);
 
-/// Returns the scenario files that `paths` name, without duplicates. FindScenario resolves file
-/// names. A folder is replaced by all its *.yaml and *.yml files, sorted, with files before
-/// subfolders. ScenarioFiles skips hidden files and folders (.git) and links to folders. A folder
-/// without scenarios stays in the list, so that RefuseFolder can report the folder. ScenarioFiles
-/// throws RunError if a folder cannot be read.
+/// Returns the scenario files that `paths` name, without duplicates. Each path that is not a folder
+/// is resolved by FindScenario. A folder is replaced by all its *.yaml and *.yml files, sorted,
+/// with files before subfolders. ScenarioFiles skips hidden files and folders (.git) and links to
+/// folders. If a folder contains no scenarios, the returned list contains the folder itself, so
+/// that RefuseFolder can report the folder. ScenarioFiles throws RunError if a folder cannot be
+/// read.
 std::vector<std::filesystem::path> ScenarioFiles(const std::vector<std::string>& paths,
                                                  FolderContent content);
 

@@ -20,16 +20,18 @@ struct ScenarioRun {
 };
 
 /// Reads all scenario files before the first run, so that an error in the last file is found early.
-/// For a single file, the output folder is `out`. For several files, the output folder is
-/// `<out>/<scenario>`, or `<parent>/<scenario>` without `out`. Throws the same errors as
-/// ReadScenario. Throws InputError if two runs would have the same output folder.
+/// If there is a single file and `out` is given, the output folder is `out`. For several files, the
+/// output folder of each run is `<out>/<scenario>`. If `out` is empty, the output folder is
+/// `<parent>/<scenario>`. Throws the same errors as ReadScenario. Throws InputError if two runs
+/// would have the same output folder.
 std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
                                           const ScenarioOptions& options, const std::string& out,
                                           const std::filesystem::path& parent);
 
-/// Calls `work` for each run until Ctrl-C. After Ctrl-C, ForEachRun prints the number of skipped
-/// runs to stderr. ForEachRun returns the worst exit code of all runs. ForEachRun rethrows a
-/// RunError that `work` throws, unless Ctrl-C has interrupted the runs.
+/// Calls `work` for each run, but starts no further run after Ctrl-C. After Ctrl-C, ForEachRun
+/// prints the number of skipped runs to stderr. ForEachRun returns the largest exit code that
+/// `work` returned. ForEachRun rethrows a RunError that `work` throws, unless Ctrl-C has
+/// interrupted the runs.
 int ForEachRun(const std::vector<ScenarioRun>& runs,
                const std::function<int(const ScenarioRun& run)>& work);
 
@@ -38,7 +40,8 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
 struct DrivenScenario {
   OutputFolder folder;
   RunResult result;
-  std::optional<FinishingResult> finishing{};  ///< set for an interrupted run until it is written
+  /// Exists for an interrupted run until its results are written.
+  std::optional<FinishingResult> finishing{};
 };
 
 /// Runs the scenario with a progress bar, until the end of the run or Ctrl-C. The output folder is

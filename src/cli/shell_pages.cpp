@@ -31,8 +31,9 @@ Words PartsOf(const std::string& text, char separator) {
 }
 
 /// Returns the possible values of an option with this type name. A type name such as "draft|film"
-/// lists the values. The type names "CAMERA", "CAMERA,..." and "SCENARIO..." are kinds of names
-/// that `trackbed list` prints. For other type names, ValuesOf returns no values.
+/// is itself the list of the possible values. The type names "CAMERA", "CAMERA,..." and
+/// "SCENARIO..." are kinds of names that `trackbed list` prints. For other type names, ValuesOf
+/// returns no values.
 Words ValuesOf(const std::string& type) {
   if (type.find('|') != std::string::npos) {
     return PartsOf(type, '|');
@@ -79,7 +80,7 @@ Words PositionalValues(const CommandInfo& verb) {
   return values;
 }
 
-/// Returns the verbs directly below the verb `above`, each named by its last word. If `above` is
+/// Returns the direct subcommands of the verb `above`, each named by its last word. If `above` is
 /// empty, returns the top-level verbs of the program.
 std::vector<CommandInfo> VerbsBelow(const std::vector<CommandInfo>& verbs,
                                     const std::string& above) {
@@ -115,13 +116,13 @@ std::string Replaced(const std::string& text, std::string_view what, std::string
   return result + text.substr(at);
 }
 
-/// Quotes a text of the program, such as a help text, for bash and zsh.
+/// Quotes a text that Trackbed itself defines, such as a help text, for bash and zsh.
 std::string QuotedText(const std::string& text) {
   return QuotedForSh(text).value();
 }
 
-/// Returns the words that may follow a verb in place of an option: values of positional arguments,
-/// and the names of the verbs below this verb.
+/// Returns the words other than options that may follow a verb: values of positional arguments, and
+/// the names of the verb's subcommands.
 Words PositionalWords(const std::vector<CommandInfo>& verbs, const CommandInfo& verb) {
   Words words = PositionalValues(verb);
   for (const std::string& below : NamesOf(VerbsBelow(verbs, verb.name))) {
@@ -133,8 +134,8 @@ Words PositionalWords(const std::vector<CommandInfo>& verbs, const CommandInfo& 
 }  // namespace
 
 std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
-  // Quote the words, because `compgen -W` would expand unquoted words. Bash inserts a completed
-  // word unchanged.
+  // Quote the words, because `compgen -W` would expand unquoted words. Bash inserts a completion
+  // into the command line without further quoting.
   std::string text =
       "# bash completion of trackbed; written by `trackbed completion bash`.\n"
       "_trackbed_offer() {  # what, before each: those of the other words that begin with it\n"
@@ -209,9 +210,9 @@ std::string BashCompletion(const std::vector<CommandInfo>& verbs) {
 
 namespace {
 
-/// Generates zsh functions that offer names as completions. Zsh evaluates the argument
-/// specifications passed to _arguments. To prevent code injection, a specification therefore
-/// contains only the name of a function.
+/// Generates zsh functions that offer names as completions. To prevent code injection, an argument
+/// specification for _arguments contains only the name of a generated function, because zsh
+/// evaluates such specifications as code.
 class ZshOffers {
  public:
   /// Returns the name of a zsh function that offers the given names and all files.
@@ -235,7 +236,8 @@ class ZshOffers {
     return found->second;
   }
 
-  std::map<std::string, std::string> names_;  // names of the functions, keyed by their content
+  // Names of the generated zsh functions, keyed by the code of the function.
+  std::map<std::string, std::string> names_;
   std::string text_;
 };
 
@@ -313,13 +315,13 @@ std::string ZshCompletion(const std::vector<CommandInfo>& verbs) {
 
 namespace {
 
-/// Quotes a text of the program, such as a help text, for fish.
+/// Quotes a text that Trackbed itself defines, such as a help text, for fish.
 std::string OwnTextOfFish(const std::string& text) {
   return QuotedForFish(text).value();
 }
 
-/// Formats the words as the value of fish's `complete --arguments`. Fish parses that value twice,
-/// so each word is quoted, and then the whole list is quoted again.
+/// Formats the words as the value of fish's `complete --arguments`. Fish parses the value of
+/// `--arguments` twice, so each word is quoted, and then the whole list of words is quoted again.
 std::string FishArguments(const Words& words) {
   return OwnTextOfFish(AllQuoted(words, QuotedForFish));
 }

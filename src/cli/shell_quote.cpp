@@ -11,8 +11,8 @@ bool IsQuotable(std::string_view word) {
   return word.find_first_of("\t\n") == std::string_view::npos && WithoutControls(word) == word;
 }
 
-/// Encloses `word` in the character `quote`. Each character of `special` is replaced by
-/// `replacement`, in which "&" represents the replaced character.
+/// Encloses `word` in the character `quote`. Within `word`, each character that `special` contains
+/// is replaced by `replacement`, in which "&" stands for the replaced character.
 std::optional<std::string> InQuotes(std::string_view word, char quote, std::string_view special,
                                     std::string_view replacement) {
   if (!IsQuotable(word)) {

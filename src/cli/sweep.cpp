@@ -45,7 +45,7 @@ struct SweepVerbOptions {
   throw InputError(Problem{.key = option, .message = std::move(message)});
 }
 
-/// Parses a shard such as "2/7", which means the second of seven parts of a study.
+/// Parses the number of a shard, such as "2/7" for the second of seven parts of a study.
 Shard ParseShard(const std::string& text) {
   Shard shard;
   const std::size_t slash = text.find('/');
@@ -63,13 +63,15 @@ Shard ParseShard(const std::string& text) {
   return shard;
 }
 
-/// Parses an option such as "pass_rate:0.01" and returns the half width of the interval.
+/// Parses the value of --until, such as "pass_rate:0.01", and returns the half width of the
+/// confidence interval.
 std::optional<double> ParseUntil(const std::string& text, const Study& study) {
   if (text.empty()) {
     return std::nullopt;
   }
   constexpr std::string_view kName = "pass_rate:";
-  constexpr std::string_view kPlusMinus = "\u00b1";  // the plus-minus sign, which users often write
+  // The plus-minus sign in UTF-8, which users may write before the number.
+  constexpr std::string_view kPlusMinus = "\u00b1";
   std::string_view number = text;
   double width = 0.0;
   if (number.starts_with(kName)) {
@@ -90,8 +92,8 @@ std::optional<double> ParseUntil(const std::string& text, const Study& study) {
   return width;
 }
 
-/// Returns the shard of the Slurm array task in which the program runs. Outside Slurm, the shard
-/// contains all rows of the study.
+/// Returns the shard of the Slurm array task in which the program runs. Outside Slurm, returns the
+/// shard that contains all rows of the study.
 Shard ShardOfTask() {
   const auto number = [](const char* name) {
     const char* text = std::getenv(name);
@@ -173,8 +175,8 @@ int Sweep(const SweepVerbOptions& options) {
                                 sweep.rows, sweep.rows_expected);
     const fs::path csv = out / run_folder::kSweepCsv;
     Print("{}: {}, in {}\n", name, how, csv.string());
-    // Largest number of rows of sweep.csv that are read to print a table; more rows would take more
-    // memory than the study itself.
+    // Largest number of rows of sweep.csv for which a table is printed; reading more rows would
+    // take more memory than the study itself.
     constexpr std::size_t kMaxRows = 100'000;
     if (sweep.rows <= kMaxRows) {
       Print("{}", Lines{SweepTableText(ReadTextCsv(csv), TerminalWidth())});

@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 
 constexpr const char* kShardFolder = "shard_";
 
-/// Returns the existing run folders of kept rows. KeptRows throws RunError if a folder is a link.
+/// Returns the existing run folders of the rows that the study keeps. KeptRows throws RunError if a
+/// folder is a link.
 std::vector<fs::path> KeptRows(const fs::path& study) {
   std::vector<fs::path> folders;
   std::error_code error;
@@ -85,8 +86,9 @@ void KeepWorstRows(const SweepRecords& records, const fs::path& study,
     return;
   }
   if (!keep->IsSection()) {
-    static_cast<void>(keep->Text());  // for "all" and "failed", the row's run folder was already
-                                      // written when the row was run
+    // Nothing to do for "all" and "failed", because the run folder of a row was written directly
+    // after the run.
+    static_cast<void>(keep->Text());
     return;
   }
   for (const std::size_t row : WorstRows(records)) {

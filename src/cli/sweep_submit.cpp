@@ -33,7 +33,8 @@ struct SubmitOptions {
   ScenarioOptions scenario;
 };
 
-/// Quotes `word`, the value of the option `what`. Throws InputError if the word cannot be quoted.
+/// Quotes `word`, which is the value of the command line option `what`. Throws InputError if the
+/// word cannot be quoted.
 std::string Quoted(std::optional<std::string> (*quoted)(std::string_view word),
                    const std::string& word, const char* what) {
   const std::optional<std::string> text = quoted(word);
@@ -74,8 +75,8 @@ std::string Submit(const std::string& options, const fs::path& script) {
   return job;
 }
 
-/// Returns the shell command of an array task. The command runs the shard that Slurm's environment
-/// variables define.
+/// Returns the shell command that each task of a Slurm array executes. The command runs the shard
+/// of the study whose number is in Slurm's environment variables.
 std::string SweepCommand(const Study& study, const std::string& program, const fs::path& out) {
   std::string command =
       fmt::format("{} sweep {} --out {} --quiet --jobs \"${{SLURM_CPUS_PER_TASK:-1}}\"",
@@ -107,7 +108,8 @@ struct Scripts {
 Scripts MakeScripts(const Study& study, int tasks, const fs::path& out) {
   const std::string program = fs::read_symlink("/proc/self/exe").string();
   const std::string folder = "--chdir=" + out.string();
-  // Slurm replaces % and \ in the path of a log, so the scripts open their logs themselves.
+  // The scripts open their log files themselves, because Slurm replaces % and \ in the path of a
+  // log file.
   const std::string no_log = "--output=/dev/null";
   const std::string log = fmt::format("exec > {}/", ForSh(out.string(), kOutOption));
   return {.array = SbatchLines({"--job-name=" + study.name, fmt::format("--array=1-{}", tasks),
@@ -138,8 +140,8 @@ void RequireNoForeignLogs(const fs::path& out, bool submitted) {
   }
 }
 
-/// Writes the scripts to the output folder. WriteScripts releases the lock of the folder before the
-/// tasks write to the folder.
+/// Writes the scripts to the output folder. When WriteScripts returns, the folder is no longer
+/// locked, so that the tasks can write to the folder.
 void WriteScripts(const Scripts& scripts, const fs::path& out) {
   const std::vector<std::string> names{run_folder::kArraySh, run_folder::kMergeSh};
   const OutputFolder folder(out, names);

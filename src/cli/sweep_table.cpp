@@ -40,7 +40,7 @@ std::vector<std::string> CellsOf(const TextTable& table, std::size_t column) {
 }
 
 /// Formats the parameters, status and outputs of all rows as a table. The table omits the column
-/// `reason`, whose sentences are too long.
+/// `reason`, because its texts are too long for a table.
 std::string RowsText(const TextTable& table, std::size_t status, std::size_t width) {
   TextColumns columns;
   std::size_t shown = 0;
@@ -75,8 +75,8 @@ std::string RowsText(const TextTable& table, std::size_t status, std::size_t wid
   return text;
 }
 
-/// Formats minimum, median and maximum of the outputs, with one line for each output that has a
-/// number in at least one row.
+/// Formats a table with the minimum, median and maximum of each output. Outputs without a number in
+/// any row are omitted.
 std::string ExtremesText(const TextTable& table, std::size_t status, std::size_t width) {
   constexpr std::size_t kNumber = 10;
   struct Line {

@@ -10,16 +10,17 @@
 #include <utility>
 #include <vector>
 
-/// Prints to the terminal, in colors and in lines that fit the terminal's width. Control characters
-/// in texts from input files are replaced, so that an input file cannot control the terminal.
+/// Functions that print to the terminal, in colors and in lines that fit the terminal's width.
+/// Control characters in texts from input files are replaced, so that an input file cannot control
+/// the terminal.
 namespace trackbed::cli {
 
-/// Meaning of a text, which determines its color.
+/// Meaning of a printed text, such as good or bad, which determines the color of the text.
 enum class Tone {
-  kGood,      ///< green
-  kBad,       ///< red
-  kDoubtful,  ///< yellow
-  kHeading,   ///< bold
+  kGood,      ///< Printed in green.
+  kBad,       ///< Printed in red.
+  kDoubtful,  ///< Printed in yellow.
+  kHeading,   ///< Printed in bold.
 };
 
 /// Specifies when output is colored. With kAuto, output to a terminal is colored unless NO_COLOR is
@@ -33,18 +34,19 @@ const std::vector<std::string>& ColorChoices();
 /// in ColorChoices.
 void ChooseColors(const std::string& choice);
 
-/// Converts `text` to one safe line. Control characters, including line feeds and tabs, are
-/// replaced by names: "<U+001B>". Bytes that are not UTF-8 are replaced by names: "<0xFF>".
+/// Converts `text` to a single line that contains no control characters. Control characters,
+/// including line feeds and tabs, are replaced by names: "<U+001B>". Bytes that are not UTF-8 are
+/// replaced by names: "<0xFF>".
 std::string SafeLine(std::string_view text);
 
-/// A text that can be printed unchanged: a safe line (SafeLine), possibly with escape sequences for
-/// colors.
+/// A text that can be printed unchanged: a line without unsafe characters (SafeLine), possibly with
+/// escape sequences for colors.
 struct SafeText {
   std::string text;
 };
 
-/// A text of several lines. A text of type Lines is made safe like a SafeLine, but keeps its line
-/// feeds and tabs.
+/// A text of several lines. When a text of type Lines is printed, control characters are replaced
+/// as in SafeLine, except line feeds and tabs.
 struct Lines {
   std::string_view text;
 };
@@ -52,10 +54,11 @@ struct Lines {
 /// Returns `text` as a safe line, in the color of the tone if output to `stream` is colored.
 SafeText Colorize(Tone tone, std::string_view text, std::FILE* stream = stdout);
 
-/// Makes a text of several lines safe and colors it.
+/// Replaces the control characters in a text of several lines and returns the text in the color of
+/// the tone.
 SafeText Colorize(Tone tone, Lines text, std::FILE* stream);
 
-/// Joins safe texts, with `separator` between the texts.
+/// Joins texts that are already safe to print, with `separator` between the texts.
 SafeText Joined(const std::vector<SafeText>& parts, std::string_view separator);
 
 }  // namespace trackbed::cli
@@ -78,8 +81,9 @@ inline SafeText Safe(SafeText text) {
 
 SafeText Safe(Lines text);
 
-/// Converts an argument for fmt: passes numbers unchanged and makes texts safe. Texts of other
-/// types do not compile, because fmt::join would print these texts unchanged.
+/// Converts an argument of fmt::format: numbers stay unchanged, and texts become safe lines
+/// (SafeLine). Arguments of other types, such as the result of fmt::join, do not compile, because
+/// fmt would print their texts unchanged.
 template <typename T>
 auto Safe(const T& value) {
   if constexpr (std::is_convertible_v<const T&, std::string_view>) {
@@ -95,8 +99,8 @@ using Printed = decltype(Safe(std::declval<const T&>()));
 
 }  // namespace detail
 
-/// Prints to `stream` like fmt::print, but converts every text to a safe line (SafeLine). Verbs
-/// print only through PrintTo and Print. PrintTo throws std::system_error if the stream fails.
+/// Prints to `stream` like fmt::print, but converts every text to a safe line (SafeLine). All verbs
+/// must print through PrintTo or Print. PrintTo throws std::system_error if the stream fails.
 template <typename... T>
 void PrintTo(std::FILE* stream, fmt::format_string<detail::Printed<T>...> format,
              const T&... values) {
@@ -113,8 +117,8 @@ void Print(fmt::format_string<detail::Printed<T>...> format, const T&... values)
 /// terminal.
 std::size_t TerminalWidth(std::FILE* stream = stdout);
 
-/// Wraps `text` between words into lines of at most `width` columns. A word longer than a line is
-/// not broken.
+/// Wraps `text` between words into lines of at most `width` columns. A word that is longer than a
+/// line stays in one piece.
 std::vector<std::string> Wrapped(std::string_view text, std::size_t width);
 
 /// Formats a duration as "3.2 s", "4 min 5 s" or "2 h 3 min".

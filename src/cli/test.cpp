@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 struct TestOptions {
   std::vector<std::string> paths;
   std::string junit;
-  int jobs = 0;  // number of parallel threads; 0: one per hardware thread
+  int jobs = 0;  // number of scenarios that run in parallel; 0: one per hardware thread
   ScenarioOptions scenario;
 };
 
@@ -59,12 +59,12 @@ void PrintCase(const SuiteCase& one, bool quiet) {
     case CaseStatus::kInterrupted:
       break;
   }
-  std::fflush(stdout);  // flush, so that each line appears at once, even if stdout is a pipe
+  std::fflush(stdout);  // flush stdout, so that each line appears at once, even if stdout is a pipe
 }
 
 /// Returns the exit code of a test suite. An internal error takes precedence over bad input, and
-/// bad input takes precedence over failed expectations. With bad input, the result of the test
-/// suite is incomplete.
+/// bad input takes precedence over failed expectations. Bad input takes precedence because the
+/// result of the test suite is then incomplete.
 int SuiteExitCode(const std::vector<SuiteCase>& cases) {
   const auto any = [&](CaseStatus status) {
     return std::any_of(cases.begin(), cases.end(),
@@ -77,7 +77,7 @@ int SuiteExitCode(const std::vector<SuiteCase>& cases) {
                                          : kOk;
 }
 
-/// Prints the line "12 scenarios in 34.5 s: 10 passed, 1 failed, 1 not judged".
+/// Prints a summary line such as "12 scenarios in 34.5 s: 10 passed, 1 failed, 1 not judged".
 void PrintTotal(const std::vector<SuiteCase>& cases, double wall_time) {
   struct Count {
     CaseStatus status;

@@ -6,15 +6,18 @@
 
 namespace trackbed::cli {
 
-/// A column of a printed table: a heading and the texts below, all right-aligned.
+/// A column of a printed table: a heading, and below the heading one text per row, all
+/// right-aligned.
 struct TextColumn {
-  std::vector<std::string> words;  ///< Words of the heading, between which it may be broken.
-  std::string unit;                ///< Unit in brackets below the heading; empty if dimensionless.
-  std::vector<std::string> texts;  ///< Texts, one per row.
+  /// Words of the heading; a line break is possible between two words.
+  std::vector<std::string> words;
+  /// Unit, printed in brackets below the heading; empty for a dimensionless column.
+  std::string unit;
+  std::vector<std::string> texts;  ///< Text of each row.
 };
 
-/// A table printed in columns. Each column is as wide as its longest text or word, but at least
-/// nine characters.
+/// A printed table. Each column is as wide as its longest text or heading word, but at least nine
+/// characters wide.
 class TextColumns {
  public:
   void Add(TextColumn column);
@@ -26,7 +29,7 @@ class TextColumns {
   [[nodiscard]] std::vector<std::string> Lines(std::size_t count) const;
   [[nodiscard]] std::vector<std::string> Lines() const { return Lines(columns_.size()); }
 
-  /// Space before each line and between columns.
+  /// Text printed before each line and between two columns.
   static constexpr const char* kIndent = " ";
 
  private:

@@ -14,7 +14,7 @@ enum ExitCode {
   kInterrupted = 130,
 };
 
-/// Adds the options of a verb to `command` and sets its action.
+/// Function that adds the options of a verb to `command` and sets the action of the verb.
 using AddVerb = void (*)(const Command& command);
 
 void AddRun(const Command& command);
@@ -38,7 +38,7 @@ void AddCompletion(const Command& command);
 void AddDocs(const Command& command);
 void AddManual(const Command& command);
 
-// Each of these functions adds a verb below the verb `sweep`.
+// Each of these functions adds a subcommand to the verb `sweep`.
 void AddSweepMerge(const Command& command);
 void AddSweepSubmit(const Command& command);
 

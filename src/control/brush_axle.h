@@ -10,21 +10,24 @@ struct AxleForces {
 
 /// Slip and stiffness of an axle at an operating point.
 struct AxleOperation {
-  double slip = 0.0;       ///< Slip angle [rad] with the sign of the lateral force.
-  double stiffness = 0.0;  ///< Derivative of the lateral force with respect to the slip angle, at
-                           ///< constant longitudinal force, > 0 [N/rad].
+  double slip = 0.0;  ///< Slip angle of the axle, with the sign of the lateral force [rad].
+  /// Derivative of the axle's lateral force with respect to the slip angle, at constant
+  /// longitudinal force [N/rad], > 0.
+  double stiffness = 0.0;
 };
 
-/// The brush model with isotropic stiffness and friction (Pacejka 2012, ch. 3), at small slip. At
-/// the slip sigma, the force in the direction of the slip is F = C sigma (1 - q + q^2/3) with q = C
-/// sigma/(3 mu F_z). The force reaches mu F_z at q = 1. Solving the model for q gives
+/// Computes slip and stiffness of an axle by the brush model with isotropic stiffness and friction
+/// (Pacejka 2012, ch. 3), for small slip. At the slip sigma, the force in the direction of the slip
+/// is F = C sigma (1 - q + q^2/3) with q = C sigma/(3 mu F_z). The tyre force reaches the friction
+/// force mu F_z at q = 1. Solving the model for q gives
 ///   q = 1 - cbrt(1 - F/(mu F_z)),  S = C (1 - q + q^2/3),  T = C (1 - q)^2
 /// with the secant stiffness S = F/sigma and the tangent stiffness T = dF/dsigma. The slip angle is
-/// lateral/S. At constant longitudinal force, the lateral stiffness is S T/(S c^2 + T (1 - c^2))
-/// with c = lateral/F.
+/// the lateral force divided by S. At constant longitudinal force, the lateral stiffness is S T/(S
+/// c^2 + T (1 - c^2)) where c is the ratio of the lateral force to F.
 ///
-/// C is `stiffness` [N/rad] and mu F_z is `friction_force` [N], both > 0. Forces of more than 0.95
-/// mu F_z are scaled down to 0.95 mu F_z, because a sliding axle has no stiffness.
+/// The parameter `stiffness` is C [N/rad], and `friction_force` is mu F_z [N]; both must be > 0.
+/// Forces of more than 0.95 mu F_z are scaled down to 0.95 mu F_z, because a sliding axle has no
+/// stiffness.
 AxleOperation BrushAxleAt(double stiffness, double friction_force, const AxleForces& forces);
 
 }  // namespace trackbed

@@ -2,7 +2,7 @@
 
 #include "trackbed/options/key_visitor.h"
 
-/// Keys shared by several controllers.
+/// Option keys that several controllers share.
 namespace trackbed {
 
 inline constexpr Range kAhead{.min = 0.01, .max = 1000.0};  ///< [m]

@@ -18,7 +18,7 @@
 namespace trackbed {
 namespace {
 
-/// Returns the registry of controllers. Its table has one line per controller.
+/// Returns the registry of controllers, a table with one line per controller.
 Registry<ControllerEntry>& ControllerRegistry() {
   static Registry<ControllerEntry> table("controller", {
                                                            ScheduleController(),
@@ -41,7 +41,7 @@ Registry<ControllerEntry>& ControllerRegistry() {
   return table;
 }
 
-/// Rejects invalid states before the controller computes an angle.
+/// Rejects invalid vehicle states before the controller computes a steering angle.
 class ValidatingController final : public SteeringController {
  public:
   explicit ValidatingController(std::unique_ptr<SteeringController> inner)

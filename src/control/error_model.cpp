@@ -13,10 +13,10 @@ namespace {
 
 enum State { kOffset, kHeading, kActuator, kWheels, kLateral, kYawRate };
 
-/// Slowest speed of the model [m/s]. The tyre terms of the model grow without bound as the speed
-/// approaches 0.
+/// Minimum speed for which the error model is made [m/s]. The tyre terms of the model grow without
+/// bound as the speed approaches 0.
 constexpr double kMinModelSpeed = 1.0;
-/// Shortest steering lag of the model [s].
+/// Minimum steering lag that the error model assumes [s].
 constexpr double kMinLag = 1e-3;
 
 using Matrix = ErrorModel::Matrix;
@@ -58,8 +58,9 @@ ErrorModel MakeErrorModel(const ControlInput& input, const Tracking& tracking, d
   model.speed = direction * std::max(direction * input.state.speed, SlowestSpeed(vehicle));
   const double u = model.speed;
 
-  // The augmented matrix gives the derivatives of (x, w, kappa, c), where w, kappa and c are
-  // constant over a step. The exponential of this matrix gives the exact step.
+  // The augmented matrix maps (x, w, kappa, c) to the derivatives of (x, w, kappa, c), assuming
+  // that w, kappa and c are constant over a step. The exponential of the augmented matrix yields
+  // the exact discrete-time step.
   using Augmented = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0,
                                   ErrorModel::kMaxStates + 3, ErrorModel::kMaxStates + 3>;
   Augmented rates = Augmented::Zero(n + 3, n + 3);
@@ -119,7 +120,8 @@ Vector StateCost(const ErrorModel& model, const ErrorWeights& weights) {
 }
 
 double CommandedAngle::Now(const ControlInput& input) const {
-  // Clamps the angle, because rounding may have moved the actuator slightly beyond its limit.
+  // Clamps the angle to the steering limit, because rounding may have moved the actuator slightly
+  // beyond this limit.
   const double limit = input.vehicle.steering_limit;
   return std::clamp(last_.value_or(input.state.steering_actuator), -limit, limit);
 }

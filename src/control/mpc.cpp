@@ -12,7 +12,8 @@ namespace {
 
 static_assert(MpcOptions::kMaxHorizon <= QuadraticProgram::kMaxVariables);
 
-/// The deviation z after a step as a linear function free + reach w of all steering rates w.
+/// Deviation z after a step, expressed as the linear function free + reach w of all steering rates
+/// w.
 struct Prediction {
   ErrorModel::Vector free;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, ErrorModel::kMaxStates,
@@ -53,8 +54,8 @@ class Mpc final : public SteeringController {
   }
 
  private:
-  /// Adds lower and upper bounds of the steering rates and of the steering angles. The angles are
-  /// sums of the rates.
+  /// Adds lower and upper bounds of the steering rates and of the steering angles, which are sums
+  /// of the steering rates.
   static void Limit(const VehicleParams& vehicle, double start, double step,
                     QuadraticProgram& program) {
     const auto n = program.linear.size();

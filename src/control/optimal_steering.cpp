@@ -11,14 +11,15 @@
 namespace trackbed {
 namespace {
 
-/// Bounds and initial value of a one-dimensional search.
+/// Bounds and initial value of the search for one steering parameter.
 struct SteeringInterval {
   double lower = 0.0;
   double upper = 0.0;
   double start = 0.0;
 };
 
-/// Returns the angle by which the wheels can turn over the problem's distance [rad].
+/// Returns the largest angle by which the wheels can turn while the car drives the problem's
+/// distance [rad].
 double Reach(const VehicleParams& vehicle, const SteeringProblem& problem) {
   return vehicle.steering_rate * std::abs(problem.distance) / problem.speed;
 }
@@ -29,7 +30,8 @@ Deviation Difference(const Pose2& actual, const Pose2& wanted) {
   return {actual.x - wanted.x, actual.y - wanted.y, actual.yaw - wanted.yaw};
 }
 
-/// Finds the value that minimizes `cost`. Returns this value in the field `steering`.
+/// Finds the steering value that minimizes `cost`. The field `steering` of the result holds the
+/// minimizing value.
 template <typename Cost>
 SteeringMatch Minimize(const Cost& cost, const SteeringInterval& range, const SearchOptions& search,
                        std::uint64_t seed) {
@@ -75,7 +77,7 @@ Pose2 PredictPose(const VehicleParams& vehicle, double steering, double wanted, 
       return direction * std::log(cosine / std::cos(steering + slope * s)) /
              (vehicle.wheelbase * slope);
     };
-    // The quadrature nodes are the same for both coordinates.
+    // The integrals of x and y use the same quadrature nodes.
     using Quadrature = boost::math::quadrature::gauss<double, 10>;
     const double half = 0.5 * ramp;
     Vec2 sum = Vec2::Zero();
@@ -125,8 +127,8 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
   const double limit = problem.max_steering;
   const double lower = TurnShare(vehicle, own, -limit);
   const double upper = TurnShare(vehicle, own, limit);
-  // Start inside the bounds: a simplex that starts on a bound would get stuck if the second point
-  // is worse.
+  // Start the search inside the bounds, because a simplex that starts on a bound gets stuck if the
+  // second point has a higher cost.
   const double margin = 0.05 * (upper - lower);
   const double start =
       std::clamp(TurnShare(vehicle, own, side * problem.start), lower + margin, upper - margin);
@@ -134,7 +136,8 @@ SteeringMatch SearchSteering(const VehicleParams& vehicle, const SteeringProblem
     return DeviationCost(DeviationAhead(vehicle, own, SteeringOfShare(vehicle, own, share)),
                          weights);
   };
-  constexpr std::uint64_t kSeed = 1;  // a constant seed, the same for every update
+  // Constant seed of the random numbers, so that every update uses the same numbers.
+  constexpr std::uint64_t kSeed = 1;
   SteeringMatch match = Minimize(cost, {lower, upper, start}, search, kSeed);
   match.steering = side * std::clamp(SteeringOfShare(vehicle, own, match.steering), -limit, limit);
   return match;

@@ -61,7 +61,8 @@ class OptimalSteeringController final : public SteeringController {
   }
 
  private:
-  /// Station of the primary, and the primary's speed if the matching method needs the speed.
+  /// Station of the primary (the path point to which the car is compared), and the primary's
+  /// planned speed if the matching method needs it.
   struct Primary {
     double station = 0.0;
     std::optional<double> speed;
@@ -79,8 +80,8 @@ class OptimalSteeringController final : public SteeringController {
     return {station, std::max(input.reference.speed.SpeedAt(station), kCrawl)};
   }
 
-  /// Returns the path's pose at `station` with an unwrapped yaw. Relative to the car's yaw, this
-  /// yaw includes the full turns of the path between car and station.
+  /// Returns the path's pose at `station` with an unwrapped yaw. The returned yaw differs from the
+  /// car's yaw by all turning of the path between car and station, including full turns.
   static Pose2 RelativePathPose(const ControlInput& input, double station) {
     const Path& path = input.reference.path;
     const double here = path.At(input.station).pose.yaw;
@@ -90,7 +91,7 @@ class OptimalSteeringController final : public SteeringController {
   }
 
   OptimalSteeringOptions options_;
-  std::optional<double> last_;  // start value of the next search [rad]
+  std::optional<double> last_;  // steering angle at which the next search starts [rad]
   Deviation deviation_;
   SteeringMatch match_;
 };

@@ -30,8 +30,8 @@ class PlaybackController final : public SteeringController {
   }
 
  private:
-  /// The distance is that of the car's odometer and not the plan's station, because a new plan must
-  /// not restart the recording.
+  /// Recordings over distance use the car's odometer and not the plan's station, because a new plan
+  /// must not restart the recording.
   [[nodiscard]] double Axis(const ControlInput& input) const {
     return options_.by == PlaybackAxis::kTime ? input.state.time : input.state.distance;
   }
@@ -39,7 +39,8 @@ class PlaybackController final : public SteeringController {
   PlaybackOptions options_;
 };
 
-/// Returns how far the car advances along the recording's axis in a control period.
+/// Returns how far the playback advances along the recording in a control period, in time or in
+/// distance.
 double AxisAdvance(const PlaybackOptions& options, double speed, double period) {
   return options.by == PlaybackAxis::kTime ? period : std::abs(speed) * period;
 }
@@ -90,7 +91,7 @@ std::vector<InputFile> InputFilesOf(const PlaybackOptions& options) {
 void Resolve(ControllerOptions& options, bool from_record) {
   auto& own = options.Get<PlaybackOptions>();
   own.file = from_record ? "" : kRecordingCsv;
-  own.columns = {};  // the written recording has the default column names
+  own.columns = {};  // the output file of the recording uses the default column names
 }
 
 }  // namespace

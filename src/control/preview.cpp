@@ -30,7 +30,7 @@ class Preview final : public SteeringController {
     const int direction = input.reference.path.BendAt(input.station).direction;
     const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
                      (options_.slip ? RearSlip(input) : 0.0);
-    // In reverse, steering to the right turns the direction of motion to the left.
+    // In reverse gear, steering to the right turns the direction of motion to the left.
     const double bend =
         direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));
     return std::clamp(SteeringOn(input, bend, direction), -input.vehicle.steering_limit,
@@ -59,14 +59,14 @@ double PreviewStation(const Path& path, const Vec2& p, double station, double di
   if (beyond(station) >= 0.0) {
     return station + distance;
   }
-  // A path leaves the circle with radius `distance` around `p` no sooner than a straight line
+  // A path leaves the circle with radius `distance` around `p` no earlier than a straight line
   // would. Steps of an eighth of the distance find the first crossing if the path's radii of
   // curvature are larger than a step.
   const double stride = distance / 8.0;
   double inside = station;
   while (beyond(inside + stride) < 0.0) {
     if (inside + stride == inside) {
-      return station + distance;  // the distance is below the rounding error of the station
+      return station + distance;  // the distance is smaller than the rounding error of the station
     }
     inside += stride;
   }

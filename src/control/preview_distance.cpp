@@ -11,20 +11,23 @@ namespace {
 
 constexpr double kWheelbases = 0.75;  ///< Minimum ratio of the preview distance R to the wheelbase
                                       ///< L.
-constexpr double kResponses = 3.0;    ///< Minimum ratio of the preview distance R to v T.
-constexpr double kRampShare = 0.65;   ///< Factor on the ramp S in the preview distance R.
-/// Ratio between the distances from the car to successive sampled stations. A curvature step
-/// between two sampled stations is assumed at the station closer to the car.
+/// Minimum ratio of the preview distance R to the distance v T that the car drives in its response
+/// time.
+constexpr double kResponses = 3.0;
+constexpr double kRampShare = 0.65;  ///< Factor of the ramp length S in the preview distance R.
+/// Ratio by which the distance from the car grows between successive sampled stations. A curvature
+/// step between two sampled stations is assumed at the station closer to the car.
 constexpr double kSpacingRatio = 1.3;
 
-/// Computes the ramp S [m] over a range of stations that can be extended at both ends.
+/// Computes the ramp length S [m] for a range of stations that can be extended at both ends.
 class RampScan {
  public:
   explicit RampScan(double turned)
       : min_minus_(turned), max_minus_(turned), min_plus_(turned), max_plus_(turned) {}
 
-  /// Adds a station at the signed distance `s` [m] from the car, at which v delta/omega is `turned`
-  /// [m]. A curvature step may lie anywhere in the `gap` [m] between this station and the car.
+  /// Adds a station at the signed distance `s` [m] from the car; `turned` is the value of v
+  /// delta/omega at this station [m]. A curvature step may lie anywhere in the `gap` [m] between
+  /// this station and the car.
   void Extend(double turned, double s, double gap) {
     if (s > 0.0) {
       ramp_ = std::max({ramp_, turned - s - min_minus_ + gap, max_plus_ - turned - s + gap});
@@ -48,15 +51,14 @@ class RampScan {
   double max_plus_;
 };
 
-/// Returns the preview distance 0.65 S + v T for ramps at `speed`, but at least `shortest`;
-/// `response` is v T [m].
+/// Returns the preview distance 0.65 S + v T for steering ramps at `speed`, but at least
+/// `shortest`; `response` is v T [m].
 double RampPreview(const ControlInput& input, double speed, double response, double shortest) {
   const Path& path = input.reference.path;
   const VehicleParams& vehicle = input.vehicle;
-  const double way = speed / vehicle.steering_rate;  // Distance driven per radian of steering
-                                                     // [m/rad].
-  // Reuses the last steering angle, since most stations have the same curvature as the previous
-  // station.
+  // Distance that the car drives while the wheels turn by one radian [m/rad].
+  const double way = speed / vehicle.steering_rate;
+  // Reuse the previous station's steering angle if the curvature is the same, as at most stations.
   std::optional<double> last_curvature;
   double last_turned = 0.0;
   const auto turned = [&](const PathBend& bend) {
@@ -89,7 +91,7 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
       }
       const PathBend bend = path.BendAt(path_continues ? input.station + side * s : end);
       if (bend.direction != here.direction) {
-        path_continues = false;  // at a cusp the car steers at standstill
+        path_continues = false;  // at a cusp, the car stands still while the wheels turn
         continue;
       }
       scan.Extend(turned(bend), side * s, s - near);
@@ -109,7 +111,8 @@ double RampPreview(const ControlInput& input, double speed, double response, dou
 /// not shrink the preview distance to zero.
 double SlowestWithin(const ControlInput& input, double speed, double distance) {
   constexpr int kSamples = 6;
-  constexpr double kMinSpeedFraction = 0.25;  // smallest result as a fraction of the speed
+  // Lower bound of the result as a fraction of the car's speed.
+  constexpr double kMinSpeedFraction = 0.25;
   const SpeedProfile& profile = input.reference.speed;
   double slowest = speed;
   for (int i = -kSamples; i <= kSamples && !profile.knots().empty(); ++i) {
@@ -134,7 +137,7 @@ double ResponseTime(const VehicleParams& vehicle, double speed, double period) {
 double PreviewDistance(const ControlInput& input, double delay) {
   const double speed = std::abs(input.state.speed);
   const double response = speed * (ResponseTime(input.vehicle, speed, input.period) + delay);
-  // The `wheelbase` of a differential drive is its track.
+  // For a differential drive, `wheelbase` is the distance between the wheels of the axle.
   const double size = input.vehicle.kind == VehicleKind::kDifferential
                           ? std::max(input.vehicle.wheelbase, input.vehicle.length)
                           : input.vehicle.wheelbase;
@@ -145,12 +148,12 @@ double PreviewDistance(const ControlInput& input, double delay) {
 }
 
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset) {
-  // The factor was determined by trial, with offsets of 0.2 to 4 m and preview distances of 2 to 4
-  // m. With a factor of 1.5, all cars converge to the path. With a factor of 1, some cars oscillate
-  // forever; with 2, they converge more slowly.
+  // The factor 1.5 was determined by trial, with offsets of 0.2 to 4 m and preview distances of 2
+  // to 4 m. With a factor of 1.5, all cars converge to the path. With a factor of 1, some cars
+  // oscillate forever; with a factor of 2, all cars converge more slowly.
   constexpr double kShare = 1.5;
-  // Below this multiple of L omega, the limit of the steering angle restricts the car, not the
-  // limit of the steering rate.
+  // At speeds below this multiple of L omega, the car is restricted by the limit of its steering
+  // angle, not by the limit of its steering rate.
   constexpr double kMinSpeed = 1.25;
   const double slowest = kMinSpeed * vehicle.wheelbase * vehicle.steering_rate;
   const double curvature_rate =

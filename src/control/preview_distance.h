@@ -9,56 +9,61 @@
 ///   v      speed [m/s]
 ///   omega  steering rate at the road wheels [rad/s]
 ///   T      response time [s]
-///   delta(s) = atan(L kappa(s))  steering of the path at station s [rad]
-///   S      ramp [m]: the distance driven while the wheels lag behind the path's steering
+///   delta(s) = atan(L kappa(s))  steering angle of the path at station s [rad]
+///   S      ramp length [m]: distance that the car drives while its wheels lag behind the path
 ///
 ///   R = max(3/4 L,  3 v T,  0.65 S + v T)
 ///   T = control period + steering lag + m v/(C_f + C_r)
 ///   S = max over s_1 < s_2 of  v abs(delta(s_2) - delta(s_1))/omega - (s_2 - s_1),
 ///       both stations within R of the car
 ///
-/// Term 3/4 L: pure pursuit responds to an offset e with the steering angle 2 L e/R^2, and to a
-/// heading error psi with 2 L psi/R. A car that enters a circle of radius r cuts the corner by
-/// R^2/(8 r). With R = 3/4 L and a steering angle of 26 degrees, the car cuts the corner by 3.5 %
-/// of L.
+/// Reason for the term 3/4 L: pure pursuit responds to an offset e with the steering angle 2 L
+/// e/R^2, and to a heading error psi with 2 L psi/R. A car that enters a circle of radius r cuts
+/// the corner by R^2/(8 r). With R = 3/4 L and a steering angle of 26 degrees, the car cuts the
+/// corner by 3.5 % of L.
 ///
-/// Term 3 v T: consider a kinematic car with a first-order lag T along a straight path. The car's
-/// characteristic polynomial is T s^3 + s^2 + (2 v/R) s + 2 v^2/R^2. The motion is stable for R > v
-/// T (Routh), with a damping ratio of 0.37 at R = 3 v T and of 1/2 at R = 4 v T. Heredia and Ollero
-/// 2007 treat pure delays. Distances proportional to the speed are common (Snider 2009). The time m
-/// v/(C_f + C_r) is the time constant of the tyres' lateral response.
+/// Reason for the term 3 v T: consider a kinematic car with a first-order steering lag T that
+/// follows a straight path. The car's characteristic polynomial is T s^3 + s^2 + (2 v/R) s + 2
+/// v^2/R^2. The motion is stable for R > v T (Routh), with a damping ratio of 0.37 at R = 3 v T and
+/// of 1/2 at R = 4 v T. For pure delays instead of lags, see Heredia and Ollero 2007. Preview
+/// distances proportional to the speed are common (Snider 2009). The time m v/(C_f + C_r) is the
+/// time constant of the tyres' lateral response.
 ///
-/// Term 0.65 S + v T: at a curvature step, wheels with a limited rate need the distance S. Ideally,
-/// half of the distance S lies before the curvature step, and half behind the step. With a preview
-/// distance below S/2, the wheels begin to turn too late, and the car swings out. The factor 0.65
-/// leaves a margin for model errors. The car then passes a step of curvature kappa within about
-/// kappa S^2/24, the deviation of a ramp of length S from the step. The distance S is 0 if the
-/// wheels can follow the path's curvature.
+/// Reason for the term 0.65 S + v T: at a curvature step, wheels with a limited steering rate need
+/// the distance S to turn. Ideally, half of the ramp length S lies before the curvature step, and
+/// half behind the step. With a preview distance below S/2, the wheels begin to turn too late, and
+/// the car swings out. In the term 0.65 S, the factor 0.65 instead of 1/2 leaves a margin for model
+/// errors. With this preview distance, a car passes a curvature step of size kappa with a deviation
+/// of about kappa S^2/24, by which a ramp of length S deviates from the step. The distance S is 0
+/// if the wheels can follow the path's curvature.
 namespace trackbed {
 
 /// Lower bound for speeds that are used as divisors [m/s].
 inline constexpr double kCrawl = 0.5;
 
-/// Offset, as a fraction of the wheelbase, for which the default look-ahead distances are designed.
+/// Cross-track error, as a fraction of the wheelbase, for which the default look-ahead distances
+/// are designed.
 inline constexpr double kReturnOffset = 0.125;
 
-/// Returns the response time T [s] of a car at `speed` with the control period `period`. The tyre
-/// term of T is 0 for a car without tyre coefficients.
+/// Returns the response time T [s] of a car at `speed` with the control period `period`. The term m
+/// v/(C_f + C_r) of the response time T is 0 for a car without tyre coefficients.
 double ResponseTime(const VehicleParams& vehicle, double speed, double period);
 
 /// Returns the preview distance R [m] for the car's present state, with `delay` [s] added to the
 /// response time. Samples the path's steering at stations whose spacing grows with their distance
-/// from the car. For a path with a single curvature step, the ramp S is exact. The sampling stops
-/// at the ends and cusps of the path.
+/// from the car. For a path with a single curvature step, the computed ramp length S is exact, not
+/// an approximation. The sampling of the path's steering stops at the ends and cusps of the path.
 double PreviewDistance(const ControlInput& input, double delay = 0.0);
 
 /// Returns the shortest preview distance [m] with which a rate-limited car at `speed` returns from
-/// `offset` [m] to its path without oscillation. At the full steering rate, the curvature changes
-/// by c = omega/(L v) per meter. Returning from an offset e takes a distance proportional to
-/// cbrt(e/c). A `speed` below 5/4 L omega is replaced by 5/4 L omega.
+/// `offset` [m] to its path without oscillation. At the maximum steering rate, the curvature of the
+/// car's track changes by c = omega/(L v) per meter. Returning from an offset e takes a distance
+/// proportional to cbrt(e/c). If `speed` is below 5/4 L omega, the function uses 5/4 L omega
+/// instead.
 double ReturnDistance(const VehicleParams& vehicle, double speed, double offset);
 
-/// Returns ReturnDistance for the car's present speed and offset.
+/// Computes ReturnDistance (see above) for the car's present speed and its present offset from the
+/// path.
 double ReturnDistance(const ControlInput& input);
 
 }  // namespace trackbed

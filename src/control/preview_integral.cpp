@@ -15,23 +15,25 @@
 namespace trackbed {
 namespace {
 
-/// Cars slower than this speed are modeled as kinematic [m/s]. At 1 m/s, the kinematic and the
-/// dynamic model differ by less than 1 %.
+/// Speed below which the controller uses the kinematic model of the car [m/s]. At 1 m/s, the
+/// kinematic and the dynamic model differ by less than 1 %.
 constexpr double kMinDynamicSpeed = 1.0;
 
-/// Lateral displacement of the car at a future time.
+/// Predicted lateral displacement of the car at a future time.
 struct Responses {
-  double free = 0.0;  ///< Displacement y_0 without steering [m].
-  double step = 0.0;  ///< Response A to a unit step of steering [m].
+  double free = 0.0;  ///< Lateral displacement y_0 that the car would have without steering [m].
+  /// Lateral displacement A of the car caused by a unit step of the steering angle [m].
+  double step = 0.0;
 };
 
-/// Returns the responses of the rear axle of a kinematic car after the distance `way` [m].
+/// Returns the lateral displacements of the rear axle of a kinematic car after the distance `way`
+/// [m].
 Responses KinematicResponses(const ControlInput& input, double way) {
   return {.free = 0.0, .step = way * way / (2.0 * input.vehicle.wheelbase)};
 }
 
-/// Returns the responses of the linear single-track car after `time` [s] of driving forward. The
-/// model's states (y, psi, v, r) are relative to the car's present frame.
+/// Returns the lateral displacements of the linear single-track car after driving forward for
+/// `time` [s]. The model's states (y, psi, v, r) are relative to the car's present frame.
 Responses SingleTrackResponses(const ControlInput& input, double time) {
   const VehicleParams& vehicle = input.vehicle;
   const VehicleState& state = input.state;
@@ -82,21 +84,22 @@ class PreviewIntegral final : public SteeringController {
         square += importance * responses.step * responses.step;
       }
     }
-    // In reverse, steering to the right turns the direction of motion to the left.
+    // In reverse gear, steering to the right turns the direction of motion to the left.
     const double wanted = direction * std::atan(moved / square);
     return Delayed(std::clamp(wanted, -vehicle.steering_limit, vehicle.steering_limit), input);
   }
 
  private:
-  /// Returns the gain on an offset, relative to the single-point law at the same preview distance.
-  /// For the kinematic car, the gain is R^2/2 times the ratio of the integrals of A W and A^2 W.
-  /// For equal damping, the preview distance must grow with the square root of this gain.
+  /// Returns the ratio of this law's gain on a lateral offset to the gain of the single-point law
+  /// with the same preview distance. For the kinematic car, the gain is R^2/2 times the ratio of
+  /// the integrals of A W and A^2 W. For equal damping, the preview distance must be proportional
+  /// to the square root of the gain ratio.
   [[nodiscard]] double OffsetGain() const {
     return options_.weight == PreviewWeight::kNear ? 5.0 / 2.0 : 5.0 / 3.0;
   }
 
-  /// Returns the angle that was wanted one delay ago. During the first delay after the start,
-  /// returns the initial wheel angle.
+  /// Returns the steering angle that the control law computed one delay time earlier. During the
+  /// first delay after the start, returns the initial wheel angle.
   double Delayed(double wanted, const ControlInput& input) {
     const double periods = options_.delay / input.period;
     const auto whole = static_cast<std::size_t>(periods);
@@ -110,7 +113,7 @@ class PreviewIntegral final : public SteeringController {
   }
 
   PreviewIntegralOptions options_;
-  std::vector<double> past_commands_;  // the newest command first
+  std::vector<double> past_commands_;  // past steering angles of the law, the newest first
 };
 
 }  // namespace

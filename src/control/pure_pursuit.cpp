@@ -26,7 +26,7 @@ class PurePursuit final : public SteeringController {
     const double u = PreviewAngle(path, input.state.pose, input.station, distance);
     const double steering = std::atan(2.0 * input.vehicle.wheelbase * std::sin(u) / distance);
     const double limit = input.vehicle.steering_limit;
-    // In reverse, steering to the right turns the direction of motion to the left.
+    // In reverse gear, steering to the right turns the direction of motion to the left.
     return path.BendAt(input.station).direction * std::clamp(steering, -limit, limit);
   }
 

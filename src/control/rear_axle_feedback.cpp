@@ -10,7 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// Lower bound of 1 - kappa e, which is zero at the center of curvature, where the law is singular.
+/// Lower bound of the factor 1 - kappa e, which is zero at the path's center of curvature and makes
+/// the control law singular.
 constexpr double kNearCenter = 0.1;
 
 double Sinc(double angle) {

@@ -34,7 +34,7 @@ double Signal::Mean(double from, double to) const {
   if (!(to > from)) {
     return At(from);
   }
-  // The trapezoidal rule is exact between two knots.
+  // The trapezoidal rule is exact between two knots, because the signal is linear there.
   Vec2 last{from, At(from)};
   double area = 0.0;
   const auto add = [&](const Vec2& next) {

@@ -8,13 +8,13 @@
 namespace trackbed {
 namespace {
 
-/// Returns the mean acceleration [m/s^2] of the profile over the next control period. A car that
-/// accelerates by the mean has the profile's speed at the end of the period, even if a knot lies in
-/// between.
+/// Returns the mean acceleration of the speed profile over the next control period [m/s^2]. A car
+/// with this mean acceleration has the profile's speed at the end of the period, even if the
+/// profile has a knot within the period.
 double MeanAcceleration(const SpeedProfile& profile, double s, double speed, double period,
                         double at_middle) {
   double acceleration = at_middle;
-  // Each iteration divides the error by about speed/(acceleration period).
+  // Each iteration divides the error of the mean acceleration by about speed/(acceleration period).
   constexpr int kIterations = 3;
   for (int i = 0; i < kIterations; ++i) {
     const double next = s + period * (speed + 0.5 * period * acceleration);
@@ -23,16 +23,16 @@ double MeanAcceleration(const SpeedProfile& profile, double s, double speed, dou
   return acceleration;
 }
 
-/// A profile that exceeds the acceleration or deceleration of the options by more than this factor
-/// is meant to exceed them.
+/// Tolerance factor of the acceleration options: a speed profile that exceeds them by more than
+/// this factor exceeds them on purpose.
 constexpr double kOnPurpose = 1.1;
-/// Limit of the commanded acceleration, relative to the profile's acceleration; the excess lets the
-/// car catch up with the profile. For a plan at 0.9 of the tyres' limit, this factor uses half of
-/// the remaining margin. More is not used, because a locked or spinning wheel regains grip only
-/// when the command eases.
+/// Maximum ratio of the commanded acceleration to the profile's acceleration; above 1, so that the
+/// car can catch up with the profile. For a plan at 0.9 of the tyres' limit, the factor 1.05 uses
+/// half of the remaining margin. A larger factor would be risky, because a locked or spinning wheel
+/// regains grip only when the commanded acceleration falls.
 constexpr double kCatchUp = 1.05;
 
-/// Returns the deceleration at the end of a profile that ends at rest [m/s^2], >= 0.
+/// Returns the deceleration at the end of a speed profile that ends at rest [m/s^2], >= 0.
 double LastDeceleration(const SpeedProfile& profile) {
   const auto& knots = profile.knots();
   return knots.size() < 2 ? 0.0 : -profile.AccelerationAt(knots[knots.size() - 2].s);
@@ -53,12 +53,12 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
     const double last = LastDeceleration(profile);
     return -std::min(on_purpose(last) ? last : options.deceleration, limit);
   }
-  // A car before the start of the profile uses the acceleration at the start.
+  // Before the start of the speed profile, the car uses the acceleration at the start.
   const double from = profile.knots().empty() ? s : std::max(s, profile.knots().front().s);
-  // A car that rolls backward follows the profile from its present station.
+  // A car that rolls backward uses the profile's acceleration at its present station.
   const double ahead = std::max(speed, 0.0);
-  // The acceleration is taken at the middle of the period, but before the profile's end, because
-  // the profile has no acceleration beyond its end.
+  // Evaluate the profile's acceleration at the middle of the period, but not beyond the profile's
+  // end, because the profile has no acceleration there.
   double middle = from + 0.5 * ahead * period;
   if (stops) {
     middle = std::min(middle, 0.5 * (from + end));

@@ -26,7 +26,8 @@ class Stanley final : public SteeringController {
     const CarScale scale = ComputeCarScale(vehicle);
     const double gain = options_.gain.value_or(1.0 / scale.time);
     const double softening = options_.softening.value_or(scale.length / scale.time);
-    // Use atan2, because without softening the divisor is 0 at rest; the angle then saturates.
+    // Use atan2, because without softening the divisor is 0 at rest; the steering angle is then at
+    // its limit.
     const double approach = std::atan2(gain * offset, softening + speed);
     const double steering = turn.steering - direction * heading - approach;
     return std::clamp(steering, -vehicle.steering_limit, vehicle.steering_limit);

@@ -12,7 +12,8 @@ namespace {
 constexpr Range kFrequency{.max = 100.0, .above = 0.0};  // [Hz]
 constexpr Key kAmplitude{"amplitude", "rad", "amplitude of the sine; positive: first to the left"};
 
-/// Controller that steers by a profile over time. The type `Options` describes the profile.
+/// Controller that steers by a profile of the steering angle over time. The type `Options`
+/// describes the profile.
 template <typename Options>
 class ProfileController final : public SteeringController {
  public:
@@ -32,14 +33,14 @@ double Phase(const SweptSineOptions& options, double tau) {
   if (options.sweep == Sweep::kLinear) {
     return 2.0 * kPi * (f0 + 0.5 * (f1 - f0) * tau / options.duration) * tau;
   }
-  // Computes (e^k - 1)/k. expm1 keeps its precision for almost equal frequencies, where the limit
-  // is 1.
+  // Computes (e^k - 1)/k with expm1, which stays precise for almost equal frequencies; the limit
+  // for equal frequencies is 1.
   const double k = std::log(f1 / f0) * tau / options.duration;
   return 2.0 * kPi * f0 * tau * (k == 0.0 ? 1.0 : std::expm1(k) / k);
 }
 
-/// Returns the angle on a ramp from 0 to `end` at `rate`, at the time tau since the start of the
-/// ramp.
+/// Returns the steering angle at the time tau after the start of a ramp that rises from 0 to `end`
+/// at the rate `rate`.
 double Ramp(double end, double rate, double tau) {
   return std::copysign(std::clamp(rate * tau, 0.0, std::abs(end)), end);
 }
@@ -72,7 +73,7 @@ double SteeringAt(const SineSteeringOptions& options, double time) {
 double SteeringAt(const SineWithDwellOptions& options, double time) {
   const double tau = time - options.at;
   const double peak = 0.75 / options.frequency;
-  // The phase of the sine stops during the dwell.
+  // During the dwell, the phase of the sine is constant.
   const double own = tau < peak ? tau : std::max(peak, tau - options.dwell);
   const double turns = options.frequency * own;
   return turns > 0.0 && turns < 1.0 ? options.amplitude * std::sin(2.0 * kPi * turns) : 0.0;

@@ -48,7 +48,7 @@ Eigen::Matrix<double, 2, 3> LateralRates(const VehicleParams& vehicle,
 namespace {
 
 /// Returns the steady turn with the given slip angles of the axles [rad]. The slip angle of an axle
-/// is its lateral velocity over |u|, positive to the left.
+/// is the axle's lateral velocity divided by |u|, positive to the left.
 SteadyTurn TurnWithSlip(const VehicleParams& vehicle, double curvature, double speed,
                         double front_slip, double rear_slip) {
   const double direction = std::copysign(1.0, speed);
@@ -71,12 +71,12 @@ std::array<AxleOperation, 2> BrushAxles(const VehicleParams& vehicle, const Moti
                                         vehicle.cornering_stiffness_rear};
   std::array<AxleOperation, 2> axles;
   for (std::size_t i = 0; i < axles.size(); ++i) {
-    constexpr double kMinLoad = 0.05;  // smallest load as a fraction of the load at rest
+    constexpr double kMinLoad = 0.05;  // minimum load of an axle as a fraction of the load at rest
     const AxleGrip& axle = limit.axles[i];
     const double load =
         std::max(kMinLoad, 1.0 + direction * axle.transfer * hard / (kGravity * axle.weight));
     const double weight = vehicle.mass * kGravity * axle.weight;
-    // Each axle's fraction of the lateral force equals the axle's fraction of the weight.
+    // In a steady turn, each axle carries the same fraction of the lateral force as of the weight.
     axles[i] = BrushAxleAt(
         load * stiffness[i], vehicle.friction_lateral * load * weight,
         {.longitudinal = vehicle.mass * axle.force * hard, .lateral = lateral * axle.weight});

@@ -8,7 +8,8 @@ double WrapAngle(double angle) {
   if (angle > -kPi && angle <= kPi) {
     return angle;
   }
-  const double wrapped = std::remainder(angle, 2.0 * kPi);  // in the interval [-pi, pi]
+  // std::remainder returns an angle in [-pi, pi].
+  const double wrapped = std::remainder(angle, 2.0 * kPi);
   return wrapped <= -kPi ? kPi : wrapped;
 }
 

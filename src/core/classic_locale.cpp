@@ -8,8 +8,9 @@
 namespace trackbed {
 namespace {
 
-/// Locale that the last ClassicLocale restores on destruction. Only one locale is saved, because
-/// the locale is global to the process.
+/// The process's locale before the first ClassicLocale was constructed; the destructor of the last
+/// ClassicLocale restores this locale. A single saved locale suffices, because the locale is global
+/// to the process.
 struct SavedLocale {
   std::mutex mutex;
   int users = 0;

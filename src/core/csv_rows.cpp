@@ -26,7 +26,7 @@ struct RowReader {
   std::size_t all_cells = 0;
   bool any_row = false;
   bool stopped = false;
-  int line = 1;     // Line on which the current row begins.
+  int line = 1;     // Line of the file on which the current row begins.
   int endings = 0;  // Number of line feeds in the quoted cells of the current row.
 
   void Stop(std::string message) {
@@ -62,8 +62,8 @@ struct RowReader {
       take(cells, line);
     }
     cells.clear();
-    // Count only line feeds: libcsv also ends a row at a carriage return, which does not begin a
-    // new line.
+    // Count only line feeds: libcsv also ends a row at a carriage return, but a carriage return
+    // does not increase the line number.
     line += std::exchange(endings, 0) + (ending == '\n' ? 1 : 0);
   }
 };

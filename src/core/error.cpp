@@ -17,8 +17,8 @@ std::string Join(const std::vector<Problem>& problems) {
   return text;
 }
 
-/// Shortens a text for an error message, because an input file may contain a word of a million
-/// letters.
+/// Shortens a text for an error message, because an input file may contain, for example, a word of
+/// a million letters.
 std::string Cut(const std::string& text) {
   constexpr std::size_t kMaxMessageLength = 4000;
   if (text.size() <= kMaxMessageLength) {
@@ -26,13 +26,13 @@ std::string Cut(const std::string& text) {
   }
   std::size_t end = kMaxMessageLength;
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
-    --end;  // avoids splitting a UTF-8 character
+    --end;  // do not cut the text inside a multibyte UTF-8 character
   }
   return text.substr(0, end) + " ...";
 }
 
-/// Replaces line feeds in a text, so that a name with line feeds cannot look like another error
-/// message.
+/// Replaces the line feeds in a text, so that a name with line feeds cannot imitate a separate
+/// error message.
 std::string OneLine(const std::string& text) {
   std::string line;
   for (const char c : WithoutControls(text)) {

@@ -23,7 +23,8 @@ namespace fs = std::filesystem;
       fmt::format("cannot {} {}: {}", what, file.string(), std::generic_category().message(error)));
 }
 
-/// Writes the whole content to a file descriptor. Returns 0 or the errno of the failure.
+/// Writes the whole content to a file descriptor. Returns 0 on success, otherwise the value of
+/// errno.
 int WriteAll(int out, std::string_view content) {
   while (!content.empty()) {
     const ssize_t written = ::write(out, content.data(), content.size());
@@ -87,7 +88,8 @@ Descriptor OpenInput(const fs::path& file) {
   if (in.get() < 0 || ::fstat(in.get(), &status) != 0) {
     Fail("read", file, errno);
   }
-  // Check again, because another file may have got this name since the first check.
+  // Check the kind of the file again after opening, because the name may refer to another file
+  // since the first check.
   RequireRegular(file, status);
   return in;
 }
@@ -123,7 +125,8 @@ void ReadBlocks(const fs::path& file, const std::function<bool(std::string_view 
     }
     const auto size = static_cast<std::size_t>(got);
     bytes += size;
-    // The limit is exceeded if the file has grown, or if the file is in /proc, where sizes are 0.
+    // Check the limit again while reading, because the file may have grown since its size was
+    // checked, and files in /proc have a nominal size of 0.
     if (bytes > max_bytes) {
       FailAsTooLarge(file, max_bytes);
     }
@@ -161,7 +164,7 @@ fs::path TemporaryName(const fs::path& file, int number) {
   return name;
 }
 
-/// Returns whether `name` has the form of the names that TemporaryName returns.
+/// Returns whether a file name may have been created by TemporaryName.
 bool IsTemporaryName(std::string_view name) {
   const std::size_t mark = name.rfind(kTemporary);
   if (mark == std::string_view::npos || !name.starts_with('.')) {
@@ -180,8 +183,8 @@ bool IsTemporaryName(std::string_view name) {
          take_digits() == '-' && take_digits() == '.';
 }
 
-/// Locks a new temporary file. Returns false if another process regards the file as abandoned and
-/// has already locked or removed the file.
+/// Locks a new temporary file. Returns false if another process has already locked or removed the
+/// file, because that process regarded the new file as abandoned.
 bool IsOurs(int descriptor) {
   const bool taken = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
   struct stat status {};
@@ -191,8 +194,8 @@ bool IsOurs(int descriptor) {
 }  // namespace
 
 TemporaryFile::TemporaryFile(fs::path file) : file_(std::move(file)) {
-  // The number in the name distinguishes temporary files of several threads. The number also avoids
-  // names of files that a killed process with the same process id has left behind.
+  // The number in the name distinguishes the temporary files of different threads. A higher number
+  // also avoids the name of a file that a killed process with the same process id has left behind.
   for (int number = 0;; ++number) {
     path_ = TemporaryName(file_, number);
     descriptor_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
@@ -225,8 +228,8 @@ void TemporaryFile::Publish() {
   if (const int error = descriptor_.Close(); error != 0) {
     Fail("write", file_, error);
   }
-  // If the file is a link, replace the target of the link and keep the link. Refuse to replace a
-  // device or pipe.
+  // If the file is a link, replace the target of the link and keep the link. Throw an error if the
+  // file is a device or a pipe, which cannot be replaced.
   std::error_code error_code;
   const fs::path real = fs::is_symlink(file_) ? fs::weakly_canonical(file_, error_code) : file_;
   if (fs::is_directory(real, error_code)) {
@@ -353,7 +356,7 @@ void MakeFolder(const fs::path& folder) {
 
 namespace {
 
-/// Returns the absolute path with all links and dots resolved. The last parts of the path need not
+/// Returns the absolute path without links, "." and "..". The last components of the path need not
 /// exist.
 fs::path RealPath(const fs::path& path) {
   std::error_code error;
@@ -366,7 +369,8 @@ bool IsInside(const fs::path& real_file, const fs::path& folder) {
   const fs::path real_folder = RealPath(folder / "");
   const auto [of_folder, of_file] =
       std::mismatch(real_folder.begin(), real_folder.end(), real_file.begin(), real_file.end());
-  // The path of a folder may end with a slash, after which std::filesystem adds an empty part.
+  // If the path of the folder ends with a slash, std::filesystem regards an empty text as its last
+  // component; ignore this component.
   return of_folder == real_folder.end() || of_folder->empty();
 }
 

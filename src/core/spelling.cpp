@@ -30,8 +30,8 @@ std::size_t EditDistance(std::string_view a, std::string_view b) {
 
 std::string NearestSpelling(std::string_view word, const std::vector<std::string>& known) {
   std::string nearest;
-  // Ignore candidates for which all letters of the word would have to change, because the word is
-  // then not a misspelling.
+  // Ignore candidates that differ from the word in all letters, because the word is then not a
+  // misspelling of the candidate.
   std::size_t fewest = std::min(std::max<std::size_t>(2, word.size() / 3) + 1, word.size());
   for (const std::string& candidate : known) {
     const std::size_t edits = EditDistance(word, candidate);

@@ -22,8 +22,8 @@ struct Selection {
   bool all = true;
   std::vector<std::string> needed{};    // Columns that the table must have, if `all` is false.
   std::vector<std::string> optional{};  // Columns that the table may have, if `all` is false.
-  bool finite = false;                  // Whether cells must be finite.
-  bool empty = false;                   // Whether cells may be empty; empty cells are NaN.
+  bool finite = false;                  // Whether infinite and NaN cells are errors.
+  bool empty = false;                   // Whether cells may be empty; an empty cell is read as NaN.
 
   [[nodiscard]] bool Takes(const std::string& column) const {
     return all || std::find(needed.begin(), needed.end(), column) != needed.end() ||
@@ -38,19 +38,20 @@ struct Reader {
   // Receives the rows. If `take` is empty, the rows are added to the table.
   std::function<void(const std::vector<double>& numbers, int line)> take{};
   std::optional<Table> table{};
-  std::vector<int> lines{};           // Line number of each row of the table.
-  std::vector<std::string> header{};  // All column names of the file.
+  std::vector<int> lines{};           // Line of the file from which each row of the table was read.
+  std::vector<std::string> header{};  // Names of all columns of the file, in the order of the file.
   std::vector<std::size_t> taken{};   // For each column of the table, its index in `header`.
   std::vector<std::string> cells{};   // Cells of the current row.
-  int line = 1;                       // Line on which the current row begins.
+  int line = 1;                       // Line of the file on which the current row begins.
   ProblemList problems{};
 
   void AddError(std::string key, std::string message) {
     problems.Add({file, line, 0, std::move(key), std::move(message)});
   }
 
-  /// Adds a problem of a cell. The problem names the number of the cell in its row, counted from 1,
-  /// and its column, because libcsv does not report character positions.
+  /// Adds a problem of a cell. The error message contains the number of the cell in its row,
+  /// counted from 1, and the name of the column, because libcsv does not report the position of
+  /// characters.
   void AddCellError(std::size_t cell, std::string message) {
     const std::string& column = header[cell];
     const std::string name = column.empty() ? "" : fmt::format(" ({})", column);
@@ -206,7 +207,7 @@ std::string Table::ToCsv() const {
   const std::size_t width = columns_.size();
   for (std::size_t row = 0; row < rows(); ++row) {
     for (std::size_t column = 0; column < width; ++column) {
-      // Add 0.0 to convert a negative zero to zero, because the sign of a zero is only noise in a
+      // Add 0.0 to convert a negative zero to zero, because the sign of a zero has no meaning in a
       // log.
       fmt::format_to(fmt::appender(out), FMT_COMPILE("{}"), at(row, column) + 0.0);
       out.push_back(column + 1 < width ? ',' : '\n');
@@ -235,7 +236,7 @@ void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::st
   Reader reader{.file = file.string(),
                 .selection = {.all = false, .needed = columns, .optional = {}, .empty = true}};
   std::vector<double> ordered(columns.size());
-  // Index of each requested column among the columns that were read.
+  // For each requested column, its index among the columns that were read.
   std::vector<std::size_t> place;
   reader.take = [&](const std::vector<double>& numbers, int line) {
     if (place.empty()) {

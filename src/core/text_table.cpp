@@ -48,7 +48,7 @@ std::string ShortestText(double number) {
 
 std::pair<std::string, std::string> FormatDistinct(double first, double second) {
   std::pair<std::string, std::string> texts;
-  // Number of digits with which every double can be read back exactly.
+  // Number of significant digits with which every double can be written and read back exactly.
   constexpr int kRoundTripDigits = 17;
   for (int digits = 4; digits <= kRoundTripDigits; ++digits) {
     texts = {fmt::format("{:.{}g}", first, digits), fmt::format("{:.{}g}", second, digits)};
@@ -78,7 +78,7 @@ std::string TextTable::ToCsv() const {
 }
 
 TextTable ReadTextCsv(const std::filesystem::path& file) {
-  constexpr std::size_t kMaxCells = 10'000'000;  // each cell takes at least 32 bytes
+  constexpr std::size_t kMaxCells = 10'000'000;  // a cell takes at least 32 bytes of memory
   ProblemList problems;
   std::optional<TextTable> table;
   ReadCsvRows(

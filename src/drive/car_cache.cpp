@@ -41,7 +41,8 @@ std::optional<Scene> SceneInWorld(const Scenario& scenario, const CarModel& car)
   return empty ? std::nullopt : std::optional(WithWorld(car.scene(), car.params(), world));
 }
 
-/// Returns the cache key of a model: a text of all data from which the model is compiled.
+/// Returns the cache key of a model, a text that contains all data from which the model is
+/// compiled.
 std::string KeyOf(const Scene& scene, const fs::path& file) {
   std::string key = fmt::format("{}\n{}", file.string(), scene.xml);
   for (const SceneAsset& asset : scene.assets) {

@@ -28,7 +28,7 @@
 namespace trackbed {
 namespace {
 
-/// Reports the progress at each additional percent.
+/// Reports the progress of the run each time it has grown by one percent.
 class Progress {
  public:
   explicit Progress(const std::function<void(double)>& callback) : callback_(callback) {}
@@ -63,32 +63,33 @@ class ClosedLoop {
   /// the plan, or none without a path.
   std::optional<Projection> FollowPlan(const VehicleState& state, bool at_rest);
 
-  /// Returns whether the car is at rest and will stay at rest. A car at standstill rests if it has
-  /// no command to move. A car at the end of its segment also rests if it cannot move despite a
-  /// command, as on a grade.
+  /// Returns whether the car is at rest and will stay at rest. A car at standstill counts as at
+  /// rest if it has no command to move. At the end of its segment, a car also counts as at rest if
+  /// it cannot move despite a command, for example on a grade.
   bool Rests(const VehicleState& state);
 
   /// Returns the final status of the run if the run has ended.
   std::optional<DriveStatus> Ending(const VehicleState& state, bool at_rest);
 
   /// Computes the command for the coming period and stores the command in `row`. Returns the input
-  /// of the controller.
+  /// with which the controller was called.
   ControlInput Control(const VehicleState& state, LogRow& row);
   double Steer(const ControlInput& input);
   /// Returns the commanded acceleration along the car's x axis [m/s^2] over the control period of
   /// `row`.
   double Accelerate(const ControlInput& input, const LogRow& row);
-  /// Returns the wanted acceleration. Options that prescribe the speed over time override the
-  /// controller, and the controller overrides the plan's speed profile.
+  /// Returns the wanted acceleration of the car, before disturbances. Options that prescribe the
+  /// speed over time override the controller, and the controller overrides the plan's speed
+  /// profile.
   double WantedAcceleration(const ControlInput& input, const Vec2& position);
-  /// Returns the planned speed for LogRow::planned_speed.
+  /// Returns the planned speed that is logged in LogRow::planned_speed.
   [[nodiscard]] std::optional<double> PlannedSpeed(const VehicleState& state) const;
 
   /// Steps the plant for the control period of `row`.
   void StepPlant(long tick, const ControlInput& input, const LogRow& row);
   [[nodiscard]] Command CommandAt(int step, const ControlInput& input, const LogRow& row);
-  /// Returns the command of the steering schedule in a physics step. The schedule is a function of
-  /// the driven distance.
+  /// Returns the command of the steering schedule in a physics step. The steering schedule is a
+  /// function of the driven distance.
   [[nodiscard]] Command ScheduledCommand(int step, const ControlInput& input, const LogRow& row);
 
   void ReportProgress(const VehicleState& state);
@@ -97,8 +98,8 @@ class ClosedLoop {
   SteeringController& controller_;
   const LoopConfig& config_;
   VehicleState start_;
-  VehicleParams controlled_;  // The nominal vehicle, which the controller assumes.
-  int steps_;                 // Plant steps per control period.
+  VehicleParams controlled_;  // Parameters of the nominal vehicle, which the controller assumes.
+  int steps_;                 // Number of plant steps per control period.
   SegmentSequencer sequencer_;
   std::optional<ReplanningMonitor> monitor_;
   FaultInjector faults_;
@@ -110,8 +111,8 @@ class ClosedLoop {
   Command command_;         // The last command.
   double steering_before_;  // Prescribed steering angle at the start of the period [rad].
   // Whether the loop has adopted, in this control period, a plan that does not stop at an obstacle.
-  // After such a change, the last command may still stop the car for the previous plan, which must
-  // not end the run.
+  // After such a change of plan, the last command may still stop the car for the previous plan;
+  // this stop must not end the run.
   bool continues_past_obstacle_ = false;
 };
 
@@ -172,7 +173,7 @@ RunLog ClosedLoop::Run() {
 
 VehicleState ClosedLoop::Observe(long tick) const {
   VehicleState state = plant_.Observe();
-  // Rounds the time to nanoseconds: 11.7, not 11.700000000000001.
+  // Rounds the time to nanoseconds, for example 11.700000000000001 to 11.7.
   state.time = std::round(static_cast<double>(tick) * config_.control_period * 1e9) / 1e9;
   return state;
 }
@@ -204,9 +205,9 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
 }
 
 bool ClosedLoop::Rests(const VehicleState& state) {
-  // Within this duration, a car that starts from rest at more than 0.02 m/s^2 moves farther than
-  // the centimeter that Standstill tolerates.
-  constexpr double kMinRestDuration = 1.0;  // Duration of rest [s].
+  // Within this duration [s], a car that starts from rest with more than 0.02 m/s^2 moves farther
+  // than 1 cm, the limit of Standstill.
+  constexpr double kMinRestDuration = 1.0;  // Duration for which a car must rest [s].
   const bool steers = sequencer_.stationary_steer().InProgress();
   const std::optional<double> since = standstill_.Update(state, !steers);
   if (steers || IsAtRest(state, command_)) {
@@ -281,9 +282,9 @@ double ClosedLoop::Accelerate(const ControlInput& input, const LogRow& row) {
 }
 
 double ClosedLoop::WantedAcceleration(const ControlInput& input, const Vec2& position) {
-  const double speed = command_.gear * input.state.speed;  // speed in the direction of the gear;
-                                                           // negative if the car rolls the other
-                                                           // way
+  // Speed of the car in the direction of the gear; negative if the car rolls in the opposite
+  // direction.
+  const double speed = command_.gear * input.state.speed;
   std::optional<double> own =
       TimedSpeedControl(config_.speed, input.state.time, speed, input.period);
   if (!own) {
@@ -305,8 +306,8 @@ std::optional<double> ClosedLoop::PlannedSpeed(const VehicleState& state) const 
   if (!sequencer_.has_path() || !plan_sets_speed_) {
     return std::nullopt;
   }
-  // The car may stop within the goal tolerance of the goal. Therefore the planned speeds are also
-  // compared with this tolerance along the path.
+  // The car may stop anywhere within the goal tolerance of the goal. Therefore the check of the
+  // planned speeds also accepts a stop within the goal tolerance along the path.
   const double to = sequencer_.StationFor(state);
   const double from = to - config_.goal_tolerance * config_.vehicle.length -
                       std::abs(state.speed) * config_.control_period;
@@ -337,8 +338,8 @@ Command ClosedLoop::CommandAt(int step, const ControlInput& input, const LogRow&
   }
   Command now = command_;
   if (config_.steering_input == SteeringInput::kPrescribed) {
-    // The wheels reach the commanded angle at the end of the period; earlier physics steps
-    // interpolate the angle.
+    // The wheels reach the commanded angle at the end of the control period; in earlier physics
+    // steps, the angle is interpolated.
     now.steering =
         std::lerp(steering_before_, command_.steering, static_cast<double>(step + 1) / steps_);
   }

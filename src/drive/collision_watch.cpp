@@ -22,7 +22,8 @@ void CollisionWatch::Update(const Plant& plant, double time) {
   const double force = plant.obstacle_force();
   period_.force = std::max(period_.force, force);
   if (force > 0.0) {
-    Note(0.0, time);  // a car that rolls or pitches may touch an obstacle outside its footprint
+    // a car that rolls or pitches may touch an obstacle that lies outside the footprint
+    Note(0.0, time);
   }
   pose_ = pose;
   time_ = time;

@@ -31,8 +31,8 @@ void ConfigurationLog::Record(const Plant& plant, double time) {
   if (table_.columns().size() == 1) {
     return;
   }
-  // The tolerance is half a microsecond, because rounding may make the sum of the timesteps smaller
-  // than the multiple of the period.
+  // Use a tolerance of half a microsecond, because rounding may make the sum of the timesteps
+  // slightly smaller than a multiple of the logging period.
   if (time + 5e-7 < period_ * static_cast<double>(next_)) {
     return;
   }

@@ -10,10 +10,11 @@
 
 namespace trackbed {
 
-/// Logs the plant's configuration at the first physics step at or after every multiple of a period.
+/// Logs the plant's configuration vector once per logging period: at the first physics step at or
+/// after each multiple of the period.
 class ConfigurationLog {
  public:
-  /// `columns` are the names of the values in the plant's configuration. If `columns` is empty,
+  /// `columns` names the components of the plant's configuration vector. If `columns` is empty,
   /// nothing is logged. The columns of moving obstacles contain the planned positions of the
   /// obstacles, even if the plant does not simulate the obstacles.
   ConfigurationLog(const std::vector<std::string>& columns, const World& world, double period);
@@ -31,9 +32,9 @@ class ConfigurationLog {
   double period_;
   long next_ = 0;
   Table table_;
-  std::vector<double> row_;                             // The last row of the table.
-  std::vector<std::pair<std::size_t, double>> moving_;  // Column and speed [m/s] of each moving
-                                                        // obstacle.
+  std::vector<double> row_;  // The last row of the table of configurations.
+  // Table column of each moving obstacle, and the obstacle's speed [m/s].
+  std::vector<std::pair<std::size_t, double>> moving_;
 };
 
 }  // namespace trackbed

@@ -22,22 +22,25 @@ class FaultInjector {
   struct Options {
     double timestep = 0.0;        ///< Timestep of the physics [s].
     double start_steering = 0.0;  ///< Initial angle of wheels and actuator [rad].
-    SpeedControlOptions speed{};  ///< Speed control options; their gain and deceleration shape a
-                                  ///< speed loss.
+    /// Options of the speed control; the gain and the deceleration determine the course of a speed
+    /// loss.
+    SpeedControlOptions speed{};
     std::uint64_t seed = 0;
   };
 
   FaultInjector(const Disturbances& disturbances, const Options& options);
 
-  /// Returns a noisy measurement of a pose for this control period; none without noise.
+  /// Returns a noisy measurement of the car's pose for this control period; none if no noise is
+  /// configured.
   std::optional<Pose2> Measure(const Pose2& pose);
 
-  /// Applies a speed loss to a commanded acceleration [m/s^2]. Acceleration and `speed` [m/s] are
-  /// positive in the direction of the gear; `station` is a station of the log.
+  /// Returns the commanded acceleration, changed by a speed loss if one acts [m/s^2]. Acceleration
+  /// and `speed` [m/s] are positive in the direction of the gear; `station` is a station of the
+  /// log.
   double LimitSpeed(double acceleration, double speed, double time, double station);
 
-  /// Applies the steering faults to a commanded angle. Returns the angle for the actuator in the
-  /// coming physics step [rad].
+  /// Applies the steering faults to a commanded steering angle. Returns the steering angle that the
+  /// actuator receives in the coming physics step [rad].
   double Steer(double wanted) { return steering_.Pass(wanted); }
 
   /// Applies the lateral kicks due in the physics step `step`, counted from 0.

@@ -7,9 +7,10 @@
 namespace trackbed {
 
 /// Converts the record of a scenario to the log of a run. The log has one row per control period
-/// and ends with the mission or with the record, whichever ends first. The wheels of the recorded
-/// car roll without slip, which is visible only in films. The logged steering angle is the measured
-/// angle, or, without a measurement, the steady-state angle of the steering command.
+/// and ends when the mission or the record ends, whichever is earlier. The log assumes that the
+/// wheels of the recorded car roll without slip; only videos show the wheels. The logged steering
+/// angle is the measured angle, or, without a measurement, the steady-state angle of the steering
+/// command.
 RunLog RecordedLog(const Scenario& scenario, const CarModel& car);
 
 }  // namespace trackbed

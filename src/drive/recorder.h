@@ -13,15 +13,16 @@ namespace trackbed {
 /// Records the log of one run: rows, plan changes, configurations and the first contact.
 class Recorder {
  public:
-  /// World, vehicle and hooks of `config` must outlive the Recorder, which refers to them.
+  /// World, vehicle and hooks of `config` must outlive the Recorder, which keeps references to all
+  /// three.
   Recorder(const LoopConfig& config, std::vector<std::string> controller_columns);
 
   /// Records the plant's state at `time` [s]. Call Sample at the start of the run and after every
   /// physics step.
   void Sample(const Plant& plant, double time);
 
-  /// Makes a row from `state`, the last command, the controller's diagnostic values for this
-  /// command, and the extremes of clearance and contact force since the last row.
+  /// Makes a row of the log from `state`, the last command, the controller's diagnostic values for
+  /// this command, and the extremes of clearance and contact force since the last row.
   LogRow BeginRow(const VehicleState& state, const Command& command,
                   std::vector<double> controller_values);
   /// Adds a row to the log and calls the hook DriveHooks::logged if the hook is set.

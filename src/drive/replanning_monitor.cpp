@@ -9,19 +9,21 @@
 #include "trackbed/world/world.h"
 
 // ReplanningMonitor decides in every control period whether to plan again:
-//   1. Note the obstacles that become known.
-//   2. While the car is on the route, call the avoider, if configured, for obstacles in turns that
-//      block the plan. The call waits until the avoider's delay has passed.
+//   1. Register the obstacles that become known.
+//   2. While the car is on the route, call the avoider, if configured, for obstacles that block the
+//      plan in a turn. The avoider is called only after its configured delay has passed.
 //   3. If the avoider is not called, replan, if configured, at multiples of the replanning period.
 //      Replan at once if a new obstacle is within stopping distance.
 namespace trackbed {
 namespace {
 
 constexpr double kSameTime = 1e-9;  // Tolerance for comparing times [s].
-/// Deviations from the plan beyond which replanning treats the car as strayed.
-constexpr double kStrayed = 0.5;         // Distance from the plan [m].
-constexpr double kStrayedHeading = 0.2;  // Difference of the heading [rad].
-constexpr double kStrayedSpeed = 1.0;    // Difference of the speed [m/s].
+/// Deviations from the plan beyond which replanning no longer assumes that the car follows the
+/// plan.
+constexpr double kStrayed = 0.5;  // Largest distance of the car from the plan [m].
+// Largest difference between car and plan in heading [rad].
+constexpr double kStrayedHeading = 0.2;
+constexpr double kStrayedSpeed = 1.0;  // Largest difference between car and plan in speed [m/s].
 
 }  // namespace
 
@@ -169,7 +171,8 @@ bool ReplanningMonitor::IsUrgent(const VehicleState& state, const Plan& plan,
   }
   const ReplanOptions& options = *options_.replanning.replan;
   const double speed = std::abs(state.speed);
-  // Stopping distance with comfortable braking from the next period on, plus a car length.
+  // Stopping distance of a car that brakes comfortably from the next replanning period on, plus a
+  // car length.
   const double stop = speed * options.period +
                       0.5 * speed * speed / options_.replanning.limits.deceleration +
                       options_.vehicle.length;
@@ -193,9 +196,9 @@ double ReplanningMonitor::HardestBraking(const Path& path, double station, doubl
       road = std::min(road, RoadFactor(options_.world, corner));
     }
     const double grip = MaxDeceleration(options_.vehicle, road);
-    // Friction ellipse: in a bend, the lateral force reduces the braking force. The reduction stops
-    // at about a third of the braking force (sqrt 0.1), since a car too fast for the bend slides
-    // anyway.
+    // Friction ellipse: in a bend, the lateral force reduces the braking force. The search assumes
+    // that at least about a third (sqrt 0.1) of the braking force remains, since a car that is too
+    // fast for the bend slides anyway.
     const double across = (speed * speed - 2.0 * hardest * ahead) * std::abs(at.curvature);
     const double most = MaxLateralAcceleration(options_.vehicle, road);
     const double rest =

@@ -21,7 +21,7 @@ class ReplanningMonitor {
  public:
   struct Options {
     ReplanningConfig replanning{};
-    VehicleParams vehicle{};  ///< nominal vehicle, which the planners assume
+    VehicleParams vehicle{};  ///< parameters of the nominal vehicle, which the planners assume
     World world{};
     std::uint64_t seed = 0;
   };
@@ -50,11 +50,11 @@ class ReplanningMonitor {
   /// Returns the known obstacles that replanning must handle, at their present positions.
   [[nodiscard]] std::vector<MovingBox> KnownObstacles(const VehicleState& state, const Path& path,
                                                       double station) const;
-  /// Returns whether a newly known obstacle is too close to wait for the next replanning period:
-  /// comfortable braking from the next period on could not stop the car in time.
+  /// Returns whether a newly known obstacle is so close that comfortable braking from the next
+  /// replanning period on could not stop the car in time.
   [[nodiscard]] bool IsUrgent(const VehicleState& state, const Plan& plan,
                               const Projection& at) const;
-  /// Returns the deceleration that the road ahead allows over the stopping distance [m/s^2]. The
+  /// Returns the deceleration that the road ahead permits over the stopping distance [m/s^2]. The
   /// lowest friction under the footprint determines the deceleration, less the effects of downhill
   /// slopes and of the lateral force in bends. Returns 0 if the car's deceleration limit is
   /// unknown.
@@ -63,15 +63,15 @@ class ReplanningMonitor {
                                           const Projection& at);
   [[nodiscard]] ReplanRequest RequestFor(const VehicleState& state, const Plan& plan,
                                          const Projection& at) const;
-  /// Returns the car's station on the route [m], searched near the previous station, as far as the
-  /// car can move in a replanning period.
+  /// Returns the car's station on the route [m]; the search covers the distance that the car can
+  /// move in a replanning period around the previous station.
   [[nodiscard]] double StationOnRoute(const VehicleState& state) const;
   void SetRoute(const Plan& plan);
   /// Returns the road conditions that new plans must meet.
   [[nodiscard]] RoadConditions Road() const;
 
   Options options_;
-  std::vector<Knowledge> knowledge_;  // Knowledge of each obstacle of the world.
+  std::vector<Knowledge> knowledge_;  // State of knowledge about each obstacle of the world.
   Driving driving_;
   long periods_ = 0;      // Number of replanning periods so far.
   bool gave_up_ = false;  // Whether the last replanning started at rest and found no motion.

@@ -9,19 +9,21 @@ namespace trackbed {
 
 /// Motion of a car along its plan at the start of a physics step.
 struct MotionAlong {
-  double distance = 0.0;      ///< Distance on the plan's odometer [m].
-  double speed = 0.0;         ///< Speed, >= 0 [m/s].
-  double acceleration = 0.0;  ///< Acceleration along the path [m/s^2].
+  /// Position of the car on the distance axis of the steering schedule [m].
+  double distance = 0.0;
+  double speed = 0.0;         ///< Speed of the car along the plan [m/s], >= 0.
+  double acceleration = 0.0;  ///< Acceleration of the car along the path [m/s^2].
 };
 
 /// Returns the command [rad] with which a steering actuator follows a steering schedule over
 /// distance in one physics step. `rate` is the maximum rate of the actuator [rad/s]. With a rate of
 /// 0, the actuator has no rate limit: the command is the schedule's angle at the end of the step.
 ///
-/// An actuator turns at its full rate and then waits for the next step. On a ramp slower than this
-/// rate, the actuator is therefore ahead of the schedule by half of the waiting time on average. To
-/// compensate, the schedule is evaluated half of the waiting time before the end of the step. On a
-/// ramp at full rate, the actuator never waits.
+/// An actuator with a rate limit turns at its full rate until it reaches the command, and then
+/// waits for the next step. If the schedule is slower than the actuator's full rate, the actuator
+/// is therefore, on average, ahead of the schedule by half of the waiting time. To compensate, the
+/// schedule is evaluated half of the waiting time before the end of the step. If the schedule has
+/// the actuator's full rate, the waiting time is zero.
 inline double ScheduledSteering(const SteeringSchedule& schedule, const MotionAlong& motion,
                                 double timestep, double rate) {
   const auto after = [&](double time) {

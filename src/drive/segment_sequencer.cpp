@@ -38,7 +38,8 @@ void StationarySteer::Begin() {
 }
 
 void StationarySteer::Update(double steering) {
-  constexpr double kMaxSteeringChange = 1e-4;  // steering change in a control period [rad]
+  // Limit of the steering change in a control period below which the wheels count as still [rad].
+  constexpr double kMaxSteeringChange = 1e-4;
   in_progress_ = in_progress_ && !(std::abs(steering - last_steering_) < kMaxSteeringChange);
   last_steering_ = steering;
 }

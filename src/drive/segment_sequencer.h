@@ -10,8 +10,8 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/state.h"
 
-/// Splits plans at stops into segments that are driven one after the other. A plan stops to change
-/// the direction of motion or to steer at standstill.
+/// Splits plans at stops into segments that are driven one after the other. A plan contains a stop
+/// where the direction of motion changes or the wheels steer at standstill.
 namespace trackbed {
 
 /// Splits a plan at its cusps and stops into at least one segment. Within a segment, the car does
@@ -21,8 +21,8 @@ std::deque<Plan> SplitIntoSegments(const Plan& plan);
 /// Returns the gear at the start of a plan: +1 forward, -1 reverse.
 int PlanGear(const Plan& plan);
 
-/// Keeps a car at standstill, at a cusp or at a start on a bend, until its wheels have reached
-/// their target angle. Then the gear changes.
+/// At a cusp, or at a start on a bend, keeps the car at standstill until the wheels have reached
+/// the target angle. The gear changes after the wheels have reached the target angle.
 class StationarySteer {
  public:
   void Begin();
@@ -35,22 +35,22 @@ class StationarySteer {
 
  private:
   bool in_progress_ = false;
-  double last_steering_ = std::numeric_limits<double>::infinity();  // Actuator's angle at the last
-                                                                    // update [rad].
+  // Steering angle of the actuator at the last update [rad].
+  double last_steering_ = std::numeric_limits<double>::infinity();
 };
 
 /// Tracks the present segment and the car's position on it.
 ///
-/// A station is the distance along the present segment. A station of the log also includes the
-/// lengths of all segments and plans that the car drove before.
+/// In this class, a station is the distance along the present segment. A station of the log also
+/// includes the lengths of all segments and plans that the car drove before.
 class SegmentSequencer {
  public:
   struct Options {
     StationSource station_source = StationSource::kProjection;
     VehicleParams vehicle{};      ///< Vehicle parameters; only the wheelbase is used.
     double control_period = 0.0;  ///< Control period [s].
-    double goal_tolerance = 0.0;  ///< Distance from the end within which a car at rest has arrived
-                                  ///< [m].
+    /// Maximum distance from the end of the segment at which a car at rest counts as arrived [m].
+    double goal_tolerance = 0.0;
   };
 
   /// `start` is the initial state of the car. A car that starts at rest on a bend steers before it
@@ -66,7 +66,8 @@ class SegmentSequencer {
   [[nodiscard]] double offset() const { return offset_; }
   /// Returns the time at which the segment began [s].
   [[nodiscard]] double start_time() const { return start_time_; }
-  /// Returns the speed profile, a function of the station from StationFor.
+  /// Returns the speed profile of the present segment, a function of the station that StationFor
+  /// returns.
   [[nodiscard]] const SpeedProfile& speed() const;
 
   /// Returns the station that the controller receives in `state` [m]. Depending on the controller's
@@ -107,7 +108,7 @@ class SegmentSequencer {
   double offset_ = 0.0;          // Station of the log at the segment's start [m].
   double start_distance_ = 0.0;  // Odometer reading at the start of the segment [m].
   double start_time_ = 0.0;      // Start time of the segment [s].
-  double station_ = 0.0;         // Station of the last projection [m].
+  double station_ = 0.0;         // Station of the car's last projection onto the path [m].
   StationarySteer stationary_steer_;
 };
 

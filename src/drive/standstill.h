@@ -6,8 +6,8 @@
 
 namespace trackbed {
 
-/// Measures how long a car has stood still. A car stands still while it moves by no more than a
-/// centimeter.
+/// Measures how long a car has stood still. A car counts as standing still while it has moved by at
+/// most one centimeter.
 class Standstill {
  public:
   /// Returns the time since which the car has stood still [s]. Returns none, and restarts the

@@ -14,16 +14,16 @@ namespace {
 /// Simulated time between a collision and the end of the run [s].
 constexpr double kAfterCollision = 1.0;
 
-/// Returns whether the car leans by more than 60 degrees. This limit is beyond any slope on which a
-/// car can stand, and beyond any roll angle from which a car recovers.
+/// Returns whether the car leans by more than 60 degrees. An angle of 60 degrees is larger than any
+/// slope on which a car can stand, and larger than any roll angle from which a car recovers.
 bool HasRolledOver(const VehicleState& state) {
-  constexpr double kUpright = 0.5;  // cosine of the limit of the angle between the car's z axis and
-                                    // the vertical
+  // Cosine of the largest permitted angle between the car's z axis and the vertical.
+  constexpr double kUpright = 0.5;
   return std::cos(state.roll) * std::cos(state.pitch) < kUpright;
 }
 
-// Longest time in the air that is tolerated, for example over a bump, and longest unintended
-// standstill that is tolerated [s].
+// Longest permitted time in the air, for example over a bump, and longest permitted unintended
+// standstill [s].
 constexpr double kMaxAirborneTime = 1.0;
 constexpr double kMaxStandstillTime = 10.0;
 

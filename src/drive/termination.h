@@ -7,7 +7,7 @@
 #include "trackbed/drive/closed_loop.h"
 #include "trackbed/planning/common/plan.h"
 
-/// Criteria that end a run.
+/// Criteria by which a run ends.
 namespace trackbed {
 
 /// Returns whether the car stands still and is not commanded to move.
@@ -17,20 +17,20 @@ bool IsAtRest(const VehicleState& state, const Command& command);
 struct LoopStatus {
   const VehicleState& state;
   const Plant& plant;
-  const Plan& segment;                   ///< Plan of the present segment.
-  bool is_last_segment = true;           ///< Whether this segment is the last.
-  bool interrupted = false;              ///< Whether the caller asked to end the run.
-  bool at_rest = false;                  ///< Whether the car rests and steering at standstill is
-                                         ///< complete.
-  bool to_move = false;                  ///< Whether the last command is to accelerate.
-  bool run_continues = false;            ///< Whether the run continues although the car may be at
-                                         ///< rest.
+  const Plan& segment;          ///< Plan of the present segment.
+  bool is_last_segment = true;  ///< Whether the present segment is the last segment of the run.
+  bool interrupted = false;     ///< Whether the caller asked to end the run.
+  bool at_rest = false;         ///< Whether the car rests and steering at standstill is
+                                ///< complete.
+  bool to_move = false;         ///< Whether the last command accelerates the car.
+  bool run_continues = false;   ///< Whether the run continues although the car may be at
+                                ///< rest.
   std::optional<double> contact_time{};  ///< Time of the first contact with an obstacle [s].
 };
 
-/// Ends a run if it has diverged or is interrupted, or if the car sinks, is airborne, stuck or
-/// rolled over. The run also ends when its duration or time limit is over, and a second after a
-/// collision. A run along a path also ends when the car is at rest.
+/// Ends a run if the simulation diverged or was interrupted, or if the car sinks into the ground,
+/// is airborne, is stuck or rolled over. The run also ends when its duration or its time limit has
+/// passed, and one second after a collision. A run along a path also ends when the car is at rest.
 class Termination {
  public:
   /// `plan` is the initial plan of the run.
@@ -48,8 +48,8 @@ class Termination {
  private:
   [[nodiscard]] DriveStatus StatusAtEnd(const LoopStatus& now) const;
   [[nodiscard]] bool HasArrived(const LoopStatus& now) const;
-  /// Returns the status of a run that a fault of the physics ends, and sets `cause_`. Returns none
-  /// without a fault.
+  /// If a fault of the physics ends the run, sets `cause_` and returns the final status; otherwise
+  /// returns none.
   std::optional<DriveStatus> Fault(const LoopStatus& now);
 
   bool has_path_;
@@ -62,7 +62,7 @@ class Termination {
   double wheel_radius_;  // [m]
   std::string cause_;
   std::optional<double> airborne_since_;  // Time since which the car is airborne [s].
-  Standstill standstill_;                 // Standstill despite a command to move.
+  Standstill standstill_;  // Measures how long the car stands still despite a command to move.
 };
 
 }  // namespace trackbed

@@ -13,11 +13,12 @@
 #include "trackbed/core/text_table.h"
 
 // Searches a study for a point at which the run violates an expectation. Falsification first runs
-// the nominal point. Then a search (point_search.cpp) proposes points in batches to minimize the
-// robustness. The search ends when a run fails (unless `stop` is false), when all runs are used up,
-// or when the time is over. The failing point nearest to the nominal point becomes the
-// counterexample. The counterexample is shrunk toward the nominal point (shrink.cpp). All runs are
-// recorded (search_runs.cpp), so that an interrupted search continues without repeating runs.
+// the nominal point. After the nominal point, a search (point_search.cpp) proposes batches of
+// points to find the smallest robustness. The search ends when a run fails (unless `stop` is
+// false), when all runs are used up, or when the time is over. The failing point nearest to the
+// nominal point becomes the counterexample, which is then moved closer to the nominal point
+// (shrink.cpp). All runs are recorded (search_runs.cpp), so that an interrupted search continues
+// without repeating runs.
 namespace trackbed {
 namespace {
 
@@ -48,7 +49,7 @@ class Falsifier {
   }
 
  private:
-  /// Runs the scenario at the nominal point; returns none if interrupted.
+  /// Runs the scenario at the nominal point; returns none if the run was interrupted.
   std::optional<SearchRun> RunNominal() {
     const UnitPoint& nominal = search_.space.nominal();
     const auto runs = runs_.Run({nominal}, "nominal");
@@ -67,7 +68,7 @@ class Falsifier {
     return run;
   }
 
-  /// Runs the search; returns false if interrupted.
+  /// Runs the search for a failing point; returns false if the search was interrupted.
   bool RunSearch(std::optional<double> at_nominal) {
     const std::unique_ptr<PointSearch> search = MakePointSearch(spec_, search_.space, at_nominal);
     const Stopwatch clock;
@@ -239,8 +240,8 @@ CheckedSearch CheckSearch(Study study) {
   try {
     base = ReadPoint(study, {});
   } catch (const InputError&) {
-    // Ignores the error: without values of the searched keys, the scenario may be invalid. In this
-    // case, the study must give the nominal values in `nominal`.
+    // Ignore the error, because the scenario may be invalid without values of the searched keys. If
+    // the scenario is invalid, the study must specify the nominal values in `nominal`.
   }
   SearchSpace space(study, base ? &*base : nullptr);
   return {.study = std::move(study), .runs = std::move(runs), .space = std::move(space)};
@@ -259,7 +260,7 @@ ordered_json FalsifyHeader(const CheckedSearch& search) {
   for (const SearchKey& key : search.space.keys()) {
     header["nominal"][key.key] = key.nominal;
   }
-  // The additional row is the run of the nominal point.
+  // Add 1 for the run of the nominal point.
   header["rows_expected"] = spec.runs + spec.shrink_runs + 1;
   header["columns"] = SearchColumns(study);
   return header;

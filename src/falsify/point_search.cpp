@@ -15,7 +15,8 @@
 namespace trackbed {
 namespace {
 
-/// Search that proposes the points of a sample, independent of their values.
+/// Search that proposes the points of a sample one after the other and ignores the values of the
+/// objective.
 class SampledPoints : public PointSearch {
  public:
   SampledPoints(const SampleSpec& spec, const SearchSpace& space)
@@ -134,7 +135,7 @@ class NloptSearches : public PointSearch {
     UnitPoint start;
     State state = State::kRuns;
     UnitPoint point;     // Point for which the NLopt search requests a value.
-    double value = 0.0;  // Value of the objective at `point`.
+    double value = 0.0;  // Value of the objective at `point`, which the search minimizes.
     std::exception_ptr failure;
     std::thread thread;
   };
@@ -185,7 +186,8 @@ class NloptSearches : public PointSearch {
   void RunLane(Lane& lane, std::uint64_t number, int first_runs, int last_runs) {
     try {
       const SearchMethod method = NloptMethod(spec_.method);
-      constexpr std::uint64_t kSeedStride = 1000003;  // difference between the seeds of restarts
+      // Difference between the random seeds of consecutive restarts.
+      constexpr std::uint64_t kSeedStride = 1000003;
       SearchResult best;
       for (std::uint64_t again = 0; first_runs > 0; ++again) {
         const std::uint64_t seed = spec_.seed + number + kSeedStride * again;
@@ -203,7 +205,7 @@ class NloptSearches : public PointSearch {
         SearchFrom(lane, NloptMethod(spec_.finish), best.x, last_runs, spec_.seed);
       }
     } catch (const Stopped&) {
-      // The caller stopped the search: end the thread.
+      // End the thread, because the caller stopped the search.
     } catch (...) {
       lane.failure = std::current_exception();
     }

@@ -8,15 +8,15 @@
 
 namespace trackbed {
 
-/// Proposes batches of points whose scenarios can be run in parallel. The proposals depend only on
-/// the search options and on the values passed to Tell.
+/// Proposes points of a study in batches; the scenarios of a batch can be run in parallel. The
+/// proposals depend only on the search options and on the values passed to Tell.
 class PointSearch {
  public:
   virtual ~PointSearch() = default;
   /// Returns the next points to run; returns no points at the end of the search.
   virtual std::vector<UnitPoint> Ask() = 0;
-  /// Passes the objective, which the search minimizes, at each point that the last call of Ask
-  /// returned. A point whose run has no objective gets the value none.
+  /// Passes to the search the objective values, which the search minimizes, at the points that the
+  /// last call of Ask returned. The list contains none for a point whose run has no objective.
   virtual void Tell(const std::vector<std::optional<double>>& values) = 0;
 };
 

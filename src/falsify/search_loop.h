@@ -8,8 +8,8 @@
 
 namespace trackbed {
 
-/// Function that runs points and returns the values of their objective. If the function returns
-/// none, the search ends.
+/// Function that runs the scenarios of points and returns the objective value of each point. The
+/// function returns none to end the search.
 using RunBatch = std::function<std::optional<std::vector<std::optional<double>>>(
     const std::vector<UnitPoint>& points)>;
 

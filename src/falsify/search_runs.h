@@ -30,12 +30,12 @@ class SearchRuns {
   SearchRuns(const CheckedSearch& search, SweepRecords& records, const FalsifyOptions& options)
       : search_(search), records_(records), options_(options) {}
 
-  /// Returns the results of all points, or none if interrupted. Points without a known result are
-  /// run in parallel.
+  /// Returns the results of all points, or none if the runs were interrupted. Points without a
+  /// known result are run in parallel.
   std::optional<std::vector<SearchRun>> Run(const std::vector<UnitPoint>& points,
                                             const char* phase);
 
-  /// Returns whether the result of `point` is known.
+  /// Returns whether the point has already been run, so that its result is known.
   [[nodiscard]] bool Has(const UnitPoint& point) const;
   [[nodiscard]] std::size_t count() const { return next_; }
 
@@ -50,7 +50,7 @@ class SearchRuns {
   const FalsifyOptions& options_;
   // Known results, keyed by the values of the searched keys.
   std::map<std::vector<std::string>, SearchRun> known_;
-  std::size_t next_ = 0;  // Number of the next row of the table.
+  std::size_t next_ = 0;  // Number of the next row that is added to the table of runs.
   std::mutex mutex_;      // Protects the progress reports of parallel runs.
 };
 

@@ -130,7 +130,7 @@ class SpaceReader {
   std::vector<Problem> problems_;
 };
 
-/// Returns the exponent of the power of ten to whose multiples the values of a key are rounded.
+/// Returns the exponent e such that the values of a key are rounded to multiples of 10^e.
 int DecimalExponent(const SearchKey& key) {
   return static_cast<int>(std::floor(std::log10(1e-3 * (key.to - key.from))));
 }
@@ -206,7 +206,8 @@ double SearchSpace::Step(std::size_t i) const {
     case DistributionKind::kInteger:
       return 1.0 / (key.to - key.from);
     case DistributionKind::kLogUniform:
-      return 1e-4 / std::log(key.to / key.from);  // values are rounded to about five digits
+      // The values of the key are rounded to about five digits.
+      return 1e-4 / std::log(key.to / key.from);
     default:
       if (key.step > 0.0) {
         return key.step / (key.to - key.from);

@@ -13,8 +13,9 @@ namespace {
 /// Avoids Boost's tables of long doubles, which overflow under valgrind, as in statistics.cpp.
 using DoublePrecision = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 
-/// Returns the logarithm of the mean likelihood of q below p, or above p, divided by the likelihood
-/// of p. The likelihood of q is q^s (1 - q)^f for s successes and f failures.
+/// Returns the logarithm of a likelihood ratio: the mean likelihood of all probabilities q below p
+/// (or above p, if `above` is set), divided by the likelihood of p. The likelihood of a probability
+/// q is q^s (1 - q)^f for s successes and f failures.
 double LogRatio(double successes, double failures, double p, bool above) {
   const DoublePrecision policy;
   const double a = successes + 1.0;
@@ -22,8 +23,8 @@ double LogRatio(double successes, double failures, double p, bool above) {
   const double share =
       above ? boost::math::ibetac(a, b, p, policy) : boost::math::ibeta(a, b, p, policy);
   if (share < std::numeric_limits<double>::min()) {
-    return -std::numeric_limits<double>::infinity();  // the ratio underflows to 0, far from a
-                                                      // decision of the test
+    // The likelihood ratio underflows to 0, which is far from a decision of the test.
+    return -std::numeric_limits<double>::infinity();
   }
   const double log_beta = boost::math::lgamma(a, policy) + boost::math::lgamma(b, policy) -
                           boost::math::lgamma(a + b, policy);

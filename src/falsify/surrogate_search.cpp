@@ -55,12 +55,12 @@ class SurrogateSearch : public PointSearch {
   void Tell(const std::vector<std::optional<double>>& values) override {
     bool restart = false;
     for (std::size_t i = 0; i < batch_.size(); ++i) {
-      // dlib proposes a point again until the point gets a value. A point whose run has no value
-      // therefore gets the highest known value.
+      // dlib proposes a point again and again until dlib receives a value for the point. A point
+      // whose run has no objective therefore gets the highest known value.
       const double value = values[i].value_or(highest_);
       Keep(batch_[i], value);
-      // dlib accepts changed values, and values of points that dlib did not request, only in the
-      // constructor of a search. Such values therefore require a new dlib search.
+      // Construct a new dlib search if a value has changed, or if dlib did not request the point,
+      // because dlib accepts such values only in the constructor of a search.
       restart =
           restart || requests_.find(batch_[i]) == requests_.end() || (value < 0.0 && !spec_.stop);
     }
@@ -76,9 +76,11 @@ class SurrogateSearch : public PointSearch {
   }
 
  private:
-  // dlib alternates between exploring and refining, so a batch of two has one point of each.
+  // dlib alternates between exploring and refining, so a batch of two points contains one exploring
+  // point and one refining point.
   static constexpr int kBatch = 2;
-  // Noise of the objective relative to the range of its values; the value is the default of dlib.
+  // Noise of the objective that dlib assumes, relative to the range of the objective's values;
+  // 0.001 is dlib's default.
   static constexpr double kNoise = 0.001;
 
   void Keep(const UnitPoint& point, double value) {
@@ -89,15 +91,16 @@ class SurrogateSearch : public PointSearch {
     }
   }
 
-  /// Returns the objective at a known point, as passed to dlib. If the search continues after a
-  /// violation, the search should find other regions with violations. The values near known
-  /// violations are therefore raised, similar to deflation in root finding.
+  /// Returns the value that is passed to dlib for a known point. If the search continues after a
+  /// violation, the values near known violations are raised, so that the search finds violations in
+  /// other regions (similar to deflation in root finding).
   [[nodiscard]] double ObjectiveAt(const UnitPoint& point) const {
     const double value = known_.at(point);
     if (spec_.stop || violations_.empty()) {
       return value;
     }
-    // Radius of raised values around a violation, relative to the range of a key.
+    // Distance from a violation within which values are raised noticeably, relative to the range of
+    // a key.
     constexpr double kRepulsionRadius = 0.15;
     double nearest = std::numeric_limits<double>::infinity();
     for (const UnitPoint& violation : violations_) {
@@ -106,8 +109,8 @@ class SurrogateSearch : public PointSearch {
     return std::max(value, 0.0) + height_ * std::exp(-0.5 * nearest * nearest);
   }
 
-  /// Returns the amount by which values are raised at a violation: three times the median of the
-  /// values at passing points.
+  /// Returns by how much the value at a violation is raised: three times the median of the values
+  /// at passing points.
   [[nodiscard]] double Height() const {
     std::vector<double> values;
     for (const auto& [point, value] : known_) {
@@ -135,8 +138,8 @@ class SurrogateSearch : public PointSearch {
     search_.set_seed(static_cast<time_t>(spec_.seed + known_.size()));
   }
 
-  /// Asks dlib for a new point. Proposals are rounded to steps, so dlib may propose known points
-  /// again. For such points, dlib gets the known value.
+  /// Asks dlib for a new point. After rounding to the steps of the keys, a proposal may be a known
+  /// point; dlib then receives the known value, and Propose asks again.
   std::optional<UnitPoint> Propose(const std::vector<UnitPoint>& batch) {
     constexpr int kMaxAttempts = 20;
     for (int i = 0; i < kMaxAttempts; ++i) {
@@ -185,11 +188,11 @@ class SurrogateSearch : public PointSearch {
 
   const SearchSpec& spec_;
   const SearchSpace& space_;
-  // Value of each known point, whose coordinates are rounded to the steps.
+  // Values of the known points; the coordinates of a point are rounded to the steps of the keys.
   std::map<UnitPoint, double> known_;
   double highest_ = 0.0;  // Highest known value.
   std::vector<UnitPoint> violations_;
-  double height_ = 0.0;  // amount by which values near violations are raised
+  double height_ = 0.0;  // amount by which the value at a violation is raised
   dlib::global_function_search search_{UnitCube(1)};
   // Requests that dlib made for the points of the current batch.
   std::map<UnitPoint, dlib::function_evaluation_request> requests_;

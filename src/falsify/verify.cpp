@@ -24,8 +24,8 @@ std::string StatusOf(const SweepRecords& records, const SweepRow& row) {
   return row.cells.at(static_cast<std::size_t>(at));
 }
 
-/// Runs the rows `from` to `to` (exclusive) that are not recorded yet. RunBatch returns false if
-/// interrupted.
+/// Runs those of the rows `from` to `to` (exclusive) that are not recorded yet. RunBatch returns
+/// false if the runs were interrupted.
 bool RunBatch(const CheckedStudy& checked, std::size_t from, std::size_t to, SweepRecords& records,
               const VerifyOptions& options) {
   std::vector<std::size_t> missing;

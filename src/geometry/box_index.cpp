@@ -21,7 +21,8 @@ using Entry = std::pair<Bounds, std::size_t>;
 
 /// Largest number of boxes for which the index uses a linear search instead of a tree.
 constexpr std::size_t kMaxLinearSearch = 16;
-/// Margin of bounding boxes for rounding errors, relative to 1 m plus the largest coordinate.
+/// Margin by which bounding boxes are enlarged for rounding errors, as a fraction of 1 m plus the
+/// largest coordinate.
 constexpr double kRounding = 1e-12;
 
 bool IsFinite(const OrientedBox& box) {
@@ -86,8 +87,8 @@ double BoxIndex::DistanceTo(const OrientedBox& box, double at_most) const {
   const auto all = static_cast<unsigned>(boxes_.size());
   for (auto own = tree_->tree.qbegin(index::nearest(center, all)); own != tree_->tree.qend();
        ++own) {
-    // Stop when no further box can be nearer, because the query returns boxes by ascending distance
-    // of their bounds from the center.
+    // Stop at the first box whose bounds are too far away, because the query returns boxes by
+    // ascending distance of the bounds from the center.
     if (nearest == 0.0 || boost::geometry::distance(center, own->first) - radius >= nearest) {
       break;
     }

@@ -58,7 +58,8 @@ double Separation(const OrientedBox& a, const OrientedBox& b) {
   }
   const double along = std::abs(c);
   const double across = std::abs(s);
-  // Compute the gaps along the axes of both boxes. The boxes are disjoint if one gap is positive.
+  // Compute the gap between the two boxes along each axis of both boxes; the boxes are disjoint if
+  // one gap is positive.
   const double gap =
       std::max({std::abs(b_in_a.x()) - half_a.x - along * half_b.x - across * half_b.y,
                 std::abs(b_in_a.y()) - half_a.y - across * half_b.x - along * half_b.y,

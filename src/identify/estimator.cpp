@@ -52,7 +52,9 @@ std::vector<std::size_t> Estimator::FixInertParameters() {
   std::vector<std::size_t> inert;
   for (const std::size_t i : free_) {
     const IdentifiedParameter& parameter = study_.parameters[i];
-    constexpr double kProbeFraction = 0.1;  // test step, as a fraction of the parameter's range
+    // Size of the change that tests whether a parameter has an effect, as a fraction of the
+    // parameter's range.
+    constexpr double kProbeFraction = 0.1;
     const double move = kProbeFraction * (parameter.to - parameter.from);
     std::vector<double> moved = start_;
     moved[i] = start_[i] + move <= parameter.to ? start_[i] + move : start_[i] - move;
@@ -68,12 +70,12 @@ std::vector<std::size_t> Estimator::FixInertParameters() {
 }
 
 double Estimator::Improve(std::vector<double> at) {
-  // Step below which the search stops, as a fraction of the parameter's range.
+  // Step size below which the search stops, as a fraction of each parameter's range.
   constexpr double kMinStep = 1e-4;
-  // Cost reduction below which the search stops, as a fraction of the cost.
+  // Reduction of the cost in one step below which the search stops, as a fraction of the cost.
   constexpr double kMinGain = 1e-5;
   const int last = counter_.evaluations() + study_.evaluations;
-  double radius = 0.25;  // radius of the trust region, as a fraction of the parameter's range
+  double radius = 0.25;  // radius of the trust region, as a fraction of each parameter's range
   double cost = Cost(at);
   Keep(at, cost);
   while (std::isfinite(cost) && counter_.evaluations() < last) {
@@ -91,7 +93,7 @@ double Estimator::Improve(std::vector<double> at) {
       const double reached = Cost(next);
       const double share = (cost - reached) / expected;
       const double length = step.cwiseAbs().maxCoeff();
-      if (share > 0.1) {  // NaN makes the condition false
+      if (share > 0.1) {  // false if the cost is NaN
         moved = true;
         gained = cost - reached;
         at = next;
@@ -148,7 +150,8 @@ std::vector<double> Estimator::Moved(std::vector<double> values,
 Eigen::VectorXd Estimator::Step(const LinearModel& linear, const std::vector<double>& at,
                                 double radius) const {
   const Eigen::Index n = linear.gradient.size();
-  // A small ridge, added to the Hessian, keeps parameters without effect at their values.
+  // A small multiple of the identity matrix is added to the Hessian, so that parameters without
+  // effect on the cost keep their values.
   constexpr double kMinRidge = 1e-9;
   const double ridge = std::max(kMinRidge * linear.hessian.trace(), kMinRidge);
   QuadraticProgram program;

@@ -10,14 +10,15 @@
 
 namespace trackbed {
 
-/// Counts evaluations of the cost and reports the progress to the caller.
+/// Counts evaluations of the cost function and reports the progress to the caller.
 class ProgressCounter {
  public:
   ProgressCounter(const IdentificationHooks& hooks, int max_evaluations);
 
   /// Counts an evaluation. Throws Interrupted if the caller asks to stop.
   void Count();
-  /// Counts the unused evaluations of a budget as done, up to `evaluations`.
+  /// Sets the count to `evaluations`, so that the evaluations that a search did not need count as
+  /// done.
   void SkipTo(int evaluations);
   [[nodiscard]] int evaluations() const { return evaluations_; }
 
@@ -31,8 +32,8 @@ class ProgressCounter {
 /// the car model, clamped to the bounds.
 std::vector<double> StartValues(const Identification& study, const CarModel& car);
 
-/// Estimates parameters, of which some are free and the others are fixed. Estimator keeps
-/// references to the arguments of its constructor.
+/// Estimates the free parameters of a car model; all other parameters are fixed. The arguments of
+/// the constructor must outlive the Estimator.
 class Estimator {
  public:
   Estimator(const Identification& study, const ResidualModel& model, ProgressCounter& work);
@@ -42,15 +43,15 @@ class Estimator {
   [[nodiscard]] double best_cost() const { return best_cost_; }
   [[nodiscard]] const std::vector<std::size_t>& free() const { return free_; }
 
-  /// Fixes the parameters without any effect on the cost, for example because the plant does not
-  /// model the part of the car. FixInertParameters returns the indices of the fixed parameters.
+  /// Fixes the parameters that have no effect on the cost, such as parameters of a part of the car
+  /// that the plant does not model. FixInertParameters returns the indices of the fixed parameters.
   std::vector<std::size_t> FixInertParameters();
 
   /// Makes Gauss-Newton steps in a trust region, starting at the values `at`, and keeps the best
-  /// values found. Improve() returns the cost that the last step reaches. Each step is a quadratic
-  /// program with the bounds, solved by NLopt's SLSQP. (If SLSQP minimized the cost itself, it
-  /// would need six times as many evaluations. SLSQP would have to approximate the Hessian, which
-  /// the residuals already provide.)
+  /// values found. Improve() returns the cost after the last step. Each step is the solution of a
+  /// quadratic program within the parameters' bounds, which NLopt's SLSQP solves. SLSQP could also
+  /// minimize the cost directly, but would then need six times as many evaluations, because SLSQP
+  /// would have to approximate the Hessian that the residuals already provide.
   double Improve(std::vector<double> at);
 
   /// Returns random values of the free parameters within their bounds.
@@ -64,8 +65,9 @@ class Estimator {
   void Keep(const std::vector<double>& values, double cost);
   [[nodiscard]] std::vector<double> Moved(std::vector<double> values,
                                           const Eigen::VectorXd& step) const;
-  /// Returns the step to the minimum of the local model within bounds and trust region. The step is
-  /// relative to the parameters' ranges.
+  /// Returns the step from `at` to the minimum of the local quadratic model within the parameters'
+  /// bounds and the trust region. The components of the step are fractions of the parameters'
+  /// ranges.
   [[nodiscard]] Eigen::VectorXd Step(const LinearModel& linear, const std::vector<double>& at,
                                      double radius) const;
 

@@ -10,14 +10,14 @@
 namespace trackbed {
 namespace {
 
-/// Returns the derivative of the residuals with respect to a parameter, where the parameter is
-/// divided by its range.
+/// Returns the derivative of the residuals with respect to the parameter divided by the parameter's
+/// range.
 std::vector<SignalResiduals> Derivative(const Identification& study, const ResidualModel& model,
                                         const std::vector<double>& estimate, std::size_t index,
                                         const std::function<void()>& count) {
-  // The step must be large enough to average over the kinks that backlash causes in the residuals.
-  // The step must be small enough that the Magic Formula is almost linear within the step.
-  constexpr double kStep = 1e-3;  // Fraction of the range.
+  // Step of the finite difference: large enough to average over the kinks that backlash causes in
+  // the residuals, and small enough that the Magic Formula is almost linear within the step.
+  constexpr double kStep = 1e-3;  // Step as a fraction of the parameter's range.
   const IdentifiedParameter& parameter = study.parameters[index];
   const double width = parameter.to - parameter.from;
   std::vector<double> at = estimate;
@@ -87,7 +87,8 @@ LinearModel Linearize(const Identification& study, const ResidualModel& model,
   std::vector<std::vector<SignalResiduals>> jacobian;
   for (const std::size_t index : free) {
     jacobian.push_back(Derivative(study, model, estimate, index, counted));
-    // The sizes differ if the model cannot be compiled with parameter values next to the estimate.
+    // The derivative has fewer residuals if the car model cannot be compiled with parameter values
+    // next to the estimate; replace such a derivative.
     if (jacobian.back().size() != residuals.size()) {
       jacobian.back() = residuals;
       for (SignalResiduals& signal : jacobian.back()) {
@@ -134,8 +135,8 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
   const auto windows = static_cast<double>(linear.of_windows.cols());
   const double freedom = std::max(1.0, windows - static_cast<double>(n));
   Eigen::MatrixXd scatter = linear.of_windows * linear.of_windows.transpose() * (windows / freedom);
-  // A prior acts as an additional measurement of the parameter, whose standard deviation is the
-  // prior's deviation.
+  // A prior acts as an additional measurement of the parameter; the standard deviation of this
+  // measurement is the deviation of the prior.
   for (Eigen::Index i = 0; i < n; ++i) {
     const IdentifiedParameter& parameter = study.parameters[free[static_cast<std::size_t>(i)]];
     if (parameter.prior) {
@@ -143,7 +144,8 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
       scatter(i, i) += precision * precision;
     }
   }
-  // The variance is unbounded in directions in which the cost is flat.
+  // In parameter directions in which the cost is constant (flat directions), the variance of the
+  // estimate is infinite.
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(linear.hessian);
   constexpr double kFlat = 1e-10;
   const double largest = std::max(eigen.eigenvalues()[n - 1], 1e-300);
@@ -159,7 +161,8 @@ Eigen::MatrixXd Covariance(const Identification& study, const LinearModel& linea
   const Eigen::MatrixXd inverted =
       eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
   Eigen::MatrixXd covariance = inverted * scatter * inverted;
-  // A parameter counts as undetermined if its component in a flat direction exceeds this value.
+  // Component of a flat direction (a direction without effect on the cost) from which the parameter
+  // of this component counts as undetermined.
   constexpr double kFlatComponent = 1e-3;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (flat[i] > kFlatComponent) {

@@ -17,11 +17,11 @@
 namespace trackbed {
 namespace {
 
-// Residual after the plant has diverged, in units of the signal's deviation.
+// Residual of each sample after the plant has diverged, as a multiple of the signal's deviation.
 constexpr double kDivergedResidual = 100.0;
 
-/// A fitted signal: its deviation, and a function that returns the difference between the predicted
-/// and the recorded value.
+/// A signal that the identification fits: the deviation by which its residuals are divided, and a
+/// function that returns the difference between the predicted and the recorded value.
 struct FittedSignal {
   double deviation;
   double (*difference)(const VehicleState& predicted, const VehicleState& recorded);
@@ -57,7 +57,7 @@ std::vector<std::vector<double>> ResidualsOf(const WindowPrediction& prediction,
                                              const std::vector<FittedSignal>& signals) {
   const RecordSpec& record = *scenario.record;
   std::vector<std::vector<double>> residuals(signals.size());
-  // Skip the first state, which is the recorded state itself.
+  // Skip the first predicted state, because it is equal to the recorded state.
   for (std::size_t k = 1; k < states; ++k) {
     const double time = prediction.start + static_cast<double>(k) * scenario.drive.control_period;
     const RecordedSample sample = record.data->At(time);

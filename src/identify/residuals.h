@@ -10,7 +10,8 @@
 
 namespace trackbed {
 
-/// Exception that Identify catches when the caller interrupts the identification.
+/// Exception that ends the computation when the caller interrupts the identification; Identify
+/// catches this exception.
 struct Interrupted {};
 
 /// Residuals of one signal in one prediction window, divided by the deviation of the signal.
@@ -20,20 +21,22 @@ struct SignalResiduals {
 };
 
 /// Computes the prediction residuals of the car model for given parameter values, over all windows
-/// of all fitted records. After a plant has diverged, its residuals are 100 deviations.
+/// of all fitted records. After a plant has diverged, each residual is 100 times the deviation of
+/// the signal.
 class ResidualModel {
  public:
-  /// The study must outlive the ResidualModel. Each thread calls `interrupted` before each window.
+  /// The study must outlive the ResidualModel. Before each prediction window, each thread calls
+  /// `interrupted`, which returns true if the caller asks to stop.
   ResidualModel(const Identification& study, int threads, std::function<bool()> interrupted = {});
 
   [[nodiscard]] const CarModel& car() const { return cars_.front(); }
   [[nodiscard]] std::size_t windows() const { return windows_.size(); }
-  /// Returns the residuals for given values of the study's parameters, in the order of the study.
-  /// The number and the order of the residuals do not depend on the values. At() returns no
-  /// residuals if the car model cannot be compiled with the values. At() throws Interrupted if the
-  /// caller asks to stop.
+  /// Returns the residuals of the car model for given parameter values, which must be in the order
+  /// of the study's parameters. The number and the order of the residuals are the same for all
+  /// parameter values. At() returns no residuals if the car model cannot be compiled with the
+  /// values. At() throws Interrupted if the caller asks to stop.
   [[nodiscard]] std::vector<SignalResiduals> At(std::span<const double> values) const;
-  /// Returns the cars of the fitted scenarios with the given parameter values. CarsAt throws
+  /// Returns the car model of each fitted scenario with the given parameter values. CarsAt throws
   /// InputError if the cars cannot be compiled.
   [[nodiscard]] std::vector<CarModel> CarsAt(std::span<const double> values) const;
 
@@ -46,12 +49,12 @@ class ResidualModel {
   const Identification& study_;
   int threads_;
   std::function<bool()> interrupted_;
-  std::vector<CarModel> cars_;  // car models, one per fitted scenario
+  std::vector<CarModel> cars_;  // car model of each fitted scenario
   std::vector<Window> windows_;
 };
 
-/// Loss() returns the loss rho(r) of a residual r. LossWeight() returns the weight rho'(r)/r of the
-/// residual in the gradient.
+/// Loss() returns the contribution rho(r) of a residual r to the cost. LossWeight() returns
+/// rho'(r)/r, by which the residual r is weighted in the gradient of the cost.
 double Loss(const Identification& study, double residual);
 double LossWeight(const Identification& study, double residual);
 

@@ -57,10 +57,10 @@ Vector SolveBySlsqp(LeastDistance& problem, const Vector& start, double toleranc
     double value = 0.0;
     search.optimize(y, value);
   } catch (const nlopt::roundoff_limited&) {
-    // Ignore: the solution is as accurate as rounding errors permit.
+    // Ignore the exception, because the solution is as accurate as rounding errors permit.
   } catch (const std::runtime_error&) {
-    // Ignore: the constraints contradict each other, and the caller checks whether the solution
-    // violates a constraint.
+    // Ignore the exception, which means that the constraints contradict each other, because the
+    // caller checks whether the solution violates a constraint.
   }
   return ConstVectorMap(y.data(), n);
 }
@@ -123,7 +123,7 @@ QuadraticSolution Solve(const QuadraticProgram& program, double tolerance) {
         problem.bounds[k++] = program.bounds[i];
       }
     }
-    // The substitution changes the rows G to G L^-T.
+    // With y = L^T x, the constraints G x <= b become (G L^-T) y <= b.
     problem.rows = cholesky.matrixL().solve(problem.rows.transpose()).transpose().eval();
     y = SolveBySlsqp(problem, y, tolerance);
     solution.x = cholesky.matrixU().solve(y);

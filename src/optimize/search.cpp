@@ -11,23 +11,29 @@
 #include "trackbed/core/error.h"
 
 // Minimizes functions with NLopt under bounds and inequality constraints. Methods that support
-// constraints (isres, cobyla, slsqp) receive the constraints. For other methods, infeasible points
-// get objective values above 1e100 that grow with the violation. DIRECT gets infinity for
-// infeasible points. The class Evaluator caches the last point, counts evaluations and computes
-// gradients by central differences. Evaluator also keeps the best point: the point with the
-// smallest violation and, among points with equal violation, the smallest objective.
+// constraints (isres, cobyla, slsqp) receive the constraints. Other methods receive for an
+// infeasible point an objective value of at least 1e100 that grows with the violation. DIRECT
+// receives infinity for an infeasible point. The class Evaluator stores the values at the last
+// point, counts evaluations and computes gradients by central differences. Evaluator also keeps the
+// best point: the point with the smallest violation and, among points with equal violation, the
+// smallest objective.
 
 namespace trackbed {
 namespace {
 
-/// Smallest objective value that unconstrained methods get for an infeasible point.
+/// Smallest objective value that a method without support for constraints receives for an
+/// infeasible point.
 constexpr double kInfeasibleCost = 1e100;
 
 /// Specifies how constraints are passed to a search method.
 enum class Handling {
-  kNative,  ///< The method supports constraints.
-  kRanked,  ///< The method only compares points. Infeasible points rank below all feasible points.
-  kHidden,  ///< The method gets no value for infeasible points and estimates it from neighbors.
+  kNative,  ///< The search method itself supports constraints.
+  /// The search method only compares objective values. Infeasible points rank below all feasible
+  /// points.
+  kRanked,
+  /// The method receives infinity for infeasible points and estimates a value from neighboring
+  /// points.
+  kHidden,
 };
 
 Handling ConstraintHandling(nlopt::algorithm algorithm) {
@@ -108,13 +114,14 @@ class Evaluator {
     return std::move(result_);
   }
 
-  std::exception_ptr failure;  // exception thrown by the caller's functions
+  std::exception_ptr failure;  // exception that a function of the problem has thrown
 
  private:
   void Evaluate(const double* x) {
     if (evaluated_ && std::equal(point_.begin(), point_.end(), x)) {
-      return;  // already evaluated: NLopt requests the objective and the constraints of a point one
-               // after the other
+      // This point is already evaluated, because NLopt requests the objective and the constraints
+      // of a point one after the other.
+      return;
     }
     if (result_.evaluations >= budget_) {
       throw nlopt::forced_stop();
@@ -130,8 +137,8 @@ class Evaluator {
       } catch (...) {
         failure = std::current_exception();
         // The algorithm DIRECT in NLopt 2.7.1 reads uninitialized memory if it is stopped during
-        // its first points. After a failure, DIRECT therefore continues to its end, without further
-        // calls of the caller's functions.
+        // its first points. If a function of the problem fails, DIRECT therefore continues to its
+        // end, but the functions of the problem are no longer called.
         if (options_.method != SearchMethod::kDirect) {
           throw nlopt::forced_stop();
         }
@@ -179,8 +186,8 @@ class Evaluator {
     }
   }
 
-  /// Returns the objective value that the search method receives. The value is never NaN, because
-  /// NLopt must compare values.
+  /// Returns the objective value that the search method receives. MethodValue never returns NaN,
+  /// because NLopt must be able to compare the values.
   [[nodiscard]] double MethodValue() const {
     if (handling_ == Handling::kHidden && violation_ > 0.0) {
       return std::numeric_limits<double>::infinity();
@@ -202,9 +209,9 @@ class Evaluator {
         std::equal(differentiated_at_.begin(), differentiated_at_.end(), x)) {
       return;
     }
-    // Step of the differences, as a fraction of the range: the cube root of the rounding error of
-    // an evaluation. This step balances the rounding error and the truncation error, which is due
-    // to the third derivative.
+    // Step of the central differences, as a fraction of the variable's range. The cube root of the
+    // relative rounding error is the best step, because it balances the rounding error and the
+    // truncation error of a central difference.
     constexpr double kStep = 6e-6;
     const std::size_t n = point_.size();
     std::vector<double> at(x, x + n);
@@ -282,8 +289,8 @@ struct Box {
   std::vector<double> upper;
 };
 
-/// Returns a box with a fiftieth of the volume of `box`, centered at x and clipped to the problem's
-/// bounds.
+/// Returns a smaller box for the next run of DIRECT, centered at x and clipped to the problem's
+/// bounds; before clipping, the volume is a fiftieth of the volume of `box`.
 Box Zoomed(const SearchProblem& problem, const Box& box, const std::vector<double>& x) {
   Box zoomed = box;
   const double share = std::pow(0.02, 1.0 / static_cast<double>(x.size()));
@@ -295,7 +302,7 @@ Box Zoomed(const SearchProblem& problem, const Box& box, const std::vector<doubl
   return zoomed;
 }
 
-/// Runs an NLopt algorithm once. The evaluator keeps the best point.
+/// Runs an NLopt algorithm once. The best point is stored in the Evaluator.
 void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& box,
          std::vector<double> x, int evaluations, const SearchOptions& options,
          Evaluator& evaluator) {
@@ -319,12 +326,13 @@ void Run(nlopt::algorithm algorithm, const SearchProblem& problem, const Box& bo
     double value = 0.0;
     search.optimize(x, value);
   } catch (const nlopt::forced_stop&) {
-    // Stopped, because the budget is used up or a function of the problem threw an exception.
+    // NLopt was stopped, because the budget is used up or because a function of the problem threw
+    // an exception.
   } catch (const nlopt::roundoff_limited&) {
-    // Ended, because rounding errors prevent further progress.
+    // NLopt ended the search, because rounding errors prevent further progress.
   } catch (const std::runtime_error&) {
     // NLopt failed, for example because slsqp needed too many steps in its least-squares solver.
-    // The best point so far is kept.
+    // The result is the best point that was evaluated before the failure.
   }
 }
 

@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-/// Formats a number for error messages; uses an exponent for large numbers.
+/// Formats a number for error messages; large numbers are written with an exponent.
 std::string Number(double number) {
   constexpr double kMaxPlainNumber = 1e9;
   return std::abs(number) <= kMaxPlainNumber ? fmt::format("{}", number)
@@ -171,7 +171,7 @@ class RangeChecker final : public KeyVisitor {
   }
 
   std::string owner_;
-  std::string prefix_;  // prefix of the visited keys, with a dot at the end
+  std::string prefix_;  // section name that precedes each visited key, with a dot at the end
 };
 
 }  // namespace

@@ -80,8 +80,8 @@ double BezierCurve::Sharpness(double u) const {
 }
 
 double BezierCurve::Length(double from, double to) const {
-  // Integrate over each sixteenth of the parameter range. The parameter speed |P'| is not a
-  // polynomial, but is close to a polynomial within a sixteenth.
+  // Compute the arc length as the sum of integrals over sixteenths of the parameter range. The
+  // parameter speed |P'| is not a polynomial, but is close to a polynomial within a sixteenth.
   using Quadrature = boost::math::quadrature::gauss<double, 10>;
   const double pieces = std::max(1.0, std::ceil(16.0 * std::abs(to - from)));
   double length = 0.0;
@@ -99,7 +99,8 @@ std::vector<CurvePoint> BezierCurve::Points(double spacing, double start_yaw) co
   TRACKBED_REQUIRE(Length() / spacing <= kMaxPoints,
                    "BezierCurve::Points: {} m every {} m; must be at most {} points", Length(),
                    spacing, kMaxPoints);
-  double fastest = 0.0;  // upper bound of |P'|: the largest norm of a control point of P'
+  // Upper bound of |P'|, equal to the largest norm of the control points of P'.
+  double fastest = 0.0;
   for (const Vec2& velocity : polygons_[1]) {
     fastest = std::max(fastest, velocity.norm());
   }

@@ -13,23 +13,24 @@
 
 // Fits a path to points. FitPath drops repeated points, and optionally resamples the other points
 // along straight lines. A spline fit computes a quintic smoothing spline over chord length (Reinsch
-// 1967). Bisection finds the largest smoothing length that keeps all points within the tolerance.
-// The spline is then sampled to path segments, with smaller and smaller spacing until the segments
-// are within the tolerance, too. A polyline fit joins straight lines by arcs with tangents of at
-// most 1 mm. Points at which the path turns back are reported as reversals.
+// 1967). Bisection finds the largest smoothing length at which the spline passes all points within
+// the tolerance. Samples of the spline are then joined by path segments; their spacing is reduced
+// until the segments are within the tolerance, too. A polyline fit joins straight lines by arcs
+// with tangents of at most 1 mm. Points at which the path turns back are reported as reversals.
 
 namespace trackbed {
 namespace {
 
 constexpr std::size_t kMaxFittedPoints = 200'000;
-// Points that are closer than this distance [m] count as repeated points.
+// Distance below which two successive points count as a repeated point [m].
 constexpr double kEqualityTolerance = 1e-9;
 
 [[noreturn]] void Fail(const std::string& key, std::string message, int line = 0) {
   throw InputError(Problem{.line = line, .key = key, .message = std::move(message)});
 }
 
-/// Returns the line number of a point in the point's file; 0 if the line number is not known.
+/// Returns the number of the line that defines a point in the input file; 0 if the line number is
+/// unknown.
 int LineOf(const PathPoints& given, std::size_t point) {
   return given.lines.empty() ? 0 : given.lines[point];
 }
@@ -47,7 +48,7 @@ std::string NameOf(const PathPoints& given, std::size_t point) {
 struct DistinctPoints {
   ChordPoints chords;
   std::vector<std::size_t> number;  // Index of each distinct point among the given points.
-  std::vector<double> given_u;      // Chord length of each given point.
+  std::vector<double> given_u;      // Chord length along the polyline up to each given point.
   double period = 0.0;              // Period of a closed path [m]; 0 for an open path.
 };
 
@@ -170,7 +171,7 @@ std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period)
   return reversals;
 }
 
-/// Fits a path of straight lines, which tiny arcs join.
+/// Fits a path that consists of straight lines joined by tiny arcs.
 void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
                  std::vector<double>& stations) {
   constexpr double kTangent = 1e-3;  // [m]
@@ -229,7 +230,7 @@ double Deviation(const SmoothingSpline& spline, const ChordPoints& points) {
 }
 
 /// Fits the spline with the largest smoothing length that keeps the spline within `tolerance` [m]
-/// of all given and fitted points. Returns that smoothing length.
+/// of all given and fitted points. Returns the smoothing length found.
 double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordPoints& fitted,
                  double tolerance) {
   const std::vector<double>& knots = spline.knots();
@@ -277,15 +278,18 @@ double FitWithin(SmoothingSpline& spline, const ChordPoints& given, const ChordP
 
 /// Deviation of a spline from the straight line between two adjacent knots.
 struct Bulge {
-  double distance = 0.0;  // Largest distance of the spline from the line [m].
-  // Largest plausible distance of a smooth path through the points from the line [m].
+  // Largest distance of the spline from the straight line between the knots [m].
+  double distance = 0.0;
+  // Largest distance from the straight line that is plausible for a smooth path through the points
+  // [m].
   double plausible = 0.0;
   double length = 0.0;   // Length of the spline between the knots [m].
-  double chord = 0.0;    // Length of the chord [m].
-  std::size_t knot = 0;  // Index of the knot before the bulge.
+  double chord = 0.0;    // Length of the straight line between the knots [m].
+  std::size_t knot = 0;  // Index of the knot at which the stretch begins.
 
-  /// Returns whether the spline deviates from the line by more than a plausible distance. The
-  /// spline may miss both ends of the line by the tolerance.
+  /// Returns whether the spline deviates from the line by more than a plausible distance. The check
+  /// takes into account that the spline may pass both ends of the line at a distance of up to the
+  /// tolerance.
   [[nodiscard]] bool IsAside(double tolerance) const {
     return distance > plausible + tolerance || length > 0.5 * kPi * chord + 2.0 * tolerance;
   }
@@ -298,10 +302,10 @@ double DistanceToLine(const Vec2& p, const Vec2& from, const Vec2& to) {
 }
 
 /// Returns the largest plausible distance of a smooth path from a chord between two points. On a
-/// circle through three neighboring points, the angle between the two chords is half of the angle
-/// of both arcs together. Hence, if adjacent chords turn by phi, the arc over a chord has an angle
-/// of at most 2 phi. The height of such an arc is chord/2 tan(phi/2). Splines also deviate by up to
-/// a fifth of the chord near more distant corners.
+/// circle through three neighboring points, the angle between the two chords is half of the sum of
+/// the two arcs' angles. Hence, if adjacent chords turn by phi, the arc over a chord has an angle
+/// of at most 2 phi. An arc of the angle 2 phi rises chord/2 tan(phi/2) above its chord. Splines
+/// also deviate by up to a fifth of the chord near more distant corners.
 double PlausibleBulge(double chord, double turn) {
   constexpr double kSwing = 0.2;
   return chord * std::max(kSwing, 0.5 * std::tan(0.5 * std::min(turn, 0.5 * kPi)));
@@ -325,8 +329,9 @@ Bulge BulgeAfter(const SmoothingSpline& spline, std::size_t knot, const Vec2& fr
   return bulge;
 }
 
-/// Returns the first bulge that deviates too far from its line (IsAside). If no bulge does, returns
-/// the bulge with the largest distance.
+/// Returns the first stretch between two knots on which the spline deviates too far from the
+/// straight line (IsAside). If the spline deviates too far on no stretch, returns the stretch with
+/// the largest distance.
 Bulge FindBulge(const SmoothingSpline& spline, const ChordPoints& fitted, double period,
                 double tolerance) {
   const std::size_t count = fitted.points.size();
@@ -346,7 +351,7 @@ Bulge FindBulge(const SmoothingSpline& spline, const ChordPoints& fitted, double
   return largest;
 }
 
-/// Returns by how much the polyline becomes shorter if a point is removed.
+/// Returns the length by which the polyline shrinks if a point is removed [m].
 double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
   const double before = i > 0 ? (points[i] - points[i - 1]).norm() : 0.0;
   const double after = i + 1 < points.size() ? (points[i + 1] - points[i]).norm() : 0.0;
@@ -359,8 +364,8 @@ double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
   const std::vector<Vec2>& points = distinct.chords.points;
   const std::size_t before = LastBefore(distinct.chords.u, fitted.u[bulge.knot]);
   const std::size_t after = (before + 1) % points.size();
-  // Find the point that is probably wrong. Of the two points at the ends of the bulge, choose the
-  // point whose removal shortens the polyline more.
+  // Find the input point that is probably wrong. Of the two points at the ends of the stretch on
+  // which the spline deviates, choose the point whose removal shortens the polyline more.
   std::size_t wrong = before;
   for (const std::size_t i : {before, after}) {
     wrong = DetourOf(points, i) > DetourOf(points, wrong) ? i : wrong;
@@ -376,8 +381,9 @@ double DetourOf(const std::vector<Vec2>& points, std::size_t i) {
        LineOf(given, number));
 }
 
-/// Returns the station of a point with chord length u. A point at a knot has the station of the
-/// knot. Any other point has the station of the nearest path point between the adjacent knots.
+/// Returns the station of a point with chord length u. If the point is a knot of the fitted path,
+/// its station is that of the knot. Any other point has the station of the nearest path point
+/// between the adjacent knots.
 double StationOf(const SampledSpline& sampled, const std::vector<double>& knots, const Path& path,
                  double u, const Vec2& point) {
   const std::size_t i = LastBefore(knots, u);
@@ -402,13 +408,15 @@ std::pair<double, std::size_t> LargestDeviation(const Path& path, const ChordPoi
 
 void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct, FittedPath& fitted,
                std::vector<double>& stations) {
-  constexpr double kSpacing = 0.1;  // [m]; on a path longer than 100 km, the spacing is larger.
+  // Sample spacing at which the refinement starts [m]; on a path longer than 100 km, the spacing is
+  // larger.
+  constexpr double kSpacing = 0.1;
   constexpr int kMaxHalvings = 6;
   constexpr double kUsualSegments = 1e6;  // Number of segments of a path longer than 100 km.
   constexpr std::size_t kMaxSegments = 4'000'000;
   const double tolerance = fitted.options.max_deviation;
   SmoothingSpline spline(knots, distinct.period);
-  // Reserve 5 % of the tolerance for the segments, which approximate the spline.
+  // Reserve 5 % of the tolerance for the error of the path segments, which approximate the spline.
   fitted.smoothing_length = FitWithin(spline, distinct.chords, knots, 0.95 * tolerance);
   const Bulge bulge = FindBulge(spline, knots, distinct.period, tolerance);
   if (bulge.IsAside(tolerance)) {
@@ -463,7 +471,7 @@ void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
 
 /// Returns the largest difference between the given headings and the headings of the path [rad].
 double HeadingDifference(const FittedPath& fitted) {
-  // [rad]; a smaller difference may mean that the given headings refer to another axis of the car
+  // Heading difference [rad] up to which the given headings may refer to another axis of the car.
   constexpr double kOpposite = 2.0;
   double largest = 0.0;
   for (std::size_t i = 0; i < fitted.given.yaw.size(); ++i) {
@@ -558,7 +566,7 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
     name_points(fitted.reversals);
     return fitted;
   }
-  std::vector<double> stations;  // stations of the points without repeated points
+  std::vector<double> stations;  // stations of the distinct points
   if (options.fit == PathFit::kSpline && own.points.size() > 2) {
     FitSpline(own, distinct, fitted, stations);
   } else {

@@ -7,10 +7,10 @@ namespace {
 
 /// Terms shared by the transformations to and from the Frenet frame.
 struct Frame {
-  double narrow;   // The term 1 - kappa_r d.
-  double tangent;  // The term tan Dtheta.
-  double cosine;   // The term cos Dtheta.
-  double drift;    // The term kappa_r' d + kappa_r d'.
+  double narrow;   // Value of 1 - kappa_r d at the point.
+  double tangent;  // Tangent of the heading difference Dtheta.
+  double cosine;   // Cosine of the heading difference Dtheta.
+  double drift;    // Value of kappa_r' d + kappa_r d' at the point.
 
   Frame(const PathPoint& at, double d, double slope)
       : narrow(1.0 - at.curvature * d),
@@ -18,12 +18,12 @@ struct Frame {
         cosine(1.0 / std::sqrt(1.0 + tangent * tangent)),
         drift(at.sharpness * d + at.curvature * slope) {}
 
-  /// Returns the derivative by s of the car's heading relative to the path: kappa (1 - kappa_r
-  /// d)/cos Dtheta - kappa_r.
+  /// Returns the derivative of the heading difference between car and path with respect to s, which
+  /// is kappa (1 - kappa_r d)/cos Dtheta - kappa_r.
   [[nodiscard]] double Turning(const PathPoint& at, double curvature) const {
     return curvature * narrow / cosine - at.curvature;
   }
-  /// Returns the factor by which the squared speed s_t^2 contributes to the acceleration.
+  /// Returns the factor of the squared speed s_t^2 in the formula of the acceleration.
   [[nodiscard]] double Added(double turning) const {
     return (narrow * tangent * turning - drift) / cosine;
   }

@@ -11,9 +11,9 @@
 // Implements paths of segments with quadratic curvature. Positions on straight lines and arcs are
 // computed in closed form. On other segments, ten-node Gauss quadrature integrates the position
 // over pieces that turn by at most half a radian. To project a point onto the path, Project
-// brackets the foot points between path points a quarter radian apart. The TOMS 748 method then
-// refines the foot points. SegmentsThrough interpolates the heading and the curvature of given
-// points exactly.
+// brackets the foot points between path points whose headings differ by a quarter radian. The
+// root-finding method TOMS 748 then computes the foot points precisely. SegmentsThrough
+// interpolates the heading and the curvature of given points exactly.
 
 namespace trackbed {
 namespace {
@@ -61,13 +61,14 @@ Pose2 Along(const Pose2& start, const Segment& segment, double distance) {
   return {position.x(), position.y(), yaw(distance)};
 }
 
-/// Implements NearestDistance for segments of varying curvature. Foot points of p are the points of
-/// the segment at which p lies exactly abeam. NearestOnCurve brackets the foot points between
-/// points a quarter radian apart.
+/// Implements NearestDistance for segments of varying curvature. A foot point of p is a point of
+/// the segment at which the line to p is perpendicular to the segment. NearestOnCurve brackets the
+/// foot points between points whose headings differ by a quarter radian.
 double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                       double to) {
-  // Returns how far p lies ahead of the segment's point at d, in the direction of motion. At a foot
-  // point nearest to p, this value crosses zero downward.
+  // Returns how far p lies ahead of the segment's point at the distance d, measured in the
+  // direction of motion at this point. At the foot point nearest to p, the returned value changes
+  // from positive to negative.
   const auto ahead = [&](double d) {
     return segment.direction * ToLocal(Along(start, segment, d), p).x();
   };
@@ -96,8 +97,8 @@ double NearestOnCurve(const Pose2& start, const Segment& segment, const Vec2& p,
 
 /// Returns the distance in [from, to] along a segment at which the segment is nearest to p. An arc
 /// may pass the nearest point several times; NearestDistance then returns the smallest of these
-/// distances. If the nearest point lies outside of [from, to], returns the closer of `from` and
-/// `to`.
+/// distances. If the point of the segment nearest to p lies outside of [from, to], returns the
+/// closer of `from` and `to`.
 double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p, double from,
                        double to) {
   if (!IsLineOrArc(segment)) {
@@ -107,12 +108,13 @@ double NearestDistance(const Pose2& start, const Segment& segment, const Vec2& p
   if (segment.curvature == 0.0) {
     return std::clamp(segment.direction * local.x(), from, to);
   }
-  const double radius = 1.0 / segment.curvature;  // signed radius of the arc
+  const double radius = 1.0 / segment.curvature;  // radius of the arc, positive for a left turn
   const double sign = std::copysign(1.0, radius);
   const double turned = std::atan2(sign * local.x(), sign * (radius - local.y()));
   const double lap = 2.0 * kPi * std::abs(radius);
   double distance = segment.direction * radius * turned;
-  distance += lap * std::ceil((from - distance) / lap);  // the first distance not below `from`
+  // First foot point on the circle at a distance of at least `from`.
+  distance += lap * std::ceil((from - distance) / lap);
   if (distance <= to) {
     return distance;
   }
@@ -138,8 +140,8 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
                    "segment of length {}, curvature {}, sharpness {} and {}, direction {}",
                    segment.length, segment.curvature, segment.sharpness, segment.sharpness_rate,
                    segment.direction);
-    // Limits the number of quadrature pieces, which is the number of half radians by which the
-    // segment turns.
+    // Limits the number of quadrature pieces; the segment has one piece per half radian of heading
+    // change.
     constexpr double kMaxHeadingChange = 1e4;
     TRACKBED_REQUIRE(
         IsLineOrArc(segment) || MaxHeadingChange(segment, segment.length) <= kMaxHeadingChange,
@@ -149,7 +151,7 @@ Path::Path(const Pose2& start, std::vector<Segment> segments) : segments_(std::m
         MaxHeadingChange(segment, segment.length), kMaxHeadingChange);
     starts_.push_back(Along(starts_.back(), segment, segment.length));
     length_ += segment.length;
-    // [m]; on a path of 1e12 m, stations have rounding errors of 0.1 mm.
+    // Maximum length of a path [m]; at 1e12 m, stations have rounding errors of 0.1 mm.
     constexpr double kMaxLength = 1e12;
     TRACKBED_REQUIRE(length_ <= kMaxLength, "Path: {} m; must be at most {} m", length_,
                      kMaxLength);
@@ -295,8 +297,8 @@ std::vector<Segment> SegmentsThrough(const std::vector<CurvePoint>& points) {
     const CurvePoint& b = points[i];
     const double h = b.s - a.s;
     TRACKBED_CHECK(h > 0.0, "points at {} and {} m", a.s, b.s);
-    // Choose the quadratic curvature with the given values at both ends whose mean gives the change
-    // of heading.
+    // Choose the quadratic curvature profile that has the given curvatures at both ends and whose
+    // mean, times the length, equals the change of heading.
     const double mean = (b.yaw - a.yaw) / h;
     segments.push_back({h, a.curvature, 1, (6.0 * mean - 4.0 * a.curvature - 2.0 * b.curvature) / h,
                         6.0 * (a.curvature + b.curvature - 2.0 * mean) / (h * h)});

@@ -6,11 +6,11 @@
 #include "trackbed/core/error.h"
 
 // Computes speed profiles with constant acceleration between knots. StopAtEnd splits the path into
-// stretches at the ends of the speed caps. A backward pass limits the speed at each split, so that
-// the car can brake in time for the rest of the path. A forward pass limits the speed to what the
-// car can reach by accelerating from the start. Each stretch then gets knots where the car starts
-// to cruise and where it starts to brake. A car that starts too fast brakes as hard as needed until
-// its speed meets the profile.
+// stretches at the ends of the speed caps. A backward pass limits the speed at each end of a
+// stretch, so that the car can brake in time for the rest of the path. A forward pass limits the
+// speed to what the car can reach by accelerating from the start. StopAtEnd then adds knots to each
+// stretch where the car starts to cruise and where it starts to brake. A car that starts too fast
+// brakes as hard as needed until its speed meets the profile.
 
 namespace trackbed {
 namespace {
@@ -56,8 +56,7 @@ std::vector<Stretch> SplitAtSpeedCaps(double length, double limit,
 
 /// Adds the knots inside a stretch, given the squared speeds at both ends. The caller ensures that
 /// the stretch is long enough to change between these speeds. The car first accelerates, or brakes
-/// at `braking`, to the speed of the stretch. Then the car cruises, and finally brakes to the exit
-/// speed.
+/// at `braking`, to the speed of the stretch, then cruises, and finally brakes to the exit speed.
 void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared, double braking,
                    const SpeedLimits& limits, std::vector<SpeedProfile::Knot>& knots) {
   const double a = in_squared > stretch.speed * stretch.speed ? -braking : limits.acceleration;
@@ -75,8 +74,8 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
     add(stretch.from + ramp, v_squared);
     add(stretch.to - brake, v_squared);
   } else if (a > 0.0) {
-    // The stretch is too short to reach its speed, so the car accelerates until it must begin to
-    // brake.
+    // The stretch is too short for the car to reach the speed limit, so the car accelerates until
+    // it must begin to brake.
     const double peak = (out_squared - in_squared + 2.0 * b * length) / (2.0 * (a + b));
     add(stretch.from + peak, in_squared + 2.0 * a * peak);
   }
@@ -168,7 +167,7 @@ double SpeedProfile::StationAt(double time) const {
   for (std::size_t i = 0; i + 1 < knots_.size(); ++i) {
     const Knot& a = knots_[i];
     const Knot& b = knots_[i + 1];
-    // If both speeds are 0, the duration is infinite, because the car stays at rest.
+    // If the speeds at both ends are 0, the duration is infinite, because the car stays at rest.
     const double duration = 2.0 * (b.s - a.s) / (a.speed + b.speed);
     if (time < duration) {
       const double acceleration = (b.speed - a.speed) / duration;

@@ -31,14 +31,14 @@ Vec2 MeanAtStart(const Path& path, double window) {
 }  // namespace
 
 Path SmoothCurvature(const Path& path, double window) {
-  constexpr double kMaxLength = 1e6;  // [m]; upper limit for any path
+  constexpr double kMaxLength = 1e6;  // upper limit of the averaging window for any path [m]
   TRACKBED_CHECK(window > 0.0 && window <= kMaxLength && path.length() > 0.0,
                  "window {}, path of {} m", window, path.length());
   for (const Segment& segment : path.segments()) {
     TRACKBED_CHECK(segment.direction == 1, "a segment of direction {}", segment.direction);
   }
-  // The derivatives of the moving average by s are differences between both ends of the window,
-  // divided by the length of the window.
+  // The derivatives of the moving average with respect to s are differences between both ends of
+  // the window, divided by the window's length.
   const auto first_at = [&](double s) -> Vec2 {
     return (path.At(s + 0.5 * window).pose.position() - path.At(s - 0.5 * window).pose.position()) /
            window;

@@ -50,7 +50,7 @@ SmoothingSpline::SmoothingSpline(const ChordPoints& fitted, double period)
   for (Eigen::Index i = 0; i < all_knots_.size(); ++i) {
     const Eigen::Index own = i - kDegree;
     if (period > 0.0) {
-      // Number of whole periods between the first period and the period that contains the knot.
+      // Number of whole periods of the closed spline by which the knot lies after the first period.
       const Eigen::Index turns = (own + kDegree * count) / count - kDegree;
       all_knots_[i] = knots_[static_cast<std::size_t>(own - turns * count)] +
                       static_cast<double>(turns) * period;
@@ -88,7 +88,7 @@ void SmoothingSpline::AddData(const ChordPoints& fitted) {
 
 void SmoothingSpline::AddPenalty() {
   // The third derivative P''' is quadratic between knots, so a Gauss quadrature with three nodes
-  // integrates its square exactly.
+  // integrates the square of P''' exactly.
   const double node = std::sqrt(0.6);
   const std::array<std::pair<double, double>, 3> rule{
       {{-node, 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {node, 5.0 / 9.0}}};
@@ -128,7 +128,7 @@ bool SmoothingSpline::Fit(double smoothing_length) {
   if (!solution.allFinite()) {
     return false;
   }
-  // One step of iterative refinement recovers digits that the solution has lost by rounding.
+  // One step of iterative refinement removes most of the rounding error of the solution.
   solution += solver_.solve(Eigen::MatrixX2d(right_ - matrix * solution));
   if (!solution.allFinite()) {
     return false;
@@ -147,9 +147,9 @@ Vec2 SmoothingSpline::At(double u, int order) const {
 }
 
 SampledSpline Sample(const SmoothingSpline& spline, double spacing, std::size_t max_points) {
-  constexpr double kTurn = 0.2;     // [rad]
-  constexpr int kMaxHalvings = 12;  // limit for the number of halvings of the spacing
-  // A smaller |P'| indicates a cusp, because |P'| is usually about 1.
+  constexpr double kTurn = 0.2;     // Largest heading difference between adjacent samples [rad].
+  constexpr int kMaxHalvings = 12;  // Limit for the number of halvings of the spacing.
+  // Value of |P'| below which the spline has a cusp; usually, |P'| is about 1.
   constexpr double kMinDerivative = 1e-3;
   using Quadrature = boost::math::quadrature::gauss<double, 7>;
   const auto length = [&](double from, double to) {

@@ -30,16 +30,16 @@ class SmoothingSpline {
   /// Returns the derivative d^order P/du^order at u, for order 0 to 2.
   [[nodiscard]] Vec2 At(double u, int order = 0) const;
 
-  /// Returns the knots, between which the spline is a polynomial. The first knot is the first
-  /// point's u. The last knot is the last point's u for an open path, and the first point's u plus
-  /// `period` for a closed path.
+  /// Returns the knots, between which the spline is a polynomial. The first knot is the chord
+  /// length u of the first point. The last knot is the chord length u of the last point for an open
+  /// path, and that of the first point plus `period` for a closed path.
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
 
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
   struct Basis {
-    // Index of the first coefficient whose basis function is not zero. For a closed path,
+    // Index of the first coefficient whose basis function is not zero at u. For a closed path,
     // Coefficient() reduces the index modulo the number of coefficients.
     Eigen::Index first;
     Eigen::ArrayXXd factors;  // Values of the nonzero basis functions and their derivatives, one
@@ -65,7 +65,7 @@ class SmoothingSpline {
 /// Points along the spline, which SegmentsThrough joins to a path.
 struct SampledSpline {
   std::vector<CurvePoint> points;
-  std::vector<double> knot_stations;  ///< [m]
+  std::vector<double> knot_stations;  ///< Stations of the knots [m].
   bool is_too_long = false;           ///< Whether sampling would need more points than allowed.
 };
 

@@ -11,7 +11,8 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/text_table.h"
 
-// Reads CommonRoad solution files, which contain one trajectory of states per planning problem.
+// Reads CommonRoad solution files, which contain one trajectory for each planning problem; a
+// trajectory is a list of states.
 namespace trackbed {
 namespace {
 
@@ -49,7 +50,7 @@ double Required(const XMLElement& state, const char* name, double largest,
   return *number;
 }
 
-/// Returns the first XML element that contains a trajectory, such as ksTrajectory.
+/// Returns the first XML element that contains a trajectory, such as the element ksTrajectory.
 const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
   const XMLElement* first = nullptr;
   for (const XMLElement* child = root.FirstChildElement(); child != nullptr;

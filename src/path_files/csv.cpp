@@ -17,10 +17,11 @@
 #include "trackbed/core/table.h"
 #include "trackbed/core/text_table.h"
 
-// Reads paths from CSV tables with a header line of column names, which may begin with '#'. The
-// reader finds columns by their usual names (PathColumnNames) or by the caller's names. The reader
-// converts the values to SI units and collects problems with their line and column. If the table
-// has times but no speed column, the speeds are computed from the times.
+// Reads paths from CSV tables with a header line of column names; the header line may begin with
+// '#'. The reader identifies columns by their usual names (PathColumnNames) or by names that the
+// caller specifies. The reader converts the values to SI units and collects problems with their
+// line and column. If the table has times but no speed column, the speeds are computed from the
+// times.
 namespace trackbed {
 namespace {
 
@@ -38,7 +39,8 @@ double InSi(const std::string& unit) {
   return found->second;
 }
 
-/// Detects the delimiter of the table from the first line that is not a comment.
+/// Returns the character that separates the cells of the table, as detected from the first line
+/// that is not a comment.
 char FindDelimiter(const fs::path& file) {
   char delimiter = ',';
   std::string begin;
@@ -65,12 +67,12 @@ char FindDelimiter(const fs::path& file) {
   return delimiter;
 }
 
-/// Column of the table that contains a quantity.
+/// Column of the table from which a quantity is read.
 struct Column {
   std::size_t index;
-  double factor;  // factor that converts to SI units
+  double factor;  // factor that converts the column's values to SI units
   double offset = 0.0;
-  double largest = 0.0;  // largest permitted magnitude in SI units
+  double largest = 0.0;  // largest permitted magnitude of the quantity, in SI units
 };
 
 enum Quantity { kX, kY, kYaw, kCurvature, kSpeed, kTime, kQuantities };
@@ -167,8 +169,8 @@ class CsvPath {
     ConvertTumHeading();
   }
 
-  /// Detects racing lines of TUM, whose headings are measured from north, and corrects these
-  /// headings.
+  /// Detects racing lines in the format of TUM, in which headings are measured from north, and
+  /// converts the headings.
   void ConvertTumHeading() {
     const auto has = [&](const char* name) {
       return std::find(names_.begin(), names_.end(), name) != names_.end();
@@ -281,7 +283,7 @@ class CsvPath {
   ProblemList problems_;
   bool is_header_known_ = false;
   bool is_broken_ = false;
-  // Cells of the last comment line before the table, which may be the header.
+  // Cells of the last comment line before the table; this line may be the header.
   std::vector<std::string> comment_;
   int comment_line_ = 0;
   std::vector<std::string> names_;

@@ -10,7 +10,7 @@
 
 namespace trackbed {
 
-/// Largest distance of a position from the origin [m].
+/// Largest magnitude of a path point's x and y coordinates [m].
 inline constexpr double kMaxPosition = 1e7;
 inline constexpr double kMaxPathSpeed = 100.0;    ///< Largest speed [m/s].
 inline constexpr double kMaxPathCurvature = 1e6;  ///< Largest curvature [1/m].
@@ -19,16 +19,18 @@ inline constexpr int kMaxDepth = 64;              ///< Largest nesting depth.
 /// A format of path files.
 struct PathFormatEntry {
   PathFormat format = PathFormat::kAuto;
-  const char* name = "";               ///< Value of the key `format`.
-  const char* description = "";        ///< Description of the format for users.
-  std::vector<std::string> endings{};  ///< Endings of file names, in lower case.
-  /// Returns whether the content of a file fits the format. If null, any content fits.
+  const char* name = "";         ///< Name of the format, as used in the key `format` of a scenario.
+  const char* description = "";  ///< Text that describes the format to users.
+  /// Endings of the names of files in this format, in lower case.
+  std::vector<std::string> endings{};
+  /// Function that returns whether the content of a file may have this format; null if any content
+  /// may.
   bool (*may_be)(const std::filesystem::path& file) = nullptr;
   PathFile (*read)(const std::filesystem::path& file, const PathMap& map) = nullptr;
 };
 
-/// Returns the list of path formats. Files with an ending that no format lists are read in the
-/// first format.
+/// Returns the list of path formats. The first format is used for files whose ending belongs to no
+/// format.
 const std::vector<PathFormatEntry>& PathFormats();
 
 PathFile ReadPathCsv(const std::filesystem::path& file, const PathColumns& columns);
@@ -40,17 +42,17 @@ PathFile ReadCommonRoad(const std::filesystem::path& file, const std::string& te
 
 /// Parses a JSON text. Throws InputError if the text is not valid JSON.
 nlohmann::json ParseJsonText(const std::string& text, const std::string& file);
-/// Parses the first document of a YAML text, with numbers as in JSON. Ignores all other documents.
-/// Throws InputError if the text is not valid YAML.
+/// Parses the first document of a YAML text, with numbers as in JSON. ParseYamlText ignores further
+/// documents in the text. Throws InputError if the text is not valid YAML.
 nlohmann::json ParseYamlText(const std::string& text, const std::string& file);
 
-/// Returns the number at `key`. Throws InputError unless the number is finite and its magnitude is
-/// at most `largest`.
+/// Returns the number that a JSON object contains at `key`. Throws InputError unless the number is
+/// finite and its magnitude is at most `largest`.
 double NumberOf(const nlohmann::json& value, const std::string& key, double largest,
                 const std::string& file);
 
-/// Computes the speeds of points from their times [s]. Throws InputError that names the point if
-/// the times do not increase.
+/// Computes the speed at each point from the times at which the points are reached [s]. Throws
+/// InputError, naming the point, if the times do not increase.
 void AddSpeeds(PathPoints& points, const std::vector<double>& times, const std::string& file);
 
 [[noreturn]] void Refuse(const std::filesystem::path& file, const std::string& key,

@@ -131,8 +131,8 @@ void Project(std::vector<Vec2>& positions, const Found& line, const PathMap& map
   for (std::size_t i = 0; i < positions.size(); ++i) {
     const Vec2 degrees = positions[i];
     positions[i] = projection.ToMeters(degrees.x(), degrees.y());
-    // Largest distance east or west of the origin [m]. Beyond this distance, the scale error of the
-    // projection exceeds about 1/1000 (scale at 300 km: 1.0011).
+    // Largest distance of a path point east or west of the origin [m]. At this distance, the scale
+    // error of the projection is about 1/1000 (scale at 300 km: 1.0011).
     constexpr double kMaxEasting = 3e5;
     if (!positions[i].allFinite() || std::abs(positions[i].x()) > kMaxEasting ||
         std::abs(positions[i].y()) > kMaxPosition) {

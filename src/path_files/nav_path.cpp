@@ -72,7 +72,7 @@ PathFile ReadNavPath(const std::filesystem::path& path, const json& message) {
            fmt::format("{} of {} poses have an orientation; must be all or none", oriented,
                        poses.size()));
   }
-  // Drop the headings if all quaternions have their default value, because planners without
+  // Ignore the headings if all quaternions have their default value, because planners without
   // headings do not set the quaternions.
   if (!yaw.empty() &&
       std::all_of(yaw.begin(), yaw.end(), [](double angle) { return angle == 0.0; })) {

@@ -43,7 +43,7 @@ PathFile ReadAsNavPath(const fs::path& file, const PathMap& /*map*/) {
 }
 
 /// Determines the format of a path file from the ending of its name and from its content. Returns
-/// the first format if no format lists the ending.
+/// the first registered format if no format has this file name ending.
 const PathFormatEntry& FormatOf(const fs::path& file) {
   const std::string ending = Ending(file);
   for (const PathFormatEntry& entry : PathFormats()) {

@@ -14,18 +14,19 @@
 #include "trackbed/core/error.h"
 
 // Imports the log of a recorded drive. Rows are read in SI units and ENU axes (log_rows.h), and
-// columns are checked for contradictions (log_check.h). Local polynomials (local_polynomial.h:
-// Cleveland 1979) resample poses and signals to a time grid with a constant period. The derivatives
-// of the polynomials give velocity and acceleration. If the log contains a measured speed, yaw rate
-// or acceleration, the measured value replaces the derivative. Inputs such as the steering angle
-// are interpolated linearly. Gaps are filled linearly and marked invalid.
+// columns are checked for contradictions (log_check.h). Poses and signals are resampled to a time
+// grid with a constant period by fitting local polynomials (local_polynomial.h: Cleveland 1979).
+// Velocity and acceleration are the derivatives of the fitted polynomials. If the log contains a
+// measured speed, yaw rate or acceleration, the measured value replaces the derivative of the
+// polynomial. Inputs of the car, such as the steering angle, are interpolated linearly. Gaps in the
+// log are filled by linear interpolation, and the samples within a gap are marked invalid.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMinDuration = 1.0;  // Shortest duration that can be imported [s].
-// Largest number of samples, which limits the memory to 130 MB.
+constexpr double kMinDuration = 1.0;  // Minimum duration of an imported drive [s].
+// Largest number of samples of an imported drive, which limits the memory to 130 MB.
 constexpr double kMaxSamples = 1e6;
 
 /// Computes the pose X_WV of the rear axle from the pose X_WS of the measured point (sensor).
@@ -34,9 +35,10 @@ Pose2 VehiclePose(const Pose2& X_WS, const LogSensor& X_VS) {
   return Compose(X_WS, {p_SV.x(), p_SV.y(), -X_VS.yaw});
 }
 
-/// Reduces a series to the rows at which its value changed, for a signal that is updated less often
-/// than it is logged. The result is interpolated linearly between two updates. A value that stays
-/// constant for longer than 1.5 update periods is held until one period before the next change.
+/// Returns the rows of a series at which the signal's value changed, for a signal that is updated
+/// less often than it is logged. Between two updates, the signal is later interpolated linearly. If
+/// a value stays constant for longer than 1.5 update periods, Updates also returns a row with this
+/// value one period before the next change.
 LogSeries Updates(const LogSeries& rows, double period) {
   LogSeries updates;
   const auto add = [&](double time, double value) {
@@ -67,8 +69,8 @@ Signal Linear(const LogSeries& series, const std::optional<double>& period) {
   return signal;
 }
 
-/// Evaluates the local polynomial fit of a signal, which has its own timestamps, at any time.
-/// Beyond the ends of the signal, the fitted value is constant.
+/// Local polynomial fit of a signal that has its own timestamps; the fit can be evaluated at any
+/// time. Before the first and after the last timestamp, the fitted value is constant.
 class FittedSeries {
  public:
   FittedSeries(const LogSeries& series, const LogMap& map)
@@ -141,7 +143,7 @@ class Importer {
   const LogMap& map_;
   LogRows rows_;
   RecordedDrive drive_;
-  double start_ = 0.0;  // start of the grid, relative to the first row of the log [s]
+  double start_ = 0.0;  // start of the time grid, relative to the first row of the log [s]
 };
 
 void Importer::RequireRows() const {
@@ -195,7 +197,8 @@ void Importer::BuildTimeGrid() {
     Refuse(fmt::format("{:.3g} s of data between {:.3g} s and {:.3g} s; must be at least {} s",
                        std::max(0.0, end - start_), start_, end, kMinDuration));
   }
-  // The tolerance keeps the last sample, which rounding errors could otherwise exclude.
+  // Add a tolerance of 1e-6 periods, because rounding errors could otherwise exclude the last
+  // sample.
   const double count = std::floor((end - start_) * map_.resample.rate + 1e-6) + 1.0;
   if (count > kMaxSamples) {
     Refuse(
@@ -220,8 +223,8 @@ void Importer::FitPoses() {
   const LocalPolynomial fits(rows_.time, values, map_.resample.half_width, map_.resample.degree);
   const std::vector<LogStretch> stretches = SplitAtGaps(rows_.time, map_.gap);
   auto stretch = stretches.begin();
-  // The tolerance is needed because the times of the grid have rounding errors, unlike the times of
-  // the log rows.
+  // Allow a tolerance when comparing times, because the times of the grid have rounding errors,
+  // unlike the times of the log rows.
   const double slack = 1e-6 * drive_.period;
   for (RecordedSample& sample : drive_.samples) {
     const double at = LogTime(sample);
@@ -270,8 +273,9 @@ void Importer::FitSignals() {
   }
 }
 
-/// Fills gaps by linear interpolation between the valid samples at both ends of a gap. The time
-/// grid begins and ends within the rows of the log, so every gap has two ends.
+/// Fills the gaps in the samples by linear interpolation between the last valid sample before a gap
+/// and the first valid sample after the gap. The time grid begins and ends within the rows of the
+/// log, so there is a valid sample on both sides of every gap.
 void Importer::FillGaps() {
   std::vector<RecordedSample>& samples = drive_.samples;
   const auto valid = [](const RecordedSample& sample) { return sample.valid; };
@@ -347,7 +351,7 @@ void Importer::NoteGaps() {
   int missing = 0;
   double longest = 0.0;
   double longest_at = 0.0;
-  double since = 0.0;  // start time of the current gap [s]
+  double since = 0.0;  // time at which the current gap starts [s]
   bool in_gap = false;
   for (const RecordedSample& sample : drive_.samples) {
     missing += sample.valid ? 0 : 1;

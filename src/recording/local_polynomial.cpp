@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-/// Tricube weight function of Cleveland (1979).
+/// Returns the value of the tricube weight function of Cleveland (1979) at `u`.
 double Tricube(double u) {
   const double rest = 1.0 - std::abs(u * u * u);
   return rest * rest * rest;
@@ -37,8 +37,8 @@ LocalFit LocalPolynomial::At(double at, const LogStretch& stretch) const {
   const std::ptrdiff_t needed = std::min<std::ptrdiff_t>(degree_ + 1, end - begin);
   double width = half_width_;
   if (last - first < needed) {
-    while (last - first < needed) {  // adds the neighboring row nearer in time, until enough rows
-                                     // determine the polynomial
+    // Add the nearest further row, until there are enough rows to determine the polynomial.
+    while (last - first < needed) {
       const bool before = first != begin && (last == end || at - *(first - 1) <= *last - at);
       before ? static_cast<void>(--first) : static_cast<void>(++last);
     }

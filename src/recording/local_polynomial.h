@@ -6,7 +6,8 @@
 
 namespace trackbed {
 
-/// Rows `first` to `end` (exclusive) of a log, without a gap longer than the log's map permits.
+/// Consecutive rows `first` to `end` (exclusive) of a log that contain no gap longer than the key
+/// `gap` of the log's map.
 struct LogStretch {
   std::size_t first = 0;
   std::size_t end = 0;
@@ -14,8 +15,8 @@ struct LogStretch {
 
 std::vector<LogStretch> SplitAtGaps(const std::vector<double>& time, double gap);
 
-/// Values, first derivatives and second derivatives of the fitted polynomials at one time, as the
-/// three rows of a matrix. The matrix has one column per quantity.
+/// Matrix whose three rows contain the values, the first derivatives and the second derivatives of
+/// the fitted polynomials at one time. A LocalFit has one column per fitted quantity.
 using LocalFit = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 /// Fits a weighted polynomial to the log rows near a time (local regression); used by ImportLog.
@@ -26,7 +27,8 @@ class LocalPolynomial {
                   int degree)
       : time_(time), values_(values), half_width_(half_width), degree_(degree) {}
 
-  /// Returns the fit at time `at`, computed only from rows of the stretch.
+  /// Returns the values and derivatives of the fitted polynomials at time `at`, computed only from
+  /// the rows of `stretch`.
   [[nodiscard]] LocalFit At(double at, const LogStretch& stretch) const;
 
  private:

@@ -12,23 +12,25 @@
 #include "trackbed/core/angle.h"
 
 // Compares columns of a log with derivatives of the logged positions, which are fitted by local
-// polynomials. The logged yaw and its rate are compared with the direction of motion. The columns
-// for speed, yaw rate and steering are compared with the motion of the pose by the slope or sign of
-// a least-squares fit. A wrong unit or sign is recognized if the corrected column agrees with the
-// motion, or by the fitted factor (3.6, 180/pi, -1). Errors are measured by upper quartiles, which
-// are robust against outliers.
+// polynomials. The logged yaw and its derivative are compared with the direction of motion. The
+// columns for speed, yaw rate and steering are fitted to the motion of the pose by least squares;
+// the slope or the sign of the fit reveals a contradiction. A wrong unit or sign is recognized if
+// the corrected column agrees with the motion, or if the fitted factor is 3.6, 180/pi or -1. The
+// size of an error is measured by the upper quartile, because the upper quartile is robust against
+// outliers.
 namespace trackbed {
 namespace {
 
-constexpr double kTurns = 0.02;  // yaw rates below this value are too small to judge [rad/s]
+// Typical yaw rate below which a drive turns too little to be judged [rad/s].
+constexpr double kTurns = 0.02;
 
 /// Motion at one moment of the drive, derived from the logged positions and yaw.
 struct Moment {
   double time;
   double speed;        // Speed of the measured point [m/s].
   double course;       // Direction of motion [rad].
-  double course_rate;  // Derivative of the course [rad/s].
-  double yaw_rate;     // Derivative of the yaw [rad/s].
+  double course_rate;  // Rate of change of the direction of motion [rad/s].
+  double yaw_rate;     // Rate of change of the logged yaw [rad/s].
   double yaw;          // Logged yaw [rad].
 };
 
@@ -39,8 +41,8 @@ double UpperQuartile(std::vector<double> values) {
 }
 
 /// Returns moments of the drive at which the measured point moves with at least a fifth of its RMS
-/// speed. The logged yaw is multiplied by `scale`. Moments() returns fewer than 8000 moments,
-/// evenly distributed over the drive.
+/// speed. Before the computation, the logged yaw is multiplied by `scale`. Moments() returns fewer
+/// than 8000 moments, evenly distributed over the drive.
 std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale) {
   constexpr std::size_t kMaxMoments = 4000;
   std::vector<double> yaw = rows.yaw;
@@ -76,8 +78,9 @@ std::vector<Moment> Moments(const LogRows& rows, const LogMap& map, double scale
   return all;
 }
 
-/// Returns the upper quartile of the yaw rate error, divided by the upper quartile of the course
-/// rate; none if the vehicle hardly turns.
+/// Returns how badly the logged yaw fits the direction of motion: the upper quartile of the
+/// difference of both rates of change, divided by the upper quartile of the direction's rate of
+/// change. Returns none if the vehicle hardly turns.
 std::optional<double> Misfit(const std::vector<Moment>& moments) {
   std::vector<double> apart;
   std::vector<double> course;
@@ -145,10 +148,10 @@ void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& 
   }
   mean /= static_cast<double>(moments.size());
   const double off = std::atan2(mean.y(), mean.x());
-  // Smallest length of the mean of the unit direction vectors; the length is 1 if all directions
-  // are equal.
+  // Smallest length of the mean of the unit vectors from which the angle counts as constant; the
+  // length is 1 if all unit vectors are equal.
   constexpr double kMinConcentration = 0.9;
-  // Ignore an offset of half a turn, which a drive in reverse causes.
+  // Ignore an offset near half a turn, because a drive in reverse causes such an offset.
   if (mean.norm() > kMinConcentration && std::abs(off) > 0.6 && std::abs(off) < kPi - 0.6) {
     found.emplace_back(YawKey(map),
                        fmt::format("the car moves {:.3g} rad to the {} of where it points, all the "
@@ -157,8 +160,8 @@ void CheckHeading(const std::vector<Moment>& moments, const LogMap& map, Found& 
   }
 }
 
-/// Least-squares fit column = b q of a log column by a quantity q of the pose: the slope b, and the
-/// correlation of column and q.
+/// Least-squares fit of a log column by the product b q, where q is a quantity of the pose: the
+/// slope b, and the correlation between the column and q.
 struct Ratio {
   double slope = 0.0;
   double correlation = 0.0;
@@ -246,8 +249,8 @@ void CheckYawRate(const LogRows& rows, const std::vector<Moment>& moments, Found
 
 void CheckSteering(const LogRows& rows, const std::vector<Moment>& moments, LogSignal signal,
                    Found& found) {
-  // Compare tan(delta) of the steering angle delta with the curvature of the path, because both are
-  // proportional for any wheelbase.
+  // Compare tan(delta) of the steering angle delta with the curvature of the path, because
+  // tan(delta) is proportional to the curvature, whatever the wheelbase is.
   const Ratio ratio = RatioTo(rows.signals[signal], moments, [](const Moment& moment) {
     return moment.course_rate / moment.speed;
   });
@@ -271,7 +274,8 @@ Found FindContradictions(const LogRows& rows, const LogMap& map) {
   if (rows.has[kSpeedSignal]) {
     CheckSpeed(rows, moments, found);
   }
-  // This check is only meaningful if the yaw is correct.
+  // Check the logged yaw rate only if no problem was found so far, because the check uses the
+  // logged yaw.
   if (rows.has[kYawRateSignal] && found.empty()) {
     CheckYawRate(rows, moments, found);
   }

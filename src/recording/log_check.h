@@ -9,14 +9,14 @@
 
 namespace trackbed {
 
-/// Finds columns of a log that contradict each other, and returns for each the map key that the
-/// user should check. For example, the heading turns differently from the path if degrees are read
-/// as radians or the sign is wrong. Speeds, yaw rates and steering are compared with the motion of
-/// the pose.
+/// Finds columns of a log that contradict each other, and returns for each contradiction the key of
+/// the log's map that the user should check. For example, if degrees are read as radians or the
+/// sign is wrong, the heading turns differently from the path. Speeds, yaw rates and steering are
+/// compared with the motion of the pose.
 ///
 /// The check compares upper quartiles and least-squares fits over the moving part of the drive.
-/// Outliers in single rows therefore have little effect. Drives in which the vehicle hardly turns
-/// or moves are not judged.
+/// Because the check uses upper quartiles and fits, outliers in single rows have little effect.
+/// Drives in which the vehicle hardly turns or moves are not judged.
 std::vector<std::pair<std::string, std::string>> FindContradictions(const LogRows& rows,
                                                                     const LogMap& map);
 

@@ -17,19 +17,21 @@
 #include "trackbed/core/table.h"
 
 // Reads the CSV file of a log, and the other files that the log's map names, row by row. Times are
-// relative to the first row of the log. Rows outside the imported part, and rows that a condition
-// of the map excludes, are skipped. Poses that are incomplete or repeat a time are also skipped.
-// Numbers are converted by the scale, unit, offset and curve of their column. NED poses are
-// converted to ENU, and signals that are positive to the right change their sign.
+// relative to the first row of the log. The reader skips rows outside the imported part and rows
+// that a condition of the map excludes. The reader also skips incomplete poses and poses with the
+// time of the previous pose. Each number is converted by the scale, unit, offset and curve that the
+// map specifies for its column. NED poses are converted to ENU, and signals that are positive to
+// the right change their sign.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 
-// Largest number of values, which limits the memory to 400 MB.
+// Largest number of values that are read from a log, which limits the memory to 400 MB.
 constexpr std::size_t kMaxNumbers = 50'000'000;
 
-/// Column of a signal, and the sign that converts the column to Trackbed's vehicle frame.
+/// Column that contains a signal, and the sign (1 or -1) that converts the column's values to
+/// Trackbed's vehicle frame.
 struct SignalColumn {
   LogSignal signal;
   LogColumn column;
@@ -37,8 +39,9 @@ struct SignalColumn {
 };
 
 std::vector<SignalColumn> SignalColumns(const LogMap& map) {
-  const double turn = map.frame == LogFrame::kNed ? -1.0 : 1.0;  // sign of signals that are
-                                                                 // positive to the right
+  // Factor that makes turning signals positive to the left; in NED logs, they are positive to the
+  // right.
+  const double turn = map.frame == LogFrame::kNed ? -1.0 : 1.0;
   std::vector<SignalColumn> columns;
   const auto add = [&](LogSignal signal, const auto& column, double sign) {
     if (column) {
@@ -113,7 +116,7 @@ class LogReader {
  private:
   using Numbers = std::vector<double>;
 
-  /// Time column of a file, and the last time read from that column.
+  /// Time column of a CSV file, and the last time that was read from the column.
   struct Clock {
     std::size_t column;
     std::optional<std::size_t> nanoseconds;
@@ -128,8 +131,8 @@ class LogReader {
     return clock;
   }
 
-  /// Returns the time of a row since the first row of the log [s]. TimeOf adds a problem and
-  /// returns none if the time is missing or decreases.
+  /// Returns the time of a row since the first row of the log [s]. If the time is missing or less
+  /// than the previous time, TimeOf adds a problem and returns none.
   std::optional<double> TimeOf(Clock& clock, const Numbers& numbers, const fs::path& file, int line,
                                ProblemList& problems) {
     const double count = numbers[clock.column];
@@ -142,8 +145,8 @@ class LogReader {
       origin_ = {count, nanoseconds};
       rows_.origin = count;
     }
-    // Subtract before scaling, so that time differences are exact even if the log's times are
-    // integers near 1e18.
+    // Subtract the first time before converting the unit, so that time differences are exact even
+    // if the log's times are integers near 1e18.
     const double time = (count - origin_->first) * UnitInSi(map_.time.unit) +
                         (nanoseconds - origin_->second) * 1e-9;
     if (clock.last && time < *clock.last) {
@@ -182,7 +185,7 @@ class LogReader {
     LogSeries& series = rows_.signals[signal.signal];
     const double at = time - column.delay;
     if (!series.time.empty() && at <= series.time.back()) {
-      return;  // skips the value, because its time is not later than the time of the previous value
+      return;  // skip a value whose time is not later than the time of the previous value
     }
     Count(2);
     double value = column.scale * (number * UnitInSi(column.unit)) + column.offset;
@@ -195,7 +198,7 @@ class LogReader {
 
   void ReadPoses();
   void ReadOther(const std::string& name, const char* key);
-  /// Adds position and yaw of a row that contains both.
+  /// Adds the position and the yaw of a row, unless one of them is missing.
   void TakePose(const Numbers& numbers, double time, int line,
                 const std::vector<std::size_t>& columns);
 
@@ -203,7 +206,8 @@ class LogReader {
   const LogMap& map_;
   std::vector<SignalColumn> signals_;
   LogRows rows_;
-  // Time in the log's unit, and additional nanoseconds, of the first row.
+  // Time of the first row: the number in the time column, in the log's unit, and the number in the
+  // column of additional nanoseconds.
   std::optional<std::pair<double, double>> origin_;
   std::size_t kept_ = 0;
 };
@@ -304,8 +308,9 @@ void LogReader::ReadOther(const std::string& name, const char* key) {
   ProblemList problems;
   ReadCsvNumbers(file, names.names(), DelimiterOf(map_), [&](const Numbers& numbers, int line) {
     const std::optional<double> time = TimeOf(clock, numbers, file, line, problems);
-    if (time) {  // rows outside the imported part are not skipped, because the rows of this file
-                 // may be far apart
+    // Keep also rows outside the imported part, because the rows of this file may be far apart in
+    // time.
+    if (time) {
       for (const auto& [signal, column] : signals) {
         TakeSignal(*signal, numbers[column], *time);
       }

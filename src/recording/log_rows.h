@@ -22,7 +22,7 @@ enum LogSignal : std::size_t {
   kLogSignals,
 };
 
-/// Key of each signal in the map of a log.
+/// Keys of the signals in the map of a log, in the order of LogSignal.
 inline constexpr std::array<const char*, kLogSignals> kLogSignalKeys{
     "speed",    "yaw_rate",         "accelerometer", "accelerometer",
     "steering", "steering_command", "throttle"};
@@ -30,17 +30,17 @@ inline constexpr std::array<const char*, kLogSignals> kLogSignalKeys{
 /// Values of a signal at the log rows that contain the signal.
 struct LogSeries {
   std::vector<double> time;   // Time since the first row of the log, increasing [s].
-  std::vector<double> value;  // Values in SI units, positive forward and to the left.
+  std::vector<double> value;  // Values of the signal in SI units, positive forward and to the left.
 };
 
-/// The selected rows of a log, in SI units and ENU axes.
+/// Rows of a log that the reader has not skipped, in SI units and ENU axes.
 struct LogRows {
   std::vector<double> time{};    // Time since the first row of the log, strictly increasing [s].
   std::vector<Vec2> position{};  // Position of the measured point [m].
-  // Logged yaw of the measured axes, which may jump by whole turns [rad].
+  // Logged yaw angle of the measured axes, which may jump by multiples of 2 pi [rad].
   std::vector<double> yaw{};
   std::array<LogSeries, kLogSignals> signals{};
-  // For each signal, whether the map of the log names the signal.
+  // For each signal, whether the map of the log specifies a column for the signal.
   std::array<bool, kLogSignals> has{};
   double origin = 0.0;           // Time of the first row, in the log's unit.
   std::size_t rows = 0;          // Number of rows in the log.
@@ -55,7 +55,7 @@ struct LogRows {
 /// InputError under the same conditions as ImportLog.
 LogRows ReadLogRows(const std::filesystem::path& log, const LogMap& map);
 
-/// Removes jumps by whole turns from a series of yaw angles.
+/// Removes jumps by multiples of 2 pi from a series of yaw angles.
 void Unwrap(std::vector<double>& yaw);
 
 }  // namespace trackbed

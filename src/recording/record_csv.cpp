@@ -12,11 +12,12 @@
 namespace trackbed {
 namespace {
 
-/// A column of the CSV file, and the field of RecordedSample that the column contains.
+/// A column of the CSV file, and the field of RecordedSample that is stored in the column.
 struct Column {
   const char* name;
   std::function<double&(RecordedSample& sample)> number;
-  // Flag of the drive that tells whether the drive has this column; null: always.
+  // Member of RecordedDrive that tells whether the drive has this column; null if every drive has
+  // the column.
   bool RecordedDrive::*has = nullptr;
 };
 
@@ -102,7 +103,8 @@ RecordedDrive ReadRecordCsv(const std::filesystem::path& file) {
   ProblemList problems;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double expected = static_cast<double>(row) * drive.period;
-    constexpr double kRounding = 1e-6;  // tolerance as a fraction of the period
+    // Permitted deviation of a time from the constant period, as a fraction of the period.
+    constexpr double kRounding = 1e-6;
     if (!(drive.period > 0.0) ||
         std::abs(drive.samples[row].time - expected) > kRounding * drive.period) {
       problems.Add({file.string(), excerpt.lines[row], 0, "t_s",

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Backward speed [m/s] that position noise may simulate for a car at rest.
+/// Largest backward speed that counts as noise of a car at rest, not as driving in reverse [m/s].
 constexpr double kBackwards = 0.05;
 
 RecordedSample Between(const RecordedSample& a, const RecordedSample& b, double share) {

@@ -16,16 +16,16 @@
 namespace trackbed {
 namespace {
 
-/// Data of a replay that all prediction windows share.
+/// Data that is common to all prediction windows of a replayed drive.
 struct Replay {
   const CarModel& car;
   const RecordedDrive& drive;
   const ReplayOptions& options;
   PlaybackOptions inputs;
-  int steps;  // number of steps per control period
+  int steps;  // number of simulation steps per control period
 };
 
-/// State of the steering actuator after a number of control periods of the recorded drive.
+/// State of the simulated steering actuator at one time of the recorded drive.
 struct SteeringHistory {
   SteeringFilter filter;
   double angle;  // [rad]
@@ -139,7 +139,8 @@ std::vector<WindowPrediction> PredictWindows(const CarModel& car, const std::str
                    "PredictWindows: a horizon of {} s; must be above 0", horizon);
   std::vector<long> first;
   for (const double restart : restarts) {
-    // The tolerance of 1.5 periods allows for a time grid that ends between two control periods.
+    // Allow 1.5 control periods more than the duration of the drive, because the time grid may end
+    // between two control periods.
     TRACKBED_REQUIRE(restart >= 0.0 && restart + horizon <= drive.duration() + 1.5 * period,
                      "PredictWindows: a window from {} s to {} s of a drive of {} s", restart,
                      restart + horizon, drive.duration());
@@ -196,7 +197,7 @@ WindowErrors MeasureWindows(const std::vector<WindowPrediction>& windows,
   RelativeRms yaw_rate;
   RelativeRms lateral;
   for (const WindowPrediction& window : windows) {
-    // Skip the first state, which is the recorded state itself.
+    // Skip the first predicted state, because it is equal to the recorded state.
     for (std::size_t k = 1; k < window.states.size(); ++k) {
       const VehicleState& state = window.states[k];
       const VehicleState recorded = StateOf(drive.At(state.time), vehicle, false);

@@ -4,7 +4,7 @@
 
 namespace trackbed {
 
-/// Encodes bytes as padded base64 (RFC 4648).
+/// Encodes bytes as base64 text with padding (RFC 4648).
 std::string Base64(const std::string& bytes);
 
 }  // namespace trackbed

@@ -7,11 +7,11 @@
 namespace trackbed {
 
 /// Returns a table row for each check of a verdict in metrics.json: {of, metric, what, unit,
-/// relation, bound, asked, found, t, met}. Runs of older versions give no rows, because their
+/// relation, bound, asked, found, t, met}. Returns no rows for runs of older versions, whose
 /// verdicts list only failures.
 nlohmann::ordered_json CheckRows(const JsonValue& verdict);
 
-/// Returns a verdict without its checks, as {passed, failures, notes}.
+/// Returns a verdict without the list of checks, as {passed, failures, notes}.
 nlohmann::ordered_json VerdictJson(const JsonValue& verdict);
 
 }  // namespace trackbed

@@ -16,19 +16,21 @@
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/report/names.h"
 
-// Computes the comparisons on a report page. The compared pairs are listed in compare.json, in a
-// comparison folder or next to the runs. Without compare.json, plants with equal names in several
-// runs are paired, or all plants of a single run. Differences are computed again from the logs. If
-// the maxima of the differences do not match compare.json, the logs have changed, and the report
-// fails with InputError. Curves are thinned to a common limit of rows.
+// Computes the data of the comparisons that a report page shows. The pairs of plants to compare are
+// listed in compare.json, in a comparison folder or next to the runs. Without compare.json, plants
+// with equal names in several runs form the pairs; for a single run, all pairs of its plants are
+// compared. The differences are computed again from the logs. If the maxima of the recomputed
+// differences do not match compare.json, the logs have changed, and the report fails with
+// InputError. The curves of all pairs share a limit on the number of rows, to which they are
+// thinned.
 namespace trackbed {
 namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Largest number of rows of all curves together. A single curve may thus exceed the resolution of
-/// a chart, and ten pairs still give a small page.
+/// Maximum number of rows of all difference curves together. The limit lets a single curve have
+/// more rows than a chart has pixels, and keeps a page with ten pairs small.
 constexpr std::size_t kCurveRows = 3000;
 
 [[noreturn]] void FailOutdated(const fs::path& file, const std::string& message) {
@@ -45,19 +47,20 @@ struct Drive {
 struct Pair {
   Drive first;
   Drive second;
-  std::optional<JsonValue> outcome;  ///< entry of the pair in compare.json; nullopt without
-                                     ///< compare.json
+  /// entry of the pair in compare.json; nullopt if there is no compare.json
+  std::optional<JsonValue> outcome;
 };
 
-/// Adds the pairs and the verdict of a comparison to `pairs` and `verdicts`. The first compared run
-/// has the index `at`.
+/// Adds the pairs and the verdict of the comparison in `folder` to `pairs` and `verdicts`. `at` is
+/// the index of the first compared run.
 void AddJudgedPairs(const fs::path& folder, const std::vector<fs::path>& runs, std::size_t at,
                     std::vector<Pair>& pairs, ordered_json& verdicts) {
   const JsonValue json = ReadJson(folder / run_folder::kCompareJson);
   const std::size_t last = ComparedRuns(folder).size() - 1;
   for (const JsonValue& pair : json.At("pairs").Elements()) {
     const std::vector<JsonValue> plants = pair.At("plants").Elements(2);
-    // In a comparison of two runs, the names in compare.json consist of folder and plant.
+    // If compare.json compares two runs, its plant names consist of folder and plant, so only the
+    // last part is used.
     const auto drive = [&](std::size_t which, std::size_t run) {
       return Drive{run, fs::path(plants[which].Text()).filename()};
     };
@@ -76,7 +79,7 @@ bool IsSelfComparison(const fs::path& run) {
   });
 }
 
-/// Pairs each plant of the first run with the plant of the same name in every other run.
+/// Adds a pair for each plant of the first run and the plant of the same name in every other run.
 void AddPairsByName(const std::vector<std::vector<FinishedDrive>>& drives,
                     std::vector<Pair>& pairs) {
   for (std::size_t run = 1; run < drives.size(); ++run) {
@@ -90,7 +93,7 @@ void AddPairsByName(const std::vector<std::vector<FinishedDrive>>& drives,
   }
 }
 
-/// Pairs the plants of a single run.
+/// Adds all pairs of plants of a single run.
 void AddPairsOfRun(const std::vector<FinishedDrive>& drives, std::vector<Pair>& pairs) {
   for (std::size_t second = 1; second < drives.size(); ++second) {
     for (std::size_t first = 0; first < second; ++first) {
@@ -99,7 +102,7 @@ void AddPairsOfRun(const std::vector<FinishedDrive>& drives, std::vector<Pair>& 
   }
 }
 
-/// Returns a note on each plant that is only in the first run or only in another run.
+/// Returns a note on each plant that has no plant of the same name in the other runs.
 ordered_json UnpairedPlants(const std::vector<fs::path>& runs,
                             const std::vector<std::vector<FinishedDrive>>& drives) {
   ordered_json left_out = ordered_json::array();
@@ -119,14 +122,14 @@ ordered_json UnpairedPlants(const std::vector<fs::path>& runs,
   return left_out;
 }
 
-/// Throws InputError if the logs have changed since the comparison was made.
+/// Throws InputError if the logs of the runs have changed since the comparison was made.
 void RefuseIfChanged(const JsonValue& outcome, const PlantComparison& now) {
   constexpr double kEqualityTolerance =
-      1e-6;  // tolerance for rounding differences between machines [m], [rad], [rad/s]
+      1e-6;  // tolerance for differences in rounding between machines [m], [rad], [rad/s]
   for (const ComparedQuantity& quantity : ComparedQuantities()) {
     const std::optional<double> then = outcome.At(quantity.key).At("max").NumberOrNull();
     const double max = (now.*quantity.difference).max;
-    // In compare.json, null stands for a maximum that is not finite.
+    // A null in compare.json stands for a maximum that is not finite.
     if (then ? !(std::abs(*then - max) <= kEqualityTolerance) : std::isfinite(max)) {
       FailOutdated(outcome.file(), "does not match the runs' current logs");
     }
@@ -162,7 +165,7 @@ ordered_json CurveJson(const Table& differences, std::size_t row_limit) {
   return json;
 }
 
-/// Returns the tolerances of a pair, keyed by name.
+/// Returns the tolerances for the differences of a pair, keyed by name.
 ordered_json TolerancesJson(const JsonValue& tolerances) {
   ordered_json json = ordered_json::object();
   for (const auto& [name, bound] : tolerances.Members()) {
@@ -200,7 +203,7 @@ std::vector<fs::path> ComparedRuns(const fs::path& folder) {
   std::vector<fs::path> runs;
   const std::optional<JsonValue> names = json.Find("runs");
   for (const std::string& name : names ? names->Texts() : std::vector<std::string>()) {
-    const fs::path path = folder / name;  // `folder` has no effect on an absolute path
+    const fs::path path = folder / name;  // if the path is absolute, `folder` has no effect
     if (runs.empty() || fs::weakly_canonical(runs.front()) != fs::weakly_canonical(path)) {
       runs.push_back(path);
     }

@@ -19,11 +19,14 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr double kReachedTolerance = 1e-6;  // Tolerance for reaching the commanded steering angle
-                                            // [rad], as in PlantMetrics.
-constexpr double kMinSpan = 0.1;            // Shortest interval that is shown [s].
+// Tolerance within which the actuator counts as having reached the commanded steering angle [rad],
+// as in PlantMetrics.
+constexpr double kReachedTolerance = 1e-6;
+// Shortest interval of rate-limited steering that is shown [s].
+constexpr double kMinSpan = 0.1;
 
-/// Returns the intervals in which the actuator did not reach the command of the previous row.
+/// Returns the time intervals in which the steering actuator did not reach the command of the
+/// previous log row.
 std::vector<std::array<double, 2>> RateLimitSpans(const Table& log) {
   const std::vector<double> time = log.Column("t_s");
   const std::vector<double> commanded = log.Column("steering_command_rad");
@@ -71,7 +74,7 @@ std::string ForceColumn(const char* kind, const char* wheel) {
   return fmt::format("{}_force_{}_N", kind, wheel);
 }
 
-/// Used fractions of a tyre's longitudinal and lateral friction, for each row of a log.
+/// Fractions of the longitudinal and lateral friction that a tyre uses, for each row of a log.
 struct TyreShares {
   std::vector<double> along;
   std::vector<double> across;

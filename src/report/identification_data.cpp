@@ -18,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Largest number of rows of all records together.
+/// Maximum number of rows of all records together on the page.
 constexpr std::size_t kRows = 6000;
 
 ordered_json Residuals(const fs::path& file, std::size_t max_points) {
@@ -62,7 +62,7 @@ ordered_json ParametersJson(const JsonValue& list) {
   return parameters;
 }
 
-/// Formats the correlation matrix, which has a row and a column for each name.
+/// Converts the correlation matrix of the estimates to JSON, with a row and a column for each name.
 ordered_json CorrelationJson(const JsonValue& correlation) {
   const std::vector<std::string> names = correlation.At("names").Texts();
   ordered_json matrix = ordered_json::array();
@@ -73,7 +73,7 @@ ordered_json CorrelationJson(const JsonValue& correlation) {
   return {{"names", names}, {"matrix", matrix}};
 }
 
-/// Formats the prediction errors of one plant on one record.
+/// Converts the prediction errors of one plant on one record to JSON.
 ordered_json PlantJson(const JsonValue& plant) {
   ordered_json json{{"windows", ordered_json::array()}};
   if (const std::optional<JsonValue> yaw_rate = plant.Find("yaw_rate_relative_rms")) {

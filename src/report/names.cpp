@@ -11,8 +11,9 @@
 namespace trackbed {
 namespace {
 
-/// Converts a metric's description to a name; units get superscripts, such as m/s² for m/s^2. If no
-/// metric is registered for the path, the label is the path.
+/// Converts a metric's description to the name shown on the page; exponents in units become
+/// superscripts, such as m/s² for m/s^2. If no metric is registered under `path`, the name is
+/// `path`.
 ShownName Shown(const std::optional<MetricInfo>& info, const std::string& path) {
   if (!info) {
     return {path, ""};
@@ -49,7 +50,7 @@ ShownName NameOfOutput(const std::string& path) {
     const std::string plant = TakeWord(rest);
     ShownName name = NameOfMetric(rest);
     // A label that begins with "…", such as "… at station", continues the label of the row above.
-    // Such a label is not understandable alone, so the path is used instead.
+    // Because such a label is not understandable alone, the metric's path is used instead.
     name.label = name.label.starts_with("…") ? rest : name.label;
     name.label += plant == "*" ? "" : fmt::format(" ({})", plant);
     return name;
@@ -76,7 +77,7 @@ ShownName NameOfOutput(const std::string& path) {
 }
 
 ShownName NameOfKey(const std::string& key) {
-  // The table of keys has N in place of each list index.
+  // The table of scenario keys has N in place of each list index.
   static const std::regex index(R"(\[\d+\])");
   const std::string listed = std::regex_replace(key, index, "[N]");
   for (const KeySection& section : ScenarioKeys()) {

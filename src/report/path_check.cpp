@@ -22,12 +22,13 @@ ordered_json OrNull(double number) {
   return std::isfinite(number) ? ordered_json(number) : ordered_json();
 }
 
-/// Formats a limit; 0 means unknown and becomes null.
+/// Converts a limit to JSON; the value 0 means unknown and becomes null.
 ordered_json LimitJson(double limit) {
   return limit > 0.0 ? OrNull(limit) : ordered_json();
 }
 
-/// Largest speed in the chart [m/s], since the speed on a straight is unlimited.
+/// Maximum speed in the chart [m/s]; the chart is limited because the possible speed on a straight
+/// is unlimited.
 constexpr double kMaxShownSpeed = 100.0;
 
 Table DemandTable(const PathCheck& check) {
@@ -95,7 +96,7 @@ ordered_json PathCheckReport(const PathCheckTitle& title, const FittedPath& fitt
     columns[column] = RoundedColumn(table, column, rows);
   }
   json["demand"] = std::move(columns);
-  // Adds the given points as a line, thinned evenly.
+  // Adds a line through the given points, thinned evenly.
   const std::vector<Vec2>& points = fitted.given.points;
   const std::size_t step = std::max<std::size_t>(1, points.size() / kMaxDemands);
   ordered_json xs = ordered_json::array();

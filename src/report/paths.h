@@ -9,17 +9,17 @@
 
 namespace trackbed {
 
-/// Returns the path and value of each leaf of `json`, in order. Paths have the form used in
-/// expectations and studies, such as "turns[0].lateral_offset".
+/// Returns the path and value of each leaf of the JSON document `json`, in order. A path has the
+/// form used in expectations and studies, such as "turns[0].lateral_offset".
 std::vector<std::pair<std::string, nlohmann::ordered_json>> LeafValues(
     const nlohmann::ordered_json& json);
 
-/// Rounds a number; returns any other value unchanged.
+/// Rounds a JSON number; returns any other JSON value unchanged.
 nlohmann::ordered_json RoundedLeaf(const nlohmann::ordered_json& leaf);
 
 /// Returns a table row for each value in an entry of metrics.json: {path, label, value, unit,
-/// headline, limit}. The fields `unit`, `headline` and `limit` are optional; a limit is {relation,
-/// bound}.
+/// headline, limit}. The fields `unit`, `headline` and `limit` of a row are optional; `limit` is
+/// {relation, bound}.
 nlohmann::ordered_json NumbersJson(const nlohmann::ordered_json& entry,
                                    ShownName (*name_of)(const std::string& path));
 

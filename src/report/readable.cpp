@@ -51,14 +51,14 @@ void MakeReadable(ordered_json& json) {
 std::string Readable(const std::string& text) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
   if (std::all_of(text.begin(), text.end(), IsPlain)) {
-    return text;  // fast path for plain text, since most long texts are embedded films
+    return text;  // fast path for plain text, because most long texts are embedded videos
   }
   std::string readable;
   for (auto at = text.begin(); at != text.end();) {
     const auto begin = at;
     const code_point c = Utf8::decode(at, text.end());
     if (c == boost::locale::utf::illegal || c == boost::locale::utf::incomplete) {
-      // Skips the remaining bytes of an invalid multi-byte character.
+      // Skips the remaining bytes of an invalid UTF-8 character.
       at = std::find_if_not(begin + 1, text.end(), Continues);
       readable += "\xEF\xBF\xBD";
     } else if (IsInvisible(c)) {

@@ -9,12 +9,12 @@ namespace trackbed {
 /// Replaces invisible characters that affect the text around them by names such as "<U+202E>". The
 /// replaced characters are control characters other than tab and line feed, Unicode's marks and
 /// overrides of the writing direction (annex 9), Unicode's line separators, and zero-width
-/// characters. Zero-width joiners, which emoji and some scripts need, are kept. Each invalid UTF-8
-/// sequence becomes U+FFFD.
+/// characters. Zero-width joiners are kept, because emoji and some scripts need them. Each invalid
+/// UTF-8 sequence is replaced by U+FFFD.
 std::string Readable(const std::string& text);
 
-/// Applies Readable to all text values in `json`. Keys are not shown on the page and stay
-/// unchanged.
+/// Applies Readable to all text values in `json`. JSON keys stay unchanged, because the page does
+/// not show them.
 nlohmann::ordered_json WithReadableTexts(nlohmann::ordered_json json);
 
 }  // namespace trackbed

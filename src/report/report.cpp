@@ -19,23 +19,24 @@
 #include "trackbed/core/file.h"
 #include "trackbed/report/live.h"
 
-// Makes report pages. ReportData collects the data of runs, a comparison, a study or an
-// identification as JSON. A page is a fixed text (page_text.h) with this data in a script element;
-// the JavaScript in page/ renders the data. All texts pass through WithReadableTexts, and '<' is
-// escaped, so that data from untrusted files cannot become markup. Films are linked, or embedded as
-// base64. The page is written atomically, after a check that the run folders have not changed
-// meanwhile.
+// Makes report pages. The function ReportData collects the data of runs, a comparison, a study or
+// an identification as JSON. A report page is a fixed text (page_text.h) with this JSON in a script
+// element; the JavaScript in page/ renders the data. All texts in the data pass through
+// WithReadableTexts, and '<' is escaped, so that data from untrusted files cannot become markup.
+// Videos are either linked or embedded as base64. The page is written atomically, after checking
+// that the run folders have not changed meanwhile.
 namespace trackbed {
 namespace {
 
-constexpr std::size_t kMaxFilmBytes = std::size_t{128}
-                                      << 20U;  // largest size of a film in a page [bytes], since
-                                               // films are kept in memory
+constexpr std::size_t kMaxFilmBytes =
+    std::size_t{128}  // maximum size of an embedded video [bytes], because videos
+                      // are kept in memory
+    << 20U;
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-/// Largest number of rows of all logs together, which gives a page of about 1 MB.
+/// Maximum number of rows of all logs together, which yields a page of about 1 MB.
 constexpr std::size_t kRows = 7500;
 
 std::string Escaped(const std::string& text) {
@@ -46,15 +47,16 @@ std::string Escaped(const std::string& text) {
   return markup;
 }
 
-/// Serializes JSON for a script element. Text in the JSON cannot end the element.
+/// Serializes JSON for embedding in an HTML script element. Text in the JSON cannot end the script
+/// element.
 std::string ScriptJson(const ordered_json& json) {
-  // Invalid UTF-8 is replaced here, since the keys have not passed through Readable.
+  // Invalid UTF-8 is replaced here because the keys have not passed through Readable.
   const std::string text = json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
   std::string safe;
   safe.reserve(text.size());
   for (const char c : text) {
     if (c == '<') {
-      safe += "\\u003c";  // in JSON, '<' occurs only inside strings
+      safe += "\\u003c";  // '<' occurs in JSON only inside strings
     } else {
       safe += c;
     }
@@ -62,7 +64,7 @@ std::string ScriptJson(const ordered_json& json) {
   return safe;
 }
 
-/// Converts a path to a relative URL, percent-encoded where necessary.
+/// Converts a file path to a relative URL, percent-encoded where necessary.
 std::string FileUrl(const fs::path& path) {
   std::string url;
   for (const char c : path.generic_string()) {
@@ -93,7 +95,7 @@ std::string PageTitle(const ordered_json& data) {
   return title;
 }
 
-/// Whether the path is that of a study, but not of a run or a comparison.
+/// Whether `path` is a study, but neither a run nor a comparison.
 bool IsStudyAlone(const fs::path& path) {
   return !IsRunFolder(path) && !HasComparison(path) && StudyTable(path);
 }
@@ -135,10 +137,10 @@ void CheckFolders(const std::vector<fs::path>& paths) {
   }
 }
 
-/// The runs that a report shows.
+/// The folders whose runs a report shows.
 struct ShownRuns {
-  std::vector<fs::path> folders;       ///< Folders of the runs; empty for a study.
-  std::optional<fs::path> comparison;  ///< Folder of the comparison, if one is shown.
+  std::vector<fs::path> folders;       ///< Folders of the runs in the report; empty for a study.
+  std::optional<fs::path> comparison;  ///< Folder of the comparison in the report, if any.
 };
 
 ShownRuns RunsToShow(const std::vector<fs::path>& paths) {

@@ -22,8 +22,9 @@ nlohmann::ordered_json PointsJson(const std::vector<Vec2>& points) {
 }  // namespace
 
 nlohmann::ordered_json RoadsJson(const std::filesystem::path& folder) {
-  constexpr double kSpacing = 1.5;  // spacing of points [m]; deviates by 3 cm from an arc with a
-                                    // radius of 10 m
+  // spacing of points along a line [m]; the polyline deviates by 3 cm from an arc with a radius of
+  // 10 m
+  constexpr double kSpacing = 1.5;
   const RoadPaint paint =
       PaintRoads(ReadOpenDrive(run_folder::RequireFile(folder / kRoadNetworkXodr)), kSpacing);
   nlohmann::ordered_json json{{"bands", nlohmann::ordered_json::array()},

@@ -31,9 +31,9 @@
 #include "trackbed/track/track_file.h"
 
 // Reads the data of one run for a report page from the run folder: verdict and checks, world, plan,
-// the logs and metrics of each plant, and the resolved scenario. Logs are thinned to a row limit
+// logs and metrics of each plant, and the resolved scenario. The logs are thinned to a row limit
 // (RowsToShow). The data of the 3D scene (vehicle, motion, ground) is added if all plants have
-// state logs. Events and tyre forces need the compiled model, so they are added last.
+// state logs. Events and tyre forces are added last, because they need the compiled model.
 namespace trackbed {
 namespace {
 
@@ -42,7 +42,8 @@ using nlohmann::ordered_json;
 
 constexpr std::size_t kMaxScenarioBytes = std::size_t{1} << 20U;
 
-/// A log column: its name in the page's data and in the log, and whether every log has the column.
+/// A column of a plant's log: the column's name in the page's data, its name in the log file, and
+/// whether every log has the column.
 struct Channel {
   const char* name;
   const char* column;
@@ -65,7 +66,8 @@ constexpr std::array kChannels{
     Channel{"longitudinal_acceleration", "longitudinal_acceleration_mps2", false},
     Channel{"clearance", "clearance_m", false}};
 
-/// Extends the bounding box from `low` to `high` such that it contains the points of a line.
+/// Extends the bounding box with corners `low` and `high` such that it contains the points of a
+/// line.
 void Widen(const ordered_json& line, Vec2& low, Vec2& high) {
   for (const auto& [name, axis] : {std::pair{"x", 0}, std::pair{"y", 1}}) {
     for (const double value : line.at(name).get<std::vector<double>>()) {
@@ -75,20 +77,20 @@ void Widen(const ordered_json& line, Vec2& low, Vec2& high) {
   }
 }
 
-/// Returns the x and y coordinates of a path at the given rows.
+/// Returns the x and y coordinates of a path at the given rows of its table.
 ordered_json LineJson(const Table& table, const std::vector<std::size_t>& rows) {
   return {{"x", RoundedColumn(table, "x_m", rows)}, {"y", RoundedColumn(table, "y_m", rows)}};
 }
 
 ordered_json PlanLine(const fs::path& file) {
-  constexpr std::size_t kMaxRows = 20000;  // largest number of rows of plan.csv that the page
-                                           // shows, enough for 2 km
+  // maximum number of rows of plan.csv that the page shows, enough for 2 km
+  constexpr std::size_t kMaxRows = 20000;
   const Table table = ReadCsvExcerpt(file, {"x_m", "y_m"}).table;
   return LineJson(table, RowsToShow(table, kMaxRows));
 }
 
-/// Returns the new plans in the order of time, each with the time at which it was adopted. The
-/// plans are thinned evenly to about 4000 points in total.
+/// Returns the plans adopted during the run, in the order of time, each with the time of adoption.
+/// The returned plans are thinned evenly to about 4000 points in total.
 ordered_json NewPlans(const fs::path& file) {
   constexpr std::size_t kMaxPoints = 4000;
   const Table table = ReadCsvExcerpt(file, {"from_t_s", "x_m", "y_m"}).table;
@@ -137,7 +139,7 @@ ordered_json LogJson(const fs::path& file, std::size_t row_limit) {
   return json;
 }
 
-/// Returns the status, time, station and cause of a run's end, as {status, t, s, cause}.
+/// Returns how a run ended, as {status, t, s, cause}: status, time, station and cause.
 ordered_json EndJson(const JsonValue& metrics) {
   ordered_json json{{"status", metrics.At("status").Text()}};
   for (const auto& [name, key] : {std::pair{"t", "status_t"}, std::pair{"s", "status_s"}}) {
@@ -187,7 +189,8 @@ ordered_json WorldJson(const World& world) {
     json["patches"].back()["friction"] = Rounded(patch.friction);
   }
   if (const std::vector<OrientedBox>& walls = MapWalls(world); !walls.empty()) {
-    // All walls have the same yaw angle, because they are aligned with the rows of the map.
+    // All walls of the map have the same yaw angle, because they are aligned with the rows of the
+    // map.
     json["walls"] = {{"yaw", Rounded(walls.front().center.yaw)},
                      {"height", Rounded(world.map->height)},
                      {"boxes", ordered_json::array()}};
@@ -220,7 +223,7 @@ ordered_json CarJson(const VehicleParams& car) {
           {"grip_acceleration", Rounded(car.friction_lateral * kGravity)}};
 }
 
-/// Returns the data of the plan: method, gates and line.
+/// Returns the data of the plan: planning method, gates and path.
 ordered_json PlanJson(const fs::path& folder) {
   const JsonValue file = ReadJson(folder / run_folder::kPlanJson);
   ordered_json plan{{"status", file.At("status").Text()}};
@@ -246,7 +249,7 @@ ordered_json PlanJson(const fs::path& folder) {
   return plan;
 }
 
-/// Returns the two edges of a track, which have equal numbers of points.
+/// Returns the two edge lines of a track, which have equal numbers of points.
 ordered_json EdgesJson(const Track& track) {
   constexpr std::size_t kMaxPoints = 2000;
   const auto line = [&](const TrackEdgeLine& edge) {
@@ -348,7 +351,7 @@ World AddWorldAndPlan(const fs::path& folder, const fs::path& scenario, ordered_
   return world;
 }
 
-/// Returns the texts in a section, keyed by name.
+/// Returns the text values in a section of a JSON file, keyed by name.
 ordered_json TextsJson(const JsonValue& section) {
   ordered_json json = ordered_json::object();
   for (const auto& [name, text] : section.Members()) {
@@ -386,8 +389,8 @@ ordered_json RunData(const fs::path& folder, const std::string& name, std::size_
   }
   run["resolved"] = ReadFile(scenario, kMaxScenarioBytes);
   AddScene(folder, world, row_limit / 2, run);
-  AddCar(folder, world, row_limit / 2, run);  // added last, because the data of the car takes the
-                                              // longest time
+  // added last, because computing the data of the car takes the longest time
+  AddCar(folder, world, row_limit / 2, run);
   return run;
 }
 

@@ -7,18 +7,19 @@
 
 namespace trackbed {
 
-/// Returns the name of the log column that the page's data has under `name` in a plant's `log`.
+/// Returns the name of the log column whose values the page's data contain under `name` in a
+/// plant's `log`.
 const char* ColumnOfChannel(const std::string& name);
 
 /// Whether the folder contains a finished run.
 bool IsRunFolder(const std::filesystem::path& folder);
 
-/// Returns the data of one run, with at most `row_limit` rows per log. The page shows the run as
-/// `name`. Throws InputError if the files in the folder do not match its metrics.json.
+/// Returns the data of one run, with at most `row_limit` rows per log. `name` is the name of the
+/// run on the page. Throws InputError if the files in the folder do not match its metrics.json.
 nlohmann::ordered_json RunData(const std::filesystem::path& folder, const std::string& name,
                                std::size_t row_limit);
 
-/// Whether the run was completed. Reads only metrics.json.
+/// Whether the run was completed and not interrupted. Reads only metrics.json.
 bool IsComplete(const std::filesystem::path& folder);
 
 /// Returns the number of plants in the run. Reads only metrics.json.

@@ -62,14 +62,15 @@ ordered_json FloatsJson(const std::vector<double>& values) {
 }
 
 ordered_json ChannelJson(const std::vector<double>& values) {
-  constexpr double kFine = 1e-3;  // coarsest resolution for int16 [m], [rad]; one millimeter is
-                                  // less than a pixel
+  // coarsest acceptable resolution of the int16 format [m], [rad]; one millimeter is less than a
+  // pixel
+  constexpr double kFine = 1e-3;
   constexpr double kSteps = 65535.0;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   if (values.empty() || *high - *low > kSteps * kFine) {
     return FloatsJson(values);
   }
-  // If the channel is constant, the scale and all integers are 0.
+  // If all values of the channel are equal, the scale and all integers are 0.
   const double scale = (*high - *low) / kSteps;
   const double middle = 0.5 * (*high + *low);
   std::string bytes;
@@ -183,7 +184,7 @@ ordered_json GroundJson(const World& world, double low_x, double low_y, double h
   if (IsFlat(world.ground)) {
     return nullptr;
   }
-  constexpr double kMargin = 60.0;  // width of visible ground around the run [m]
+  constexpr double kMargin = 60.0;  // width of the visible ground around the run [m]
   constexpr double kMaxGridLines = 160.0;
   const double span = std::max(high_x - low_x, high_y - low_y) + 2.0 * kMargin;
   const double step = std::max(1.0, span / kMaxGridLines);

@@ -20,8 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kIntervals = 10;  // number of intervals into which a key's range is divided,
-                                        // to count the runs in each
+// number of intervals into which the range of a key is divided, to count the runs in each interval
+constexpr std::size_t kIntervals = 10;
 
 std::optional<std::size_t> FindColumn(const TextTable& table, const std::string& name) {
   const auto found = std::find(table.columns().begin(), table.columns().end(), name);
@@ -30,8 +30,8 @@ std::optional<std::size_t> FindColumn(const TextTable& table, const std::string&
              : std::optional(static_cast<std::size_t>(found - table.columns().begin()));
 }
 
-/// Divides a key's range into equal intervals. On a logarithmic range, all intervals have the same
-/// ratio of their ends.
+/// Divides the range of a search key into equal intervals. On a logarithmic range, the ratio of
+/// upper to lower end is the same for all intervals.
 class Intervals {
  public:
   explicit Intervals(const JsonValue& distribution)
@@ -44,8 +44,8 @@ class Intervals {
     if (kind_ == "log_uniform" && !(from_ > 0.0)) {
       distribution.At("from").Refuse("a number above 0");
     }
-    // A range of whole numbers is also divided into intervals of equal width; with fewer than ten
-    // numbers, each number is an interval.
+    // A range of integers is also divided into intervals of equal width; if it has fewer than ten
+    // integers, each integer is an interval.
     constexpr auto kMaxCount = static_cast<double>(kIntervals);
     count_ = kind_ == "integer" ? static_cast<std::size_t>(std::min(kMaxCount, to_ - from_ + 1.0))
                                 : kIntervals;
@@ -58,8 +58,7 @@ class Intervals {
                          : kind_ == "integer"   ? (value - from_ + 0.5) / (to_ - from_ + 1.0)
                                                 : (value - from_) / (to_ - from_);
     const double interval = std::floor(place * static_cast<double>(count_));
-    // Values below the range, or for which the logarithm is not defined, are counted in the first
-    // interval.
+    // Values that are below the range or have no logarithm are counted in the first interval.
     return interval > 0.0
                ? static_cast<std::size_t>(std::min(interval, static_cast<double>(count_ - 1)))
                : 0;
@@ -72,7 +71,7 @@ class Intervals {
   std::size_t count_;
 };
 
-/// The rows of a study that have a robustness, because their runs gave a result.
+/// The rows of a study that have a value of the robustness, because their runs had a result.
 struct Runs {
   explicit Runs(const TextTable& all) : table(all) {
     const std::optional<std::size_t> column = FindColumn(all, "robustness");
@@ -86,10 +85,10 @@ struct Runs {
 
   const TextTable& table;
   std::vector<std::size_t> rows;
-  std::vector<double> robustness;  ///< robustness of each of `rows`
+  std::vector<double> robustness;  ///< robustness of the run in each row of `rows`
 };
 
-/// Returns the numbers of runs and failures in each interval of a key's range.
+/// Returns the number of runs and the number of failures in each interval of a key's range.
 ordered_json CoverageJson(const JsonValue& distribution, std::size_t column, const Runs& runs) {
   const Intervals intervals(distribution);
   std::vector<std::size_t> tried(intervals.count(), 0);
@@ -118,9 +117,9 @@ ordered_json BestSoFar(const Runs& runs, std::size_t searched) {
   return best;
 }
 
-/// Formats the entry of a key in `margins` of falsify.json. The result has the range, as a pair, in
-/// which the run passes if only this key is varied. If no run passes on one side of the nominal
-/// value, the range ends at the nominal value.
+/// Converts the entry of a key in `margins` of falsify.json for the page. The result contains the
+/// range, as a pair, in which the run passes if only this key is varied. If no run passes on one
+/// side of the nominal value, the range ends at the nominal value.
 ordered_json MarginJson(const JsonValue& margin) {
   const auto number = [&](const char* name) -> ordered_json {
     const std::optional<JsonValue> value = margin.Find(name);
@@ -191,7 +190,7 @@ ordered_json SearchData(const fs::path& file, const TextTable& table) {
     return nullptr;
   }
   const JsonValue sweep = ReadJson(description);
-  // Without `search` in sweep.json, falsify.json in the same folder belongs to an earlier study.
+  // If sweep.json has no `search`, the falsify.json in the same folder belongs to an earlier study.
   const std::optional<JsonValue> search = sweep.Find("search");
   if (!search) {
     return nullptr;

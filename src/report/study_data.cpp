@@ -22,9 +22,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
 
-constexpr std::size_t kMaxShownRows = 4000;  // largest number of rows that are shown individually
+// maximum number of rows of a study that the page shows individually
+constexpr std::size_t kMaxShownRows = 4000;
 
-/// Converts a cell of a table to JSON: a number, null for an empty cell, or text.
+/// Converts a table cell to JSON: a number, null for an empty cell, or text.
 ordered_json CellJson(const std::string& cell) {
   if (cell.empty()) {
     return nullptr;
@@ -43,8 +44,7 @@ ordered_json StudyDescription(const fs::path& table) {
   }
   const JsonValue json = ReadJson(file);
   const bool complete = json.At("complete").Flag();
-  // The position of a row in the table equals its row number in the study only if no rows are
-  // missing.
+  // The index of a row in the table equals its row number in the study only if no rows are missing.
   const bool has_all = complete && !json.Find("shard");
   const auto text_of = [](const std::optional<JsonValue>& text) {
     return text ? text->Text() : std::string();
@@ -65,8 +65,8 @@ ordered_json StudyDescription(const fs::path& table) {
           {"text", json.json().dump(2)}};
 }
 
-/// Describes the columns of a study's table. A bisected key is treated as the first output, because
-/// its value is the result of the study.
+/// Returns the description of the columns of a study's table. A bisected key is treated as the
+/// first output, because its value is the result of the study.
 ordered_json ColumnsJson(const TextTable& table, const std::string& file,
                          const std::string& bisected = "") {
   const std::vector<std::string>& names = table.columns();
@@ -106,7 +106,7 @@ std::optional<fs::path> StudyTable(const fs::path& path) {
 }
 
 TextTable ReadStudyTable(const fs::path& file) {
-  // Whether the file is the table of the study itself, and not a copy under another name.
+  // Whether the file is the original table of the study, and not a copy under another name.
   const bool is_own = file.filename() == run_folder::kSweepCsv;
   return ReadTextCsv(is_own ? run_folder::RequireFile(file) : file);
 }
@@ -141,14 +141,15 @@ ordered_json StudyData(const fs::path& file, const std::optional<fs::path>& befo
   }
   if (ordered_json search = SearchData(file, table); !search.is_null()) {
     study["search"] = std::move(search);
-    study["statistics"] = nullptr;  // no statistics, since the runs of a search concentrate on the
-                                    // worst region and are not a random sample
+    // no statistics, because the runs of a search are concentrated on the worst region and are not
+    // a random sample
+    study["statistics"] = nullptr;
   } else {
     study["statistics"] = StudyStatistics(table);
   }
   if (before) {
     const TextTable other = ReadStudyTable(*before);
-    ColumnsJson(other, before->string());  // checks that the table is that of a study
+    ColumnsJson(other, before->string());  // throws if the table is not the table of a study
     study["difference"] = StudyDifference(other, before->string(), table, file.string());
     study["difference"]["before"] =
         before->parent_path().filename() != "" ? before->parent_path().string() : before->string();

@@ -6,12 +6,13 @@
 
 namespace trackbed {
 
-/// Returns the file with the table of the study at `path`: `path` itself, or the table in the
-/// folder of a sweep. Returns nullopt if `path` is not a study.
+/// Returns the file with the table of a study: `path` itself or, if `path` is the folder of a
+/// sweep, the table in this folder. Returns nullopt if `path` is neither a study table nor the
+/// folder of a study.
 std::optional<std::filesystem::path> StudyTable(const std::filesystem::path& path);
 
 /// Returns the data of a study and, if `before` is given, its differences from the study `before`.
-/// Throws InputError if a table is not the table of a sweep. Throws the errors of StudyDifference.
+/// Throws InputError if a file is not the table of a sweep. Throws the errors of StudyDifference.
 nlohmann::ordered_json StudyData(const std::filesystem::path& table,
                                  const std::optional<std::filesystem::path>& before = {});
 

@@ -28,7 +28,7 @@ Cells ParametersOf(const TextTable& table) {
           table.columns().begin() + static_cast<std::ptrdiff_t>(PlaceOf(table, "status"))};
 }
 
-/// Returns the number of each row, keyed by the row's settings.
+/// Returns the row number of each row, keyed by the settings of the row.
 std::map<Cells, std::size_t> RowsBySetting(const TextTable& table, const std::string& file) {
   const auto parameters = static_cast<std::ptrdiff_t>(PlaceOf(table, "status"));
   std::map<Cells, std::size_t> rows;

@@ -7,8 +7,8 @@
 
 namespace trackbed {
 
-/// Computes the differences between two studies, before and after a change, of the pass rate and
-/// each common output. Rows with equal settings are paired (ComparePairs).
+/// Computes how the pass rate and each common output differ between two studies, before and after a
+/// change. Rows with equal settings are paired (ComparePairs).
 ///
 /// Throws InputError naming the files if the studies vary different keys, have equal settings in
 /// several rows, or have no row in common.

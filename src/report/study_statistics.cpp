@@ -14,9 +14,9 @@
 // Computes the statistics of a study for its page (statistics.h): the pass rate, and statistics of
 // each output. The statistics of an output are its quantiles, its distribution function, its
 // first-order sensitivity to each varied parameter, its mean in each class of a parameter, and its
-// rank correlations with other outputs. Only rows with a result are used, and outputs with fewer
-// than 20 values are omitted. For large studies, StudyRowsToShow selects evenly spaced rows, plus
-// the rows with the ten lowest and ten highest values of each output.
+// rank correlations with other outputs. Only rows with a result enter the statistics; outputs with
+// fewer than 20 values are omitted. For large studies, StudyRowsToShow selects evenly spaced rows,
+// plus the rows with the ten lowest and ten highest values of each output.
 namespace trackbed {
 namespace {
 
@@ -24,12 +24,12 @@ using nlohmann::ordered_json;
 
 constexpr double kConfidence = 0.95;
 constexpr std::size_t kMinRows = 20;
-constexpr std::size_t kMaxEffectClasses = 12;      // Largest number of classes of a parameter that
-                                                   // are shown in a chart.
-constexpr std::size_t kMaxCorrelatedOutputs = 24;  // Largest number of outputs whose correlations
-                                                   // are computed.
-constexpr std::size_t kMaxStaircasePoints = 200;   // Largest number of points of a drawn
-                                                   // distribution function.
+// Maximum number of classes of a parameter in a chart of effects.
+constexpr std::size_t kMaxEffectClasses = 12;
+// Maximum number of outputs whose correlations are computed.
+constexpr std::size_t kMaxCorrelatedOutputs = 24;
+// Maximum number of points of a drawn distribution function.
+constexpr std::size_t kMaxStaircasePoints = 200;
 
 ordered_json IntervalJson(const Interval& interval) {
   return {Rounded(interval.low), Rounded(interval.high)};
@@ -68,7 +68,7 @@ struct StudyColumns {
   std::vector<std::size_t> outputs;
 };
 
-/// Values of an output, with the numbers of the rows that have them.
+/// Values of an output, and the numbers of the rows that contain these values.
 struct Sample {
   std::vector<std::size_t> rows;
   std::vector<double> values;
@@ -249,8 +249,8 @@ class StudyAnalysis {
 
   const TextTable& table_;
   StudyColumns columns_;
-  Sample passed_;                    // For each row with a result, 1 if it passed, else 0.
-  std::vector<std::size_t> varied_;  // Columns of the varied parameters.
+  Sample passed_;                    // For each row with a result: 1 if the row passed, else 0.
+  std::vector<std::size_t> varied_;  // Indices of the columns of the varied parameters.
 };
 
 }  // namespace

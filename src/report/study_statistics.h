@@ -9,7 +9,7 @@
 
 namespace trackbed {
 
-/// Whether a row of a study with this status counts as passed.
+/// Whether a row of a study counts as passed if it has this status.
 bool HasPassed(const std::string& status);
 
 /// Computes statistics over all rows of a study: the pass rate, the distribution of each output and
@@ -19,10 +19,11 @@ nlohmann::ordered_json StudyStatistics(const TextTable& table);
 
 /// Indices of the rows of a study that a page shows individually.
 struct ShownRows {
-  std::vector<std::size_t> even;      ///< All rows if there are at most `limit`, else `limit`
-                                      ///< evenly spaced rows.
-  std::vector<std::size_t> extremes;  ///< In a larger study, the rows with the ten lowest and ten
-                                      ///< highest values of each output.
+  /// All rows of the study if there are at most `limit`, else `limit` evenly spaced rows.
+  std::vector<std::size_t> even;
+  /// If the study has more than `limit` rows, the rows with the ten lowest and ten highest values
+  /// of each output.
+  std::vector<std::size_t> extremes;
 };
 
 ShownRows StudyRowsToShow(const TextTable& table, std::size_t limit);

@@ -8,14 +8,14 @@ namespace {
 
 constexpr double kTimeTolerance = 1e-9;  // [s]
 
-/// Returns for each sample the extreme value over the sample's window. The strict order `precedes`
-/// defines whether the extreme is a minimum or a maximum.
+/// Returns for each sample the minimum or the maximum of the values in the sample's window. The
+/// strict order `precedes` decides between minimum and maximum.
 template <typename Precedes>
 Degrees SlidingExtreme(const Degrees& values, const Windows& windows, const Degree& of_none,
                        const Precedes& precedes) {
   Degrees extremes(values.size());
-  // Indices of samples in the window. Each of these samples is more extreme than all later samples
-  // in the window.
+  // Indices of those samples in the window that are more extreme than all later samples in the
+  // window.
   std::deque<std::uint32_t> wedge;
   std::uint32_t next = 0;
   for (std::size_t i = 0; i < values.size(); ++i) {
@@ -66,7 +66,8 @@ Degrees SlidingMax(const Degrees& values, const Windows& windows) {
 
 Degrees Until(const Degrees& phi, const Degrees& psi, const Windows& windows) {
   const std::size_t count = phi.size();
-  Degrees from_here(count + 1, kFalse);  // Degrees of `phi until psi` without time bounds.
+  // Degrees of the formula `phi until psi` without time bounds, one per sample.
+  Degrees from_here(count + 1, kFalse);
   Windows before{std::vector<std::uint32_t>(count), windows.begin};
   for (std::size_t i = count; i-- > 0;) {
     from_here[i] = Max(psi[i], Min(phi[i], from_here[i + 1]));

@@ -12,20 +12,21 @@ struct Degree {
   static constexpr std::uint32_t kNoRow = std::numeric_limits<std::uint32_t>::max();
 
   double value = 0.0;
-  std::uint32_t row = kNoRow;  ///< sample whose comparison determines the value
+  std::uint32_t row = kNoRow;  ///< index of the sample at which a comparison determines `value`
   bool satisfied = false;
 };
 
 using Degrees = std::vector<Degree>;
 
-/// Degree of a condition that always holds. The minimum over an empty set of samples is kTrue, and
-/// the maximum over an empty set is kFalse.
+/// Degree of a condition that always holds. The minimum of the degrees of no samples is kTrue, and
+/// the maximum of the degrees of no samples is kFalse.
 inline constexpr Degree kTrue{.value = std::numeric_limits<double>::infinity(), .satisfied = true};
 inline constexpr Degree kFalse{.value = -std::numeric_limits<double>::infinity()};
 
-/// Returns whether degree a is less than degree b. If both have equal robustness, a violated
-/// condition is less than a satisfied condition. Hence the minimum of two degrees is satisfied if
-/// both are satisfied, and the maximum is satisfied if at least one is satisfied.
+/// Returns whether degree a is less than degree b. If both robustness values are equal, the degree
+/// of a violated condition is less than the degree of a satisfied condition. The minimum of two
+/// degrees is therefore satisfied if both degrees are satisfied, and the maximum is satisfied if at
+/// least one degree is satisfied.
 inline bool IsLess(const Degree& a, const Degree& b) {
   return a.value != b.value ? a.value < b.value : !a.satisfied && b.satisfied;
 }
@@ -40,27 +41,28 @@ inline Degree Max(const Degree& a, const Degree& b) {
   return IsLess(a, b) ? b : a;
 }
 
-/// Time windows of samples: the window of sample i contains the samples [begin[i], end[i]). The
-/// lists `begin` and `end` are non-decreasing.
+/// Time windows, one per sample: the window of sample i contains the samples from begin[i] to
+/// end[i] (exclusive). The lists `begin` and `end` are non-decreasing.
 struct Windows {
   std::vector<std::uint32_t> begin;
   std::vector<std::uint32_t> end;
 };
 
 /// Finds for each sample the window of samples that lie `from` to `to` seconds later, including
-/// both ends, with a tolerance of 1 ns. A window never begins before its sample. The times of the
-/// samples must increase.
+/// both ends, with a tolerance of 1 ns. The window of a sample never begins before the sample
+/// itself. The argument `times` must be in ascending order.
 Windows FindWindows(const std::vector<double>& times, double from, double to);
 
-/// Compute the minimum or maximum over the window of each sample, by Lemire's monotonic wedge in
-/// O(samples). If several samples have the same extreme value, the functions return the earliest of
-/// these samples.
+/// Compute the minimum or maximum over the window of each sample, by Lemire's monotonic wedge
+/// algorithm, in a time proportional to the number of samples. If several samples have the same
+/// extreme value, the functions return the earliest of these samples.
 Degrees SlidingMin(const Degrees& values, const Windows& windows);
 Degrees SlidingMax(const Degrees& values, const Windows& windows);
 
-/// Computes the degrees of phi until[from, to] psi in O(samples) (Donzé, Ferrère and Maler 2013).
-/// The result is the minimum of three degrees: psi holds at some sample of the window; phi holds up
-/// to the beginning of the window; "phi until psi" holds at the beginning of the window.
+/// Computes for each sample the degree of "phi until[from, to] psi", in a time proportional to the
+/// number of samples (Donzé, Ferrère and Maler 2013). The result is the minimum of three degrees:
+/// that psi holds at some sample of the window, that phi holds from the sample to the beginning of
+/// the window, and that "phi until psi" holds at the beginning of the window.
 Degrees Until(const Degrees& phi, const Degrees& psi, const Windows& windows);
 
 }  // namespace trackbed

@@ -7,40 +7,43 @@
 
 namespace trackbed {
 
-/// Builds a formula while the parser reads the text of the formula. Checks that each operation gets
-/// conditions or numbers as operands, as required. Throws InputError with the column of the error
-/// in the text.
+/// Builds a formula while the parser reads the text of the formula. Checks that each operand of an
+/// operation is of the required kind, a condition or a number. Throws InputError with the column of
+/// the error in the text.
 class FormulaBuilder {
  public:
-  /// The argument `text` is the whole formula and must outlive the builder. The text arguments of
-  /// all other functions must be parts of `text`.
+  /// The argument `text` is the text of the whole formula and must outlive the FormulaBuilder.
+  /// Texts passed to the other member functions must be substrings of `text`.
   FormulaBuilder(std::string_view text, const std::vector<std::string>& allowed)
       : text_(text), allowed_(allowed) {}
 
   void AddNumber(std::string_view number);
   void AddSignal(std::string_view name);
 
-  /// Begins an operation; the following calls add its operands.
+  /// Begins an operation of the formula; the calls between Open and Close add the operands of the
+  /// operation.
   void Open(FormulaOperation operation, std::string_view sign);
-  /// Adds a time bound to the operation that was begun last. The bound is the number, or for
-  /// AddBoundFromEnd the run's duration T minus the number.
+  /// Adds a time bound to the operation that was begun last. AddBound adds the bound `number` [s];
+  /// AddBoundFromEnd adds the bound T minus `number`, where T is the duration of the run.
   void AddBound(std::string_view number);
   void AddBoundFromEnd(std::string_view number);
-  /// Ends the operation that was begun last, after its last operand.
+  /// Ends the operation that was begun last; the parser calls Close after the last operand.
   void Close();
 
   void OpenParenthesis(std::string_view sign);
-  /// Combines the second or a later argument of `min` or `max` with the arguments before. The
-  /// parser calls FoldArgument before the comma or parenthesis that follows the argument.
+  /// Combines the last argument of `min` or `max` with the result of all earlier arguments. The
+  /// parser calls FoldArgument after each argument except the first, before the comma or
+  /// parenthesis that follows.
   void FoldArgument();
-  /// Ends a call of the function `abs`, `min` or `max`.
+  /// Ends a call of `abs`, `min` or `max` in the formula.
   void CloseFunction(std::string_view sign);
   void CloseParenthesis(std::string_view sign);
 
   [[nodiscard]] std::vector<FormulaStep> TakeSteps();
   [[nodiscard]] std::vector<std::string> TakeSignals() { return std::move(signals_); }
 
-  /// Throws InputError with the column of the position `at` in the text.
+  /// Throws InputError with `message` and the column of `at`, which is a position in the text of
+  /// the formula.
   [[noreturn]] void Fail(const char* at, const std::string& message) const;
   /// Throws InputError that quotes the text at position `at` and names what was expected at this
   /// position.

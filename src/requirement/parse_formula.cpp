@@ -5,9 +5,10 @@
 #include <boost/spirit/home/x3.hpp>
 #include <functional>
 
-// Defines the grammar of formulas. The next word determines every choice between rules, so the
-// parser never parses a text twice. Every recursive rule begins with FormulaBuilder::Open or
-// OpenParenthesis, which limit the nesting depth. Error messages name the expected rule.
+// Defines the grammar of formulas. Wherever several grammar rules are possible, the next word
+// determines the rule, so the parser never parses a text twice. Every recursive rule first calls
+// FormulaBuilder::Open or OpenParenthesis, which limit the nesting depth. An error message names
+// the grammar rule that was expected.
 namespace trackbed {
 namespace formula_grammar {
 namespace {
@@ -168,8 +169,8 @@ void ParseFormula(std::string_view text, FormulaBuilder& builder) {
   const char* first = text.data();
   const char* last = first + text.size();
   try {
-    // Begin with x3::eps, so that a mismatch at the first word also causes an expectation failure,
-    // like later mismatches.
+    // Begin the rule with x3::eps, so that Boost.Spirit reports a mismatch at the first word in the
+    // same way as a later mismatch (expectation failure).
     const auto whole = x3::with<grammar::BuilderTag>(
         std::ref(builder))[x3::eps > grammar::formula > grammar::end_of_formula];
     x3::phrase_parse(first, last, whole, x3::ascii::space);

@@ -35,7 +35,7 @@ Numbers ReadTimes(const Table& log) {
   return times;
 }
 
-/// Evaluates a formula at all samples of a log with a stack machine.
+/// Evaluates a formula with a stack machine, for all samples of a log at once.
 class Evaluation {
  public:
   Evaluation(const Formula& formula, const Table& log)
@@ -56,7 +56,7 @@ class Evaluation {
     return top;
   }
 
-  /// Replaces the top two numbers or conditions of a stack by their combination.
+  /// Replaces the top two entries of a stack, numbers or conditions, by the result of `combine`.
   template <typename T, typename Combine>
   static void Reduce(std::vector<T>& stack, const Combine& combine) {
     const T right = Pop(stack);
@@ -126,7 +126,7 @@ class Evaluation {
         return Reduce(numbers_, [](double a, double b) { return a * b; });
       case FormulaOperation::kDivide:
         return Reduce(numbers_, [](double a, double b) { return a / b; });
-      case FormulaOperation::kMin:  // std::min is not used, because it may drop a NaN
+      case FormulaOperation::kMin:  // do not use std::min, because std::min may ignore a NaN
         return Reduce(numbers_, [](double a, double b) { return std::isnan(a) || a < b ? a : b; });
       case FormulaOperation::kMax:
         return Reduce(numbers_, [](double a, double b) { return std::isnan(a) || a > b ? a : b; });

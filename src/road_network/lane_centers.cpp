@@ -10,34 +10,35 @@
 
 #include "trackbed/core/angle.h"
 
-// Joins the centers of a route's lanes to a path. Each lane center is the reference line plus a
-// lateral offset. A lane change blends the offsets of two lanes by a quintic polynomial. The
-// algorithm splits the lane centers where one polynomial of the OpenDRIVE file ends and the next
-// polynomial begins. The pieces are sampled to points with exact heading and curvature. Kinks up to
-// 0.2 rad are rounded over 0.5 m on either side. The algorithm refuses gaps, larger kinks, and
-// deviations beyond the limit.
+// Joins the centers of a route's lanes to a path. The center line of a lane is the reference line
+// of the road plus a lateral offset. In a lane change, a quintic polynomial blends the offsets of
+// the two lanes. The algorithm splits the lane centers into pieces, at the stations where one
+// polynomial of the OpenDRIVE file ends and the next polynomial begins. Each piece is sampled at
+// points with exact heading and curvature. Kinks of at most 0.2 rad are rounded over 0.5 m on
+// either side. The algorithm rejects a route whose lane centers have gaps or larger kinks, and a
+// path that deviates too far from the lane centers.
 
 namespace trackbed {
 namespace {
 
-// Largest spacing of the points between which path segments are fitted [m].
+// Largest distance between consecutive points of the lane centers, which path segments connect [m].
 constexpr double kSpacing = 0.25;
-constexpr double kKink = 1e-6;    // Kinks smaller than this angle are not rounded [rad].
-constexpr double kMaxKink = 0.2;  // [rad]
+constexpr double kKink = 1e-6;    // Largest kink that is not rounded [rad].
+constexpr double kMaxKink = 0.2;  // Largest kink that is rounded [rad].
 // Length of the center line that rounding replaces on either side of a kink [m].
 constexpr double kRounding = 0.5;
 constexpr double kMaxDeviation = 0.05;  // [m]
 
-/// A point of a lane's center, with heading and curvature in driving direction.
+/// A point of a lane's center line, with heading and curvature in driving direction.
 struct CenterPoint {
   Vec2 position{0.0, 0.0};
-  CurvePoint curve;  ///< distance along the center, heading, curvature
+  CurvePoint curve;  ///< distance along the center line, heading and curvature at the point
 };
 
-/// A smooth piece of a lane's center.
+/// Points of a piece of a lane's center line without kinks.
 using Piece = std::vector<CenterPoint>;
 
-/// A stretch of a route, with its road and the lane section of the road.
+/// A stretch of a route, together with the road and the lane section in which the stretch lies.
 struct RoadStretch {
   const Road& road;
   std::size_t section;
@@ -45,8 +46,8 @@ struct RoadStretch {
 
   [[nodiscard]] int direction() const { return stretch.to > stretch.from ? 1 : -1; }
 
-  /// Returns the lateral offset t of the path from the reference line at s, with derivatives by s.
-  /// LaneBordersAt explains the argument `piece_of`.
+  /// Returns the lateral offset t of the path from the reference line at station s, and the
+  /// derivatives of t with respect to s. The argument `piece_of` is explained at LaneBordersAt.
   [[nodiscard]] CubicValue Offset(double s, double piece_of) const {
     const CubicValue a = LaneBordersAt(road, section, stretch.lane, s, piece_of).Center();
     if (stretch.to_lane == stretch.lane) {
@@ -72,9 +73,9 @@ struct RoadStretch {
 std::vector<double> Joints(const RoadStretch& own) {
   const double low = std::min(own.stretch.from, own.stretch.to);
   const double high = std::max(own.stretch.from, own.stretch.to);
-  // Merge joints that are closer than this distance. Such joints differ only by rounding errors, or
-  // the piece between the joints is negligible.
-  constexpr double kMinSpacing = 0.01;  // [m]
+  // Smallest distance between two joints [m]; closer joints are merged, because they differ only by
+  // rounding errors or enclose a negligible piece.
+  constexpr double kMinSpacing = 0.01;
   std::vector<double> joints;
   const auto add = [&](double s) { joints.push_back(s); };
   for (const auto& piece : own.road.reference.pieces()) {
@@ -100,15 +101,17 @@ std::vector<double> Joints(const RoadStretch& own) {
   return apart;
 }
 
-/// The lane center R(s) + t(s) N(s) and its derivatives by s, where R is the reference line, N its
-/// left normal and t the lateral offset. The tangent of the center is m T + t' N, where T is the
-/// tangent of the reference line, kappa its curvature, and m = |dR/ds| (1 - kappa t).
+/// State of the lane center R(s) + t(s) N(s) at a station s, where R is the reference line, N is
+/// the left normal of R, and t is the lateral offset. The derivative of the lane center with
+/// respect to s is m T + t' N, where T is the tangent of R, kappa is the curvature of R, and m =
+/// |dR/ds| (1 - kappa t).
 struct CenterState {
   Vec2 position{0.0, 0.0};
   double heading = 0.0;
   double curvature = 0.0;
-  double speed = 0.0;   ///< Derivative of the center's arc length by s.
-  bool folded = false;  ///< Whether the center lies beyond the center of curvature.
+  double speed = 0.0;  ///< Derivative of the lane center's arc length with respect to s.
+  /// Whether the lateral offset is so large that the lane center runs backward (m <= 0).
+  bool folded = false;
 };
 
 CenterState StateAt(const RoadStretch& own, double s, double piece_of) {
@@ -131,7 +134,7 @@ CenterState StateAt(const RoadStretch& own, double s, double piece_of) {
 }
 
 /// Returns the smooth pieces of a stretch's lane center, in driving direction. Returns no pieces if
-/// the center is folded.
+/// the lane center is folded (CenterState::folded).
 std::vector<Piece> SmoothPieces(const RoadStretch& own) {
   std::vector<Piece> pieces;
   const std::vector<double> joints = Joints(own);
@@ -172,7 +175,7 @@ std::vector<Piece> SmoothPieces(const RoadStretch& own) {
 /// pieces are rounded.
 class Joiner {
  public:
-  /// Adds a piece to the end of the line. Returns the reason if the piece cannot be joined,
+  /// Adds a piece to the end of the line. If the piece cannot be joined, Add returns the reason,
   /// otherwise an empty text.
   std::string Add(Piece piece) {
     if (runs_.empty()) {
@@ -200,8 +203,8 @@ class Joiner {
       runs_.push_back(std::move(piece));
       return "";
     }
-    // Remove the points that the rounding replaces, but keep the first point of the line and the
-    // last point of the new piece.
+    // Remove the points around the kink that the rounding replaces, but keep the first point of the
+    // line and the last point of the new piece.
     while (before.size() > 1 && before.back().curve.s > end.s - kRounding) {
       before.pop_back();
     }
@@ -214,7 +217,7 @@ class Joiner {
   }
 
   /// Builds the path. Adjacent pieces of the same straight line or arc become one segment, because
-  /// planners measure the distance between curvature steps.
+  /// planners use the distances between steps of the curvature.
   [[nodiscard]] Path Join() const {
     std::vector<Segment> segments;
     for (const Piece& run : runs_) {
@@ -223,7 +226,9 @@ class Joiner {
         points.push_back(point.curve);
       }
       for (Segment& segment : SegmentsThrough(points)) {
-        constexpr double kEqualityTolerance = 1e-9;  // [1/m]; turns a line of 100 km by 1e-4 rad
+        // Curvature change that counts as 0 [1/m]; a curvature of this size turns a line of 100 km
+        // by 1e-4 rad.
+        constexpr double kEqualityTolerance = 1e-9;
         const double change = std::abs(segment.sharpness) * segment.length +
                               std::abs(segment.sharpness_rate) * segment.length * segment.length;
         if (change < kEqualityTolerance) {
@@ -248,7 +253,8 @@ class Joiner {
   std::vector<Piece> runs_;
 };
 
-/// Returns the largest distance between the lane centers and the path at equal stations.
+/// Returns the largest distance between a point of the lane centers and the path's point at the
+/// same station [m].
 double Deviation(const Path& path, const std::vector<Piece>& pieces) {
   double worst = 0.0;
   double station = 0.0;

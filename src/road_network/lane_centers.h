@@ -9,9 +9,10 @@ namespace trackbed {
 
 /// Result of joining the lane centers of a route.
 struct JoinedPath {
-  std::string failure;  ///< reason of the failure, as a text for people; empty on success
+  /// Message that explains why the lane centers cannot be joined; empty on success.
+  std::string failure;
   Path path;
-  double deviation = 0.0;  ///< largest distance of the path from the centers [m]
+  double deviation = 0.0;  ///< largest distance of the path from the lane centers [m]
 };
 
 /// Computes the path along the lane centers of consecutive stretches.

@@ -57,8 +57,8 @@ void LaneGraph::AddJunction(std::size_t index, const std::string& id) {
     if (connection.incoming != node.road->id || road == network_.roads.end()) {
       continue;
     }
-    // If both ends of a road meet the same junction, the sign of the lane's number determines at
-    // which end the car leaves the road.
+    // If both ends of a road are connected to the same junction, the sign of the lane's number
+    // tells at which end the car leaves the road.
     for (const auto& [from, to] : connection.lane_links) {
       if (from == node.lane) {
         AddLink(index, road->second, connection.contact, to);
@@ -103,7 +103,8 @@ void LaneGraph::Link(std::size_t from, std::size_t to) {
 }
 
 std::vector<std::size_t> LaneGraph::ShortestWay(std::size_t from, std::size_t to) const {
-  // Start at the successors of the first lane, so that the path may return to the first lane.
+  // Start the search at the successors of the first lane, so that a loop back to the first lane can
+  // be found.
   const auto [begin, end] = boost::adjacent_vertices(from, links_);
   std::vector<std::size_t> before(nodes_.size());
   std::vector<double> distance(nodes_.size());

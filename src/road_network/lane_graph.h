@@ -34,12 +34,13 @@ class LaneGraph {
   [[nodiscard]] const LaneNode& node(std::size_t index) const { return nodes_[index]; }
 
   /// Returns the shortest path in driving direction from the end of one lane to the start of
-  /// another lane. The path includes both lanes. If both lanes are the same lane, the path is a
-  /// loop. Returns an empty path if the target lane cannot be reached. Cost: O(lanes log lanes).
+  /// another lane. The returned path contains both lanes. If `from` and `to` are the same lane, the
+  /// path is a loop. Returns an empty path if the target lane cannot be reached. The computing time
+  /// is O(n log n) for n lanes.
   [[nodiscard]] std::vector<std::size_t> ShortestWay(std::size_t from, std::size_t to) const;
 
  private:
-  /// The weight of a link is the length of the lane that the link leaves [m].
+  /// Each link has a weight, which is the length of the lane where the link begins [m].
   using Graph =
       boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property,
                             boost::property<boost::edge_weight_t, double>>;
@@ -47,13 +48,17 @@ class LaneGraph {
   void Link(std::size_t from, std::size_t to);
   void AddLinks(std::size_t index);
   void AddJunction(std::size_t index, const std::string& id);
-  /// Adds links to a lane of a road that the car enters at `contact`.
+  /// Adds a link from the node `from` to a lane of `road`, which the car enters at the end
+  /// `contact` of the road.
   void AddLink(std::size_t from, const Road& road, RoadEnd contact, int lane);
 
   const RoadNetwork& network_;
-  std::vector<LaneNode> nodes_;  // All nodes, grouped by road and ordered by section and lane.
-  std::map<std::string, std::size_t, std::less<>> first_;  // Index of the first node of each road.
-  std::map<std::string, std::size_t, std::less<>> last_;  // Index after the last node of each road.
+  // All lanes of the graph, grouped by road and ordered by section and lane.
+  std::vector<LaneNode> nodes_;
+  // For each road, the index of its first node.
+  std::map<std::string, std::size_t, std::less<>> first_;
+  // For each road, the index after its last node.
+  std::map<std::string, std::size_t, std::less<>> last_;
   Graph links_;
 };
 

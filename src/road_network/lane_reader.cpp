@@ -84,7 +84,8 @@ Lane ReadLane(const XmlFields& fields, int id, bool has_lane_offset,
   ForEachChild(&fields.element(), "height", [&](const XMLElement& element, std::size_t index) {
     const XmlFields height(element, fmt::format("{}.height[{}]", fields.where(), index),
                            fields.problems());
-    // Ignore the heights of sidewalks, because curbs do not affect the drivable surface.
+    // Ignore the heights of sidewalks, because a raised sidewalk does not affect the surface on
+    // which cars drive.
     has_height = has_height || height.Number("inner", {}, 0.0) != 0.0 ||
                  height.Number("outer", {}, 0.0) != 0.0;
   });
@@ -109,7 +110,8 @@ void ReadSide(const XmlFields& section, const char* side, bool has_lane_offset, 
     const int id = unnamed.Integer("id");
     const XmlFields fields(element, fmt::format("{}.{}.lane[{}]", section.where(), side, id),
                            section.problems());
-    constexpr int kMaxLanes = 100;  // maximum number of lanes per side, as in mission.route
+    // Maximum number of lanes on each side of a road, as in mission.route.
+    constexpr int kMaxLanes = 100;
     if (id < -kMaxLanes || id > kMaxLanes) {
       fields.AddError("id", fmt::format("{} is out of range; must be at least {} and at most {}",
                                         id, -kMaxLanes, kMaxLanes));

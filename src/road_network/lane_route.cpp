@@ -16,21 +16,21 @@
 namespace trackbed {
 namespace {
 
-constexpr double kMinStretchLength = 1e-6;  // [m]; shorter stretches are dropped
-constexpr double kMaxRouteLength = 1e5;     // [m]
+constexpr double kMinStretchLength = 1e-6;  // Length below which a stretch is dropped [m].
+constexpr double kMaxRouteLength = 1e5;     // Largest length of a route [m].
 
 std::string Named(const LanePlace& place) {
   return fmt::format("lane {} of road {} at s = {:.4g} m", place.lane, place.road, place.s);
 }
 
-/// Road, lane section and graph node of a place.
+/// Road, lane section and lane graph node in which a place of a route lies.
 struct Found {
   const Road* road;
   std::size_t section;
   std::size_t node;
 };
 
-/// Collects the stretches of a route and sums up the lengths of the stretches.
+/// Collects the stretches of a route and computes the total length of the stretches.
 class Stretches {
  public:
   void Add(const Road& road, int lane, int to_lane, double from, double to) {
@@ -40,7 +40,7 @@ class Stretches {
     }
   }
   /// AddUpToEnd adds the part of a lane from station `from` to the lane's end. AddFromStart adds
-  /// the part from the lane's start to station `to`.
+  /// the part of a lane from the lane's start to station `to`.
   void AddUpToEnd(const LaneNode& node, double from) {
     Add(*node.road, node.lane, node.lane, from, node.follows_road() ? node.end() : node.start());
   }
@@ -63,8 +63,8 @@ Found FindPlace(const RoadNetwork& network, const LaneGraph& graph, const LanePl
   return {&road, section, graph.Find(road, section, place.lane).value()};
 }
 
-/// Adds the stretches between two places of a route. Returns the reason if no path connects the
-/// places, otherwise an empty text.
+/// Adds the stretches between two places of a route. If no path connects the two places, returns an
+/// error message, otherwise an empty text.
 std::string Connect(const LaneGraph& graph, const LanePlace& a, const Found& from,
                     const LanePlace& b, const Found& to, Stretches& stretches) {
   const LaneNode& node = graph.node(from.node);

@@ -17,7 +17,8 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// Largest number of XML elements. A document with more elements would take gigabytes of memory.
+/// Largest number of XML elements in an OpenDRIVE file. A document with more elements would take
+/// gigabytes of memory.
 constexpr std::ptrdiff_t kMaxElements = 4000000;
 
 void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& problems) {
@@ -51,7 +52,7 @@ Junction ReadJunction(const XmlFields& fields) {
     const bool direct = element.Attribute("linkedRoad") != nullptr;
     connection.connecting = direct ? own.Text("linkedRoad") : own.OptionalText("connectingRoad");
     if (connection.incoming.empty() || connection.connecting.empty()) {
-      return;  // skips a virtual connection, which cars do not use
+      return;  // skip a virtual connection, because cars do not use virtual connections
     }
     connection.contact = ReadContactPoint(own);
     ForEachChild(&element, "laneLink", [&](const XMLElement& link, std::size_t) {
@@ -63,7 +64,8 @@ Junction ReadJunction(const XmlFields& fields) {
   return junction;
 }
 
-/// Adds a road or junction to a map with ids as keys. A repeated id is an error.
+/// Adds a road or junction to a map whose keys are ids; reports an error if the map already
+/// contains the id.
 template <typename Part>
 void AddById(Part part, int line, const char* kind, std::map<std::string, Part, std::less<>>& parts,
              XmlProblems& problems) {

@@ -15,17 +15,18 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr Bounds kCoordinate{-1e8, 1e8};     // [m]; northings of UTM are below 1e7.
-constexpr Bounds kGeometryLength{0.0, 1e6};  // [m]
-constexpr Bounds kBend{-1e3, 1e3};           // [1/m]
+// Bounds of coordinates [m]; northings of UTM are below 1e7.
+constexpr Bounds kCoordinate{-1e8, 1e8};
+constexpr Bounds kGeometryLength{0.0, 1e6};  // Bounds of a geometry's length [m].
+constexpr Bounds kBend{-1e3, 1e3};           // Bounds of a curvature [1/m].
 /// Largest difference between the start station of a geometry and the end station of the previous
 /// geometry [m].
 constexpr double kMaxStationGap = 0.1;
-/// Geometries shorter than kMinGeometryLength [m] are dropped as rounding errors of the exporting
-/// program.
+/// Length below which a geometry is dropped, because such a geometry is a rounding error of the
+/// program that wrote the file [m].
 constexpr double kMinGeometryLength = 1e-9;
 
-/// Pose and length of a geometry, which all shapes have.
+/// Start pose and length of a geometry in the plan view, such as a line, an arc or a spiral.
 struct GeometryPlace {
   Pose2 start;
   double length = 0.0;

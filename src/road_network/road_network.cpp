@@ -14,8 +14,8 @@
 namespace trackbed {
 namespace {
 
-/// Tolerance for stations that a file gives with rounding errors.
-constexpr double kStationSlack = 1e-3;  // [m]
+/// Tolerance for comparing stations, because stations in files have rounding errors [m].
+constexpr double kStationSlack = 1e-3;
 
 double OnRoad(const Road& road, double s) {
   TRACKBED_REQUIRE(s >= -kStationSlack && s <= road.length + kStationSlack,
@@ -30,8 +30,8 @@ bool HasSlope(const PiecewiseCubic& function) {
   });
 }
 
-/// Returns whether a piecewise constant function, such as the elevation of a road, has steps. A
-/// level road has neither slopes nor steps.
+/// Returns whether a piecewise constant function, such as the elevation of a road without slopes,
+/// has steps.
 bool HasSteps(const PiecewiseCubic& function) {
   const auto& pieces = function.pieces();
   return std::any_of(pieces.begin(), pieces.end(), [&](const auto& piece) {

@@ -13,10 +13,12 @@
 namespace trackbed {
 namespace {
 
-constexpr double kDashLength = 3.0;         // [m]
-constexpr double kDashPeriod = 9.0;         // [m]
-constexpr double kDefaultMarkWidth = 0.12;  // Width of marks without a width [m].
-constexpr double kDoubleGap = 0.1;          // Gap between the lines of a double mark [m].
+constexpr double kDashLength = 3.0;  // Length of a dash [m].
+// Distance from the start of a dash to the start of the next dash [m].
+constexpr double kDashPeriod = 9.0;
+// Width of a road mark whose width the file does not specify [m].
+constexpr double kDefaultMarkWidth = 0.12;
+constexpr double kDoubleGap = 0.1;  // Gap between the two lines of a double road mark [m].
 
 Vec2 Beside(const Road& road, double s, double piece_of, double t) {
   return ToWorld(road.reference.At(s, piece_of).pose, {0.0, t});
@@ -41,7 +43,7 @@ bool IsPaved(const Lane& lane) {
 }
 
 /// Returns for each line of a road mark, from left to right, whether the line is dashed. For
-/// example, the mark "solid broken" has two lines, and the second is dashed.
+/// example, the mark "solid broken" has two lines, of which only the second is dashed.
 std::vector<bool> DashedLines(const std::string& type) {
   if (type == "none") {
     return {};
@@ -57,11 +59,11 @@ std::vector<bool> DashedLines(const std::string& type) {
   return dashed;
 }
 
-/// Collects the paint of a road network: paved areas and road marks.
+/// Computes the areas of a road network that are painted in pictures: paved areas and road marks.
 class Painter {
  public:
   Painter(const RoadNetwork& network, double spacing) : spacing_(spacing) {
-    double length = 0.0;  // length of all lanes
+    double length = 0.0;  // total length of all lanes [m]
     for (const auto& [id, road] : network.roads) {
       for (std::size_t i = 0; i < road.sections.size(); ++i) {
         length += (road.SectionEnd(i) - road.sections[i].s) *
@@ -83,7 +85,7 @@ class Painter {
   void Section(const Road& road, std::size_t index) {
     const LaneSection& section = road.sections[index];
     const double end = road.SectionEnd(index);
-    // Paint each group of adjacent paved lanes as one area, beginning from the left.
+    // Paint each group of adjacent paved lanes as a single area; begin at the leftmost lane.
     const std::vector<Lane>& lanes = section.lanes;
     for (std::size_t first = 0; first < lanes.size();) {
       if (lanes[first].id == 0 || !IsPaved(lanes[first])) {
@@ -141,8 +143,8 @@ class Painter {
         add(from, to);
         continue;
       }
-      // Lengthen the period of the dashes if necessary, so that the number of dashes does not
-      // exceed the limit for points.
+      // In a large network, increase the distance between the dashes, so that the number of points
+      // does not exceed its limit.
       const double period = std::max(kDashPeriod, 2.0 * spacing_);
       for (double begin = from; begin < to; begin += period) {
         add(begin, std::min(begin + kDashLength, to));

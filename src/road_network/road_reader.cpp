@@ -51,7 +51,7 @@ void ReadHeights(const XmlFields& fields, Road& road) {
   }
 }
 
-/// Checks that the adjacent lane section contains all lanes to which `ids` link.
+/// Checks that the adjacent lane section contains all lanes whose numbers are in `ids`.
 void CheckLaneIds(const std::vector<int>& ids, const LaneSection& beyond, const std::string& key,
                   int line, XmlProblems& problems) {
   for (const int id : ids) {

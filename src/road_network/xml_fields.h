@@ -34,8 +34,8 @@ class XmlProblems {
   ProblemList problems_;
 };
 
-/// Reads the attributes of an XML element. Error messages refer to the element as `where`, for
-/// example "road[3].planView.geometry[0]".
+/// Reads the attributes of an XML element. In error messages, the element is named by the text
+/// `where`, such as "road[3].planView.geometry[0]".
 class XmlFields {
  public:
   XmlFields(const tinyxml2::XMLElement& element, std::string where, XmlProblems& problems)
@@ -46,22 +46,22 @@ class XmlFields {
   [[nodiscard]] int line() const { return element_.GetLineNum(); }
   [[nodiscard]] XmlProblems& problems() const { return problems_; }
 
-  /// Reads a number within bounds. After an error, returns the permitted value that is nearest to
-  /// 0.
+  /// Reads an attribute as a number within bounds. After an error, returns the value within the
+  /// bounds that is nearest to 0.
   [[nodiscard]] double Number(const char* name, Bounds bounds = {}) const;
-  /// Reads a number within bounds; returns `missing` if the attribute is absent.
+  /// Reads an attribute as a number within bounds; returns `missing` if the attribute is absent.
   [[nodiscard]] double Number(const char* name, Bounds bounds, double missing) const;
-  /// Reads an integer; returns 0 after an error.
+  /// Reads an attribute as an integer; returns 0 after an error.
   [[nodiscard]] int Integer(const char* name) const;
-  /// Reads a non-empty text; returns "" after an error.
+  /// Reads an attribute as a non-empty text; returns "" after an error.
   [[nodiscard]] std::string Text(const char* name) const;
-  /// Reads a text; returns "" if the attribute is absent.
+  /// Reads an attribute as a text; returns "" if the attribute is absent.
   [[nodiscard]] std::string OptionalText(const char* name) const;
 
   void AddError(const char* name, std::string message) const;
 
-  /// Returns the only child element with this name, or null. A second child with this name is an
-  /// error.
+  /// Returns the child element with this name, or null if there is none; reports an error if
+  /// several children have this name.
   [[nodiscard]] const tinyxml2::XMLElement* Child(const char* name) const;
 
  private:

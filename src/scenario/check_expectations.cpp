@@ -70,8 +70,9 @@ void CheckMetrics(Diagnostics& c) {
   });
 }
 
-/// Rejects expectations on quantities that the run does not measure. Path errors are measured only
-/// in scenarios with a plan, and clearances only in scenarios with obstacles.
+/// Rejects expectations on quantities that the run does not measure. For example, cross-track
+/// errors are measured only in scenarios with a plan, and clearances are measured only in scenarios
+/// with obstacles.
 void CheckMeasuredQuantities(Diagnostics& c) {
   const bool has_path = c.scenario.plan || !c.CouldReadPlan({"method"});
   const bool has_obstacles =

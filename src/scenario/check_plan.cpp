@@ -12,11 +12,10 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
 
-// Checks rules between several keys of the mission and the plan, which the schema of a single key
-// cannot express. Each check returns early if one of its keys could not be read, so that each error
-// is reported only once. The rules depend on properties in the planner's registry entry
-// (PlannerEntry: follows_track, follows_lanes, needs_limits, min_waypoints, ...) and not on the
-// planner's name.
+// Checks rules that concern several keys of the mission and the plan. A check is skipped if one of
+// its keys could not be read, because the reader has already reported the error of that key. The
+// rules depend on properties in the planner's registry entry (PlannerEntry: follows_track,
+// follows_lanes, needs_limits, min_waypoints, ...) and not on the planner's name.
 namespace trackbed {
 namespace {
 
@@ -28,7 +27,7 @@ void AddProblems(Diagnostics& c, const std::string& section, std::vector<OptionP
   }
 }
 
-/// Checks rules between the options of the global planner, and between the options of the detour
+/// Checks rules that concern several options of the global planner or several options of the detour
 /// planner.
 void CheckPlanners(Diagnostics& c) {
   const auto& plan = c.scenario.plan;
@@ -211,10 +210,10 @@ void CheckWaypoints(Diagnostics& c) {
   }
 }
 
-/// Checks the options of the speed profile. A speed profile at the car's limits applies to a single
-/// plan, but local avoidance and replanning change speeds during the run. A profile at the limits
-/// is therefore rejected together with local avoidance or replanning, except for planners that
-/// follow a track.
+/// Checks the options of the speed profile. A speed profile at the car's limits is computed for a
+/// single plan, but local avoidance and replanning change the speeds during the run. A speed
+/// profile at the limits is therefore rejected if the scenario uses local avoidance or replanning,
+/// except for planners that follow a track.
 void CheckSpeedProfile(Diagnostics& c) {
   const auto& profile = c.scenario.mission.speed_profile;
   if (!profile || !c.CouldRead({"mission.speed_profile", "mission.speed_profile.method"}) ||
@@ -234,8 +233,9 @@ void CheckSpeedProfile(Diagnostics& c) {
   if (!std::holds_alternative<LimitProfileOptions>(*profile)) {
     return;
   }
-  constexpr double kMinFriction = 0.01;  // lower friction is not resolved by the g-g-v diagram,
-                                         // whose resolution is 0.0006 m/s^2
+  // Smallest friction coefficient; the g-g-v diagram, with a resolution of 0.0006 m/s^2, is too
+  // coarse for lower friction.
+  constexpr double kMinFriction = 0.01;
   const auto check = [&](const std::string& key, double friction) {
     if (friction < kMinFriction && c.could_read(key)) {
       c.AddError(key, fmt::format("{} is below {}, the least for speeds at the limit", friction,

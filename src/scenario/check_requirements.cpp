@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// Returns whether the name may be used as a word in the path of a metric.
+/// Returns whether a requirement's name may be part of the path of a metric.
 bool IsMetricWord(const std::string& name) {
   const auto is_letter = [](char c) { return c >= 'a' && c <= 'z'; };
   return !name.empty() && name.size() <= 100 && is_letter(name.front()) &&
@@ -29,7 +29,8 @@ class RequirementCheck {
     }
   }
 
-  /// Checks the requirements on one plant, or on all plants if `plant` is empty.
+  /// Checks the requirements that apply to one plant; if `plant` is empty, checks the requirements
+  /// that apply to all plants.
   void Check(const std::string& key, const PlantExpectation& expect, const std::string& plant) {
     for (std::size_t i = 0; i < expect.requirements.size(); ++i) {
       const RequirementExpectation& requirement = expect.requirements[i];
@@ -84,9 +85,9 @@ class RequirementCheck {
     return "";
   }
 
-  // Column names in the log of each plant.
+  // For each plant, the names of the columns in its log.
   std::vector<std::pair<std::string, std::vector<std::string>>> columns_;
-  // Names of requirements, each paired with its plant.
+  // Names of all requirements checked so far, each paired with the name of the plant.
   std::set<std::pair<std::string, std::string>> names_;
   std::vector<std::pair<std::string, std::string>> found_;
 };

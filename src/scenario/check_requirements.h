@@ -8,8 +8,8 @@
 
 namespace trackbed {
 
-/// Returns the problems of the requirements, as pairs of key and message. RequirementProblems
-/// expects a scenario that has no other problems.
+/// Returns the problems of the requirements, each as a pair of the key and the error message. The
+/// scenario must have no other problems.
 std::vector<std::pair<std::string, std::string>> RequirementProblems(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -43,7 +43,7 @@ void CheckSpeedOverTime(Diagnostics& c) {
   }
 }
 
-/// Checks rules between several options of the controller.
+/// Checks rules that concern several options of the controller.
 void CheckController(Diagnostics& c) {
   const ControllerOptions& options = c.scenario.control.steering;
   const auto check = ControllerFor(options).check;
@@ -69,7 +69,7 @@ void CheckSteps(Diagnostics& c) {
   }
 }
 
-/// Limits the memory of a run, since a row of a log takes about 1 kB.
+/// Limits the number of log rows, because each row takes about 1 kB of memory.
 void CheckRows(Diagnostics& c) {
   constexpr double kMaxRows = 2e6;
   const DriveSpec& drive = c.scenario.drive;
@@ -94,8 +94,8 @@ void CheckPicture(Diagnostics& c) {
   }
 }
 
-/// Rejects ground steeper than 45 degrees, because such ground acts as a wall and not as a driving
-/// surface.
+/// Rejects ground steeper than 45 degrees, because steeper ground acts as a wall and not as a
+/// driving surface.
 void CheckGround(Diagnostics& c) {
   constexpr double kMaxSlope = 1.0;
   for (std::size_t i = 0; i < c.scenario.world.ground.bumps.size(); ++i) {
@@ -105,7 +105,8 @@ void CheckGround(Diagnostics& c) {
         !c.could_read(key + ".width") || !c.could_read(key + ".edge")) {
       continue;
     }
-    // With q = d/reach, the largest slope of h cos^2(pi/2 q) is pi/2 h / reach.
+    // The height of a bump's edge is h cos^2(pi/2 d/reach) at the distance d; its largest slope is
+    // pi/2 h/reach.
     const auto check = [&](double reach, const char* where) {
       const double steepest = 0.5 * kPi * bump.height / reach;
       if (steepest > kMaxSlope) {

@@ -10,8 +10,9 @@
 namespace trackbed {
 
 /// Returns the problems that concern more than one key, each paired with the key that the user
-/// should change. The function `could_read` tells whether a dotted key was read. Checks of keys
-/// that were not read are skipped, because these checks would only report follow-up errors.
+/// should change. The function `could_read` returns whether the value of a dotted key was read.
+/// CrossProblems skips a check if one of its keys was not read, because the check would only report
+/// a follow-up error.
 std::vector<std::pair<std::string, std::string>> CrossProblems(
     const Scenario& scenario, const std::function<bool(const std::string& key)>& could_read);
 

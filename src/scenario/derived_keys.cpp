@@ -12,7 +12,8 @@
 namespace trackbed {
 namespace {
 
-/// Characters allowed in the names of a formula, which are dotted keys with list indices.
+/// Characters allowed in the names that a formula uses; each name is a dotted key, possibly with
+/// list indices.
 constexpr const char* kNameCharacters =
     "0123456789_abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ.[]";
 
@@ -20,9 +21,9 @@ Problem PlacedAt(const Study& study, const DerivedKey& derived, std::string mess
   return {study.file, derived.line, derived.column, "derive." + derived.key, std::move(message)};
 }
 
-/// Throws mu::ParserError unless the formula is an expression with a single value. The check is
-/// needed because muParser also evaluates lists such as "2, 3", and recognizes assignments only to
-/// names that are defined.
+/// Throws mu::ParserError unless the formula is an expression with a single value. RequireOneValue
+/// is needed because muParser also evaluates lists such as "2, 3", and recognizes an assignment
+/// only if the assigned name is defined.
 void RequireOneValue(const std::string& formula, const std::vector<std::string>& names) {
   mu::Parser parser;
   parser.DefineNameChars(kNameCharacters);

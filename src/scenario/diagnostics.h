@@ -15,14 +15,14 @@
 
 namespace trackbed {
 
-/// Returns the prefix of the global planner's keys.
+/// Returns the prefix of the global planner's keys in the scenario, "plan." or "plan.global.".
 inline std::string PlannerSection(const Scenario& scenario) {
   const bool layers = scenario.plan->avoid || scenario.plan->replan;
   return layers ? "plan.global." : "plan.";
 }
 
-/// Returns the name of the first planner with this property, so that an error message can suggest
-/// the planner.
+/// Returns the name of the first registered planner that has this property, so that an error
+/// message can suggest this planner.
 inline const char* NameOfPlannerThat(bool PlannerEntry::*property) {
   const std::vector<PlannerEntry>& planners = Planners();
   return std::find_if(planners.begin(), planners.end(),
@@ -30,12 +30,12 @@ inline const char* NameOfPlannerThat(bool PlannerEntry::*property) {
       ->name;
 }
 
-/// Collects problems that concern several keys of a scenario. Each problem is paired with the key
-/// at which the problem is reported.
+/// Collects problems that concern several keys of a scenario. Each problem is stored together with
+/// the key at which the problem is reported to the user.
 struct Diagnostics {
   const Scenario& scenario;
-  /// Tells whether the value of a key was read. If a key was not read, the reader has already
-  /// reported a problem of this key.
+  /// Function that returns whether the value of a key was read. If the value was not read, the
+  /// reader has already reported a problem of the key.
   const std::function<bool(const std::string& key)>& could_read;
   std::vector<std::pair<std::string, std::string>> found{};
 
@@ -66,9 +66,9 @@ struct Diagnostics {
   }
 };
 
-/// Adds the problems of the mission and the plan to `c`.
+/// Checks the mission and the plan, and adds the problems found to `c`.
 void CheckMissionAndPlan(Diagnostics& c);
-/// Adds the problems of the expectations to `c`.
+/// Checks the expectations, and adds the problems found to `c`.
 void CheckExpectations(Diagnostics& c);
 
 }  // namespace trackbed

@@ -4,7 +4,7 @@
 #include "trackbed/scenario/identification.h"
 #include "trackbed/sim/plant.h"
 
-/// Declares the keys of an identification file.
+/// Functions Visit that declare the keys of an identification file.
 namespace trackbed {
 
 inline void Visit(KeyVisitor& a, ParameterPrior& prior) {

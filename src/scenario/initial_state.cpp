@@ -10,7 +10,8 @@
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/track/track.h"
 
-// Determines the initial state of a run, which planners, plants and the resolved scenario use.
+// Determines the initial state of the car in a run. Planners, plants and the resolved scenario use
+// this initial state.
 namespace trackbed {
 namespace {
 
@@ -21,8 +22,8 @@ const RecordedSample* FirstSample(const Scenario& scenario) {
                                                   : nullptr;
 }
 
-/// Returns the state in which the plan begins, if the planner defines that state. Returns none for
-/// most planners, whose plan begins where the mission begins.
+/// Returns the state of the car at the start of the plan, if the planner determines this state.
+/// Returns none for most planners, because their plans begin at the start of the mission.
 std::optional<PlannedStart> StartOfPlan(const Scenario& scenario) {
   if (!scenario.plan) {
     return std::nullopt;
@@ -54,7 +55,8 @@ Pose2 StartPose(const Scenario& scenario) {
   return {given.x.value_or(pose.x), given.y.value_or(pose.y), given.yaw.value_or(pose.yaw)};
 }
 
-/// Returns the initial angle of the road wheels and of the actuator [rad].
+/// Returns the road wheel angle at the start of the run, which is also the angle of the steering
+/// actuator [rad].
 double StartSteering(const Scenario& scenario) {
   if (const std::optional<double>& given = scenario.mission.start.steering) {
     return *given;

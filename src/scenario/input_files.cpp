@@ -13,9 +13,9 @@
 #include "trackbed/sim/scene.h"
 #include "trackbed/track/track_file.h"
 
-// Defines the input files in a run folder: names, contents, and the keys of the resolved scenario
-// that refer to the files. Controllers and planners add their own files through their registry
-// entries.
+// Defines the input files in a run folder: their names, their contents, and the keys of the
+// resolved scenario that refer to them. The input files of a controller or planner are defined by
+// its registry entry.
 namespace trackbed {
 namespace {
 

@@ -4,8 +4,8 @@
 
 namespace trackbed {
 
-/// Returns the scenario with all file names replaced by the names in a run folder: the names of
-/// InputFiles, and kVehicleXml for the vehicle.
+/// Returns the scenario with each file name replaced by the name of the file's copy in a run
+/// folder: kVehicleXml for the vehicle, and the names that InputFiles defines for all other files.
 Scenario WithResolvedFiles(const Scenario& scenario);
 
 }  // namespace trackbed

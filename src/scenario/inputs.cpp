@@ -25,17 +25,16 @@
 #include "trackbed/track/track_file.h"
 
 // Reads the files that a scenario names. The recorded drive, the track, the map and the road
-// network are read first, followed by the files of the controller and of the planner. Each reader
-// first checks that its keys were read and that access to the file is allowed. A file must lie in
-// the scenario's folder or in an asset folder. Files other than recordings may also lie in
-// Trackbed's data folder. Attempt() separates problems inside a file from problems of a key.
-// Problems inside a file are returned with their position in the file; problems of a key are
-// reported at the key.
+// network are read first, followed by the files of the controller and of the planner. Before
+// reading a file, each function checks that the keys with the file name were read and that access
+// to the file is allowed. A file must lie in the scenario's folder or in an asset folder. Files
+// other than recordings may also lie in Trackbed's data folder. Attempt() returns problems inside a
+// file with their position in the file, and reports other problems at the key that names the file.
 namespace trackbed {
 namespace {
 
-/// Calls `read` and catches its errors. Attempt() returns the problems inside a file, and reports
-/// the problems of a key to `add_error`.
+/// Calls `read` and catches the errors that `read` throws. Attempt() returns problems inside a
+/// file, and passes problems of a key to `add_error`.
 std::vector<Problem> Attempt(const std::function<void()>& read, const char* key,
                              ReaderContext& context, const AddKeyError& add_error) {
   try {
@@ -59,7 +58,7 @@ std::vector<std::filesystem::path> WithOwnData(std::vector<std::filesystem::path
   try {
     folders.push_back(DataFolder());
   } catch (const InputError&) {
-    // Ignores the error: this installation has no data folder.
+    // Ignore the error, which means that this installation has no data folder.
   }
   return folders;
 }
@@ -118,8 +117,8 @@ std::vector<Problem> ReadRecord(Scenario& scenario, ReaderContext& context,
       "record.file", context, add_error);
 }
 
-/// Passes the recorded inputs to a controller that replays the drive, and checks the inputs that
-/// prediction windows need.
+/// Passes the recorded inputs to the controller if the controller replays the drive, and checks
+/// that the drive contains the inputs that prediction windows need.
 std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
                                 const AddKeyError& add_error) {
   const RecordSpec& record = *scenario.record;
@@ -142,7 +141,7 @@ std::vector<Problem> TakeInputs(Scenario& scenario, ReaderContext& context,
       "record", context, add_error);
 }
 
-/// Reads the files that a controller or a planner names in its section of the scenario.
+/// Reads the files that a scenario names in the section of the controller or of the planner.
 class SectionReader final : public InputReader {
  public:
   /// The argument `section` is the prefix of the section's keys. The argument `others` lists
@@ -184,7 +183,7 @@ class SectionReader final : public InputReader {
     problems_.insert(problems_.end(), more.begin(), more.end());
   }
 
-  /// Returns the problems found inside the files.
+  /// Returns the problems that were found inside the files.
   [[nodiscard]] const std::vector<Problem>& problems() const { return problems_; }
 
  private:
@@ -303,8 +302,8 @@ std::vector<Problem> ReadRoads(Scenario& scenario, RoadNetworkSpec& roads, Reade
       [&] {
         roads.data =
             std::make_shared<const OpenDriveFile>(ReadOpenDriveFile(scenario.folder / roads.file));
-        // If an error was found, the route may differ from the intended route, so do not use the
-        // ground of this route.
+        // Use the elevation of the route only if no error was found, because with an error the
+        // route may differ from the intended route.
         if (context.problems.empty()) {
           LayRouteGround(scenario, add_error);
         }

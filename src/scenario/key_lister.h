@@ -13,8 +13,8 @@
 
 namespace trackbed {
 
-/// Lists the keys that the function Visit of a struct declares. The listed default values are the
-/// values of the given instance.
+/// Lists the keys that the function Visit of a struct declares. The default value of each key is
+/// taken from the given instance of the struct.
 class KeyLister final : public KeyVisitor {
  public:
   KeyLister(std::vector<KeySection>& sections, KeySection own)
@@ -129,7 +129,8 @@ class KeyLister final : public KeyVisitor {
   }
 
   std::vector<KeySection>& sections_;
-  std::size_t index_;  // index instead of a reference, because the vector of sections grows
+  // Index of the section; not a reference, because the vector of sections grows.
+  std::size_t index_;
 };
 
 }  // namespace trackbed

@@ -22,8 +22,8 @@ enum class MapMode { kTrinary, kScale };
 /// Keys in the YAML file of a ROS map.
 struct RosMapKeys {
   std::string image;
-  double resolution = 0.0;     ///< Side of a pixel [m].
-  std::vector<double> origin;  ///< Pose of the lower left corner: x, y [m], yaw [rad].
+  double resolution = 0.0;     ///< Side length of a pixel [m].
+  std::vector<double> origin;  ///< Pose of the map's lower left corner: x, y [m], yaw [rad].
   std::string negate;
   double occupied_thresh = 0.0;
   double free_thresh = 0.0;

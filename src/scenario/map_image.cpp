@@ -32,10 +32,10 @@ void CheckSize(const std::string& file, std::uint64_t columns, std::uint64_t row
 class PgmNumbers {
  public:
   PgmNumbers(const std::string& content, const std::string& file) : file_(file), rest_(content) {
-    rest_.remove_prefix(2);  // skips the format name, P2 or P5
+    rest_.remove_prefix(2);  // skip the first two characters, which are the format name P2 or P5
   }
 
-  /// Reads the next whole number, and skips white space and comments before the number.
+  /// Skips white space and comments, and reads the whole number that follows.
   std::uint64_t Next(const char* what) {
     SkipBlanks();
     std::uint64_t number = 0;
@@ -48,7 +48,8 @@ class PgmNumbers {
     return number;
   }
 
-  /// Returns the content after the single blank that follows the last number.
+  /// Returns the part of the file after the last number that Next returned and the blank that
+  /// follows this number.
   [[nodiscard]] std::string_view AfterBlank() const {
     return rest_.empty() ? rest_ : rest_.substr(1);
   }
@@ -87,7 +88,7 @@ MapImage ReadPgm(const std::string& content, const std::string& file) {
   const bool is_text = content[1] == '2';
   const std::size_t bytes = white > 255 ? 2 : 1;
   const std::string_view pixels = numbers.AfterBlank();
-  // In the text format P2, each pixel takes at least one digit and one blank.
+  // In the text format P2, each pixel takes at least one digit and one blank in the file.
   const std::size_t needed = is_text ? 2 * count - 1 : bytes * count;
   if (pixels.size() < needed) {
     RefuseImage(file, fmt::format("ends early: {} x {} pixels take {}{} bytes, found {}", columns,
@@ -110,7 +111,7 @@ MapImage ReadPgm(const std::string& content, const std::string& file) {
   return image;
 }
 
-/// Image of libpng, whose memory the destructor frees.
+/// Image that libpng decodes; the destructor frees the memory of libpng.
 struct PngImage {
   PngImage() { image.version = PNG_IMAGE_VERSION; }
   PngImage(const PngImage&) = delete;
@@ -134,7 +135,8 @@ MapImage ReadPng(const std::string& content, const std::string& file) {
   }
   MapImage image{.columns = static_cast<int>(png.image.width),
                  .rows = static_cast<int>(png.image.height),
-                 .white = 3.0 * 255.0,  // the gray value is the sum of red, green and blue
+                 // Largest gray value; the gray value of a pixel is the sum of red, green and blue.
+                 .white = 3.0 * 255.0,
                  .gray = {},
                  .opaque = {}};
   for (std::size_t i = 0; i < pixels.size(); i += kChannels) {

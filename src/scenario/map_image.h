@@ -6,14 +6,16 @@
 
 namespace trackbed {
 
-/// Gray values of the image of a map.
+/// Image of a map, as gray values.
 struct MapImage {
   int columns = 0;
   int rows = 0;
-  double white = 255.0;              ///< The value of white.
-  std::vector<float> gray;           ///< Gray values from 0 to `white`, row by row from the top.
-  std::vector<std::uint8_t> opaque;  ///< Opacity in the same order, 0 where transparent; empty: all
-                                     ///< opaque.
+  double white = 255.0;  ///< Gray value of white.
+  /// Gray values of the pixels from 0 (black) to `white`, row by row from the top.
+  std::vector<float> gray;
+  /// Opacity of the pixels in the order of `gray`; 0 for a transparent pixel; empty if all pixels
+  /// are opaque.
+  std::vector<std::uint8_t> opaque;
 };
 
 /// Reads a map image from the content of a PGM (P2, P5) or PNG file. ReadMapImage throws InputError

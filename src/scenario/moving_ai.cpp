@@ -43,7 +43,7 @@ class Lines {
   int number_ = 0;
 };
 
-/// Parses the number in a line such as "height 512".
+/// Parses the number in a header line such as "height 512".
 int ReadSize(Lines& lines, std::string_view name) {
   const std::string_view line = lines.Next();
   int size = 0;

@@ -35,8 +35,8 @@ bool Parse(std::string_view field, T& value) {
   return error == std::errc() && after == field.data() + field.size();
 }
 
-/// Parses one line of the instance file. Returns a message if the line is invalid, else an empty
-/// string.
+/// Parses one line of the instance file. Returns an error message if the line is invalid, else an
+/// empty string.
 std::string ParseInstance(std::string_view line, MovingAiInstance& instance) {
   const std::vector<std::string_view> fields = Fields(line);
   constexpr std::size_t kCount = 9;

@@ -10,16 +10,16 @@
 
 namespace trackbed {
 
-/// State that all readers of one file share.
+/// State that is shared by all objects that read the same file.
 struct ReaderContext {
   std::string file;
-  std::vector<std::string> overridden;  // dotted keys set by --set
+  std::vector<std::string> overridden;  // dotted keys whose values were set by the option --set
   std::vector<Problem> problems;
-  // Dotted keys whose value could not be read because of a problem.
+  // Dotted keys whose values could not be read, because the file has a problem there.
   std::vector<std::string> unread;
 
-  /// Adds a problem of the key at position `mark`. If the option --set has overridden the key, the
-  /// problem is reported for --set instead of the file position.
+  /// Adds a problem of a key whose value is at position `mark` of the file. If the option --set has
+  /// set the key, the problem refers to --set instead of the file position.
   void AddError(const YAML::Mark& mark, const std::string& dotted, std::string message);
 
   /// Returns whether the key was read; for a list, whether every element was read.

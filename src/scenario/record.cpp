@@ -83,8 +83,8 @@ Scenario RecordScenario(std::shared_ptr<const RecordedDrive> drive, const std::s
   try {
     playback.recording = ReplayInputs(*drive, record.steering, record.drive);
   } catch (const InputError&) {
-    // A record without steering, or of a drive in reverse, can be viewed and compared but not
-    // replayed.
+    // Without a steering signal, or if the car drove in reverse, the recorded drive can be viewed
+    // and compared but not replayed.
     record.windows.clear();
   }
   scenario.control.steering = std::move(playback);

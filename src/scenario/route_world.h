@@ -14,15 +14,17 @@ namespace trackbed {
 inline constexpr std::size_t kMaxLanePlaces = 1000;
 
 /// Uses the elevation of the roads on a route as the ground of the world
-/// (planning/lanes/route_ground.h). The road network must have been read. If the roads are level,
-/// the ground stays unchanged. If the elevation cannot be used as ground, AddRouteGround returns
-/// the reason, otherwise an empty string. An invalid route leaves the ground unchanged.
+/// (planning/lanes/route_ground.h). AddRouteGround may be called only after the road network was
+/// read. If the roads are level, the ground stays unchanged. If the elevation cannot be used as
+/// ground, AddRouteGround returns an error message, otherwise an empty string. The ground also
+/// stays unchanged if the route is invalid.
 std::string AddRouteGround(const std::vector<LanePlace>& route, World& world);
 
 /// Reads the road network of a run's scenario file, and uses the elevation of the roads on the
 /// mission's route as ground (AddRouteGround). ReadRouteGround does nothing if the mission has no
 /// route. Throws the same errors as ReadOpenDrive. Throws InputError if the mission cannot be read,
-/// the network lies in another folder, or the elevation cannot be used as ground.
+/// if the file of the road network lies outside the scenario's folder, or if the elevation cannot
+/// be used as ground.
 void ReadRouteGround(const std::filesystem::path& scenario, World& world);
 
 }  // namespace trackbed

@@ -16,8 +16,9 @@ namespace {
 constexpr int kMaxDimensions = 1000;
 
 /// Returns an independent random number generator for one coordinate of a sample. The C++ standard
-/// defines the generator and its seeding to the bit. The standard does not define distributions to
-/// the bit, so Trackbed implements its own distributions.
+/// specifies the generator and its seeding exactly, so that samples are equal on all platforms. The
+/// C++ standard does not specify exactly how distributions are computed, so Trackbed implements its
+/// own distributions.
 std::mt19937_64 StreamOf(std::uint64_t seed, int dimension) {
   constexpr unsigned kHalf = 32;
   std::seed_seq sequence{static_cast<std::uint32_t>(seed),
@@ -26,7 +27,8 @@ std::mt19937_64 StreamOf(std::uint64_t seed, int dimension) {
   return std::mt19937_64(sequence);
 }
 
-/// Converts random bits to a number in (0, 1): the midpoint of one of 2^52 equal intervals.
+/// Converts 64 random bits to a number between 0 and 1 (exclusive): the midpoint of one of 2^52
+/// equal intervals.
 double Unit(std::uint64_t bits) {
   constexpr unsigned kDroppedBits = 12;
   constexpr int kKeptBits = 52;
@@ -39,7 +41,8 @@ std::vector<int> Permutation(int count, std::mt19937_64& stream) {
   std::vector<int> order(static_cast<std::size_t>(count));
   std::iota(order.begin(), order.end(), 0);
   for (std::size_t i = order.size(); i > 1; --i) {
-    // The modulo operation causes a bias below count / 2^64.
+    // The modulo operation makes some permutations slightly more likely, but the bias is less than
+    // count / 2^64.
     std::swap(order[i - 1], order[stream() % i]);
   }
   return order;
@@ -58,7 +61,7 @@ Eigen::MatrixXd Random(const SampleSpec& spec, int dimensions) {
 
 Eigen::MatrixXd LatinHypercube(const SampleSpec& spec, int dimensions) {
   Eigen::MatrixXd sample(spec.count, dimensions);
-  // Largest double below 1, which replaces values that rounding has raised to 1.
+  // Largest double below 1; a coordinate that rounding has raised to 1 is replaced by this number.
   const double largest = std::nextafter(1.0, 0.0);
   for (int j = 0; j < dimensions; ++j) {
     std::mt19937_64 stream = StreamOf(spec.seed, j);
@@ -80,7 +83,8 @@ Eigen::MatrixXd Sobol(const SampleSpec& spec, int dimensions) {
   Eigen::MatrixXd sample(spec.count, dimensions);
   for (int i = 0; i < spec.count; ++i) {
     for (int j = 0; j < dimensions; ++j) {
-      // Boost omits the first point of the Sobol sequence, which is zero.
+      // Add the first point of the Sobol sequence, which is 0 in all coordinates, because Boost
+      // omits this point.
       const std::uint64_t number = i == 0 ? 0 : sequence();
       sample(i, j) = Unit(number ^ shifts[static_cast<std::size_t>(j)]);
     }
@@ -98,9 +102,8 @@ double NormalQuantile(const Distribution& distribution, double u) {
   const double below = std::isinf(distribution.min) ? 0.0 : cdf(normal, distribution.min);
   const double up_to = std::isinf(distribution.max) ? 1.0 : cdf(normal, distribution.max);
   const double share = below + u * (up_to - below);
-  // In the far tail of the normal distribution, the cumulative probabilities of both bounds round
-  // to the same value. If both bounds are indistinguishable, return the bound that is nearer to the
-  // mean.
+  // If both bounds are in the far tail of the normal distribution, their cumulative probabilities
+  // both round to 0 or both to 1; return the bound that is nearer to the mean.
   if (!(share > 0.0)) {
     return distribution.max;
   }

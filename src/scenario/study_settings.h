@@ -8,7 +8,8 @@
 
 namespace trackbed {
 
-/// Returns whether setting the key `later` discards everything that the key `earlier` has set.
+/// Returns whether a setting of the key `later` overwrites an earlier setting of the key `earlier`
+/// completely.
 bool Replaces(const std::string& later, const std::string& earlier);
 
 /// Returns all settings of a run at a grid point, in the order in which the settings are applied.
@@ -27,7 +28,8 @@ void AddDerived(const Study& study, std::vector<Setting>& settings);
 /// set, CheckFormulas throws InputError with the position of the formula.
 void CheckFormulas(const Study& study);
 
-/// Returns settings of all keys that differ between runs, at least one setting per key.
+/// Returns settings of all keys whose values differ between runs, with at least one setting for
+/// each of these keys.
 std::vector<Setting> Varied(const Study& study);
 
 }  // namespace trackbed

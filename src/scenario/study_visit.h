@@ -15,7 +15,7 @@ namespace trackbed {
 
 enum class GridScale { kLinear, kLog };
 
-/// Evenly spaced grid of values, which a study may specify instead of a list.
+/// Evenly spaced values of a key, which a study may specify instead of a list of values.
 struct GridRange {
   double from = 0.0;
   double to = 0.0;
@@ -69,7 +69,8 @@ inline void Visit(KeyVisitor& a, Distribution& distribution) {
   }
 }
 
-/// Names of the distributions in study files. The distribution `file` draws rows of a table.
+/// Names of the distributions in study files. With the distribution `file`, a study draws random
+/// rows of a CSV table.
 inline constexpr const char* kFileDistribution = "file";
 template <typename Enum, std::size_t count>
 EnumNames<Enum> NamesOf(const std::array<Enum, count>& values) {
@@ -87,7 +88,7 @@ inline const EnumNames<DistributionKind>& DistributionNames() {
   return names;
 }
 
-/// A column of a CSV file from which a key takes its values.
+/// A column of a CSV file; the values of a varied key are cells of this column.
 struct TableColumn {
   std::string file;
   std::string column;
@@ -139,8 +140,8 @@ inline void Visit(KeyVisitor& a, BisectSpec& bisect) {
           bisect.tolerance, Need::kRequired, kPositive);
 }
 
-/// Content of a study file, together with the functions that read the sections whose keys are
-/// scenario keys.
+/// Content of a study file, together with functions that read those sections of the study whose
+/// keys are keys of a scenario.
 struct StudyFile {
   using Read = std::function<void(const YAML::Node& node, const std::string& key)>;
 

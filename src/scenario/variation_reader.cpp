@@ -9,11 +9,12 @@
 #include "trackbed/core/spelling.h"
 #include "trackbed/core/text_table.h"
 
-// Reads one entry of the section `vary` of a study. An entry is a list of values, {values, when}, a
-// range {from, to, steps, scale}, or a distribution with its parameters. Values are stored as YAML
-// text in flow style, because the study applies the values as overrides of a scenario. A range is
-// expanded to values with 15 digits. A column of a CSV file becomes a random choice among its
-// cells.
+// Reads one entry of the section `vary` of a study. An entry is a list of values, a section
+// {values, when}, a range {from, to, steps, scale}, or a distribution with its parameters. Values
+// are stored as YAML text on a single line (flow style), because the study applies the values as
+// overrides of a scenario. A range is converted to a list of values with 15 significant digits. If
+// an entry names a column of a CSV file, each value is chosen randomly among the cells of the
+// column.
 namespace trackbed {
 namespace {
 
@@ -90,7 +91,7 @@ class VariationReader {
     context_.AddError(node.Mark(), key, std::move(message));
   }
 
-  /// Reads a section with the keys that `visit` declares and the additional key `when`.
+  /// Reads a section that has the keys which `visit` declares, and also the key `when`.
   void WithCondition(const YAML::Node& node, const std::string& dotted, Variation& variation,
                      const std::function<void(YamlReader& reader)>& visit) {
     YamlReader reader(context_, node, dotted);
@@ -174,7 +175,7 @@ class VariationReader {
         }
         if (distribution.step > 0.0 && distribution.from < distribution.to) {
           const double steps = (distribution.to - distribution.from) / distribution.step;
-          // The tolerance allows for rounding errors of decimal fractions such as 0.2.
+          // Allow a tolerance, because decimal fractions such as 0.2 have rounding errors.
           if (std::round(steps) < 1.0 || std::abs(steps - std::round(steps)) > 1e-9 * steps) {
             AddError(node["step"], dotted + ".step",
                      fmt::format("{} to {} is no whole number of steps of {}", distribution.from,
@@ -214,7 +215,7 @@ class VariationReader {
     }
   }
 
-  /// Reads the cells of a column as the values among which the sample chooses.
+  /// Reads the cells of a CSV column; a random sample later chooses values among these cells.
   void ReadColumn(const YAML::Node& node, const std::string& dotted, const TableColumn& column,
                   Distribution& distribution) {
     if (const std::string why = ReadAccessError(column.file, folders_.own, folders_.others);

@@ -10,21 +10,22 @@
 #include "src/scenario/reader_context.h"
 #include "trackbed/scenario/study.h"
 
-/// Reads the sections of a study that set keys of the study's scenario.
+/// Functions that read those sections of a study which set keys of the study's scenario.
 namespace trackbed {
 
-/// Returns the setting of a key, with the value as YAML text.
+/// Returns a setting that sets the key to the value; the value is stored as YAML text.
 Setting ParseSetting(const std::string& key, const YAML::Node& value);
 
 using ReadEntry =
     std::function<void(const YAML::Node& key, const YAML::Node& value, const std::string& dotted)>;
 
-/// Calls `read` with each key of a section that contains scenario keys, and with the value of the
-/// key.
+/// Calls `read` for each key in a section whose keys are keys of a scenario, and passes the key and
+/// its value.
 void ForEachKey(ReaderContext& context, const YAML::Node& node, const std::string& section,
                 const ReadEntry& read);
 
-/// Reports a problem at the key `from` unless from < to.
+/// Checks the keys `from` and `to` of a section: reports a problem at the key `from` unless from <
+/// to.
 void CheckEnds(ReaderContext& context, const YAML::Node& node, const std::string& dotted,
                double from, double to);
 

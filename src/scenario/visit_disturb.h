@@ -2,7 +2,7 @@
 
 #include "trackbed/scenario/disturbances.h"
 
-/// Declares the keys of the section `disturb` of a scenario.
+/// Functions Visit that declare the keys of the section `disturb` of a scenario.
 namespace trackbed {
 
 inline constexpr Range kFactor{.min = 0.1, .max = 10.0};

@@ -3,10 +3,11 @@
 #include "trackbed/options/key_visitor.h"
 #include "trackbed/scenario/maneuver.h"
 
-/// Declares the keys of the maneuvers.
+/// Functions Visit that declare the keys of the maneuvers in a scenario.
 namespace trackbed {
 
-/// Visits the keys that are common to all maneuvers from which gradients are fitted.
+/// Visits the keys that are common to all maneuvers in which gradients, such as the understeer
+/// gradient, are measured.
 template <typename Options>
 void VisitGradients(KeyVisitor& a, Options& options) {
   a.Field({"settle", "s", "samples before this time are ignored"}, options.settle, Need::kOptional,

@@ -9,7 +9,7 @@
 /// Declares the keys of the section `plan` of a scenario.
 namespace trackbed {
 
-/// Layers of a plan, each with its own key in the section `plan`.
+/// Layers of a plan; each layer has its own key in the section `plan` of a scenario.
 struct PlanLayers {
   std::optional<PlannerOptions>& global;
   std::optional<AvoiderOptions>& avoid;

@@ -7,7 +7,7 @@
 namespace trackbed {
 
 inline constexpr Range kRoadFactor{.max = 10.0, .above = 0.0};
-// A slope of 0.5 is an angle of 27 degrees.
+// Permitted slopes of a road; a slope of 0.5 is an angle of 27 degrees.
 inline constexpr Range kSlopeRange{.min = -0.5, .max = 0.5};
 inline constexpr Range kWindSpeed{.min = -100.0, .max = 100.0};  // [m/s]
 
@@ -27,7 +27,7 @@ inline void Visit(KeyVisitor& a, FrictionPatch& patch) {
           Need::kRequired, kRoadFactor);
 }
 
-/// Keys of the section `grade`.
+/// Keys of the section `grade` in the section `world` of a scenario.
 struct GradeKeys {
   Vec2& grade;
 };
@@ -148,7 +148,7 @@ inline void Visit(KeyVisitor& a, Obstacle& obstacle) {
     a.Section({"velocity", "", "velocity of the box, without rotation; default: static"}, velocity);
   }
   if (writes && !obstacle.known_from_time && !obstacle.known_from_range) {
-    return;  // the writer omits the empty section
+    return;  // a writer omits the section `known_from` if it is empty
   }
   KnownFromKeys known{obstacle};
   a.Section(

@@ -19,8 +19,8 @@
 // number of values. If the first pass fails, Explain() converts yaml-cpp's message and position to
 // an explanation that helps the user. Explain() recognizes errors such as a missing colon, wrong
 // indentation, a tab, an unclosed bracket and an unquoted special character. A second pass detects
-// unclosed quotes, because yaml-cpp often reads on to the end of the text. Finally, valid text is
-// loaded as nodes.
+// unclosed quotes, because yaml-cpp often takes the rest of the text as part of the quoted value.
+// Finally, if the text is valid, yaml-cpp loads the text as a tree of nodes.
 namespace trackbed {
 namespace {
 
@@ -39,7 +39,8 @@ bool IsPrintable(boost::locale::utf::code_point c) {
 
 void RejectInvalidText(const std::string& text, const std::string& file) {
   using Utf8 = boost::locale::utf::utf_traits<char>;
-  YAML::Mark mark;  // current position; the column counts bytes, as in yaml-cpp
+  // Current position in the text; the column counts bytes and not characters, as in yaml-cpp.
+  YAML::Mark mark;
   for (auto at = text.begin(); at != text.end();) {
     const auto begin = at;
     const boost::locale::utf::code_point c = Utf8::decode(at, text.end());
@@ -56,8 +57,8 @@ void RejectInvalidText(const std::string& text, const std::string& file) {
 }
 
 /// Tracks the collections that the YAML parser has opened, so that error messages can refer to
-/// these collections. EventTracker also limits nesting and repetition, because anchors can expand a
-/// small file to an enormous tree.
+/// these collections. EventTracker also limits nesting and repetition, because YAML anchors can
+/// expand a small file to an enormous tree.
 class EventTracker : public YAML::EventHandler {
  public:
   explicit EventTracker(std::string file) : file_(std::move(file)) {}
@@ -95,14 +96,15 @@ class EventTracker : public YAML::EventHandler {
   [[nodiscard]] YAML::Mark open() const {
     return open_.empty() ? YAML::Mark::null_mark() : open_.back().mark;
   }
-  /// Returns the start of the last value if that value is quoted, else the null mark.
+  /// Returns the position at which the last value starts if the value is quoted, else the null
+  /// mark.
   [[nodiscard]] YAML::Mark quoted() const { return quoted_; }
 
  private:
   struct Collection {
     YAML::Mark mark;
     YAML::anchor_t anchor;
-    std::size_t begin;  // number of values counted up to the start of the collection
+    std::size_t begin;  // number of values in the text before the start of the collection
   };
 
   void Count(const YAML::Mark& mark, std::size_t values) {
@@ -131,7 +133,7 @@ class EventTracker : public YAML::EventHandler {
   std::string file_;
   int documents_ = 0;
   std::size_t values_ = 0;
-  // Number of values that each anchor expands to.
+  // For each anchor, the number of values that an alias of the anchor repeats.
   std::unordered_map<YAML::anchor_t, std::size_t> sizes_;
   std::vector<Collection> open_;
   YAML::Mark quoted_ = YAML::Mark::null_mark();
@@ -172,14 +174,14 @@ YAML::Mark MarkAt(int line, std::size_t column) {
   return mark;
 }
 
-/// A syntax error: its position, and the message for the user.
+/// Position of a syntax error in the text, and the error message for the user.
 struct SyntaxError {
   YAML::Mark mark;
   std::string message;
 };
 
-/// Explains the syntax error of a misplaced key. The cause is most often an error in the line
-/// before the key.
+/// Explains the syntax error that yaml-cpp reports for a key at an unexpected place; most often,
+/// the actual error is in the line before the key.
 SyntaxError ExplainKey(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
   const auto here = static_cast<std::size_t>(mark.line);
   const std::string_view line = lines[here];
@@ -203,8 +205,8 @@ SyntaxError ExplainKey(const std::vector<std::string_view>& lines, const YAML::M
           "indented under a line that already has a value"};
 }
 
-/// Explains the syntax error of a value that ends where the indentation requires the value to
-/// continue.
+/// Explains the syntax error that yaml-cpp reports if a value ends although the indentation
+/// requires that the value continues.
 SyntaxError ExplainEnd(const std::vector<std::string_view>& lines, const YAML::Mark& mark) {
   const std::string_view line = lines[static_cast<std::size_t>(mark.line)];
   const std::string_view rest = Trimmed(line.substr(static_cast<std::size_t>(mark.column)));
@@ -285,8 +287,8 @@ SyntaxError Explain(const std::string& text, const YAML::Exception& error,
 }
 
 /// Returns whether a quote is still open at the end of the text. yaml-cpp reports an open quote
-/// only if no line feed follows the quote. If a line feed follows, yaml-cpp takes the rest of the
-/// text as the quoted value.
+/// only if no line feed follows the quote. If a line feed follows the open quote, yaml-cpp takes
+/// the rest of the text as the quoted value.
 bool EndsInQuotes(const std::string& text) {
   EventTracker tracker("");
   try {
@@ -309,7 +311,7 @@ std::string ReadInput(const std::filesystem::path& file) {
 
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file) {
   RejectInvalidText(text, file);
-  // The added line feed completes a value at the end of the text.
+  // Add a line feed, so that a value at the end of the text is complete.
   const std::string lines = text + "\n";
   EventTracker tracker(file);
   std::optional<SyntaxError> syntax_error;

@@ -16,11 +16,13 @@ std::string ReadInput(const std::filesystem::path& file);
 YAML::Node LoadYamlValue(const std::string& text, const std::string& file);
 
 /// Parses a text as a YAML section, with the same errors as LoadYamlValue. Also throws InputError
-/// if the value is not a section. Error messages refer to the content of the file as `what`.
+/// if the value is not a section. The argument `what` names the content of the file in error
+/// messages, such as "a scenario".
 YAML::Node LoadYaml(const std::string& text, const std::string& file,
                     const char* what = "a scenario");
 
-/// Returns the node at a dotted key, or the nearest existing ancestor of that node.
+/// Returns the node at a dotted key; if the node does not exist, returns its nearest existing
+/// ancestor.
 YAML::Node NodeAt(const YAML::Node& root, const std::string& key);
 
 }  // namespace trackbed

@@ -12,10 +12,11 @@
 #include "trackbed/core/spelling.h"
 
 // Implements a KeyVisitor that reads a YAML mapping. Each call of Field reads one key of the
-// mapping and checks type, range and allowed names. Problems of keys are reported with their
-// position and a hint. Values in quotes are text, never numbers. Finish reports duplicate keys and
-// unknown keys, and suggests the most similar valid key. If a key is misspelled, Finish marks the
-// intended key as unread, so that the missing value causes no follow-up errors.
+// mapping and checks type, range and allowed names. Each problem is reported with the key's
+// position in the file and a hint. A value in quotes is always a text, never a number. Finish
+// reports duplicate keys and unknown keys, and suggests the most similar valid key. If a key is
+// misspelled, Finish marks the intended key as unread, so that the missing value causes no
+// follow-up errors.
 namespace trackbed {
 namespace {
 
@@ -26,7 +27,7 @@ bool IsQuoted(const YAML::Node& node) {
 /// Reads a value of type T. A quoted value is text, even if it looks like a number.
 template <typename T>
 bool Decode(const YAML::Node& node, T& value) {
-  const ClassicLocale locale;  // yaml-cpp parses numbers with the global locale
+  const ClassicLocale locale;  // yaml-cpp uses the global locale to parse numbers
   return node.IsScalar() && !IsQuoted(node) && YAML::convert<T>::decode(node, value);
 }
 
@@ -57,8 +58,8 @@ std::string YamlReader::Dotted(const char* key) const {
 }
 
 void YamlReader::AddError(const YAML::Node& node, const std::string& dotted, std::string message) {
-  // If the value is missing, use the position of the key, because yaml-cpp gives a missing value
-  // the position of the next token.
+  // If the value is missing, use the position of the key, because yaml-cpp reports the position of
+  // the next token for a missing value.
   context_.AddError(node.IsNull() ? last_key_mark_ : node.Mark(), dotted, std::move(message));
 }
 
@@ -145,7 +146,9 @@ void YamlReader::VisitMethod(const Key& key, Need need, const Methods& methods) 
   inner.Field(kMethod, method, Need::kRequired, names);
   const auto found = std::find(names.begin(), names.end(), method);
   if (found == names.end()) {
-    return;  // the section's valid keys depend on the method, which is unknown
+    // Stop here, because the valid keys of the section depend on the method, and the method is
+    // unknown.
+    return;
   }
   methods.select(static_cast<std::size_t>(found - names.begin()));
   methods.visit_selected(inner);

@@ -18,8 +18,8 @@
 
 namespace trackbed {
 
-/// Reads a YAML mapping into a struct by the keys that the struct's `Visit` declares
-/// (key_visitor.h). Finish reports unknown and duplicate keys.
+/// Reads a YAML mapping into a struct; the function `Visit` of the struct declares the keys of the
+/// mapping (key_visitor.h). Finish reports unknown and duplicate keys.
 class YamlReader final : public KeyVisitor {
  public:
   YamlReader(ReaderContext& context, const YAML::Node& node, std::string key);
@@ -76,8 +76,8 @@ class YamlReader final : public KeyVisitor {
   bool ReadFlag(const YAML::Node& node, const std::string& dotted, bool& value);
   bool ReadNumber(const YAML::Node& node, const std::string& dotted, Range range, double& value);
   void AddError(const YAML::Node& node, const std::string& dotted, std::string message);
-  /// Describes a value that is not of type T, for error messages. If the value without quotes would
-  /// be a T, the description suggests removing the quotes.
+  /// Describes a value that is not of type T, for error messages. If the value would be of type T
+  /// without its quotes, the description suggests removing the quotes.
   template <typename T>
   static std::string DescribeNo(const YAML::Node& node);
 
@@ -85,7 +85,7 @@ class YamlReader final : public KeyVisitor {
   YAML::Node node_;
   std::string key_;
   Names known_;
-  YAML::Mark last_key_mark_;  // position of the key that was read last
+  YAML::Mark last_key_mark_;  // position in the file of the key that was read last
 };
 
 }  // namespace trackbed

@@ -13,9 +13,9 @@
 
 namespace trackbed {
 
-/// Writes the keys that the function Visit of a struct declares as YAML, so that YamlReader reads
-/// the same values. Numbers are written with the fewest digits that identify the value. The writer
-/// omits optional values that are not set.
+/// Writes a struct as YAML, with the keys that the function Visit of the struct declares, so that
+/// YamlReader reads the same values back. Each number is written with the fewest digits from which
+/// the same number is read back. The writer omits optional values that are not set.
 class YamlWriter final : public KeyVisitor {
  public:
   explicit YamlWriter(YAML::Emitter& out) : out_(out) {}
@@ -125,7 +125,7 @@ class YamlWriter final : public KeyVisitor {
 
  private:
   YAML::Emitter& out_;
-  ClassicLocale locale_;  ///< yaml-cpp writes integers with the global locale
+  ClassicLocale locale_;  ///< yaml-cpp uses the global locale to write integers
 };
 
 }  // namespace trackbed

@@ -13,15 +13,16 @@
 namespace trackbed {
 namespace {
 
-constexpr std::uint32_t kMaxPixels = 8192;         // Largest width and height of a picture [px].
-constexpr std::uint32_t kMaxHeightSamples = 4096;  // Largest number of rows and columns of a height
-                                                   // field.
-constexpr std::uint32_t kMaxFaces = 200000;        // Largest number of faces of an STL file, which
-                                                   // is MuJoCo's own limit.
-constexpr std::uint32_t kMaxFacets = 256;          // Largest number of facets along one side of a
-                                                   // drawn sphere or plane.
-/// Largest length of a word in the model. MuJoCo's buffer for error texts, which may contain such a
-/// word, has about 500 characters.
+// Maximum width and height of a texture image [px].
+constexpr std::uint32_t kMaxPixels = 8192;
+// Maximum number of rows and of columns of a height field.
+constexpr std::uint32_t kMaxHeightSamples = 4096;
+// Maximum number of faces of an STL file, equal to MuJoCo's own limit.
+constexpr std::uint32_t kMaxFaces = 200000;
+// Maximum number of facets along one side of a drawn sphere or plane.
+constexpr std::uint32_t kMaxFacets = 256;
+/// Maximum length of a word (a name or number) in the model file. MuJoCo copies such words into
+/// error messages, in a buffer of about 500 characters.
 constexpr std::size_t kMaxWordLength = 200;
 
 std::string LowerExtension(const std::filesystem::path& file) {
@@ -41,7 +42,7 @@ std::optional<Number> ReadNumber(std::string_view content, std::size_t offset) {
   return number;
 }
 
-/// Reads a big-endian number, as used in PNG files.
+/// Reads a big-endian unsigned integer, as used in PNG files.
 std::optional<std::uint32_t> ReadBigEndian(std::string_view content, std::size_t offset) {
   if (content.size() < offset + 4) {
     return std::nullopt;
@@ -109,8 +110,8 @@ std::string HeightFieldError(std::string_view content) {
   return "";
 }
 
-/// Returns the length of the longest word of an attribute. An attribute is either a list of words,
-/// such as numbers, or a name.
+/// Returns the length of the longest word in the value of an XML attribute. The value of an
+/// attribute is either a list of words, such as numbers, or a name.
 std::size_t LongestWord(std::string_view text) {
   std::size_t longest = 0;
   while (!text.empty()) {

@@ -17,7 +17,7 @@
 namespace trackbed {
 namespace {
 
-/// Returns the parameters of the car if its payload had no mass.
+/// Returns the parameters that the car would have if its payload had no mass.
 VehicleParams Unladen(const mjModel& laden, int payload, const std::string& name) {
   const MujocoModel model = CopyMujocoModel(laden);
   const MujocoData data = MakeMujocoData(*model);
@@ -33,8 +33,9 @@ struct Stand {
 };
 
 Stand RestPoseOn(const VehicleParams& params, const Pose2& pose, const Ground& ground) {
-  // The ground's height is taken where the wheels would be on level ground. A slope reduces the
-  // horizontal distance between the wheels only by a second-order term.
+  // The ground's height is sampled at the positions that the wheels would have on level ground. On
+  // a slope, the wheels are horizontally closer together, but only by a second-order term, which is
+  // neglected.
   const bool steered = params.kind == VehicleKind::kSteered;
   const double ahead_of_axle = steered ? params.wheelbase : params.length - params.rear_overhang;
   const double track_front = steered ? params.track_front : params.width;
@@ -143,7 +144,8 @@ std::vector<double> CarModel::StandingPosition(const Pose2& pose, double steerin
   const int chassis_qpos = chassis().chassis_qpos;
   set(chassis_qpos, pose.x);
   set(chassis_qpos + 1, pose.y);
-  const mjtNum sag = level[chassis_qpos + 2];  // height of the chassis along the ground's normal
+  // height of the chassis above the ground, along the ground's normal
+  const mjtNum sag = level[chassis_qpos + 2];
   const double upright = laden ? (stand.turn * Eigen::Vector3d::UnitZ()).z() : 1.0;
   set(chassis_qpos + 2, sag / upright + stand.height);
   const mjtNum* lean = level + chassis_qpos + 3;
@@ -192,7 +194,7 @@ WheelSpeeds RollingSpeeds(const VehicleParams& params, double speed, double stee
     return WheelSpeeds{{rear.left, rear.right}};
   }
   const double yaw_rate = speed * CurvatureForSteering(params, steering);
-  // With Ackermann angles, each front wheel points along the velocity of its hub.
+  // Ackermann angles: each front wheel points along the velocity of its hub.
   const auto front_speed = [&](double y) {
     return std::copysign(std::hypot(speed - yaw_rate * y, yaw_rate * params.wheelbase), speed);
   };

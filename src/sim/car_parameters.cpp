@@ -18,8 +18,8 @@
 // Reads car parameters by name from a compiled model, and writes new values into the model's scene.
 //
 // A parameter is an entry of <custom><numeric>, a range of an actuator, or a property of the whole
-// vehicle. A property of the whole vehicle is changed through the mass, center of gravity and
-// inertia of the chassis. The new values for the chassis are chosen such that the chassis and the
+// vehicle. To change a property of the whole vehicle, such as the mass, the mass, center of gravity
+// or inertia of the chassis is changed. The chassis gets the values with which the chassis and all
 // other bodies together have the wanted property (parallel axis theorem). The spring preload is
 // adapted to the changed wheel loads, so the ride height at rest does not change.
 namespace trackbed {
@@ -31,12 +31,12 @@ using tinyxml2::XMLElement;
   throw InputError(Problem{.file = car.file(), .key = name, .message = std::move(message)});
 }
 
-/// Properties of the whole vehicle, which are set by changing the mass, center of gravity or
-/// inertia of the chassis.
+/// Names of the properties of the whole vehicle, which are set by changing the mass, center of
+/// gravity or inertia of the chassis.
 enum class Mass { kMass, kCgToRear, kCgHeight, kYawInertia };
 
-/// An actuator range that is a parameter. The parameter is the upper end of the range; some ranges
-/// are symmetric.
+/// A car parameter that is stored as the control or activation range of an actuator. The value of
+/// the parameter is the upper end of the range; a range may be symmetric about 0.
 struct ActuatorRange {
   const char* actuator;
   const char* attribute;
@@ -72,7 +72,7 @@ const std::map<std::string, ActuatorRange>& Ranges() {
   return table;
 }
 
-/// The name of a numeric and the index of one of its numbers, as in "steering_curve[3]".
+/// Name of a <numeric> element and index of one of its numbers, as in "steering_curve[3]".
 struct NumericName {
   std::string name;
   std::size_t index = 0;
@@ -100,9 +100,9 @@ std::vector<double> NumericData(const CarModel& car, const std::string& name) {
   return {data, data + model.numeric_size[id]};
 }
 
-/// Returns the name of the numeric that has the value of parameter `name`. If the model has no
-/// numeric `name`, the result is `name` without the suffix "_front" or "_rear", which is the name
-/// of the numeric for both axles.
+/// Returns the name of the <numeric> element that stores the parameter `name`. If the model has no
+/// <numeric> of this name, the suffix "_front" or "_rear" is removed, which yields the name of the
+/// value for both axles.
 std::string NumericInModel(const CarModel& car, const std::string& name) {
   if (!NumericData(car, name).empty()) {
     return name;
@@ -172,7 +172,7 @@ XMLElement* FindNamed(XMLElement& root, const char* section, const std::string& 
   return nullptr;
 }
 
-/// Returns the numbers of an attribute, up to the first word that is not a number.
+/// Returns the numbers of an XML attribute, up to the first word that is not a number.
 std::vector<double> ParseNumbers(const char* attribute) {
   std::vector<double> numbers;
   std::string_view rest = attribute == nullptr ? "" : attribute;
@@ -192,7 +192,7 @@ std::string Text(const std::vector<double>& values) {
   return fmt::format("{}", fmt::join(values, " "));
 }
 
-/// Inserts an XML comment before the element.
+/// Inserts an XML comment before an element.
 void AddComment(XMLElement& element, const std::string& text) {
   if (text.empty()) {
     return;
@@ -222,8 +222,8 @@ void SetNumeric(const CarModel& car, XMLElement& root, const CarParameter& param
     element = Custom(root).InsertNewChildElement("numeric");
     element->SetAttribute("name", name.c_str());
   } else {
-    data = ParseNumbers(element->Attribute("data"));  // the numbers may already have been changed
-                                                      // by an earlier parameter
+    // an earlier parameter may already have changed these numbers
+    data = ParseNumbers(element->Attribute("data"));
     data.resize(NumericData(car, name).size());
   }
   CheckIndex(car, parameter.name, index, data);
@@ -239,7 +239,8 @@ void SetRange(XMLElement& root, const ActuatorRange& range, const CarParameter& 
   AddComment(*element, parameter.origin.empty() ? "" : parameter.name + ": " + parameter.origin);
 }
 
-/// Changes the preload of the springs for additional wheel loads `more` [N].
+/// Changes the preload of the suspension springs so that they carry the additional wheel loads
+/// `more` [N].
 void PreloadSprings(const CarModel& car, XMLElement& root, const std::array<double, 4>& more) {
   const mjModel& model = *car.get();
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
@@ -264,7 +265,8 @@ void PreloadSprings(const CarModel& car, XMLElement& root, const std::array<doub
   }
 }
 
-/// Sets the <inertial> of the chassis such that the whole vehicle has the wanted properties.
+/// Sets the <inertial> element of the chassis such that the whole vehicle has the wanted
+/// properties.
 void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, double>& wanted,
                const std::string& origin) {
   XMLElement* chassis = FindInWorld(root, "body", "chassis");
@@ -291,8 +293,8 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   const double old_x = MassOf(car, Mass::kCgToRear);
   const double old_z = MassOf(car, Mass::kCgHeight);
   const double rest = old_mass - own;
-  const double rest_x = old_mass * old_x - own * position[0];  // first mass moments of the other
-                                                               // bodies
+  // sum of mass times position over all bodies except the chassis
+  const double rest_x = old_mass * old_x - own * position[0];
   const double rest_z = old_mass * old_z - own * position[2];
   const double mass = value(Mass::kMass);
   const double x = value(Mass::kCgToRear);
@@ -303,8 +305,8 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   }
   const double new_x = (mass * x - rest_x) / new_chassis_mass;
   const double new_z = (mass * value(Mass::kCgHeight) - rest_z) / new_chassis_mass;
-  // Yaw inertia of the other bodies, first about the vehicle's old center of gravity, then about
-  // the new one.
+  // Yaw inertia of all bodies except the chassis, first about the vehicle's old center of gravity,
+  // then about the new one.
   const double y2 = position[1] * position[1];
   const double rest_yaw = MassOf(car, Mass::kYawInertia) - inertia[2] -
                           own * ((position[0] - old_x) * (position[0] - old_x) + y2);
@@ -319,9 +321,9 @@ void SetMasses(const CarModel& car, XMLElement& root, const std::map<Mass, doubl
   }
   inertial->SetAttribute("mass", new_chassis_mass);
   inertial->SetAttribute("pos", Numbers({new_x, position[1], new_z}).c_str());
-  // Roll and pitch inertia are scaled in proportion to the mass of the chassis. Roll and pitch
-  // inertia are then increased if necessary, since no principal moment of inertia may exceed the
-  // sum of the other two.
+  // The chassis's roll and pitch inertia are scaled in proportion to the mass of the chassis. Roll
+  // and pitch inertia are then increased if necessary, since each principal moment of inertia of a
+  // body is at most the sum of the other two.
   const double heavier = new_chassis_mass / own;
   double roll = inertia[0] * heavier;
   double pitch = inertia[1] * heavier;
@@ -377,7 +379,8 @@ Scene WithCarParameters(const CarModel& car, const std::vector<CarParameter>& pa
   }
   scene.xml = Print(document);
   scene.lines.clear();
-  scene.trusted = true;  // the scene has been compiled before, and only numbers have changed since
+  // the scene can be trusted, because it was compiled before and only numbers have changed since
+  scene.trusted = true;
   return scene;
 }
 

@@ -15,10 +15,11 @@
 #include "trackbed/core/error.h"
 
 // Reads the parts and parameters of a car with steered front wheels from its compiled model. First,
-// all parts are found by name; if parts are missing, only these are reported. Then types,
-// positions, axes and ranges of the parts are checked against docs/models.md. Finally, the
-// parameters of the car are computed: masses, steering, tyres and limits of motion. Positions are
-// evaluated at qpos0. All problems are collected and thrown as one InputError.
+// all parts are looked up by name; if parts are missing, only the missing parts are reported. Then
+// the types, positions, axes and ranges of the parts are checked against docs/models.md. Finally,
+// the parameters of the car are computed: masses, steering, tyres and acceleration limits.
+// Positions are evaluated in the model's initial configuration qpos0. All problems are collected
+// and thrown as one InputError.
 namespace trackbed {
 namespace {
 
@@ -73,7 +74,7 @@ class CarReader final : private PartsReader {
       parts_.spin_dof[w] = m_.jnt_dofadr[spin_[w]];
       parts_.wheel[w] = m_.jnt_bodyid[spin_[w]];
       parts_.carrier[w] = m_.body_parentid[parts_.wheel[w]];
-      // The inertia about the spin axis is the largest principal moment of inertia of the wheel.
+      // The wheel's inertia about its spin axis is the largest of its principal moments of inertia.
       const mjtNum* inertia = m_.body_inertia + 3 * parts_.wheel[w];
       parts_.spin_inertia[w] = *std::max_element(inertia, inertia + 3);
       parts_.hub_height[w] = Wheel(w, 2);
@@ -157,8 +158,8 @@ class CarReader final : private PartsReader {
     if (m_.actuator_trntype[steer] != mjTRN_JOINT || m_.actuator_trnid[2 * steer] != rack_) {
       AddError("steer", "must act on the joint 'rack'");
     }
-    // For a ramp input, the joint of a servo lags by a constant time, which is the total damping of
-    // the joints that the servo turns, divided by the servo's stiffness.
+    // When the command of a servo changes at a constant rate, the joint lags behind by a constant
+    // time: the total damping of the joints that the servo turns, divided by the servo's stiffness.
     double damping = m_.dof_damping[m_.jnt_dofadr[rack_]];
     for (const int joint : steer_) {
       damping += m_.dof_damping[m_.jnt_dofadr[joint]];
@@ -196,8 +197,8 @@ class CarReader final : private PartsReader {
     }
   }
 
-  /// Rejects a joint range that is narrower than the steering range, since such a range is usually
-  /// given in wrong units.
+  /// Rejects a joint range that is narrower than the steering range; such a range usually results
+  /// from wrong units in the model file.
   void CheckJointRange(int joint, const char* name, double lowest, double highest) {
     const mjtNum* range = m_.jnt_range + 2 * joint;
     if (!m_.jnt_limited[joint]) {
@@ -230,8 +231,9 @@ class CarReader final : private PartsReader {
                fmt::format("must not be negative, found {:.4g}", parts_.tyres->vertical_damping));
     }
     if (stiffness == 0.0) {
-      constexpr double kDeflection = 0.06;  // deflection of a tyre as a fraction of its radius, a
-                                            // typical value at nominal pressure
+      // static deflection of a tyre as a fraction of its radius, a typical value at nominal
+      // pressure
+      constexpr double kDeflection = 0.06;
       const int payload = mj_name2id(&m_, mjOBJ_BODY, kPayloadBody);
       const double mass = params_.mass - (payload < 0 ? 0.0 : m_.body_mass[payload]);
       stiffness = 0.25 * mass * std::abs(m_.opt.gravity[2]) / (kDeflection * params_.wheel_radius);
@@ -247,7 +249,7 @@ class CarReader final : private PartsReader {
     const double weight = params_.mass * std::abs(m_.opt.gravity[2]);
     const std::array<double, 2> share{params_.cg_to_rear / params_.wheelbase,
                                       params_.cg_to_front() / params_.wheelbase};
-    double rolling = 0.0;  // rolling and bearing resistance [N]
+    double rolling = 0.0;  // rolling and bearing resistance of the whole car [N]
     TyreFriction friction{ContactFriction(m_, parts_.tyre[0]), ContactFriction(m_, parts_.tyre[0])};
     std::array<double, 2> wheel_mass{};
     for (std::size_t w = 0; w < kWheels.size(); ++w) {
@@ -268,7 +270,7 @@ class CarReader final : private PartsReader {
     params_.friction_longitudinal = friction.longitudinal;
     params_.friction_lateral = friction.lateral;
     const double rolling_mass = params_.mass + wheel_mass[0] + wheel_mass[1];
-    // `ahead` is the sign of the load transfer to the front axle: 1 for braking, -1 for driving.
+    // `ahead` is the sign of the change of the front axle's load: 1 for braking, -1 for driving.
     const auto limit = [&](double front_force, double ahead, double force) {
       AccelerationLimit own{.by_force = force / rolling_mass, .axles = {}};
       const std::array<double, 2> pushed{front_force, 1.0 - front_force};
@@ -308,11 +310,11 @@ class CarReader final : private PartsReader {
   }
 
   CarParts parts_;
-  int free_ = -1;  // index of the free joint
+  int free_ = -1;  // index of the chassis's free joint in the model
   int rack_ = -1;
   std::array<int, 4> spin_{};
   std::array<int, 2> steer_{};
-  int footprint_ = -1;  // index of the site
+  int footprint_ = -1;  // index of the site `footprint` in the model
 };
 
 }  // namespace

@@ -13,27 +13,27 @@ struct VehicleDescription {
   VehicleParams params;
 };
 
-/// Text that lists the tyre coefficients that a car must have if it has any: the required
-/// MagicFormulaFields.
+/// Text for error messages that lists the MagicFormulaFields that a car with tyre coefficients must
+/// have.
 inline constexpr const char* kNeededCoefficients =
     "p_cx1, p_dx1, p_kx1, p_cy1, p_dy1 and p_ky1, of both axles under these names or of each with "
     "_front and _rear";
 
-/// MJCF names of the body and the keyframe that WithPayload adds.
+/// MJCF names of the body and the keyframe that WithPayload adds to a model.
 inline constexpr const char* kPayloadBody = "payload";
 inline constexpr const char* kLadenKeyframe = "laden";
 
-/// Returns the parts of a car. Throws InputError naming the car's file if the car has no steered
-/// wheels. The message also names the feature that needs the parts, `needed_by`.
+/// Returns the parts (wheels, joints, actuators) of a car. Throws InputError, naming the car's file
+/// and the feature `needed_by`, if the car has no steered wheels.
 const CarParts& SteeredParts(const CarModel& car, const std::string& needed_by);
 
-/// Returns the tyre parameters of a car. If the car's file has none, throws InputError naming the
-/// file and the missing coefficients.
+/// Returns the tyre parameters of a car. Throws InputError, naming the car's file and the missing
+/// coefficients, if the file has no tyre coefficients.
 const CarTyres& RequireTyres(const CarModel& car, const std::string& needed_by);
 
-/// Finds and checks the parts of a vehicle in its compiled model. Throws InputError naming `file`
-/// and every missing part. If all parts exist, the error lists every part that violates
-/// docs/models.md.
+/// Finds and checks the parts of a vehicle in its compiled model. Throws InputError, naming `file`
+/// and every missing part, if parts are missing. Throws InputError, listing every part that
+/// violates docs/models.md, if all parts exist but some are invalid.
 VehicleDescription DescribeVehicle(const mjModel_& model, const std::string& file);
 
 }  // namespace trackbed

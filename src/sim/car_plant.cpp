@@ -7,22 +7,24 @@
 #include "src/sim/mujoco_plant.h"
 #include "src/sim/wheel_contacts.h"
 
-// The MuJoCo plant of a car with steered front wheels. CarPlant implements three parts of a step:
-//   1. Act: the steering servo turns at a limited rate, or the angle is prescribed. Motor or brakes
-//      apply the torque for the wanted acceleration and the driving resistance.
+// Simulates a car with steered front wheels in MuJoCo. CarPlant implements three parts of a step:
+//   1. Act: the steering servo turns at a limited rate, or the steering angle is prescribed. The
+//      motor or the brakes apply the torque that yields the commanded acceleration despite the
+//      driving resistance.
 //   2. ApplyWheelForces: Magic Formula tyres (magic_formula_tyres.h) and dry friction act on the
 //      wheels.
-//   3. Finish: the front wheels follow the rack, or the prescribed angle, at Ackermann angles. The
-//      plant does not use the polynomial coupling of the model.
+//   3. Finish: the front wheels are turned to the Ackermann angles of the rack angle or of the
+//      prescribed angle. The plant disables the polynomial joint coupling of the front wheels in
+//      the model.
 namespace trackbed {
 namespace {
 
-/// Armature inertia that is so large that no torque of a car noticeably changes the speed of a
-/// joint [kg m^2].
+/// Armature inertia for locking a joint, so large that no torque of a car noticeably changes the
+/// joint's speed [kg m^2].
 constexpr double kLocked = 1e8;
 
-/// Returns how the ground supports the car: by springs for Magic Formula tyres, by MuJoCo's
-/// contacts for contact tyres.
+/// Returns how the ground supports the car: by springs if the car has Magic Formula tyres, by
+/// MuJoCo's contacts if it has contact tyres.
 TyreSupport SupportFor(const PlantSetup& setup) {
   return SelectTyreLaw(setup.car, setup.tyre) == TyreLaw::kMagicFormula ? TyreSupport::kSprings
                                                                         : TyreSupport::kContacts;
@@ -41,7 +43,8 @@ class CarPlant final : public MujocoPlant {
     if (SupportFor(setup) == TyreSupport::kSprings) {
       tyres_.emplace(car(), model());
       for (const int spin : parts.spin_dof) {
-        model().dof_frictionloss[spin] = 0.0;  // HoldWheels applies this friction instead of MuJoCo
+        // HoldWheels applies the bearing friction instead of MuJoCo
+        model().dof_frictionloss[spin] = 0.0;
       }
     }
     linked_ = ReleaseLinkage();
@@ -109,7 +112,8 @@ class CarPlant final : public MujocoPlant {
   void PrescribeAngle(double steering);
   [[nodiscard]] std::array<WheelState, 4> ContactWheels() const;
 
-  bool prescribed_;                           // Whether the steering angle is prescribed.
+  // Whether the steering angle is prescribed instead of controlled by a servo.
+  bool prescribed_;
   bool hold_ = false;                         // Whether the brakes hold the car at rest.
   bool linked_ = false;                       // Whether the front wheels are coupled to the rack.
   FrontAngles slopes_;                        // Derivatives of the front wheel angles with respect
@@ -117,8 +121,8 @@ class CarPlant final : public MujocoPlant {
   std::optional<MagicFormulaTyres> tyres_;    // Magic Formula tyres; nullopt if the car has contact
                                               // tyres.
   std::array<double, 4> bearing_friction_{};  // Friction torque of the bearing of each wheel [N m].
-  std::array<double, 4> dry_friction_{};      // Largest dry friction torque of bearing and brake on
-                                              // each wheel [N m].
+  // Maximum dry friction torque of bearing and brake on each wheel in this step [N m].
+  std::array<double, 4> dry_friction_{};
 };
 
 void CarPlant::Steer(double wanted) {
@@ -129,10 +133,10 @@ void CarPlant::Steer(double wanted) {
       std::clamp(rate, -params.steering_rate, params.steering_rate);
 }
 
-/// Disables the model's coupling of the front wheels to the rack. In the model, the coupling is an
-/// approximate polynomial, whose error would make the front tyres push against each other. Instead,
-/// FollowRack sets exact Ackermann angles. Returns false if the model does not couple both front
-/// wheels to the rack by joint equalities.
+/// Disables the model's coupling of the front wheels to the rack. The model's coupling is an
+/// approximate polynomial; its error would make the front tyres push against each other. The
+/// function FollowRack sets exact Ackermann angles instead of this coupling. Returns false if the
+/// model has no joint equalities that couple both front wheels to the rack.
 bool CarPlant::ReleaseLinkage() {
   const CarParts& parts = car().parts();
   const auto follows_rack = [&](int joint_dof) {
@@ -153,8 +157,8 @@ bool CarPlant::ReleaseLinkage() {
   for (std::size_t w = 0; w < coupling.size(); ++w) {
     mj::DisableEquality(model(), data(), coupling[w]);
     const int dof = parts.steer_dof[w];
-    // Adds the inertia and damping of the steered wheels to the rack, which turns the wheels at a
-    // ratio of about 1.
+    // Adds the inertia and damping of the steered wheels to the rack; the transmission ratio from
+    // rack to wheels is taken as 1.
     model().dof_armature[parts.rack_dof] += model().dof_M0[dof];
     model().dof_damping[parts.rack_dof] += model().dof_damping[dof];
     model().dof_damping[dof] = 0.0;
@@ -163,8 +167,8 @@ bool CarPlant::ReleaseLinkage() {
   return true;
 }
 
-/// Applies the torques of the front wheels about their steering axes to the rack. The torques are
-/// those of the last step.
+/// Applies the torques of the front wheels about their steering axes to the rack. Uses the wheel
+/// torques of the previous step.
 void CarPlant::LoadRack() {
   const CarParts& parts = car().parts();
   const mjtNum* acceleration = data().qacc;
@@ -188,14 +192,14 @@ void CarPlant::FollowRack() {
 void CarPlant::Propel(const Command& command) {
   const CarParts& parts = car().parts();
   const double radius = car().params().wheel_radius;
-  double rolling_mass = car().unladen().mass;  // mass of the car, to which the rotational inertia
-                                               // of the wheels is added
+  // mass of the car plus the rotational inertia of the wheels as an equivalent mass
+  double rolling_mass = car().unladen().mass;
   for (const double inertia : parts.spin_inertia) {
     rolling_mass += inertia / (radius * radius);
   }
   const double along_gear = command.coast ? 0.0 : command.acceleration * command.gear;
   const double resistance = Resistance(command.gear);
-  // The brakes hold a car at rest until a motion is commanded and the motor is strong enough for
+  // The brakes hold a stationary car until motion is commanded and the motor is strong enough for
   // the slope.
   const bool overcomes_resistance = along_gear > 0.0 && DriveLimit() > resistance;
   const bool stands = Speed() * command.gear < kAtRestSpeed;
@@ -205,7 +209,7 @@ void CarPlant::Propel(const Command& command) {
     Brake(0.0, false);
     return;
   }
-  // Wheel torque that gives the commanded acceleration against the driving resistance [N m]; the
+  // Wheel torque that yields the commanded acceleration against the driving resistance [N m]; the
   // motor applies a positive torque, the brakes a negative one.
   const double torque = along_gear * rolling_mass * radius + resistance;
   const bool drive = torque > 0.0 && !hold_;
@@ -213,7 +217,7 @@ void CarPlant::Propel(const Command& command) {
   Brake(drive ? 0.0 : -torque, hold_);
 }
 
-/// Returns the largest drive torque at the present speed [N m].
+/// Returns the maximum drive torque of the motor at the present speed [N m].
 double CarPlant::DriveLimit() const {
   const CarParts& parts = car().parts();
   const double full = parts.drive_limit * std::abs(Speed());
@@ -234,12 +238,13 @@ void CarPlant::Brake(double torque, bool hold) {
   }
 }
 
-/// Applies the dry friction of bearings and brakes. The friction torque is the torque that stops
-/// the wheel within the step, clamped to the available friction.
+/// Applies the dry friction torques of bearings and brakes to the wheels. Each friction torque is
+/// the torque that would stop the wheel within the step, limited to the available friction.
 void CarPlant::HoldWheels() {
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const int dof = car().parts().spin_dof[w];
-    // The drive torque in this sum is that of the last step, which is small when the brakes act.
+    // The sum of the torques contains the drive torque of the previous step, which is small while
+    // the brakes are applied.
     const double torque = data().qfrc_applied[dof] + data().qfrc_passive[dof] -
                           data().qfrc_bias[dof] + data().qfrc_actuator[dof];
     const double inertia = car().parts().spin_inertia[w] + model().dof_armature[dof];
@@ -248,8 +253,8 @@ void CarPlant::HoldWheels() {
   }
 }
 
-/// Returns the driving resistance of bearings, tyres, air and slope in the direction of the gear,
-/// as a wheel torque [N m].
+/// Returns the total driving resistance from bearings, tyres, air and slope in the direction of the
+/// gear, as a wheel torque [N m].
 double CarPlant::Resistance(int gear) const {
   double dry = tyres_ ? tyres_->RollingMoment() : 0.0;
   for (const double friction : bearing_friction_) {
@@ -275,8 +280,8 @@ double CarPlant::Grade() const {
   return rise / std::hypot(1.0, rise);
 }
 
-/// Sets the steering speeds of the front wheels such that they reach the angle `steering` at the
-/// end of the step.
+/// Sets the steering speeds of the front wheels so that the wheels reach the angles for `steering`
+/// at the end of the step.
 void CarPlant::PrescribeVelocity(double steering) {
   const CarParts& parts = car().parts();
   const double timestep = model().opt.timestep;
@@ -302,8 +307,8 @@ std::array<WheelState, 4> CarPlant::ContactWheels() const {
   std::array<WheelState, 4> wheels;
   for (std::size_t w = 0; w < kWheels.size(); ++w) {
     const WheelContact& contact = contacts[w];
-    // Slip is relative to the rolling speed, but at least to the speed below which a car counts as
-    // standing.
+    // Slip is the slip speed divided by the rolling speed, or by the standstill threshold if the
+    // wheel rolls more slowly.
     const double reference = std::max(std::abs(contact.rolling_speed), kAtRestSpeed);
     wheels[w] = {.normal_force = std::max(0.0, contact.up.dot(forces[w])),
                  .longitudinal_force = contact.forward.dot(forces[w]),

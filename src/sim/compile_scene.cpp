@@ -24,10 +24,10 @@ namespace trackbed {
 namespace {
 
 constexpr std::size_t kGigabyte = std::size_t{1} << 30;
-/// Limits of the separate process that compiles a model.
-constexpr std::size_t kMemory = 2 * kGigabyte;  // Largest memory [bytes].
-constexpr int kSeconds = 60;                    // Processor time [s].
-/// Largest size of a compiled model [bytes].
+/// Limits for the separate process that compiles a model.
+constexpr std::size_t kMemory = 2 * kGigabyte;  // Maximum memory of the process [bytes].
+constexpr int kSeconds = 60;                    // Maximum processor time of the process [s].
+/// Maximum size of a compiled model [bytes].
 constexpr std::int64_t kMaxBytes = kGigabyte;
 
 struct VfsDeleter {
@@ -39,7 +39,7 @@ struct VfsDeleter {
 using Vfs = std::unique_ptr<mjVFS, VfsDeleter>;
 
 Vfs MakeVfs() {
-  Vfs vfs(new mjVFS);  // on the heap, because an mjVFS is too large for the stack
+  Vfs vfs(new mjVFS);  // allocated on the heap, because an mjVFS is too large for the stack
   mj_defaultVFS(vfs.get());
   return vfs;
 }
@@ -55,7 +55,8 @@ struct Compiled {
 };
 
 Compiled CompileInProcess(const std::string& xml, const std::vector<SceneAsset>& assets) {
-  const ClassicLocale locale;  // MuJoCo parses numbers with the global locale
+  // needed because MuJoCo parses numbers with the program's global locale
+  const ClassicLocale locale;
   const Vfs vfs = MakeVfs();
   Add(*vfs, "model.xml", xml);
   for (const SceneAsset& asset : assets) {
@@ -79,13 +80,13 @@ std::string SizeLimitMessage() {
   return fmt::format("takes more than {} MB of memory", kMemory >> 20);
 }
 
-// The compiling process sends one of these letters, followed by the bytes of the model or the text
+// The compiling process first sends one of these letters, then the bytes of the model or the text
 // of an error.
 constexpr char kModelFollows = 'M';
 constexpr char kErrorFollows = 'E';
 
-/// Runs in the compiling process: compiles the model, and tries the calls in which MuJoCo would
-/// crash on an invalid model.
+/// Runs in the compiling process: compiles the model and tries the calls in which MuJoCo would
+/// crash if the model is invalid.
 std::string CompileAndTry(const std::string& xml, const std::vector<SceneAsset>& assets) try {
   const Compiled compiled = CompileInProcess(xml, assets);
   const auto fail = [](const std::string& text) { return kErrorFollows + text; };
@@ -115,7 +116,7 @@ Compiled CompileInSubProcess(const std::string& xml, const std::vector<SceneAsse
   }
   const std::string content = outcome.result.substr(1);
   if (outcome.result.front() == kErrorFollows) {
-    // The text of MuJoCo's error for a lack of memory depends on its version.
+    // MuJoCo's error message for a lack of memory differs between versions.
     static const std::regex no_memory("[Cc]ould not (allocate memory|create mjData)");
     return {nullptr, std::regex_search(content, no_memory) ? SizeLimitMessage() : content};
   }
@@ -127,13 +128,13 @@ Compiled CompileInSubProcess(const std::string& xml, const std::vector<SceneAsse
 }
 
 struct CompileError {
-  std::string text;  ///< Text of the error, without line breaks.
-  int line = 0;      ///< Line in the composed model; 0 if unknown.
+  std::string text;  ///< Error message of the compiler, without line breaks.
+  int line = 0;      ///< Line of the composed model to which the error refers; 0 if unknown.
 };
 
-/// Splits an error of MuJoCo into message and line. After the message, MuJoCo names the element:
-/// "Element 'joint', line 46" or "Object name = rack, id = 1, line = 63, column = -1"; since MuJoCo
-/// 3.1, "Element name 'rack', id 1, line 63".
+/// Splits an error text of MuJoCo into the message and the line number. At the end of the text,
+/// MuJoCo names the element: "Element 'joint', line 46" or "Object name = rack, id = 1, line = 63,
+/// column = -1"; since MuJoCo 3.1, "Element name 'rack', id 1, line 63".
 CompileError ParseMujocoError(const std::string& message) {
   static const std::regex kind("^(XML )?Error: (Error: )?(Schema violation: )?");
   static const std::regex place(
@@ -153,10 +154,11 @@ CompileError ParseMujocoError(const std::string& message) {
 }  // namespace
 
 MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks looks) {
-  static_cast<void>(PhysicsVersion());  // checks that library and headers have the same version
+  // checks that MuJoCo's library and headers have the same version
+  static_cast<void>(PhysicsVersion());
   const std::string xml = looks == Looks::kDiscarded ? DiscardLooks(scene.xml) : scene.xml;
-  // If a process were forked while another thread compiles, it would wait forever for MuJoCo's
-  // lock.
+  // Only one thread compiles at a time: a process that is forked while another thread compiles
+  // would wait forever for MuJoCo's lock.
   static std::mutex compiling;
   const std::lock_guard lock(compiling);
   const MujocoErrorScope errors;

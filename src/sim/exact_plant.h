@@ -8,15 +8,17 @@
 
 namespace trackbed {
 
-/// Returns the car's parameters. If the setup prescribes the wheel angle, the steering actuator
-/// practically has no limits.
+/// Returns the parameters of the car for a plant that follows its commands exactly. If the setup
+/// prescribes the wheel angle, the returned parameters have practically no limits of steering angle
+/// and rate.
 VehicleParams Steered(const PlantSetup& setup);
 
-/// Converts the start of a run to a state of the rear axle.
+/// Converts the initial state of a run to a state of the rear axle.
 KinematicState InPlane(const StartState& start);
 
-/// A plant made of a planar car model that follows its commands exactly, such as KinematicCar or
-/// SingleTrackCar. The wheels rotate as if they rolled without slip; only films show this rotation.
+/// A plant that wraps a planar car model (such as KinematicCar or SingleTrackCar) that follows its
+/// commands exactly. The wheels rotate as if they rolled without slip; this rotation is used only
+/// for films.
 template <typename Car>
 class ExactPlant final : public Plant {
  public:
@@ -57,8 +59,8 @@ class ExactPlant final : public Plant {
     return model_.FlatConfiguration(state_.pose, state_.steering, spin_);
   }
 
-  /// Whether a coordinate exceeds the limit at which MuJoCo also reports divergence. An unstable
-  /// car spins ever faster until it exceeds the limit.
+  /// Whether a coordinate of the car exceeds the limit at which MuJoCo also reports divergence. An
+  /// unstable car model spins ever faster until a coordinate exceeds the limit.
   [[nodiscard]] bool diverged() const override {
     constexpr double kMaxCoordinate = 1e10;
     const Pose2& pose = car_.state().pose;
@@ -73,7 +75,7 @@ class ExactPlant final : public Plant {
  private:
   const CarModel& model_;
   Car car_;
-  VehicleState state_;  // present state of the car
+  VehicleState state_;  // state of the car after the last step
   std::vector<double> spin_;
 };
 

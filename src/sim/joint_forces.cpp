@@ -10,15 +10,15 @@ using Eigen::Vector3d;
 
 void AddForce(const mjModel& model, mjData& data, int body, const Vector3d& point_W,
               const Vector3d& force_W, const Vector3d& moment_W) {
-  int moved = body;  // nearest body with joints: `body` itself or an ancestor
+  int moved = body;  // the nearest body that has joints: `body` itself or one of its ancestors
   while (moved > 0 && model.body_dofnum[moved] == 0) {
     moved = model.body_parentid[moved];
   }
   if (moved == 0) {
     return;
   }
-  // In mjData::cdof, MuJoCo stores the motion of a joint (rotation, then translation) at the center
-  // of mass of the kinematic tree.
+  // MuJoCo's mjData::cdof has the motion axis of each joint (rotation, then translation), with the
+  // center of mass of the kinematic tree as reference point.
   const Vector3d center_W(data.subtree_com + 3 * model.body_rootid[body]);
   const Vector3d about_center = moment_W + (point_W - center_W).cross(force_W);
   for (int dof = model.body_dofadr[moved] + model.body_dofnum[moved] - 1; dof >= 0;

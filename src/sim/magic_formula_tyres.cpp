@@ -14,11 +14,11 @@
 namespace trackbed {
 namespace {
 
-/// Speed above which a tyre behaves as a rolling tyre [m/s]. Below this speed, the tyre gradually
-/// becomes a spring.
+/// Speed above which a tyre behaves as a rolling tyre [m/s]. Below this speed, the tyre model
+/// gradually changes into a spring.
 constexpr double kWalkingPace = 1.5;
-/// Speed above which the rolling resistance is fully applied [m/s]. Full rolling resistance down to
-/// standstill would be dry friction, which needs the constraint solver.
+/// Speed above which the full rolling resistance acts [m/s]. If the full rolling resistance acted
+/// down to standstill, it would be dry friction, which needs the constraint solver.
 constexpr double kRollingSpeed = 0.2;
 
 std::size_t AxleIndex(std::size_t wheel) {
@@ -44,28 +44,28 @@ class Relaxation {
  private:
   double speed_;
   double sigma_;
-  double decay_;  // Fraction by which the slip decays in a step.
-  double gain_;   // Slip gained in a step, per slip speed [s/m].
+  double decay_;  // Fraction by which the slip decays during one step.
+  double gain_;   // Increase of the slip during one step, per unit of slip speed [s/m].
 };
 
-/// Returns the value of tau that critically damps an oscillation of angular frequency `omega`. For
-/// a mass on a spring with damping tau, integrated with timestep dt, let W = omega dt. The
-/// eigenvalues of a step solve
+/// Returns the value of tau that critically damps an oscillation of angular frequency `omega`.
+/// Consider a mass on a spring with damping tau, integrated with timestep dt, and let W = omega dt.
+/// The eigenvalues of a step solve
 ///   l^2 - (2 - W^2 - W omega tau) l + 1 - W omega tau = 0.
-/// With omega tau = 2 - W, both eigenvalues are 1 - W. For W > 1, omega tau = 1/W is used, which
-/// gives the eigenvalues 0 and 1 - W^2.
+/// With omega tau = 2 - W, both eigenvalues of a step are 1 - W. For W > 1, the value omega tau =
+/// 1/W is used, which yields the eigenvalues 0 and 1 - W^2.
 double Damping(double omega, double timestep) {
   const double step = omega * timestep;
   return (step < 1.0 ? 2.0 - step : 1.0 / step) / omega;
 }
 
-/// Returns the natural frequency of a wheel's rotation against its tyre's stiffness at a given
-/// load, R sqrt(C_kappa/(sigma I)) [rad/s].
+/// Returns the natural angular frequency of a wheel's rotation against its tyre's stiffness at a
+/// given load, R sqrt(C_kappa/(sigma I)) [rad/s].
 double SpinFrequency(const MagicFormula& tyre, double load, double radius, double inertia) {
   return radius * std::sqrt(SlipStiffness(tyre, load) / (tyre.relaxation_length * inertia));
 }
 
-/// Returns the slip at which the whole contact patch slides, which is 3 mu F_z/C in the brush
+/// Returns the slip at which the whole contact patch slides, equal to 3 mu F_z/C in the brush
 /// model.
 double SlidingSlip(double friction, double load, double stiffness) {
   return 3.0 * friction * load / stiffness;
@@ -86,10 +86,10 @@ MagicFormulaTyres::MagicFormulaTyres(const CarModel& car, const mjModel& model)
   }
 }
 
-/// Checks that the integration is stable. The damped rotation of a wheel against its tyre's
-/// stiffness is stable up to omega dt = sqrt(2); omega is computed for a wheel that carries the
-/// load of the whole axle. The vertical motion of a wheel of mass m, on a tyre of stiffness k and
-/// damping c, is stable up to k/m dt^2 + 2 c/m dt = 4.
+/// Checks that the numerical integration of the tyres is stable. The rotation of a wheel against
+/// its tyre's stiffness is stable up to omega dt = sqrt(2); the check assumes that one wheel
+/// carries the load of the whole axle. The vertical motion of a wheel of mass m, on a tyre of
+/// stiffness k and damping c, is stable up to k/m dt^2 + 2 c/m dt = 4.
 void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight,
                                       const mjModel& model) const {
   const VehicleParams& params = car.params();
@@ -111,7 +111,7 @@ void MagicFormulaTyres::CheckTimestep(const CarModel& car, double weight,
   };
   check(std::sqrt(2.0) / fastest, "wheel spin");
   const CarTyres& tyres = *car.parts().tyres;
-  double lightest = car.params().mass;  // smallest unsprung mass at one wheel [kg]
+  double lightest = car.params().mass;  // smallest unsprung mass of the four wheels [kg]
   for (const int carrier : car.parts().carrier) {
     lightest = std::min(lightest, model.body_subtreemass[carrier]);
   }
@@ -139,8 +139,8 @@ TyreTouch MagicFormulaTyres::Touch(const mjData& data, std::size_t w) const {
 double MagicFormulaTyres::Load(std::size_t w, double gap, double opening) const {
   const CarTyres& tyres = *car_.parts().tyres;
   const double pressed = load_at_rest_[w] - tyres.vertical_stiffness * gap;
-  // The damping force must not pull a lifting tyre toward the road, and must not load a tyre in the
-  // air.
+  // The total force is limited to 0 or more: damping must not pull a lifting tyre toward the road
+  // or load a tyre in the air.
   return pressed <= 0.0 ? 0.0 : std::max(0.0, pressed - tyres.vertical_damping * opening);
 }
 
@@ -188,7 +188,7 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const double c_alpha = CorneringStiffness(tyre, load);
     const double spin_omega = SpinFrequency(tyre, load, radius, car_.parts().spin_inertia[w]);
     const double side_omega = std::sqrt(c_alpha * gravity_ / (sigma * load));
-    // tau_x is limited to sigma/speed, which is the time constant of the slip.
+    // tau_x is limited to the time constant of the slip, sigma/speed.
     const double damping = Damping(spin_omega, timestep_);
     const double tau_x = speed * damping > sigma ? sigma / speed : damping;
     const double tau_y =
@@ -196,15 +196,15 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
     const Relaxation relaxation(speed, sigma, timestep_);
     const double kappa = relaxation.Step(slip.x, contact.slip_speed_x, tau_x);
     const double tangent = relaxation.Step(slip.y, contact.slip_speed_y, tau_y);
-    // Limits the slip to the deflection that friction can hold, so that no larger deflection
-    // remains when the tyre stops sliding.
+    // Limits the slip to the largest deflection that friction can hold; otherwise a larger
+    // deflection would remain when the tyre stops sliding.
     const double most_x = SlidingSlip(road[w] * tyre.p_dx1, load, c_kappa) + speed / kWalkingPace;
     const double most_y = SlidingSlip(road[w] * tyre.p_dy1, load, c_alpha) + speed / kWalkingPace;
     slip.x = std::clamp(slip.x, -most_x, most_x);
     slip.y = std::clamp(slip.y, -most_y, most_y);
 
-    // Left and right tyres are mirror images. The coefficients describe the left tyre, so the signs
-    // are reversed for the right tyre.
+    // The left and right tyres of an axle are mirror images. The Magic Formula coefficients
+    // describe the left tyre, so the signs are reversed for the right tyre.
     const double side = w % 2 == 0 ? 1.0 : -1.0;
     const double lean = -std::asin(std::clamp(contact.spin_axis.dot(contact.up), -1.0, 1.0));
     const double travel = Travel(data, w);
@@ -222,8 +222,9 @@ void MagicFormulaTyres::Apply(const mjModel& model, mjData& data,
                            std::clamp(contact.spin * radius / kRollingSpeed, -1.0, 1.0);
     const Eigen::Vector3d push = load * contact.up + state.longitudinal_force * contact.forward +
                                  state.lateral_force * contact.left;
-    // With this moment, the longitudinal force has the lever arm R about the spin axis at any hub
-    // height. With any other lever arm, the road would do work on a wheel without slip.
+    // The added moment makes the longitudinal force act with the lever arm R about the spin axis,
+    // whatever the height of the hub. With another lever arm, the road would do work on a wheel
+    // that has no slip.
     const double arm = contact.up.dot(hub - contact.point);
     const Eigen::Vector3d moment =
         -(rolling + state.longitudinal_force * (radius - arm)) * contact.spin_axis;

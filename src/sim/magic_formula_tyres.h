@@ -6,13 +6,13 @@
 
 namespace trackbed {
 
-/// The tyres of a car. A tyre is modeled as a spring normal to the ground; slips with a relaxation
-/// length determine its longitudinal and lateral forces by the Magic Formula. The springs replace
-/// MuJoCo's contacts between tyres and ground (TyreSupport::kSprings), so MuJoCo has no contact
-/// constraints to solve for a car on the road.
+/// Computes the tyre forces of a car. A tyre is modeled as a spring normal to the ground; its
+/// forces along the ground follow from the Magic Formula, with slips that have a relaxation length.
+/// The springs replace MuJoCo's contacts between tyres and ground (TyreSupport::kSprings), so
+/// MuJoCo has no contact constraints to solve for a car on the road.
 ///
 /// Normal to the ground, a tyre is a spring of stiffness k with damping c. The gap is the distance
-/// of the tyre's geom from the ground. While F_z0 > k gap, the load of the tyre is
+/// between the tyre's geom and the ground. While F_z0 > k gap, the load of the tyre is
 ///   F_z = max(0, F_z0 - k gap - c d(gap)/dt);
 /// otherwise the load is 0. F_z0 is the wheel load at rest, where the tyre of the model just
 /// touches the ground (gap = 0).
@@ -20,18 +20,17 @@ namespace trackbed {
 /// The longitudinal or lateral slip s approaches its steady value v_s/|v_x| over the relaxation
 /// length sigma, where v_s is the slip speed and v_x the rolling speed:
 ///   sigma ds/dt = v_s - |v_x| s.
-/// The equation of the slip is solved exactly over each timestep, with constant speeds. The
-/// solution is therefore also valid at standstill, where s is the deflection of the tyre divided by
-/// sigma.
+/// The equation of the slip is solved exactly over each timestep, with constant speeds. The exact
+/// solution is also valid at standstill, where s is the deflection of the tyre divided by sigma.
 ///
-/// The Magic Formula gets the slip s + tau ds/dt. The term with tau represents the damping of the
-/// tyre's carcass, which has no effect in steady slip. In the longitudinal direction, tau
+/// The argument of the Magic Formula is s + tau ds/dt. The term tau ds/dt represents the damping of
+/// the tyre's carcass, which has no effect in steady slip. In the longitudinal direction, tau
 /// critically damps the wheel's rotation against the tyre's stiffness at any speed. In the lateral
-/// direction, tau decreases to zero at walking pace, since rolling itself then damps lateral
-/// motion.
+/// direction, tau decreases to zero as the speed rises to walking pace, since rolling then damps
+/// lateral motion.
 class MagicFormulaTyres {
  public:
-  /// If the car has no tyre coefficients, throws the InputError of RequireTyres. Throws InputError
+  /// Throws the InputError of RequireTyres if the car has no tyre coefficients. Throws InputError
   /// if the car's timestep is too long for a stable integration.
   MagicFormulaTyres(const CarModel& car, const mjModel_& model);
 
@@ -39,11 +38,11 @@ class MagicFormulaTyres {
   /// between mj_step1 and mj_step2. `road` has the friction factor of the road under each wheel.
   void Apply(const mjModel_& model, mjData_& data, const std::array<double, 4>& road);
 
-  /// Initializes the tyres without slip, from the positions in `data`. Stand() must be called
+  /// Initializes the tyres with zero slip, at the positions in `data`. Stand() must be called
   /// before the first step.
   void Stand(const mjData_& data);
 
-  /// Sets the lateral slip of every rolling tyre to the steady value for its speed in `data`.
+  /// Sets the lateral slip of every rolling tyre to its steady-state value at the speed in `data`.
   /// TakeLateralSlip must be called after Stand.
   void TakeLateralSlip(const mjModel_& model, const mjData_& data);
 
@@ -58,10 +57,11 @@ class MagicFormulaTyres {
   void CheckTimestep(const CarModel& car, double weight, const mjModel_& model) const;
 
   [[nodiscard]] TyreTouch Touch(const mjData_& data, std::size_t wheel) const;
-  /// Returns the load F_z of a tyre [N] at a gap [m] that increases at the rate `opening` [m/s].
+  /// Returns the load F_z of a tyre [N] from its gap [m] and the rate `opening` at which the gap
+  /// increases [m/s].
   [[nodiscard]] double Load(std::size_t wheel, double gap, double opening) const;
 
-  /// Returns how far the wheel is above its rest position relative to the chassis [m].
+  /// Returns the height of a wheel above its rest position, relative to the chassis [m].
   [[nodiscard]] double Travel(const mjData_& data, std::size_t wheel) const;
 
   struct Slip {
@@ -75,7 +75,7 @@ class MagicFormulaTyres {
   std::array<double, 4> load_at_rest_{};  // F_z0 [N]
   std::array<TyreShape, 4> shape_;
   std::array<Slip, 4> slips_{};
-  std::array<WheelState, 4> states_{};  // states of the wheels, without the slips
+  std::array<WheelState, 4> states_{};  // states of all wheels, without slip values
 };
 
 }  // namespace trackbed

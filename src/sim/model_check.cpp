@@ -14,17 +14,17 @@
 #include "src/sim/mujoco_compat.h"
 #include "trackbed/core/error.h"
 
-// Checks every number of a compiled model against a table of bounds. The macro MJMODEL_POINTERS
-// lists the arrays of mjModel; numbers under <custom> are checked by name. Then the options, the
-// joint names and the actuators are checked. Up to 20 problems, each with the name of its object,
-// are thrown as one InputError.
+// Checks every number of a compiled model against a table of bounds. The arrays to check come from
+// MuJoCo's macro MJMODEL_POINTERS; numbers under <custom> are checked by name. Checks the options,
+// the joint names and the actuators afterwards. Throws one InputError that lists up to 20 problems,
+// each with the name of its object.
 namespace trackbed {
 namespace {
 
-/// The largest magnitude that MuJoCo accepts in a simulation.
+/// Largest magnitude of a number that MuJoCo accepts in a simulation.
 constexpr double kMaxMagnitude = 1e10;
 
-/// Largest magnitude of the numbers with this name, far beyond that of any vehicle.
+/// Largest accepted magnitude of the numbers with this name, far beyond that of any vehicle.
 struct Bound {
   std::string_view name;
   double largest;
@@ -49,12 +49,12 @@ constexpr std::array kCustomBounds{Bound{"steering_ratio", 1e3},
                                    Bound{"rolling_resistance", 1.0},
                                    Bound{"camber_gain_front", 1e1},
                                    Bound{"camber_gain_rear", 1e1}};
-constexpr double kMaxCoefficient = 1e3;  // bound of the Magic Formula coefficients of a tyre, such
-                                         // as "p_cx1"
+// bound of a tyre's Magic Formula coefficients, such as "p_cx1"
+constexpr double kMaxCoefficient = 1e3;
 
-/// Bounds of those arrays of the compiled model that contain numbers from the file, in SI units.
-/// The other arrays are computed from these arrays or are used only for drawing. Arrays that do not
-/// exist in a version of MuJoCo are skipped.
+/// Bounds for the arrays of the compiled model whose numbers come from the model file, in SI units.
+/// MuJoCo computes all other arrays from these arrays, or uses them only for drawing. Arrays that
+/// the installed version of MuJoCo does not have are skipped.
 constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"qpos_spring", kMaxMagnitude},
                                   Bound{"body_pos", 1e5},
@@ -151,8 +151,7 @@ constexpr std::array kModelBounds{Bound{"qpos0", 1e5},
                                   Bound{"key_mpos", kMaxMagnitude},
                                   Bound{"key_mquat", kMaxMagnitude},
                                   Bound{"key_ctrl", kMaxMagnitude}};
-/// Arrays whose numbers must not be negative, since negative numbers would add energy to the
-/// simulation.
+/// Arrays whose numbers must not be negative; negative numbers would add energy to the simulation.
 constexpr std::array<std::string_view, 9> kNonNegative{
     "jnt_stiffness",  "dof_damping",     "dof_armature",     "dof_frictionloss", "tendon_stiffness",
     "tendon_damping", "tendon_armature", "actuator_damping", "actuator_armature"};
@@ -180,7 +179,7 @@ class ModelChecker {
   }
 
  private:
-  /// Returns only the first problems, since an invalid number is often repeated in many rows.
+  /// Keeps only the first problems, since an invalid number is often repeated in many rows.
   static std::vector<Problem> FirstOf(std::vector<Problem> problems) {
     constexpr std::size_t kMaxProblems = 20;
     problems.resize(std::min(problems.size(), kMaxProblems));
@@ -197,8 +196,8 @@ class ModelChecker {
     return name == nullptr ? fmt::format("{} {}", kind, id) : name;
   }
 
-  /// Returns the name of the object that row `row` of an array describes. `rows` is MuJoCo's name
-  /// for the number of rows.
+  /// Returns the name of the object that is described by row `row` of an array. `rows` is the name
+  /// of the mjModel field with the number of rows.
   [[nodiscard]] std::string Owner(std::string_view rows, int row) const {
     struct Kind {
       std::string_view rows;
@@ -243,13 +242,13 @@ class ModelChecker {
     }
   }
 
-  /// Skips arrays of indices, flags, and numbers that are used only for drawing.
+  /// Skips arrays that contain indices or flags, or numbers used only for drawing.
   template <typename Other>
   void CheckArray(std::string_view, std::string_view, const Other*, int, int) {}
 
   void CheckArrays() {
     const mjModel* m = &m_;
-    // Since MuJoCo 3.11, sizes in mjModel have 64 bits, but the sizes in the macro do not.
+    // Since MuJoCo 3.11, the sizes in mjModel have 64 bits, but the macro still uses 32-bit sizes.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
     MJMODEL_POINTERS_PREAMBLE(m)
@@ -302,8 +301,8 @@ class ModelChecker {
 
   /// Joint names become column names of CSV files, followed by the unit.
   void CheckJointNames() {
-    std::set<std::string, std::less<>> taken{"x", "y", "z"};  // column names of the position of the
-                                                              // chassis
+    // names that are taken by the columns of the chassis position
+    std::set<std::string, std::less<>> taken{"x", "y", "z"};
     for (int joint = 0; joint < m_.njnt; ++joint) {
       const int type = m_.jnt_type[joint];
       if (type != mjJNT_HINGE && type != mjJNT_SLIDE) {

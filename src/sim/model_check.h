@@ -10,8 +10,8 @@ namespace trackbed {
 /// is plausible for vehicles, and gravity must point down. Joint names become names of log columns,
 /// so they must be unique and consist of plain characters.
 ///
-/// Throws InputError that lists all problems, each with the name of the body, joint, geom or number
-/// concerned.
+/// Throws InputError that lists all problems, each with the name of the affected body, joint, geom
+/// or number.
 void CheckModel(const mjModel_& model, const std::string& file);
 
 }  // namespace trackbed

@@ -9,14 +9,13 @@
 #include <span>
 #include <string>
 
-/// Hides the differences between MuJoCo versions in the physics. Supported versions are 2.2.2, 3.3
-/// and newer, and 4.0.1. If a struct member exists only in some versions, a template tests for it
-/// with `requires`, since only a template may name a missing member. If enumerators differ, the
-/// code depends on the version number. docs/how-to/mujoco-versions.md lists the differences;
-/// render/mujoco_compat.h handles those in drawing.
+/// Hides the API differences between MuJoCo versions from the simulation code. The supported MuJoCo
+/// versions are 2.2.2, 3.3 and newer, and 4.0.1. If a struct member exists only in some versions, a
+/// template tests for the member with `requires`, since only a template may name a missing member.
+/// If enumerators differ, preprocessor conditions on the version number select the code.
 namespace trackbed::mj {
 
-/// Adds a file to MuJoCo's virtual file system. Returns 0 on success.
+/// Adds a file to MuJoCo's virtual file system. Returns 0 if the file was added.
 template <std::same_as<mjVFS> Vfs>
 int AddToVfs(Vfs& vfs, const std::string& file, const std::string& content) {
   const auto size = static_cast<int>(content.size());
@@ -38,8 +37,8 @@ inline std::int64_t SizeOf(const mjModel& model) {
   return static_cast<std::int64_t>(mj_sizeModel(&model));
 }
 
-/// Disables an equality constraint. The flag of a constraint is in mjData since MuJoCo 3.0, and was
-/// in mjModel before.
+/// Disables an equality constraint. The flag that enables an equality constraint is in mjData since
+/// MuJoCo 3.0, and was in mjModel before.
 template <std::same_as<mjModel> Model, std::same_as<mjData> Data>
 void DisableEquality(Model& model, [[maybe_unused]] Data& data, int equality) {
   if constexpr (requires { model.eq_active0; }) {
@@ -50,8 +49,8 @@ void DisableEquality(Model& model, [[maybe_unused]] Data& data, int equality) {
   }
 }
 
-/// Whether each actuator has exactly one control. Before MuJoCo 3.17, every actuator had exactly
-/// one control.
+/// Whether each actuator has exactly one control. Before MuJoCo 3.17, an actuator always had
+/// exactly one control.
 template <std::same_as<mjModel> Model>
 bool HasOneControlEach(const Model& model) {
   if constexpr (requires { model.nactuator; }) {
@@ -62,7 +61,8 @@ bool HasOneControlEach(const Model& model) {
 }
 
 /// Returns the index of an actuator's state in mjData::act; -1 if the actuator has no state. Before
-/// MuJoCo 2.3, the actuators with a state were the last ones, and each had a single state.
+/// MuJoCo 2.3, the actuators with a state were the last ones in the model, and each had a single
+/// state.
 template <std::same_as<mjModel> Model>
 int ActivationAddress(const Model& model, int actuator) {
   if constexpr (requires { model.actuator_actadr; }) {
@@ -73,7 +73,7 @@ int ActivationAddress(const Model& model, int actuator) {
   }
 }
 
-/// Returns the moment arm of an actuator for a degree of freedom, as computed by mj_transmission.
+/// Returns the moment arm of an actuator about a degree of freedom, as computed by mj_transmission.
 /// MuJoCo stores the moment arms in a sparse matrix since version 3.2.5.
 template <std::same_as<mjData> Data>
 mjtNum ActuatorMoment([[maybe_unused]] const mjModel& model, const Data& data, int actuator,
@@ -91,13 +91,14 @@ mjtNum ActuatorMoment([[maybe_unused]] const mjModel& model, const Data& data, i
   }
 }
 
-/// Locks the joints `dofs` with a large armature inertia. The model must be at rest in its initial
-/// configuration.
+/// Locks the joints `dofs` by giving them a large armature inertia. The state of the model must be
+/// at rest in its initial configuration.
 ///
-/// MuJoCo's constraint solver scales its tolerance by the trace of the inertia matrix. An armature
-/// that is set after compilation is included in the trace since MuJoCo 3.17, but not in earlier
-/// versions. LockJoints therefore divides the tolerance by the factor by which the trace grows.
-/// Without this correction, contacts would be solved a thousand times less accurately.
+/// MuJoCo's constraint solver scales its tolerance by the trace of the inertia matrix. Since MuJoCo
+/// 3.17, the trace includes an armature inertia that is set after compilation; in earlier versions
+/// the trace does not. LockJoints therefore divides the solver's tolerance by the factor by which
+/// the trace grows. Without this correction of the tolerance, contacts would be solved a thousand
+/// times less accurately.
 inline void LockJoints(mjModel& model, std::span<const int> dofs, double armature) {
 #if mjVERSION_HEADER >= 3017000
   const double trace = std::accumulate(model.dof_M0, model.dof_M0 + model.nv, 0.0);
@@ -108,18 +109,20 @@ inline void LockJoints(mjModel& model, std::span<const int> dofs, double armatur
   }
 }
 
-/// Returns the number of iterations of the constraint solver in the last step. Since MuJoCo 3.0,
-/// iterations are counted separately for each island.
+/// Returns the number of iterations that the constraint solver needed in the last step. Since
+/// MuJoCo 3.0, iterations are counted separately for each constraint island.
 template <std::same_as<mjData> Data>
 int SolverIterations(const Data& data) {
   if constexpr (requires { data.solver_niter; }) {
-    return data.solver_niter[0];  // without islands, the first entry counts for all constraints
+    // with islands disabled, the first entry is the count for all constraints
+    return data.solver_niter[0];
   } else {
     return data.solver_iter;
   }
 }
 
-/// Returns the text of a warning from MuJoCo's simulation. Before MuJoCo 3.0, `info` was an int.
+/// Returns the text of a warning from MuJoCo's simulation. The type of `info` was int before MuJoCo
+/// 3.0.
 inline const char* WarningText(int warning, int info) {
   return [&]<typename Info>(const char* (*text)(int, Info)) {
     return text(warning, static_cast<Info>(info));
@@ -128,11 +131,11 @@ inline const char* WarningText(int warning, int info) {
 
 /// Sets options such that all MuJoCo versions compute the same motion.
 ///
-/// Constraint islands, which are on by default since MuJoCo 3.3.6, are disabled. The solver stops
-/// separately for each island, so a laden car would creep, and runs would differ from those of
-/// 2.2.2 by millimeters instead of rounding errors. The mid-phase of collision detection, which
-/// exists since 2.3.3, is disabled. The mid-phase uses the bounding boxes of the compiled model,
-/// but RoadContact moves planes out of these boxes, so a car on contact tyres would fall through
+/// Constraint islands, which are on by default since MuJoCo 3.3.6, are disabled. With islands, the
+/// solver stops separately for each island: a laden car would creep, and runs would differ from
+/// those of 2.2.2 by millimeters instead of rounding errors. The mid-phase of collision detection,
+/// introduced in 2.3.3, is also disabled. The mid-phase uses the bounding boxes of the compiled
+/// model; as RoadContact moves planes out of these boxes, a car on contact tyres would fall through
 /// terrain.
 inline void SetCommonOptions([[maybe_unused]] mjModel& model) {
 #if mjVERSION_HEADER >= 233

@@ -4,12 +4,13 @@
 
 #include "trackbed/core/error.h"
 
-// Functions that set the handlers of the calling thread, which take precedence over the global
-// handlers. MuJoCo exports these functions, for example for its Python bindings, but mujoco.h does
-// not declare them.
+// Functions of MuJoCo that set the error and warning handlers of the calling thread; these take
+// precedence over the global handlers. MuJoCo exports these functions, for example for its Python
+// bindings, but mujoco.h does not declare them.
 extern "C" {
 #if mjVERSION_HEADER >= 3010000
-mjfLogHandler _mjPRIVATE_setTlsLogHandler(mjfLogHandler handler);  // returns the previous handler
+// returns the thread's previous handler
+mjfLogHandler _mjPRIVATE_setTlsLogHandler(mjfLogHandler handler);
 #else
 void (*_mjPRIVATE__get_tls_error_fn(void))(const char*);
 void _mjPRIVATE__set_tls_error_fn(void (*handler)(const char*));

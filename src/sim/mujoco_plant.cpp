@@ -31,7 +31,7 @@ Vector3d Vec(const mjtNum* numbers) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-/// Whether there are two geoms that may touch and belong to bodies that move relative to each
+/// Whether the model has two geoms that may touch and belong to bodies that move relative to each
 /// other.
 bool HasCollidableGeoms(const mjModel& model) {
   const auto may_touch = [&](int a, int b) {
@@ -107,8 +107,8 @@ void MujocoPlant::RollWheels(std::span<const int> spin_dof, const StartState& st
 void MujocoPlant::Begin() {
   const MujocoErrorScope errors;
   if (!HasCollidableGeoms(*model_)) {
-    model_->opt.disableflags |= mjDSBL_CONTACT;  // saves the search for contacts, which takes 11 %
-                                                 // of a step
+    // saves the search for contacts, which would take 11 % of a step's run time
+    model_->opt.disableflags |= mjDSBL_CONTACT;
   }
   ground_.Place(*model_, *data_);
   MoveObstacles();
@@ -136,7 +136,8 @@ void MujocoPlant::Step(const Command& command) {
   distance_ += std::abs(Speed()) * model_->opt.timestep;
 }
 
-/// Sets moving obstacles to their planned positions and speeds, which a collision does not change.
+/// Sets moving obstacles to their planned positions and speeds; a collision does not change the
+/// motion of an obstacle.
 void MujocoPlant::MoveObstacles() {
   for (const Slider& slider : sliders_) {
     data_->qpos[slider.qpos] = slider.speed * data_->time;
@@ -190,7 +191,7 @@ double MujocoPlant::Yaw() const {
   return std::atan2(2.0 * (q[0] * q[3] + q[1] * q[2]), 1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]));
 }
 
-/// Returns the unit vector along the heading, equal to Direction(Yaw()).
+/// Returns the unit vector along the car's heading, equal to Direction(Yaw()).
 Vec2 MujocoPlant::Ahead() const {
   const mjtNum* q = ChassisPosition() + 3;
   return Vec2(1.0 - 2.0 * (q[2] * q[2] + q[3] * q[3]), 2.0 * (q[0] * q[3] + q[1] * q[2]))
@@ -216,8 +217,8 @@ MujocoPlant::Road MujocoPlant::UpdateRoadFriction() {
   for (std::size_t w = 0; w < wheels.size(); ++w) {
     const mjtNum* hub = data_->xpos + 3 * wheels[w];
     road[w] = RoadFactor(world_, {hub[0], hub[1]});
-    // Only the sliding friction is scaled. The coefficients of torsional and rolling friction are
-    // lengths, which do not depend on the road.
+    // Only the coefficient of sliding friction is scaled by the road's friction factor. The
+    // coefficients of torsional and rolling friction are lengths, which do not depend on the road.
     model_->geom_friction[3 * car_.tyres()[w]] = tyre_friction_[w] * road[w];
   }
   return road;
@@ -272,15 +273,15 @@ VehicleState MujocoPlant::Observe() const {
   const VehicleParams& params = car_.params();
   const mjtNum* position = ChassisPosition();
   const Matrix3d R_WV = ChassisRotation();
-  const Vector3d v_W = Vec(ChassisVelocity());             // Velocity of the origin of the vehicle
-                                                           // frame V.
-  const Vector3d w_W = R_WV * Vec(ChassisVelocity() + 3);  // MuJoCo gives the angular velocity of a
-                                                           // free joint in the body's frame.
+  // Computes the velocity of the origin of the vehicle frame V.
+  const Vector3d v_W = Vec(ChassisVelocity());
+  // MuJoCo stores the angular velocity of a free joint in the body's frame.
+  const Vector3d w_W = R_WV * Vec(ChassisVelocity() + 3);
   const mjtNum* qacc = data_->qacc + car_.chassis().chassis_dof;
   const Vector3d a_W = Vec(qacc);
   const Vector3d alpha_W = R_WV * Vec(qacc + 3);
-  // The velocities and the pose refer to points at ground height, and the accelerations to the
-  // center of gravity.
+  // In the returned state, pose and velocities refer to points at ground height, whereas
+  // accelerations refer to the center of gravity.
   const Vector3d v_cg_W = v_W + w_W.cross(R_WV * Vector3d(params.cg_to_rear, 0.0, 0.0));
   const Vector3d to_cg_W = R_WV * Vector3d(params.cg_to_rear, 0.0, car_.chassis().cg_height);
   const Vector3d a_cg_W = a_W + alpha_W.cross(to_cg_W) + w_W.cross(w_W.cross(to_cg_W));
@@ -299,7 +300,8 @@ VehicleState MujocoPlant::Observe() const {
   state.longitudinal_acceleration = ahead.dot(a_cg_W.head<2>());
   state.lateral_acceleration = left.dot(a_cg_W.head<2>());
   const double cg_speed = ahead.dot(v_cg_W.head<2>());
-  // At rest, the sideslip angle is set to 0, since it would consist of rounding errors.
+  // At rest, the sideslip angle is set to 0, because a computed value would consist only of
+  // rounding errors.
   state.sideslip =
       v_cg_W.head<2>().norm() < kAtRestSpeed ? 0.0 : std::atan(state.lateral_speed / cg_speed);
   const Wheels wheels = ObserveWheels();

@@ -15,8 +15,8 @@
 
 namespace trackbed {
 
-/// Base class of the MuJoCo plants, which handles the vehicle's state, the road, the air and
-/// external forces. Derived classes drive the wheels.
+/// Base class of the MuJoCo plants; handles the vehicle's state, the road, the air and external
+/// forces. Derived classes implement the actuators and the wheels.
 class MujocoPlant : public Plant {
  public:
   void Step(const Command& command) final;
@@ -29,33 +29,35 @@ class MujocoPlant : public Plant {
   [[nodiscard]] bool diverged() const final;
   [[nodiscard]] std::string divergence() const final;
   [[nodiscard]] double wheel_gap() const final;
-  /// Returns the number of constraint rows in the last step, from contacts, joint limits, dry
+  /// Returns the number of rows of the last step's constraints: contacts, joint limits, dry
   /// friction and couplings.
   [[nodiscard]] int constraint_rows() const { return data_->nefc; }
 
  protected:
   /// Friction factor of the road under each wheel, in the order of CarModel::wheels().
   using Road = std::array<double, 4>;
-  /// Steering and wheel states, as observed by the derived class.
+  /// Steering and wheel states of the car, as observed by the derived class.
   struct Wheels {
     double actuator = 0.0;  ///< Value for VehicleState::steering_actuator.
     double steering = 0.0;  ///< Value for VehicleState::steering.
     std::optional<std::array<WheelState, 4>> forces;
   };
 
-  /// Initializes position and velocity from `setup.start`, without the spin of the wheels.
+  /// Initializes the car's position and velocity from `setup.start`, but not the spin of the
+  /// wheels.
   explicit MujocoPlant(const PlantSetup& setup, TyreSupport support = TyreSupport::kContacts);
-  /// Sets the speeds of the wheels' spin joints to those of rolling without slip. `spin_dof` has
-  /// the joints in the order of CarModel::wheels().
+  /// Sets the speeds of the wheels' spin joints to those of wheels that roll without slip.
+  /// `spin_dof` has the degrees of freedom of the spin joints in the order of CarModel::wheels().
   void RollWheels(std::span<const int> spin_dof, const StartState& start);
-  /// Begin() must be called after the spin and the actuators are set, and before the first step.
+  /// Begin() must be called after the wheel spin and the actuators are set, and before the first
+  /// step.
   void Begin();
 
-  /// Sets actuators and brakes; called before a step.
+  /// Sets the actuators and brakes for the coming step; called before the step.
   virtual void Act(const Command& command) = 0;
-  /// Adds wheel forces to qfrc_applied; called between mj_step1 and mj_step2.
+  /// Adds the wheel forces of a step to qfrc_applied; called between mj_step1 and mj_step2.
   virtual void ApplyWheelForces(const Road& /*road*/) {}
-  /// Ends a step; called after mj_step2.
+  /// Ends a step of the derived plant; called after mj_step2.
   virtual void Finish(const Command& /*command*/) {}
   [[nodiscard]] virtual Wheels ObserveWheels() const = 0;
 
@@ -64,13 +66,13 @@ class MujocoPlant : public Plant {
   [[nodiscard]] const mjModel& model() const { return *model_; }
   [[nodiscard]] mjData& data() { return *data_; }
   [[nodiscard]] const mjData& data() const { return *data_; }
-  /// Returns the forward speed over the ground [m/s].
+  /// Returns the car's forward speed over the ground [m/s].
   [[nodiscard]] double Speed() const;
-  /// Returns the aerodynamic drag [N], which is positive if it opposes forward motion.
+  /// Returns the aerodynamic drag of the car [N], which is positive if it opposes forward motion.
   [[nodiscard]] double Drag() const;
 
  private:
-  /// A joint along which an obstacle moves.
+  /// A slide joint along which an obstacle moves: indices of the joint in qpos and qvel, and speed.
   struct Slider {
     int qpos = -1;
     int dof = -1;
@@ -90,17 +92,20 @@ class MujocoPlant : public Plant {
 
   const CarModel& car_;
   const World& world_;
-  MujocoModel model_;  // own copy of the model, which the brakes and the road modify
+  // copy of the model that belongs to this plant, because brakes and road modify the model
+  MujocoModel model_;
   MujocoData data_;
   RoadContact ground_;
   std::vector<Slider> sliders_;
-  std::vector<bool> is_obstacle_;          // For each geom, whether it is an obstacle.
-  std::vector<bool> is_of_car_;            // For each geom, whether it belongs to the car.
+  std::vector<bool> is_obstacle_;  // For each geom of the model, whether it is an obstacle.
+  // For each geom of the model, whether it belongs to the car.
+  std::vector<bool> is_of_car_;
   std::array<double, 4> tyre_friction_{};  // Friction coefficient of each tyre contact on a road
                                            // with friction factor 1.
   double yaw_ = 0.0;                       // Heading, unwrapped [rad].
   double distance_ = 0.0;                  // Driven distance [m].
-  double pending_lateral_force_ = 0.0;     // Lateral force to the left, for the coming step [N].
+  // Lateral push on the car in the coming step, positive to the left [N].
+  double pending_lateral_force_ = 0.0;
 };
 
 /// Makes the MuJoCo plant of a car with steered front wheels, or of a vehicle with differential

@@ -70,7 +70,7 @@ void PartsReader::ReadChassis(int free_joint) {
              fmt::format("the free joint is in the body {}; must be in the body 'chassis'",
                          QuotedName(mjOBJ_BODY, body)));
   }
-  params_.name = m_.names;  // MuJoCo's buffer of all names begins with the name of the model
+  params_.name = m_.names;  // MuJoCo's buffer of object names begins with the name of the model
   chassis_.chassis_qpos = m_.jnt_qposadr[free_joint];
   chassis_.chassis_dof = m_.jnt_dofadr[free_joint];
   params_.mass = m_.body_subtreemass[chassis_.chassis];
@@ -136,8 +136,8 @@ void PartsReader::CheckOrigin(const char* axle, const char* wheels, int left, in
 }
 
 void PartsReader::CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius) {
-  // Skips scenes with hilly ground (WithGround), where the car stands at another height. The ground
-  // of the model itself was checked before.
+  // Scenes with hilly ground (WithGround) are not checked, because the car stands at a different
+  // height there. The level ground of the original model was checked before.
   if (mj_name2id(&m_, mjOBJ_GEOM, ("ground_" + wheel).c_str()) >= 0) {
     return;
   }

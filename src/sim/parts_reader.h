@@ -12,15 +12,15 @@
 
 namespace trackbed {
 
-/// Base class of the readers of vehicles. PartsReader finds parts by name in a compiled model and
+/// Base class of the classes that read a vehicle from its compiled model. Finds parts by name and
 /// collects all errors.
 class PartsReader {
  protected:
-  /// Tolerance for the rounding of decimal numbers in a file: lengths [m], components of axes and
+  /// Tolerance for rounded decimal numbers in a model file: lengths [m], components of axes and
   /// relative sizes [1].
   static constexpr double kExact = 1e-6;
-  /// Cosine of the largest allowed angle between an axis of a wheel and the corresponding axis of
-  /// the car. Toe, camber or kingpin inclination cause such an angle between the axes.
+  /// Cosine of the maximum angle between an axis of a wheel and the corresponding axis of the car.
+  /// Toe, camber or kingpin inclination tilt the axes of a wheel relative to those of the car.
   static constexpr double kUpright = 0.7;
 
   PartsReader(const mjModel& model, const std::string& file);
@@ -28,40 +28,43 @@ class PartsReader {
   void AddError(std::string name, std::string message);
   void ThrowIfAnything() const;
 
-  /// Returns the index of the named object. If the object is missing, adds an error and returns -1.
-  int Find(int type, const char* kind, const std::string& name);
-  /// Returns the index of the named joint. If the joint is missing or has another type, adds an
+  /// Returns the index of the object with the given name. If the object does not exist, adds an
   /// error and returns -1.
+  int Find(int type, const char* kind, const std::string& name);
+  /// Returns the index of the joint with the given name. If the joint does not exist or has another
+  /// type, adds an error and returns -1.
   int Joint(const std::string& name, int type, const char* kind);
-  /// Returns the first number of a <numeric> under <custom>. If the numeric is missing, adds an
-  /// error and returns 0.
+  /// Returns the first number of a <numeric> element under <custom>. If the <numeric> element is
+  /// missing, adds an error and returns 0.
   double Number(const std::string& name);
 
   [[nodiscard]] std::string QuotedName(int type, int id) const;
-  /// Returns a coordinate of a world point relative to the origin of the chassis, at qpos0 [m].
+  /// Returns one coordinate of a world point relative to the origin of the chassis, in the
+  /// configuration qpos0 [m].
   [[nodiscard]] double Offset(const mjtNum* point, std::size_t axis) const;
-  /// Returns a coordinate of a body's origin relative to the origin of the chassis, at qpos0 [m].
+  /// Returns one coordinate of a body's origin relative to the origin of the chassis, in the
+  /// configuration qpos0 [m].
   [[nodiscard]] double Place(int body, std::size_t axis) const;
   [[nodiscard]] static std::string Text(const mjtNum* v);
 
-  /// Reads the state address, mass, inertia and center of gravity of all bodies that move with the
-  /// free joint.
+  /// Reads the address of the chassis in the state vector, and the mass, inertia and center of
+  /// gravity of all bodies that move with the free joint.
   void ReadChassis(int free_joint);
-  /// Checks that the origin of the chassis lies below the middle of the wheels of `axle`. Messages
-  /// call the two wheels `wheels`.
+  /// Checks that the origin of the chassis lies below the middle of the wheels of `axle`. Error
+  /// messages call the two wheels `wheels`.
   void CheckOrigin(const char* axle, const char* wheels, int left, int right);
-  /// Checks the axis and the tyre of the wheel with the joint spin_`wheel`. The tyre must have the
-  /// same size as the geom `first`; otherwise the message is "`all` must be equal".
+  /// Checks the axis and the tyre of the wheel whose joint is spin_`wheel`. Adds the error "`all`
+  /// must be equal" if the size of the tyre differs from that of the geom `first`.
   void CheckWheel(const std::string& wheel, int spin, int tyre, int first, const char* all);
-  /// Checks that at qpos0 the wheel touches the model's own ground, with a tolerance of half the
-  /// wheel's radius. Does nothing if the ground is not level.
+  /// Checks that in the configuration qpos0 the wheel touches the model's own ground, with a
+  /// tolerance of half the wheel's radius. The check is skipped if the ground is not level.
   void CheckStand(const std::string& wheel, const mjtNum* hub_W, double radius);
   void ReadFootprint(int site);
   void ReadAerodynamics();
 
   const mjModel& m_;
   std::string file_;
-  MujocoData data_;  // data of the model at qpos0
+  MujocoData data_;  // MuJoCo's data of the model in the configuration qpos0
   std::vector<Problem> problems_;
   Numerics numerics_{
       m_, [this](const std::string& name, const std::string& message) { AddError(name, message); }};

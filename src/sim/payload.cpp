@@ -34,14 +34,16 @@ class Settling {
     }
   }
 
-  /// Simulates until the car is at rest. Returns false if the car is not at rest after 30 s of
+  /// Simulates the car until it is at rest. Returns false if the car is not at rest after 30 s of
   /// simulated time.
   bool Run() {
     const MujocoErrorScope errors;
-    constexpr double kMaxSettlingTime = 30.0;  // Longest simulated time [s].
-    // On springs with a natural frequency of 1 Hz or more, a car that is slower than this is less
-    // than a micrometer from its equilibrium.
-    constexpr double kRestSpeed = 1e-6;  // Speed below which a joint is at rest [m/s], [rad/s].
+    // Maximum simulated time until the car must be at rest [s].
+    constexpr double kMaxSettlingTime = 30.0;
+    // On springs with a natural frequency of at least 1 Hz, a car slower than kRestSpeed is less
+    // than a micrometer from its equilibrium. Speed below which a joint is considered at rest
+    // [m/s], [rad/s].
+    constexpr double kRestSpeed = 1e-6;
     constexpr double kCheckInterval = 0.5;
     // The largest speed within an interval is checked, since an oscillating car is also slow at its
     // turning points.
@@ -66,8 +68,8 @@ class Settling {
     return false;
   }
 
-  /// Returns the settled qpos, with the car moved to the origin, its heading along x, and its
-  /// wheels straight.
+  /// Returns MuJoCo's configuration qpos of the settled car, moved to the origin, with its heading
+  /// along x and straight wheels.
   [[nodiscard]] std::vector<double> Position() const {
     std::vector<double> qpos(data_->qpos, data_->qpos + model_->nq);
     const auto chassis = static_cast<std::size_t>(car_.parts().chassis_qpos);

@@ -24,7 +24,7 @@ std::unique_ptr<Plant> MakeMujocoWith(const PlantSetup& setup) {
   return MakeMujocoPlant(own);
 }
 
-/// Returns the registry of plants, which has one line per plant.
+/// Returns the registry of all plants; each line of the initializer defines one plant.
 Registry<PlantEntry>& Table() {
   static Registry<PlantEntry> table(
       "plant",

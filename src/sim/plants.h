@@ -4,8 +4,8 @@
 
 namespace trackbed {
 
-// In planar plants, the actuators follow each command immediately. Delays are added in
-// steering_filter_plant.h.
+// The actuators of planar plants follow each command immediately. The wrapper in
+// steering_filter_plant.h adds delays.
 
 std::unique_ptr<Plant> MakeIdealKinematicPlant(const PlantSetup& setup, ReferencePoint reference);
 

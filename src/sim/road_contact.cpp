@@ -16,12 +16,12 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Gaps smaller than this distance are treated as contact [m]. On a crest, a gap of a micrometer
-/// opens under the tyre. Without this tolerance for gaps, MuJoCo would drop the contact, and the
-/// suspension spring would hammer the tyre back onto the ground.
+/// Gap between tyre and ground up to which the tyre is still treated as touching [m]. At a crest,
+/// gaps of about a micrometer open under the tyre. Without the tolerance, MuJoCo would drop the
+/// contact at such a gap, and the suspension spring would hammer the tyre back onto the ground.
 constexpr double kContactGap = 5e-4;
-/// Distance between tyre and plane that is set for such a gap [m]; a penetration as small as a
-/// rounding error.
+/// Distance between tyre and plane that is set instead of a small gap [m]; a penetration as small
+/// as a rounding error.
 constexpr double kContactDistance = -1e-9;
 
 bool IsRoad(const mjModel& model, int geom) {
@@ -30,8 +30,8 @@ bool IsRoad(const mjModel& model, int geom) {
          (std::string_view(name) == "ground" || std::string_view(name).starts_with("ground_"));
 }
 
-/// Bit of contype and conaffinity for all geoms that the tyres can touch, except their planes. Car
-/// models do not use the bit kOtherGeomsBit.
+/// Collision bit (contype, conaffinity) of all geoms that the tyres can touch, except the planes
+/// under the tyres. The models of cars must not use the collision bit kOtherGeomsBit.
 constexpr int kOtherGeomsBit = 1 << 28;
 
 }  // namespace
@@ -51,8 +51,8 @@ RoadContact::RoadContact(const CarModel& car, TyreSupport support, mjModel& mode
       const std::string name = fmt::format("ground{}", own_name.substr(kTyre.size()));
       plane_[w] = mj_name2id(&model, mjOBJ_GEOM, name.c_str());
       TRACKBED_CHECK(plane_[w] >= 0, "the scene has no geom '{}'", name);
-      model.geom_sameframe[plane_[w]] = 0;  // without this reset, MuJoCo would leave the plane at
-                                            // the world's origin
+      // without resetting geom_sameframe, MuJoCo would leave the plane at the world's origin
+      model.geom_sameframe[plane_[w]] = 0;
     }
     int& contype = model.geom_contype[tyre];
     int& conaffinity = model.geom_conaffinity[tyre];
@@ -88,9 +88,9 @@ void RoadContact::Place(mjModel& model, mjData& data) const {
     const Matrix3d R_WT =
         Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.geom_xmat + 9 * tyre);
     const double gap = shape_[w].On(ground, center_W, R_WT).gap;
-    // The plane has the slope of the ground at the middle of the step, so that a tyre moving along
-    // the plane ends on the ground, up to second-order errors. The distance between tyre and plane
-    // equals the present distance between tyre and ground.
+    // The plane gets the slope that the ground has at the middle of the step; a tyre moving along
+    // the plane then ends on the ground, up to second-order errors. The distance between tyre and
+    // plane equals the present distance between tyre and ground.
     const Vector3d half_step_motion =
         0.5 * model.opt.timestep * (Vector3d(velocity) + w_W.cross(center_W - origin_W));
     const TyreTouch ahead = shape_[w].On(ground, center_W + half_step_motion, R_WT);

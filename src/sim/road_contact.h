@@ -9,43 +9,44 @@
 
 namespace trackbed {
 
-/// Returns the conaffinity bit of the plane under a wheel. Car models do not use the bits of the
-/// planes.
+/// Returns the collision bit (conaffinity) of the plane under a wheel. The models of cars must not
+/// use the collision bits of these planes.
 constexpr int WheelPlaneBit(std::size_t wheel) {
   return 1 << (24 + wheel);
 }
 
-/// How the tyres are supported by the ground.
+/// Ways in which the ground supports the tyres.
 enum class TyreSupport {
-  kContacts,  ///< MuJoCo's contacts carry the tyres.
-  kSprings,   ///< The springs of MagicFormulaTyres carry the tyres.
+  kContacts,  ///< MuJoCo's contacts support the tyres.
+  kSprings,   ///< The springs of MagicFormulaTyres support the tyres.
 };
 
-/// Lets tyres roll on the ground itself, not on the facets of its height fields.
+/// Lets tyres roll on the exact ground instead of the facets of its height fields.
 ///
 /// In MuJoCo, a height field consists of prisms with flat facets, and a rigid tyre bounces from
-/// facet to facet. On a hump of 8 m length and 0.1 m height at 10 m/s, wheel loads jump by 832 N
-/// from one step of 2 ms to the next, compared with 7 N on the exact ground. On the facets, the car
-/// also loses twice as much speed. RoadContact lets each tyre touch a single plane (`ground_fl`,
-/// …). Before every step, the plane is moved to be tangent to the exact ground under the tyre.
-/// Contacts, friction and forces are still computed by MuJoCo.
+/// facet to facet. On the facets of a hump of 8 m length and 0.1 m height, wheel loads at 10 m/s
+/// jump by 832 N from one step of 2 ms to the next, compared with 7 N on the exact ground. On the
+/// facets of a height field, the car also loses twice as much speed. With RoadContact, each tyre
+/// touches only a single plane (`ground_fl`, …). Before every step, the plane is moved to be
+/// tangent to the exact ground under the tyre. MuJoCo still computes the contacts, friction and
+/// forces.
 ///
 /// With TyreSupport::kSprings, MuJoCo computes no contacts between tyres and ground.
 class RoadContact {
  public:
-  /// Prepares `model`, a copy of the car's model: the tyres touch their planes (or nothing) instead
-  /// of the ground, and still touch all other geoms as before. If the ground is a single plane, its
-  /// contacts with the tyres stay unchanged.
+  /// Prepares `model`, a copy of the car's model, such that the tyres touch their planes (or
+  /// nothing) instead of the ground, and still touch all other geoms as before. If the ground is a
+  /// single plane, its contacts with the tyres stay unchanged.
   RoadContact(const CarModel& car, TyreSupport support, mjModel& model);
 
-  /// Places the planes for the coming step, from the state in `data`. Place() also updates the body
-  /// poses in `data`.
+  /// Places the planes under the tyres for the coming step, from the state in `data`. Place() also
+  /// updates the body poses in `data`.
   void Place(mjModel& model, mjData& data) const;
 
  private:
   const CarModel& car_;
   bool has_planes_;
-  std::array<int, 4> plane_{};  // index of the plane geom under each wheel
+  std::array<int, 4> plane_{};  // for each wheel, the index of the plane geom under the wheel
   std::array<TyreShape, 4> shape_;
 };
 

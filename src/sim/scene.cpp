@@ -18,18 +18,19 @@
 #include "trackbed/core/hash.h"
 #include "trackbed/core/spelling.h"
 
-// Composes the MJCF text of a car from its file:
-//   1. Resolve <include>, but only for files below the car's folder and
+// Composes the MJCF text of a car from the car's file:
+//   1. Resolve <include> elements, but only for files below the car's folder and
 //      SceneOptions::asset_folders.
-//   2. Check elements and assets, since the files may be untrusted, and collect the assets under
-//      plain names.
+//   2. Check elements and assets, since the files may be untrusted, and give the assets file names
+//      without folders.
 //   3. Set the steering rate, the compiler's defaults and the timestep.
 //   4. Record the line of each element in the car's file, so that error messages can name the line.
-// A scene is trusted if all its files are shipped with Trackbed, which is checked by their SHA-256.
+// A scene is trusted if all files of the scene are shipped with Trackbed; the files are recognized
+// by their SHA-256.
 namespace trackbed {
 
-/// Returns the folder of models/ and scenarios/, for programs without a data folder next to them
-/// (cmake/Data.cmake).
+/// Returns the folder that contains models/ and scenarios/, for programs without a data folder next
+/// to the executable (cmake/Data.cmake).
 const char* PlaceOfData();
 
 namespace {
@@ -66,8 +67,7 @@ std::string XmlErrorText(const XMLDocument& document) {
   }
 }
 
-/// Removes text nodes, since MJCF consists only of elements and attributes. tinyxml2 could not read
-/// back text that it prints after the root element.
+/// Removes text nodes from an XML document, since MJCF consists only of elements and attributes.
 void RemoveText(tinyxml2::XMLNode& parent) {
   for (tinyxml2::XMLNode *node = parent.FirstChild(), *next = nullptr; node != nullptr;
        node = next) {
@@ -80,20 +80,20 @@ void RemoveText(tinyxml2::XMLNode& parent) {
   }
 }
 
-/// Whether the content is that of a file shipped with Trackbed.
+/// Whether `content` equals that of a file shipped with Trackbed.
 bool IsShipped(std::string_view content) {
   const std::string hash = Sha256(content);
   return std::find(kShippedHashes.begin(), kShippedHashes.end(), hash) != kShippedHashes.end();
 }
 
-/// Reads an XML file into `document`. Sets `shipped` to false if the file is not shipped with
-/// Trackbed.
+/// Reads the XML file `file` into `document`. Sets `shipped` to false if the file is not shipped
+/// with Trackbed.
 void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
   std::error_code error;
   if (!fs::is_regular_file(file, error)) {
     Fail(file, 0, "no such file");
   }
-  // A file of this size needs 400 MB of memory as an XML document.
+  // Maximum size of a model file [bytes]; parsing a file of this size takes 400 MB of memory.
   constexpr std::size_t kMaxModelBytes = std::size_t{16} << 20U;
   const std::string text = ReadFile(file, kMaxModelBytes);
   shipped = shipped && IsShipped(text);
@@ -101,7 +101,7 @@ void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
     if (document.ErrorID() == tinyxml2::XML_ERROR_EMPTY_DOCUMENT) {
       Fail(file, 0, "the file is empty; expected a <mujoco> element");
     }
-    // For truncated text, tinyxml2 reports the line after the last line.
+    // If the text is truncated, tinyxml2 reports a line number after the last line.
     const auto lines = std::count(text.begin(), text.end(), '\n') + (text.ends_with('\n') ? 0 : 1);
     const int line = std::min(document.ErrorLineNum(), static_cast<int>(lines));
     Fail(file, line, "not XML: " + XmlErrorText(document));
@@ -112,10 +112,10 @@ void Load(const fs::path& file, XMLDocument& document, bool& shipped) {
   RemoveText(document);
 }
 
-/// The car's file, and the folders from which the file may include other files.
+/// Path of the car's file, and the folders from which the file may include other files.
 struct Origin {
   fs::path file;
-  fs::path folder;  ///< folder of the car's file
+  fs::path folder;  ///< folder that contains the car's file
   const std::vector<fs::path>& others;
   bool& shipped;  ///< whether all files read so far are shipped with Trackbed
 };
@@ -124,8 +124,8 @@ bool IsSameButForCase(std::string_view a, std::string_view b) {
   return a.size() == b.size() && ::strncasecmp(a.data(), b.data(), a.size()) == 0;
 }
 
-/// Resolves `name` relative to the folder of the car's file. If the resulting path must not be
-/// read, throws InputError with the line of `element` in `file`.
+/// Resolves `name` relative to the folder of the car's file. Throws InputError, with the line of
+/// `element` in `file`, if the resulting path must not be read.
 fs::path Find(const fs::path& name, const Origin& origin, const fs::path& file,
               const XMLElement& element) {
   fs::path found = origin.folder / name;
@@ -149,15 +149,15 @@ fs::path Find(const fs::path& name, const Origin& origin, const fs::path& file,
 constexpr std::string_view kInclude = "include";
 
 /// Replaces every <include file="…"/> below `parent`, an element of `file`, by the children of the
-/// included file's root element. As in MuJoCo, names are relative to the main file, and each file
-/// may be included only once.
+/// included file's root element. As in MuJoCo, file names are relative to the main file, and each
+/// file may be included only once.
 void ResolveIncludes(XMLElement& parent, const fs::path& file, const Origin& origin,
                      std::set<fs::path>& included) {
   for (XMLElement* child = parent.FirstChildElement(); child != nullptr;) {
     XMLElement* next = child->NextSiblingElement();
     if (child->Name() != kInclude && IsSameButForCase(child->Name(), kInclude)) {
-      // MuJoCo also accepts other spellings of <include>, such as upper case, and would open the
-      // file.
+      // Other spellings of <include>, such as upper case, are rejected; MuJoCo would accept them
+      // and open the file.
       Fail(file, child->GetLineNum(), fmt::format("<{}> must be written <include>", child->Name()));
     }
     if (child->Name() == kInclude) {
@@ -195,8 +195,8 @@ void ForEachElement(const XMLElement& element, const Call& call) {
   }
 }
 
-/// Returns the value of an attribute in the last <compiler> that sets it. In MuJoCo, later elements
-/// override earlier ones.
+/// Returns the value of an attribute in the last <compiler> element that sets this attribute. In
+/// MuJoCo, later <compiler> elements override earlier ones.
 std::string CompilerAttribute(const XMLElement& root, const char* name) {
   std::string value;
   for (const XMLElement* compiler = root.FirstChildElement("compiler"); compiler != nullptr;
@@ -208,8 +208,8 @@ std::string CompilerAttribute(const XMLElement& root, const char* name) {
   return value;
 }
 
-/// Collects the files that assets refer to, and replaces the references by plain file names. The
-/// composed model and its assets can therefore be written into a common folder.
+/// Collects the files that assets refer to, and replaces the references by plain file names. After
+/// the replacement, the composed model and its assets can be written into a common folder.
 void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
   std::size_t bytes = 0;
   const fs::path mesh_folder = CompilerAttribute(root, "meshdir");
@@ -234,13 +234,13 @@ void GatherAssets(XMLElement& root, const Origin& origin, Scene& scene) {
           Fail(origin.file, asset->GetLineNum(),
                fmt::format("<{}> refers to {}, which {}", kind, source.string(), why));
         }
-        // The number in a name distinguishes files of the same name from different folders.
+        // The number in the new name distinguishes files of the same name from different folders.
         const std::string number = fmt::format("asset{}_", scene.assets.size());
         const std::string own = FileNameOf(source.filename().string());
-        // Assets of a composed model already have such names.
+        // Assets of a model that was composed before already have such numbered names.
         const std::string name = own.starts_with(number) ? own : number + own;
-        // MuJoCo would name an unnamed asset after its file, so the asset gets the original file's
-        // name.
+        // MuJoCo names an unnamed asset after its file, so the asset is given the name of the
+        // original file.
         if (std::string_view(attribute) == "file" && asset->Attribute("name") == nullptr) {
           asset->SetAttribute("name", source.stem().c_str());
         }
@@ -276,7 +276,7 @@ void CheckElements(const XMLElement& root, const fs::path& file) {
   });
 }
 
-/// Finds the first element with this name in the sections `section` of the root.
+/// Finds the first element named `name` in the sections `section` of the root element.
 XMLElement* FindNamed(XMLElement& root, const char* section, std::string_view name) {
   for (XMLElement* part = root.FirstChildElement(section); part != nullptr;
        part = part->NextSiblingElement(section)) {
@@ -291,8 +291,8 @@ XMLElement* FindNamed(XMLElement& root, const char* section, std::string_view na
   return nullptr;
 }
 
-/// Whether the element has this name, and this attribute with this value as its only attribute, as
-/// in a composed model.
+/// Whether the element's tag is `name` and its only attribute is `attribute` with the value
+/// `value`, as in a composed model.
 bool HasOnly(const XMLElement* element, std::string_view name, const char* attribute,
              std::string_view value) {
   return element != nullptr && element->Name() == name && element->NoChildren() &&
@@ -300,9 +300,9 @@ bool HasOnly(const XMLElement* element, std::string_view name, const char* attri
          element->Attribute(attribute) != nullptr && element->Attribute(attribute) == value;
 }
 
-/// Sets the steering rate. In a car, the rate is the control range of the steering actuator. A
-/// vehicle with differential drive has no steering actuator, so the rate is a number under
-/// <custom>.
+/// Sets the maximum steering rate in the model. For a car, this rate is the control range of the
+/// steering actuator. A vehicle with differential drive has no steering actuator, so its steering
+/// rate is a number under <custom>.
 void SetSteeringRate(XMLElement& root, double rate) {
   if (XMLElement* steer = FindNamed(root, "actuator", "steer")) {
     steer->SetAttribute("ctrlrange", Numbers({-rate, rate}).c_str());
@@ -317,8 +317,8 @@ fs::path DataFolder() {
   if (const char* folder = std::getenv("TRACKBED_DATA"); folder != nullptr && *folder != '\0') {
     return folder;
   }
-  // An installed program finds its data by a path relative to the program, so both may be moved
-  // together.
+  // An installed program finds its data by a path relative to the executable, so program and data
+  // may be moved together.
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const fs::path beside = (program.parent_path() / TRACKBED_DATA_FROM_PROGRAM).lexically_normal();
@@ -377,14 +377,15 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
   if (options.steering_rate) {
     SetSteeringRate(root, *options.steering_rate);
   }
-  // Sets `autolimits`, which is on by default since MuJoCo 3.0. The last <compiler> that sets an
-  // attribute takes precedence, so the car's file can still override this value.
+  // Sets the compiler option `autolimits`, which is on by default since MuJoCo 3.0. MuJoCo uses the
+  // last <compiler> element that sets an attribute, so the car's file can still override this
+  // value.
   if (!HasOnly(root.FirstChildElement(), "compiler", "autolimits", "true")) {
     XMLElement* compiler = document.NewElement("compiler");
     compiler->SetAttribute("autolimits", true);
     root.InsertFirstChild(compiler);
   }
-  // In MuJoCo, the last <option> takes precedence.
+  // The new element is appended, because MuJoCo uses the last <option> element.
   const std::string timestep = fmt::format("{}", options.timestep);
   if (!HasOnly(root.LastChildElement(), "option", "timestep", timestep)) {
     XMLElement* option = document.NewElement("option");
@@ -394,7 +395,7 @@ Scene ComposeScene(const fs::path& car_file, const SceneOptions& options) {
 
   scene.xml = Print(document);
   ForEachElement(root, [&](const XMLElement& element) {
-    scene.lines.push_back(element.GetLineNum());  // line 0 for included and added elements
+    scene.lines.push_back(element.GetLineNum());  // the line is 0 for included and added elements
   });
   return scene;
 }
@@ -431,7 +432,8 @@ void WriteScene(const Scene& scene, const fs::path& file) {
       WriteFileAtomically(own, asset.content);
     }
   }
-  WriteFileAtomically(file, scene.xml);  // the model is written last, since it refers to the assets
+  // the model file is written last, because it refers to the asset files
+  WriteFileAtomically(file, scene.xml);
 }
 
 }  // namespace trackbed

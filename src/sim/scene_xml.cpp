@@ -43,7 +43,8 @@ XMLElement* FindInWorld(XMLElement& parent, std::string_view kind, std::string_v
 std::string DiscardLooks(const std::string& xml) {
   tinyxml2::XMLDocument document;
   ParseComposed(xml, document);
-  // The last <compiler> that sets an attribute takes precedence.
+  // The element is added at the end, because MuJoCo uses the last <compiler> element that sets an
+  // attribute.
   document.RootElement()->InsertNewChildElement("compiler")->SetAttribute("discardvisual", true);
   return Print(document);
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-/// XML helpers for composing a scene.
+/// Helper functions that process XML when a scene is composed.
 namespace trackbed {
 
 /// Parses the text of a composed scene. Throws InternalError if the text is not valid XML.
@@ -14,18 +14,18 @@ void ParseComposed(const std::string& xml, tinyxml2::XMLDocument& document);
 
 std::string Print(const tinyxml2::XMLDocument& document);
 
-/// Formats numbers for an attribute, such as "1 0 0.5". Each number has the shortest form that is
-/// read back exactly.
+/// Formats numbers for an XML attribute, such as "1 0 0.5". Each number gets the shortest text from
+/// which exactly the same number can be read back.
 std::string Numbers(std::initializer_list<double> values);
 
-/// Finds the first element of this kind ("body", "geom", …) and name in the <worldbody> elements
-/// below `parent`; null if there is no such element.
+/// Finds the first element of kind `kind` ("body", "geom", …) and name `name` in the <worldbody>
+/// elements below `parent`; null if there is no such element.
 tinyxml2::XMLElement* FindInWorld(tinyxml2::XMLElement& parent, std::string_view kind,
                                   std::string_view name);
 
-/// Returns the composed model with the option that makes MuJoCo discard visual geoms. MuJoCo then
-/// discards geoms that collide with nothing and that no other element refers to. The line numbers
-/// of the model do not change.
+/// Returns the composed model with the compiler option that makes MuJoCo discard visual geoms. The
+/// option discardvisual discards geoms that collide with nothing and that no other element refers
+/// to. The line numbers of the model do not change.
 std::string DiscardLooks(const std::string& xml);
 
 }  // namespace trackbed

@@ -16,8 +16,8 @@ class SteeringFilterPlant final : public Plant {
 
   void Step(const Command& command) override {
     TRACKBED_REQUIRE(std::isfinite(command.acceleration), "Step: acceleration {}; must be finite",
-                     command.acceleration);  // checks the acceleration before the filter's state
-                                             // changes
+                     // the acceleration is checked before the state of the filter changes
+                     command.acceleration);
     Command filtered = command;
     filtered.steering = filter_.Pass(command.steering);
     plant_->Step(filtered);

@@ -7,7 +7,7 @@
 namespace trackbed {
 
 /// Wraps `plant` in a plant that applies the car's steering response to each command. Returns
-/// `plant` itself if the response is ideal or the setup prescribes the wheel angle.
+/// `plant` unchanged if the steering response is ideal or the setup prescribes the wheel angle.
 std::unique_ptr<Plant> WithSteeringResponse(std::unique_ptr<Plant> plant, const PlantSetup& setup);
 
 }  // namespace trackbed

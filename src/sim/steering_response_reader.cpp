@@ -10,7 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// Largest dead time and time constant [s]. With larger values, the car could not be steered.
+/// Maximum dead time and time constant of a steering actuator [s]. With a larger dead time or time
+/// constant, the car could not be steered.
 constexpr double kMaxResponseTime = 10.0;
 
 void ReadWithin(const Numerics& numerics, const std::string& name, double max, const char* unit,

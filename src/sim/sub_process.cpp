@@ -62,8 +62,8 @@ std::size_t AddressSpace() {
   // The child process must end together with its parent, because it has inherited the parent's file
   // locks.
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // Redirects standard streams to /dev/null. A library that calls exit() would flush buffers copied
-  // from the parent process, and might print an error.
+  // Redirects standard streams to /dev/null. Without the redirection, a library that calls exit()
+  // would flush buffers copied from the parent process, and might print an error.
   const int nowhere = ::open("/dev/null", O_RDWR);
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     ::dup2(nowhere, stream);
@@ -76,8 +76,8 @@ std::size_t AddressSpace() {
 #else
   static_cast<void>(space);
 #endif
-  // Disables the signal handlers of the program or of a sanitizer, since the parent process reports
-  // a crash.
+  // Disables the signal handlers of the program or of a sanitizer, because the parent process
+  // reports crashes.
   for (const int crash : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGXCPU}) {
     ::signal(crash, SIG_DFL);
   }
@@ -87,8 +87,8 @@ std::size_t AddressSpace() {
   std::memcpy(header.data(), &size, sizeof size);
   const bool written =
       WriteAll(pipe, header.data(), header.size()) && WriteAll(pipe, result.data(), result.size());
-  ::_exit(written ? 0 : 1);  // ends without running exit handlers or flushing buffers copied from
-                             // the parent
+  // ends the process without running exit handlers or flushing buffers copied from the parent
+  ::_exit(written ? 0 : 1);
 }
 
 /// Reads from the pipe until its other end is closed or the time `until` is reached.
@@ -138,7 +138,7 @@ SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std:
     RunChildProcess(compute, space, seconds, pipe[1]);
   }
   ::close(pipe[1]);
-  // The wall-clock limit is twice the limit of processor time, in case the machine is busy.
+  // The wall-clock limit is twice the limit of processor time, because the machine may be busy.
   const std::string text =
       ReadUntil(pipe[0], std::chrono::steady_clock::now() + std::chrono::seconds(2 * seconds));
   ::close(pipe[0]);
@@ -149,7 +149,7 @@ SubProcessOutcome InSubProcess(const std::function<std::string()>& compute, std:
     outcome.finished = text.size() - sizeof size == size;
   }
   if (!outcome.finished) {
-    ::kill(child, SIGKILL);  // killing a process that has ended has no effect
+    ::kill(child, SIGKILL);  // killing a process that has already ended has no effect
   }
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {

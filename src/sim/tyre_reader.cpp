@@ -14,13 +14,15 @@
 namespace trackbed {
 namespace {
 
-/// Returns the names of a coefficient for both axles, for the front axle and for the rear axle.
+/// Returns the three names of a tyre coefficient: for both axles, for the front axle and for the
+/// rear axle.
 std::array<std::string, 3> CoefficientNames(const MagicFormulaField& field) {
   const std::string name = field.name;
   return {name, name + "_front", name + "_rear"};
 }
 
-/// Adds an error for each unknown coefficient, which is misspelled or not supported.
+/// Adds an error for each tyre coefficient whose name is unknown, which is either misspelled or not
+/// supported.
 void CheckNames(const Numerics& numerics) {
   std::vector<std::string> known;
   for (const MagicFormulaField& field : MagicFormulaFields()) {
@@ -104,8 +106,8 @@ std::optional<CarTyres> ReadTyres(const Numerics& numerics) {
       numerics.Read(both, value);
       numerics.Read(own[axle], value);
       const bool given = numerics.Has(both) || numerics.Has(own[axle]);
-      // A tyre counts as described if a coefficient of the Magic Formula is given; a number such as
-      // the relaxation length alone is not enough.
+      // The model describes a tyre if it has a coefficient of the Magic Formula; other numbers such
+      // as the relaxation length are not enough.
       any = any || (given && (both.starts_with("p_") || both.starts_with("r_")));
       if (field.required && !given) {
         missing.push_back(own[axle]);

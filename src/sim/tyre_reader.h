@@ -9,21 +9,24 @@
 
 namespace trackbed {
 
-/// Reads the optional numbers under <custom> in a model.
+/// Reads optional numbers from the <custom> section of a model.
 class Numerics {
  public:
-  /// Function that gets the name of a number and an error message.
+  /// Type of the function that reports an error, given the name of a number and an error message.
   using ErrorCallback = std::function<void(const std::string& name, const std::string& message)>;
 
   Numerics(const mjModel_& model, ErrorCallback add_error)
       : model_(model), add_error_(std::move(add_error)) {}
 
   [[nodiscard]] bool Has(const std::string& name) const;
-  /// Returns the `count` numbers with this name; null if there are none.
+  /// Returns the `count` numbers of the <numeric> element with this name; null if there is no such
+  /// element.
   [[nodiscard]] const double* Find(const std::string& name, int count) const;
-  /// Returns all numbers with this name; empty if there are none.
+  /// Returns all numbers of the <numeric> element with this name; empty if there is no such
+  /// element.
   [[nodiscard]] std::span<const double> List(const std::string& name) const;
-  /// Sets `value` to the number with this name. If there is no such number, `value` is unchanged.
+  /// Sets `value` to the number of the <numeric> element with this name. If the model has no such
+  /// element, `value` is unchanged.
   void Read(const std::string& name, double& value) const;
 
   [[nodiscard]] const mjModel_& model() const { return model_; }

@@ -27,9 +27,9 @@ TyreTouch TyreShape::On(const Ground& ground, const Vector3d& center_W,
   Vec2 under = center_W.head<2>();
   double share = 1.0;
   Vec2 last = Vec2::Zero();
-  // Finds the lowest point of the tyre by fixed-point iteration. Each iteration reduces the error
-  // by a factor of tyre radius times ground curvature. On crests sharper than the tyre, the
-  // iteration would oscillate, so the step is halved.
+  // Finds the lowest point of the tyre by fixed-point iteration. Each iteration multiplies the
+  // error by the ratio of the tyre's radius to the ground's radius of curvature. On a crest whose
+  // radius is smaller than that of the tyre, the iteration would oscillate, so the step is halved.
   for (int i = 0; i < 20; ++i) {
     touch.normal_W = GroundNormal(ground, under);
     const Vector3d normal_T = R_WT.transpose() * touch.normal_W;
@@ -43,7 +43,7 @@ TyreTouch TyreShape::On(const Ground& ground, const Vector3d& center_W,
     under += share * move;
     last = move;
     if (IsPlane(ground)) {
-      break;  // the normal no longer changes
+      break;  // the ground's normal no longer changes between iterations
     }
   }
   const Vector3d ground_W(under.x(), under.y(), GroundHeight(ground, under));

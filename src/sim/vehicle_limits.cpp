@@ -7,12 +7,13 @@ namespace trackbed {
 
 double TopSpeed(const Traction& traction) {
   const double drag = 0.5 * kAirDensity * traction.drag_area;
-  // Infinite if there is no drag.
+  // Speed at which the drag equals the maximum force [m/s]; infinite if there is no drag.
   const double by_force = std::sqrt(std::max(0.0, traction.force) / drag);
   if (traction.power <= 0.0) {
     return std::isfinite(by_force) ? by_force : 0.0;
   }
-  // Power that remains after the driving resistance [W]; it decreases with the speed.
+  // Power that remains after overcoming the driving resistance at speed v [W]; decreases as v
+  // increases.
   const auto spare = [&](double v) {
     return traction.power - (traction.rolling + drag * v * v) * v;
   };

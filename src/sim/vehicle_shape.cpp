@@ -13,7 +13,8 @@ namespace trackbed {
 namespace {
 
 constexpr int kMaxTriangles = 20000;
-constexpr int kDrawnGroups = 3;  // number of geom groups that MuJoCo's viewer shows by default
+// number of geom groups that MuJoCo's viewer shows by default; geoms of higher groups are not drawn
+constexpr int kDrawnGroups = 3;
 
 template <std::size_t count, typename Number>
 std::array<double, count> Copied(const Number* values) {
@@ -41,8 +42,8 @@ std::vector<ShapeJoint> JointsOf(const mjModel& model, int body) {
   return joints;
 }
 
-/// Returns the color of a geom. As in MuJoCo, a geom with the default color has the color of its
-/// material.
+/// Returns the color with which a geom is drawn. As in MuJoCo, a geom with the default color takes
+/// the color of its material.
 std::array<double, 4> DrawnColor(const mjModel& model, int geom) {
   const float* own = model.geom_rgba + 4 * geom;
   const int material = model.geom_matid[geom];
@@ -65,7 +66,7 @@ const char* TypeName(int type) {
     case mjGEOM_MESH:
       return "mesh";
     default:
-      return nullptr;  // planes and height fields do not belong to a vehicle
+      return nullptr;  // a plane or height field does not belong to a vehicle
   }
 }
 
@@ -76,7 +77,7 @@ ShapeMesh MeshOf(const mjModel& model, int mesh) {
           {faces, faces + 3 * model.mesh_facenum[mesh]}};
 }
 
-/// Returns the bounding box of a mesh, as a mesh.
+/// Returns the bounding box of a mesh as a mesh of twelve triangles.
 ShapeMesh Bounds(const ShapeMesh& mesh) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   std::array<double, 3> low{kInfinity, kInfinity, kInfinity};
@@ -96,7 +97,8 @@ ShapeMesh Bounds(const ShapeMesh& mesh) {
   return box;
 }
 
-/// Whether the body belongs to a vehicle. Vehicles have a free joint; moving obstacles do not.
+/// Whether a body belongs to a vehicle and not to an obstacle. A vehicle has a free joint, whereas
+/// a moving obstacle has none.
 bool IsOfVehicle(const mjModel& model, int body) {
   const int root = model.body_rootid[body];
   return model.body_jntnum[root] > 0 && model.jnt_type[model.body_jntadr[root]] == mjJNT_FREE;
@@ -108,7 +110,7 @@ VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name) {
   const MujocoModel compiled = CompileScene(scene, name, Looks::kKept);
   const mjModel& model = *compiled;
   VehicleShape shape;
-  std::map<int, int> bodies;  // maps a body's index in the model to that in the shape
+  std::map<int, int> bodies;  // maps the index of a body in the model to its index in the shape
   for (int body = 1; body < model.nbody; ++body) {
     if (!IsOfVehicle(model, body)) {
       continue;
@@ -120,7 +122,7 @@ VehicleShape ReadVehicleShape(const Scene& scene, const std::string& name) {
                             .quaternion = Copied<4>(model.body_quat + 4 * body),
                             .joints = JointsOf(model, body)});
   }
-  std::map<int, int> meshes;  // maps a mesh's index in the model to that in the shape
+  std::map<int, int> meshes;  // maps the index of a mesh in the model to its index in the shape
   for (int geom = 0; geom < model.ngeom; ++geom) {
     const char* type = TypeName(model.geom_type[geom]);
     const std::array<double, 4> rgba = DrawnColor(model, geom);

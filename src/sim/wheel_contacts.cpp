@@ -20,9 +20,9 @@ bool IsRoad(const mjModel& model, int geom) {
   return name != nullptr && std::string_view(name).starts_with("ground");
 }
 
-/// Calls `call` for each contact of a wheel with the road, with the wheel, the contact, the
-/// contact's index, and a sign. In MuJoCo, contact forces act on the second geom; multiplied by the
-/// sign, the force is that on the wheel.
+/// Calls `call` for each contact of a wheel with the road; the arguments are the wheel, the
+/// contact, the contact's index, and a sign. MuJoCo's contact force is the force on the second
+/// geom; multiplied by the sign, it is the force on the wheel.
 template <typename Call>
 void ForEachRoadContact(const CarModel& car, const mjModel& model, const mjData& data,
                         const Call& call) {
@@ -46,7 +46,7 @@ WheelContact ContactAt(const CarModel& car, const mjModel& model, const mjData& 
   const double radius = car.params().wheel_radius;
   const int body = car.parts().wheel[w];
   const mjtNum* rotation = data.xmat + 9 * body;
-  std::array<mjtNum, 6> velocity{};  // angular, then linear velocity
+  std::array<mjtNum, 6> velocity{};  // components: angular velocity, then linear velocity
   mj_objectVelocity(&model, &data, mjOBJ_BODY, body, velocity.data(), 0);
   WheelContact wheel;
   wheel.touches = true;
@@ -72,8 +72,8 @@ std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel
   up.fill(Vector3d::Zero());
   point.fill(Vector3d::Zero());
   std::array<double, 4> weight{};
-  // On a rough road, a wheel may have several contact points. The contact is the mean of these
-  // points, weighted by penetration depth.
+  // On a rough road, a wheel may have several contact points. The position of the contact is the
+  // mean of these points, weighted by penetration depth.
   ForEachRoadContact(car, model, data,
                      [&](std::size_t w, const mjContact& contact, int, double sign) {
                        const double depth = std::max(contact.includemargin - contact.dist, 1e-9);
@@ -101,8 +101,8 @@ std::array<Vector3d, 4> RoadForces(const CarModel& car, const mjModel& model, co
       car, model, data, [&](std::size_t w, const mjContact& contact, int i, double sign) {
         std::array<mjtNum, 6> force{};
         mj_contactForce(&model, &data, i, force.data());
-        for (int axis = 0; axis < 3; ++axis) {  // the three rows of the contact's frame are the
-                                                // axes of the force
+        // the rows of the contact's frame are the axes of the components of MuJoCo's contact force
+        for (int axis = 0; axis < 3; ++axis) {
           forces[w] += sign * force[static_cast<std::size_t>(axis)] * Vec(contact.frame + 3 * axis);
         }
       });

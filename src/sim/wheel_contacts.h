@@ -7,26 +7,31 @@
 
 struct mjData_;
 
-/// Motion and forces of a MuJoCo car's wheels at their contacts with the road.
+/// Computes the motion of a MuJoCo car's wheels and the forces on the wheels at their contacts with
+/// the road.
 namespace trackbed {
 
-/// The contact of one wheel with the road. Vectors are in the world frame. The axes of the tyre
-/// point forward, to the left, and up along the road's normal.
+/// The contact of one wheel with the road. All vectors of a WheelContact are in the world frame.
+/// The tyre's axes `forward`, `left` and `up` point forward, to the left, and up along the road's
+/// normal.
 struct WheelContact {
   bool touches = false;
   Eigen::Vector3d point;
   Eigen::Vector3d forward;
   Eigen::Vector3d left;
   Eigen::Vector3d up;
-  Eigen::Vector3d spin_axis;         ///< Unit vector along the spin axis, to the left.
-  Eigen::Vector3d hub_velocity;      ///< Velocity of the hub [m/s].
+  /// Unit vector along the wheel's spin axis, pointing to the left.
+  Eigen::Vector3d spin_axis;
+  Eigen::Vector3d hub_velocity;      ///< Velocity of the wheel's hub [m/s].
   Eigen::Vector3d angular_velocity;  ///< Angular velocity of the wheel [rad/s].
-  double rolling_speed = 0.0;        ///< Forward speed v_x of the hub [m/s].
-  double spin = 0.0;                 ///< Angular speed Omega about the spin axis, positive for
-                                     ///< forward rolling [rad/s].
-  double slip_speed_x = 0.0;  ///< Longitudinal slip speed Omega R - v_x [m/s]; opposite in sign to
-                              ///< the motion of the contact patch over the road.
-  double slip_speed_y = 0.0;  ///< Speed v_y of the contact patch over the road, to the left [m/s].
+  double rolling_speed = 0.0;        ///< Forward speed v_x of the wheel's hub [m/s].
+  /// Angular speed Omega of the wheel about its spin axis, positive for forward rolling [rad/s].
+  double spin = 0.0;
+  /// Longitudinal slip speed Omega R - v_x [m/s], which is minus the forward speed of the contact
+  /// patch over the road.
+  double slip_speed_x = 0.0;
+  /// Lateral speed v_y of the contact patch over the road, positive to the left [m/s].
+  double slip_speed_y = 0.0;
 };
 
 /// Computes the motion of a wheel that touches the road at `point`, from the positions and
@@ -34,13 +39,13 @@ struct WheelContact {
 WheelContact ContactAt(const CarModel& car, const mjModel_& model, const mjData_& data,
                        std::size_t wheel, const Eigen::Vector3d& point, const Eigen::Vector3d& up);
 
-/// Returns the contacts of all wheels that MuJoCo has found. For a wheel in the air, the result is
-/// that of a level road below the wheel.
+/// Returns the contacts of all wheels with the road, as found by MuJoCo. For a wheel in the air,
+/// the returned contact is that with a level road below the wheel.
 std::array<WheelContact, 4> FindWheelContacts(const CarModel& car, const mjModel_& model,
                                               const mjData_& data);
 
-/// Returns the contact force of the road on each wheel, as computed by MuJoCo's last call of the
-/// constraint solver, in the world frame [N].
+/// Returns the contact force of the road on each wheel, from MuJoCo's last call of the constraint
+/// solver, in the world frame [N].
 std::array<Eigen::Vector3d, 4> RoadForces(const CarModel& car, const mjModel_& model,
                                           const mjData_& data);
 

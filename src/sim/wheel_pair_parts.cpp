@@ -10,10 +10,10 @@
 namespace trackbed {
 namespace {
 
-/// A wheel's speed servo, as described by its actuator.
+/// Parameters of a wheel's speed servo, as described by its actuator.
 struct Servo {
-  double gain = 0.0;    ///< Torque per speed error [N m s/rad].
-  double torque = 0.0;  ///< Largest torque [N m].
+  double gain = 0.0;    ///< Torque of the servo per unit of speed error [N m s/rad].
+  double torque = 0.0;  ///< Maximum torque of the servo [N m].
   double speed = 0.0;   ///< Largest speed [rad/s].
 };
 
@@ -135,7 +135,7 @@ class WheelPairReader final : private PartsReader {
   }
 
   void ReadLimits() {
-    // If the turning radius is half the track, the inner wheel is at rest.
+    // If the turning radius is half the track, the inner wheel does not move.
     if (!(turning_radius_ >= 0.5 * params_.track_rear)) {
       AddError("turning_radius", fmt::format("must be at least half the track, {:.4g} m, so that "
                                              "the inner wheel does not reverse; found {:.4g}",
@@ -184,10 +184,10 @@ class WheelPairReader final : private PartsReader {
     params_.top_speed = (parts_.wheel_speed - parts_.servo_slack) * radius;
   }
 
-  /// Returns the positions of all other supports that touch the ground at qpos0, such as caster
-  /// wheels, relative to the driven wheels, positive forward [m]. Spheres, ellipsoids and capsules
-  /// can be supports. Each support is treated as if it were the only one, since the loads on
-  /// several supports depend on springs.
+  /// Returns the positions of all other supports that touch the ground in the configuration qpos0,
+  /// such as caster wheels [m]; positions are measured forward from the driven wheels. Only
+  /// spheres, ellipsoids and capsules are recognized as supports. Each support is treated as the
+  /// only one, because the distribution of the load among several supports would depend on springs.
   [[nodiscard]] std::vector<double> OtherSupports() const {
     constexpr double kMaxGroundGap = 1e-3;  // [m]
     std::vector<double> ahead;
@@ -208,8 +208,8 @@ class WheelPairReader final : private PartsReader {
   /// Returns half the height of a round geom [m]; 0 for other types of geoms.
   [[nodiscard]] double HalfHeight(int geom) const {
     const mjtNum* size = m_.geom_size + 3 * geom;
-    const mjtNum* up = data_->geom_xmat + 9 * geom + 6;  // components of the world's z axis in the
-                                                         // geom's frame
+    // components of the world's z axis in the frame of the geom
+    const mjtNum* up = data_->geom_xmat + 9 * geom + 6;
     switch (m_.geom_type[geom]) {
       case mjGEOM_SPHERE:
         return size[0];
@@ -229,11 +229,11 @@ class WheelPairReader final : private PartsReader {
   }
 
   WheelPairParts parts_;
-  int free_ = -1;  // index of the free joint
+  int free_ = -1;  // index of the chassis's free joint in the model
   std::array<int, 2> spin_{};
-  int footprint_ = -1;           // Index of the site.
-  double servo_torque_ = 0.0;    // Largest torque of one motor [N m].
-  double turning_radius_ = 0.0;  // Smallest turning radius [m].
+  int footprint_ = -1;           // Index of the site `footprint` in the model.
+  double servo_torque_ = 0.0;    // Maximum torque of one motor [N m].
+  double turning_radius_ = 0.0;  // Smallest turning radius of the vehicle [m].
 };
 
 }  // namespace

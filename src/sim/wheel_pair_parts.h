@@ -7,14 +7,14 @@
 
 namespace trackbed {
 
-/// The driven wheels of a differential drive, in the order of WheelPairParts.
+/// Names of the two driven wheels of a differential drive, in the order of WheelPairParts.
 inline constexpr std::array<const char*, 2> kDrivenWheels{"left", "right"};
 
-/// Whether a model describes a vehicle with differential drive, which drives each wheel separately
-/// and has no steering.
+/// Whether the model is a vehicle with differential drive, which drives each wheel separately and
+/// has no steering.
 bool IsWheelPair(const mjModel_& model);
 
-/// Finds and checks the parts like DescribeVehicle, but for a vehicle with differential drive.
+/// Finds and checks the parts of a vehicle with differential drive; otherwise like DescribeVehicle.
 VehicleDescription DescribeWheelPair(const mjModel_& model, const std::string& file);
 
 }  // namespace trackbed

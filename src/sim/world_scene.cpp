@@ -14,7 +14,7 @@
 #include "trackbed/sim/car_model.h"
 #include "trackbed/sim/scene.h"
 
-/// Adds ground and obstacles of a world to the scene of a car:
+/// Adds the ground and obstacles of a world to the scene of a car:
 ///   - WithGround adds the ground plane, and height fields for terrain, bumps and side slopes.
 ///     WithGround also adds a plane under each wheel, which RoadContact keeps tangent to the exact
 ///     ground.
@@ -27,25 +27,25 @@ namespace {
 using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
-/// Thickness of a height field below its lowest sample [m]. The base of the height field is below
-/// the ground plane.
+/// Thickness of a height field below its lowest sample [m]. The thickness places the base of the
+/// height field below the ground plane.
 constexpr double kBase = 0.1;
 
-/// Heights on a grid over a rectangle, in MuJoCo's format.
+/// Height samples on a grid over a rectangle, in MuJoCo's file format for height fields.
 struct HeightField {
-  double lowest = 0.0;   ///< Lowest z of the samples [m].
-  double highest = 0.0;  ///< Highest z of the samples [m].
+  double lowest = 0.0;   ///< Smallest height of all samples [m].
+  double highest = 0.0;  ///< Largest height of all samples [m].
   std::string file;
 };
 
-/// Returns the number of cells along a side of a height field.
+/// Returns the number of grid cells along a side of a height field.
 int CellsAlong(double side) {
   constexpr double kCell = 0.05;  // [m]
   return std::clamp(static_cast<int>(std::ceil(side / kCell)), 16, 256);
 }
 
-/// Samples heights on a grid with `columns` points along the box's length and `rows` points along
-/// its width.
+/// Samples ground heights on a grid with `columns` points along the box's length and `rows` points
+/// along its width.
 HeightField Sample(const OrientedBox& box, std::int32_t columns, std::int32_t rows,
                    const std::function<double(const Vec2& point_W)>& height_at) {
   std::vector<double> heights;
@@ -78,15 +78,14 @@ HeightField Sample(const Feature& feature, const Ground& ground) {
                 [&](const Vec2& p) { return ground.grade.dot(p) + Rise(feature, p); });
 }
 
-/// Returns the rectangle that a rectangular range of terrain blocks covers.
+/// Returns the rectangle that is covered by a rectangular range of terrain blocks.
 OrientedBox BlocksAt(const Terrain::Size& size, int column, int row, int columns, int rows) {
   const Vec2 sides = Terrain::kBlock * Vec2(columns, rows);
   const Vec2 middle = size.low + Terrain::kBlock * Vec2(column, row) + 0.5 * sides;
   return {{middle.x(), middle.y(), 0.0}, sides.x(), sides.y()};
 }
 
-/// Whether a point is inside a refined block or on the border between two refined blocks, but not
-/// on their outer border.
+/// Whether a point is in the interior of the area that all refined blocks cover together.
 bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
   const Terrain::Size& size = terrain.size();
   constexpr double kProbeOffset = 1e-3 * Terrain::kBlock;
@@ -100,9 +99,9 @@ bool IsInRefined(const Terrain& terrain, const Vec2& point_W) {
          refined(kProbeOffset, -kProbeOffset) && refined(kProbeOffset, kProbeOffset);
 }
 
-/// Calls `add(box, field)` for each height field of a terrain. Each refined block becomes one
-/// height field, with a sample at each node of the block. Coarse fields cover the rest of the
-/// terrain and are lowered under the refined fields.
+/// Calls `add(box, field)` for each height field that represents a part of a terrain. Each refined
+/// block becomes one height field, with a sample at each node of the block. Coarse height fields
+/// cover the remaining terrain and are lowered where they overlap refined blocks.
 void SampleTerrain(
     const Terrain& terrain,
     const std::function<void(const OrientedBox& box, const HeightField& field)>& add) {
@@ -117,9 +116,10 @@ void SampleTerrain(
       }
     }
   }
-  constexpr int kMaxBlocks = 64;  // Largest number of blocks along a side of a coarse height
-                                  // field, which then has 257 samples.
-  // Depth by which a coarse field is lowered below refined blocks [m]; the resulting step is
+  // Maximum number of blocks along a side of a coarse height field, which then has 257 samples per
+  // side.
+  constexpr int kMaxBlocks = 64;
+  // Depth by which a coarse height field is lowered below refined blocks [m]; the resulting step is
   // steeper than any refined ground.
   constexpr double kCoarseDrop = 4.0;
   for (int row = 0; row < size.rows; row += kMaxBlocks) {
@@ -174,7 +174,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   int count = 0;
   const auto add = [&](const OrientedBox& box, const HeightField& field, const char* rgba) {
     if (field.highest == field.lowest) {
-      return;  // flat ground, for example a side slope of 0
+      return;  // the ground is flat, for example a side slope of 0
     }
     const std::string name = fmt::format("ground_{}", count);
     const std::string file = name + ".hfield";
@@ -208,7 +208,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
     add(Extent(side_slope), Sample(side_slope, ground), nullptr);
   }
   if (count > 0) {
-    // The list has the wheel names of a car and of a vehicle with differential drive.
+    // The list contains the wheel names of cars and of vehicles with differential drive.
     for (const auto& [wheel, index] :
          {std::pair("fl", 0), std::pair("fr", 1), std::pair("rl", 2), std::pair("rr", 3),
           std::pair("left", 0), std::pair("right", 1)}) {
@@ -218,7 +218,7 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
       XMLElement& geom = AddLike(*plane, fmt::format("ground_{}", wheel));
       geom.SetAttribute("contype", 0);
       geom.SetAttribute("conaffinity", WheelPlaneBit(static_cast<std::size_t>(index)));
-      geom.SetAttribute("group", 4);  // geom group that is not drawn
+      geom.SetAttribute("group", 4);  // geoms of this group are not drawn
     }
   }
   scene.xml = Print(document);
@@ -227,12 +227,11 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
   return scene;
 }
 
-/// Mass of an obstacle [kg], which is so large that no car can move the obstacle.
+/// Mass of an obstacle [kg], so large that no car can move the obstacle.
 constexpr double kHeavy = 1e6;
 
-/// Inserts a body that can slide over the ground along the joints `name`_x and `name`_y. All
-/// attributes of the joints are set explicitly, so that the defaults in the car's file do not
-/// apply.
+/// Inserts a body that can slide over the ground along the joints `name`_x and `name`_y. All joint
+/// attributes are set explicitly, so that the defaults in the car's file do not apply.
 XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2& place) {
   XMLElement* body = bodies.InsertNewChildElement("body");
   body->SetAttribute("name", name.c_str());
@@ -251,7 +250,7 @@ XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2
 }
 
 /// Excludes contacts of moving obstacles with the ground, with static obstacles and with each
-/// other, since the motion of these obstacles is prescribed. Moving obstacles can touch only the
+/// other, because the motion of moving obstacles is prescribed. Moving obstacles can touch only the
 /// car.
 void ExcludeContacts(XMLElement& root, const std::vector<std::string>& sliders) {
   if (sliders.empty()) {
@@ -271,8 +270,8 @@ void ExcludeContacts(XMLElement& root, const std::vector<std::string>& sliders) 
   }
 }
 
-/// Appends a zero for each new joint to the keyframes, since the joint coordinates are relative to
-/// the initial position.
+/// Appends a zero for each new joint to the keyframes; the coordinates of the new joints are
+/// relative to the obstacle's initial position.
 void ExtendKeyframes(XMLElement& root, int joints) {
   for (XMLElement* frame = root.FirstChildElement("keyframe"); frame != nullptr;
        frame = frame->NextSiblingElement("keyframe")) {
@@ -300,7 +299,7 @@ void MakeObstacle(XMLElement& geom, const char* rgba) {
   geom.SetAttribute("rgba", rgba);
 }
 
-/// Adds the walls of the world's map. Worlds with a map have flat ground.
+/// Adds the walls of the world's map. The ground of a world with a map is flat.
 void AddWalls(XMLElement& bodies, const World& world) {
   const std::vector<OrientedBox>& walls = MapWalls(world);
   for (std::size_t i = 0; i < walls.size(); ++i) {
@@ -327,10 +326,10 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   XMLElement* chassis = FindInWorld(root, "body", "chassis");
   TRACKBED_CHECK(chassis != nullptr, "the car has no body 'chassis'");
 
-  // In contype and conaffinity, 1 is the default of all geoms, and 2 is used only for the shell.
-  // The shell can therefore touch obstacles, but not, for example, the car's own wheels. The lower
-  // end of the shell is a tenth of the car's height above the ground, so that the shell does not
-  // scrape the ground on soft springs.
+  // In the collision bits contype and conaffinity, 1 is the default of all geoms, and 2 is used
+  // only for the car's shell. The car's shell can therefore touch obstacles, but not, for example,
+  // the car's own wheels. The lower end of the shell is a tenth of the car's height above the
+  // ground, so that the shell does not scrape the ground on soft springs.
   const double half_height = 0.45 * vehicle.height;
   XMLElement* shell = chassis->InsertNewChildElement("geom");
   shell->SetAttribute("name", "shell");

@@ -15,8 +15,8 @@ namespace {
 using Sparse = Eigen::SparseMatrix<double>;
 using Entry = Eigen::Triplet<double>;
 
-/// Returns the matrix that maps the coefficients of a closed spline to their third differences,
-/// which continue from the last to the first coefficient.
+/// Returns the matrix that maps the coefficients of a closed spline to their cyclic third
+/// differences, in which the first coefficient follows the last.
 Sparse ThirdDifferences(Eigen::Index count) {
   constexpr std::array<double, 4> kStencil{-1.0, 3.0, -3.0, 1.0};
   std::vector<Entry> entries;

@@ -66,12 +66,12 @@ double Wrapped(double s, double length) {
   return wrapped < length ? wrapped : 0.0;
 }
 
-/// The points of a track as samples over chord length. The weight of a point is half the length of
-/// the two chords that meet at the point.
+/// The points of a track as spline samples, with the chord length as the parameter. The weight of a
+/// point is half the length of the two chords that meet at the point.
 struct ChordSamples {
   SplineSamples samples;
-  std::vector<double> chords;  // Length of the chord from each point to the next point [m].
-  double period = 0.0;         // [m]
+  std::vector<double> chords;  // Distance from each point to the next point [m].
+  double period = 0.0;         // Length of the closed polyline [m].
 };
 
 ChordSamples SampleChords(const std::vector<TrackPoint>& points) {
@@ -96,15 +96,15 @@ ChordSamples SampleChords(const std::vector<TrackPoint>& points) {
 
 /// The smoothed center line, as points along a lap from which the path is built.
 struct Track::CenterLine {
-  double smoothing = 0.0;          // Wavelength of the smoothing [m].
+  double smoothing = 0.0;          // Wavelength that determines the strength of the smoothing [m].
   std::vector<double> deviations;  // Deviation of each track point from the line, positive to the
                                    // left of the line [m].
-  std::vector<double> stations;    // Station of each track point [m].
-  std::vector<std::size_t> first;  // Index of each track point in `lap`.
+  std::vector<double> stations;    // Station of each track point on the smoothed line [m].
+  std::vector<std::size_t> first;  // Index in `lap` of the sample at each track point.
   // Points of the smoothed line along a lap, beginning at the start line.
   std::vector<CurvePoint> lap;
-  CurvePoint end;        // Point at the start line at the end of the lap.
-  Vec2 start{0.0, 0.0};  // Position at which the line begins [m].
+  CurvePoint end;        // Point of the smoothed line at the start line after one lap.
+  Vec2 start{0.0, 0.0};  // Position at which the smoothed line begins [m].
 
   [[nodiscard]] const CurvePoint& After(std::size_t i) const {
     return i + 1 < lap.size() ? lap[i + 1] : end;
@@ -124,8 +124,8 @@ Track::CenterLine Track::Smooth(const std::vector<TrackPoint>& points,
     const Vec2 apart = points[i].position - curve.At(samples.t[i], 0);
     line.deviations.push_back(std::copysign(apart.norm(), Cross(curve.At(samples.t[i], 1), apart)));
   }
-  // Sample the line at the track points and between them. The samples are at most a quarter of the
-  // mean distance between track points apart.
+  // Sample the smoothed line at the track points and between the track points. The distance between
+  // samples is at most a quarter of the mean distance between track points.
   const double step = 0.25 * period / static_cast<double>(count);
   const Vec2 first_tangent = curve.At(0.0, 1);
   double yaw = std::atan2(first_tangent.y(), first_tangent.x());
@@ -166,11 +166,11 @@ void Track::BuildPath(const CenterLine& line) {
   const std::vector<CurvePoint>& lap = line.lap;
   const double turn = line.end.yaw - lap.front().yaw;
 
-  // The path begins before the start line and ends beyond the start line after one lap.
+  // The path begins before the start line, covers one lap and ends beyond the start line.
   const double extra = std::min(0.5 * length_, 100.0);
   auto begin = std::find_if(lap.begin(), lap.end(),
                             [&](const CurvePoint& p) { return p.s >= length_ - extra; });
-  // If the points are farther apart than `extra`, use the last point of the lap.
+  // If no point of the lap is within `extra` of its end, begin at the last point of the lap.
   begin = begin == lap.end() ? std::prev(begin) : begin;
   extra_ = length_ - begin->s;
   std::vector<CurvePoint> all;
@@ -192,8 +192,9 @@ void Track::PlaceEdges(const CenterLine& line) {
   const double pieces = static_cast<double>(line.lap.size());
   for (std::size_t i = 0; i < points_.size(); ++i) {
     // Compute the lateral offset of each track point from the smoothed line, because the smoothing
-    // moves the line. The foot point of a track point lies at most twice the point's deviation from
-    // the point's station. This bound holds if the radius of the line exceeds the deviation.
+    // moves the line. The station of the foot point differs from the track point's station by at
+    // most twice the track point's deviation. This bound of the foot point's station holds if the
+    // radius of curvature of the line exceeds the deviation.
     const double reach = 4.0 * std::abs(line.deviations[i]) + 4.0 * length_ / pieces;
     const double own = LocateWithin(points_[i].position, stations_[i], reach).offset;
     edges_.push_back({own + points_[i].width_left, own - points_[i].width_right});
@@ -254,8 +255,8 @@ namespace {
 
 constexpr double kMaxRadiusFraction = 0.95;
 
-/// Largest |curvature| of a piece of the center line, and the largest possible heading change
-/// within the piece.
+/// Largest |curvature| of a piece of the center line, and an upper bound of the heading change
+/// within this piece.
 struct PieceBend {
   double curvature = 0.0;  // [1/m]
   double turn = 0.0;       // [rad]

@@ -17,10 +17,11 @@ namespace trackbed {
 namespace {
 
 constexpr std::uintmax_t kMaxTrackFileBytes = std::uintmax_t{16} << 20U;
-constexpr double kMaxPosition = 1e5;     // [m]
-constexpr double kMaxWidth = 1000.0;     // [m]
-constexpr double kMaxLapLength = 200e3;  // [m]
-// Largest change of direction at a point [deg]; at a larger angle, the center line turns back.
+constexpr double kMaxPosition = 1e5;     // Largest permitted |x| and |y| of a point [m].
+constexpr double kMaxWidth = 1000.0;     // Largest permitted track width on either side [m].
+constexpr double kMaxLapLength = 200e3;  // Largest permitted length of the lap [m].
+// Largest permitted change of direction at a point [deg]; beyond this angle, the center line counts
+// as turning back.
 constexpr double kMaxTurn = 150.0;
 constexpr const char* kFirstColumn = "# x_m";
 

@@ -19,11 +19,13 @@
 namespace trackbed {
 namespace {
 
-// Lateral force of an axle that cannot generate its longitudinal force.
+// Value that replaces the lateral force of an axle that cannot generate the required longitudinal
+// force.
 constexpr double kInfeasibleGrip = -1.0;
 
 /// Returns the lateral force [N] of a tyre at a slip angle, while the tyre generates the
-/// longitudinal force `along`. Returns none if no slip ratio gives this longitudinal force.
+/// longitudinal force `along`. Returns none if the tyre cannot generate this longitudinal force at
+/// any slip ratio.
 std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double road, double along,
                                   TyreSlip slip) {
   if (!(load > 0.0)) {
@@ -59,18 +61,20 @@ std::optional<double> TyreLateral(const MagicFormula& tyre, double load, double 
 
 /// Wheel loads of an axle, and the longitudinal forces that its tyres must generate.
 struct AxleDemand {
-  std::array<double, 2> load{};  // Load of the inner and the outer wheel [N].
-  double along = 0.0;            // Longitudinal force of each wheel [N].
+  std::array<double, 2> load{};  // Vertical loads of the inner and the outer wheel [N].
+  double along = 0.0;            // Longitudinal force that each wheel must generate [N].
   double camber = 0.0;           // Camber angle [rad].
   double road = 1.0;
 };
 
-/// Lateral grip of an axle that also generates its longitudinal force.
+/// Lateral grip of an axle whose tyres also generate the required longitudinal force.
 struct AxleGripState {
-  // Largest lateral force [N]; kInfeasibleGrip if the axle cannot generate its longitudinal force.
+  // Largest lateral force of the axle [N]; kInfeasibleGrip if the axle cannot generate the required
+  // longitudinal force.
   double most = kInfeasibleGrip;
-  double angle = 0.0;  // Slip angle at the required lateral force; if that force is not reached,
-                       // slip angle at the largest force [rad].
+  // Slip angle at the required lateral force or, if the axle cannot generate this force, at the
+  // largest lateral force [rad].
+  double angle = 0.0;
 };
 
 AxleGripState OnFrictionCircles(double friction, const AxleDemand& demand) {
@@ -102,9 +106,10 @@ AxleGripState FindGrip(const GripAxle& axle, const AxleDemand& demand, double wa
     }
     return sum;
   };
-  constexpr double kMaxSlip = 0.5;  // [rad]
-  constexpr int kBits = 8;  // bits of precision of the slip angle; few bits suffice, because the
-                            // force is flat around its peak
+  constexpr double kMaxSlip = 0.5;  // Largest slip angle of the search [rad].
+  // Number of correct bits of the slip angle; a few bits suffice, because the force is flat around
+  // the peak.
+  constexpr int kBits = 8;
   const auto [peak, negative] = boost::math::tools::brent_find_minima(
       [&](double at) { return -lateral_at(at); }, 0.0, kMaxSlip, kBits);
   AxleGripState state{.most = std::max(-negative, lateral_at(0.0)), .angle = peak};
@@ -130,10 +135,10 @@ class SteadyState {
   }
 
   /// Returns whether both axles can generate the forces that the accelerations require. The tyres
-  /// must also overcome the drag due to their slip angles. This drag depends on the tyre forces, so
-  /// AxlesHold uses a fixed-point iteration.
+  /// must also overcome the drag due to their slip angles. The drag due to the slip angles depends
+  /// on the tyre forces, so AxlesHold uses a fixed-point iteration.
   [[nodiscard]] bool AxlesHold(double longitudinal, double lateral) const {
-    // Each iteration reduces the error of the drag about tenfold.
+    // Each iteration reduces the error of the drag to about a tenth.
     constexpr int kDragIterations = 4;
     double slip_drag = 0.0;  // [m/s^2]
     bool hold = true;
@@ -175,8 +180,10 @@ class SteadyState {
   }
 
  private:
-  static constexpr double kMaxAcceleration = 40.0;  // [m/s^2]; exceeds any car without downforce
-  static constexpr double kSameDrag = 0.005;        // [m/s^2]
+  // Upper bound of accelerations [m/s^2], which no car without downforce reaches.
+  static constexpr double kMaxAcceleration = 40.0;
+  // Change of the drag per mass at which the iteration ends [m/s^2].
+  static constexpr double kSameDrag = 0.005;
 
   /// Returns the wheel loads and longitudinal forces of axle i. The argument `wheels` is the sum of
   /// the longitudinal tyre forces, divided by the car's mass [m/s^2].
@@ -196,11 +203,12 @@ class SteadyState {
             .road = road_};
   }
 
-  /// Bisects for the largest number in [low, high] for which `holds` is true. The condition `holds`
-  /// must also be true for all smaller numbers.
+  /// Finds, by bisection, the largest number in [low, high] for which `holds` is true; `holds` must
+  /// also be true for all smaller numbers.
   template <typename Test>
   [[nodiscard]] static double Largest(double low, double high, const Test& holds) {
-    constexpr int kHalvings = 16;  // gives a resolution of 40/2^16 = 0.0006 m/s^2
+    // Number of halvings, which yields a resolution of 40/2^16 = 0.0006 m/s^2.
+    constexpr int kHalvings = 16;
     for (int i = 0; i < kHalvings; ++i) {
       const double middle = 0.5 * (low + high);
       (holds(middle) ? low : high) = middle;
@@ -222,8 +230,8 @@ class SteadyState {
   double road_;
   double drag_;            // Aerodynamic drag [N].
   double weight_;          // Weight of the car [N].
-  double roll_stiffness_;  // Roll stiffness of both axles [N m/rad].
-  double lean_;            // Rolling moment m g h per roll angle [N m/rad].
+  double roll_stiffness_;  // Sum of the roll stiffnesses of both axles [N m/rad].
+  double lean_;            // Overturning moment m g h of gravity per roll angle [N m/rad].
 };
 
 GgvSection ComputeSection(const GripModel& car, double road, double speed) {
@@ -274,7 +282,7 @@ double MaxLateralForce(const GripModel& car, double road, double longitudinal) {
 
 GgvDiagram ComputeGgv(const GripModel& car, const std::vector<double>& roads) {
   CheckModel(car, roads);
-  // Two speeds suffice for the table, because the drag and its load transfer are linear in the
+  // The table needs only two speeds, because drag and the load transfer by drag are linear in the
   // squared speed.
   constexpr double kMaxTableSpeed = 60.0;  // [m/s]
   std::vector<double> speeds{0.0};
@@ -304,7 +312,7 @@ GgvDiagram FrictionGgv(const VehicleParams& vehicle, const std::vector<double>& 
     sections.push_back(EllipticSection(driving, braking, lateral));
     sections.back().road = road;
   }
-  // Without a mass, use 1 kg, because every mass gives the same accelerations.
+  // If the mass is unknown, use 1 kg, because the accelerations do not depend on the mass.
   const double mass = vehicle.mass > 0.0 ? vehicle.mass : 1.0;
   return {{.mass = mass, .rolling_mass = mass, .top_speed = vehicle.top_speed},
           std::move(sections)};

@@ -7,11 +7,12 @@
 namespace trackbed {
 namespace {
 
-/// Width [rad] over which the sign function of the camber is smoothed.
+/// Width of the range of camber angles over which the sign function of the camber is smoothed
+/// [rad].
 constexpr double kCamberSign = 5e-4;
-/// Camber to which larger camber angles are clamped [rad]. Tyres are measured up to a camber of
-/// about 6 degrees. Without the clamp, the squared camber in the formula would give a car that
-/// rolls over more and more grip.
+/// Largest camber angle in the formula, to which larger angles are clamped [rad]. Tyre measurements
+/// extend up to a camber angle of about 6 degrees. Without the clamp, the squared camber in the
+/// formula would increase the grip of a car more and more while the car rolls over.
 constexpr double kMaxCamber = 0.1;
 
 /// Evaluates the function f(u) = C atan(u - E (u - atan u)) of the Magic Formula.
@@ -20,7 +21,8 @@ double Shape(double c, double e, double u) {
 }
 
 /// Returns the weighting factor for combined slip. The factor describes how the slip in the other
-/// direction, `slip`, reduces a tyre force. The factor is 1 at zero slip.
+/// direction, `slip`, reduces a tyre force. The weighting factor is 1 if the slip in the other
+/// direction is zero.
 double Weight(double b, double c, double e, double shift, double slip) {
   const double kept = std::cos(Shape(c, e, b * (slip + shift)));
   return shift == 0.0 ? kept : kept / std::cos(Shape(c, e, b * shift));
@@ -36,8 +38,8 @@ double LoadChange(const MagicFormula& tyre, double load) {
   return tyre.f_z0 > 0.0 ? (load - tyre.f_z0) / tyre.f_z0 : 0.0;
 }
 
-/// Returns the friction coefficient mu. The coefficient is linear in the load change, but at least
-/// a tenth of its nominal value.
+/// Returns the friction coefficient mu. The friction coefficient is linear in the load change, but
+/// at least a tenth of the nominal value.
 double Friction(double at_nominal, double per_load, double load_change) {
   return std::max(at_nominal + per_load * load_change, 0.1 * at_nominal);
 }
@@ -116,8 +118,8 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     return {};
   }
   const double gamma = std::clamp(slip.camber, -kMaxCamber, kMaxCamber);
-  // Multiply the shift by the smoothed sign of the camber gamma, so that the shift points to the
-  // side of the camber.
+  // Multiply the shift by the smoothed sign of the camber gamma, so that the shift has the
+  // direction of the camber.
   const double side =
       slip.shift * gamma / std::sqrt(gamma * gamma + kCamberSign * kCamberSign);  // sgn gamma
   const double lean = std::abs(gamma);

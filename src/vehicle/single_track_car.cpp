@@ -115,7 +115,7 @@ Eigen::Matrix2d SingleTrackCar::Decay(double speed, double acceleration_along) c
 }
 
 /// Returns the ratios of lateral speed and yaw rate to the forward speed. At rest, returns the only
-/// finite limit of these ratios, with which the car comes to rest or starts to move.
+/// finite limit of the ratios, which the car has when it comes to rest or starts to move.
 SingleTrackCar::Ratios SingleTrackCar::RatiosAt(double direction, double acceleration) const {
   if (state_.speed != 0.0) {
     return Ratios(state_.lateral_speed, state_.yaw_rate) / state_.speed;
@@ -126,7 +126,7 @@ SingleTrackCar::Ratios SingleTrackCar::RatiosAt(double direction, double acceler
 void SingleTrackCar::StepByRadau(const MotionPiece& piece) {
   const Radau& radau = RadauIIA();
   const double h = piece.duration;
-  // The speed does not change its sign during the step.
+  // Within a step of this integrator, the speed does not change its sign.
   const double direction = std::copysign(1.0, state_.speed + piece.end_speed);
   const Ratios start = RatiosAt(direction, piece.acceleration);
 

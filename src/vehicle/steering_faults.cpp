@@ -10,7 +10,7 @@ namespace trackbed {
 
 namespace {
 
-/// Returns the length of the ring buffer that delays the steering command, in timesteps.
+/// Returns the number of timesteps by which a ring buffer delays the steering command.
 std::size_t StepsOf(const SteeringFaults& faults, double timestep, double start) {
   TRACKBED_REQUIRE(std::isfinite(faults.factor) && faults.backlash >= 0.0 &&
                        std::isfinite(faults.backlash) && std::isfinite(start),

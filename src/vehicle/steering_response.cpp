@@ -26,7 +26,7 @@ double DeadTimeSteps(const SteeringResponse& response, double timestep, double s
                    "SteeringFilter: a dead time of {} s in timesteps of {} s; must be at most {} "
                    "steps",
                    response.dead_time, timestep, kMaxSteps);
-  // Tolerance within which the dead time counts as a whole number of timesteps.
+  // Tolerance within which the ratio of dead time to timestep counts as a whole number.
   constexpr double kRounding = 1e-6;
   const double whole = std::round(steps);
   return std::abs(steps - whole) < kRounding ? whole : steps;

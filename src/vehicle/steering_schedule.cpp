@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Target of the steering angle, valid from the driven distance `distance` on.
+/// Target of the steering angle that applies from the driven distance `distance` on.
 struct Target {
   double distance;
   double steering;
@@ -28,7 +28,8 @@ std::vector<Target> SteeringTargets(const std::vector<TurnSteering>& turns,
                      "SteeringSchedule: steering {} and {} rad; must be finite", turn.steering,
                      neutral);
     targets.push_back({turn.start, turn.steering, slopes[k]});
-    // If turns overlap, the later turn takes precedence and ends the earlier turn.
+    // If the steering ramps of two turns overlap, the later turn takes precedence and ends the
+    // earlier turn.
     if (k + 1 == turns.size() || turn.end < turns[k + 1].start) {
       targets.push_back({turn.end, neutral, slopes[k]});
     }

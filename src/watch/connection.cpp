@@ -13,11 +13,11 @@
 
 #include "src/watch/own_host.h"
 
-// Connections of the watch server, implemented with Boost.Beast in a single thread. HttpConnection
-// answers GET and HEAD requests with the page. HttpConnection first checks the headers Host and
-// Origin, so that pages of other sites can neither read nor control the run. An upgrade request
-// turns the connection into a LiveConnection, which reads commands from the page and sends new rows
-// to it, one message at a time.
+// Implements the connections of the watch server with Boost.Beast in a single thread. The class
+// HttpConnection answers GET and HEAD requests with the page. Before answering, HttpConnection
+// checks the headers Host and Origin, so that pages of other sites can neither read nor control the
+// run. An upgrade request turns the connection into a LiveConnection, which reads commands from the
+// page and sends new rows to the page, one message at a time.
 namespace trackbed {
 namespace {
 
@@ -31,10 +31,10 @@ using beast::error_code;
 constexpr std::uint32_t kMaxHeaderBytes = 8192;  // [bytes]
 constexpr std::size_t kMaxMessageBytes = 4096;   // [bytes]
 constexpr std::chrono::seconds kRequestTime{15};
-constexpr std::chrono::seconds kPageTime{600};  // Time limit for sending a page, which may have 170
-                                                // MB if it contains a film.
-constexpr std::chrono::seconds kIdleTime{60};   // Longest time without data from a client; after
-                                                // half of it, the server pings the client.
+// Time limit for sending a page, whose size may reach 170 MB if the page contains a video.
+constexpr std::chrono::seconds kPageTime{600};
+// Maximum time without data from a client; after half of this time, the server pings the client.
+constexpr std::chrono::seconds kIdleTime{60};
 
 std::string_view View(beast::string_view text) {
   return {text.data(), text.size()};
@@ -56,7 +56,8 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   }
 
   void Accept(const http::request<http::empty_body>& request) {
-    beast::get_lowest_layer(socket_).expires_never();  // the WebSocket has its own timeout
+    // the WebSocket has a timeout of its own, set in the constructor
+    beast::get_lowest_layer(socket_).expires_never();
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (!error) {
         self->is_open_ = true;
@@ -114,7 +115,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   websocket::stream<beast::tcp_stream> socket_;
   LiveRun& run_;
   beast::flat_buffer buffer_;
-  std::string message_;  // message that is being sent
+  std::string message_;  // message that is currently being sent
   LiveRun::Cursor cursor_;
   bool is_open_ = false;
   bool writes_ = false;
@@ -122,8 +123,8 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
 
 namespace {
 
-/// Answers HTTP requests one after the other, until the client closes the connection or requests a
-/// WebSocket.
+/// Answers HTTP requests on a connection one after the other, until the client closes the
+/// connection or requests a WebSocket.
 class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
  public:
   HttpConnection(tcp::socket socket, const Site& site, Connections& connections)
@@ -154,7 +155,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
       return;
     }
     if (error) {
-      return;  // the client has closed the connection or is too slow
+      return;  // the client has closed the connection or was too slow
     }
     const Request request = parser_->release();
     const std::string_view host = View(request[http::field::host]);
@@ -173,7 +174,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
   void Upgrade(const Request& request) {
     const std::string_view origin = View(request[http::field::origin]);
     // A request without the header Origin does not come from a browser, so a page of another site
-    // cannot have caused it.
+    // cannot be its cause.
     const bool own = request.count(http::field::origin) == 0 ||
                      IsOwnOrigin(origin, View(request[http::field::host]));
     if (!own) {
@@ -219,7 +220,7 @@ class HttpConnection : public std::enable_shared_from_this<HttpConnection> {
     response.set(http::field::content_type, content.type);
     response.set(http::field::cache_control, "no-store");
     response.set("Referrer-Policy", "no-referrer");
-    // Sets headers that forbid other sites to embed or read the page.
+    // Sets HTTP headers that forbid other sites to embed or read the page.
     response.set(http::field::x_frame_options, "DENY");
     response.set("X-Content-Type-Options", "nosniff");
     response.set("Cross-Origin-Resource-Policy", "same-origin");

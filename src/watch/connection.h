@@ -10,25 +10,26 @@
 
 namespace trackbed {
 
-/// The content that a server offers.
+/// The content that a watch server offers.
 struct Site {
-  boost::asio::ip::address address;           ///< IP address at which the server listens.
-  std::shared_ptr<const std::string> page{};  ///< HTML page, shared with connections that are still
-                                              ///< sending it.
-  LiveRun* live = nullptr;  ///< The run in progress; null if no run is in progress.
+  boost::asio::ip::address address;  ///< IP address at which the server listens.
+  /// HTML page; shared with the connections that are still sending the page.
+  std::shared_ptr<const std::string> page{};
+  /// The run in progress that the server shows; null if no run is in progress.
+  LiveRun* live = nullptr;
 };
 
-/// A WebSocket connection. The object owns itself while operations are pending.
+/// A WebSocket connection. A LiveConnection owns itself while operations are pending.
 class LiveConnection;
 
-/// The connections of a server, which all run in one thread.
+/// The open connections of a server, which are all handled in one thread.
 class Connections {
  public:
-  /// Serves HTTP on a new connection, and a WebSocket if the client requests it. `site` must
-  /// outlive this object.
+  /// Serves HTTP requests on a new connection, and changes to a WebSocket if the client requests
+  /// this. `site` must outlive this object.
   void Add(boost::asio::ip::tcp::socket socket, const Site& site);
 
-  /// Sends new messages on each WebSocket that is not busy sending.
+  /// Sends new messages on each WebSocket that is not currently sending.
   void SendUpdates();
 
   /// Removes closed connections.

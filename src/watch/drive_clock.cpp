@@ -50,8 +50,9 @@ void Pace::SetSpeed(double speed, double simulated, double wall) {
 }
 
 void Pace::KeepUp(double simulated, double wall) {
-  constexpr double kMaxLag = 0.1;  // longest tolerated lag behind the wall clock [s]; a smaller lag
-                                   // is due to the scheduler
+  // longest lag behind the wall clock that is made up later [s]; such small lags are due to the
+  // scheduler
+  constexpr double kMaxLag = 0.1;
   if (!paused_ && !std::isinf(speed_) && AllowedAt(wall) - simulated > kMaxLag * speed_) {
     CountFrom(simulated, wall);
   }
@@ -73,7 +74,8 @@ void DriveClock::Advance(std::size_t plant, double time) {
   }
   changed_.notify_all();
   const double next = time + period_;
-  const double tolerance = 0.5 * period_;  // tolerance for times, which are rounded sums of periods
+  // tolerance for comparing times, which are rounded sums of periods
+  const double tolerance = 0.5 * period_;
   while (!released_) {
     const bool others_arrived = SlowestTime() > time - tolerance;
     const double moment = pace_.MomentOf(next - tolerance);

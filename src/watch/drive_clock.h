@@ -9,33 +9,35 @@
 /// Synchronizes a watched run with the wall clock.
 namespace trackbed {
 
-/// Relates simulated time to wall-clock time. All times are in seconds.
+/// Relates the simulated time of a run to wall-clock time. All times of the class Pace are in
+/// seconds.
 class Pace {
  public:
-  /// `speed` > 0 is the ratio of simulated time to wall-clock time. Infinity means as fast as
-  /// possible.
+  /// `speed` > 0 is the ratio of simulated time to wall-clock time. An infinite `speed` means that
+  /// the simulation runs as fast as possible.
   Pace(double speed, bool paused) : speed_(speed), paused_(paused) {}
 
   [[nodiscard]] double speed() const { return speed_; }
   [[nodiscard]] bool paused() const { return paused_; }
 
-  /// Returns the simulated time that may be reached at the wall-clock time `wall`; infinity if the
-  /// speed is infinite.
+  /// Returns the simulated time that the simulation may reach at the wall-clock time `wall`;
+  /// infinity if the speed is infinite.
   [[nodiscard]] double AllowedAt(double wall) const;
-  /// Returns the wall-clock time at which the simulated time `simulated` may be reached. Returns
-  /// infinity if the clock is paused before that time.
+  /// Returns the wall-clock time from which the simulation may reach the simulated time
+  /// `simulated`. Returns infinity if the pause of the clock begins before that simulated time.
   [[nodiscard]] double MomentOf(double simulated) const;
 
-  // In the functions below, `simulated` is the simulated time reached so far, and `wall` is the
-  // wall-clock time of the call.
+  // The arguments of the functions below are the simulated time reached so far, `simulated`, and
+  // the wall-clock time of the call, `wall`.
 
   void Pause(double simulated);
   void Resume(double simulated, double wall);
-  /// Pauses the clock after one more `period`, counted from the time reached or already allowed.
+  /// Pauses the clock after one more `period`, counted from the simulated time that is reached or
+  /// already allowed.
   void Step(double simulated, double period);
   void SetSpeed(double speed, double simulated, double wall);
-  /// Restarts the clock if the simulation lags behind, so that the simulation does not run faster
-  /// later to catch up.
+  /// If the simulation lags behind, shifts the clock by the lag, so that the simulation does not
+  /// run faster later to catch up.
   void KeepUp(double simulated, double wall);
 
  private:
@@ -43,20 +45,22 @@ class Pace {
 
   double speed_;
   bool paused_;
-  double until_ = 0.0;           // Limit of the simulated time while paused.
-  double from_simulated_ = 0.0;  // Simulated time at which the present speed began to apply.
+  // Largest simulated time that is allowed while the clock is paused.
+  double until_ = 0.0;
+  double from_simulated_ = 0.0;  // Simulated time from which the present speed applies.
   double from_wall_ = 0.0;
 };
 
-/// Synchronizes the plants of a run, each of which has its own thread. No plant begins a control
-/// period before all other plants have reached it. All functions of DriveClock are thread-safe.
+/// Synchronizes the plants of a run, each of which has its own thread. A plant begins a control
+/// period only when all other plants have reached the start of this period. All functions of
+/// DriveClock are thread-safe.
 class DriveClock {
  public:
-  /// `period` is the control period [s].
+  /// `period` is the control period of the run [s].
   DriveClock(std::size_t plants, double period, double speed, bool paused);
 
-  /// Called by a plant that has reached `time` [s]. Blocks until the plant may simulate the next
-  /// control period.
+  /// Called by the thread of a plant that has reached the simulated time `time` [s]. Blocks until
+  /// the plant may simulate the next control period.
   void Advance(std::size_t plant, double time);
   /// Removes a plant from the synchronization, so that other plants no longer wait for it.
   void End(std::size_t plant);
@@ -77,18 +81,19 @@ class DriveClock {
   [[nodiscard]] State state() const;
 
  private:
-  [[nodiscard]] double SlowestTime() const;  // Smallest time of all plants that have not ended [s].
-  [[nodiscard]] double Reached() const;      // Time that all plants have reached [s]; 0 until all
-                                             // have begun.
-  [[nodiscard]] double Now() const;          // Wall-clock time [s].
+  // Smallest simulated time of all plants that have not ended [s].
+  [[nodiscard]] double SlowestTime() const;
+  // Simulated time that all plants have reached [s]; 0 until all plants have begun.
+  [[nodiscard]] double Reached() const;
+  [[nodiscard]] double Now() const;  // Wall-clock time [s].
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const double period_;
-  mutable std::mutex mutex_;  // guards the following members
+  mutable std::mutex mutex_;  // protects the members below against concurrent access
   std::condition_variable changed_;
   Pace pace_;
-  std::vector<double> times_;  // time of each plant; negative before the plant has begun, infinite
-                               // after its end
+  // simulated time of each plant; negative before the plant has begun, infinite after its end
+  std::vector<double> times_;
   bool released_ = false;
 };
 

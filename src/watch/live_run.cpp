@@ -89,9 +89,9 @@ std::size_t LiveRun::IndexOf(const std::string& plant) const {
 }
 
 void LiveRun::Add(std::size_t index, const RunLog& log, const Table& configurations) {
-  constexpr double kPosePeriod = 1.0 / 30.0;  // Time between two poses of the replay, as in reports
-                                              // [s].
-  constexpr double kRounding = 1e-6;          // Tolerance for rounding errors of times [s].
+  // Time between two poses of the replay [s], as in reports.
+  constexpr double kPosePeriod = 1.0 / 30.0;
+  constexpr double kRounding = 1e-6;  // Tolerance for rounding errors of times [s].
   const std::lock_guard lock(mutex_);
   Plant& plant = plants_[index];
   plant.added[kRows].push_back(plant.text.LastRow(log));
@@ -134,8 +134,9 @@ std::string LiveRun::StateText() const {
 }
 
 std::optional<std::string> LiveRun::RowsText(Cursor& cursor) const {
-  constexpr std::size_t kMessage = 80000;  // approximate size of a message, over all kinds of rows
-                                           // [bytes]; one more row of each kind may exceed it
+  // approximate size of a message over all kinds of rows [bytes]; may be exceeded by one row of
+  // each kind
+  constexpr std::size_t kMessage = 80000;
   const std::size_t most = kMessage / (kAdded.size() * plants_.size());
   cursor.places.resize(plants_.size());
   bool any = false;

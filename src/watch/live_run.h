@@ -15,50 +15,50 @@
 
 namespace trackbed {
 
-/// The data of a run in progress. The threads of the plants add rows, and connections send the rows
-/// to pages. All functions of LiveRun are thread-safe.
+/// Stores the data of a run in progress. The threads of the plants add rows, and the connections
+/// send these rows to pages. All functions of LiveRun are thread-safe.
 class LiveRun {
  public:
-  /// `first` is the ReportData at the beginning of the run, which LivePage also gets. `id`
-  /// identifies the run.
+  /// `first` is the report data at the beginning of the run, which are also passed to LivePage.
+  /// `id` identifies the run, so that pages notice a new run.
   LiveRun(const nlohmann::ordered_json& first, std::string id, double control_period, double speed,
           bool paused);
 
-  /// Returns the hooks for the simulation of a plant.
+  /// Returns the functions that the simulation of a plant calls.
   DriveHooks HooksOf(const std::string& plant);
   void EndOf(const std::string& plant);
 
-  /// Ends the simulations of all plants immediately, including those that wait for the clock.
+  /// Ends the simulations of all plants immediately, including plants that wait for the clock.
   void Interrupt();
   /// Tells all pages that the report of the run can be loaded.
   void Finish();
 
-  /// Records which part of the run a connection has already sent to its page.
+  /// Records which part of the run has already been sent to the page of a connection.
   struct Cursor {
-    std::string state;                                 ///< State message that was sent last.
-    std::vector<std::array<std::size_t, 3>> places{};  ///< For each plant, the numbers of rows,
-                                                       ///< poses and plans sent so far.
+    std::string state;  ///< Last state message that was sent.
+    /// For each plant, the number of rows, of poses and of plans sent so far.
+    std::vector<std::array<std::size_t, 3>> places{};
     bool finished = false;
   };
 
-  /// Returns the next message for a page as JSON; nullopt if the page is up to date. The messages
-  /// are:
+  /// Returns the next JSON message for a page; nullopt if the page is up to date. The messages are:
   ///   {"type": "state", "id", "paused", "speed"}  speed is a number or "max"
   ///   {"type": "rows", "plants": [{"first": [row, pose, plan], "rows", "poses", "plans"}, ...]}
   ///   {"type": "finished"}                        after all rows
-  /// LiveRows formats the rows. A message has at most about 100 kB.
+  /// LiveRows formats the rows. The size of a message is at most about 100 kB.
   std::optional<std::string> Next(Cursor& cursor) const;
 
-  /// Executes a command from a page: {"do": "pause" | "resume" | "step"}, or {"do": "speed",
-  /// "speed": number | "max"}. Returns a text on the error in the command; empty if the command was
-  /// executed.
+  /// Executes a command from a page; commands are {"do": "pause" | "resume" | "step"} and {"do":
+  /// "speed", "speed": number | "max"}. Returns an error message if the command is invalid; empty
+  /// if the command was executed.
   std::string Execute(std::string_view message);
 
  private:
   struct Plant {
     std::string name;
     LiveRows text;
-    std::array<std::vector<std::string>, 3> added{};  // rows, poses and plans added so far
+    // JSON texts of the rows, poses and plans added so far
+    std::array<std::vector<std::string>, 3> added{};
     std::size_t configurations_seen = 0;
     double next_pose = 0.0;  // [s]
     std::size_t changes_seen = 0;
@@ -71,7 +71,7 @@ class LiveRun {
 
   std::string id_;
   DriveClock clock_;
-  mutable std::mutex mutex_;  // guards the following members
+  mutable std::mutex mutex_;  // protects the members below against concurrent access
   std::vector<Plant> plants_;
   bool interrupted_ = false;
   bool finished_ = false;

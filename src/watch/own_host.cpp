@@ -10,7 +10,7 @@ namespace {
 
 namespace beast = boost::beast;
 
-/// Returns the host name without its port, and without the brackets of an IPv6 address.
+/// Returns the name in a Host header without the port, and without the brackets of an IPv6 address.
 std::string_view NameOf(std::string_view host) {
   if (host.starts_with('[')) {
     const std::size_t end = host.find(']');

@@ -23,7 +23,7 @@ using asio::ip::tcp;
 using boost::system::error_code;
 
 constexpr std::size_t kMaxConnections = 64;
-/// Interval between two checks for new rows of the run.
+/// Interval between two checks for new rows of the run in progress.
 constexpr std::chrono::milliseconds kTick{40};
 
 tcp::endpoint EndpointOf(const std::string& host, int port) {
@@ -88,7 +88,9 @@ class Server::Implementation {
       if (error == asio::error::operation_aborted) {
         return;
       }
-      if (error) {  // after an error such as a lack of file descriptors, retries later
+      // if accepting a connection fails, for example for lack of file descriptors, tries again
+      // later
+      if (error) {
         wait_to_accept_ = true;
         return;
       }

@@ -5,7 +5,7 @@
 namespace trackbed {
 namespace {
 
-/// The blocked cells of a map that no rectangle covers yet.
+/// Stores which blocked cells of a map are not yet covered by a rectangle.
 class OpenCells {
  public:
   OpenCells(const GridMap& map, UnknownCells unknown)
@@ -21,8 +21,8 @@ class OpenCells {
     return column < columns_ && row < rows_ && open_[Index(column, row)] != 0;
   }
 
-  /// Returns the widest rectangle of open cells that begins at a cell. Of equally wide rectangles,
-  /// returns the tallest.
+  /// Returns the widest rectangle of open (not yet covered) cells that begins at a cell; of equally
+  /// wide rectangles, returns the tallest.
   [[nodiscard]] CellRectangle Widest(int column, int row) const {
     CellRectangle found{column, row, 0, 1};
     while (IsOpen(column + found.columns, row)) {
@@ -41,8 +41,8 @@ class OpenCells {
     return found;
   }
 
-  /// Returns the tallest rectangle of open cells that begins at a cell. Of equally tall rectangles,
-  /// returns the widest.
+  /// Returns the tallest rectangle of open (not yet covered) cells that begins at a cell; of
+  /// equally tall rectangles, returns the widest.
   [[nodiscard]] CellRectangle Highest(int column, int row) const {
     CellRectangle found{column, row, 1, 0};
     while (IsOpen(column, row + found.rows)) {

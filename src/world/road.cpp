@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-/// Height of the ground and its derivatives: Profile along one coordinate, Lift along two
+/// Height of the ground with derivatives: a Profile depends on one coordinate, a Lift on two
 /// coordinates.
 struct Profile {
   double height = 0.0;
@@ -60,7 +60,7 @@ Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
   const Vec2 p = ToLocal(stretch.area.center, point_W);
   const double half_length = 0.5 * stretch.area.length;
   const double width = stretch.area.width;
-  // Sign of the lateral coordinate v in the uphill direction.
+  // Sign that the lateral coordinate v has on the uphill side.
   const double up = std::copysign(1.0, stretch.slope);
   const double w = 0.5 * width + up * p.y();
   Profile across;
@@ -76,7 +76,8 @@ Lift ComputeLift(const Superelevation& stretch, const Vec2& point_W) {
       across);
 }
 
-/// Returns the height and the slope of the feature of the ground that is highest at the point.
+/// Among all features of the ground, finds the feature that is highest at the point and returns its
+/// height and slope.
 Lift Highest(const Ground& ground, const Vec2& point_W) {
   Lift highest;
   const auto look = [&](const auto& features) {

@@ -10,8 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// Interpolation weights of four neighboring cells, and their derivatives by the position u between
-/// the middle two cells.
+/// Interpolation weights of four neighboring cells, and the derivatives of these weights by the
+/// position u between the middle two cells.
 struct Weights {
   std::array<double, 4> value;
   std::array<double, 4> slope;
@@ -35,8 +35,8 @@ Weights ConvolutionWeights(double u) {
            u * (1.5 * u - 1.0)}};
 }
 
-/// Returns the weighted sum over sixteen neighboring cells. In `at(i, j)`, i counts along x and j
-/// counts along y.
+/// Returns the weighted sum over sixteen neighboring cells. The arguments of `at(i, j)` are the
+/// cell index i along x and the cell index j along y.
 template <typename At>
 Terrain::Point Sum(const Weights& x, const Weights& y, double cell, const At& at) {
   Terrain::Point sum;
@@ -118,7 +118,7 @@ bool Terrain::IsRefined(int column, int row) const {
 
 Terrain::Point Terrain::At(const Vec2& point_W) const {
   const Vec2 place = point_W - size_.low;
-  // The condition is written such that NaN counts as outside of the terrain.
+  // Write the condition such that a NaN coordinate counts as outside of the terrain.
   if (!(place.x() >= 0.0 && place.y() >= 0.0 && place.x() <= kBlock * size_.columns &&
         place.y() <= kBlock * size_.rows)) {
     return {size_.base, Vec2::Zero()};

@@ -88,8 +88,8 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
 
 namespace {
 
-/// Returns an upper bound on how far a point of the footprint moves relative to an obstacle between
-/// two samples [m].
+/// Returns an upper bound of the distance by which a point of the footprint moves relative to an
+/// obstacle between two samples [m].
 double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
                          const ClearanceSample& from, const ClearanceSample& to) {
   const double reach = std::hypot(
@@ -102,13 +102,14 @@ double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
          reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);
 }
 
-/// Largest number of bisections. This number suffices for any real motion of a car, and limits the
-/// computing time if a simulation has diverged.
+/// Largest number of bisections in the search for the smallest clearance. This number of bisections
+/// suffices for any real motion of a car, and limits the computing time if a simulation has
+/// diverged.
 constexpr long kMaxBisections = 100000;
 
 /// Searches for the smallest clearance between two samples by bisection. Between the samples, the
-/// clearance changes by at most `moved` [m]. The bisection stops when the clearance cannot be
-/// smaller than the best known clearance by more than a tolerance.
+/// clearance changes by at most `moved` [m]. The bisection stops when no further reduction of the
+/// smallest known clearance by more than a tolerance is possible.
 void Approach(const World& world, const VehicleParams& vehicle, const ClearanceSample& from,
               const ClearanceSample& to, double moved, long& looks, ClosestApproach& best) {
   constexpr double kTolerance = 5e-3;  // [m]
@@ -116,7 +117,7 @@ void Approach(const World& world, const VehicleParams& vehicle, const ClearanceS
   constexpr double kDepth = 1e-3;  // [m]
   const double least = 0.5 * (from.clearance + to.clearance - moved);
   const double near = best.clearance - std::max(kTolerance, kShare * best.clearance);
-  // If the car may touch an obstacle, continue below the tolerance, until `moved` is less than
+  // If the car may touch an obstacle, ignore the tolerance and continue until `moved` is less than
   // kDepth.
   if (best.clearance == 0.0 || moved < kDepth || (least > 0.0 && least >= near) || --looks < 0) {
     return;

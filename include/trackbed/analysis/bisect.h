@@ -6,15 +6,15 @@
 
 namespace trackbed {
 
-/// How a bisection ended.
+/// The result status of a bisection.
 enum class BisectStatus {
-  kFound,        ///< Found the boundary between passing and failing values.
+  kFound,        ///< The bisection found the boundary between passing and failing values.
   kFailsAtFrom,  ///< Even the lowest value fails, so no boundary was found.
   kPassesAtTo,   ///< Even the highest value passes, so the boundary lies above the range.
   kInterrupted,  ///< The caller stopped the bisection.
 };
 
-/// Returns the name of a bisection's status as written in sweep.csv: "found", "fails_at_from", ….
+/// Returns the name of a bisection's status, as written in sweep.csv, such as "found".
 const char* ToString(BisectStatus status);
 
 /// One value that a bisection evaluated.
@@ -27,18 +27,20 @@ struct Trial {
 
 struct Bisection {
   BisectStatus status = BisectStatus::kInterrupted;
-  double value = 0.0;  ///< Highest value that passed, if the status is kFound or kPassesAtTo.
-  std::vector<Trial> trials;  ///< Values in order of evaluation.
+  /// Highest value that passed; only set if the status is kFound or kPassesAtTo.
+  double value = 0.0;
+  std::vector<Trial> trials;  ///< All evaluated values, in the order of their evaluation.
 };
 
-/// Bisects for the highest value that passes. The value `from` should pass and `to` should fail.
-/// Evaluates `from` and `to` first.
+/// Searches for the highest value that passes, by bisection. The caller should choose the range so
+/// that the value `from` passes and the value `to` fails. Evaluates `from` and `to` first.
 ///
-/// Guarantees: if the status is kFound, `value` passed, and a value at most `tolerance` above
-/// `value` failed (or the next larger double failed, if that is further away). If several
-/// boundaries exist between passing and failing values, the bisection finds one of them. Cost: at
-/// most 2 + ceil(log2((to - from)/tolerance)) trials. The function `passes` returns nullopt to
-/// interrupt the bisection. InternalError unless from < to and tolerance > 0.
+/// Guarantees: if the status is kFound, `value` passed, and a tested value at most `tolerance`
+/// above `value` failed. If `tolerance` is below the spacing of double values, the next larger
+/// double failed. If several boundaries exist between passing and failing values, the bisection
+/// finds one of them. Cost: at most 2 + ceil(log2((to - from)/tolerance)) trials. The function
+/// `passes` returns nullopt to interrupt the bisection. Throws InternalError unless from < to and
+/// tolerance > 0.
 Bisection Bisect(double from, double to, double tolerance,
                  const std::function<std::optional<bool>(double value)>& passes);
 

@@ -8,24 +8,27 @@
 
 namespace trackbed {
 
-/// How far a run is from violating one of its expectations.
+/// The margin by which a run meets or violates one of its expectations.
 struct ExpectationMargin {
-  /// Name of the check: "mujoco cross_track.max", "kinematic – mujoco position.max".
+  /// Name of the check: plant and metric, such as "mujoco cross_track.max".
   std::string name;
-  std::string plant;  ///< Name of the plant, or "a – b" for the difference of two plants.
-  /// Distance between value and bound: positive if the check is met, negative if violated. The
-  /// margin of a requirement is its robustness. For contact with obstacles, the margin is the
-  /// smallest clearance (0 on contact). For a number that must equal a bound, the margin is minus
-  /// the distance from the bound. The margin is nullopt for values without a distance (end status,
-  /// truth value, text) and for unmeasured values.
+  /// Name of the checked plant; "a – b" if the check concerns the difference of the plants a and b.
+  std::string plant;
+  /// Distance between the measured value and its bound: positive if the check is met, negative if
+  /// the check is violated. The margin of a requirement is the robustness of the requirement. The
+  /// margin of a check for contact with obstacles is the smallest clearance (0 on contact). If a
+  /// number must equal its bound, the margin is minus the absolute difference of the two. The
+  /// margin is nullopt if the value is not a number (end status, truth value, text) or was not
+  /// measured.
   std::optional<double> margin;
-  std::string unit;  ///< Unit of the margin; empty for requirements, and if there is no margin.
-  bool met = false;  ///< Whether the check is met, which a margin of 0 alone does not tell.
-  MetricPlace at;    ///< Place in the run where the value was measured.
+  std::string unit;  ///< Unit of the margin; empty for a requirement, or if there is no margin.
+  /// Whether the check is met; needed because a margin of 0 may mean either result.
+  bool met = false;
+  MetricPlace at;  ///< Station and time in the run at which the value was measured.
 };
 
-/// Returns the margin of each check in the verdict, in the verdict's order. The list is empty for a
-/// run without a plan. Margins of different units are not comparable.
+/// Returns the margin of each check in the verdict, in the verdict's order; an empty list for a run
+/// without a plan. Margins of different units are not comparable.
 std::vector<ExpectationMargin> Margins(const RunResult& result);
 
 }  // namespace trackbed

@@ -4,12 +4,12 @@
 
 #include "trackbed/analysis/run.h"
 
-/// Export of runs as MCAP, the container format of Foxglove and other viewers.
+/// Exports runs as MCAP files, the log format of Foxglove and other viewers.
 namespace trackbed {
 
 /// Exports a run as an MCAP file (mcap.dev/spec, version 0). The file has chunks of 1 MB with
-/// index, statistics and checksums, without compression. Messages are JSON, in order of time. Times
-/// count from the start of the run [ns].
+/// index, statistics and checksums, without compression. The messages are in JSON format and in
+/// order of time. Message times count from the start of the run [ns]. The file has these topics:
 ///
 /// | topic | schema | |
 /// |---|---|---|
@@ -19,8 +19,8 @@ namespace trackbed {
 /// | `/<plant>/footprint` | foxglove.SceneUpdate | a box of the size of the car, sent once |
 /// | `/obstacles` | foxglove.SceneUpdate | boxes at their positions; every 0.1 s if one moves |
 ///
-/// Poses are planar: they omit ground height, roll and pitch. The same run always gives an
-/// identical file.
+/// Exported poses are planar, without ground height, roll and pitch. Exporting the same run twice
+/// yields identical files.
 std::string ToMcap(const RunResult& result);
 
 }  // namespace trackbed

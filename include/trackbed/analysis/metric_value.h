@@ -5,32 +5,35 @@
 #include <string>
 #include <variant>
 
-/// The value of a metric and the part of the run that it refers to.
+/// Metric values, each with the part of the run in which the value was measured.
 namespace trackbed {
 
-/// The value of a metric. Monostate means that the value is undefined, such as the recovery time of
-/// a car that never recovered; metrics.json then contains null.
+/// The value of a metric. The alternative std::monostate means that the value is undefined, such as
+/// the recovery time of a car that never recovered. An undefined value is written to metrics.json
+/// as null.
 using MetricValue = std::variant<std::monostate, bool, int, double, std::string>;
 
-/// The part of a run that a value refers to.
+/// The part of a run to which the value of a metric refers.
 enum class MetricSpan {
   kRun,       ///< The whole run.
-  kEnd,       ///< The end of the run.
-  kMoment,    ///< One moment, such as the time of the largest value.
-  kSince,     ///< The part of the run from `from_t` on.
-  kInterval,  ///< The interval from `from_t` to `t`.
+  kEnd,       ///< The value refers to the end of the run.
+  kMoment,    ///< The value refers to one moment, such as the time of the largest error.
+  kSince,     ///< The value refers to the part of the run from the time `from_t` on.
+  kInterval,  ///< The value refers to the interval from `from_t` to `t`.
 };
 
 struct MetricPlace {
   MetricSpan span = MetricSpan::kRun;
-  /// Station of the moment [m]; with kRun, kEnd and kSince, the station of the run's end.
+  /// Station of the car [m] at the moment of the value; for kRun, kEnd and kSince, at the end of
+  /// the run.
   double s = 0.0;
-  double t = 0.0;       ///< Time of the moment, or of the interval's end [s].
-  double from_t = 0.0;  ///< Start of the part of the run, for kSince and kInterval [s].
+  double t = 0.0;  ///< Time of the value's moment, or of the end of the value's interval [s].
+  /// Start of the part of the run to which the value refers, for kSince and kInterval [s].
+  double from_t = 0.0;
 };
 
-/// A value with the place where it was measured. If the place includes the end of the run, the
-/// caller fills in the station and time of the end.
+/// The value of a metric, with the part of the run to which the value refers. If that part ends at
+/// the end of the run, the caller fills in the station and time of the end.
 struct MetricReading {
   MetricValue value;
   MetricPlace at;
@@ -38,7 +41,8 @@ struct MetricReading {
 
 /// One value of a plant's entry in metrics.json.
 struct Metric {
-  std::string path;  ///< Path, such as "cross_track.max", "turns[0].lateral_offset".
+  /// Path of the metric, such as "cross_track.max" or "turns[0].lateral_offset".
+  std::string path;
   MetricValue value;
   MetricPlace at;
 };
@@ -47,7 +51,7 @@ struct Metric {
 struct StandardLimit {
   enum class Relation { kAtMost, kAtLeast };
   Relation relation = Relation::kAtMost;
-  double bound = 0.0;  ///< Bound in the unit of the quantity.
+  double bound = 0.0;  ///< Bound on the quantity, in the quantity's unit.
 
   [[nodiscard]] bool Met(double value) const {
     return relation == Relation::kAtMost ? value <= bound : value >= bound;
@@ -56,17 +60,18 @@ struct StandardLimit {
 
 /// Label and unit of a metric.
 struct MetricInfo {
-  std::string label;      ///< Label such as "Maximum cross-track error".
-  std::string unit;       ///< SI unit, "m/s^2"; empty for ratios, counts and texts.
-  bool headline = false;  ///< Whether reports show the metric first.
-  /// Limit that a standard sets for the maneuver.
+  std::string label;  ///< Label of the metric, such as "Maximum cross-track error".
+  /// SI unit of the metric, such as "m/s^2"; empty for ratios, counts and texts.
+  std::string unit;
+  bool headline = false;  ///< Whether reports show the metric among the most important ones.
+  /// Limit on the metric that a standard sets for the maneuver.
   std::optional<StandardLimit> limit = std::nullopt;
 };
 
 nlohmann::ordered_json ToJson(const MetricValue& value);
 
-/// Formats a value for a study's table: numbers with the shortest round-trip digits, texts
-/// unchanged.
+/// Formats the value of a metric for a study's table. Numbers get the fewest digits that can be
+/// read back exactly; texts are unchanged.
 std::string ToText(const MetricValue& value);
 
 }  // namespace trackbed

@@ -11,40 +11,42 @@
 
 #include "trackbed/core/file.h"
 
-/// Output folders. Only one process writes to a folder at a time. A result consists of several
-/// files, which are replaced together. If a process is killed or a disk fills up, the folder holds
-/// either the earlier result or the new one, never a mixture.
+/// Output folders. Only one process writes to a folder at a time. A result of Trackbed consists of
+/// several files, which are replaced together. If a process is killed or a disk fills up, the
+/// folder holds either the earlier or the new result, never a mixture.
 namespace trackbed {
 
 struct Manifest;
 
-/// An output folder, which is locked for this process while the object exists.
+/// An output folder, which is locked for this process as long as the OutputFolder object exists.
 ///
-/// The lock uses flock, which leaves no lock file and is released when the process ends. A second
-/// process that opens a locked folder gets an error at once. If a killed process left a complete
-/// result, the result is moved into place; incomplete results are removed. On file systems without
-/// locks, and between machines that share a folder over NFS, several processes may write to a
-/// folder at the same time. The hashes in the manifest then reveal a mixture of results.
+/// The lock uses flock, which leaves no lock file and is released when the process ends. If a
+/// second process opens a locked folder, the constructor throws an error immediately. If a killed
+/// process left a complete result in a hidden folder, opening the folder moves that result into
+/// place. An incomplete result of a killed process is removed. On file systems without locks, and
+/// between machines that share a folder over NFS, several processes may write to a folder at the
+/// same time. The hashes in manifest.json then reveal a mixture of results.
 class OutputFolder {
  public:
   enum class For {
-    kResult,  ///< Exclusive use, to write a result.
-    /// Adds a page or film to an existing result; other processes may add at the same time.
+    kResult,  ///< Writes a result; no other process may use the folder.
+    /// Adds a page or video to an existing result; other processes may add files at the same time.
     kAddition,
   };
-  /// Creates and locks the folder; for an addition, the folder must exist. RunError if the folder
-  /// cannot be created or locked, or if another process holds the lock ("... is being written by
-  /// another trackbed (process 123)"). For a result, throws the errors of RequireNoForeignFiles
-  /// with the names of a run folder (run_folder::AllNames). The constructor is not explicit, so
-  /// that callers can pass a path.
+  /// Creates and locks the output folder. For an addition (kAddition), the folder must exist.
+  /// Throws RunError if the folder cannot be created or locked, or if another process holds the
+  /// lock ("... is being written by another trackbed (process 123)"). For a result (kResult), also
+  /// throws if RequireNoForeignFiles rejects the folder with the file names of a run
+  /// (run_folder::AllNames). The constructor is not explicit, so that callers can pass a path.
   // NOLINTNEXTLINE(google-explicit-constructor)
   OutputFolder(std::filesystem::path path, For use = For::kResult);
-  /// Creates and locks the folder for a result whose files may have the given names, such as those
-  /// of FileNamesOfVerb. Throws the same RunErrors as the constructor above.
+  /// Creates and locks the folder for a result whose files may have the names `names`, such as
+  /// those that FileNamesOfVerb returns. Throws RunError in the same cases as the constructor
+  /// above.
   OutputFolder(std::filesystem::path path, const std::vector<std::string>& names);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Whether the locked folder still exists under its name.
+  /// Whether the locked folder still exists at `path()`.
   [[nodiscard]] bool IsStillThere() const;
 
  private:
@@ -55,35 +57,39 @@ class OutputFolder {
   Descriptor lock_;
 };
 
-/// Locks a folder to write `file`, a page or a film of the result in the folder `result`. If `file`
-/// lies in that folder, returns the folder, opened for an addition. Otherwise returns nullopt and
-/// removes temporary files that killed processes left next to `file`.
+/// Prepares to write `file`, a page or video of the result in the folder `result`. If `file` lies
+/// in the folder `result`, locks and returns the folder, opened for an addition. If `file` lies
+/// elsewhere, returns nullopt and removes temporary files that killed processes left next to
+/// `file`.
 std::optional<OutputFolder> LockFolderOf(const std::filesystem::path& file,
                                          const std::filesystem::path& result);
 
 /// Returns the elements of `names` that exist in the folder but were not written by Trackbed, in
-/// their order. Trackbed's files are listed in manifest.json, carry a mark (HasMark), or contain
-/// records. Links and folders count as foreign. InputError if manifest.json is invalid.
+/// the order of `names`. A file counts as Trackbed's if it is listed in manifest.json, carries a
+/// mark (HasMark), or contains records of a study. Links and folders always count as not written by
+/// Trackbed. Throws InputError if manifest.json is invalid.
 std::vector<std::string> ForeignNames(const std::filesystem::path& folder,
                                       const std::vector<std::string>& names);
 
-/// Throws RunError listing the ForeignNames, if there are any: Trackbed must not replace files that
-/// it did not write.
+/// Throws RunError if the folder has files that ForeignNames returns, because Trackbed must not
+/// replace files that Trackbed did not write. The message lists these files.
 void RequireNoForeignFiles(const std::filesystem::path& folder,
                            const std::vector<std::string>& names);
 
 /// Throws RunError unless `file` is absent, or is a page, picture or video that Trackbed wrote.
 void RequireNoForeignFile(const std::filesystem::path& file);
 
-/// Returns the subfolder `below` of an output folder, such as rows/3. RunError if a part of `below`
-/// is a link or a file: Trackbed does not write or remove through links.
+/// Returns the subfolder `below` of an output folder, such as rows/3. Throws RunError if a part of
+/// the path `below` is a link or a file, because Trackbed does not follow links to write or remove
+/// files.
 std::filesystem::path FolderBelow(const std::filesystem::path& folder,
                                   const std::filesystem::path& below);
 
-/// Removes all results of a folder: the files listed in its manifest, and the pages, pictures and
-/// videos that Trackbed made of them. Also removes the folder if it becomes empty. Files that
-/// Trackbed did not write stay, and a folder without a manifest stays unchanged. RunError if the
-/// folder is a link, or if a file cannot be removed.
+/// Removes all results from a folder: the files listed in manifest.json, and the pages, pictures
+/// and videos that Trackbed made of the results. RemoveResults also removes the folder if the
+/// folder becomes empty. Files that Trackbed did not write remain, and a folder without
+/// manifest.json remains unchanged. Throws RunError if the folder is a link, or if a file cannot be
+/// removed.
 void RemoveResults(const std::filesystem::path& folder);
 
 /// The entry of a file in manifest.json.
@@ -94,36 +100,41 @@ struct ManifestEntry {
   bool operator==(const ManifestEntry&) const = default;
 };
 
-/// Writes the files of one or several results, first to a hidden folder inside the output folder.
-/// Commit moves all files into place. Without Commit, the output folder does not change.
+/// Writes the files of one or several results to a hidden folder inside the output folder; Commit
+/// then moves all files into place. Without a call of Commit, the existing files of the output
+/// folder do not change.
 ///
-/// The file manifest.json lists names, sizes and SHA-256 of the files. The function
-/// run_folder::RequireFile rejects files that differ from the manifest. The manifest drops results
-/// whose files were overwritten by another result. Files that belong to no result are not touched.
+/// ResultWriter lists the names, sizes and SHA-256 hashes of the files in manifest.json. The
+/// function run_folder::RequireFile rejects files that differ from manifest.json. If a new result
+/// overwrites files of an earlier result, the earlier result is removed from manifest.json. Files
+/// that belong to no result are not touched.
 class ResultWriter {
  public:
-  /// Recreates the output folder if it was removed. Throws the same RunErrors as OutputFolder.
+  /// Recreates the output folder if the folder was removed meanwhile. Throws RunError in the same
+  /// cases as the constructor of OutputFolder.
   explicit ResultWriter(const OutputFolder& folder);
   ResultWriter(const ResultWriter&) = delete;
   ResultWriter& operator=(const ResultWriter&) = delete;
   ~ResultWriter();
 
-  /// Adds a file. RunError naming the file if it cannot be written, or if `name` is not a plain
-  /// file name (IsFileName). RunError if the output folder has a file of that name that Trackbed
-  /// did not write.
+  /// Adds a file. Throws RunError, naming the file, if the file cannot be written, or if `name` is
+  /// not a plain file name (IsFileName). Throws RunError if the output folder already has a file
+  /// `name` that Trackbed did not write.
   void Add(const std::string& name, std::string_view content);
-  /// Adds a file in parts: `next` returns one part after another, and an empty part at the end.
+  /// Adds a file whose content is returned in parts by repeated calls of `next`; an empty part ends
+  /// the file.
   void Add(const std::string& name, const std::function<std::string()>& next);
 
-  /// Makes a result named `result` (run_folder::kRun, ...) of the files added since the last call.
-  /// The list AllResultNames must contain the result and its file names. Commit then removes the
-  /// files of an earlier result of the same name, and the files in `obsolete` that Trackbed wrote.
-  /// Commit keeps files that were added again.
+  /// Groups the files added since the last call of EndResult as the result named `result`, such as
+  /// run_folder::kRun. AllResultNames must list the result and its file names. When Commit is
+  /// called, it removes the files of an earlier result with the same name, and those files in
+  /// `obsolete` that Trackbed wrote. Files that were added again are not removed by Commit.
   void EndResult(const std::string& result, std::vector<std::string> obsolete);
-  /// Moves all ended results into place at once. RunError if a folder or link has the name of a new
-  /// file, or if the disk is full. After an error, the earlier results remain.
+  /// Moves the files of all results for which EndResult was called into place, in one step. Throws
+  /// RunError if a folder or link has the name of a new file, or if the disk is full. If Commit
+  /// throws, the earlier results remain in the folder.
   void Commit();
-  /// Calls EndResult, then Commit.
+  /// Calls EndResult with the same arguments, then Commit without arguments.
   void Commit(const std::string& result, std::vector<std::string> obsolete);
 
  private:
@@ -137,9 +148,10 @@ class ResultWriter {
 
   std::optional<OutputFolder> new_folder_;
   std::filesystem::path folder_;
-  std::shared_ptr<const Manifest> before_;      // Manifest of the earlier results; null if none.
-  std::optional<NewFile> written_;              // File that stores `names_`.
-  std::vector<std::string> names_;              // Names of all files.
+  // Manifest of the earlier results; null if there are no earlier results.
+  std::shared_ptr<const Manifest> before_;
+  std::optional<NewFile> written_;              // File that stores the elements of `names_`.
+  std::vector<std::string> names_;              // Names of all files added to the writer.
   std::map<std::string, ManifestEntry> files_;  // Files added since the last EndResult.
   std::vector<CompletedResult> ended_;
 };

@@ -7,7 +7,8 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/world/world.h"
 
-/// Properties of a planned path before it is driven: the usual measures for comparing planners.
+/// Properties of a planned path that are known before the drive, as commonly used to compare
+/// planners.
 namespace trackbed {
 
 /// A successful plan, with the world and vehicle for which it was made.
@@ -17,33 +18,35 @@ struct PlannedPath {
   const VehicleParams& vehicle;
 };
 
-/// A property of a path, which is written to plan.json. Studies have the output `plan.NAME`.
+/// A property of a planned path, which is written to plan.json. In studies, the property is the
+/// output `plan.NAME`.
 struct PathProperty {
-  const char* name;   ///< Name with the unit: "curvature_max_radpm".
-  const char* label;  ///< Label in a report.
+  const char* name;   ///< Name of the property with its unit, such as "curvature_max_radpm".
+  const char* label;  ///< Label of the property in a report.
   const char* unit;   ///< SI unit.
-  /// Measures the property; nullopt if the path has no such value.
+  /// Computes the property; returns nullopt if the property is undefined for the path.
   std::optional<double> (*measure)(const PlannedPath& path);
 };
 
-/// All properties, in the order of plan.json. Symbols: kappa curvature, s station, L length of the
-/// path.
-///   length_m                  L
-///   duration_s                driving time at the plan's speeds, without standing times
-///   curvature_max_radpm       max |kappa|
-///   curvature_rms_radpm       sqrt(integral of kappa^2 ds / L)
-///   turning_rad               integral of |kappa| ds: total angle by which the car turns
-///   curvature_rate_max_radpm2 max |dkappa/ds|, except at jumps of kappa
-///   curvature_jump_max_radpm  largest jump of kappa between segments, except at cusps and stops,
-///                             where a car turns its wheels at rest. Jumps of at most 1e-12 rad/m
-///                             are rounding errors and count as 0
-///   clearance_min_m           smallest distance of the footprint from static obstacles that are
-///                             known from the start, overestimated by at most 1 cm; 0 if the
-///                             footprint touches an obstacle, nullopt without such obstacles
+/// Returns all properties, in the order of plan.json. Symbols: kappa curvature, s station, L length
+/// of the path.
+///   length_m: length L of the path.
+///   duration_s: driving time at the plan's speeds, without standing times.
+///   curvature_max_radpm: maximum of |kappa|.
+///   curvature_rms_radpm: sqrt(integral of kappa^2 ds / L).
+///   turning_rad: integral of |kappa| ds, which is the total angle by which the car turns.
+///   curvature_rate_max_radpm2: maximum of |dkappa/ds|, except at jumps of kappa.
+///   curvature_jump_max_radpm: largest jump of kappa between segments, except at cusps and stops,
+///   where a car turns its wheels at rest. Jumps of the curvature of at most 1e-12 rad/m are
+///   rounding errors and count as 0.
+///   clearance_min_m: smallest distance of the footprint from static obstacles that are known from
+///   the start, overestimated by at most 1 cm; 0 if the footprint touches an obstacle, nullopt if
+///   there are no such obstacles.
 ///
-/// All properties except clearance_min_m are exact to rounding, and 0 for a path of length 0. Cost:
-/// a few us per segment, and one call of Clearance() per step along the path. The length of a step
-/// is about the current clearance minus the smallest one so far, plus 1 cm.
+/// All properties except clearance_min_m are exact except for rounding errors, and are 0 for a path
+/// of length 0. Cost: a few us per path segment, plus one call of Clearance() per step of the
+/// clearance measurement along the path. The length of such a step is about 1 cm plus the
+/// difference between the current clearance and the smallest clearance so far.
 const std::vector<PathProperty>& PathProperties();
 
 }  // namespace trackbed

@@ -7,11 +7,12 @@
 
 namespace trackbed {
 
-/// Returns the road that pictures show along a plan of the named planner: the world's road if the
-/// world has a road. In a world without a road, planners that neither avoid obstacles nor meet
-/// headings get a default road, because these planners are made for roads and courses, not for
-/// parking lots and fields. Returns nullopt if the road's width is 0. Also returns nullopt in a
-/// world with a road network but without a road, because the roads of the network are drawn.
+/// Returns the road that frames and pictures show along a plan of the named planner. If the world
+/// has a road, the world's road is returned. If the world has no road, a default road is returned
+/// for planners that neither avoid obstacles nor reach given headings. These planners are made for
+/// roads and courses, not for parking lots and fields. Returns nullopt if the width of the road is
+/// 0. Also returns nullopt if the world has a road network but no road, because the roads of the
+/// network are drawn instead.
 std::optional<RoadLook> RoadToDraw(const World& world, const std::string& planner);
 
 }  // namespace trackbed

@@ -6,28 +6,35 @@
 
 namespace trackbed {
 
-/// The robustness of a run against its scenario's expectations.
+/// The robustness with which a run meets the expectations of its scenario.
 struct RunRobustness {
-  /// Smallest margin: positive if all expectations are met, negative if one is violated.
+  /// Smallest margin of all checks: positive if all expectations are met, negative if an
+  /// expectation is violated.
   double value = 0.0;
-  std::string limit;  ///< Name of the decisive check: "mujoco: cross_track.max".
+  /// Name of the check with the smallest margin, such as "mujoco: cross_track.max".
+  std::string limit;
 };
 
-/// The smallest margin of all checks of the verdict. The margin of a check is
+/// Computes the robustness: the smallest margin of all checks in the verdict. The margin of each
+/// check is computed as follows.
 ///
-///   * for an upper limit (limit - value) / |limit|, for a lower limit (value - limit) / |limit|.
-///     The division by |limit| makes limits of different units comparable. If the limit is 0, the
-///     margin is the difference, in the unit of the metric;
-///   * for a requirement over time, its robustness, in the unit of the decisive comparison;
-///   * for a check without a numeric margin (arrived, no collision, an unmeasured metric), -1 if it
-///     is not met, and undefined if it is met. A run without a plan has the margin -1;
-///   * for the limit on the steering rate, which checks the simulation and not the driving, -1 if
-///     it is not met, and undefined if it is met.
+///   * An upper limit has the margin (limit - value) / |limit|.
+///   * A lower limit has the margin (value - limit) / |limit|. The division by |limit| makes limits
+///     of different units comparable. If the limit is 0, the margin is the difference between value
+///     and limit, in the unit of the metric.
+///   * The margin of a requirement over time is the requirement's robustness, in the unit of the
+///     comparison that determines the robustness.
+///   * A check without a numeric margin (arrived, no collision, an unmeasured metric) has the
+///     margin -1 if the check is not met, and no margin if the check is met. A run without a plan
+///     has the margin -1.
+///   * The check of the steering rate limit, which checks the simulation and not the driving, has
+///     the margin -1 if the check is not met, and no margin if the check is met.
 ///
-/// The robustness is 1 if all checks are met and none has a margin.
+/// The robustness is 1 if all checks are met and no check has a margin.
 ///
 /// Guarantees: the robustness is finite. For a judged run, the robustness is negative if and only
-/// if the verdict is not passed. A collision makes the robustness jump.
+/// if the run has not passed. The robustness changes discontinuously when a run begins to have a
+/// collision.
 RunRobustness RobustnessOf(const RunResult& result);
 
 }  // namespace trackbed

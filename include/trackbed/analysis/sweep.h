@@ -18,51 +18,57 @@
 /// Runs a study and writes its results to one table.
 namespace trackbed {
 
-/// Results of a run for a table, by dotted path: `metrics.<plant>.…`, `between.<plant>.<plant>.…`,
-/// `verdict.passed`, `verdict.failures`, `verdict.robustness` (RobustnessOf), `plan.status`,
-/// `plan.length_m` and the other PathProperties(), `timing.planning_s` (which differs between
-/// runs). The names are the same as in metrics.json. List elements are written `[0]`, `[1]`, ….
-/// Results of a run on a single plant are also listed as `metrics.*.…`, so that a study that varies
-/// the plant needs only one column for each result.
+/// The results of a run for a study's table, keyed by dotted path. The paths are
+/// `metrics.<plant>.…`, `between.<plant>.<plant>.…`, `verdict.passed`, `verdict.failures`,
+/// `verdict.robustness` (RobustnessOf), `plan.status`, `plan.length_m` and the other
+/// PathProperties(), `timing.planning_s` (which differs between runs). The names in the paths are
+/// the same as in metrics.json. An element of a list is written as its index in brackets, such as
+/// `turns[0]`. If a run has a single plant, its results are also listed as `metrics.*.…`, so that a
+/// study that varies the plant needs only one column for each result.
 using Outputs = std::map<std::string, std::string>;
 
 Outputs CollectOutputs(const RunResult& result);
 
-/// The paths of all outputs that runs of the scenario may have, sorted.
+/// Returns the paths of all outputs that runs of the scenario may have, sorted by name.
 std::vector<std::string> PossibleOutputs(const Scenario& scenario);
 
 /// The result of one run.
 struct RunOutcome {
-  std::string status;  ///< Status "passed", "failed", "driven" (no expectations), or "no_plan".
+  /// Status of the run: "passed", "failed", "driven" (no expectations), or "no_plan".
+  std::string status;
   bool passed = false;
   std::string reason{};  ///< Reason why the run failed or has no plan.
   Outputs outputs;
-  std::optional<RunResult> result{};  ///< Complete result, if DriveOnce ran the scenario.
+  /// Complete result of the run, if DriveOnce ran the scenario.
+  std::optional<RunResult> result{};
 };
 
-/// Function that runs a scenario, on any thread, and returns nullopt if interrupted.
+/// Type of a function that runs a scenario, on any thread, and returns nullopt if the run was
+/// interrupted.
 using RunScenarioOnce = std::function<std::optional<RunOutcome>(const Scenario& scenario)>;
 
-/// A study that has been validated as far as possible before its runs. A CheckedStudy is immutable,
-/// so threads can share it.
+/// A study that has been validated as far as is possible without running its scenarios. A
+/// CheckedStudy is immutable, so several threads may share a CheckedStudy.
 struct CheckedStudy {
   StudyPoints points;
-  std::unique_ptr<CarCache> cars;             ///< Cache of the compiled cars, never null.
-  std::map<std::string, std::string> inputs;  ///< SHA-256 of the study's input files, by name.
+  std::unique_ptr<CarCache> cars;  ///< Cache of the compiled cars, never null.
+  /// SHA-256 hashes of the study's input files, by file name.
+  std::map<std::string, std::string> inputs;
 };
 
-/// Reads the points of the study (CheckPoints), compiles the cars, makes the plants and checks the
-/// outputs. InputError listing the problems of the points or their cars. InputError listing all
-/// unknown outputs, each with the most similar path. If `all` is true, every point must be valid;
-/// otherwise, one valid point is enough.
+/// Validates a study: reads its points (CheckPoints), compiles the cars, makes the plants and
+/// checks the outputs. Throws InputError, listing all problems, if points or their cars are
+/// invalid. Throws InputError if outputs are unknown, listing each of these outputs with the most
+/// similar known path. If `all` is true, every point of the study must be valid; otherwise, one
+/// valid point is enough.
 CheckedStudy CheckStudy(Study study, bool all = true);
 
 /// Plans, simulates, measures and judges a scenario of the study.
 std::optional<RunOutcome> DriveOnce(const CheckedStudy& checked, const Scenario& scenario,
                                     const std::function<bool()>& interrupted = {});
 
-/// The part of a study's rows that one process runs: every `count`-th row, starting at row `index`,
-/// which counts from 1.
+/// The part of a study's rows that one process runs: every `count`-th row, starting at the row with
+/// the number `index`, where 1 is the first row.
 struct Shard {
   int index = 1;
   int count = 1;
@@ -73,54 +79,59 @@ struct Shard {
 };
 
 struct SweepOptions {
-  int jobs = 1;  ///< Number of runs at the same time, at least 1.
-  /// Called after each row, by one thread at a time.
+  int jobs = 1;  ///< Number of scenario runs that are executed at the same time, at least 1.
+  /// Called when a row is finished, by one thread at a time. The argument `fraction` is the
+  /// finished fraction of the rows to run.
   std::function<void(double fraction)> progress;
-  /// Returns whether to stop; called before each run, by any thread.
+  /// Returns true to stop the sweep; called before each run, by any thread.
   std::function<bool()> interrupted;
-  Shard shard{};  ///< Rows outside of the shard are skipped.
-  /// If not empty: runs the rows with these statuses again, instead of the missing rows.
+  Shard shard{};  ///< The part of the rows to run; rows outside of the shard are skipped.
+  /// If `again` is not empty, the recorded rows with these statuses are run again, and missing rows
+  /// are not run.
   std::vector<std::string> again{};
-  /// Called after each run, by any thread, before its row is appended. The callback `finished` is
-  /// not called for bisections.
+  /// Called after each run, by any thread, before the row of the run is appended to the records.
+  /// The callback `finished` is not called for bisections.
   std::function<void(std::size_t row, const RunOutcome& outcome)> finished{};
-  /// Half-width of the pass rate's confidence interval, from 0.001 to 0.5. The sweep stops as soon
-  /// as the interval at each point of the grid has at most this half-width. The option
-  /// `until_pass_rate` needs a study with a sample and without bisection. The interval is checked
-  /// after every kUntilBatch points of the sample, so that the result does not depend on `jobs`.
+  /// Wanted half-width of the pass rate's confidence interval, from 0.001 to 0.5. The sweep stops
+  /// as soon as the confidence interval of the pass rate at each point of the grid has at most the
+  /// half-width `until_pass_rate`. The option `until_pass_rate` needs a study with a sample and
+  /// without bisection. The confidence interval is checked after every kUntilBatch points of the
+  /// sample, so that the result does not depend on `jobs`.
   std::optional<double> until_pass_rate{};
 };
 
 inline constexpr std::size_t kUntilBatch = 100;
 
-/// The number of rows of a study: `repeat` rows for each point.
+/// Returns the number of rows of a study: `repeat` rows for each point.
 std::size_t CountRows(const StudyPoints& points);
 
-/// Identifies the records of a study by its description, its columns, the versions of the programs,
-/// and `inputs`, the hashes of its input files.
+/// Returns the header of a study's records, which identifies the study. The header consists of the
+/// study's description, its columns, the versions of the programs, and `inputs`, the hashes of the
+/// input files.
 nlohmann::ordered_json SweepHeader(const StudyPoints& points,
                                    const std::map<std::string, std::string>& inputs = {});
 
-/// Runs the rows of a study that are missing in `records`, and appends each row as soon as it is
-/// finished. Each point gives `repeat` rows with consecutive seeds, or a bisection. After an
-/// interruption, unfinished rows are missing.
+/// Runs the rows of a study that are missing in `records`, and appends each row to `records` as
+/// soon as the row is finished. Each point of the study yields `repeat` rows with consecutive
+/// seeds, or one bisection. After an interruption, `records` lacks the unfinished rows.
 ///
-/// An invalid point gives a row with the status `refused` and the first problem as the reason. A
-/// run that throws an InputError also gives a row with the status `refused`. An exception that
-/// indicates a bug gives a row with the status `error`. Other runs of the sweep are not affected.
+/// The row of an invalid point has the status `refused`, and the first problem as the reason. If a
+/// run throws InputError, its row also has the status `refused`. If a run throws an exception that
+/// indicates a bug, its row has the status `error`. An exception in one run does not affect the
+/// other runs of the sweep.
 ///
 /// Guarantees: the content of a row does not depend on `jobs`, shards, or the order in which rows
-/// are finished. A RunError of `run` (out of memory) or of `records` (full disk) stops the sweep
-/// and is rethrown. InternalError unless jobs is positive. Apart from SweepRecords, the memory does
-/// not grow with the number of rows.
+/// are finished. If `run` throws RunError (out of memory) or `records` throws RunError (full disk),
+/// the sweep stops and rethrows the error. Throws InternalError unless `jobs` is positive. Apart
+/// from the memory of SweepRecords, the required memory does not grow with the number of rows.
 void RunRows(const StudyPoints& points, const RunScenarioOnce& run, SweepRecords& records,
              const SweepOptions& options);
 
-/// Counts of the rows in the records of a study.
+/// Numbers of rows in the records of a study, by status.
 struct SweepSummary {
   std::size_t rows = 0;
   std::size_t rows_expected = 0;  ///< Number of rows of the complete study.
-  std::size_t runs = 0;           ///< Number of runs in these rows.
+  std::size_t runs = 0;           ///< Number of scenario runs in the recorded rows.
   std::size_t passed = 0;         ///< Number of rows that passed, or whose bisection found a value.
   std::size_t refused = 0;        ///< Number of rows whose scenario is invalid.
   std::size_t errors = 0;         ///< Number of rows whose run revealed a bug in the program.
@@ -128,38 +139,40 @@ struct SweepSummary {
   [[nodiscard]] bool complete() const { return rows == rows_expected; }
 };
 
-/// Counts the rows of the shard.
+/// Counts the recorded rows that belong to the shard.
 SweepSummary Summarize(const SweepRecords& records, const Shard& shard = {});
 
 /// Writes sweep.csv (parameters, seed, status, runs, outputs, reason; rows in grid order),
 /// sweep.json (the study as it was run, and bisections) and manifest.json in one step
 /// (ResultWriter), and removes the report.html of an earlier sweep. If rows are missing on purpose,
-/// `stopped` is the reason. If writing fails with a RunError, the files of the earlier sweep
+/// `stopped` states the reason. If writing fails with a RunError, the files of the earlier sweep
 /// remain.
 SweepSummary WriteSweep(const SweepRecords& records, const Shard& shard, const OutputFolder& folder,
                         const std::string& stopped = "");
 
-/// Adds the files that WriteSweep writes to `writer`. The caller may add further files to the
-/// result before the commit, such as falsify.json. Removes the files of an earlier search or
-/// verification.
+/// Adds the files of WriteSweep to the ResultWriter `writer`. Before calling ResultWriter::Commit,
+/// the caller may add further files to the result, such as falsify.json. The files of an earlier
+/// search or verification are removed.
 SweepSummary AddSweep(const SweepRecords& records, const Shard& shard, ResultWriter& writer,
                       const std::string& stopped = "");
 
 /// Merges several record files of one study, such as those of its shards, into `records`.
 ///
-/// InputError naming the file and the difference if a file belongs to another study. InputError if
-/// two files disagree on a row.
+/// Throws InputError, naming the file and the difference, if a file belongs to another study.
+/// Throws InputError if two files contain different content for the same row.
 void MergeRecords(const std::vector<std::filesystem::path>& files, SweepRecords& records);
 
-/// Returns the numbers of the rows whose run folders the study keeps: the rows with the highest or
-/// lowest values of an output. The worst row is first; rows with equal values keep their order.
+/// Returns the numbers of the rows whose run folders the study keeps, which are the rows with the
+/// highest or lowest values of an output. The worst row is the first one; rows with equal values
+/// keep their order.
 std::vector<std::size_t> WorstRows(const SweepRecords& records);
 
-/// Returns the overrides of a row, in their order of application. A run of the scenario in the
-/// header with these overrides reproduces the row. InputError if there is no such row.
+/// Returns the overrides of a row, in the order in which they are applied. Running the scenario
+/// named in the header with these overrides reproduces the row. Throws InputError if the study has
+/// no row of this number.
 std::vector<Override> OverridesOfRow(const SweepRecords& records, std::size_t row);
 
-/// Lists the numbers of the missing rows as text, counted from 0: "3, 17 to 20".
+/// Returns the numbers of the missing rows, counted from 0, as text such as "3, 17 to 20".
 std::string MissingRows(const SweepRecords& records);
 
 /// The result of a study with few rows, in memory.
@@ -169,7 +182,7 @@ struct SweepResult {
   SweepSummary summary;
 };
 
-/// Runs all rows as RunRows does, but keeps them in memory.
+/// Runs all rows of a study in the same way as RunRows, but keeps the rows in memory.
 SweepResult RunSweep(const StudyPoints& points, const RunScenarioOnce& run,
                      const SweepOptions& options);
 

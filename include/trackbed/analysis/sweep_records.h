@@ -16,59 +16,63 @@
 namespace trackbed {
 
 /// Stores the finished rows of a study in an append-only file, so that a study that was killed at
-/// any moment can resume. The first line of the file identifies the study. Each further line is one
-/// row: the CRC-32 of the JSON as eight hexadecimal digits, a space, and the JSON.
+/// any moment can resume. The first line of the file identifies the study. Each further line of the
+/// file is one row of the study. A line consists of the CRC-32 checksum of the row's JSON text as
+/// eight hexadecimal digits, a space, and the JSON text.
 ///
-/// Each row is appended by a single write. An incomplete last line, left by a killed process, a
-/// full disk or a power failure, is cut off when the file is opened. If several lines contain the
-/// same row, the last of these lines applies. Rows are synchronized to the disk at most once a
-/// second.
+/// Each row is appended by a single write operation. When the file is opened, an incomplete last
+/// line, left by a killed process, a full disk or a power failure, is removed. If several lines
+/// contain the same row, only the last of these lines is used. Rows are synchronized to the disk at
+/// most once a second.
 ///
 /// Memory: 8 bytes for each row of the study.
 class SweepRecords {
  public:
-  /// Opens the file, or creates it at once with its header. `header` describes the current study,
-  /// including its number of rows `rows_expected`.
+  /// Opens the file of records; if the file does not exist, creates the file with the given header.
+  /// `header` describes the current study and contains its number of rows, `rows_expected`.
   ///
-  /// If the file belongs to another study, InputError naming the file, the differing keys and the
-  /// `remedy`. RunError if the file cannot be read or written.
+  /// Throws InputError, naming the file, the differing keys and the `remedy`, if the file belongs
+  /// to another study. Throws RunError if the file cannot be read or written.
   SweepRecords(const std::filesystem::path& file, const nlohmann::ordered_json& header,
                std::string_view remedy = "--restart removes them, another folder (-o) keeps them");
-  /// Opens an existing file of any study for reading only, even while a sweep writes to it.
-  /// InputError if the file has no header.
+  /// Opens an existing file of any study for reading only; another process may be writing to the
+  /// file. Throws InputError if the file has no header.
   explicit SweepRecords(const std::filesystem::path& file);
   /// Whether the file is a regular file that begins with a header written by SweepRecords.
   static bool IsFileOfRecords(const std::filesystem::path& file);
-  /// Removes the file if it exists. RunError if the file is a link, a folder, or does not contain
-  /// records (IsFileOfRecords).
+  /// Removes the file of records if the file exists. Throws RunError if the file is a link, a
+  /// folder, or does not contain records (IsFileOfRecords).
   static void Remove(const std::filesystem::path& file);
   /// Makes records that are kept in memory, without a file.
   static SweepRecords InMemory(nlohmann::ordered_json header);
 
-  /// The unchecked header, to be used only for copying and comparing.
+  /// Returns the header without checks, to be used only for copying and comparing.
   [[nodiscard]] const nlohmann::ordered_json& header() const { return header_->json(); }
-  /// The header, for reading its values. The getters throw the InputErrors of JsonValue.
+  /// Returns the header as a JsonValue, to read values with checks. The getters of JsonValue throw
+  /// InputError if a value is not as expected.
   [[nodiscard]] const JsonValue& Header() const { return *header_; }
-  /// The columns of the table, including `status`. InputError if the header has no columns.
+  /// Returns the names of the columns of the study's table, including `status`. Throws InputError
+  /// if the header has no columns.
   [[nodiscard]] const std::vector<std::string>& Columns() const;
   [[nodiscard]] std::size_t rows() const { return offsets_.size(); }
   [[nodiscard]] bool Has(std::size_t row) const { return offsets_[row] >= 0; }
-  /// Number of rows that are present.
+  /// Returns the number of rows that the records contain.
   [[nodiscard]] std::size_t count() const { return count_; }
 
-  /// Appends a row. Several threads may append at the same time. RunError if the disk is full; the
-  /// file then contains the earlier rows and no part of the new row.
+  /// Appends a row. Several threads may append rows at the same time. Throws RunError if the disk
+  /// is full; the file then contains the earlier rows and no part of the new row.
   void Append(std::size_t row, const nlohmann::ordered_json& content);
 
-  /// Reads a row, which must be present. Use the result only to copy or compare. InputError if the
-  /// row is not JSON.
+  /// Reads a row, which the records must contain. The returned JSON is not checked and should only
+  /// be copied or compared. Throws InputError if the row is not JSON.
   [[nodiscard]] nlohmann::ordered_json Read(std::size_t row) const;
-  /// Reads a row, which must be present. Throws the InputErrors of JsonValue and Read.
+  /// Reads a row, which the records must contain. Returns a JsonValue, whose getters check the
+  /// values. Throws InputError if Read throws InputError.
   [[nodiscard]] JsonValue Entry(std::size_t row) const;
 
  private:
   SweepRecords(std::filesystem::path file, int descriptor);
-  /// Reads the file. If `header` is given, the file's header must equal it.
+  /// Reads the file of records. If `header` is given, the header in the file must equal `header`.
   void Load(const std::optional<nlohmann::ordered_json>& header, std::string_view remedy = "");
   void TakeHeader(nlohmann::ordered_json header);
   void WriteLine(std::string_view json);
@@ -76,17 +80,17 @@ class SweepRecords {
 
   std::filesystem::path file_;
   Descriptor descriptor_;
-  std::optional<JsonValue> header_;  // Header; every constructor sets it.
+  std::optional<JsonValue> header_;  // Header of the records, which every constructor sets.
   std::vector<std::string> columns_;
-  std::vector<std::int64_t> offsets_;  // Offsets of the lines in the file; -1: row missing.
+  std::vector<std::int64_t> offsets_;  // Offset of each row's line in the file; -1: row missing.
   std::size_t count_ = 0;
   std::int64_t end_ = 0;     // Size of the file in bytes.
-  std::int64_t synced_ = 0;  // Time of the last sync, in seconds.
+  std::int64_t synced_ = 0;  // Time of the last synchronization to the disk, in seconds.
   std::unique_ptr<std::mutex> mutex_ = std::make_unique<std::mutex>();  // Guards appending.
 };
 
-/// Lists the paths at which two values differ, at most five: "vary.world.friction: [0.3] was
-/// [0.5]".
+/// Lists at most five paths at which two JSON values differ, with texts such as
+/// "vary.world.friction: [0.3] was [0.5]".
 std::vector<std::string> Differences(const nlohmann::ordered_json& now,
                                      const nlohmann::ordered_json& before);
 

@@ -9,55 +9,63 @@
 /// The names of all files that the verbs write. The check for foreign files (output_folder.h), the
 /// removal of results and the table of docs/cli.md all use this list.
 ///
-/// A part in angle brackets is variable: "<plant>.csv". A name that ends in a slash is a folder.
+/// A part of a name in angle brackets is variable, as in "<plant>.csv". A name that ends in a slash
+/// is the name of a folder.
 namespace trackbed {
 
-/// The name of a result in manifest.json, with the names that its files may have.
+/// A kind of result: its name in manifest.json, and the names that the files of the result may
+/// have.
 struct ResultNames {
   std::string result;
   std::vector<std::string> names;
 };
 
-/// All results that Trackbed writes.
+/// Returns all kinds of results that Trackbed writes.
 const std::vector<ResultNames>& AllResultNames();
 
-/// The results and files that a verb writes.
+/// The results and files that a verb of the command line writes.
 struct VerbNames {
-  std::string verb;                  ///< Name of the verb, such as "sweep submit".
-  std::vector<std::string> results;  ///< Results in the verb's output folder, see AllResultNames.
-  /// Further names in the verb's output folder: pages and films, records, folders.
+  std::string verb;  ///< Name of the verb, such as "sweep submit".
+  /// Names of the results in the verb's output folder (see AllResultNames).
+  std::vector<std::string> results;
+  /// Names of further files and folders in the verb's output folder: pages, videos, records and
+  /// folders.
   std::vector<std::string> others{};
-  /// Options whose argument names a file to write. An existing file is replaced.
+  /// Command-line options whose argument names a file to write. If the named file exists, the verb
+  /// replaces the file.
   std::vector<std::string> explicit_files{};
 };
 
-/// All verbs that write files.
+/// Returns all verbs of the command line that write files.
 const std::vector<VerbNames>& AllVerbNames();
 
-/// All names in a verb's output folder, each once. The names of the verb's results come first.
+/// Returns all names in a verb's output folder, each once, beginning with the names of the verb's
+/// results.
 std::vector<std::string> NamesOfVerb(std::string_view verb);
 
-/// For each part in angle brackets, the texts that may replace it in a file name.
+/// Maps each variable part (in angle brackets) of a file name to the texts that may replace this
+/// part.
 using NameParts = std::map<std::string, std::vector<std::string>>;
 
-/// Returns the file names in the verb's output folder, with `parts` and the registered plants
-/// inserted. Omits folders, and names with parts in angle brackets that `parts` does not contain.
+/// Returns the file names in the verb's output folder. Variable parts are replaced by the texts in
+/// `parts` and by the registered plants. Folders are omitted, and so are names with a variable part
+/// that `parts` does not contain.
 std::vector<std::string> FileNamesOfVerb(std::string_view verb, const NameParts& parts = {});
 
-/// Whether a file of the result may have this name.
+/// Whether a file of the result may have the name `name`.
 bool IsNameOf(std::string_view result, const std::string& name);
 
-/// The text in the head of a page by which WriteReport recognizes Trackbed's pages.
+/// The text in the head of a page by which WriteReport recognizes pages that Trackbed wrote.
 inline constexpr std::string_view kPageMark = "<meta name=\"generator\" content=\"Trackbed\">";
-/// The PNG chunk that marks a picture as Trackbed's; the chunk follows the header (W3C, Portable
-/// Network Graphics, section 11.3.4: tEXt).
+/// Returns the PNG chunk that marks a picture as written by Trackbed. The chunk follows the PNG
+/// header (W3C, Portable Network Graphics, section 11.3.4: tEXt).
 const std::string& PictureMark();
-/// The last bytes of a video, which mark it as Trackbed's: a box that players skip (ISO/IEC
-/// 14496-12, section 8.1.2: free).
+/// Returns the last bytes of a video, which mark the video as written by Trackbed. These bytes are
+/// a box that players skip (ISO/IEC 14496-12, section 8.1.2: free).
 const std::string& VideoMark();
 
-/// Whether the file carries Trackbed's mark: a page (.html), picture (.png) or video (.mp4).
-/// Returns false for links.
+/// Whether a page (.html), picture (.png) or video (.mp4) carries the mark of a file that Trackbed
+/// wrote. Returns false for links.
 bool HasMark(const std::filesystem::path& file);
 
 }  // namespace trackbed

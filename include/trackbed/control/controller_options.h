@@ -6,7 +6,8 @@ namespace trackbed {
 
 class SteeringController;
 
-/// The options of any registered controller. The type of the stored struct selects the controller.
+/// Stores the options of any registered controller. The type of the options struct that is stored
+/// selects the controller.
 using ControllerOptions = MethodOptions<SteeringController>;
 
 }  // namespace trackbed

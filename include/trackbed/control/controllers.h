@@ -17,13 +17,13 @@ const std::vector<ControllerEntry>& Controllers();
 /// another controller has the same name or the same type of options.
 void RegisterController(ControllerEntry entry);
 
-/// Returns the registry entry of the controller that `options` select. Throws InternalError for
-/// empty options.
+/// Returns the registry entry of the controller to which `options` belong. Throws InternalError if
+/// `options` is empty.
 const ControllerEntry& ControllerFor(const ControllerOptions& options);
 
-/// Makes the controller that `options` select. The controller's Steer throws InternalError for a
-/// state with NaN or infinity. Throws PreconditionError for option values outside their documented
-/// ranges.
+/// Makes the controller to which `options` belong. The function Steer of the returned controller
+/// throws InternalError if the car's state contains NaN or infinity. MakeController throws
+/// PreconditionError if an option value is outside of its documented range.
 std::unique_ptr<SteeringController> MakeSteeringController(const ControllerOptions& options);
 
 }  // namespace trackbed

@@ -7,32 +7,33 @@
 
 namespace trackbed {
 
-/// The linear-quadratic regulator with preview: minimizes
-///   sum over control periods of  cross_track e^2 + heading (psi - psi_0)^2 + steering_rate w^2
-/// for the linear error model (docs/algorithms/control.md). The minimization ignores the limits of
-/// steering angle and rate.
+/// The linear-quadratic regulator with preview. For the linear error model
+/// (docs/algorithms/control.md), the regulator minimizes the sum over all control periods of
+///   cross_track e^2 + heading (psi - psi_0)^2 + steering_rate w^2.
+/// The minimization ignores the car's limits on steering angle and steering rate.
 ///
 /// Symbols: e, psi cross-track and heading error of the rear axle [m, rad]; w steering rate
 /// [rad/s], the input, held over a control period; delta_0, psi_0 steering and heading error of the
-/// steady turn on the path's curvature, with understeer; z the state's deviation from that turn;
-/// g_k change of the path's curvature k periods ahead; K, P gain and solution of the discrete
-/// Riccati equation; A_c = A - B K.
-///   w = -K z - (R + B'PB)^-1 B' sum_k (A_c')^k P g_k
+/// steady turn on the path's curvature, with understeer; z the deviation of the state from that
+/// turn; g_k change of the path's curvature k periods ahead; K gain, P solution of the discrete
+/// Riccati equation; A_c = A - B K. The steering rate is
+///   w = -K z - (R + B'PB)^-1 B' sum_k (A_c')^k P g_k.
 /// The car is modeled by the dynamic single-track model at the present speed, with the axle forces
-/// that TyreForces selects. A car without tyre coefficients is modeled as kinematic. Both models
-/// include the steering actuator and the steering lag. The gains are recomputed in each control
-/// period for the present speed and direction of motion.
+/// that TyreForces selects. A car without tyre coefficients is modeled as the kinematic car. The
+/// dynamic and the kinematic model both include the steering actuator and the steering lag. The
+/// gains are recomputed in each control period for the present speed and direction of motion.
 ///
-/// The steering rate is integrated from the last commanded angle, initially the actuator's angle.
-/// The integration compensates delay, backlash and gain errors of the actuator.
+/// The commanded angle is the integral of the steering rate, starting at the actuator's initial
+/// angle. This integral action compensates delay, backlash and gain errors of the actuator.
 ///
-/// On a path of constant curvature, a car without tracking error is steered at delta_0. Steering
-/// rate and angle are clipped to the car's limits after the regulator has computed them. MpcOptions
-/// describes a controller that accounts for the limits. The weight of the steering rate grows with
-/// the car's distance from the path, so that the rate-limited steering can follow. The car
-/// approaches the path at an angle of at most 0.6 rad. On reverse paths, the same model applies
-/// with a negative speed u. Computing time per control period, with 100 periods of preview: 55 us
-/// for a car on its path, 0.5 ms for a car several meters off its path. The controller allocates no
+/// On a path of constant curvature, the regulator commands the angle delta_0 to a car without
+/// tracking error. Steering rate and angle are clipped to the car's limits after the regulator has
+/// computed them. The controller of MpcOptions accounts for these limits in its optimization. The
+/// weight of the steering rate grows with the car's distance from the path, so that the
+/// rate-limited steering can follow the commands. The regulator limits the angle at which the car
+/// approaches the path to 0.6 rad. On paths that are driven in reverse, the regulator uses the same
+/// model with a negative speed u. Cost per control period, with a preview of 100 periods: 55 us for
+/// a car on its path, 0.5 ms for a car several meters off its path. The LQR controller allocates no
 /// heap memory.
 struct LqrOptions {
   std::optional<double> cross_track;  ///< Weight of the cross-track error [1/m^2], > 0; default:
@@ -41,7 +42,8 @@ struct LqrOptions {
   /// Weight of the steering rate [s^2/rad^2], > 0; default: (0.1506/omega)^2, with the car's
   /// maximum steering rate omega in rad/s.
   std::optional<double> steering_rate;
-  double preview = 2.0;  ///< Time over which the path's curvature is previewed [s], >= 0.
+  /// Time ahead over which the regulator takes the path's curvature into account [s], >= 0.
+  double preview = 2.0;
   TyreForces tyres = TyreForces::kLinear;
 };
 void Visit(KeyVisitor& keys, LqrOptions& options);

@@ -7,35 +7,37 @@
 
 namespace trackbed {
 
-/// Linear model-predictive control within the car's steering limits. The cost function of
-/// LqrOptions is summed over the next `horizon` steps; the Riccati matrix P accounts for all later
-/// steps:
+/// Linear model-predictive controller that respects the car's limits on steering angle and rate.
+/// The cost function of LqrOptions is summed over the next `horizon` steps; the Riccati matrix P
+/// accounts for all later steps:
 ///   minimize  sum_{k<N} (cross_track e_k^2 + heading (psi_k - psi_0)^2 + steering_rate w_k^2)
 ///             + z_N' P z_N
-///   subject to  abs(w_k) <= omega,  abs(delta_k) <= delta_max  for every step
+///   subject to  abs(w_k) <= omega,  abs(delta_k) <= delta_max  for every step.
 ///
-/// Symbols and model are those of LqrOptions; N is `horizon`. The steering rate w_k is constant
-/// over a step. In each control period, the controller solves a quadratic program in the rates w_0
-/// .. w_{N-1} (optimize/quadratic_program.h), and applies the first rate w_0 until the next period.
-/// Solutions are not reused as starting points, because the search's first step reaches the optimum
-/// from any start.
+/// The symbols and the model are the same as in LqrOptions; N is the option `horizon`. The steering
+/// rate w_k is constant over the step k. In each control period, the controller solves a quadratic
+/// program for the rates w_0 .. w_{N-1} (optimize/quadratic_program.h). The first rate, w_0, is
+/// applied until the next control period. The solver does not start from the previous solution,
+/// because the solver's first step reaches the optimum from any starting point.
 ///
 /// Guarantees: the actuator can turn from the last commanded angle to the new commanded angle
 /// within one control period, and the new angle is within the steering limit. While no limit is
-/// active, the controller equals the LQR with the same step and a preview of N steps. Far from the
-/// path, the steering rate is weighted as in the LQR. The model has linear tyres and ignores speed
-/// changes and saturation. On reverse paths, the same model applies with a negative speed u. Cost:
-/// about 80 us per control period with 20 steps, and 160 us if a limit is active. The controller
-/// allocates heap memory (in NLopt) only if a limit is active.
+/// active, the commands equal those of the LQR controller with the same step and a preview of N
+/// steps. Far from the path, the weight of the steering rate grows in the same way as for the LQR
+/// controller. The model has linear tyres without saturation and ignores speed changes. On paths
+/// that are driven in reverse, the controller uses the same model with a negative speed u. Cost:
+/// about 80 us per control period with 20 steps, and 160 us if a limit is active. The MPC
+/// controller allocates heap memory (in NLopt) only if a limit is active.
 struct MpcOptions {
   static constexpr int kMaxHorizon = 40;
 
-  std::optional<double> cross_track;    ///< Cross-track weight [1/m^2], > 0; default as in
-                                        ///< LqrOptions.
-  double heading = 1.0;                 ///< Weight of the heading error [1/rad^2], >= 0.
-  std::optional<double> steering_rate;  ///< Rate weight [s^2/rad^2], > 0; default as in LqrOptions.
-  int horizon = 20;                     ///< Number of steps N, 1 to kMaxHorizon.
-  double step = 0.1;                    ///< Length of a step [s], > 0; at least the control period.
+  /// Weight of the cross-track error [1/m^2], > 0; same default as in LqrOptions.
+  std::optional<double> cross_track;
+  double heading = 1.0;  ///< Weight of the heading error [1/rad^2], >= 0.
+  /// Weight of the steering rate [s^2/rad^2], > 0; same default as in LqrOptions.
+  std::optional<double> steering_rate;
+  int horizon = 20;   ///< Number N of steps in the prediction horizon, from 1 to kMaxHorizon.
+  double step = 0.1;  ///< Duration of a prediction step [s], > 0; at least the control period.
   TyreForces tyres = TyreForces::kLinear;
 };
 void Visit(KeyVisitor& keys, MpcOptions& options);

@@ -6,27 +6,27 @@
 #include "trackbed/control/signal.h"
 #include "trackbed/control/steering_controller.h"
 
-/// Recorded inputs that can be replayed on any plant.
+/// Replays recorded inputs on any plant.
 namespace trackbed {
 
-/// The independent variable of a recording.
+/// The independent variable (axis) over which the inputs are recorded.
 enum class PlaybackAxis {
   kTime,      ///< Time since the start of the run [s].
   kDistance,  ///< Distance that the car has driven [m].
 };
 
-/// Recorded inputs of a run: steering, speed and acceleration over the same axis (time or
-/// distance). At most one of speed and acceleration may be given. If both are empty, the recording
-/// does not set the speed.
+/// Recorded inputs of a drive: steering, speed and acceleration over the same axis (time or
+/// distance). A recording has a speed signal or an acceleration signal, but not both. If the speed
+/// and the acceleration are both empty, the recording does not set the speed.
 struct Recording {
   /// Steering angle of the bicycle model [rad], positive to the left; not empty.
   Signal steering{{{0.0, 0.0}}};
   Signal speed;         ///< Speed of the rear axle [m/s], >= 0.
-  Signal acceleration;  ///< Rate of the speed, dv/dt [m/s^2].
+  Signal acceleration;  ///< Rate of change of the speed, dv/dt [m/s^2].
 };
 
-/// Column names of a recording in its CSV file. Defaults: `t_s`, `s_m`, `steering_rad`,
-/// `speed_mps`, `acceleration_mps2`.
+/// Names of the columns in the CSV file of a recording. The default names are `t_s`, `s_m`,
+/// `steering_rad`, `speed_mps`, `acceleration_mps2`.
 struct RecordingColumns {
   std::optional<std::string> time;
   std::optional<std::string> distance;
@@ -37,17 +37,17 @@ struct RecordingColumns {
 void Visit(KeyVisitor& keys, RecordingColumns& columns);
 
 /// Replays a recording in open loop. In each control period of length T, the inputs are as follows:
-///   steering      recorded angle at the end of the period: at the time t + T, or at the distance
-///                 D + abs(v) T
-///   speed         acceleration command: change of the recorded speed over the period, divided by
-///                 T, plus gain times the speed error (SpeedAlong)
-///   acceleration  acceleration command: mean of the recorded acceleration over the period
-/// A car that follows commands exactly reproduces the recording at every control period. Values are
-/// constant before the first row and after the last row. If the axis is the distance, the car never
-/// leaves a place where the recorded speed is zero.
+///   steering: commands the recorded angle at the end of the period, which is at the time t + T or
+///   at the distance D + abs(v) T.
+///   speed: commands the acceleration (change of the recorded speed over the period, divided by T)
+///   plus gain times the speed error (SpeedAlong).
+///   acceleration: commands the mean of the recorded acceleration over the period.
+/// A car that follows the commands exactly has the recorded values at the end of every control
+/// period. Recorded values are treated as constant before the first row and after the last row. If
+/// the axis is the distance, the car never leaves a place where the recorded speed is zero.
 struct PlaybackOptions {
-  /// Path of the file from which the recording was read. Empty for a recording made in code, or
-  /// taken from a scenario's record.
+  /// Path of the file from which the recording was read. The path is empty if the recording was
+  /// made in code or taken from a scenario's record.
   std::string file;
   PlaybackAxis by = PlaybackAxis::kTime;
   RecordingColumns columns;
@@ -56,7 +56,8 @@ struct PlaybackOptions {
 void Visit(KeyVisitor& keys, PlaybackOptions& options);
 
 /// Returns the commanded steering angle [rad] at the end of the control period, for a car with
-/// `speed` [m/s] at the value `x` of the recording's axis. The control period is `period` [s] long.
+/// `speed` [m/s] at the value `x` of the recording's axis. The length of the control period is
+/// `period` [s].
 double PlaybackSteering(const PlaybackOptions& options, double x, double speed, double period);
 
 /// Returns the commanded acceleration [m/s^2] over the control period; nullopt if the recording has

@@ -7,25 +7,26 @@
 namespace trackbed {
 
 /// Pure pursuit (Coulter 1992) steers on the circle that is tangent to the rear axle's motion and
-/// passes through a point of the path. The point is at the look-ahead distance l = max(distance,
-/// time |v|) from the rear axle. The steering angle is delta = atan(2 L sin(u)/l), with u the angle
-/// from the direction of motion to the point.
+/// passes through a point of the path. The path point is at the look-ahead distance l =
+/// max(distance, time |v|) from the rear axle. The steering angle is delta = atan(2 L sin(u)/l),
+/// with u the angle from the direction of motion to the path point.
 ///
 /// On a circle of radius R, the steering angle is exactly atan(L/R). With wheels that turn at most
 /// at the rate omega, a car at speed v needs a look-ahead distance l of about 1.5 cbrt(e L v/omega)
 /// to return from an offset e without oscillation. Unlike the preview controller, pure pursuit does
-/// not lengthen l when the car is off its path. By default, l is the larger of the distance R of
-/// PreviewOptions and 3/4 L cbrt(v/(L omega)). The second distance is long enough for an offset of
-/// an eighth of the wheelbase.
+/// not lengthen the look-ahead distance l when the car is off its path. By default, l is the larger
+/// of the distance R of PreviewOptions and 3/4 L cbrt(v/(L omega)). The distance 3/4 L cbrt(v/(L
+/// omega)) is long enough for an offset of an eighth of the wheelbase.
 ///
-/// On reverse paths, the circle passes through a point behind the car. Beyond its end, the path
-/// continues along its tangent. The law ignores tyre slip: an understeering car drives a wider
-/// circle than the path.
+/// On paths that are driven in reverse, the circle passes through a path point behind the car.
+/// Beyond the end of the path, the look-ahead point lies on the tangent at the end. Pure pursuit
+/// ignores tyre slip, so an understeering car drives a wider circle than the path.
 struct PurePursuitOptions {
-  std::optional<double> distance;  ///< Shortest look-ahead distance l [m], > 0; computed from car,
-                                   ///< speed and path by default.
-  double time = 0.0;  ///< Lower bound on the look-ahead distance l as a time [s], >= 0: l is at
-                      ///< least time |v|.
+  /// Shortest look-ahead distance l [m], > 0; by default computed from the car, its speed and the
+  /// path.
+  std::optional<double> distance;
+  /// Minimum look-ahead time [s], >= 0: the look-ahead distance l is at least `time` times |v|.
+  double time = 0.0;
 };
 void Visit(KeyVisitor& keys, PurePursuitOptions& options);
 

@@ -6,29 +6,31 @@
 
 namespace trackbed {
 
-/// Lyapunov feedback of the rear axle's errors (Paden et al. 2016, "rear wheel position based
-/// feedback"), on forward and reverse paths.
+/// Controller by Lyapunov feedback of the rear axle's tracking errors (Paden et al. 2016, "rear
+/// wheel position based feedback"), for forward and reverse paths.
 ///
 /// Symbols: e, psi cross-track and heading error of the rear axle [m, rad]; D = +1 forwards, -1
 /// backwards; kappa the path's curvature at the car; psi_0(kappa) the heading error of the steady
-/// turn on that curvature, 0 for a car without slip; d the option `distance` [m].
+/// turn on that curvature, 0 for a car without slip; d the option `distance` [m]. The commanded
+/// curvature is
 ///   kappa_c = kappa cos(psi - psi_0)/(1 - kappa e) - D 2 (psi - psi_0)/d - e sinc(psi - psi_0)/d^2
-/// The command is the steering of the steady turn with curvature kappa_c: atan(L kappa_c) for a car
-/// without slip, with the understeer of the linear single-track car if it has tyre coefficients.
+/// For a car without slip, the commanded steering angle is atan(L kappa_c). For a car with tyre
+/// coefficients, the commanded steering angle is that of a steady turn of the linear single-track
+/// car with the curvature kappa_c, and thus includes the understeer.
 ///
-/// For a car without slip whose wheels follow the command at once, (e/d)^2 + psi^2 never grows. The
-/// car returns to the path from any errors with kappa e < 1. Small errors decay as exp(-s/d),
-/// critically damped, where s is the distance driven.
+/// If the car has no slip and its wheels follow the command immediately, the value (e/d)^2 + psi^2
+/// never grows. The car returns to the path from all tracking errors with kappa e < 1. Small
+/// tracking errors are critically damped and decay as exp(-s/d), where s is the distance driven.
 ///
-/// The default d accounts for the rate limit of the wheels and for the response time T of the car.
-/// The default d is the largest of ReturnDistance for the offset e, ReturnDistance for the offset
-/// L/8, and 3 |v| T (src/control/preview_distance.h).
+/// The default of the distance d accounts for the rate limit of the wheels and for the response
+/// time T of the car. The default of the distance d is the largest of ReturnDistance for the offset
+/// e, ReturnDistance for the offset L/8, and 3 |v| T (src/control/preview_distance.h).
 ///
-/// The law has no preview: at a curvature step, the steering lags by the time that the wheels need
-/// to turn.
+/// The control law has no preview, so at a curvature step the steering lags by the time that the
+/// wheels need to turn.
 struct RearAxleFeedbackOptions {
-  /// Decay distance d of small errors [m], >= 0.01; computed from car, speed and cross-track error
-  /// by default.
+  /// Decay distance d of small tracking errors [m], >= 0.01; by default computed from the car, its
+  /// speed and the cross-track error.
   std::optional<double> distance;
 };
 void Visit(KeyVisitor& keys, RearAxleFeedbackOptions& options);

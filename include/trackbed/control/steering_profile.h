@@ -8,7 +8,7 @@
 ///
 /// Symbols: t time since the start of the run [s]; t0 the option `at`, at which the maneuver
 /// begins; tau = t - t0; A the option `amplitude`; f frequency [Hz]; delta the commanded bicycle
-/// angle [rad], positive to the left, 0 before t0. A negative amplitude mirrors the maneuver.
+/// angle [rad], positive to the left, 0 before t0. A negative amplitude A mirrors the maneuver.
 namespace trackbed {
 
 /// Commands a constant steering angle from the start of the run.
@@ -17,66 +17,68 @@ struct ConstantSteeringOptions {
 };
 void Visit(KeyVisitor& keys, ConstantSteeringOptions& options);
 
-/// Commands a steering step to the angle A (ISO 7401, step input). With a rate r, delta = A min(1,
-/// r tau/abs(A)). Without a rate, the command jumps after t0, and only the car's actuator limits
-/// the steering rate.
+/// Commands a steering step to the angle A (step input of ISO 7401). With a rate r, the angle is
+/// delta = A min(1, r tau/abs(A)). Without a rate, the commanded angle jumps after t0, and only the
+/// car's actuator limits the steering rate.
 struct StepSteeringOptions {
   double amplitude = 0.0;      ///< Step A [rad].
-  double at = 1.0;             ///< Start time t0 [s].
-  std::optional<double> rate;  ///< Rate r [rad/s], > 0.
+  double at = 1.0;             ///< Time t0 at which the maneuver starts [s].
+  std::optional<double> rate;  ///< Rate r of the commanded steering angle [rad/s], > 0.
 };
 void Visit(KeyVisitor& keys, StepSteeringOptions& options);
 
-/// Slowly increasing steer (SAE J266, ISO 4138): the angle rises to `end` at a constant rate r and
-/// then stays constant.
+/// Slowly increasing steer (SAE J266, ISO 4138): the commanded angle rises to `end` at a constant
+/// rate r and then stays constant.
 struct RampSteeringOptions {
   double end = 0.0;    ///< Final angle [rad].
-  double rate = 0.01;  ///< Rate r [rad/s], > 0.
-  double at = 1.0;     ///< Start time t0 [s].
+  double rate = 0.01;  ///< Rate r of the commanded steering angle [rad/s], > 0.
+  double at = 1.0;     ///< Time t0 at which the maneuver starts [s].
 };
 void Visit(KeyVisitor& keys, RampSteeringOptions& options);
 
-/// Sine steering: delta = A sin(2 pi f tau) for a number of cycles, then 0. The number of cycles
-/// may be a multiple of 1/2, since the sine also returns to 0 after half a cycle.
+/// Sine steering, with the angle delta = A sin(2 pi f tau) for a number of cycles, and then 0. The
+/// number of cycles may be a multiple of 1/2, since the sine also returns to 0 after half a cycle.
 struct SineSteeringOptions {
   double amplitude = 0.0;  ///< Amplitude A [rad].
-  double frequency = 0.4;  ///< Frequency f [Hz], > 0.
-  double cycles = 1.0;     ///< Number of cycles, > 0.
-  double at = 1.0;         ///< Start time t0 [s].
+  double frequency = 0.4;  ///< Frequency f of the sine [Hz], > 0.
+  double cycles = 1.0;     ///< Number of sine cycles, > 0.
+  double at = 1.0;         ///< Time t0 at which the maneuver starts [s].
 };
 void Visit(KeyVisitor& keys, SineSteeringOptions& options);
 
 /// Sine with dwell (ISO 19365): one sine cycle that dwells at its second peak, -A at tau = 3/(4 f).
-/// The angle returns to 0 at tau = 1/f + dwell.
+/// The commanded angle returns to 0 at tau = 1/f + dwell.
 struct SineWithDwellOptions {
   double amplitude = 0.0;  ///< Amplitude A [rad].
-  double frequency = 0.7;  ///< Frequency f [Hz], > 0.
-  double dwell = 0.5;      ///< Duration of the dwell [s], >= 0.
-  double at = 1.0;         ///< Start time t0 [s].
+  double frequency = 0.7;  ///< Frequency f of the sine [Hz], > 0.
+  double dwell = 0.5;      ///< Duration for which the angle dwells at the second peak [s], >= 0.
+  double at = 1.0;         ///< Time t0 at which the maneuver starts [s].
 };
 void Visit(KeyVisitor& keys, SineWithDwellOptions& options);
 
-/// Defines how the frequency changes from f0 to f1 over the duration T.
+/// Defines how the frequency of a swept sine changes from f0 to f1 over the duration T.
 enum class Sweep {
-  kLinear,       ///< f(tau) = f0 + (f1 - f0) tau/T.
-  kExponential,  ///< f(tau) = f0 (f1/f0)^(tau/T), which takes equally long for each octave.
+  kLinear,  ///< The frequency f(tau) = f0 + (f1 - f0) tau/T changes linearly.
+  /// The frequency f(tau) = f0 (f1/f0)^(tau/T) changes exponentially, so that each octave takes the
+  /// same time.
+  kExponential,
 };
 
-/// A swept sine: delta = A sin(phi(tau)) for 0 <= tau < T, then 0. The phase has phi' = 2 pi f(tau)
-/// and phi(0) = 0:
+/// A swept sine, with the angle delta = A sin(phi(tau)) for 0 <= tau < T, and then 0. The phase
+/// phi, with phi' = 2 pi f(tau) and phi(0) = 0, is
 ///   linear:       phi = 2 pi (f0 tau + (f1 - f0) tau^2/(2 T))
 ///   exponential:  phi = 2 pi f0 T ((f1/f0)^(tau/T) - 1)/ln(f1/f0)
 struct SweptSineOptions {
   double amplitude = 0.0;        ///< Amplitude A [rad].
   double start_frequency = 0.2;  ///< Initial frequency f0 [Hz], > 0.
   double end_frequency = 2.0;    ///< Final frequency f1 [Hz], > 0.
-  double duration = 20.0;        ///< Duration T [s], > 0.
+  double duration = 20.0;        ///< Duration T of the swept sine [s], > 0.
   Sweep sweep = Sweep::kLinear;
-  double at = 1.0;  ///< Start time t0 [s].
+  double at = 1.0;  ///< Time t0 at which the maneuver starts [s].
 };
 void Visit(KeyVisitor& keys, SweptSineOptions& options);
 
-/// Returns the commanded angle delta(t) at `time` t [rad].
+/// Returns the commanded steering angle delta(t) [rad] at the time t = `time` [s].
 double SteeringAt(const ConstantSteeringOptions& options, double time);
 double SteeringAt(const StepSteeringOptions& options, double time);
 double SteeringAt(const RampSteeringOptions& options, double time);
@@ -84,7 +86,7 @@ double SteeringAt(const SineSteeringOptions& options, double time);
 double SteeringAt(const SineWithDwellOptions& options, double time);
 double SteeringAt(const SweptSineOptions& options, double time);
 
-/// Registry entries of the controllers that steer by these profiles.
+/// Return the registry entries of the controllers that steer by the profiles above.
 ControllerEntry ConstantSteering();
 ControllerEntry StepSteering();
 ControllerEntry RampSteering();

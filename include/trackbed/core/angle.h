@@ -4,11 +4,12 @@ namespace trackbed {
 
 inline constexpr double kPi = 3.14159265358979323846;
 
-/// The angle in (-pi, pi] with the same direction as `angle` [rad]. NaN and infinities give NaN.
-/// The result is exact for angles in (-pi, pi]; otherwise its error is at most 1 ulp of |angle|.
+/// Wraps `angle` to (-pi, pi] [rad]. Returns NaN if `angle` is NaN or infinite. The result is exact
+/// for angles in (-pi, pi]; for other angles, the error is at most one unit in the last place (ulp)
+/// of |angle|.
 double WrapAngle(double angle);
 
-/// The difference a - b [rad], wrapped to (-pi, pi].
+/// Returns the difference a - b of two angles [rad], wrapped to (-pi, pi].
 double AngleDifference(double a, double b);
 
 }  // namespace trackbed

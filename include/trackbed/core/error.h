@@ -8,33 +8,33 @@
 #include <utility>
 #include <vector>
 
-/// Four kinds of failure, distinguished by who has to act:
+/// The library reports four kinds of failure, which differ in who has to act:
 ///   * InputError: the user's input is wrong (a file, an option, a model). Exit code 2.
 ///   * RunError: the environment failed (a full disk, an unwritable folder, no encoder). Exit code
 ///     2.
 ///   * PreconditionError: the calling program passed an invalid argument to a function of the
 ///     library; a bug in the calling program.
 ///   * InternalError: an internal check failed; a bug in Trackbed. Exit code 1.
-/// Some failures are outcomes, not errors: a plan that is not found (PlanStatus) and a run that
-/// ends early (DriveStatus).
+/// Two kinds of failure are results, not exceptions: a planner that finds no plan (PlanStatus), and
+/// a run that ends early (DriveStatus).
 namespace trackbed {
 
-/// One problem in an input, with its position.
+/// One problem in an input of the user, and the position of the problem in the file.
 struct Problem {
   std::string file{};     ///< File name as the user gave it; empty if there is no file.
   int line = 0;           ///< Line number from 1; 0 if unknown.
   int column = 0;         ///< Column number from 1; 0 if unknown.
   std::string key{};      ///< Dotted key, such as "mission.waypoints[2]"; may be empty.
-  std::string message{};  ///< The value found and the allowed values.
+  std::string message{};  ///< States the invalid value and the allowed values.
 
-  /// Formats the problem as "file:line:column: key: message", on one line, without unknown parts
-  /// and control characters (WithoutControls). Truncates a key or message after 4000 bytes.
+  /// Formats the problem as "file:line:column: key: message", on one line. Omits unknown parts and
+  /// replaces control characters (WithoutControls). Truncates a key or message after 4000 bytes.
   [[nodiscard]] std::string ToString() const;
-  /// Formats "key: message" like ToString, independent of the file's location.
+  /// Formats the problem as "key: message", without the file and the position in the file.
   [[nodiscard]] std::string WithoutPlace() const;
 };
 
-/// Invalid input from the user. The text `what()` lists every problem, one line each.
+/// Invalid input from the user. The text `what()` lists every problem on a separate line.
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<Problem> problems);
@@ -46,14 +46,15 @@ class InputError : public std::runtime_error {
   std::vector<Problem> problems_;
 };
 
-/// A failure of the environment. The text `what()` is one line for the user.
+/// A failure of the environment, such as a full disk. The text `what()` is a message of one line
+/// for the user.
 class RunError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// An invalid argument. The text `what()` names the function, the argument, its value and what is
-/// allowed.
+/// An invalid argument. The text `what()` names the function, the invalid argument, the argument's
+/// value and the allowed values.
 class PreconditionError : public std::invalid_argument {
  public:
   using std::invalid_argument::invalid_argument;
@@ -66,8 +67,8 @@ class InternalError : public std::logic_error {
 };
 
 /// Makes text safe for terminals and text files: control characters except tabs and line feeds
-/// become "<U+001B>", and bytes that are not UTF-8 become "<0xFF>". File names and keys may come
-/// from untrusted sources.
+/// become "<U+001B>", and bytes that are not UTF-8 become "<0xFF>". WithoutControls is needed
+/// because file names and keys may come from untrusted sources.
 std::string WithoutControls(std::string_view text);
 
 [[noreturn]] void ThrowPreconditionError(const std::string& message);

@@ -10,39 +10,41 @@
 
 namespace trackbed {
 
-/// The default limit on the size of an input file [bytes]. A log of one hour at 100 rows per second
-/// has about half the size of this limit.
+/// The default limit on the size of an input file [bytes]. This limit is about twice the size of a
+/// log of one hour with 100 rows per second.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{512} << 20U;
 
-/// Reads a whole file as bytes. RunError naming the file if it is missing, is not a regular file
+/// Reads a whole file as bytes. Throws RunError if the file is missing, is not a regular file
 /// (OpenInput), or has more than `max_bytes` bytes. Never reads more than `max_bytes` bytes.
 std::string ReadFile(const std::filesystem::path& file, std::size_t max_bytes = kMaxFileBytes);
 
 /// Reads a file as a stream: calls `take` with successive blocks of at most 64 KiB until `take`
-/// returns false. Throws the RunErrors of ReadFile.
+/// returns false. Throws RunError in the same cases as ReadFile.
 void ReadBlocks(const std::filesystem::path& file,
                 const std::function<bool(std::string_view block)>& take,
                 std::size_t max_bytes = kMaxFileBytes);
 
-/// Writes `content` beside `file` under a temporary name and renames it, so that `file` is either
-/// unchanged or complete, even if the process is killed. If any step fails, for example on a full
-/// disk, removes the temporary file and throws RunError. The content is not forced to the disk
-/// (fsync), which would take up to tens of milliseconds per file. After a power failure a file may
-/// therefore be empty; the hashes in manifest.json (analysis/output_folder.h) reveal the loss.
+/// Writes `content` to a temporary file next to `file`, then renames the temporary file to `file`.
+/// Even if the process is killed, `file` therefore contains either the complete old or the complete
+/// new content. If writing fails, for example because the disk is full, removes the temporary file
+/// and throws RunError. The content is not forced to the disk (fsync), which would take up to tens
+/// of milliseconds per file. After a power failure a file may therefore be empty; the hashes in
+/// manifest.json (analysis/output_folder.h) reveal the loss.
 void WriteFileAtomically(const std::filesystem::path& file, std::string_view content);
 
-/// Checks, before long work, that WriteFileAtomically can write the file. RunError if a folder has
-/// the name of the file, or if the file's folder is missing or unwritable. Creates no file.
+/// Checks that WriteFileAtomically can write the file. Call CheckCanWrite before long work whose
+/// result is written to the file. Throws RunError if a folder has the name of the file, or if the
+/// file's folder is missing or unwritable. Creates no file.
 void CheckCanWrite(const std::filesystem::path& file);
 
-/// Creates the folder and its parents. RunError if they cannot be created.
+/// Creates the folder and its parents. Throws RunError if a folder cannot be created.
 void MakeFolder(const std::filesystem::path& folder);
 
 class Descriptor;
 
-/// Opens an input file; every reader uses this function. RunError naming the file if it is missing
-/// or not a regular file. Pipes and devices are rejected because they may block or never end, and
-/// because many inputs are read twice.
+/// Opens an input file; all functions that read input files use OpenInput. Throws RunError if the
+/// file is missing or is not a regular file. Pipes and devices are rejected because they may block
+/// or never end, and because many inputs are read twice.
 Descriptor OpenInput(const std::filesystem::path& file);
 
 /// A file descriptor that is closed by its destructor.
@@ -53,20 +55,21 @@ class Descriptor {
   Descriptor& operator=(Descriptor&& other) noexcept;
   ~Descriptor();
   [[nodiscard]] int get() const { return descriptor_; }
-  /// Closes the descriptor and returns 0 or an errno. Some file systems only report a full disk on
-  /// closing.
+  /// Closes the descriptor. Returns 0, or the errno of the error. Some file systems only report a
+  /// full disk on closing.
   int Close();
 
  private:
   int descriptor_;
 };
 
-/// A new file in a folder that no other process uses. Errors are RunErrors naming `shown`, the
-/// final name of the file. An incomplete file may remain after an error.
+/// Writes a new file in a folder that no other process uses. If writing fails, throws RunError with
+/// a message that names `shown`, the final name of the file. An incomplete file may remain after an
+/// error.
 class NewFile {
  public:
   NewFile(const std::filesystem::path& file, std::filesystem::path shown);
-  /// Appends to the file.
+  /// Appends `content` to the file.
   void Write(std::string_view content);
   /// Closes the file. Call Close last: some file systems only report a full disk on closing.
   void Close();
@@ -80,24 +83,25 @@ class NewFile {
 void WriteNewFile(const std::filesystem::path& file, std::string_view content,
                   const std::filesystem::path& shown);
 
-/// A new, empty file in the folder of `file`, to be filled and then published under that name. The
-/// temporary name is ".STEM.PID-N.trackbed" with the extension of `file`, because some writers
-/// depend on the extension. A lock (flock) distinguishes the file from the leftover of a killed
-/// process. The destructor removes the file.
+/// Creates a new, empty file next to `file`. Publish() renames the new file to `file` when its
+/// content is complete. The temporary name is ".STEM.PID-N.trackbed" followed by the extension of
+/// `file`, because some libraries choose the file format by the extension. The process locks the
+/// temporary file (flock); an unlocked temporary file was left behind by a killed process. The
+/// destructor of TemporaryFile removes the temporary file.
 class TemporaryFile {
  public:
-  /// Creates the file. RunError naming `file` if its folder is missing or unwritable.
+  /// Creates the temporary file. Throws RunError if the folder of `file` is missing or unwritable.
   explicit TemporaryFile(std::filesystem::path file);
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile();
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-  /// Appends to the file. Errors are RunErrors naming `file`.
+  /// Appends `content` to the temporary file. Throws RunError, naming `file`, if writing fails.
   void Write(std::string_view content);
-  /// Renames the complete file to `file`, or to the target of a link of that name. RunError on
-  /// failure, or if the name belongs to something other than a regular file. Call Publish only
-  /// once.
+  /// Renames the complete temporary file to `file`; if `file` is a link, to the target of the link.
+  /// Throws RunError if renaming fails, or if `file` exists and is not a regular file. Call Publish
+  /// only once.
   void Publish();
 
  private:
@@ -106,11 +110,12 @@ class TemporaryFile {
   Descriptor descriptor_;
 };
 
-/// A new, empty folder in the folder of `file`, for parts of that file. The folder is named, locked
-/// and removed like a TemporaryFile.
+/// Creates a new, empty folder next to `file`, for temporary parts of that file. The temporary
+/// folder is named, locked and removed in the same way as a TemporaryFile.
 class TemporaryFolder {
  public:
-  /// Creates the folder. RunError naming `file` if its folder is missing or unwritable.
+  /// Creates the temporary folder. Throws RunError if the folder of `file` is missing or
+  /// unwritable.
   explicit TemporaryFolder(const std::filesystem::path& file);
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -123,19 +128,21 @@ class TemporaryFolder {
   Descriptor descriptor_;
 };
 
-/// Removes the TemporaryFiles and TemporaryFolders of killed processes from the folder. Temporaries
-/// of running processes stay. On file systems without locks, all temporaries stay. Never fails.
+/// Removes temporary files and folders from `folder` if the process that created them was killed.
+/// Keeps the temporary files of running processes. On file systems without locks, keeps all
+/// temporary files. Never fails.
 void RemoveAbandonedTemporaries(const std::filesystem::path& folder);
 
-/// Prepares for long work that ends with writing `file`. Creates the file's folder, removes
-/// temporary files of killed processes from the folder, and checks that the file can be written.
-/// Throws the RunErrors of MakeFolder and CheckCanWrite.
+/// Prepares to write `file` at the end of long work. Creates the file's folder, removes temporary
+/// files of killed processes from the folder, and checks that the file can be written. Throws
+/// RunError in the same cases as MakeFolder and CheckCanWrite.
 void PrepareToWrite(const std::filesystem::path& file);
 
 /// Checks whether an input file in the folder `own` may refer to the file `name`, given relative to
-/// `own`. Returns an empty text if the file may be read: after following links, it lies in or below
-/// `own` or one of `others`. A file with an absolute name must lie in one of `others`. If the file
-/// may not be read, returns the end of an error message ("lies outside of ...").
+/// `own`. Returns an empty text if the file may be read. A file may be read if it lies, after
+/// following links, in or below the folder `own` or one of the folders `others`. A file with an
+/// absolute name must lie in or below one of the folders `others`. If the file may not be read,
+/// returns a predicate to append to the file name in an error message ("lies outside of ...").
 std::string ReadAccessError(const std::filesystem::path& name, const std::filesystem::path& own,
                             const std::vector<std::filesystem::path>& others);
 

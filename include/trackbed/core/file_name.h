@@ -3,19 +3,19 @@
 #include <string>
 #include <string_view>
 
-/// File names made from names in the input. The name of a model, a log or a plant never becomes a
-/// path.
+/// Converts names in the input, such as the name of a model, log or plant, to file names. The
+/// resulting file names contain no folder separators.
 namespace trackbed {
 
-/// The longest result of FileNameOf [bytes]. File systems allow 255 bytes, which leaves room for
-/// file extensions and for the marks of temporary files.
+/// Maximum length of a file name from FileNameOf [bytes]. File systems allow 255 bytes; the rest is
+/// for file extensions and for the names of temporary files.
 inline constexpr std::size_t kMaxFileNameLength = 100;
 
-/// Converts `name` to a plain file name. Letters, digits, '.', '_' and '-' stay, ':' becomes '-',
-/// and every other byte becomes '_'. A leading dot becomes '_', so that the result is never a
-/// hidden file, "." or "..". A longer name is shortened to its last kMaxFileNameLength bytes, which
-/// include the extension. An empty name becomes "unnamed". Several names may give the same file
-/// name.
+/// Converts `name` to a plain file name. Keeps letters, digits, '.', '_' and '-', replaces ':' by
+/// '-', and replaces every other byte by '_'. Replaces a leading dot by '_', so that the file name
+/// is never that of a hidden file, "." or "..". Shortens a name of more than kMaxFileNameLength
+/// bytes to its last kMaxFileNameLength bytes, which include the extension. Returns "unnamed" for
+/// an empty name. Different names may be converted to the same file name.
 std::string FileNameOf(std::string_view name);
 
 /// Whether `name` is a plain file name: 1 to 255 letters, digits, '.', '_' and '-', not beginning

@@ -6,7 +6,7 @@
 
 namespace trackbed {
 
-/// SHA-256 of bytes added in parts. Cost: about 2 ns per byte.
+/// Computes the SHA-256 hash of bytes that are added in parts. Takes about 2 ns per byte.
 class Sha256Sum {
  public:
   Sha256Sum();
@@ -15,7 +15,8 @@ class Sha256Sum {
   ~Sha256Sum();
 
   void Add(std::string_view content);
-  /// Returns the hash of all added bytes in hexadecimal. Call Finish once, as the last call.
+  /// Returns the hash of all added bytes in hexadecimal. Call Finish only once, after all bytes
+  /// have been added.
   [[nodiscard]] std::string Finish();
 
  private:
@@ -23,7 +24,7 @@ class Sha256Sum {
   std::unique_ptr<Context> context_;
 };
 
-/// Returns the SHA-256 of some bytes in hexadecimal.
+/// Returns the SHA-256 hash of `bytes` in hexadecimal.
 std::string Sha256(std::string_view content);
 
 }  // namespace trackbed

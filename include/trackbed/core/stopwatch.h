@@ -7,7 +7,7 @@ namespace trackbed {
 /// Measures the wall-clock time since construction with a steady clock.
 class Stopwatch {
  public:
-  /// The elapsed time [s], >= 0.
+  /// Returns the wall-clock time since construction [s], >= 0.
   [[nodiscard]] double Seconds() const;
 
  private:

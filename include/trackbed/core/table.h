@@ -10,12 +10,13 @@
 
 namespace trackbed {
 
-/// A table of numbers with named columns: the format of a run's CSV files. The header line has the
-/// column names, which include units ("speed_mps"). Each further line has the numbers of one row.
+/// A table of numbers with named columns, for the CSV files of a run. The first line of such a CSV
+/// file contains the column names, which include units ("speed_mps"). Each further line contains
+/// the numbers of one row.
 ///
-/// Guarantees: numbers are written in the shortest form that reads back to the same double; a
-/// negative zero is written as 0. ReadCsv therefore restores the table that ToCsv wrote. The table
-/// cannot hold text.
+/// Guarantees: ToCsv writes each number in the shortest form from which the same double can be
+/// read, and writes a negative zero as 0. ReadCsv therefore reads the same table that ToCsv wrote.
+/// The cells of the table cannot contain text.
 class Table {
  public:
   explicit Table(std::vector<std::string> columns);
@@ -23,66 +24,70 @@ class Table {
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   [[nodiscard]] std::size_t rows() const { return cells_.size() / columns_.size(); }
 
-  /// Appends a row; InternalError unless it has one number per column.
+  /// Appends a row. Throws InternalError unless the row has one number per column.
   void AddRow(const std::vector<double>& row);
 
   [[nodiscard]] double at(std::size_t row, std::size_t column) const {
     return cells_[row * columns_.size() + column];
   }
 
-  /// The index of a column; -1 if the table has no such column.
+  /// Returns the index of the column with the given name, or -1 if the table has no such column.
   [[nodiscard]] int Find(std::string_view column) const;
-  /// Returns a whole column by its name. InputError naming the column if it is missing.
+  /// Returns all numbers of the column with the given name. Throws InputError if the table has no
+  /// such column.
   [[nodiscard]] std::vector<double> Column(std::string_view column) const;
 
   [[nodiscard]] std::string ToCsv() const;
 
  private:
   std::vector<std::string> columns_;
-  std::vector<double> cells_;  // All cells, row by row.
+  std::vector<double> cells_;  // Numbers of all cells, row by row.
 };
 
-/// Reads a CSV file with a header line (RFC 4180 through libcsv). Skips empty lines, spaces around
-/// cells and a byte order mark.
+/// Reads a table of numbers from a CSV file with a header line (RFC 4180, with libcsv). Skips empty
+/// lines, spaces around cells and a byte order mark.
 ///
-/// InputError with file and line for a cell that is not a number and for a row of the wrong length.
-/// For a repeated or empty column name, the message also has the number of the cell. InputError for
-/// an empty file, and for more than 4096 columns, 5e7 cells or 64 KiB in a cell. Lists the first
-/// twenty problems. Throws the RunErrors of ReadFile.
+/// Throws InputError, naming file and line, if a cell is not a number, if a row has the wrong
+/// length, or if a column name is repeated or empty. For a repeated or empty column name, the
+/// message also states the number of the cell. Also throws InputError if the file is empty, or has
+/// more than 4096 columns, 5e7 cells, or 64 KiB in a cell. The InputError lists the first twenty
+/// problems. Throws RunError in the same cases as ReadFile.
 Table ReadCsv(const std::filesystem::path& file);
 
-/// Collects the problems of a file: the first twenty in order of lines, and the number of further
-/// ones.
+/// Collects the problems of a file. Keeps the first twenty problems in the order of the lines, and
+/// counts the others.
 class ProblemList {
  public:
   void Add(Problem problem);
   [[nodiscard]] bool empty() const { return problems_.empty(); }
-  /// Throws an InputError with the problems, in order of lines. Does nothing if there are no
-  /// problems.
+  /// Throws an InputError that lists the collected problems in the order of the lines. Does nothing
+  /// if there are no problems.
   void ThrowIfAny() const;
 
  private:
-  std::vector<Problem> problems_;  // Problems in order of lines.
+  std::vector<Problem> problems_;  // Kept problems, in the order of the lines.
   std::size_t omitted_ = 0;
 };
 
 /// Selected columns of a CSV file from another program.
 struct CsvExcerpt {
-  Table table;             ///< Requested columns that the file has, in file order.
-  std::vector<int> lines;  ///< Line numbers of the rows in the file, from 1.
+  Table table;             ///< Requested columns that the file has, in the order of the file.
+  std::vector<int> lines;  ///< Line number in the file of each row of the table, from 1.
 };
 
-/// Reads the columns `needed`, at least one, and those of `optional` that the file has. Ignores
-/// other columns. Throws the InputErrors of ReadCsv. InputError for a missing needed column (with
-/// the nearest spelling) and for a cell that is not finite.
+/// Reads all columns `needed` (at least one), and the columns `optional` if the file has them.
+/// Ignores other columns. Throws InputError in the same cases as ReadCsv. Also throws InputError if
+/// a column of `needed` is missing (the message suggests the most similar name), or if a cell is
+/// not a finite number.
 CsvExcerpt ReadCsvExcerpt(const std::filesystem::path& file, std::vector<std::string> needed,
                           std::vector<std::string> optional = {});
 
-/// Reads columns of a CSV file of any length as a stream. Calls `take` for each row with the
-/// numbers of `columns`, in that order, and the line on which the row begins. `columns` must not
-/// repeat a name. Empty cells are NaN. Values that are not finite are passed on, and there is no
-/// limit on the number of cells. For other problems, throws the InputErrors of ReadCsvExcerpt,
-/// after the last row. Throws the RunErrors of ReadFile.
+/// Reads columns of a CSV file of any length as a stream. Calls `take` for each row, with the
+/// numbers in the order of `columns` and the line on which the row begins. The names in `columns`
+/// must be distinct. An empty cell is passed to `take` as NaN. Cells that are NaN or infinite are
+/// also passed to `take`, and the number of cells is not limited. For all other problems that
+/// ReadCsvExcerpt rejects, throws InputError after the last row. Throws RunError in the same cases
+/// as ReadFile.
 void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::string>& columns,
                     char delimiter,
                     const std::function<void(const std::vector<double>& numbers, int line)>& take);

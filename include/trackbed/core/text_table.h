@@ -8,24 +8,26 @@
 
 namespace trackbed {
 
-/// The shortest text that reads back to the same number. A negative zero gives "0".
+/// Formats a number as the shortest text from which the same number can be read. Returns "0" for a
+/// negative zero.
 std::string ShortestText(double number);
 
 /// Formats two numbers with four digits, or with as many digits as are needed to distinguish them.
 std::pair<std::string, std::string> FormatDistinct(double first, double second);
 
-/// The finite number that a cell contains; nullopt if the cell contains anything else.
+/// Returns the number in a cell; nullopt if the cell does not contain a finite number.
 std::optional<double> CellNumber(const std::string& cell);
 
-/// Formats cells as a line of a CSV file. Cells with a comma, a quote or a line end are quoted by
-/// RFC 4180.
+/// Formats cells as a line of a CSV file. Puts cells with a comma, a quote or a line end in quotes,
+/// as RFC 4180 requires.
 std::string CsvLine(const std::vector<std::string>& cells);
 
-/// A table of texts with named columns, for results that are not all numbers. An empty cell
-/// represents a missing value.
+/// A table of texts with named columns, for results that contain other values besides numbers. An
+/// empty cell represents a missing value.
 ///
-/// Guarantees: ToCsv writes one header line, then one line per row. Cells with a comma, a quote or
-/// a line end are quoted by RFC 4180. ReadTextCsv restores the same cells from the output.
+/// Guarantees: ToCsv writes one header line, then one line per row. ToCsv puts cells with a comma,
+/// a quote or a line end in quotes, as RFC 4180 requires. ReadTextCsv reads the same cells from the
+/// text that ToCsv writes.
 class TextTable {
  public:
   explicit TextTable(std::vector<std::string> columns);
@@ -33,7 +35,7 @@ class TextTable {
   [[nodiscard]] const std::vector<std::string>& columns() const { return columns_; }
   [[nodiscard]] const std::vector<std::vector<std::string>>& rows() const { return rows_; }
 
-  /// Appends a row; InternalError unless it has one cell per column.
+  /// Appends a row. Throws InternalError unless the row has one cell per column.
   void AddRow(std::vector<std::string> row);
 
   [[nodiscard]] std::string ToCsv() const;
@@ -43,12 +45,14 @@ class TextTable {
   std::vector<std::vector<std::string>> rows_;
 };
 
-/// Reads a CSV file with a header line as text (RFC 4180 through libcsv). The cells equal those
-/// that ToCsv wrote. Skips empty lines, spaces around cells and a byte order mark.
+/// Reads a table of texts from a CSV file with a header line (RFC 4180, with libcsv). The cells are
+/// equal to the cells from which ToCsv wrote the file. Skips empty lines, spaces around cells and a
+/// byte order mark.
 ///
-/// InputError with file and line for a row of the wrong length, and for a repeated or empty column
-/// name. InputError for an empty file, and for more than 4096 columns, 1e7 cells or 64 KiB in a
-/// cell. Lists the first twenty problems. Throws the RunErrors of ReadFile.
+/// Throws InputError, naming file and line, if a row has the wrong length, or if a column name is
+/// repeated or empty. Also throws InputError if the file is empty, or has more than 4096 columns,
+/// 1e7 cells, or 64 KiB in a cell. The InputError lists the first twenty problems. Throws RunError
+/// in the same cases as ReadFile.
 TextTable ReadTextCsv(const std::filesystem::path& file);
 
 }  // namespace trackbed

@@ -7,27 +7,30 @@
 
 namespace trackbed {
 
-/// A scenario for a test suite, made from a failed run.
+/// A scenario for a test suite that reproduces a failed run.
 struct Regression {
   Scenario scenario;
-  /// Whether the expectations describe the failure, so that the scenario passes as long as its run
-  /// fails in the same way. If false, the scenario has the original expectations of the run, and
-  /// fails.
+  /// If true, the expectations of the scenario describe the failure, so the scenario passes as long
+  /// as its run fails in the same way. If false, the scenario has the original expectations of the
+  /// run, which fail.
   bool expects_failure = false;
 };
 
-/// Makes a scenario named `name` from a failed run, with the checks of its verdict as expectations
-/// of each plant. Expectations that were met stay unchanged. Expectations that failed are inverted:
-/// `max: 0.5` becomes `min: 0.5` of the same metric, a requirement becomes `not (...)`, and an
-/// expected status or collision becomes that of the run.
+/// Makes a scenario named `name` from a failed run. The checks in the run's verdict become
+/// expectations on each plant. Expectations that the run met stay unchanged. Expectations that the
+/// run did not meet are inverted: `max: 0.5` becomes `min: 0.5` of the same metric, a requirement
+/// becomes `not (...)`, and an expected status or collision is replaced by the status or collision
+/// of the run.
 ///
-/// Expectations cannot express some failures: a missing plan, wheels that turn faster than the
-/// actuator allows, an unmeasured metric, or two plants that differ. For such failures, the
-/// expectations stay unchanged. The function runs the scenario to verify that it passes.
+/// Some failures cannot be expressed as expectations: a missing plan, wheels that turn faster than
+/// the actuator allows, an unmeasured metric, or two plants that differ. For failures that cannot
+/// be expressed, the expectations stay unchanged. The function then runs the new scenario to verify
+/// that the scenario passes.
 Regression MakeRegression(const RunResult& failed, const std::string& name);
 
-/// Returns the text of counterexample.yaml: ResolvedYaml, with the failures in a comment. The input
-/// files from the run folder of `failed` must be in the same folder as counterexample.yaml.
+/// Returns the text of counterexample.yaml: the output of ResolvedYaml, and a comment with the
+/// failures. The input files from the run folder of `failed` must be copied to the folder of
+/// counterexample.yaml.
 std::string RegressionYaml(const Regression& regression, const RunResult& failed);
 
 }  // namespace trackbed

@@ -7,56 +7,63 @@
 
 namespace trackbed {
 
-/// A point of the unit cube: the position of each key between the ends of its range.
+/// A point in the unit cube. Each coordinate is the position of one key between the ends of the
+/// key's range.
 using UnitPoint = std::vector<double>;
 
-/// A key whose value the search varies.
+/// A key of the scenario whose value is varied by the search.
 struct SearchKey {
   std::string key;  ///< Dotted key.
-  /// Distribution: uniform, log_uniform or integer.
+  /// Distribution of the key: uniform, log_uniform or integer.
   DistributionKind kind = DistributionKind::kUniform;
   double from = 0.0;
   double to = 1.0;
-  double step = 0.0;     ///< Step of the values `from` + k `step`; 0: no step.
-  double nominal = 0.0;  ///< Nominal value, within the range.
-  int line = 0;          ///< Line in the study's file.
+  /// Step between the allowed values `from` + k `step`; 0 if all values of the range are allowed.
+  double step = 0.0;
+  double nominal = 0.0;  ///< Nominal value of the key, within the range.
+  int line = 0;          ///< Line number of the key in the study's file.
   int column = 0;
 };
 
-/// The ranges of a study's searched keys, mapped to the unit cube.
+/// The ranges of a study's searched keys, scaled to the unit cube.
 ///
-/// The position of a key is the fraction of its range, counted from `from`. For a log_uniform key,
-/// the position is the fraction of the range of the logarithm. Values are rounded to integers or to
-/// the key's step. Values of other keys are rounded to a decimal step between a 10 000th and a
-/// 1000th of the range, or to five digits for logarithmic ranges. The nominal value and the ends
-/// are not rounded.
+/// The position of a key is its distance from the lower end `from`, as a fraction of the key's
+/// range. The position of a log_uniform key is computed from the logarithms of the values. The
+/// value of a key is rounded to an integer, or to the nearest value `from` + k `step`. The value of
+/// a key that is not an integer and has no step is rounded to a decimal step between a 10 000th and
+/// a 1000th of the range; with a logarithmic range, the value is rounded to five digits. The
+/// nominal value and the ends of the range are not rounded.
 class SearchSpace {
  public:
   /// Makes the search space of a study. `scenario` is the study's scenario without the keys of
-  /// `vary`. If the study does not set a nominal value, the value of `scenario` is used.
+  /// `vary`. If the study sets no nominal value for a key, the value in `scenario` is the nominal
+  /// value.
   ///
-  /// InputError with a place in the study's file for a key without a range (a list of values, a
-  /// distribution without ends, a condition), and for `list`, `repeat` or `bisect`. InputError for
-  /// a nominal value that is not a number, is set nowhere, lies outside of the range, or belongs to
-  /// a key that is not searched.
+  /// Throws InputError, with the line in the study's file, if a key has no range (because it has a
+  /// list of values, a distribution without ends, or a condition), or if the study has `list`,
+  /// `repeat` or `bisect`. Also throws InputError if the nominal value of a searched key is not a
+  /// number, is missing, or lies outside of the key's range, or if the study sets a nominal value
+  /// for a key that is not searched.
   SearchSpace(const Study& study, const Scenario* scenario);
-  /// Makes a search space from keys, for tests and programs.
+  /// Makes a search space from a list of keys, for tests and for programs without a study file.
   explicit SearchSpace(std::vector<SearchKey> keys);
 
   [[nodiscard]] const std::vector<SearchKey>& keys() const { return keys_; }
   [[nodiscard]] const UnitPoint& nominal() const { return nominal_; }
 
-  /// Returns the value of key `i` at a position in [0, 1].
+  /// Returns the rounded value of key `i` at the given position in [0, 1] of the key's range.
   [[nodiscard]] double Value(std::size_t i, double place) const;
-  /// Moves each key of a point to the position of its rounded value. The values of the keys do not
-  /// change.
+  /// Moves each coordinate of a point to the exact position of the key's rounded value. Moving the
+  /// coordinates does not change the rounded values of the keys.
   [[nodiscard]] UnitPoint Snap(const UnitPoint& point) const;
-  /// Returns the distance between adjacent positions of key `i` whose rounded values differ.
+  /// Returns the smallest distance between two positions of key `i` that have different rounded
+  /// values.
   [[nodiscard]] double Step(std::size_t i) const;
-  /// Returns the position below which a fraction `share`, in [0, 1), of the values of key `i` lies.
-  /// All integers and all steps, including the ends of the range, are equally likely.
+  /// Returns the position of the `share` quantile of the values of key `i`; `share` must be in [0,
+  /// 1). All integers, or all values `from` + k `step`, are equally likely, including the ends of
+  /// the range.
   [[nodiscard]] double PlaceOfShare(std::size_t i, double share) const;
-  /// The keys with their values at a point, as settings of the scenario.
+  /// Returns the values of all keys at a point, as settings of the scenario.
   [[nodiscard]] std::vector<Setting> Settings(const UnitPoint& point) const;
 
  private:
@@ -67,7 +74,7 @@ class SearchSpace {
   UnitPoint nominal_;
 };
 
-/// The Euclidean distance between two points.
+/// Returns the Euclidean distance between two points of the unit cube.
 double Distance(const UnitPoint& a, const UnitPoint& b);
 
 }  // namespace trackbed

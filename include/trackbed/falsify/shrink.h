@@ -6,7 +6,7 @@
 
 #include "trackbed/falsify/search_space.h"
 
-/// Shrinks a violation toward the nominal point.
+/// Moves a failing point as near as possible to the nominal point ("shrinking").
 namespace trackbed {
 
 /// The result of a run at a point.
@@ -16,54 +16,63 @@ struct Evaluation {
   bool violated = false;
 };
 
-/// Evaluates a point. Nullopt if the budget is used up or the search was interrupted. The same
-/// point must give the same evaluation each time.
+/// Evaluates a point. Function that evaluates a run at `point`. Returns nullopt if the allowed
+/// number of runs is used up or the search was interrupted. The function must always return the
+/// same evaluation for the same point.
 using EvaluatePoint = std::function<std::optional<Evaluation>(const UnitPoint& point)>;
 
-/// How far one key can be moved while all other keys have their nominal values.
+/// How far one key can be moved from its nominal value without a failure, while all other keys have
+/// their nominal values.
 struct SingleKeyReach {
-  /// The outermost position that passed, toward the end of the range.
+  /// The position furthest from the nominal value at which the run passed.
   double passes = 0.0;
-  bool whole_range = false;  ///< Whether `passes` is the end of the range.
+  bool whole_range = false;  ///< Whether `passes` is the end of the key's range.
 };
 
-/// The margins of one key at the counterexample.
+/// The margins of one key: how much the key must change, compared with the counterexample, until
+/// the run passes.
 struct KeyMargin {
-  /// The nearest position, toward the nominal one, that passes with all other keys at the
-  /// counterexample's values. The distance from the counterexample to this position is at most the
-  /// tolerance (or the key's step). The position is nullopt for a key at its nominal value.
+  /// The position of the key nearest to the counterexample, toward the nominal value, at which the
+  /// run passes while all other keys keep the counterexample's values. The distance between
+  /// `holds_to` and the position of the counterexample is at most the tolerance (or the key's
+  /// step). The position is nullopt if the key has its nominal value in the counterexample.
   std::optional<double> holds_to{};
-  /// Change of the robustness over the whole range of the key, extrapolated from two points, one
-  /// tolerance below and one above the counterexample. The sensitivity is nullopt if one of the two
-  /// points has no robustness.
+  /// Sensitivity of the robustness to the key: the change of the robustness over the whole range of
+  /// the key. The sensitivity is extrapolated from two points, one tolerance below and one
+  /// tolerance above the counterexample. The sensitivity is nullopt if one of these points has no
+  /// robustness.
   std::optional<double> sensitivity{};
-  /// Reach toward lower values; nullopt if the nominal value is the lower end of the range.
+  /// How far the key can be lowered from its nominal value without a failure; nullopt if the
+  /// nominal value is the lower end of the range.
   std::optional<SingleKeyReach> down{};
   std::optional<SingleKeyReach> up{};
 };
 
 struct ShrinkResult {
-  UnitPoint point;              ///< Shrunk violation, which was evaluated.
-  double robustness = 0.0;      ///< Robustness at `point`.
-  double distance = 0.0;        ///< Distance of `point` from the nominal point.
-  bool complete = false;        ///< False if the budget was used up before the shrinking converged.
-  std::vector<KeyMargin> keys;  ///< Margins by key; unknown margins are nullopt.
+  UnitPoint point;          ///< Shrunk point; the run at this point was evaluated and fails.
+  double robustness = 0.0;  ///< Robustness at `point`.
+  double distance = 0.0;    ///< Distance of `point` from the nominal point.
+  /// False if the allowed number of runs was used up before the shrinking converged.
+  bool complete = false;
+  std::vector<KeyMargin> keys;  ///< Margins of each key; margins that are unknown are nullopt.
 };
 
-/// Shrinks the Euclidean distance of a violation from the nominal point in the unit cube. Each
-/// round bisects along the ray to the nominal point, then along each key between its value and its
-/// nominal value. If a key's nominal value still gives a violation, the key takes this value. The
-/// rounds repeat until a round shortens the distance by less than the tolerance; then the margins
-/// are computed.
+/// Moves the failing point `violation` toward the nominal point, to reduce the Euclidean distance
+/// between the two points in the unit cube. Each round first bisects along the straight line to the
+/// nominal point. Then the round bisects each key separately, between the key's present value and
+/// its nominal value. If the run still fails at a key's nominal value, the key is set to the
+/// nominal value. The rounds are repeated until a round reduces the distance by less than the
+/// tolerance; then the margins are computed.
 ///
-/// Guarantees: the result was evaluated, is a violation, and is no further from the nominal point
-/// than `violation`. If the result is complete, moving any single key by the tolerance toward its
-/// nominal value removes the violation. The result is only guaranteed to be the globally nearest
-/// violation if the set of violations is a half-space. Cost: about 10 evaluations for each key and
-/// round with a tolerance of 0.01.
+/// Guarantees: the run at the resulting point was evaluated and fails, and the point is no further
+/// from the nominal point than `violation`. If the result is complete, the run passes after moving
+/// any single key by the tolerance toward its nominal value. If the failing points form a
+/// half-space, the resulting point is the failing point nearest to the nominal point; otherwise, a
+/// nearer failing point may exist. Each round needs about 10 evaluations per key with a tolerance
+/// of 0.01.
 ///
-/// PreconditionError unless the tolerance is positive. InternalError if `violation` passes or the
-/// nominal point fails.
+/// Throws PreconditionError unless the tolerance is positive. Throws InternalError if the run at
+/// `violation` passes or the run at the nominal point fails.
 ShrinkResult Shrink(const SearchSpace& space, const UnitPoint& violation, double tolerance,
                     const EvaluatePoint& evaluate);
 

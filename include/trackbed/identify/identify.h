@@ -12,49 +12,60 @@
 
 /// Estimates parameters of a car model from recorded drives.
 ///
-/// The plant restarts at the recorded state after every `horizon` and predicts until the next
-/// restart. With r_ij the residuals of one signal in window i divided by their deviation, the
-/// estimate minimizes
+/// The plant restarts at the recorded state after every `horizon`, and predicts the motion until
+/// the next restart. The time between two restarts is a window. Let r_ij be the residuals of one
+/// signal in window i, divided by the signal's expected standard deviation. The estimate p
+/// minimizes
 ///     J(p) = sum over windows and signals of mean_j rho(r_ij)
 ///            + 1/2 sum_k ((p_k - mean_k)/deviation_k)^2
-/// within the bounds. A window counts as one measurement of each signal, since consecutive
-/// residuals are not independent. The search takes Gauss-Newton steps within a trust region, each a
-/// quadratic program with the bounds (NLopt's SLSQP), from several starts.
+/// within the bounds. Each window counts as a single measurement of each signal, because
+/// consecutive residuals are not independent. The search is repeated from several start points and
+/// takes Gauss-Newton steps within a trust region. Each step solves a quadratic program with the
+/// parameters' bounds as constraints (NLopt's SLSQP).
 ///
-/// Standard errors are those of an M-estimator with windows as independent clusters (Huber 1967;
-/// White 1980): the covariance is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p), g_i the gradient of window
-/// i, n the number of windows, H the Gauss-Newton Hessian of J. A parameter whose standard error
-/// exceeds the deviation of a uniform distribution over its bounds, (to - from)/sqrt(12), is not
-/// identified: it is held at its start value, and the other parameters are estimated again. If the
-/// records cannot distinguish several parameters, only one of them is estimated.
+/// Standard errors are computed as for an M-estimator with windows as independent clusters (Huber
+/// 1967; White 1980). The covariance matrix is H^-1 (sum_i g_i g_i^T) H^-1 n/(n - p), where g_i is
+/// the gradient of window i, n the number of windows, p the number of parameters, and H the
+/// Gauss-Newton Hessian of J. A parameter is not identified if its standard error exceeds the
+/// standard deviation of a uniform distribution over the parameter's bounds, (to - from)/sqrt(12).
+/// The parameter is then held at its start value, and the other parameters are estimated again. If
+/// several parameters have the same effect on the records, only one of these parameters is
+/// estimated.
 namespace trackbed {
 
 enum class ParameterStatus {
   kIdentified,
-  kAtLowerBound,  ///< The estimate is the lower bound; it has no standard error.
-  kAtUpperBound,  ///< The estimate is the upper bound; it has no standard error.
-  /// The records do not determine the parameter. The parameter is held at its start value.
+  kAtLowerBound,  ///< The estimate is the parameter's lower bound and has no standard error.
+  kAtUpperBound,  ///< The estimate is the parameter's upper bound and has no standard error.
+  /// The parameter keeps its start value, because the records do not determine the parameter.
   kNotIdentified,
-  /// The search was interrupted. The value is the best one found before the interruption.
+  /// The search was interrupted before it was finished. The value is the best estimate found before
+  /// the interruption.
   kUnfinished,
 };
 
-/// Returns the name of a status as written in identify.json: "identified", "at_lower_bound", ….
+/// Returns the name of a status as written in identify.json, such as "identified" or
+/// "at_lower_bound".
 const char* ToString(ParameterStatus status);
 
 struct ParameterEstimate {
   IdentifiedParameter parameter;
-  double start = 0.0;  ///< Start value of the first search.
-  double value = 0.0;  ///< Value in the fitted model; the start value if not identified.
+  double start = 0.0;  ///< Value of the parameter at the start of the first search.
+  /// Value of the parameter in the fitted model; the start value if the parameter is not
+  /// identified.
+  double value = 0.0;
   ParameterStatus status = ParameterStatus::kIdentified;
-  std::optional<double> standard_error{};  ///< Standard error of an identified parameter.
-  /// Why the parameter is not identified, or from which parameter it is hard to distinguish.
+  /// Standard error of the estimate; nullopt if the parameter is not identified.
+  std::optional<double> standard_error{};
+  /// Reason why the parameter is not identified, or the name of another parameter with a similar
+  /// effect on the records.
   std::string remark{};
 };
 
-/// One record, replayed on every plant of its scenario with the model before and after the fit.
+/// One recorded drive, replayed on every plant of the record's scenario, with the model before and
+/// after the fit.
 struct IdentifiedRecord {
-  std::string name;  ///< Name of the scenario.
+  std::string name;  ///< Name of the record's scenario.
   bool held_out = false;
   RunResult start;
   RunResult fitted;
@@ -63,16 +74,17 @@ struct IdentifiedRecord {
 struct IdentificationResult {
   Identification study;
   std::vector<ParameterEstimate> parameters;
-  /// Correlation matrix of the identified parameters, in their order.
+  /// Correlation matrix of the estimates, in the order of the identified parameters.
   std::vector<std::vector<double>> correlation;
   double start_cost = 0.0;
   double cost = 0.0;
-  /// Minimum found by each search; equal values suggest a single minimum.
+  /// Lowest cost found by each search; equal values suggest that the cost has a single minimum.
   std::vector<double> start_costs;
   int windows = 0;
-  int evaluations = 0;  ///< Number of evaluations of the cost.
+  int evaluations = 0;  ///< Number of times that the cost was evaluated.
   bool interrupted = false;
-  Scene model;  ///< Fitted model, with the estimates and their origins as comments.
+  /// Fitted model as XML, with comments that state the estimates and the source of each estimate.
+  Scene model;
   std::vector<IdentifiedRecord> records;
   double wall_time = 0.0;  ///< Wall-clock time [s].
 
@@ -80,43 +92,46 @@ struct IdentificationResult {
 };
 
 struct IdentificationHooks {
-  /// Called with an upper estimate of the finished fraction.
+  /// Called with the finished fraction of the work, which is estimated and may be too high.
   std::function<void(double fraction)> progress{};
-  /// Returns whether to end the search early; called by several threads. After an interruption, the
-  /// result is the best one found so far, without replays of the records. If the search is
-  /// interrupted before its first evaluation, Identify throws RunError.
+  /// Returns true to end the search early; called by several threads. After an interruption,
+  /// Identify returns the best estimate found so far, without replays of the records. Identify
+  /// throws RunError if the search is interrupted before the cost was evaluated for the first time.
   std::function<bool()> interrupted{};
   int threads = 1;
 };
 
-/// Estimates the parameters, then replays every record with the model before and after the fit.
+/// Estimates the parameters of a study, then replays every record with the model before and after
+/// the fit.
 ///
-/// Guarantees: the same study gives the same estimates, bit for bit, with any number of threads.
-/// Estimates lie within their bounds, and the cost is never above that of the start values. The
-/// search does not prove that there is no better minimum. Errors: InputError with a place in the
-/// study's file, for parameters that the model does not have and for start values with which the
-/// model cannot be compiled. InputError if no window of the records can be used. Cost: about ten
-/// steps of the search per start, each with 2 p + 2 evaluations for p parameters. An evaluation
-/// simulates all windows and compiles the model once.
+/// Guarantees: the same study always yields the same estimates, bit for bit, with any number of
+/// threads. Estimates lie within the parameters' bounds, and the cost of the estimates is never
+/// above the cost of the start values. The search does not prove that there is no lower minimum of
+/// the cost. Throws InputError, with the line in the study's file, if the model does not have a
+/// parameter, or if the model cannot be compiled with the start values. Also throws InputError if
+/// no window of the records can be used. The search takes about ten steps per start, and each step
+/// evaluates the cost 2 p + 2 times for p parameters. Each evaluation compiles the model once and
+/// simulates all windows.
 IdentificationResult Identify(const Identification& study, const IdentificationHooks& hooks = {});
 
-/// Checks that the model has the parameters of a study and compiles with their start values. Throws
-/// the InputErrors of Identify.
+/// Checks that the model has all parameters of a study, and that the model can be compiled with the
+/// start values of the parameters. Throws InputError in the same cases as Identify.
 void CheckIdentification(const Identification& study);
 
-/// Returns the content of identify.json.
+/// Returns the result of an identification in the format of identify.json.
 nlohmann::ordered_json ToJson(const IdentificationResult& result);
 
-/// Returns the names of the files that WriteIdentification writes to its folder. The names depend
-/// only on the study.
+/// Returns the names of the files that WriteIdentification writes to its folder. The file names
+/// depend only on the study, not on the result.
 std::vector<std::string> IdentificationFiles(const Identification& study);
 
-/// Returns the run folder of a record in the output folder. Throws the RunErrors of FolderBelow.
+/// Returns the run folder of a record in the output folder. Throws RunError in the same cases as
+/// FolderBelow.
 std::filesystem::path RecordFolder(const std::filesystem::path& folder, const std::string& record);
 
 /// Writes identify.json, the fitted model `<vehicle>.xml` with its assets, and timing.json. For
-/// each record, writes `<record>.residuals.csv`, and a run folder with the fitted model to
-/// `records/<record>`.
+/// each record, also writes the residuals to `<record>.residuals.csv`, and a run folder with the
+/// fitted model to `records/<record>`.
 void WriteIdentification(const IdentificationResult& result, const OutputFolder& folder);
 
 }  // namespace trackbed

@@ -2,12 +2,12 @@
 
 #include <Eigen/Core>
 
-/// Convex quadratic programs of a few dozen variables, for controllers:
+/// Solves convex quadratic programs of a few dozen variables, for controllers:
 ///   minimize x^T H x/2 + f^T x  subject to  G x <= h
 namespace trackbed {
 
-/// A quadratic program. The sizes of the program are bounded, so that only NLopt allocates heap
-/// memory.
+/// A quadratic program. Maximum sizes of the quadratic program; because of these limits, only NLopt
+/// allocates heap memory.
 struct QuadraticProgram {
   static constexpr int kMaxVariables = 40;
   static constexpr int kMaxConstraints = 4 * kMaxVariables;
@@ -25,24 +25,25 @@ struct QuadraticProgram {
 };
 
 struct QuadraticSolution {
-  bool ok = false;  ///< Whether the constraints are met.
+  bool ok = false;  ///< Whether the solution meets all constraints.
   QuadraticProgram::Vector x;
-  double violation = 0.0;  ///< Largest element of G x - h; 0 if all constraints are met.
-  /// Number of SLSQP runs. The number is 0 if the unconstrained minimum meets the constraints.
+  /// Largest element of G x - h at the solution; 0 if all constraints are met.
+  double violation = 0.0;
+  /// Number of calls of SLSQP; 0 if the unconstrained minimum meets the constraints.
   int solves = 0;
 };
 
-/// Solves a quadratic program. If no constraint is active, the solution is found by Cholesky
-/// decomposition. Otherwise NLopt's SLSQP solves for an active set of constraints, which is
-/// extended until no constraint is violated. The variables are transformed so that H becomes the
-/// identity, which is the initial Hessian of SLSQP. The first step of SLSQP therefore reaches the
-/// solution, from any start.
+/// Solves a quadratic program. If no constraint is active, a Cholesky decomposition yields the
+/// solution. If constraints are active, NLopt's SLSQP solves the program with only a subset of the
+/// constraints; violated constraints are added to the subset until no constraint is violated. The
+/// variables are transformed so that H becomes the identity matrix, which SLSQP uses as its initial
+/// Hessian. The first step of SLSQP therefore reaches the solution, from any start point.
 ///
 /// Guarantees: the constraints are met to the absolute `tolerance`, and the same quadratic program
-/// always gives bit-identical results. If the constraints are infeasible, the solution is not ok,
-/// and x is the evaluated point with the smallest violation. InternalError unless H is positive
-/// definite, the sizes agree and all numbers are finite. Cost for 20 variables: about 10 us without
-/// active constraints, 0.1 to 1 ms with active constraints.
+/// always has a bit-identical solution. If no point meets all constraints, `ok` is false, and x is
+/// the evaluated point with the smallest violation of the constraints. Throws InternalError unless
+/// H is positive definite, the sizes agree and all numbers are finite. With 20 variables, the
+/// solution takes about 10 us without active constraints, and 0.1 to 1 ms with active constraints.
 QuadraticSolution Solve(const QuadraticProgram& program, double tolerance = 1e-9);
 
 }  // namespace trackbed

@@ -8,23 +8,26 @@
 
 #include "trackbed/options/key_visitor.h"
 
-/// The registry of search methods: NLopt's evolutionary, global, simplex and gradient methods
-/// behind one interface.
+/// The registry of search methods, with a common interface for NLopt's evolutionary, global,
+/// simplex and gradient methods.
 ///
 ///   minimize f(x)  subject to  c_j(x) <= 0  and  lower <= x <= upper
 namespace trackbed {
 
-/// A search problem. The functions `objective` and `constraints` are pure functions of x. A point
-/// at which a value is not finite is infeasible. An exception of either function ends the search
-/// and is rethrown.
+/// A search problem. An optimization problem for the search. The results of the functions
+/// `objective` and `constraints` must depend only on x. A point at which one of the results is not
+/// finite is infeasible. If one of the functions throws an exception, the search ends and rethrows
+/// the exception.
 struct SearchProblem {
-  std::vector<double> lower;  ///< Lower bounds, finite, one per variable.
-  std::vector<double> upper;  ///< Upper bounds, finite, >= lower.
-  /// Initial point, clamped to the bounds; empty: middle of the bounds.
+  std::vector<double> lower;  ///< Lower bounds of the variables, finite, one per variable.
+  std::vector<double> upper;  ///< Upper bounds of the variables, finite, >= `lower`.
+  /// Initial point of the search, clamped to the bounds; if empty, the search starts in the middle
+  /// between the bounds.
   std::vector<double> start;
   std::function<double(std::span<const double> x)> objective;
   std::size_t constraint_count = 0;
-  /// Computes `values`, one per constraint, scaled to suit the tolerance `SearchOptions::feasible`.
+  /// Computes `values`, one value per constraint. The values must be scaled so that the tolerance
+  /// `SearchOptions::feasible` is suitable.
   std::function<void(std::span<const double> x, std::span<double> values)> constraints;
 };
 
@@ -34,10 +37,11 @@ struct SearchEntry {
   SearchMethod method;
   const char* name;
   const char* summary;
-  bool random;  ///< Whether the method draws random numbers, so that the seed matters.
-  /// Whether the method searches the whole box, not only downhill from the start.
+  bool random;  ///< Whether the method uses random numbers; the result then depends on the seed.
+  /// Whether the method searches globally between the bounds, not only downhill from the start
+  /// point.
   bool global;
-  int evaluations;  ///< Default number of evaluations.
+  int evaluations;  ///< Default maximum number of evaluations of the objective.
 };
 
 /// All search methods.
@@ -46,34 +50,40 @@ const SearchEntry& SearchFor(SearchMethod method);
 
 struct SearchOptions {
   SearchMethod method = SearchMethod::kIsres;
-  /// Population of isres, esch and crs2; must exceed the number of variables + 1.
+  /// Population size of the methods isres, esch and crs2; must exceed the number of variables + 1.
   int population = 100;
-  /// Maximum number of evaluations of the objective; 0: the method's default (SearchEntry). A point
-  /// requested twice in a row is evaluated once.
+  /// Maximum number of evaluations of the objective; 0: the method's default (SearchEntry). If a
+  /// method requests the same point twice in a row, the point is evaluated only once.
   int evaluations = 0;
-  /// Tolerance of x, as a fraction of the distance between the bounds; 0: none. The methods isres
-  /// and esch ignore the tolerance and use all their evaluations.
+  /// The search stops when x changes by less than this fraction of the distance between the bounds;
+  /// 0: no such criterion. The methods isres and esch ignore this tolerance and always use the
+  /// maximum number of evaluations.
   double tolerance = 1e-9;
-  double feasible = 1e-9;  ///< Largest value of a constraint at a feasible point.
+  /// Tolerance of the constraints: a point is feasible if all constraints are at most this value.
+  double feasible = 1e-9;
 };
 void Visit(KeyVisitor& keys, SearchOptions& options);
 
 enum class SearchStatus {
-  /// A point within bounds and constraints, with a finite objective, was found.
+  /// The search found a point that meets all bounds and constraints and has a finite objective.
   kFound,
-  /// No feasible point was found; x is the point that violates the constraints least.
+  /// The search found no feasible point; x is the evaluated point that violates the constraints
+  /// least.
   kInfeasible,
-  kNotFinite,  ///< No evaluation gave a finite objective and finite constraints.
+  kNotFinite,  ///< At no evaluated point are the objective and all constraints finite.
 };
 
-/// Returns the name of a status as written in plan.json: "found", "infeasible", ….
+/// Returns the name of a status as written in plan.json, such as "found" or "infeasible".
 const char* ToString(SearchStatus status);
 
-/// The best point found after a number of evaluations.
+/// Progress of the search: the best point found after a number of evaluations.
 struct SearchProgress {
   int evaluations = 0;
-  double value = 0.0;      ///< Objective of the best point; may rise if the point is infeasible.
-  double violation = 0.0;  ///< Largest constraint, 0 if feasible.
+  /// Objective at the best point; may rise from one entry to the next while the best point is
+  /// infeasible.
+  double value = 0.0;
+  /// Largest value of a constraint at the best point; 0 if the point is feasible.
+  double violation = 0.0;
   std::vector<double> x;
 };
 
@@ -81,26 +91,28 @@ struct SearchResult {
   SearchStatus status = SearchStatus::kNotFinite;
   std::vector<double> x;
   double value = 0.0;      ///< Objective at x.
-  double violation = 0.0;  ///< Largest constraint at x, 0 if feasible.
+  double violation = 0.0;  ///< Largest value of a constraint at x; 0 if x is feasible.
   int evaluations = 0;
-  /// Progress after every `population` evaluations, and at the end.
+  /// Progress of the search, after every `population` evaluations and at the end.
   std::vector<SearchProgress> history;
 
   [[nodiscard]] bool ok() const { return status == SearchStatus::kFound; }
 };
 
-/// Runs a search. Guarantees: the result is the best evaluated point, by feasibility first and
-/// objective second, and lies within the bounds. NLopt's own return status is ignored. The same
-/// problem, options and seed give the same result bit for bit, in any thread. For esch, crs2 and
-/// nelder_mead, which do not support constraints, every infeasible point ranks below every feasible
-/// one. For direct, infeasible points have no value, so direct may miss a feasible set that is
-/// narrower than its cells. The gradients of slsqp are central differences, which count as
-/// evaluations. The search does not prove that there is no feasible point, nor that the minimum is
-/// global. Errors: InternalError for invalid bounds or options. Cost: that of NLopt (isres with its
-/// defaults about 24 ms) and of the evaluations.
+/// Runs a search. Guarantees: the result is the best evaluated point: a feasible point is better
+/// than an infeasible point, and among feasible points the lowest objective is best. The result
+/// lies within the bounds. The return status of NLopt is ignored. The same problem, options and
+/// seed give the same result bit for bit, in any thread. For esch, crs2 and nelder_mead, which do
+/// not support constraints, every infeasible point is treated as worse than every feasible point.
+/// For the method direct, infeasible points have no objective, so direct may miss a feasible region
+/// that is smaller than the cells of the method. The method slsqp computes gradients by central
+/// differences, and the evaluations for these differences are counted. The search does not prove
+/// that there is no feasible point, nor that the minimum is global. Throws InternalError for
+/// invalid bounds or options. The cost is that of the evaluations, plus that of NLopt itself (about
+/// 24 ms for isres with its defaults).
 SearchResult Search(const SearchProblem& problem, const SearchOptions& options, std::uint64_t seed);
 
-/// The version of the optimizer, such as "NLopt 2.7.1".
+/// Returns the name and version of the optimizer, such as "NLopt 2.7.1".
 std::string OptimizerVersion();
 
 }  // namespace trackbed

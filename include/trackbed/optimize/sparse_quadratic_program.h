@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <Eigen/SparseCore>
 
-/// Sparse convex quadratic programs with thousands of variables:
+/// Solves sparse convex quadratic programs with thousands of variables:
 ///   minimize x^T H x/2 + f^T x  subject to  lower <= G x <= upper
 namespace trackbed {
 
@@ -13,35 +13,39 @@ struct SparseQuadraticProgram {
   Eigen::VectorXd linear;                   ///< Vector f of the objective.
   Eigen::SparseMatrix<double> constraints;  ///< Matrix G of the constraints.
   Eigen::VectorXd lower;                    ///< Lower bounds, finite.
-  Eigen::VectorXd upper;                    ///< Upper bounds, finite, above `lower`.
+  Eigen::VectorXd upper;                    ///< Upper bounds of G x, finite, above `lower`.
 };
 
 struct SparseQuadraticSolution {
-  bool ok = false;  ///< Whether the program is solved and the constraints are met.
+  /// Whether the quadratic program was solved and the solution meets the constraints.
+  bool ok = false;
   Eigen::VectorXd x;
-  /// Multipliers of the constraints: positive at an upper bound, negative at a lower bound.
+  /// Lagrange multipliers of the constraints, positive at an upper bound and negative at a lower
+  /// bound.
   Eigen::VectorXd multipliers;
-  double violation = 0.0;  ///< Largest distance of G x beyond its bounds; 0 if all bounds are met.
-  int iterations = 0;      ///< Number of iterations of the interior-point method.
+  /// Largest amount by which an element of G x exceeds its bounds; 0 if all bounds are met.
+  double violation = 0.0;
+  int iterations = 0;  ///< Number of iterations of the interior-point method.
 };
 
-/// How the interior-point method chooses its steps.
+/// The strategy by which the interior-point method chooses its steps.
 enum class InteriorSteps {
-  /// Line search: an adaptive barrier parameter and a filter line search.
+  /// The method uses an adaptive barrier parameter and a filter line search.
   kLineSearch,
-  /// Mehrotra's predictor-corrector: 20 iterations instead of 40 to 60, but may not converge.
+  /// Mehrotra's predictor-corrector method, which needs 20 iterations instead of 40 to 60, but may
+  /// not converge.
   kPredictorCorrector,
 };
 
-/// Solves a program, starting from `start`, by IPOPT's interior-point method (Waechter and Biegler
-/// 2006) with MUMPS.
+/// Solves a quadratic program, starting from `start`, by IPOPT's interior-point method (Waechter
+/// and Biegler 2006) with MUMPS.
 ///
-/// Guarantees: the constraints are met to 1e-7 of the largest bound. On one machine, the same
-/// quadratic program always gives bit-identical results. The solution is not ok if the constraints
-/// are infeasible, or if the program is not solved in 200 iterations (80 with kPredictorCorrector).
-/// PreconditionError unless the sizes agree, all numbers are finite and lower < upper. RunError in
-/// a build without IPOPT (TRACKBED_IPOPT=OFF). Cost: 0.1 s for 1000 variables in a band matrix of
-/// width 12 and 2000 constraints.
+/// Guarantees: the constraints are met with a tolerance of 1e-7 times the largest bound. On one
+/// machine, the same quadratic program always has a bit-identical solution. In the solution, `ok`
+/// is false if no point meets all constraints, or if 200 iterations (80 with kPredictorCorrector)
+/// do not solve the program. Throws PreconditionError unless the sizes agree, all numbers are
+/// finite and lower < upper. Throws RunError in a build without IPOPT (TRACKBED_IPOPT=OFF). A
+/// program with 1000 variables, a band matrix of width 12 and 2000 constraints takes 0.1 s.
 SparseQuadraticSolution Solve(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                               InteriorSteps steps = InteriorSteps::kLineSearch);
 

@@ -13,7 +13,8 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// Declares the keys of an options struct. Reading, writing and listing use the same declaration.
+/// Declares the keys of an options struct. The same declaration serves to read, write and list the
+/// options.
 ///
 /// Each options struct has a function
 ///
@@ -22,29 +23,31 @@
 ///                  Need::kOptional, kPositive);
 ///     }
 ///
-/// which is found by argument-dependent lookup. The reader of YAML files, the writer of resolved
-/// scenarios and the lister of `trackbed docs` are visitors.
+/// The compiler finds this function by argument-dependent lookup. Three visitors exist: one reads
+/// YAML files, one writes resolved scenarios, and one lists the keys for `trackbed docs`.
 namespace trackbed {
 
-/// A key and its description in the docs.
+/// A key of an options struct, and the key's description in the documentation.
 struct Key {
   const char* name;
-  const char* unit;  ///< Unit, such as "m/s"; empty for keys that are not quantities.
-  const char* text;  ///< One-line description for users.
+  /// Unit of the key, such as "m/s"; empty if the key is not a physical quantity.
+  const char* unit;
+  const char* text;  ///< Description of the key for users, on one line.
 };
 
-/// The key that selects one of several methods, each with separate keys.
+/// A key that selects one of several methods; the other keys of the section depend on the method.
 inline constexpr Key kMethod{"method", "", "name of the method; each has its own keys"};
 
 enum class Need { kRequired, kOptional };
 
-/// Allowed values of a number. `above` is exclusive, `min` and `max` are inclusive. If a bound is
-/// missing, readers set a bound that depends on the unit (WithinReason).
+/// Allowed values of a number. `above` is exclusive, `min` and `max` are inclusive. For a missing
+/// bound, the reader of YAML files uses a bound that depends on the key's unit (WithinReason).
 struct Range {
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   double above = -std::numeric_limits<double>::infinity();
-  /// Whether the number is a direction [rad], which readers wrap to (-pi, pi].
+  /// Whether the number is an angle [rad]; the reader of YAML files then wraps the number to (-pi,
+  /// pi].
   bool is_direction = false;
 };
 
@@ -56,7 +59,7 @@ inline constexpr Range kMap{.min = -1e5, .max = 1e5};          ///< Map position
 inline constexpr Range kSpeedRange{.min = 0.0, .max = 100.0};  ///< Speed [m/s].
 inline constexpr Range kSteering{.min = -1.5, .max = 1.5};     ///< Steering angle [rad].
 
-/// Describes a list of pairs of numbers: the names of one pair and of several pairs, and the
+/// Describes a list of pairs of numbers: the word for one pair, the word for several pairs, and the
 /// allowed values.
 struct PairShape {
   const char* one;
@@ -67,12 +70,13 @@ struct PairShape {
 
 inline constexpr PairShape kPoint{"a point [x, y]", "points [x, y]", kMap, kMap};
 
-/// Returns the range with its missing bounds filled in. A missing bound depends on the key's unit
-/// and lies beyond any realistic value: 1e5 m, 1e6 s or 1e3 m/s, for example, and 1e12 for other
-/// units.
+/// Returns the range with values for its missing bounds. The value for a missing bound depends on
+/// the key's unit and lies beyond any realistic number: for example 1e5 m, 1e6 s or 1e3 m/s, and
+/// 1e12 for other units.
 Range WithinReason(const Key& key, Range range);
 
-/// Formats the allowed values as text: "above 0 and at most 10"; empty if all values are allowed.
+/// Formats the allowed values as text, such as "above 0 and at most 10"; returns an empty text if
+/// all values are allowed.
 std::string AllowedBy(Range range);
 
 using Names = std::vector<std::string>;
@@ -102,48 +106,50 @@ class KeyVisitor {
   virtual void Field(const Key& key, std::vector<Vec2>& value, Need need,
                      const PairShape& shape = kPoint) = 0;
   virtual void Field(const Key& key, std::vector<double>& value, Need need, Range range = {}) = 0;
-  /// A required name that can be a file name: letters, digits, '_', '-', '.', not starting with
-  /// '.'.
+  /// Visits a required name that can also serve as a file name: it has only letters, digits, '_',
+  /// '-' and '.', and does not start with '.'.
   virtual void Identifier(const Key& key, std::string& value) = 0;
-  /// A list of two whole numbers.
+  /// Visits a list of two whole numbers.
   virtual void Pair(const Key& key, int& first, int& second, Range range) = 0;
 
-  /// The value of an enumeration, which has a name for each value.
+  /// Visits a value of an enumeration, which is written by name.
   template <typename Enum>
   void Field(const Key& key, Enum& value, Need need,
              const EnumNames<Enum>& names) requires std::is_enum_v<Enum>;
 
-  /// A section with the keys of a struct.
+  /// Visits a section that contains the keys of a struct.
   template <typename Struct>
   void Section(const Key& key, Struct& value, Need need = Need::kOptional) {
     VisitSection(key, need, true, [&](KeyVisitor& inner) { Visit(inner, value); });
   }
 
-  /// An optional section. The program distinguishes an absent section from an empty one.
+  /// Visits an optional section; a section that is absent is not the same as an empty section.
   template <typename Struct>
   void Section(const Key& key, std::optional<Struct>& value);
 
-  /// A list of sections with the keys of a struct.
+  /// Visits a list of sections that each contain the keys of a struct.
   template <typename Struct>
   void List(const Key& key, std::vector<Struct>& values);
 
-  /// A section whose key `method` selects an entry of `table` by its `name`. The section has the
-  /// keys of the entry's options (`defaults`), and the keys of `rest`, which are the same for all
-  /// methods.
+  /// Visits a section whose key `method` selects the entry of `table` with that `name`. The section
+  /// contains the keys of the entry's options (`defaults`), and the keys of `rest`, which are the
+  /// same for all methods.
   template <typename Options, typename Entry>
   void Method(const Key& key, std::optional<Options>& value, const std::vector<Entry>& table,
               Need need, const Inside& rest = {});
 
-  /// Lists a key that is described only by its text; does nothing in modes other than kList.
+  /// Lists a key that has no declaration besides a description; does nothing in modes other than
+  /// kList.
   virtual void Mention(const Key&, const char* /*type*/) {}
 
-  /// In mode kRead, whether `key` is a section that has a key of `inner` but no key `method`.
+  /// Returns true in mode kRead if `key` is a section that has a key of `inner` but no key
+  /// `method`.
   [[nodiscard]] virtual bool HasAny(const char* /*key*/, const Names& /*inner*/) const {
     return false;
   }
 
  protected:
-  /// The methods that a section can select, without the types of their options.
+  /// The methods that a section can select, independent of the types of the methods' options.
   struct Methods {
     struct Entry {
       const char* name;
@@ -151,36 +157,39 @@ class KeyVisitor {
     };
     std::vector<Entry> entries;
     std::optional<std::size_t> selected;
-    /// Selects an entry, with the entry's defaults.
+    /// Selects an entry and sets the options to the entry's defaults.
     std::function<void(std::size_t entry)> select;
     Inside visit_selected;
     std::function<void(std::size_t entry, KeyVisitor& keys)> visit_defaults;
     Inside rest;
   };
 
-  /// Visits the keys of a section if the section exists, and returns whether it exists. For the
-  /// writer, the section exists if `present` is true; for the reader, if the file has the section.
+  /// Visits the keys of a section if the section exists. Returns whether the section exists. In
+  /// mode kWrite, the section exists if `present` is true; in mode kRead, the section exists if the
+  /// file has the section.
   virtual bool VisitSection(const Key& key, Need need, bool present, const Inside& inside) = 0;
-  /// Visits each element of a list. The reader first resizes the list. The lister visits the
-  /// element at index `size`, which represents a new element.
+  /// Visits each element of a list. In mode kRead, the list is first resized to the number of
+  /// elements in the file. In mode kList, only the element at index `size` is visited; this element
+  /// represents a new element.
   virtual void VisitList(const Key& key, std::size_t size,
                          const std::function<void(std::size_t size)>& resize,
                          const std::function<void(KeyVisitor& keys, std::size_t i)>& visit) = 0;
   virtual void VisitMethod(const Key& key, Need need, const Methods& methods) = 0;
 };
 
-/// Returns the number at `key` among the keys that `visit` declares; nullopt if there is no such
-/// key.
+/// Returns the number whose key is `key` among the keys that `visit` declares; nullopt if `visit`
+/// declares no such key.
 std::optional<double> FindNumber(const std::string& key, const KeyVisitor::Inside& visit);
 
-/// PreconditionError unless every number among the keys is finite and within its key's range; the
-/// message names `owner`, the called function, and the key. Use RequireInRange for options that a
-/// program set; options read from files have already been checked.
+/// Throws PreconditionError if the number of any key is not finite or is outside of the key's
+/// range. The message names the key and `owner`, which is the name of the called function. Use
+/// RequireInRange for options that a program set; options read from files have already been
+/// checked.
 void RequireInRange(const std::string& owner, const KeyVisitor::Inside& visit);
 
-/// For variants of options, AreOfOneMethod tells whether two options belong to the same method, and
-/// Visit visits the keys of the options. The class MethodOptions has functions of the same names
-/// (method_options.h).
+/// Functions for options in a std::variant: AreOfOneMethod returns whether two options belong to
+/// the same method, and Visit visits the keys of the options. The class MethodOptions has functions
+/// with the same names AreOfOneMethod and Visit (method_options.h).
 template <typename... Options>
 bool AreOfOneMethod(const std::variant<Options...>& a, const std::variant<Options...>& b) {
   return a.index() == b.index();

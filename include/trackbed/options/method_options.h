@@ -11,8 +11,8 @@
 namespace trackbed {
 
 /// The options of a registered method, such as a planner: a value of any copyable struct that
-/// declares its keys (key_visitor.h). The method is identified by the type of the struct. `Kind`
-/// separates the options of planners from those of controllers.
+/// declares its keys (key_visitor.h). The method is identified by the type of the struct. The
+/// parameter `Kind` makes the options of planners and the options of controllers different types.
 template <typename Kind>
 class MethodOptions {
  public:
@@ -28,7 +28,7 @@ class MethodOptions {
     return value_.type() == typeid(Options);
   }
 
-  /// Returns the options if their type is `Options`; else null.
+  /// Returns a pointer to the options if their type is `Options`, else null.
   template <typename Options>
   [[nodiscard]] const Options* As() const {
     return std::any_cast<Options>(&value_);
@@ -38,7 +38,7 @@ class MethodOptions {
     return std::any_cast<Options>(&value_);
   }
 
-  /// Returns the options. InternalError if the options are of another type.
+  /// Returns the options. Throws InternalError if the type of the options is not `Options`.
   template <typename Options>
   [[nodiscard]] const Options& Get() const {
     TRACKBED_CHECK(Is<Options>(), "options of another method: {}", value_.type().name());

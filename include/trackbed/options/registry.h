@@ -15,14 +15,14 @@ namespace trackbed {
 template <typename Entry>
 class Registry {
  public:
-  /// Makes a registry. Messages use the text `kind`, such as "planner".
+  /// Makes a registry. `kind` is the kind of methods in error messages, such as "planner".
   Registry(const char* kind, std::vector<Entry> entries)
       : kind_(kind), entries_(std::move(entries)) {}
 
   [[nodiscard]] const std::vector<Entry>& entries() const { return entries_; }
 
-  /// Adds an entry. PreconditionError if the name is empty or taken, or if another entry has the
-  /// same options type.
+  /// Adds an entry. Throws PreconditionError if the name is empty or taken, or if another entry has
+  /// the same options type.
   void Add(Entry entry) {
     const std::string name = entry.name;
     TRACKBED_REQUIRE(!name.empty(), "a {} without a name", kind_);
@@ -37,8 +37,8 @@ class Registry {
     entries_.push_back(std::move(entry));
   }
 
-  /// Returns the entry with the given name. InputError with the nearest spelling if there is no
-  /// such entry.
+  /// Returns the entry with the given name. Throws InputError, with the most similar name, if there
+  /// is no such entry.
   [[nodiscard]] const Entry& Find(const std::string& name) const {
     std::vector<std::string> names;
     for (const Entry& entry : entries_) {
@@ -50,8 +50,8 @@ class Registry {
     throw InputError(Problem{.message = "unknown " + (kind_ + (" " + UnknownName(name, names)))});
   }
 
-  /// Returns the entry of the method to which the options belong. InternalError for unregistered
-  /// options.
+  /// Returns the entry of the method to which the options belong. Throws InternalError if no
+  /// registered method has options of this type.
   template <typename Options>
   [[nodiscard]] const Entry& For(const Options& options) const {
     const auto found = std::find_if(entries_.begin(), entries_.end(), [&](const Entry& entry) {

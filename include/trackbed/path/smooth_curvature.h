@@ -4,17 +4,20 @@
 
 namespace trackbed {
 
-/// Averages a path over `window` [m] around each of its points, so that a curvature jump (a line
-/// joined to an arc) becomes a ramp over the window. Motions along a path need a continuous
-/// curvature (path/frenet_frame.h). A car with a limited steering rate can follow a ramp, but not a
-/// jump.
+/// Smooths a path by averaging over the distance `window` [m] around each point of the path. A jump
+/// of the curvature, where a line meets an arc, becomes a linear ramp of the length `window`.
+/// Planning motions relative to a path requires a path with continuous curvature
+/// (path/frenet_frame.h). A car with a limited steering rate can follow a ramp of the curvature,
+/// but not a jump.
 ///
-/// Guarantees: the curvature is continuous. The deviation, toward the inside of bends, is at most
-/// window^2/24 times the largest curvature k within the window. Lines stay unchanged except within
-/// half a window of a bend. The curvature of arcs grows by a fraction (k window)^2/24, and their
-/// length shrinks by that fraction. Stations of the result differ slightly from those of the path.
-/// Errors: InternalError unless the window is positive and the path is driven forwards and longer
-/// than 0. Cost: about 10 us per meter.
+/// Guarantees: the curvature of the smoothed path is continuous. The smoothed path deviates from
+/// the original path toward the inside of bends, by at most window^2/24 times the largest curvature
+/// k within the window. Straight lines stay unchanged, except for points that are closer to a bend
+/// than half the window. The curvature k of an arc grows by the fraction (k window)^2/24, and the
+/// length of the arc shrinks by the same fraction. Stations on the smoothed path therefore differ
+/// slightly from stations on the original path. Throws InternalError unless the window is positive,
+/// the path is driven forwards, and the length of the path is positive. Smoothing takes about 10 us
+/// per meter of path.
 Path SmoothCurvature(const Path& path, double window);
 
 }  // namespace trackbed

@@ -7,12 +7,14 @@
 #include "trackbed/path/fit_path.h"
 #include "trackbed/path_files/path_map.h"
 
-/// Reads paths planned by other programs, and the paths of trajectories.
+/// Reads paths that other programs have planned. From a trajectory, reads only the path and the
+/// speeds.
 namespace trackbed {
 
 struct PathFile {
-  PathPoints points;  ///< Points of the file, converted to SI units.
-  /// Remarks on the file: the format, columns and units, the projection, and skipped parts.
+  PathPoints points;  ///< Points in the file, converted to SI units.
+  /// Remarks on how the file was read: format, columns and units, map projection, and skipped
+  /// parts.
   std::vector<std::string> notes;
 };
 
@@ -21,28 +23,31 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 
 /// Reads the path in a file; docs/how-to/check-a-path.md describes the formats.
 ///
-/// If the file has times but no speeds, the speed of a point is the mean over the step to the next
-/// point. The speed of the last point is the mean over the step before it.
+/// If the file has times but no speeds, the speed of each point is the mean speed between this
+/// point and the next point. The speed of the last point is the mean speed between the last two
+/// points.
 ///
 /// ReadPathFile does not fit a curve, and does not check whether a car can follow the path.
 ///
-/// Errors: InputError with file, line and column or key for every cell that is not a finite number
-/// or is out of range (positions to 1e7 m, speeds from 0 to 100 m/s). InputError for missing
-/// columns, with the nearest spelling, and for missing members. InputError for times that do not
-/// increase, for fewer than two points, and for more than kMaxPathPoints points. InputError for
-/// malformed text, text nested deeper than 64 levels, aliases in YAML, and coordinates that do not
-/// exist on Earth. RunError if the file cannot be read or is larger than 512 MiB (formats other
-/// than CSV: 16 MiB). Cost: about 1 us per point.
+/// Throws InputError, with file, line and column or key, for every cell that is not a finite number
+/// or is out of range (positions to 1e7 m, speeds from 0 to 100 m/s). Throws InputError if a column
+/// is missing (the message suggests the most similar name), or if a required member of a YAML or
+/// JSON file is missing. Throws InputError if the times do not increase, or if there are fewer than
+/// two or more than kMaxPathPoints points. Throws InputError if the text is malformed, is nested
+/// deeper than 64 levels, has YAML aliases, or contains coordinates that do not exist on Earth.
+/// Throws RunError if the file cannot be read or is larger than 512 MiB (CSV) or 16 MiB (other
+/// formats). Reading takes about 1 us per point.
 PathFile ReadPathFile(const std::filesystem::path& file, const PathMap& map = {});
 
-/// Whether a YAML file in a folder of scenarios is a path and not a scenario. False if the file
-/// cannot be read.
+/// Returns true if a YAML file in a folder of scenarios is a path and not a scenario. Returns false
+/// if the file cannot be read.
 bool IsNavPathYaml(const std::filesystem::path& file);
 
 /// The file name of a path in the run folder, next to the resolved scenario.
 inline constexpr const char* kPathCsv = "path.csv";
 
-/// Formats the points as a CSV file. ReadPathFile restores equal points from it, without a map.
+/// Formats the points of a path as a CSV file. ReadPathFile reads equal points from this CSV file,
+/// without further options.
 std::string PathCsv(const PathPoints& points);
 
 }  // namespace trackbed

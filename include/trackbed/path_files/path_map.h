@@ -7,25 +7,27 @@
 
 #include "trackbed/options/key_visitor.h"
 
-/// How to read a path from another program.
+/// How to read the path file of another program.
 namespace trackbed {
 
 enum class PathFormat {
-  kAuto,  ///< Determined by file extension and first characters.
-  /// A table with named columns. Racing lines of TUM have their header after '#'.
+  kAuto,  ///< The file extension and the first characters of the file determine the format.
+  /// A CSV table with named columns. In racing lines from TUM, the line with the column names
+  /// begins with '#'.
   kCsv,
-  kNavPath,     ///< nav_msgs/Path of ROS as YAML or JSON.
-  kCommonRoad,  ///< A solution of CommonRoad, XML.
-  kGeoJson,     ///< A line string by RFC 7946.
+  kNavPath,     ///< A ROS message of the type nav_msgs/Path, as YAML or JSON.
+  kCommonRoad,  ///< A solution file of CommonRoad (XML).
+  kGeoJson,     ///< A GeoJSON line string according to RFC 7946.
 };
 
-/// The list of formats for users: "CSV, nav_msgs/Path (YAML, JSON), CommonRoad solution or
-/// GeoJSON".
+/// Returns the list of formats as text for users: "CSV, nav_msgs/Path (YAML, JSON), CommonRoad
+/// solution or GeoJSON".
 std::string PathFormatList();
 
-/// The columns of a CSV file. Columns without a given name are found by their usual names
-/// (PathColumnNames), ignoring case. By default, the suffix of a column's name determines its unit;
-/// a column without a suffix has the SI unit.
+/// The names of the columns of a CSV file. If the name of a column is not set, the reader looks for
+/// the usual names of the quantity (PathColumnNames), ignoring case. By default, the suffix of a
+/// column's name determines the unit of the column; a column whose name has no suffix is in SI
+/// units.
 struct PathColumns {
   std::optional<std::string> x;
   std::optional<std::string> y;
@@ -33,34 +35,40 @@ struct PathColumns {
   std::optional<std::string> curvature;
   std::optional<std::string> speed;
   std::optional<std::string> time;
-  std::optional<std::string> position_unit;  ///< Unit of positions: "m", "cm", "mm" or "km".
-  std::optional<std::string> yaw_unit;       ///< Unit of yaw: "rad" or "deg".
-  std::optional<std::string> speed_unit;     ///< Unit of speeds: "m/s", "km/h" or "mph".
+  /// Unit of the position columns: "m", "cm", "mm" or "km".
+  std::optional<std::string> position_unit;
+  std::optional<std::string> yaw_unit;    ///< Unit of the yaw column: "rad" or "deg".
+  std::optional<std::string> speed_unit;  ///< Unit of the speed column: "m/s", "km/h" or "mph".
 };
 void Visit(KeyVisitor& keys, PathColumns& columns);
 
-/// The meaning of the coordinates of a GeoJSON file.
+/// The type of coordinates in a GeoJSON file.
 enum class PathCoordinates {
-  kAuto,    ///< WGS 84, or meters if the member `crs` names another reference system.
-  kWgs84,   ///< Longitude and latitude in degrees.
-  kMeters,  ///< x and y in meters, in any map projection.
+  /// Coordinates are in WGS 84, or in meters if the file's member `crs` names another reference
+  /// system.
+  kAuto,
+  kWgs84,   ///< Coordinates are longitude and latitude in degrees.
+  kMeters,  ///< Coordinates are x and y in meters, in any map projection.
 };
 
 struct PathMap {
   PathFormat format = PathFormat::kAuto;
   PathColumns columns;
   PathCoordinates coordinates = PathCoordinates::kAuto;
-  /// Latitude of the origin in WGS 84 [deg]; default: the latitude of the first point.
+  /// Latitude in WGS 84 of the path's coordinate origin [deg]; default: the latitude of the first
+  /// point.
   std::optional<double> origin_latitude;
-  /// Longitude of the origin in WGS 84 [deg]; default: the longitude of the first point.
+  /// Longitude in WGS 84 of the path's coordinate origin [deg]; default: the longitude of the first
+  /// point.
   std::optional<double> origin_longitude;
 };
 void Visit(KeyVisitor& keys, PathMap& map);
 
-/// Problems that concern more than one key, as pairs of the key to change and the message.
+/// Returns the problems that concern more than one key. Each pair contains the key that the user
+/// should change and the message.
 std::vector<std::pair<std::string, std::string>> PathMapProblems(const PathMap& map);
 
-/// A usual name of a column, and its unit.
+/// A usual name of a column, and the unit that this name implies.
 struct PathColumnName {
   const char* name;
   const char* unit;

@@ -9,34 +9,38 @@ namespace trackbed {
 
 /// Reads the log of a real vehicle.
 ///
-/// Steps: drops rows that are invalid according to the map, rows without a number in a pose column
-/// (empty or "nan"), and rows with the same time as the previous row. A time of more than `gap`
-/// between two rows ends a stretch. The measured pose is converted to that of the rear axle, X_WV =
-/// X_WS X_VS^-1. At each point of the time grid, weighted least squares (Eigen) fit a polynomial of
-/// `degree` to the rows of the same stretch within `half_width` on either side, with weights (1 -
-/// u^3)^3 (Cleveland 1979). The value, slope and curvature of the polynomial give pose, velocity
-/// and acceleration. If the window has fewer than `degree` + 1 rows, the nearest rows are added. If
-/// the log has columns for speed or yaw rate, they are fitted in the same way and replace the
-/// values computed from the pose. Commands and steering are interpolated linearly between rows, or
-/// between the updates of a slower loop.
+/// First drops rows that are invalid according to the log map, rows without a number in a pose
+/// column (empty or "nan"), and rows with the same time as the previous row. The remaining rows
+/// form stretches; a time of more than `gap` between two rows ends a stretch. The measured pose
+/// X_WS of the sensor is converted to the pose of the rear axle, X_WV = X_WS X_VS^-1. At each point
+/// of the time grid, weighted least squares (Eigen) fit a polynomial of the degree `degree` to the
+/// rows of the same stretch within the time `half_width` on either side. The weights are (1 -
+/// u^3)^3, where u is the time difference divided by the half width of the window (Cleveland 1979).
+/// Pose, velocity and acceleration are the value and the first and second derivative of the
+/// polynomial. If fewer than `degree` + 1 rows are within `half_width`, the nearest other rows are
+/// added. Columns for speed or yaw rate, if the log has any, are fitted in the same way and replace
+/// the values computed from the pose. Commands and steering angles are interpolated linearly
+/// between rows, or between the updates of a slower control loop.
 ///
-/// Guarantees: the fit adds no phase shift, because windows are symmetric (except at the ends of a
-/// stretch). Pose, velocity and acceleration are exact, to rounding, for motions that are
-/// polynomials of `degree` in time. Samples in gaps are marked invalid; their values are
-/// interpolated linearly between the gap's ends. The processing steps are listed in
-/// RecordedDrive::notes.
+/// Guarantees: the fit adds no phase shift, because the rows on both sides of a point are used
+/// symmetrically (except at the ends of a stretch). If the recorded motion is a polynomial of the
+/// degree `degree` in time, the pose, velocity and acceleration are exact to rounding. Samples in
+/// gaps are marked invalid; the values of these samples are interpolated linearly between the ends
+/// of the gap. RecordedDrive::notes lists the processing steps.
 ///
-/// Errors: InputError with file and line for missing columns (with the nearest spelling), cells
-/// that are not numbers, times that decrease, a position that never changes, less than 1 s of data,
-/// and more than 1e6 samples. InputError for more than 5e7 numbers in the columns of the map
-/// between `from` and `to`. InputError with the key of the log map for columns that contradict each
-/// other. Examples are a yaw or yaw rate with the wrong unit (degrees or radians) or with the
-/// opposite sign to the path's turns, and a speed that differs from the speed of the position by a
-/// factor of 3.6. If `map.check` is false, contradictions only become notes. Throws the RunErrors
-/// of ReadFile.
+/// Throws InputError, with file and line, if a column is missing (the message suggests the most
+/// similar name), if a cell is not a number, if times decrease, if the position never changes, or
+/// if the log yields less than 1 s of data or more than 1e6 samples. Throws InputError if the
+/// columns that the log map names have more than 5e7 numbers between `from` and `to`. Throws
+/// InputError, with the key of the log map, if columns contradict each other. Examples of
+/// contradicting columns: the yaw or yaw rate has the wrong unit (degrees or radians), the sign of
+/// the yaw or yaw rate is opposite to the turns of the path, or the measured speed differs from the
+/// speed of the position by a factor of 3.6. If `map.check` is false, contradictions between
+/// columns are only listed in the notes. Throws RunError in the same cases as ReadFile.
 ///
-/// Time shifts between sensors are not detected, and drift is not removed. Cost: 1 us per row and 5
-/// us per sample. The file is read once as a stream; each kept number needs 16 bytes.
+/// Time shifts between sensors are not detected, and drift is not removed. The import takes 1 us
+/// per row and 5 us per sample. The file is read once as a stream, and each number that is kept
+/// needs 16 bytes of memory.
 RecordedDrive ImportLog(const std::filesystem::path& log, const LogMap& map);
 
 }  // namespace trackbed

@@ -8,47 +8,51 @@
 #include "trackbed/geometry/pose.h"
 #include "trackbed/options/key_visitor.h"
 
-/// How to read the log of a real vehicle: names of columns, units, frames, filters. The strict
-/// reader of YAML files is ReadLogMap (scenario/record.h).
+/// How to read the log of a real vehicle: names of columns, units, coordinate frames, filters.
+/// ReadLogMap (scenario/record.h) reads a log map from a YAML file.
 namespace trackbed {
 
-/// The kinds of quantities in a log, each with its set of units.
+/// The kinds of quantities in a log; each kind has a set of allowed units.
 enum class LogQuantity { kAngle, kSpeed, kYawRate, kSteeringAngle, kThrottle };
 
-/// The names of the units of a quantity, the SI unit first: "rad", "deg".
+/// Returns the names of the units of a quantity, with the SI unit first; for angles "rad", "deg".
 Names UnitsOf(LogQuantity quantity);
 
-/// The SI value of one unit, such as pi/180 for "deg". InternalError for an unknown unit.
+/// Returns the value of one unit in SI units, such as pi/180 for "deg". Throws InternalError if the
+/// unit is unknown.
 double UnitInSi(const std::string& unit);
 
-/// One column of a log. The value of a column is curve(scale * number in SI units + offset),
-/// measured `delay` before it was logged.
+/// How to read one column of a log. The measured value is curve(scale * number in SI units +
+/// offset). Each value was measured `delay` seconds before the value was logged.
 struct LogColumn {
   std::string column;
-  /// File that contains the column, in the same folder as the log; nullopt: the log itself.
+  /// File that contains the column, in the same folder as the log; nullopt: the log itself contains
+  /// the column.
   std::optional<std::string> file{};
   std::string unit;
   double scale = 1.0;
-  double offset = 0.0;  ///< Offset in the SI unit.
-  /// Calibration curve, linear between its points and constant beyond them; empty: no calibration.
+  double offset = 0.0;  ///< Offset that is added to the scaled number, in the SI unit.
+  /// Calibration curve, linear between its points and constant beyond the first and last point;
+  /// empty: no calibration.
   std::vector<Vec2> curve{};
-  double delay = 0.0;  ///< Time between measurement and logging [s].
-  /// Update period of a slower control loop, whose values are repeated in several rows [s]. The
-  /// value is interpolated linearly between the updates; without a period, between rows.
+  double delay = 0.0;  ///< Delay between measurement and logging of a value [s].
+  /// Update period of the values, if a slower control loop repeats each value in several rows [s].
+  /// Values are interpolated linearly between the updates of the control loop; if no period is
+  /// given, between rows.
   std::optional<double> period{};
 };
 
-/// A column of the given quantity, with its units.
+/// Visits a column of the given quantity; the quantity determines the allowed units.
 template <LogQuantity quantity>
 struct LogColumnOf : LogColumn {
   LogColumnOf() { unit = UnitsOf(quantity).front(); }
 };
 
-/// The columns that contain the time of each row.
+/// The columns that contain the time of each row of the log.
 struct LogTime {
   std::string column;
   std::string unit = "s";
-  /// Column of nanoseconds to add to the time, for ROS time stamps.
+  /// Column with nanoseconds that are added to the time, for ROS time stamps.
   std::optional<std::string> nanoseconds{};
 };
 
@@ -69,33 +73,35 @@ struct LogOrientation {
 enum class LogDelimiter { kComma, kSemicolon, kTab };
 
 enum class LogFrame {
-  /// x east, y north, z up. All angles and rates are positive to the left.
+  /// World axes are x east, y north, z up; all angles and rates are positive to the left.
   kEnu,
-  /// x north, y east, z down. All angles and rates are positive to the right.
+  /// World axes are x north, y east, z down; all angles and rates are positive to the right.
   kNed,
 };
 
-/// The pose X_VS of the measured point and its axes in the vehicle frame V.
+/// The pose X_VS of the sensor in the vehicle frame V: the measured point and the sensor's axes.
 struct LogSensor {
-  double x = 0.0;    ///< Position ahead of the rear axle [m].
-  double y = 0.0;    ///< Position to the left of the rear axle's center [m].
-  double yaw = 0.0;  ///< Yaw of the axes [rad].
+  double x = 0.0;    ///< Distance of the sensor in front of the rear axle [m].
+  double y = 0.0;    ///< Distance of the sensor to the left of the rear axle's center [m].
+  double yaw = 0.0;  ///< Yaw of the sensor's axes relative to the vehicle [rad].
 };
 
-/// An accelerometer whose axes are parallel to those of the vehicle. The accelerometer's readings
-/// are transferred to the rear axle by the yaw rate and its derivative; the influence of gravity
-/// through roll and pitch is not removed.
+/// An accelerometer in the vehicle; the axes of the accelerometer are parallel to the axes of the
+/// vehicle. The yaw rate and its derivative serve to convert the measured accelerations to
+/// accelerations of the rear axle. When the car rolls or pitches, gravity contributes to the
+/// measured accelerations; this effect is not removed.
 struct LogAccelerometer {
   std::string x;
   std::string y;
   std::optional<std::string> file{};
   std::string unit = "m/s^2";
-  double delay = 0.0;  ///< Time between measurement and logging [s].
-  double ahead = 0.0;  ///< Position ahead of the rear axle [m].
-  double left = 0.0;   ///< Position to the left of the vehicle's middle [m].
+  double delay = 0.0;  ///< Delay between measurement and logging of a value [s].
+  double ahead = 0.0;  ///< Distance of the sensor in front of the rear axle [m].
+  double left = 0.0;   ///< Distance of the accelerometer to the left of the vehicle's middle [m].
 };
 
-/// A row is used only if the number in the column meets the condition.
+/// A condition on the number in a column; rows of the log that do not meet the condition are not
+/// used.
 struct LogCondition {
   std::string column;
   std::optional<double> equals{};
@@ -103,44 +109,52 @@ struct LogCondition {
   std::optional<double> max{};
 };
 
-/// The time grid, and the local polynomials that give values and derivatives at its points.
+/// The time grid of the recorded drive, and the local polynomials that yield values and derivatives
+/// at the points of the grid.
 struct LogResample {
-  double rate = 100.0;      ///< Samples per second [1/s].
-  double half_width = 0.1;  ///< Half width of the polynomials' window [s].
-  int degree = 2;           ///< Degree of the polynomials.
+  double rate = 100.0;  ///< Number of samples per second [1/s].
+  /// Time before and after a point of the grid from which rows are used for the local polynomial
+  /// [s].
+  double half_width = 0.1;
+  int degree = 2;  ///< Degree of the local polynomials.
 };
 
 struct LogMap {
-  std::string name;  ///< Name of the map, used in RecordedDrive::notes.
+  std::string name;  ///< Name of the log map, which appears in RecordedDrive::notes.
   LogDelimiter delimiter = LogDelimiter::kComma;
   LogTime time;
   LogPosition position;
-  /// Yaw; cannot be combined with `orientation`.
+  /// Column with the measured yaw; cannot be combined with `orientation`.
   std::optional<LogColumnOf<LogQuantity::kAngle>> yaw{};
   std::optional<LogOrientation> orientation{};
   LogFrame frame = LogFrame::kEnu;
   LogSensor sensor{};
-  /// Measured speed, which replaces the speed computed from the position.
+  /// Column with the measured speed, which replaces the speed computed from the position.
   std::optional<LogColumnOf<LogQuantity::kSpeed>> speed{};
-  /// Measured yaw rate, which replaces the yaw rate computed from the yaw.
+  /// Column with the measured yaw rate, which replaces the yaw rate computed from the yaw.
   std::optional<LogColumnOf<LogQuantity::kYawRate>> yaw_rate{};
-  /// Measured accelerations, which replace the accelerations computed from the position.
+  /// Columns with measured accelerations, which replace the accelerations computed from the
+  /// position.
   std::optional<LogAccelerometer> accelerometer{};
   std::optional<LogColumnOf<LogQuantity::kSteeringAngle>> steering{};
   std::optional<LogColumnOf<LogQuantity::kSteeringAngle>> steering_command{};
   std::optional<LogColumnOf<LogQuantity::kThrottle>> throttle{};
   std::vector<LogCondition> valid{};
   LogResample resample{};
-  double gap = 0.2;            ///< Longest time between rows that is interpolated [s].
-  double from = 0.0;           ///< Start time since the log's first row [s].
-  std::optional<double> to{};  ///< End time since the log's first row [s].
-  double trim = 0.0;           ///< Time removed at both ends [s].
-  bool check = true;           ///< Whether to reject columns that contradict each other.
+  /// Maximum time between two rows over which values are interpolated [s].
+  double gap = 0.2;
+  /// Start of the used part of the log, as time since the log's first row [s].
+  double from = 0.0;
+  /// End of the used part of the log, as time since the log's first row [s].
+  std::optional<double> to{};
+  double trim = 0.0;  ///< Time that is removed at both ends of the recorded drive [s].
+  bool check = true;  ///< Whether to reject a log whose columns contradict each other.
 };
 
 void Visit(KeyVisitor& keys, LogMap& map);
 
-/// Problems that concern more than one key, as pairs of the key to change and the message.
+/// Returns the problems that concern more than one key. Each pair contains the key that the user
+/// should change and the message.
 std::vector<std::pair<std::string, std::string>> LogMapProblems(const LogMap& map);
 
 }  // namespace trackbed

@@ -10,26 +10,27 @@ namespace trackbed {
 
 struct ShownName {
   std::string label;
-  std::string unit;       ///< Unit; empty for dimensionless values.
-  bool headline = false;  ///< Whether the value is one of those that reports show first.
-  /// Limit that a standard sets for the maneuver.
+  std::string unit;  ///< Unit of the value; empty if the value is dimensionless.
+  /// Whether reports show the value before values whose `headline` is false.
+  bool headline = false;
+  /// Limit on the value that the standard of the maneuver sets.
   std::optional<StandardLimit> limit = std::nullopt;
 };
 
-/// Returns the name of a metric, given by its path in a plant's entry of metrics.json, such as
-/// "cross_track.max" or "turns[0].lateral_offset". If no name is registered for the path, the label
-/// is the path.
+/// Returns the label and unit of a metric. `path` is the path of the metric in a plant's entry of
+/// metrics.json, such as "cross_track.max" or "turns[0].lateral_offset". If no label is registered
+/// for the path, the label is the path.
 ShownName NameOfMetric(const std::string& path);
 
-/// Returns the name of a difference between plants, given by its path in an entry of `between` in
-/// metrics.json, such as "position.max".
+/// Returns the label and unit of a difference between plants. `path` is the path of the difference
+/// in an entry of `between` in metrics.json, such as "position.max".
 ShownName NameOfComparison(const std::string& path);
 
-/// Returns the name of an output of a study, given by its path, such as
+/// Returns the label and unit of an output of a study; `path` is the path of the output, such as
 /// "metrics.mujoco.cross_track.max".
 ShownName NameOfOutput(const std::string& path);
 
-/// Returns the name of a scenario key, whose label is the key itself.
+/// Returns the label and unit of a scenario key; the label is the key itself.
 ShownName NameOfKey(const std::string& key);
 
 }  // namespace trackbed

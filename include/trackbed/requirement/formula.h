@@ -8,7 +8,8 @@
 
 #include "trackbed/core/table.h"
 
-/// Requirements on logged signals in signal temporal logic, and their robustness on a log.
+/// Requirements on logged signals, as formulas of signal temporal logic, and the robustness of
+/// these formulas on a log.
 ///
 ///     const Formula lane = Formula::Parse("always[0, T] abs(cross_track_m) < 0.5", log.columns());
 ///     const double margin = Robustness(lane, log);  // > 0: met with this margin
@@ -23,9 +24,10 @@
 ///     x + y,  x - y,  x * y,  x / y,  -x
 ///     number, signal, abs(x), min(x, y, …), max(x, y, …), ( )
 ///
-/// Bounds a and b count in seconds from the moment at which the formula is evaluated, 0 <= a <= b.
-/// A bound may also be `T`, the duration of the log, or `T - c`, at least 0. The default window is
-/// [0, T].
+/// The bounds a and b of a window are times in seconds after the time at which the formula is
+/// evaluated, with 0 <= a <= b. A bound may also be `T`, the duration of the log, or `T - c` for a
+/// number c; a negative `T - c` is replaced by 0. An operator without a window has the window [0,
+/// T].
 ///
 /// Semantics (Donzé and Maler 2010; Fainekos and Pappas 2009), over the samples i of a log at times
 /// t_i:
@@ -37,18 +39,21 @@
 ///     eventually[a, b] phi  maximum of phi over these samples
 ///     phi until[a, b] psi   maximum over these j of min(psi_j, phi_i, …, phi_{j-1})
 ///
-/// Samples are not interpolated, and the bounds of windows have a tolerance of 1 ns. A window that
-/// extends beyond the end of the log is clipped at the end. Without samples in the window, `always`
-/// is +infinity, `eventually` and `until` are -infinity, as in RTAMT (Nickovic and Yamaguchi 2020).
+/// Formulas are not evaluated between samples, and the bounds of windows have a tolerance of 1 ns.
+/// A window that extends beyond the end of the log is shortened to end with the log. If the window
+/// contains no samples, the value of `always` is +infinity and the value of `eventually` and
+/// `until` is -infinity, as in RTAMT (Nickovic and Yamaguchi 2020).
 namespace trackbed {
 
-/// A bound of a window: a time, or a time before the end of the log.
+/// A bound of a window: a time after the time of evaluation, or T minus a time, where T is the
+/// duration of the log.
 struct WindowBound {
-  double seconds = 0.0;   ///< Time [s], nonnegative.
-  bool from_end = false;  ///< Whether the bound is T - seconds.
+  double seconds = 0.0;  ///< Time [s], nonnegative.
+  /// If true, the bound is T - `seconds`; otherwise the bound is `seconds`.
+  bool from_end = false;
 };
 
-/// The operations of a formula.
+/// The operations that can occur in a formula.
 enum class FormulaOperation {
   kNumber,
   kSignal,
@@ -73,15 +78,16 @@ enum class FormulaOperation {
   kUntil,
 };
 
-/// One step of a formula in postfix order. The step pops its one or two operands from a stack and
-/// pushes its result.
+/// One step of a formula; the steps are stored in postfix order. The evaluation of a step takes one
+/// or two operands from a stack, and puts the result of the step on the stack.
 struct FormulaStep {
   FormulaOperation operation = FormulaOperation::kNumber;
   double number = 0.0;     ///< Value of kNumber.
-  std::size_t signal = 0;  ///< For kSignal: index in Formula::signals.
-  WindowBound from{};      ///< Start of the window of kAlways, kEventually and kUntil.
+  std::size_t signal = 0;  ///< Index of the signal in Formula::signals, for kSignal.
+  WindowBound from{};      ///< Start of the window, for kAlways, kEventually and kUntil.
   WindowBound to{};
-  /// Range [begin, end) of the characters of the step and its operands in the formula's text.
+  /// Range [begin, end) of characters in the formula's text that contains the step and the step's
+  /// operands.
   std::size_t begin = 0;
   std::size_t end = 0;
 };
@@ -89,21 +95,23 @@ struct FormulaStep {
 /// A parsed formula.
 class Formula {
  public:
-  static constexpr std::size_t kMaxLength = 4096;  ///< Largest length of the text [bytes].
-  static constexpr std::size_t kMaxDepth = 50;  ///< Largest nesting of parentheses and operators.
+  /// Maximum length of the text of a formula [bytes].
+  static constexpr std::size_t kMaxLength = 4096;
+  /// Maximum nesting depth of parentheses and operators in a formula.
+  static constexpr std::size_t kMaxDepth = 50;
 
-  /// Parses a formula. InputErrors name the column of the text (from 1), the found text and the
-  /// alternatives. InputError for a syntax error, and for a signal that is not among `signals`
-  /// (with the nearest spelling). InputError for a number where a condition is needed, for a
-  /// condition where a number is needed, and for bounds out of order or above 1e6 s. InputError for
-  /// a formula without signals, and for a text that exceeds kMaxLength or kMaxDepth. Cost
-  /// O(length).
+  /// Parses the text of a formula. The message of an InputError states the column in the text (from
+  /// 1), the invalid text and the alternatives. Throws InputError if the text has a syntax error,
+  /// or names a signal that is not in `signals` (the message suggests the most similar name).
+  /// Throws InputError if a number is given where a condition is needed or vice versa, or if bounds
+  /// are out of order or above 1e6 s. Throws InputError if the formula has no signals, or if the
+  /// text exceeds kMaxLength or kMaxDepth. The cost is proportional to the length of the text.
   static Formula Parse(std::string_view text, const std::vector<std::string>& signals);
 
   [[nodiscard]] const std::string& text() const { return text_; }
-  /// The signals of the formula, in order of first use.
+  /// Returns the names of the signals in the formula, in the order of their first use.
   [[nodiscard]] const std::vector<std::string>& signals() const { return signals_; }
-  /// The time after a sample within which the log can affect the robustness at the sample [s];
+  /// Returns how far after a sample the log can affect the robustness at this sample [s]. Returns
   /// infinity if a bound is missing or relative to the end of the log.
   [[nodiscard]] double horizon_s() const;
   [[nodiscard]] const std::vector<FormulaStep>& steps() const { return steps_; }
@@ -114,31 +122,33 @@ class Formula {
   std::vector<FormulaStep> steps_;
 };
 
-/// The value of a formula at the first sample of a log.
+/// The result of evaluating a formula at the first sample of a log.
 struct FormulaResult {
-  /// Robustness in the unit of the decisive comparison. The robustness is +-infinity if no sample
-  /// decides, because all relevant windows begin after the end of the log.
+  /// Robustness of the formula, in the unit of the comparison that determines the robustness. The
+  /// robustness is +-infinity if no sample determines the robustness, because all relevant windows
+  /// begin after the end of the log.
   double robustness = 0.0;
-  /// Whether the formula holds, that is, robustness > 0. If the robustness is 0, the kind of
-  /// comparison decides: `x <= y` holds for x = y, `x < y` does not.
+  /// Whether the formula is satisfied, that is, whether the robustness is > 0. If the robustness is
+  /// 0, the comparison operator decides: if x = y, `x <= y` is satisfied, but `x < y` is not.
   bool satisfied = false;
-  /// Row of the decisive sample, the earliest if there are several.
+  /// Row of the log with the sample that determines the robustness; the earliest row if several
+  /// samples do.
   std::optional<std::size_t> row;
 };
 
-/// Evaluates a formula at the first sample. The log must have the formula's signals as columns, and
-/// increasing times `t_s` [s]. InputError naming signal and time for a signal that is missing or
-/// not finite, and for a comparison that is not finite (division by zero). InputError for times
-/// that do not increase, and for a log without rows. Cost: O(steps x rows) in time for windows of
-/// any length (Lemire 2006), and O(depth x rows) in memory.
+/// Evaluates a formula at the first sample of a log. The log must have a column for each signal of
+/// the formula, and a column `t_s` with increasing times [s]. Throws InputError, naming signal and
+/// time, if a signal is missing or not finite, or if a comparison yields no finite number (division
+/// by zero). Throws InputError if the times do not increase or the log has no rows. The evaluation
+/// needs O(steps x rows) time, for windows of any length (Lemire 2006), and O(depth x rows) memory.
 FormulaResult Evaluate(const Formula& formula, const Table& log);
 
-/// Returns the robustness at the first sample: > 0 if the formula is satisfied, < 0 if it is
-/// violated. Throws the InputErrors of Evaluate.
+/// Returns the robustness of a formula at the first sample of the log: > 0 if the formula is
+/// satisfied, < 0 if the formula is violated. Throws InputError in the same cases as Evaluate.
 double Robustness(const Formula& formula, const Table& log);
 
-/// Returns the robustness at each sample, as if the log began with this sample. Throws the
-/// InputErrors of Evaluate.
+/// Returns the robustness of a formula at each sample, computed as if the log began with this
+/// sample. Throws InputError in the same cases as Evaluate.
 std::vector<double> RobustnessOverTime(const Formula& formula, const Table& log);
 
 }  // namespace trackbed

@@ -9,40 +9,45 @@
 
 #include "trackbed/road_network/reference_line.h"
 
-/// Roads, their lanes and their links, in the terms of OpenDRIVE (ASAM OpenDRIVE 1.7.0).
+/// Roads, lanes, and the links between roads and between lanes, with the terms of OpenDRIVE (ASAM
+/// OpenDRIVE 1.7.0).
 ///
-/// Symbols: s station along a road's reference line in the plane [m], from 0 to its length; t
-/// lateral coordinate [m], positive to the left in the direction of growing s. The center lane has
-/// no width and the number 0. Lanes to the left of the center lane are numbered 1, 2, ..., lanes to
-/// the right -1, -2, ....
+/// Symbols: s is the station along a road's reference line in the plane [m], from 0 to the road's
+/// length; t is the lateral coordinate [m], positive to the left of the direction of growing s. The
+/// center lane has no width and the number 0. Lanes to the left of the center lane are numbered 1,
+/// 2, ..., lanes to the right -1, -2, ....
 namespace trackbed {
 
 /// The painted line at the outer border of a lane, or on the center lane.
 struct RoadMark {
-  double s = 0.0;      ///< Distance of the start from the start of the lane section [m].
-  std::string type;    ///< Type in the file: "solid", "broken", "solid solid", "none", ...
-  std::string color;   ///< Color in the file: "standard", "white", "yellow", ...
-  double width = 0.0;  ///< Width [m]; 0: unknown.
+  /// Distance from the start of the lane section to the start of the road mark [m].
+  double s = 0.0;
+  /// Type of the mark in the file: "solid", "broken", "solid solid", "none", ...
+  std::string type;
+  std::string color;   ///< Color of the mark in the file: "standard", "white", "yellow", ...
+  double width = 0.0;  ///< Width of the mark [m]; 0 if the width is unknown.
 };
 
 struct Lane {
   int id = 0;
-  std::string type;  ///< Type in the file: "driving", "shoulder", "sidewalk", ...
-  /// The width of the lane, or with `has_border` the t coordinate of its outer border. The extent
-  /// is a function of the distance from the start of the lane section [m].
+  std::string type;  ///< Type of the lane in the file: "driving", "shoulder", "sidewalk", ...
+  /// The width of the lane, or, if `has_border` is true, the t coordinate of the lane's outer
+  /// border [m]. Width or border are functions of the distance from the start of the lane section
+  /// [m].
   PiecewiseCubic extent;
   bool has_border = false;
-  /// Numbers of the lanes linked at the start (predecessors) and end (successors) of the section,
-  /// in the direction of growing s.
+  /// Numbers of the lanes to which this lane is linked at the start of the section (predecessors)
+  /// and at the end of the section (successors). Start and end refer to the direction of growing s.
   std::vector<int> predecessors;
   std::vector<int> successors;
   std::vector<RoadMark> marks;
 };
 
-/// A stretch of road with a constant number of lanes.
+/// A part of a road with a constant number of lanes.
 struct LaneSection {
-  double s = 0.0;           ///< Station of the start [m].
-  std::vector<Lane> lanes;  ///< Lanes from left to right, with numbers that decrease by one.
+  double s = 0.0;  ///< Station of the section's start [m].
+  /// Lanes from left to right; the lane numbers decrease by one from lane to lane.
+  std::vector<Lane> lanes;
 
   /// Returns the lane with the number `lane`; null if the section has no such lane.
   [[nodiscard]] const Lane* Find(int lane) const;
@@ -53,47 +58,51 @@ enum class RoadEnd { kStart, kEnd };
 /// The road or junction to which an end of a road is linked.
 struct RoadLink {
   bool is_junction = false;
-  std::string id;  ///< Id of the linked road or junction.
-  /// End of the linked road at which the two roads meet; unused for junctions.
+  std::string id;  ///< Id of the road or junction to which the end is linked.
+  /// End of the linked road at which the two roads meet; unused if the link leads to a junction.
   RoadEnd contact = RoadEnd::kStart;
-  int line = 0;  ///< Line in the file.
+  int line = 0;  ///< Line number in the OpenDRIVE file.
 };
 
 struct Road {
   std::string id;
   std::string name;
-  double length = 0.0;                  ///< Length [m], > 0.
-  std::optional<std::string> junction;  ///< Id of the junction that contains the road.
+  double length = 0.0;  ///< Length of the road [m], > 0.
+  /// Id of the junction that contains the road; nullopt if the road is not part of a junction.
+  std::optional<std::string> junction;
   bool left_hand_traffic = false;
   ReferenceLine reference;
-  PiecewiseCubic elevation;  ///< Height z of the reference line [m] as a function of s.
-  /// Roll about the reference line [rad]; positive if the left side is higher.
+  PiecewiseCubic elevation;  ///< Height z of the reference line [m] as a function of the station s.
+  /// Roll angle of the road's surface about the reference line [rad]; positive if the left side is
+  /// higher.
   PiecewiseCubic superelevation;
-  PiecewiseCubic lane_offset;  ///< Coordinate t of the center lane [m] as a function of s.
-  /// Sections in the order of s, at least one; the first starts at 0.
+  PiecewiseCubic lane_offset;  ///< Lateral coordinate t of the center lane [m] as a function of s.
+  /// Lane sections, ordered by station; there is at least one section, and the first section starts
+  /// at s = 0.
   std::vector<LaneSection> sections;
   std::optional<RoadLink> predecessor;
   std::optional<RoadLink> successor;
-  /// Kinds of additional heights in the file that are not supported: "shape", "crossfall", "lane
-  /// height", "level lane".
+  /// Kinds of height data in the file that are not supported and therefore ignored: "shape",
+  /// "crossfall", "lane height", "level lane".
   std::vector<std::string> unread_heights;
-  int line = 0;  ///< Line in the file.
+  int line = 0;  ///< Line number in the OpenDRIVE file.
 
-  /// Returns the index of the section at s. At the border of two sections, the index is that of the
-  /// section that begins at s.
+  /// Returns the index of the lane section at station s. At the border of two sections, returns the
+  /// index of the section that begins at s.
   [[nodiscard]] std::size_t SectionAt(double s) const;
   /// Returns the station of a section's end [m].
   [[nodiscard]] double SectionEnd(std::size_t section) const;
 };
 
-/// A connection from an incoming road to a connecting road of the junction.
+/// A connection from an incoming road to a connecting road inside a junction.
 struct JunctionConnection {
   std::string incoming;
   std::string connecting;
-  RoadEnd contact = RoadEnd::kStart;  ///< End of the connecting road at the incoming road.
-  /// Pairs of linked lanes: a lane of the incoming road and a lane of the connecting road.
+  /// End of the connecting road that touches the incoming road.
+  RoadEnd contact = RoadEnd::kStart;
+  /// Pairs of linked lanes: first a lane of the incoming road, then a lane of the connecting road.
   std::vector<std::pair<int, int>> lane_links;
-  int line = 0;  ///< Line in the file.
+  int line = 0;  ///< Line number in the OpenDRIVE file.
 };
 
 struct Junction {
@@ -104,33 +113,36 @@ struct Junction {
 struct RoadNetwork {
   std::map<std::string, Road, std::less<>> roads;          ///< Roads by id.
   std::map<std::string, Junction, std::less<>> junctions;  ///< Junctions by id.
-  std::vector<std::string> notes;                          ///< Notes on unused parts of the file.
+  /// Notes on parts of the file that are not used.
+  std::vector<std::string> notes;
 };
 
-/// The borders of a lane at one station, as t coordinates [m] with their derivatives over s.
+/// The borders of a lane at one station: the t coordinates [m], and the derivatives of t with
+/// respect to s.
 struct LaneBorders {
-  CubicValue inner;  ///< Border toward the center lane.
+  CubicValue inner;  ///< Border of the lane toward the center lane.
   CubicValue outer;
 
   [[nodiscard]] CubicValue Center() const;
-  /// The width of the lane [m]; 0 for the center lane.
+  /// Returns the width of the lane [m]; 0 for the center lane.
   [[nodiscard]] double Width() const;
 };
 
-/// Computes the borders of a lane. PreconditionError for a lane that the section does not have. The
-/// polynomial pieces of the file's functions are those that apply at the station `piece_of` [m],
-/// which matters where two pieces meet. Cost O(lanes log pieces).
+/// Computes the borders of a lane at station s. Throws PreconditionError if the section does not
+/// have the lane. Widths and offsets are evaluated with the polynomial pieces that apply at the
+/// station `piece_of` [m]; this selects one of two pieces where the pieces meet. The cost is O(l
+/// log p) for l lanes and p polynomial pieces.
 LaneBorders LaneBordersAt(const Road& road, std::size_t section, int lane, double s,
                           double piece_of);
 LaneBorders LaneBordersAt(const Road& road, int lane, double s);
 
 /// Returns the unit vector that points to the left across a road's surface: the horizontal normal
 /// of the reference line, rotated by `roll` about the line's tangent in space. `tangent` is the
-/// derivative of the line over the station, as seen from above; `slope` is the derivative of the
-/// line's elevation.
+/// derivative of the reference line with respect to the station, as seen from above. `slope` is the
+/// derivative of the reference line's elevation.
 Eigen::Vector3d AcrossSurface(const Vec2& tangent, double slope, double roll);
 
-/// A point on the surface of a road.
+/// A point on the surface of a road, with the heading of the road.
 struct RoadPosition {
   double x = 0.0;  ///< Coordinate x [m].
   double y = 0.0;  ///< Coordinate y [m].
@@ -139,25 +151,30 @@ struct RoadPosition {
   double heading = 0.0;
 };
 
-/// Returns the point of the road's surface at the distance t [m] from the reference line. The
-/// distance is measured along the left normal of the line, rotated by the superelevation about the
-/// line's tangent in space. The heights of Road::unread_heights are ignored. PreconditionError for
-/// a station outside of the road by more than 1 mm, or numbers that are not finite.
+/// Returns the point of the road's surface at station s and at the distance t [m] from the
+/// reference line. The distance is measured across the road's surface: along the left normal of the
+/// reference line, rotated by the superelevation about the tangent of the reference line. Height
+/// data of the kinds in Road::unread_heights are ignored. Throws PreconditionError if the station
+/// is outside of the road by more than 1 mm, or if a number is not finite.
 RoadPosition PositionAt(const Road& road, double s, double t);
 
-/// As PositionAt, at the distance `offset` [m] from the center of a lane, positive to the left in
-/// the direction of growing s. PreconditionError for a missing lane.
+/// Returns the point of the road's surface at the distance `offset` [m] from the center of a lane,
+/// positive to the left of the direction of growing s. Throws PreconditionError in the same cases
+/// as PositionAt, and if the lane does not exist.
 RoadPosition LanePositionAt(const Road& road, int lane, double s, double offset = 0.0);
 
-/// Whether the road is level at constant height, without slope, superelevation and unread heights.
+/// Whether the road is flat and level: constant height, no superelevation and no ignored height
+/// data.
 bool IsLevel(const Road& road);
 
-/// Whether vehicles use lanes of this type: "driving", "entry", "exit", "onRamp", "offRamp",
-/// "connectingRamp", "slipLane", "bidirectional", "bus", "taxi", "HOV", "mwyEntry", "mwyExit".
+/// Whether vehicles use the lane. Vehicles use lanes of these types: "driving", "entry", "exit",
+/// "onRamp", "offRamp", "connectingRamp", "slipLane", "bidirectional", "bus", "taxi", "HOV",
+/// "mwyEntry", "mwyExit".
 bool IsDrivable(const Lane& lane);
 
-/// Whether traffic on the lane moves in the direction of growing s. True for the right lanes in
-/// right-hand traffic, and the left lanes in left-hand traffic.
+/// Whether traffic on the lane moves in the direction of growing s. Returns true for the right
+/// lanes of a road with right-hand traffic, and for the left lanes of a road with left-hand
+/// traffic.
 bool FollowsRoad(const Road& road, int lane);
 
 }  // namespace trackbed

@@ -5,14 +5,14 @@
 
 namespace trackbed {
 
-/// The name of a camera of films, for the key render.camera.
+/// A camera that videos can use, with the name that the key render.camera of a scenario selects.
 struct CameraName {
   std::string name;
-  std::string summary;  ///< One-line summary for users.
+  std::string summary;  ///< Summary of the camera for users, on one line.
 };
 
-/// Returns the names of all cameras, beginning with the default. render/camera.cpp places each of
-/// them.
+/// Returns all cameras, beginning with the default camera. render/camera.cpp defines the position
+/// of each camera.
 const std::vector<CameraName>& CameraNames();
 
 }  // namespace trackbed

@@ -7,52 +7,57 @@
 #include "trackbed/vehicle/steering_faults.h"
 #include "trackbed/world/wind.h"
 
-/// Disturbances and faults of a run: differences between the car and the controller's model of the
-/// car. Each disturbance is off by default. Wind and friction patches are in world/world.h.
+/// Disturbances and faults of a run: differences between the simulated car and the controller's
+/// model of the car. By default, a run has no disturbances. Wind and friction patches are in
+/// world/world.h.
 namespace trackbed {
 
-/// A loss of speed: a speed limit that applies from a time or station on. The limit overrides any
-/// commanded speed.
+/// A loss of speed: a speed limit that applies from a given time or station on. The speed limit
+/// overrides any commanded speed.
 struct SpeedLoss {
-  std::optional<double> from;  ///< Start time [s]; cannot be combined with `station`.
-  /// Start station on the path [m]; without a path, the distance traveled. Without `from` and
-  /// `station`, the limit applies from the start.
+  /// Time from which the speed limit applies [s]; cannot be combined with `station`.
+  std::optional<double> from;
+  /// Station on the path from which the speed limit applies [m]; if there is no path, the distance
+  /// traveled. If neither `from` nor `station` is set, the speed limit applies from the start of
+  /// the run.
   std::optional<double> station;
   double speed = 0.0;  ///< Speed limit [m/s].
 };
 
-/// Standard deviations of the noise on the measured pose. The noise is independent, Gaussian, and
-/// white over control periods.
+/// Standard deviations of the noise on the measured pose. The noise is Gaussian, and independent
+/// for each component of the pose and for each control period.
 struct MeasurementNoise {
-  double position = 0.0;  ///< Standard deviation of x and of y [m], >= 0.
-  double heading = 0.0;   ///< Standard deviation of the heading [rad], >= 0.
+  double position = 0.0;  ///< Standard deviation of the noise on x and on y [m], >= 0.
+  double heading = 0.0;   ///< Standard deviation of the noise on the heading [rad], >= 0.
 };
 
-/// A lateral kick, positive to the left.
+/// A sudden lateral displacement of the car or impulse on the car, positive to the left.
 struct Kick {
-  double at = 0.0;  ///< Time of the kick [s].
-  /// Instantaneous displacement [m]; cannot be combined with `impulse`.
+  double at = 0.0;  ///< Time at which the kick starts [s].
+  /// Instantaneous lateral displacement of the car [m]; cannot be combined with `impulse`.
   std::optional<double> displacement;
-  std::optional<double> impulse;  ///< Impulse at the center of gravity [N s].
+  std::optional<double> impulse;  ///< Lateral impulse at the car's center of gravity [N s].
   /// Duration of the constant force that produces the impulse [s]; default: kKickDuration.
   std::optional<double> duration;
 };
 
-inline constexpr double kKickDuration = 0.1;  // Default duration of an impulse [s].
+// Default duration of the force that produces an impulse [s].
+inline constexpr double kKickDuration = 0.1;
 
 struct Disturbances {
   std::optional<SpeedLoss> speed_loss;
-  double wheelbase = 1.0;  ///< Ratio of the wheelbase that controllers assume to the actual one.
+  /// Ratio of the wheelbase that controllers assume to the actual wheelbase.
+  double wheelbase = 1.0;
   SteeringFaults steering;
   MeasurementNoise noise;
   std::optional<Payload> payload;
   std::vector<Kick> kicks;
-  /// Distance from the path within which the car has recovered [m].
+  /// Maximum distance from the path at which the car counts as recovered from a disturbance [m].
   double recovered_within = 0.05;
 };
 
-/// Returns the end of the last temporary disturbance (kick or gust) that ends no later than
-/// `before` [s]; nullopt if no disturbance does.
+/// Returns the end time of the last temporary disturbance (kick or gust) that ends at or before
+/// `before` [s]. Returns nullopt if there is no such disturbance.
 std::optional<double> DisturbedUntil(const Disturbances& disturbances, const Wind& wind,
                                      double before);
 

@@ -8,79 +8,89 @@
 
 #include "trackbed/scenario/scenario.h"
 
-/// The input of `trackbed identify`: the parameters of a car to estimate, and the records to use.
+/// The input of `trackbed identify`: the parameters of a car that are estimated, and the recorded
+/// drives from which they are estimated.
 namespace trackbed {
 
 /// A normal prior distribution of a parameter.
 struct ParameterPrior {
   double mean = 0.0;
-  double deviation = 0.0;  ///< Standard deviation, > 0.
+  double deviation = 0.0;  ///< Standard deviation of the prior distribution, > 0.
 };
 
-/// A parameter to estimate, in the unit of the model.
+/// A parameter to estimate; all values are in the unit of the car model.
 struct IdentifiedParameter {
-  std::string name;   ///< Name of a parameter in sim/car_parameters.h.
+  std::string name;   ///< Name of the parameter, as in sim/car_parameters.h.
   double from = 0.0;  ///< Lower bound.
-  double to = 0.0;    ///< Upper bound, above the lower one.
-  /// Start value within the bounds; nullopt: the model's value, clamped to the bounds.
+  double to = 0.0;    ///< Upper bound of the parameter, above the lower bound.
+  /// Start value of the search, within the bounds; nullopt: the value in the car model, clamped to
+  /// the bounds.
   std::optional<double> start{};
   std::optional<ParameterPrior> prior{};
-  int line = 0;  ///< Line in the study's file.
+  int line = 0;  ///< Line number of the parameter in the study's file.
   int column = 0;
 };
 
-/// Expected deviation of the residuals of each signal. Signals without a deviation are not fitted.
+/// Expected standard deviation of the residuals of each signal; a residual is the difference
+/// between a predicted and a recorded value. Signals without a deviation are not used for the fit.
 struct ResidualDeviations {
-  std::optional<double> yaw_rate{};  ///< Deviation of the yaw rate [rad/s].
-  /// Deviation of the lateral acceleration of the center of gravity [m/s^2].
+  std::optional<double> yaw_rate{};  ///< Expected deviation of the yaw rate [rad/s].
+  /// Expected deviation of the lateral acceleration of the center of gravity [m/s^2].
   std::optional<double> lateral_acceleration{};
-  /// Deviation of the lateral speed of the center of gravity [m/s].
+  /// Expected deviation of the lateral speed of the center of gravity [m/s].
   std::optional<double> lateral_speed{};
-  std::optional<double> position{};  ///< Deviation of the position along each axis [m].
-  std::optional<double> heading{};   ///< Deviation of the heading [rad].
-  std::optional<double> speed{};     ///< Deviation of the speed [m/s].
+  std::optional<double> position{};  ///< Expected deviation of the position along each axis [m].
+  std::optional<double> heading{};   ///< Expected deviation of the heading [rad].
+  std::optional<double> speed{};     ///< Expected deviation of the speed [m/s].
 };
 
-/// The contribution of a residual to the cost; r is the residual divided by its deviation.
+/// The loss function: the contribution of a residual to the cost. The number r is the residual
+/// divided by the expected deviation of the signal.
 enum class RobustLoss {
   kSquared,  ///< Loss r^2/2.
-  kHuber,    ///< Loss r^2/2 up to `loss_scale`, linear beyond (Huber 1964).
-  kSoftL1,   ///< Loss s^2 (sqrt(1 + (r/s)^2) - 1), s = loss_scale.
+  kHuber,    ///< Loss r^2/2 for |r| up to `loss_scale`, and linear in |r| beyond (Huber 1964).
+  kSoftL1,   ///< Loss s^2 (sqrt(1 + (r/s)^2) - 1) with s = `loss_scale`.
 };
 
 struct Identification {
   std::string name;
   std::string plant = "single_track";
-  std::vector<std::string> fit;  ///< Scenarios with a record, relative to the study's folder.
-  /// Scenarios with a record that are not used for the fit, relative to the study's folder.
+  /// Scenario files whose recorded drives are used for the fit, relative to the study's folder.
+  std::vector<std::string> fit;
+  /// Scenario files whose recorded drives are not used for the fit but only for validation,
+  /// relative to the study's folder.
   std::vector<std::string> held_out;
-  /// Length of the prediction windows [s]. After each window, the plant restarts at the recorded
-  /// state.
+  /// Length of the prediction windows [s]. After each prediction window, the plant restarts at the
+  /// recorded state.
   double horizon = 2.0;
-  /// Deviations of the residuals. If none is given, only the yaw rate is fitted, with 0.1 rad/s.
+  /// Expected deviations of the residuals. If no deviation is given, only the yaw rate is fitted,
+  /// with a deviation of 0.1 rad/s.
   ResidualDeviations residuals{};
   RobustLoss loss = RobustLoss::kHuber;
-  double loss_scale = 2.0;  ///< Scale of the robust loss, as a multiple of the deviation.
+  /// Scale of the robust loss function, as a multiple of the expected deviation.
+  double loss_scale = 2.0;
   std::vector<IdentifiedParameter> parameters;
-  /// Number of starts of the search: the first at `start`, the others random within the bounds.
+  /// Number of searches: the first search begins at the parameters' `start` values, the others at
+  /// random values within the bounds.
   int starts = 2;
-  int evaluations = 400;  ///< Approximate number of evaluations of the cost per start.
+  int evaluations = 400;  ///< Approximate number of evaluations of the cost in each search.
   std::uint64_t seed = 1;
 
-  std::filesystem::path file{};           ///< File that was read.
+  std::filesystem::path file{};           ///< File from which the study was read.
   std::vector<Scenario> fit_scenarios{};  ///< Scenarios of `fit`.
   std::vector<Scenario> held_out_scenarios{};
 };
 
-/// Reads a study and its scenarios strictly. InputError lists every problem of single keys, each
-/// with file, line, column and dotted key. If every single key is valid, InputError lists the
-/// problems of combinations of keys, or those of the first scenario that cannot be used. Each
-/// scenario must have a record, and the same vehicle as the first scenario.
+/// Reads an identification study and the study's scenarios, and rejects any invalid key. Throws
+/// InputError, which lists all keys with invalid values, each with file, line, column and dotted
+/// key. If every single key is valid, the InputError lists invalid combinations of keys, or the
+/// problems of the first scenario that cannot be used. Each scenario must have a recorded drive and
+/// the same vehicle as the first scenario.
 Identification ReadIdentification(const std::filesystem::path& file,
                                   const std::vector<std::filesystem::path>& asset_folders = {});
 
-/// Whether the file is an identification, judged by the keys `parameters` and `fit`. False if the
-/// file cannot be read.
+/// Returns true if the file has the keys `parameters` and `fit` of an identification study. Returns
+/// false if the file cannot be read.
 bool IsIdentification(const std::filesystem::path& file);
 
 }  // namespace trackbed

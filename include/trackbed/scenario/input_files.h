@@ -8,12 +8,12 @@
 
 namespace trackbed {
 
-/// Returns the input files of a scenario in the form in which the run folder stores them. The files
-/// are the recorded drive, track, map and road network, and the files of the controller and
-/// planner. The vehicle model is not included.
+/// Returns the input files of a scenario, with the names and contents that are stored in the run
+/// folder. The input files are the recorded drive, track, map and road network, and the files that
+/// the controller and planner read. The file of the vehicle model is not included in the list.
 std::vector<InputFile> InputFiles(const Scenario& scenario);
 
-/// All names that InputFiles may return, for all registered controllers and planners.
+/// Returns all file names that InputFiles may return, for all registered controllers and planners.
 std::vector<std::string> InputFileNames();
 
 }  // namespace trackbed

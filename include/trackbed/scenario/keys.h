@@ -3,39 +3,42 @@
 #include <string>
 #include <vector>
 
-/// All keys of scenarios, studies and log maps, listed by the code that reads them.
+/// Lists all keys of scenarios, studies and log maps. The list is made by the same code that reads
+/// the keys.
 namespace trackbed {
 
 struct KeyInfo {
-  std::string name;      ///< Name within the section.
-  std::string type;      ///< Type: "number", "list of names", "section", …
-  std::string unit;      ///< Unit such as "m/s"; empty for keys that are not quantities.
+  std::string name;      ///< Name of the key within its section.
+  std::string type;      ///< Type of the value: "number", "list of names", "section", …
+  std::string unit;      ///< Unit such as "m/s"; empty if the key is not a physical quantity.
   std::string fallback;  ///< Default value; empty if the key has no default.
-  /// Allowed values, "above 0 and at most 10"; empty if all values of the type are allowed.
+  /// Allowed values, such as "above 0 and at most 10"; empty if all values of the type are allowed.
   std::string allowed;
   std::string text;  ///< One-line description.
   bool required = false;
 };
 
 struct KeySection {
-  /// Dotted key, in which N stands for the index of a list element; empty for the whole file.
+  /// Dotted key of the section, in which N stands for the index of a list element; empty for the
+  /// whole file.
   std::string key;
-  std::string method;  ///< Method that has these keys; empty if all methods have them.
-  std::string text;    ///< One-line description.
+  /// Name of the method that has these keys; empty if the keys do not depend on the method.
+  std::string method;
+  std::string text;  ///< One-line description.
   std::vector<KeyInfo> keys;
 };
 
-/// Returns the sections of a scenario in the order of the file. Each section precedes the sections
-/// inside it.
+/// Returns the sections of a scenario in the order of the file. Each section is listed before the
+/// sections that it contains.
 std::vector<KeySection> ScenarioKeys();
 
-/// The sections of a study.
+/// Returns the sections of a study file.
 std::vector<KeySection> StudyKeys();
 
-/// The sections of a log map (recording/log_map.h).
+/// Returns the sections of a log map (recording/log_map.h).
 std::vector<KeySection> LogMapKeys();
 
-/// The sections of an identification.
+/// Returns the sections of an identification study.
 std::vector<KeySection> IdentificationKeys();
 
 }  // namespace trackbed

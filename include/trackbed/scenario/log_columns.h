@@ -10,20 +10,24 @@ namespace trackbed {
 
 /// Optional contents of a log, in addition to the car's state.
 struct LogContents {
-  bool path = false;       ///< Whether the log has errors relative to a path.
-  bool obstacles = false;  ///< Whether the log has clearance and contact force.
-  bool noise = false;      ///< Whether the log has a measured pose.
-  bool wheels = false;     ///< Whether the log has tyre forces and slip.
-  bool gaps = false;       ///< Whether the log has the validity of each row of a recorded drive.
-  std::vector<std::string> controller{};  ///< Column names from SteeringController::Columns.
+  bool path = false;  ///< Whether the log has cross-track and heading errors relative to a path.
+  /// Whether the log has the clearance to obstacles and the contact force.
+  bool obstacles = false;
+  /// Whether the log has columns for the measured pose, which includes measurement noise.
+  bool noise = false;
+  bool wheels = false;  ///< Whether the log has tyre forces and slip.
+  /// Whether the log has a column that states the validity of each row of a recorded drive.
+  bool gaps = false;
+  /// Names of the controller's columns, from SteeringController::Columns.
+  std::vector<std::string> controller{};
 };
 
-/// Returns the names of the columns, including units, in order.
+/// Returns the names of the log's columns, including units, in the order of the file.
 std::vector<std::string> LogColumns(const LogContents& contents);
 
-/// Returns the columns that the log of a plant may have for the scenario. Columns of the wheels are
-/// included, except for the plants `kinematic`, `single_track` and `recorded`, which have no
-/// wheels.
+/// Returns the names of the columns that the log of a plant may have in the scenario. The names
+/// include the columns for the wheels, unless the plant is `kinematic`, `single_track` or
+/// `recorded`, which have no wheels.
 std::vector<std::string> LogColumns(const Scenario& scenario, const std::string& plant);
 
 }  // namespace trackbed

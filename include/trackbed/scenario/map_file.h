@@ -7,21 +7,21 @@
 
 #include "trackbed/world/map_obstacles.h"
 
-/// Files of grid maps. The formats are those of ROS's map_server (a YAML file and an image) and of
-/// the Moving AI benchmarks (Sturtevant 2012).
+/// Reads and writes files of grid maps, in the formats of ROS's map_server (a YAML file and an
+/// image) and of the Moving AI benchmarks (Sturtevant 2012).
 namespace trackbed {
 
 /// The file names of a map in a run folder, in the format of MapYaml and MapPgm.
 inline constexpr const char* kMapYaml = "map.yaml";
 inline constexpr const char* kMapPgm = "map.pgm";
 
-/// Limits on a map: bytes of a file, number of cells, and number of walls.
+/// Limits on the size of a map: bytes of a file, number of cells, and number of walls.
 inline constexpr std::size_t kMaxMapFileBytes = std::size_t{64} << 20U;
 inline constexpr std::size_t kMaxMapCells = 20'000'000;
 inline constexpr std::size_t kMaxWalls = 20'000;
 
-/// Function that returns why a file must not be read, as the end of a sentence; empty if the file
-/// may be read.
+/// Function that returns why a file must not be read, as a predicate to append to the file name
+/// ("lies outside of ..."). The text is empty if the file may be read.
 using AccessCheck = std::function<std::string(const std::filesystem::path& file)>;
 
 /// Reads a map of map_server from its YAML file:
@@ -33,38 +33,40 @@ using AccessCheck = std::function<std::string(const std::filesystem::path& file)
 ///     free_thresh in (0, occupied_thresh]        required
 ///
 /// The image is a PGM (P2, P5) or a PNG file. A pixel has the darkness d = 1 - v/v_max, where v is
-/// its gray value, or the mean of red, green and blue. With `negate`, the darkness is d = v/v_max.
-/// A pixel is occupied if d > occupied_thresh, free if d < free_thresh, otherwise unknown. In mode
-/// `scale`, a pixel that is not opaque is also unknown. If d is between the thresholds in mode
-/// `scale`, map_server converts d to a probability, whereas ReadRosMap reads an unknown cell. Mode
-/// `raw` is not supported.
+/// the gray value of the pixel, or the mean of red, green and blue. If `negate` is 1, the darkness
+/// of a pixel is d = v/v_max. A pixel with the darkness d is occupied if d > occupied_thresh, free
+/// if d < free_thresh, and otherwise unknown. In mode `scale`, a pixel that is not opaque is also
+/// unknown. In mode `scale`, map_server converts a darkness between the two thresholds to a
+/// probability, whereas ReadRosMap makes the cell unknown. Mode `raw` is not supported.
 ///
-/// InputError lists every problem of the YAML file, with line, column and key, or the first problem
-/// of the image. Calls `access_error` before reading the image.
+/// Throws InputError, which lists every problem of the YAML file with line, column and key, or the
+/// first problem of the image. Calls `access_error` before reading the image, to check that the
+/// image may be read.
 GridMap ReadRosMap(const std::filesystem::path& file, const AccessCheck& access_error = {});
 
 /// Reads a Moving AI file of type `octile`. The characters `.` and `G` are free cells; `@`, `O`,
-/// `T`, `S` and `W` are occupied cells. The first row of the file is the top row of the map. The
-/// argument `cell` [m] is the size of the cells, `X_WM` the pose of the map's lower left corner.
-/// InputErrors have line and column.
+/// `T`, `S` and `W` are occupied cells. The first row of the file is the top row of the map. `cell`
+/// [m] is the side of a cell, and `X_WM` is the pose of the map's lower left corner. Throws
+/// InputError with line and column if the file is invalid.
 GridMap ReadMovingAiMap(const std::filesystem::path& file, double cell, const Pose2& X_WM = {});
 
-/// Whether the file is a Moving AI map, judged by the extension `.map`.
+/// Whether the file name has the extension `.map` of Moving AI maps.
 bool IsMovingAiMap(const std::filesystem::path& file);
 
-/// Whether the file has the keys `image` and `resolution`, which ROS maps have and scenarios do
-/// not. False if the file cannot be read.
+/// Returns true if the file has the keys `image` and `resolution`, which ROS maps have but
+/// scenarios do not. Returns false if the file cannot be read.
 bool IsRosMap(const std::filesystem::path& file);
 
-/// Reads the map that a scenario names, relative to `folder`, and makes its walls. Throws the
-/// InputErrors of the functions above. InputError with the key of `spec` for problems outside the
-/// files, and for more than kMaxWalls walls.
+/// Reads the map file that a scenario names, relative to `folder`, and makes the walls of the map.
+/// Throws InputError if the map file is invalid, as ReadRosMap and ReadMovingAiMap do. Also throws
+/// InputError, naming the key in `spec`, if an option is invalid or if there are more than
+/// kMaxWalls walls.
 MapObstacles ReadMap(const MapSpec& spec, const std::filesystem::path& folder,
                      const AccessCheck& access_error = {});
 
-/// Formats the map as files of map_server with all digits, from which ReadRosMap restores an equal
-/// map. The files are `map.yaml`, and `map.pgm` with 0 for occupied, 254 for free and 205 for
-/// unknown.
+/// Formats the map as files in the format of map_server, with full precision, so that ReadRosMap
+/// reads an equal map. The files are `map.yaml`, and the image `map.pgm`, in which occupied cells
+/// are 0, free cells 254 and unknown cells 205.
 std::string MapYaml(const GridMap& map);
 std::string MapPgm(const GridMap& map);
 

@@ -10,42 +10,45 @@
 #include "trackbed/recording/log_map.h"
 #include "trackbed/recording/recorded_drive.h"
 
-/// A recorded drive in a scenario. Every plant replays the drive and is compared with it.
+/// The recorded drive of a scenario. Every plant replays the recorded drive, and the result is
+/// compared with the recorded drive.
 namespace trackbed {
 
 /// The section `record` of a scenario.
 struct RecordSpec {
-  std::string file;  ///< A log, or the `record.csv` of a run.
-  /// Log map that describes the log; none: the file is a `record.csv`.
+  std::string file;  ///< File of the recorded drive: a log, or the `record.csv` of a run.
+  /// File of the log map that describes the log; nullopt if the recorded drive is a `record.csv`.
   std::optional<std::string> map;
-  std::optional<double> from{};  ///< Start time that replaces `from` of the log map [s].
-  std::optional<double> to{};    ///< End time that replaces `to` of the log map [s].
+  std::optional<double> from{};  ///< Start time in the log that replaces `from` of the log map [s].
+  std::optional<double> to{};    ///< End time in the log that replaces `to` of the log map [s].
   ReplaySteering steering = ReplaySteering::kCommand;
   ReplayDrive drive = ReplayDrive::kSpeed;
-  std::vector<double> windows{};  ///< Lengths of prediction windows [s].
-  double min_speed = 0.3;  ///< Recorded speed below which samples and windows are ignored [m/s].
-  /// Notes on the recorded drive (RecordedDrive::notes), one per line; nullopt: the notes of the
-  /// import.
+  std::vector<double> windows{};  ///< Lengths of the prediction windows [s].
+  /// Minimum recorded speed; samples and windows with a lower speed are ignored [m/s].
+  double min_speed = 0.3;
+  /// Notes on the recorded drive (RecordedDrive::notes), one note per line; nullopt: the notes are
+  /// those of the import of the log.
   std::optional<std::string> notes{};
 
-  // The recorded drive, shared by copies of the scenario. The member is not a key of the file.
+  // Data of the recorded drive, which copies of the scenario share; not a key of the scenario file.
   std::shared_ptr<const RecordedDrive> data{};
 };
 
-/// Returns the names allowed in drive.plants: those of Plants(), and kRecordedPlant. The plant
-/// kRecordedPlant reproduces the record itself.
+/// Returns the plant names that are allowed in drive.plants: the names in Plants(), and
+/// kRecordedPlant. The log of the plant kRecordedPlant is the recorded drive itself.
 std::vector<std::string> DrivenPlantNames();
 
-/// Returns the names and one-line summaries of the plants allowed in drive.plants, for users.
+/// Returns the names of the plants that are allowed in drive.plants, each with a summary of one
+/// line for users.
 std::vector<std::pair<std::string, std::string>> DrivenPlantSummaries();
 
-/// Reads a log map strictly. InputError lists every problem of the file, each with file, line,
-/// column and dotted key: unknown keys (with the most similar known key), missing or repeated keys,
-/// wrong types, and values out of range.
+/// Reads a log map and rejects any invalid key. Throws InputError, which lists every problem of the
+/// file, each with file, line, column and dotted key: unknown keys (with the most similar known
+/// key), missing or repeated keys, wrong types, and values out of range.
 LogMap ReadLogMap(const std::filesystem::path& file);
 
-/// Whether the file has the keys `time` and `position`, which log maps have and scenarios do not.
-/// False if the file cannot be read.
+/// Returns true if the file has the keys `time` and `position`, which log maps have but scenarios
+/// do not. Returns false if the file cannot be read.
 bool IsLogMap(const std::filesystem::path& file);
 
 }  // namespace trackbed

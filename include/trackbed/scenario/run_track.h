@@ -6,8 +6,8 @@
 
 namespace trackbed {
 
-/// Reads the track of a run from `track.csv` in the run folder, with the smoothing that the run's
-/// scenario sets. Throws the errors of ReadTrack and ReadScenario.
+/// Reads the track of a run from `track.csv` in the run folder, and applies the smoothing that the
+/// run's scenario sets. Throws the same errors as ReadTrack and ReadScenario.
 Track ReadRunTrack(const std::filesystem::path& track_csv, const std::filesystem::path& scenario);
 
 }  // namespace trackbed

@@ -10,12 +10,13 @@ class Track;
 
 /// The section `mission.track` of a scenario: laps on a closed track.
 struct TrackSpec {
-  std::string file;  ///< File in a format of ReadTrack (track/track_file.h).
-  int laps = 1;      ///< Number of timed laps, >= 1.
-  /// Wavelength below which the center line is smoothed [m]; nullopt: the default of Track.
+  std::string file;  ///< Track file in a format that ReadTrack can read (track/track_file.h).
+  int laps = 1;      ///< Number of laps that are timed, >= 1.
+  /// Wavelength of the smoothing of the center line [m]: bends of a shorter wavelength are smoothed
+  /// out; nullopt: the default of Track.
   std::optional<double> smoothing;
 
-  // The track, shared by copies of the scenario. The member is not a key of the file.
+  // The track, which copies of the scenario share. The track is not a key of the scenario file.
   std::shared_ptr<const Track> data{};
 };
 

@@ -16,89 +16,98 @@
 
 namespace trackbed {
 
-/// The wheels of a car. All arrays and columns with a value per wheel have this order.
+/// Names of the wheels of a car. All arrays and columns with one value per wheel are in the order
+/// of kWheels.
 inline constexpr std::array<const char*, 4> kWheels{"fl", "fr", "rl", "rr"};
 
-/// The tyre parameters in a car's file.
+/// The tyre parameters that a car's file specifies.
 struct CarTyres {
   std::array<MagicFormula, 2> axle;  ///< Magic Formula coefficients of the front and rear tyres.
-  /// Change of the left wheel's camber per upward spring travel, front and rear [rad/m]. Camber is
-  /// positive if the wheel leans to the left; for the right wheel, the sign is reversed.
+  /// Change of the left wheel's camber per upward spring travel, for the front and the rear axle
+  /// [rad/m]. Camber is positive if the wheel leans to the left. For the right wheel, the change of
+  /// camber has the opposite sign.
   std::array<double, 2> camber_gain{};
   double vertical_stiffness = 0.0;  ///< Vertical stiffness of a tyre [N/m].
   double vertical_damping = 0.0;    ///< Vertical damping of a tyre [N s/m].
 };
 
-inline constexpr double kAirDensity = 1.225;  ///< Air density by ISO 2533 at sea level [kg/m^3].
+/// Density of air at sea level, from ISO 2533 [kg/m^3].
+inline constexpr double kAirDensity = 1.225;
 
 /// Aerodynamic force on the car, computed from the relative wind velocity v as 1/2 rho |v| v times
-/// an area. The longitudinal and the lateral force have separate areas; an area of 0 means no
-/// force.
+/// an area. The longitudinal and the lateral aerodynamic force have separate areas; an area of 0
+/// means no force.
 struct CarAerodynamics {
-  double drag_area = 0.0;                      ///< Area C_d A for wind along x [m^2].
-  double side_area = 0.0;                      ///< Area C_s A for wind along y [m^2].
-  std::array<double, 2> center_of_pressure{};  ///< Position x and z of the point where the force
-                                               ///< acts [m].
+  double drag_area = 0.0;  ///< Effective area C_d A for wind along x [m^2].
+  double side_area = 0.0;  ///< Effective area C_s A for wind along y [m^2].
+  /// Position (x, z) of the point at which the aerodynamic force acts [m].
+  std::array<double, 2> center_of_pressure{};
 };
 
-/// Indices, in the compiled model, of the parts that every vehicle has. The MJCF names of the parts
-/// are listed in docs/models.md.
+/// Indices, in the compiled MuJoCo model, of the parts that every vehicle has. The MJCF names of
+/// the parts are listed in docs/models.md.
 struct ChassisParts {
   int chassis = -1;       ///< Index of the chassis body.
-  int chassis_qpos = -1;  ///< Index of the free joint's coordinates in qpos.
+  int chassis_qpos = -1;  ///< Index in qpos of the coordinates of the free joint.
   int chassis_dof = -1;
-  double cg_height = 0.0;  ///< Height of the center of gravity [m].
+  double cg_height = 0.0;  ///< Height of the vehicle's center of gravity [m].
   CarAerodynamics aerodynamics;
 };
 
-/// Indices of the parts of a car with steered front wheels.
+/// Indices, in the compiled MuJoCo model, of the parts of a car with steered front wheels.
 struct CarParts : ChassisParts {
-  std::array<int, 4> tyre{};     ///< Collision geom of each wheel.
-  std::array<int, 4> wheel{};    ///< Body of each wheel.
-  std::array<int, 4> carrier{};  ///< Body on which each wheel spins.
+  std::array<int, 4> tyre{};   ///< Index of the collision geom of each wheel.
+  std::array<int, 4> wheel{};  ///< Index of the body of each wheel.
+  /// Index of the body that carries each wheel and on which the wheel spins.
+  std::array<int, 4> carrier{};
   std::array<int, 4> spin_qpos{};
   std::array<int, 4> spin_dof{};
-  std::array<int, 2> steer_qpos{};  ///< Indices in qpos of the front left and right steering angle.
+  /// Indices in qpos of the steering angles of the front left and the front right wheel.
+  std::array<int, 2> steer_qpos{};
   std::array<int, 2> steer_dof{};
   int rack_qpos = -1;
   int rack_dof = -1;
   int steer_actuator = -1;  ///< Index of the steering control in ctrl.
   int steer_state = -1;     ///< Index of the steering actuator's state in act.
   int drive_actuator = -1;
-  double drive_limit = 0.0;         ///< Largest drive torque on all driven wheels together [N m].
-  double drive_power = 0.0;         ///< Largest drive power [W]; 0: no limit.
+  double drive_limit = 0.0;  ///< Largest total drive torque on all driven wheels together [N m].
+  double drive_power = 0.0;  ///< Largest power of the drive [W]; 0: no limit.
   double brake_torque_front = 0.0;  ///< Largest brake torque per front wheel [N m].
   double brake_torque_rear = 0.0;   ///< Largest brake torque per rear wheel [N m].
   /// Moment of inertia of each wheel about its spin axis [kg m^2].
   std::array<double, 4> spin_inertia{};
   /// Height of each wheel center in the car's frame, at rest [m].
   std::array<double, 4> hub_height{};
-  std::optional<CarTyres> tyres;  ///< Tyre parameters; nullopt if the file has no coefficients.
+  /// Tyre parameters; nullopt if the car's file has no tyre coefficients.
+  std::optional<CarTyres> tyres;
 };
 
-/// Indices of the parts of a vehicle with differential drive. The left wheel comes before the right
-/// wheel.
+/// Indices, in the compiled MuJoCo model, of the parts of a vehicle with differential drive. In all
+/// arrays, the left wheel comes before the right wheel.
 struct WheelPairParts : ChassisParts {
-  std::array<int, 2> tyre{};   ///< Collision geom of each wheel.
-  std::array<int, 2> wheel{};  ///< Body of each wheel.
+  std::array<int, 2> tyre{};   ///< Index of the collision geom of each wheel.
+  std::array<int, 2> wheel{};  ///< Index of the body of each wheel.
   std::array<int, 2> spin_qpos{};
   std::array<int, 2> spin_dof{};
   std::array<int, 2> actuator{};  ///< Index of each wheel's control in ctrl.
-  double wheel_speed = 0.0;       ///< Largest wheel speed [rad/s].
-  double servo_slack = 0.0;    ///< Speed error at which a motor reaches its maximum torque [rad/s].
-  double integral_time = 0.0;  ///< Integral time of a servo's PI controller [s].
+  double wheel_speed = 0.0;       ///< Largest angular speed of a wheel [rad/s].
+  /// Error of the wheel speed at which the servo commands the motor's maximum torque [rad/s].
+  double servo_slack = 0.0;
+  double integral_time = 0.0;  ///< Integral time of the PI controller of a wheel servo [s].
   double brake_torque = 0.0;   ///< Largest brake torque per wheel [N m].
 };
 
-/// A compiled vehicle with its scene. A CarModel is immutable, and several threads may share it.
+/// A vehicle compiled by MuJoCo, with its scene. A CarModel is immutable, so several threads may
+/// share a CarModel.
 ///
-/// The model is compiled without visual geoms (MuJoCo's `discardvisual`). Geoms without collisions
-/// that no other element of the MJCF refers to are only in scene(). The masses and the motion equal
-/// those of the complete model to the last bit, and a step takes less time. Exception: if the model
-/// has a density of the medium, MuJoCo's ellipsoid fluid forces on visual geoms are lost.
+/// The model is compiled without visual geoms (MuJoCo's `discardvisual`). Visual geoms (without
+/// collisions, and not referenced by other elements of the MJCF) are only in scene(). Without
+/// visual geoms, a simulation step takes less time, and masses and motion are bit for bit the same.
+/// There is one exception: if the model specifies the density of a medium, MuJoCo's ellipsoid fluid
+/// forces on visual geoms are lost.
 ///
-/// Errors: InputError, which names the file and all problems together, if the MJCF does not
-/// compile, a named part is missing, or a part violates docs/models.md.
+/// Errors: throws InputError if the MJCF does not compile, if a named part is missing, or if a part
+/// does not follow the rules in docs/models.md. The error message lists the file and all problems.
 class CarModel {
  public:
   CarModel(Scene scene, std::string name_for_messages);
@@ -107,55 +116,59 @@ class CarModel {
   ~CarModel();
 
   [[nodiscard]] const VehicleParams& params() const { return params_; }
-  /// Returns the parameters of the vehicle without its payload, which planners and controllers use.
-  /// If the scene has no payload, they equal params().
+  /// Returns the parameters of the vehicle without its payload. Planners and controllers use these
+  /// parameters. If the scene has no payload, the returned parameters equal params().
   [[nodiscard]] const VehicleParams& unladen() const { return unladen_; }
-  /// Returns the parts that every vehicle has.
+  /// Returns the indices of the parts that every vehicle has.
   [[nodiscard]] const ChassisParts& chassis() const;
-  /// Returns the parts of a car with steered front wheels. Throws InternalError for other vehicles.
+  /// Returns the indices of the parts of a car with steered front wheels. Throws InternalError if
+  /// the vehicle is not such a car.
   [[nodiscard]] const CarParts& parts() const;
-  /// Returns the parts of a vehicle with differential drive. Throws InternalError for other
-  /// vehicles.
+  /// Returns the indices of the parts of a vehicle with differential drive. Throws InternalError if
+  /// the vehicle has no differential drive.
   [[nodiscard]] const WheelPairParts& wheel_pair() const;
   /// Returns the collision geoms of the wheels (four for a car, two for a differential drive), in
   /// the order of CarParts or WheelPairParts.
   [[nodiscard]] std::span<const int> tyres() const;
-  /// Returns the bodies of the wheels, in the order of tyres().
+  /// Returns the bodies of the wheels, in the same order as tyres().
   [[nodiscard]] std::span<const int> wheels() const;
   [[nodiscard]] const Scene& scene() const { return scene_; }
-  /// Returns the name of the car's file, as used in messages.
+  /// Returns the name of the car's file, for use in messages.
   [[nodiscard]] const std::string& file() const { return file_; }
   [[nodiscard]] const mjModel_* get() const { return model_.get(); }
   [[nodiscard]] double timestep() const;
 
-  /// Returns the column names of a configuration: x_m, y_m, z_m, qw, qx, qy, qz for the free joint,
-  /// then the name of every other joint with its unit.
+  /// Returns the names of the components of a configuration vector. The names are x_m, y_m, z_m,
+  /// qw, qx, qy, qz for the free joint, followed by the name of every other joint with its unit.
   [[nodiscard]] std::vector<std::string> configuration_columns() const;
 
-  /// Extracts the configuration of the vehicle from MuJoCo's full vector qpos.
+  /// Returns the configuration vector of the vehicle, taken from MuJoCo's full position vector
+  /// qpos.
   [[nodiscard]] std::vector<double> ExtractConfiguration(std::span<const double> qpos) const;
 
-  /// Returns the qpos of the car standing on `ground`, with its rear-axle center at `pose` as seen
-  /// from above. The front wheels are steered by `steering`, the angle of the bicycle model [rad].
-  /// Each wheel is rotated by `spin` [rad], which is empty or has one value for each of wheels().
-  /// The vehicle frame V lies on the plane that best fits the heights of the ground under the four
-  /// wheels. The plane is raised until no wheel penetrates the ground. If the car has a payload,
-  /// its weight then displaces the car on its springs. For a vehicle with differential drive, the
-  /// front corners of the footprint replace the front wheels.
+  /// Returns the position vector qpos of the car at rest on `ground`, with its rear-axle center at
+  /// `pose` as seen from above. `steering` is the steering angle of the bicycle model [rad]. `spin`
+  /// is the rotation angle of each wheel [rad], with one value for each of wheels(); if `spin` is
+  /// empty, all angles are 0. The x and y axes of the vehicle frame V lie in the plane that best
+  /// fits the heights of the ground under the four wheels. The vehicle is then raised until no
+  /// wheel penetrates the ground. If the car has a payload, the weight of the payload then
+  /// compresses the springs. For a vehicle with differential drive, the front corners of the
+  /// footprint are used instead of the front wheels.
   [[nodiscard]] std::vector<double> StandingPosition(const Pose2& pose, double steering,
                                                      const std::vector<double>& spin,
                                                      const Ground& ground) const;
 
-  /// Returns the direction in which a standing car points, as a unit vector along the ground in the
-  /// world frame. The x axis of a laden car is tilted relative to this vector.
+  /// Returns the direction in which a car at rest points, as a unit vector along the ground in
+  /// world coordinates. The x axis of a car with payload is tilted relative to the returned
+  /// direction.
   [[nodiscard]] Eigen::Vector3d AheadOnGround(const Pose2& pose, const Ground& ground) const;
 
-  /// Returns the configuration of the car standing on the ground of its scene, computed as in
+  /// Returns the configuration vector of the car at rest on the ground of its scene, computed as in
   /// StandingPosition.
   [[nodiscard]] std::vector<double> FlatConfiguration(const Pose2& pose, double steering,
                                                       const std::vector<double>& spin) const;
 
-  /// Returns the qpos of the car standing on the plane z = 0.
+  /// Returns the position vector qpos of the car at rest on the plane z = 0.
   [[nodiscard]] std::vector<double> FlatPosition(const Pose2& pose, double steering,
                                                  const std::vector<double>& spin) const;
 
@@ -165,20 +178,21 @@ class CarModel {
   MujocoModel model_;
   VehicleParams params_;
   VehicleParams unladen_;
-  int laden_keyframe_ = -1;  // Index of the keyframe of the car with its payload; -1: no payload.
+  // Index of the keyframe with the position of the car with payload; -1: no payload.
+  int laden_keyframe_ = -1;
   std::variant<CarParts, WheelPairParts> parts_;
 };
 
-/// Speeds of CarModel::wheels() [m/s], in a vector without heap memory.
+/// Vector of the speeds of CarModel::wheels() [m/s], stored without heap memory.
 using WheelSpeeds = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kWheels.size(), 1>;
 
-/// Returns the speed of each wheel along its rolling direction [m/s], if the wheels do not slip.
-/// The car's rear axle moves at `speed` [m/s], and the steering angle of the bicycle model is
-/// `steering` [rad].
+/// Returns the speed of each wheel along its rolling direction [m/s], assuming that the wheels do
+/// not slip. The car's rear axle moves at `speed` [m/s], and the steering angle of the bicycle
+/// model is `steering` [rad].
 WheelSpeeds RollingSpeeds(const VehicleParams& params, double speed, double steering);
 
-/// Returns the version of the physics engine, such as "MuJoCo 2.2.2". Throws InternalError if the
-/// versions of library and headers differ.
+/// Returns the version of the physics engine, such as "MuJoCo 2.2.2". Throws InternalError if
+/// MuJoCo's library and headers have different versions.
 std::string PhysicsVersion();
 
 }  // namespace trackbed

@@ -7,7 +7,7 @@ struct mjData_;
 
 namespace trackbed {
 
-/// Owning pointers to MuJoCo's models and data.
+/// Defines owning pointers to MuJoCo's models and data.
 struct MujocoDeleter {
   void operator()(mjModel_* model) const;
   void operator()(mjData_* data) const;
@@ -18,7 +18,7 @@ using MujocoData = std::unique_ptr<mjData_, MujocoDeleter>;
 /// Copies a model. Throws RunError if there is not enough memory.
 MujocoModel CopyMujocoModel(const mjModel_& model);
 
-/// Makes an mjData for the model, in the initial configuration. Throws RunError if there is not
+/// Creates an mjData for the model, in the initial configuration. Throws RunError if there is not
 /// enough memory.
 MujocoData MakeMujocoData(const mjModel_& model);
 

@@ -4,14 +4,18 @@
 
 namespace trackbed {
 
-/// A payload, which is a point mass fixed to the chassis. The position of a payload is given in the
-/// car's frame: x forward from the rear axle, y to the left, z up from the ground.
+/// Options of a payload, which is a point mass fixed to the chassis. The position of the payload is
+/// given in the car's frame, with x forward from the rear axle, y to the left, and z up from the
+/// ground.
 struct Payload {
-  std::optional<double> mass;   ///< Mass [kg], > 0; only one of `mass` and `share` may be given.
-  std::optional<double> share;  ///< Mass as a fraction of the car's mass, > 0.
-  double x = 0.0;               ///< Position along x [m]; 0: above the rear axle.
-  double y = 0.0;               ///< Position along y [m].
-  std::optional<double> z;      ///< Height [m]; nullopt: that of the car's center of gravity.
+  /// Mass of the payload [kg], > 0; only one of `mass` and `share` may be given.
+  std::optional<double> mass;
+  std::optional<double> share;  ///< Mass of the payload as a fraction of the car's mass, > 0.
+  double x = 0.0;               ///< Position of the payload along x [m]; 0: above the rear axle.
+  double y = 0.0;               ///< Position of the payload along y [m].
+  /// Height of the payload above the ground [m]; nullopt: the height of the car's center of
+  /// gravity.
+  std::optional<double> z;
 };
 
 }  // namespace trackbed

@@ -4,34 +4,42 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// Options for making a plant, besides its car and world.
+/// Options with which a plant is made, in addition to its car and world.
 namespace trackbed {
 
 /// The state of the vehicle at the start of a run.
 struct StartState {
-  Pose2 pose;             ///< Position of the rear-axle center, and yaw angle.
-  double speed = 0.0;     ///< Speed [m/s].
-  double steering = 0.0;  ///< Steering angle of wheels and actuator, in the bicycle model [rad].
-  /// Lateral speed of the rear axle, to the left [m/s]; nullopt: no slip. Plants without slip
-  /// ignore the value.
+  Pose2 pose;          ///< Position of the rear-axle center, and yaw angle of the vehicle.
+  double speed = 0.0;  ///< Speed [m/s].
+  /// Initial steering angle of the wheels and the actuator, as the angle of the bicycle model
+  /// [rad].
+  double steering = 0.0;
+  /// Initial lateral speed of the rear axle, positive to the left [m/s]; nullopt: no slip. Plants
+  /// that do not simulate slip ignore the lateral speed.
   std::optional<double> lateral_speed{};
-  std::optional<double> yaw_rate{};  ///< Yaw rate [rad/s]; nullopt: the yaw rate without slip.
+  /// Initial yaw rate [rad/s]; nullopt: the yaw rate of a car without slip.
+  std::optional<double> yaw_rate{};
 };
 
-/// The tyre model of the MuJoCo plant.
+/// The law by which the MuJoCo plant computes tyre forces.
 enum class TyreLaw {
-  /// kMagicFormula if the car's file has Magic Formula coefficients, else kContact.
+  /// Selects kMagicFormula if the car's file has Magic Formula coefficients, and kContact
+  /// otherwise.
   kAuto,
-  kContact,  ///< MuJoCo's friction cone, with negligible slip below the friction limit.
-  /// Magic Formula (vehicle/magic_formula.h): longitudinal and lateral forces grow with slip.
+  /// Tyre forces are contact forces within MuJoCo's friction cone, with negligible slip below the
+  /// friction limit.
+  kContact,
+  /// Tyre forces follow the Magic Formula (vehicle/magic_formula.h), so that longitudinal and
+  /// lateral forces grow with slip.
   kMagicFormula,
 };
 
-/// How the commanded steering angle reaches the road wheels.
+/// Selects how the road wheels follow the commanded steering angle.
 enum class SteeringInput {
-  kActuator,    ///< The car's steering actuator follows the command within its rate and angle
-                ///< limits.
-  kPrescribed,  ///< The wheels follow the command exactly and immediately, for validation.
+  kActuator,  ///< The car's steering actuator follows the command within its rate and angle
+              ///< limits.
+  /// The wheels follow the command exactly and immediately, which is meant for validation.
+  kPrescribed,
 };
 
 }  // namespace trackbed

@@ -9,88 +9,95 @@
 #include "trackbed/path/path.h"
 #include "trackbed/track/closed_spline.h"
 
-/// A closed race track: a center line with the distances to its edges.
+/// A closed race track: a center line with the distances to the edges of the track.
 ///
-/// Symbols: s station along the center line [m], 0 at the start line, growing in the direction of
-/// driving; d lateral offset from the center line [m], positive to the left.
+/// Symbols: s is the station along the center line [m], which is 0 at the start line and grows in
+/// the direction of driving; d is the lateral offset from the center line [m], positive to the
+/// left.
 namespace trackbed {
 
-/// A surveyed point of a track.
+/// A surveyed point on the center line of a track.
 struct TrackPoint {
-  Vec2 position{0.0, 0.0};   ///< Position on the center line [m].
-  double width_right = 0.0;  ///< Distance to the right edge [m], > 0.
-  double width_left = 0.0;   ///< Distance to the left edge [m], > 0.
+  Vec2 position{0.0, 0.0};   ///< Position of the point on the center line [m].
+  double width_right = 0.0;  ///< Distance from the point to the right edge [m], > 0.
+  double width_left = 0.0;   ///< Distance from the point to the left edge [m], > 0.
 
   bool operator==(const TrackPoint&) const = default;
 };
 
-/// The edges at one station.
+/// The edges of a track at one station.
 struct TrackEdges {
-  double left = 0.0;   ///< Offset d of the left edge [m].
-  double right = 0.0;  ///< Offset d of the right edge [m], below that of the left edge.
+  double left = 0.0;  ///< Lateral offset d of the left edge [m].
+  /// Lateral offset d of the right edge [m]; smaller than the offset of the left edge.
+  double right = 0.0;
 };
 
-/// A place in track coordinates.
+/// A place in track coordinates: station and lateral offset.
 struct TrackPlace {
   double s = 0.0;       ///< Station of the nearest point of the center line [m].
   double offset = 0.0;  ///< Offset d [m].
 };
 
-/// A closed edge: the last point connects to the first. Points are evenly spaced in station.
+/// A closed edge line of a track: the last point connects to the first point. The points are evenly
+/// spaced in the station of the center line.
 using TrackEdgeLine = std::vector<Vec2>;
 
 struct TrackFold;
 
-/// The course of a track, with a smoothed center line. Immutable.
+/// A closed race track with a smoothed center line. A Track cannot be changed after construction.
 ///
 /// The center line is a closed B-spline of degree 5 fitted to the points (closed_spline.h): bends
-/// shorter than the wavelength are smoothed out, because the second derivative of surveyed points
-/// is mostly noise. `deviation_max` is the largest displacement of a point by the smoothing. The
-/// edges are not smoothed: widths are measured from the surveyed points.
+/// shorter than the wavelength of the smoothing are smoothed out, because the second derivative of
+/// surveyed points is mostly noise. `deviation_max` is the largest distance by which the smoothing
+/// moves a point. The edges are not smoothed: widths are measured from the surveyed points.
 ///
-/// Guarantees: curvature and its rate are continuous, also across the start line; the gap between
-/// the end and the start of the center line is at most 1e-4 of the distance between the points. A
-/// track has no heights and no friction.
+/// Guarantees: curvature and curvature rate of the center line are continuous, even across the
+/// start line. The gap between the end and the start of the center line is at most 1e-4 times the
+/// distance between the points. A Track contains no heights and no friction coefficients.
 class Track {
  public:
   static constexpr std::size_t kMinPoints = 8;
   static constexpr std::size_t kMaxPoints = 20000;
 
   /// Makes a track from points in the order of driving. The first point is at the start line and is
-  /// not repeated at the end. `smoothing` is the wavelength [m], > 0; by default four times the
-  /// mean distance of the points. PreconditionError for too few or too many points, numbers that
-  /// are not finite, widths that are not positive, and coinciding neighbors. Cost: 5 us per point.
+  /// not repeated at the end. `smoothing` is the wavelength of the smoothing [m], > 0; by default,
+  /// four times the mean distance between neighboring points. Throws PreconditionError if there are
+  /// too few or too many points, a number is not finite, a width is not positive, or two
+  /// neighboring points coincide. The cost is 5 us per point.
   explicit Track(std::vector<TrackPoint> points, std::optional<double> smoothing = {});
 
   [[nodiscard]] const std::vector<TrackPoint>& points() const { return points_; }
   [[nodiscard]] double smoothing() const { return smoothing_; }  ///< Wavelength [m].
-  /// Largest displacement of a point by the smoothing [m].
+  /// Returns the largest distance by which the smoothing moves a point [m].
   [[nodiscard]] double deviation_max() const { return deviation_max_; }
-  /// Root mean square displacement of the points by the smoothing [m].
+  /// Returns the root mean square of the distances by which the smoothing moves the points [m].
   [[nodiscard]] double deviation_rms() const { return deviation_rms_; }
 
-  /// Length of the center line [m].
+  /// Returns the length of one lap of the center line [m].
   [[nodiscard]] double length() const { return length_; }
-  /// The center line at any station, which is wrapped. The yaw is the same in every lap.
+  /// Returns the point of the center line at any station; the station is wrapped to one lap, so the
+  /// yaw is the same in every lap.
   [[nodiscard]] PathPoint At(double s) const;
-  /// The edges at a station, linear between the points of the track.
+  /// Returns the edges at a station, interpolated linearly between the surveyed points.
   [[nodiscard]] TrackEdges EdgesAt(double s) const;
-  /// The station of a point of the track.
+  /// Returns the station of a surveyed point.
   [[nodiscard]] double StationOf(std::size_t point) const { return stations_[point]; }
 
-  /// Returns the track coordinates of a point, relative to the nearest part of the center line.
-  /// With `near` [m], searches only within 30 m of that station, or a tenth of the lap if that is
-  /// less. The station is within [0, length). Cost: that of Path::Project over the searched part.
+  /// Returns the track coordinates of a point, relative to the nearest part of the center line. If
+  /// `near` [m] is set, searches only at stations within 30 m of `near`, or within a tenth of the
+  /// lap if that is less. The returned station is in [0, length). The cost is that of Path::Project
+  /// over the searched part of the center line.
   [[nodiscard]] TrackPlace Locate(const Vec2& point, std::optional<double> near = {}) const;
 
   /// Returns a car's state in the Frenet frame of the center line; nullopt if the frame is
   /// undefined, as in trackbed::ToFrenet.
   [[nodiscard]] std::optional<FrenetState> ToFrenet(const MotionState& motion) const;
 
-  /// The edges, with points at most kEdgeSpacing apart.
+  /// Returns the left edge as points whose stations are at most kEdgeSpacing apart.
   [[nodiscard]] const TrackEdgeLine& left_edge() const { return left_; }
   [[nodiscard]] const TrackEdgeLine& right_edge() const { return right_; }
-  static constexpr double kEdgeSpacing = 0.5;  ///< Largest distance of points in station [m].
+  /// Maximum difference in station between neighboring points of an edge line [m].
+  static constexpr double kEdgeSpacing = 0.5;
 
  private:
   friend std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
@@ -107,34 +114,36 @@ class Track {
   double deviation_max_ = 0.0;
   double deviation_rms_ = 0.0;
   double length_ = 0.0;
-  double extra_ = 0.0;  // Length of path_ before the start line, and after a lap [m].
-  Path path_;           // Center line, slightly more than a lap.
+  // Length by which path_ begins before the start line, and continues after one lap [m].
+  double extra_ = 0.0;
+  Path path_;  // Center line over slightly more than one lap.
   std::vector<double> stations_;
-  std::vector<TrackEdges> edges_;  // Edges at the surveyed points.
+  std::vector<TrackEdges> edges_;  // Edges of the track at the surveyed points.
   TrackEdgeLine left_;
   TrackEdgeLine right_;
 };
 
-/// A bend that is tighter than the track is wide: its inner edge would fold over.
+/// A fold: a bend of the center line whose radius is so small that the inner edge of the track
+/// would cross itself.
 struct TrackFold {
-  std::size_t point = 0;  ///< Point of the track before the tightest place of the bend.
-  double radius = 0.0;    ///< Radius of the center line [m].
-  /// Distance from the center line to the inner edge [m]. The distance exceeds 95 % of the radius
-  /// unless `turn` is set.
+  std::size_t point = 0;  ///< Index of the surveyed point before the tightest place of the bend.
+  double radius = 0.0;    ///< Radius of the center line at the tightest place of the bend [m].
+  /// Distance from the center line to the inner edge at the tightest place of the bend [m]. This
+  /// distance exceeds 95 % of the radius unless `turn` is set.
   double width = 0.0;
   /// Lower bound on the angle by which the center line turns within a quarter of the mean distance
-  /// of the points [rad]. Set only by the FindFold that searches points.
+  /// between neighboring points [rad]. Only the FindFold for a list of points sets this member.
   double turn = 0.0;
 };
 
-/// Finds the first fold; nullopt for a usable track.
+/// Finds the first fold of a track; returns nullopt if the track has no fold.
 std::optional<TrackFold> FindFold(const Track& track);
 
-/// Finds the first clear fold of a track before the track is made from its points. In a clear fold,
-/// the inner edge is beyond the center of curvature, or the center line turns by more than half a
-/// circle within a quarter of the mean distance of the points. One wrong number in a file can cause
-/// such a fold, and the track would take a long time to compute. Throws the errors of Track. Cost:
-/// 5 us per point.
+/// Finds the first clear fold in the points of a track, before a Track is made from the points. In
+/// a clear fold, the inner edge is beyond the center of curvature, or the center line turns by more
+/// than half a circle within a quarter of the mean distance between neighboring points. A single
+/// wrong number in a file can cause a clear fold, and computing a Track from such points would take
+/// a long time. Throws the same errors as the constructor of Track. The cost is 5 us per point.
 std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
                                   std::optional<double> smoothing);
 

@@ -6,35 +6,37 @@
 /// The kinematic single-track car (Rajamani 2012, ch. 2; Skackauskas et al. 2017, eqs. (4)-(7))
 /// behind a rate-limited steering actuator.
 ///
-/// Symbols: psi yaw [rad], delta steering [rad], v speed [m/s], L wheelbase, l_g rear axle to CG,
-/// beta = atan(l_g tan(delta)/L) sideslip angle at the CG [rad].
+/// Symbols: psi yaw [rad], delta steering angle [rad], v speed [m/s], L wheelbase, l_g distance
+/// from the rear axle to the center of gravity, beta = atan(l_g tan(delta)/L) sideslip angle at the
+/// center of gravity [rad]. The equations of motion for the two reference points are:
 ///   rear axle:          x' = v cos psi          psi' = v tan(delta)/L
 ///   center of gravity:  x' = v cos(psi + beta)  psi' = v cos(beta) tan(delta)/L
 namespace trackbed {
 
 struct MotionPiece;
 
-/// The reference point of a car, to which the pose and speed of its state refer.
+/// The reference point of a car, which is the point whose pose and speed the state contains.
 enum class ReferencePoint { kRearAxle, kCenterOfGravity };
 
 struct KinematicState {
-  Pose2 pose;             ///< Pose of the reference point.
+  Pose2 pose;             ///< Pose of the car's reference point.
   double speed = 0.0;     ///< Speed v of the reference point [m/s], signed.
-  double steering = 0.0;  ///< Angle delta of the actuator [rad].
-  double distance = 0.0;  ///< Driven distance, the integral of |v| [m].
+  double steering = 0.0;  ///< Steering angle delta of the actuator [rad].
+  double distance = 0.0;  ///< Distance driven, equal to the integral of |v| over time [m].
 };
 
-/// The kinematic car. Guarantees: a step at a constant steering angle is exact to rounding, for any
-/// length and acceleration. While the steering angle moves, the error is that of a fourth-order
-/// integrator: below 1e-10 m for steps up to 20 ms at 3 m/s. A step is split when the steering
-/// reaches its target and when the car comes to rest, so that the result does not depend on the
-/// step size. The car has no slip, roll or forces; its acceleration follows the command exactly.
+/// The kinematic car. Guarantees: a step at a constant steering angle is exact except for rounding
+/// errors, for any duration and acceleration. While the steering angle changes, the position error
+/// is that of a fourth-order integrator: below 1e-10 m for steps up to 20 ms at 3 m/s. A step is
+/// split at the time when the steering reaches its target, and at the time when the car comes to
+/// rest, so that the result does not depend on the step size. The kinematic car has no slip, roll
+/// or forces, and its acceleration follows the command exactly.
 class KinematicCar {
  public:
   KinematicCar(const VehicleParams& params, ReferencePoint reference, const KinematicState& start);
 
-  /// Advances by `duration` [s] >= 0 under a constant command. PreconditionError unless all
-  /// arguments are finite.
+  /// Advances the car by `duration` [s], >= 0, under a constant command. Throws PreconditionError
+  /// unless all arguments are finite.
   void Step(const Command& command, double duration);
 
   /// Displaces the car instantaneously by `left` [m] to its left.
@@ -42,9 +44,9 @@ class KinematicCar {
 
   [[nodiscard]] const KinematicState& state() const { return state_; }
 
-  /// Returns the full state. Pose and speed are those of the rear axle, for either reference point.
-  /// Accelerations are those at the end of the last step. The member `time` is the total duration
-  /// of the steps.
+  /// Returns the full state of the vehicle. The returned pose and speed are those of the rear axle,
+  /// for either reference point. The returned accelerations are those at the end of the last step.
+  /// The returned `time` is the total duration of all steps.
   [[nodiscard]] VehicleState FullState() const;
 
  private:

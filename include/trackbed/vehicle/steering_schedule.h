@@ -5,26 +5,28 @@
 #include "trackbed/vehicle/kinematic_car.h"
 #include "trackbed/vehicle/params.h"
 
-/// The steering angle as a function of the distance, for a car whose wheels turn at a limited rate
-/// (Skackauskas, dissertation, listing F.1, with corrected distances).
+/// The steering schedule: the steering angle as a function of the distance traveled, for a car
+/// whose wheels turn at a limited rate. The method is that of Skackauskas (dissertation, listing
+/// F.1), with corrected distances.
 ///
 /// Symbols: D distance traveled by the rear axle [m]; d_0 neutral angle of the wheels before,
 /// between and after turns [rad]; S_delta = v |delta - d_0|/omega_delta the driven distance while
 /// the wheels turn from d_0 to delta.
 namespace trackbed {
 
-/// One turn. The wheels start to turn toward `steering` at `start`, and back toward neutral at
-/// `end`.
+/// One turn of a steering schedule. At the distance `start`, the wheels start to turn toward the
+/// angle `steering`; at the distance `end`, the wheels start to turn back toward the neutral angle.
 struct TurnSteering {
-  double start = 0.0;     ///< Distance at which the turn starts [m], >= 0.
-  double end = 0.0;       ///< Distance at which the turn ends [m], > start.
-  double steering = 0.0;  ///< Steering angle [rad], positive to the left.
+  double start = 0.0;     ///< Distance traveled at which the turn starts [m], >= 0.
+  double end = 0.0;       ///< Distance traveled at which the turn ends [m], > start.
+  double steering = 0.0;  ///< Steering angle of the turn [rad], positive to the left.
 };
 
-/// The steering angle delta as a continuous, piecewise linear function of the distance D. The angle
-/// moves toward the current target with the slope omega_delta/v, then stays constant. A turn that
-/// is long enough to reach its target is a trapezoid; a shorter turn stays below its target. A turn
-/// that starts while the wheels still return from the previous turn takes effect immediately.
+/// The steering angle delta as a continuous, piecewise linear function of the distance D. The
+/// steering angle changes toward the target angle with the slope omega_delta/v, and then stays
+/// constant. A turn that is long enough to reach its target angle has the shape of a trapezoid; a
+/// shorter turn does not reach its target angle. If a turn starts while the wheels still return
+/// from the previous turn, the wheels move toward the new target angle immediately.
 class SteeringSchedule {
  public:
   struct Knot {
@@ -35,55 +37,60 @@ class SteeringSchedule {
   /// Makes a schedule that steers straight ahead.
   SteeringSchedule() = default;
 
-  /// Makes a schedule of turns in the order of their starts. `slope` = omega_delta/v [rad/m] > 0,
-  /// one for all turns or one for each turn. `neutral` is the neutral angle d_0 [rad].
-  /// InternalError if the turns are out of order.
+  /// Makes a schedule of turns, which must be in the order of their starts. `slope` is
+  /// omega_delta/v [rad/m], > 0, with one value for all turns or one value for each turn. `neutral`
+  /// is the neutral angle d_0 [rad]. Throws InternalError if the turns are out of order.
   SteeringSchedule(const std::vector<TurnSteering>& turns, double slope, double neutral = 0.0);
   SteeringSchedule(const std::vector<TurnSteering>& turns, const std::vector<double>& slopes,
                    double neutral = 0.0);
 
-  /// Makes a schedule through the knots, at least one, in strictly increasing order of distance.
-  /// InternalError if the knots are out of order; PreconditionError unless the knots are finite.
+  /// Makes a schedule through at least one knot, in strictly increasing order of distance. Throws
+  /// InternalError if the knots are out of order. Throws PreconditionError unless all knots are
+  /// finite.
   static SteeringSchedule Through(std::vector<Knot> knots);
 
   /// Makes a schedule with the constant angle `steering` [rad].
   static SteeringSchedule Constant(double steering);
 
-  /// Returns the steering angle [rad] at a distance; constant before the first and after the last
-  /// knot. If the distance is NaN, the result is NaN.
+  /// Returns the steering angle [rad] at a distance. The steering angle is constant before the
+  /// first knot and after the last knot. If the distance is NaN, the returned angle is NaN.
   [[nodiscard]] double At(double distance) const;
 
   [[nodiscard]] const std::vector<Knot>& knots() const { return knots_; }
 
-  /// Returns the part of the schedule beyond `distance` [m], shifted so that it starts at D = 0.
+  /// Returns the part of the schedule beyond `distance` [m], shifted so that the returned part
+  /// starts at D = 0.
   [[nodiscard]] SteeringSchedule From(double distance) const;
 
  private:
   std::vector<Knot> knots_;
 };
 
-/// The distance S_delta [m] that is driven at `speed` while the wheels turn by `steering`.
+/// Returns the distance S_delta [m] that is driven at `speed` while the wheels turn by the angle
+/// `steering`.
 double SteeringDistance(const VehicleParams& params, double steering, double speed);
 
-/// Returns the heading change [rad] of the rear-axle kinematic car at `speed` while the steering
-/// moves from zero to `steering` at the full rate: (v/(L omega)) (-ln cos delta), with the sign of
-/// the steering.
+/// Returns the heading change [rad] of a kinematic car at `speed` while its steering angle changes
+/// from zero to `steering` at the full rate. The heading change is (v/(L omega)) (-ln cos delta),
+/// with the sign of the steering.
 double RampHeading(const VehicleParams& params, double steering, double speed);
 
-/// Returns the pose of the rear axle after the steering ramp of RampHeading; the car starts at the
-/// origin along x. The pose is computed by quadrature of the heading and is exact to rounding.
+/// Returns the pose of a kinematic car's rear axle after its steering angle has changed as in
+/// RampHeading. The car starts at the origin, heading along x. The pose after the ramp is computed
+/// by quadrature of the heading and is exact except for rounding errors.
 Pose2 RampPose(const VehicleParams& params, double steering, double speed);
 
-/// Returns the end state of an open-loop run of the kinematic car from `start` over `distance` [m].
-/// The wheels follow the schedule exactly, as a car does whose speed keeps the schedule within the
-/// steering rate limit. A start speed < 0 means driving backwards. `start` and the result are
-/// states of the reference point. The integration is of fourth order in `step` [m], split at the
-/// schedule's knots. InternalError for a start speed of 0.
+/// Simulates an open-loop run of the kinematic car from `start` over `distance` [m], and returns
+/// the state at the end. The wheels follow the schedule exactly, which requires a speed at which
+/// the schedule is within the steering rate limit. If the start speed is negative, the car drives
+/// backwards. `start` and the returned state are states of the point `reference`. The simulation
+/// uses integration of fourth order with steps of length `step` [m], split at the schedule's knots.
+/// Throws InternalError if the start speed is 0.
 KinematicState RollOut(const VehicleParams& params, const KinematicState& start,
                        const SteeringSchedule& schedule, double distance, double step,
                        ReferencePoint reference = ReferencePoint::kRearAxle);
 
-/// The states of an open-loop run at several nondecreasing distances [m].
+/// Returns the states of an open-loop run at several distances [m], which must not decrease.
 std::vector<KinematicState> RollOut(const VehicleParams& params, const KinematicState& start,
                                     const SteeringSchedule& schedule,
                                     const std::vector<double>& distances, double step,

@@ -6,21 +6,23 @@
 
 #include "trackbed/geometry/pose.h"
 
-/// Maps of the plane in square cells, the usual format of robots and planning benchmarks.
+/// Maps that divide the plane into square cells, as robots and planning benchmarks use them.
 namespace trackbed {
 
 enum class MapCell : std::uint8_t { kFree, kOccupied, kUnknown };
 
-/// The treatment of unknown cells of a map.
+/// Whether unknown cells of a map are treated as free or occupied.
 enum class UnknownCells { kFree, kOccupied };
 
-/// A map of cells in rows along its x axis, the first row at the bottom.
+/// A map of square cells in rows along the map's x axis; the first row is at the bottom.
 struct GridMap {
-  Pose2 X_WM;  ///< Pose of the outer corner of cell 0; x along the columns, y along the rows.
-  double cell = 1.0;  ///< Side of a cell [m], > 0.
+  /// Pose of the map's frame; the origin is the outer corner of cell 0, x points in the direction
+  /// of growing columns, and y in the direction of growing rows.
+  Pose2 X_WM;
+  double cell = 1.0;  ///< Length of a cell's side [m], > 0.
   int columns = 0;
   int rows = 0;
-  std::vector<MapCell> cells;  ///< Cells, row by row.
+  std::vector<MapCell> cells;  ///< State of each cell, row by row.
 
   [[nodiscard]] MapCell At(int column, int row) const {
     return cells[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
@@ -34,20 +36,20 @@ struct GridMap {
   }
 };
 
-/// A rectangle of cells.
+/// A rectangle of cells in a map.
 struct CellRectangle {
-  int column = 0;  ///< Column of the first cell.
-  int row = 0;     ///< Row of the first cell.
+  int column = 0;  ///< Column of the rectangle's first cell.
+  int row = 0;     ///< Row of the rectangle's first cell.
   int columns = 0;
   int rows = 0;
 
   bool operator==(const CellRectangle&) const = default;
 };
 
-/// Covers the blocked cells exactly by rectangles without overlap. The method is greedy. At the
-/// first remaining blocked cell in row order, the function places the larger of two rectangles: the
-/// widest possible one and the highest possible one. The number of rectangles is small but not
-/// minimal. Cost: O(cells).
+/// Returns rectangles that cover exactly the blocked cells, without overlap. The function uses a
+/// greedy method: at the first blocked cell in row order that is not yet covered, the function
+/// tries the widest possible rectangle and the highest possible rectangle, and places the larger of
+/// the two. The number of rectangles is small but not always minimal. Cost: O(cells).
 std::vector<CellRectangle> MergeCells(const GridMap& map, UnknownCells unknown);
 
 }  // namespace trackbed

@@ -8,21 +8,22 @@
 #include "trackbed/geometry/box_index.h"
 #include "trackbed/world/grid_map.h"
 
-/// Grid maps as obstacles of a world.
+/// Converts grid maps to obstacles of a world.
 namespace trackbed {
 
-/// The blocked cells of a map as walls. Immutable.
+/// The walls of a grid map: the map's blocked cells as obstacles. Immutable.
 class MapObstacles {
  public:
-  /// InternalError unless the map has the number of cells that its columns and rows require.
+  /// Throws InternalError unless the map has the number of cells that its columns and rows require.
   MapObstacles(GridMap map, UnknownCells unknown);
 
   [[nodiscard]] const GridMap& map() const { return map_; }
 
-  /// The walls in the world: rectangles that cover the blocked cells exactly, without overlap.
+  /// Returns the walls in world coordinates: rectangles that cover the blocked cells exactly,
+  /// without overlap.
   [[nodiscard]] const std::vector<OrientedBox>& boxes() const { return index_.boxes(); }
 
-  /// The walls, for distance queries.
+  /// Returns an index of the walls for fast distance queries.
   [[nodiscard]] const BoxIndex& index() const { return index_; }
 
  private:
@@ -30,21 +31,23 @@ class MapObstacles {
   BoxIndex index_;
 };
 
-/// A map of a world, and the file from which the map was read.
+/// The grid map of a world, with the options of the map's file.
 struct MapSpec {
-  /// File of the map: a YAML file of ROS's map_server, or a .map of Moving AI.
+  /// File of the map: a YAML file in the format of ROS's map_server, or a `.map` file of Moving AI.
   std::string file;
-  /// Side of a cell [m], > 0; only for a .map file, which has no scale.
+  /// Length of a cell's side [m], > 0; only for a `.map` file, because these files contain no
+  /// scale.
   std::optional<double> cell{};
-  /// Position and direction of the outer corner of the cell at the bottom left. The default is the
-  /// pose in the file, or 0.
-  std::optional<double> x{};    ///< x of the corner [m].
-  std::optional<double> y{};    ///< y of the corner [m].
-  std::optional<double> yaw{};  ///< Direction of the rows [rad].
+  /// Pose of the map: the position of the outer corner of the bottom left cell, and the direction
+  /// of the rows. The default is the pose in the map file, or 0 if the file contains no pose.
+  std::optional<double> x{};    ///< Coordinate x of the map's corner [m].
+  std::optional<double> y{};    ///< Coordinate y of the map's corner [m].
+  std::optional<double> yaw{};  ///< Direction of the map's rows [rad].
   UnknownCells unknown = UnknownCells::kFree;
   double height = 1.0;  ///< Height of the walls [m], > 0.
 
-  // The map, shared by copies of the world. The member is not a key of the file.
+  // The walls of the map, which copies of the world share. The walls are not a key of the scenario
+  // file.
   std::shared_ptr<const MapObstacles> data{};
 };
 

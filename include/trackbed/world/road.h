@@ -7,44 +7,51 @@
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/world/terrain.h"
 
-/// The road: friction and height. The frame of a feature is the pose of its area. In that frame, u
-/// runs along the length L and v to the left along the width W, both from the middle. Smooth
-/// transitions use C(q) = cos^2(pi/2 q), 1 at q = 0 and 0 for q >= 1.
+/// The friction coefficient and the height of the road. A bump or a superelevation is a feature of
+/// the road, and covers a rectangular area. In the coordinate frame of this area, u counts along
+/// the length L and v counts to the left along the width W, both from the middle of the area.
+/// Smooth transitions use the function C(q) = cos^2(pi/2 q), which is 1 at q = 0; for q >= 1, C is
+/// 0.
 namespace trackbed {
 
-/// An area of different friction: ice, a wet lane, one side of a split-mu road.
+/// An area of the road with a different friction coefficient, such as ice, a wet lane, or one side
+/// of a split-mu road.
 struct FrictionPatch {
   OrientedBox area;
-  double friction = 1.0;  ///< Factor on the tyres' friction coefficient, > 0.
+  /// Factor by which the tyres' friction coefficient is multiplied in the area, > 0.
+  double friction = 1.0;
 };
 
-/// A bump across the road. The height of a bump above the plane is
+/// A speed bump across the road. The height of a bump above the plane is
 ///   height C(2 |u| / L) C((|v| - W/2 + e) / e)     with e = min(edge, W/2).
 struct Bump {
-  OrientedBox area;     ///< Area of the bump, with its length along the road.
-  double height = 0.1;  ///< Height of the top [m], > 0.
-  double edge = 0.5;    ///< Width of the ramp at each side [m], > 0.
+  OrientedBox area;     ///< Area of the bump; the length of the area is along the road.
+  double height = 0.1;  ///< Height of the bump's top [m], > 0.
+  double edge = 0.5;    ///< Width of the ramp at each side of the bump [m], > 0.
 };
 
-/// A superelevated (banked) section. The section rises from the lower edge, which lies on the
-/// plane, to the upper edge. Beyond the upper edge, an embankment of the same width descends. Let w
-/// be W/2 + v for a section that rises to the left, W/2 - v for a section that rises to the right,
-/// and l the transition length. The height above the plane is
+/// A superelevated (banked) section of the road. The banked section rises from its lower edge,
+/// which lies on the plane, to its upper edge. Beyond the upper edge of the section, an embankment
+/// of the same width descends to the plane. Let w be W/2 + v if the section rises to the left and
+/// W/2 - v if the section rises to the right, and let l be the transition length. The height of the
+/// section above the plane is
 ///   |slope| C((|u| - L/2 + r) / r) w               for 0 <= w <= W,     r = min(l, L/2),
 ///   |slope| C((|u| - L/2 + r) / r) W C((w - W)/W)  beyond.
 struct Superelevation {
-  OrientedBox area;                 ///< Area of the section, without the embankment.
-  double slope = 0.0;               ///< Slope, positive if the section rises to the left.
-  double transition_length = 10.0;  ///< Transition length at both ends [m], > 0.
+  OrientedBox area;    ///< Area of the banked section, without the embankment.
+  double slope = 0.0;  ///< Lateral slope, positive if the section rises to the left.
+  /// Length of the transition at both ends of the section [m], > 0.
+  double transition_length = 10.0;
 };
 
-/// The ground: a plane through the origin with features on it, or a terrain instead. If features
-/// overlap, the highest one applies.
+/// The ground: either a plane through the origin with bumps and superelevations, or a terrain.
+/// Where bumps and superelevations overlap, the highest surface applies.
 struct Ground {
-  Vec2 grade = Vec2::Zero();  ///< Slopes dz/dx and dz/dy of the plane.
+  Vec2 grade = Vec2::Zero();  ///< Slopes dz/dx and dz/dy of the ground's plane.
   std::vector<Bump> bumps{};
   std::vector<Superelevation> side_slopes{};
-  /// Terrain that replaces the plane and its features; null: none. Copies of a world share it.
+  /// Terrain that replaces the plane with its bumps and superelevations; null: no terrain. Copies
+  /// of a world share the terrain.
   std::shared_ptr<const Terrain> terrain{};
 };
 
@@ -54,25 +61,25 @@ bool IsFlat(const Ground& ground);
 /// Whether the ground is a plane, level or sloped.
 bool IsPlane(const Ground& ground);
 
-/// Returns the height of a feature above the plane at a point of the world [m]; 0 outside of the
-/// feature.
+/// Returns the height of a bump or superelevation above the plane at a point of the world [m]; 0
+/// outside of its area.
 double Rise(const Bump& bump, const Vec2& point_W);
 double Rise(const Superelevation& side_slope, const Vec2& point_W);
 
-/// Returns the bounding rectangle of a feature. For a superelevated section, the rectangle includes
-/// the embankment.
+/// Returns the bounding rectangle of a bump or superelevation, including the embankment.
 OrientedBox Extent(const Bump& bump);
 OrientedBox Extent(const Superelevation& side_slope);
 
-/// The height z of the ground [m], which is continuous. Cost O(features).
+/// Returns the height z of the ground at a point [m]. The height is continuous. The cost is
+/// proportional to the number of bumps and superelevations.
 double GroundHeight(const Ground& ground, const Vec2& point_W);
 
-/// The slopes dz/dx and dz/dy of the ground. At the long sides of a superelevated section, and at
-/// the border of two features, the result is the slope of one of the two sides. PreconditionError
-/// for a point that is not finite.
+/// Returns the slopes dz/dx and dz/dy of the ground. Where the slope jumps (at the long sides of a
+/// superelevation, and where bumps and superelevations meet), returns the slope of one of the two
+/// sides. Throws PreconditionError if the point is not finite.
 Vec2 GroundSlope(const Ground& ground, const Vec2& point_W);
 
-/// The upward unit normal of the ground.
+/// Returns the unit vector that points upward, normal to the ground.
 Eigen::Vector3d GroundNormal(const Ground& ground, const Vec2& point_W);
 
 }  // namespace trackbed

@@ -5,36 +5,43 @@
 
 #include "trackbed/geometry/oriented_box.h"
 
-/// Wind is the velocity of the air over the ground, in the direction toward which it blows.
+/// The wind is the velocity of the air over the ground; the velocity vector points in the direction
+/// in which the air moves.
 namespace trackbed {
 
 enum class GustShape {
-  kOneMinusCosine,  ///< (1 - cos(2 pi t / T))/2, from 0 to 1 at half time and back to 0.
-  kStep,            ///< Constant 1 over the whole duration.
+  /// The strength is (1 - cos(2 pi t / T))/2: the strength rises from 0 to 1 at half of the
+  /// duration T, then falls back to 0.
+  kOneMinusCosine,
+  kStep,  ///< The strength is 1 over the whole duration.
 };
 
-/// A gust, everywhere or in one area.
+/// A gust of wind, everywhere or in one area.
 struct Gust {
-  Vec2 velocity = Vec2::Zero();    ///< Peak velocity, added to all other wind [m/s].
-  double from = 0.0;               ///< Start time [s].
-  std::optional<double> duration;  ///< Duration [s]; nullopt: unlimited, which only a step may be.
+  /// Peak velocity of the gust, which is added to all other wind [m/s].
+  Vec2 velocity = Vec2::Zero();
+  double from = 0.0;  ///< Start time [s].
+  /// Duration of the gust [s]; nullopt: unlimited, which is only allowed for the shape kStep.
+  std::optional<double> duration;
   GustShape shape = GustShape::kOneMinusCosine;
-  std::optional<OrientedBox> area;  ///< Area of the gust, with sharp edges; none: everywhere.
+  /// Area of the gust, with sharp edges; nullopt: the gust is everywhere.
+  std::optional<OrientedBox> area;
 };
 
-/// Constant, uniform wind, and gusts added to it.
+/// A constant and uniform wind, to which gusts are added.
 struct Wind {
-  Vec2 velocity = Vec2::Zero();  ///< Velocity of the air [m/s].
+  Vec2 velocity = Vec2::Zero();  ///< Velocity of the constant wind [m/s].
   std::vector<Gust> gusts{};
 };
 
-/// The fraction, in [0, 1], of its peak velocity that a gust has at `time`.
+/// Returns the strength of a gust at `time`, as a fraction of the gust's peak velocity in [0, 1].
 double GustStrength(const Gust& gust, double time);
 
-/// Velocity of the air at a point and time [m/s]. Cost O(gusts).
+/// Returns the velocity of the air at a point and time [m/s]. The cost is proportional to the
+/// number of gusts.
 Vec2 WindAt(const Wind& wind, const Vec2& point_W, double time);
 
-/// Whether there is no wind at any time.
+/// Whether the wind is zero everywhere and at all times.
 bool IsCalm(const Wind& wind);
 
 }  // namespace trackbed

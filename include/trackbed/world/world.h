@@ -15,105 +15,115 @@ namespace trackbed {
 
 struct OpenDriveFile;
 
-/// A box on the ground, static or translating.
+/// An obstacle: a box on the ground, which is static or moves without rotation.
 struct Obstacle {
-  OrientedBox footprint;  ///< Footprint at time 0.
-  double height = 1.0;    ///< Height [m], > 0.
-  /// Time or range at which planners learn of the obstacle, although the obstacle exists from the
-  /// start. If both are empty, planners know the obstacle from the start.
-  std::optional<double> known_from_time;   ///< Time [s].
-  std::optional<double> known_from_range;  ///< Distance from the car's footprint [m].
-  Vec2 velocity = Vec2::Zero();            ///< Constant velocity in the world [m/s].
+  OrientedBox footprint;  ///< Footprint of the box at time 0.
+  double height = 1.0;    ///< Height of the box [m], > 0.
+  /// Time from which planners know the obstacle [s]. The obstacle exists from the start of the run;
+  /// if neither `known_from_time` nor `known_from_range` is set, planners also know the obstacle
+  /// from the start.
+  std::optional<double> known_from_time;  ///< Time [s].
+  /// Distance from the car's footprint within which planners learn of the obstacle [m].
+  std::optional<double> known_from_range;
+  Vec2 velocity = Vec2::Zero();  ///< Constant velocity of the box in the world [m/s].
 
   [[nodiscard]] bool moves() const { return velocity != Vec2::Zero(); }
 };
 
-/// A road drawn along the plan in pictures. The drawn road does not affect the run.
+/// The look of the road that is drawn along the plan in videos and other pictures. The drawn road
+/// has no effect on the run.
 struct RoadLook {
-  double width = 7.0;  ///< Width between the edge lines [m]; 0: no road.
-  int lanes = 2;       ///< Number of lanes of equal width.
+  double width = 7.0;  ///< Width of the road between the edge lines [m]; 0: no road is drawn.
+  int lanes = 2;       ///< Number of lanes; all lanes have equal width.
 };
 
-/// A road network from a file.
+/// A road network that is read from a file.
 struct RoadNetworkSpec {
-  std::string file;                             ///< OpenDRIVE file, relative to the scenario file.
-  std::shared_ptr<const OpenDriveFile> data{};  ///< Content of the file; null: not read.
+  /// Name of the OpenDRIVE file, relative to the scenario file.
+  std::string file;
+  /// Content of the file; null if the file has not been read.
+  std::shared_ptr<const OpenDriveFile> data{};
 };
 
-/// The environment of a car.
+/// The world in which a car drives: road, ground, wind and obstacles.
 struct World {
-  double friction = 1.0;  ///< Factor on the tyres' friction coefficient, for both tyre laws.
-  /// Areas of different friction. Later areas override earlier ones.
+  /// Factor by which the tyres' friction coefficient is multiplied, for both tyre models.
+  double friction = 1.0;
+  /// Areas with different friction coefficients. Where areas overlap, the last area in the list
+  /// applies.
   std::vector<FrictionPatch> friction_patches{};
   Ground ground{};
   Wind wind{};
   std::vector<Obstacle> obstacles;
-  /// The road in pictures. Nullopt: a default road for planners that follow roads
-  /// (analysis/road_look.h).
+  /// The road that is drawn in pictures; if nullopt, a default road is drawn for planners that
+  /// follow roads (analysis/road_look.h).
   std::optional<RoadLook> road{};
-  /// Map whose walls exist from the start, in addition to `obstacles`.
+  /// Grid map whose walls are obstacles from the start of the run, in addition to `obstacles`.
   std::optional<MapSpec> map{};
   std::optional<RoadNetworkSpec> road_network{};
 };
 
-/// Whether there are obstacles or walls of a map.
+/// Whether the world has obstacles or a map with walls.
 bool HasObstacles(const World& world);
 
-/// The walls of the world's map; empty without a map.
+/// Returns the walls of the world's map; empty if the world has no map.
 const std::vector<OrientedBox>& MapWalls(const World& world);
 
 /// Returns the road's factor on the tyres' friction coefficient at a point: the factor of the last
-/// patch in the list that contains the point, else `friction`. Cost O(patches). PreconditionError
-/// for a point that is not finite.
+/// patch in the list that contains the point, or `friction` if no patch contains the point. The
+/// cost is proportional to the number of patches. Throws PreconditionError if the point is not
+/// finite.
 double RoadFactor(const World& world, const Vec2& point_W);
 
-/// As RoadFactor above, for a given friction and given patches.
+/// Returns the same factor as RoadFactor above, for a given `friction` and given `patches`.
 double RoadFactor(double friction, const std::vector<FrictionPatch>& patches, const Vec2& point_W);
 
-/// Height, normal and wind of the world at a point (road.h, wind.h).
+/// Return the height and the normal of the ground, and the wind, at a point of the world (road.h,
+/// wind.h).
 double GroundHeight(const World& world, const Vec2& point_W);
 Eigen::Vector3d GroundNormal(const World& world, const Vec2& point_W);
 Vec2 WindAt(const World& world, const Vec2& point_W, double time);
 
-/// The car's footprint if its rear-axle center is at `pose`.
+/// Returns the footprint of a car whose rear-axle center is at `pose`.
 OrientedBox FootprintAt(const VehicleParams& vehicle, const Pose2& pose);
 
-/// The footprint of an obstacle at `time` [s].
+/// Returns the footprint of an obstacle at `time` [s].
 OrientedBox FootprintAt(const Obstacle& obstacle, double time);
 
-/// Whether planners learn of the obstacle at `time` [s], when the car has the given footprint, if
-/// they did not know the obstacle before.
+/// Whether planners that do not know the obstacle yet learn of the obstacle at `time` [s], when the
+/// car has the given footprint.
 bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& footprint);
 
-/// Shortest distance from the car's footprint to any obstacle or wall at `time` [m]; 0 if they
-/// touch or overlap, which is a collision on every plant. Returns nullopt if the world has no
-/// obstacles. Cost O(obstacles), and that of nearby walls.
+/// Returns the shortest distance from the car's footprint to any obstacle or wall at `time` [m].
+/// Returns 0 if the car touches or overlaps an obstacle or wall, which counts as a collision on
+/// every plant. Returns nullopt if the world has no obstacles. The cost is proportional to the
+/// number of obstacles and nearby walls.
 std::optional<double> Clearance(const World& world, const VehicleParams& vehicle, const Pose2& pose,
                                 double time);
 
-/// The clearance of a car at one moment.
+/// The pose and clearance of a car at one time.
 struct ClearanceSample {
   Pose2 pose;
   double time = 0.0;       ///< Time [s].
-  double clearance = 0.0;  ///< Value of Clearance() at `time` [m].
+  double clearance = 0.0;  ///< Clearance of the car at `time`, as returned by Clearance() [m].
 };
 
-/// The minimum clearance between two moments and its time.
+/// The minimum clearance of a car between two times, and the time of the minimum.
 struct ClosestApproach {
-  double clearance = 0.0;  ///< Minimum clearance [m]; 0 in a collision.
-  double time = 0.0;       ///< Time of the minimum clearance [s].
+  double clearance = 0.0;  ///< Minimum clearance of the car [m]; 0 in a collision.
+  double time = 0.0;       ///< Time at which the clearance is minimal [s].
 };
 
-/// The minimum clearance of the footprint between two samples. The car moves on a straight line and
-/// turns at a constant rate, by far less than a full turn. Moving obstacles move between the
-/// samples.
+/// Returns the minimum clearance of a car between two samples. The function assumes that between
+/// the samples the car moves on a straight line and turns at a constant rate, by far less than a
+/// full turn. The motion of obstacles between the samples is included.
 ///
 /// Guarantees: every contact deeper than 1 mm is detected. The returned clearance exceeds the true
-/// minimum by at most 5 mm, or a hundredth of the clearance. Cost: none if car and obstacles are
-/// further apart than they move between the samples. Otherwise, the cost is some calls of
-/// Clearance(), at most 10^5. A motion over kilometers may need more calls; only a part of this
-/// motion is then searched. InternalError without obstacles, PreconditionError for samples that are
-/// not finite.
+/// minimum by at most 5 mm or a hundredth of the clearance. If the car and the obstacles are
+/// further apart than they move between the samples, the cost is negligible. Otherwise, the
+/// function calls Clearance() several times, at most 10^5 times. A motion over kilometers may need
+/// more than 10^5 calls; the function then searches only a part of this motion. Throws
+/// InternalError if the world has no obstacles. Throws PreconditionError if a sample is not finite.
 ClosestApproach ApproachBetween(const World& world, const VehicleParams& vehicle,
                                 const ClearanceSample& from, const ClearanceSample& to);
 

@@ -5,14 +5,14 @@
 namespace trackbed {
 
 struct IpoptResult {
-  bool solved = false;  ///< whether the program is solved to IPOPT's tolerance
+  bool solved = false;  ///< whether IPOPT has solved the quadratic program to its tolerance
   Eigen::VectorXd x;
   Eigen::VectorXd multipliers;
   int iterations = 0;
 };
 
-/// Solves a quadratic program with IPOPT. The caller must have checked the program and compressed
-/// its matrices. Throws RunError in a build without IPOPT.
+/// Solves a quadratic program with IPOPT. The caller must have checked the program, and the sparse
+/// matrices of the program must be compressed. Throws RunError in a build without IPOPT.
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                          InteriorSteps steps);
 

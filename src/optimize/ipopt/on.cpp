@@ -41,8 +41,8 @@ Context& ContextOf(UserDataPtr data) {
   return *static_cast<Context*>(data);
 }
 
-/// Fills in the row and column indices of a matrix's entries if `values` is null, otherwise the
-/// values of the entries.
+/// Writes the entries of a sparse matrix to the arrays of IPOPT: the row and column indices if
+/// `values` is null, otherwise the values.
 void FillEntries(const Sparse& matrix, IpIndex* rows, IpIndex* columns, IpNumber* values) {
   Eigen::Index entry = 0;
   for (Eigen::Index outer = 0; outer < matrix.outerSize(); ++outer) {
@@ -110,8 +110,8 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
   const auto set_integer = [&](std::string name, int value) {
     TRACKBED_CHECK(AddIpoptIntOption(problem, name.data(), value) == TRUE, "{}", name);
   };
-  // With an empty file name, IPOPT does not read options from the file ipopt.opt in the current
-  // folder.
+  // Set the name of the options file to an empty text, so that IPOPT does not read the file
+  // ipopt.opt in the current folder.
   set_text("option_file_name", "");
   set_text("hessian_constant", "yes");
   set_text("jac_d_constant", "yes");
@@ -134,8 +134,8 @@ void SetOptions(IpoptProblem problem, InteriorSteps steps) {
 
 IpoptResult SolveByIpopt(const SparseQuadraticProgram& program, const Eigen::VectorXd& start,
                          InteriorSteps steps) {
-  // Solve only one program at a time: MUMPS, IPOPT's linear solver in Debian, has global state and
-  // would crash if used by several threads.
+  // Solve only one program at a time: MUMPS, the linear solver of IPOPT in Debian, has global state
+  // and would crash if several threads used it.
   static std::mutex one_at_a_time;
   const std::lock_guard<std::mutex> lock(one_at_a_time);
   const auto n = static_cast<IpIndex>(program.linear.size());

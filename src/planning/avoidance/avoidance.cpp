@@ -19,12 +19,13 @@
 #include "trackbed/planning/common/road_hold.h"
 #include "trackbed/world/world.h"
 
-// Local planners replace the stretches of a plan that come too close to obstacles. Each round finds
-// the first conflict and asks the method for a curve past the obstacle. The method `listing` uses
-// the curve of Skackauskas (dissertation, listing F.2) as printed. The method `bezier` repairs a
-// curve until the curve is feasible. The planner splices path, steering schedule, speed caps and
-// diagnostics of the curve into the plan. The search for conflicts continues after the curve. If
-// the method finds no curve, the plan stops before the obstacle.
+// Local planners replace the stretches of a plan that come too close to obstacles. In each round,
+// the planner finds the first conflict with an obstacle and asks the configured method for a curve
+// past the obstacle. The method `listing` uses the curve of Skackauskas (dissertation, listing F.2)
+// as printed. The method `bezier` changes a curve until the curve is feasible. The planner inserts
+// path, steering schedule, speed caps and diagnostics of the curve into the plan. The search for
+// the next conflict continues behind the curve. If the method finds no curve, the plan stops before
+// the obstacle.
 
 namespace trackbed {
 namespace {
@@ -40,19 +41,20 @@ using avoidance::StretchSearch;
 
 /// Spacing of the path pieces that approximate the curve [m].
 constexpr double kCurveSpacing = 0.1;
-/// Length [m] of the steering ramp before and after a curve whose curvature differs from the
-/// plan's.
+/// Length of the steering ramp before and after a curve whose curvature differs from that of the
+/// plan [m].
 constexpr double kStep = 1e-6;
 
-/// Whether the plan's curvature differs from that of the joining curve at its end `curve` by more
-/// than the curve's own curvature changes up to `next`, the next point: the curve is sampled.
+/// Returns whether the curvature jumps from the plan to the end point `curve` of a sampled curve,
+/// by more than it changes from this end point to the next sample `next`.
 bool Jumps(const PathPoint& plan, const CurvePoint& curve, const CurvePoint& next) {
   constexpr double kRounding = 1e-9;  // [1/m]
   return std::abs(plan.curvature - curve.curvature) >
          std::max(kRounding, std::abs(next.curvature - curve.curvature));
 }
 
-/// Finds a curve past an obstacle; the curve leaves the plan at `from` or later.
+/// Function that finds a curve past an obstacle; the curve leaves the plan at the station `from` or
+/// later.
 using FindCurve =
     std::function<ReplacementSearch(const Plan& plan, const Conflict& conflict, double from)>;
 
@@ -78,8 +80,8 @@ class AroundObstacles {
       if (!conflict) {
         break;
       }
-      // Each round clears one obstacle, unless the curve around each of two obstacles conflicts
-      // with the other obstacle.
+      // Each round makes the plan clear of one obstacle, unless the curve past one obstacle
+      // conflicts with another obstacle and vice versa.
       ReplacementSearch found{std::nullopt, "the curves around other obstacles lead back to it"};
       if (round < 2 * request_.obstacles.size()) {
         found = find_(plan_, *conflict, from);
@@ -99,16 +101,17 @@ class AroundObstacles {
  private:
   [[nodiscard]] const Path& path() const { return plan_.reference.path; }
 
-  /// Cuts the plan at the car, so that stations are counted from the car.
+  /// Cuts off the part of the plan behind the car, so that stations are counted from the car.
   void StartAtCar() {
     plan_ = RemainingPlan(plan_, request_.station, request_.station_speed, request_.speed);
-    plan_.diagnostics.avoided.clear();  // Stations of the part that was cut off.
+    // Clear these stations, which refer to the part of the plan that was cut off.
+    plan_.diagnostics.avoided.clear();
     plan_.tree.clear();
     MoveDiagnostics({-1.0, -1.0}, -request_.station);
   }
 
-  /// Keeps the speeds of a plan at the car's limit as speed caps, because the plan's path will
-  /// change.
+  /// If the plan's speeds are at the car's limit, converts the speeds to speed caps, which remain
+  /// valid when the plan's path changes.
   void SpeedsToCaps() {
     plan_.caps = CapsOf(plan_);
     plan_.diagnostics.speed_profile.reset();
@@ -127,14 +130,15 @@ class AroundObstacles {
     const double leave = replacement.stations.from;
     const auto points = replacement.curve.Points(kCurveSpacing, replacement.start.yaw);
     const double back = leave + points.back().s;
-    const double shift = back - replacement.stations.to;  // Shift of the stations after the curve.
+    // Amount by which the curve shifts the stations behind it [m].
+    const double shift = back - replacement.stations.to;
     const Stations before{0.0, leave};
     const Stations after{replacement.stations.to, std::numeric_limits<double>::infinity()};
 
     std::vector<Segment> segments = old.Cut(before);
     Append(segments, SegmentsThrough(points));
     Append(segments, old.Cut(after));
-    // A curve that begins at the car starts at the car's actual pose, not at its planned pose.
+    // A curve that begins at the car starts at the car's actual pose, not at the planned pose.
     const Pose2 start = leave > 0.0 ? old.At(0.0).pose : replacement.start;
     plan_.reference.path = Path(start, std::move(segments));
 
@@ -150,8 +154,8 @@ class AroundObstacles {
     for (const CurvePoint& point : points) {
       knots.push_back({leave + point.s, SteeringForCurvature(request_.vehicle, point.curvature)});
     }
-    // Where nothing jumps, both ends of the curve have the plan's steering, so that the schedule
-    // outside the curve stays exactly as it was.
+    // At each end of the curve without a curvature jump, use the plan's steering angle, so that the
+    // steering schedule outside the curve stays exactly unchanged.
     if (leave > kStep && !jumps_in) {
       knots[knots.size() - points.size()].steering = plan_.schedule.At(leave);
     }
@@ -202,8 +206,8 @@ class AroundObstacles {
       plan_.tree.push_back(node);
     }
     plan_.notes.insert(plan_.notes.end(), replacement.notes.begin(), replacement.notes.end());
-    // Simulate the car open loop from the start of the curve (sig1), with only the curve's
-    // steering.
+    // Simulate the car in open loop from the start of the curve (sig1), steered only by the curve's
+    // schedule.
     const PathPoint start = path().At(curve.from);
     const PathPoint end = path().At(curve.to);
     const std::vector<SteeringSchedule::Knot> own =
@@ -231,14 +235,14 @@ class AroundObstacles {
          .end_heading_error = AngleDifference(driven.pose.yaw, end.pose.yaw)});
   }
 
-  /// Ends the plan where the obstacle comes closer than the safe distance SD. If the stopping
-  /// distance is longer, ends the plan at the stopping distance.
+  /// Ends the plan where the obstacle comes closer than the safe distance SD. If the car cannot
+  /// stop there in time, ends the plan at the stopping distance.
   void StopBefore(const Conflict& conflict, double from, const std::string& why) {
     SpeedsToCaps();
     const double start_speed = plan_.reference.speed.SpeedAt(0.0);
     const double speed = plan_.reference.speed.SpeedAt(from);
-    // A car that is already too close brakes with twice the usual deceleration, or as hard as the
-    // road allows.
+    // A car that is already too close to the obstacle brakes with twice the usual deceleration, or
+    // as hard as the road permits.
     const RoadHoldLimits hold =
         MinRoadHold(path(), {from, std::max(from, conflict.to)},
                     RequestOn(request_.road, request_.vehicle, request_.speed));
@@ -286,7 +290,8 @@ BezierAvoidanceDiagnostics DiagnosticsOn(const Stretch& stretch, const Avoidance
                           .passed = corner >= options.safe_distance + 0.5 * request.vehicle.width}};
 }
 
-/// Checks a rerouted plan against the limits of the road, with the given policy.
+/// Checks a plan around obstacles against the limits of car and road, with the given policy for
+/// infeasible plans.
 FeasiblePlan MakeFeasibleOnRoad(Plan plan, const AvoidanceRequest& request,
                                 InfeasiblePolicy infeasible) {
   PlanRequest constrained = RequestOn(request.road, request.vehicle, request.speed);
@@ -294,8 +299,8 @@ FeasiblePlan MakeFeasibleOnRoad(Plan plan, const AvoidanceRequest& request,
   return MakeFeasibleFromHere(std::move(plan), constrained);
 }
 
-/// Plans past the obstacles. If the road does not hold that plan, plans to stop before the first
-/// obstacle.
+/// Plans a path past the obstacles. If the road's grip is too low for the plan past the obstacles,
+/// plans to stop before the first obstacle.
 FeasiblePlan AvoidOrStop(const AvoidanceRequest& request, double safe_distance,
                          const FindCurve& find) {
   const InfeasiblePolicy infeasible = request.road.infeasible;
@@ -309,7 +314,7 @@ FeasiblePlan AvoidOrStop(const AvoidanceRequest& request, double safe_distance,
   };
   const Plan stop = AroundObstacles(request, safe_distance, none).Run();
   FeasiblePlan held = MakeFeasibleOnRoad(stop, request, infeasible);
-  // Never refuse a plan for a moving car: the car stops as well as it can.
+  // Never refuse the stopping plan of a moving car; the car then brakes as well as it can.
   return held.ok() || !request.car ? held
                                    : MakeFeasibleOnRoad(stop, request, InfeasiblePolicy::kAllow);
 }
@@ -392,7 +397,7 @@ FeasiblePlan PlanAround(const AvoidanceRequest& request, const AvoiderOptions& o
 
 namespace {
 
-/// Keys shared by all methods of `plan.avoid`.
+/// Option keys that all methods of `plan.avoid` share.
 template <typename Options>
 void VisitAvoider(KeyVisitor& keys, Options& options) {
   keys.Field({"safe_distance", "m", "minimum distance of the car's footprint from obstacles"},

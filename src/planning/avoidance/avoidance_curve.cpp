@@ -10,32 +10,34 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
-// Repairs a degree-7 Bezier curve past obstacles until the curve is feasible. Position, heading and
+// Changes a degree-7 Bezier curve past obstacles until the curve is feasible. Position, heading and
 // curvature are given at both ends of the curve. These end conditions fix the control points P_0
 // and P_7, the directions from P_0 to P_1 and from P_7 to P_6, and the lateral offsets of P_2 and
 // P_5. Fit makes an initial curve by placing the control points P_3 and P_4 by least squares along
 // a polyline. RepairCurve then minimizes the integral of (dkappa/ds)^2 over the eight remaining
-// variables. Clearance, steering angle and rate, lateral acceleration and passing side are
-// inequality constraints, evaluated at 193 samples. The curve past an obstacle follows Skackauskas
-// (dissertation, listing F.2). The repair is not part of the dissertation.
+// variables. The limits of clearance, steering angle, steering rate and lateral acceleration and
+// the passing side are inequality constraints, evaluated at 193 samples. The curve past an obstacle
+// follows Skackauskas (dissertation, listing F.2). The repair of the curve is not part of the
+// dissertation.
 
 namespace trackbed::avoidance {
 namespace {
 
 constexpr std::size_t kDegree = 7;
-constexpr double kCheckSpacing = 0.05;  // [m]
-/// Margins that the search adds to the limits, because it checks the curve only at samples.
+// Distance between the points at which a finished curve is checked [m].
+constexpr double kCheckSpacing = 0.05;
+/// Safety margins of the search, which are needed because it checks the curve only at samples.
 constexpr double kClearanceMargin = 0.02;  // [m]
 constexpr double kLimitMargin = 0.99;
-/// After kProbeEvaluations, abandons the search if the violation of a constraint exceeds
-/// kMaxRepairableViolation.
+/// After kProbeEvaluations evaluations, the search is abandoned if a constraint is violated by more
+/// than kMaxRepairableViolation.
 constexpr int kProbeEvaluations = 200;
 constexpr double kMaxRepairableViolation = 0.5;
 /// A stalled search continues with COBYLA, which builds linear models of the objective and the
 /// constraints.
 constexpr SearchOptions kRescueOptions{
     .method = SearchMethod::kCobyla, .evaluations = 300, .tolerance = 1e-5};
-/// Distances to obstacles are computed exactly up to the required clearance plus this value [m].
+/// Excess over the required clearance up to which distances to obstacles are computed exactly [m].
 constexpr double kMaxExcessDistance = 3.0;
 
 /// Variables of the search: the coordinates of the control points that the end conditions do not
@@ -58,8 +60,8 @@ using Points = std::array<Vec2, kDegree + 1>;
 
 /// Maps variables to the control points P_0 to P_7, in the mirror frame of the start. The control
 /// point P_1 lies on the tangent at the start of the curve. The offset h of P_2 from the tangent
-/// follows from the curvature at the start: kappa = (6/7) h/|P_0 P_1|^2. The offset of P_5 follows
-/// in the same way from the curvature at the end.
+/// follows from the curvature at the start: kappa = (6/7) h/|P_0 P_1|^2. The offset of P_5 from the
+/// tangent at the end follows in the same way from the curvature at the end.
 class EndConditions {
  public:
   explicit EndConditions(const CurveProblem& problem)
@@ -143,9 +145,9 @@ const BasisSamples& BernsteinBasis() {
 /// Objective and constraints of the curve repair, evaluated at the samples of the basis.
 class Evaluation {
  public:
-  /// Number of samples per constraint. Each constraint is the worst value over sixteen samples.
-  /// This value varies more smoothly with the variables than the worst value of the whole curve, so
-  /// the search converges better.
+  /// Number of curve samples that one constraint covers. Each constraint limits the worst value
+  /// over sixteen samples of the curve. The worst value over sixteen samples depends more smoothly
+  /// on the variables than the worst value of the whole curve, so the search converges better.
   static constexpr Eigen::Index kStretch = 16;
   static constexpr std::size_t kStretches = (BasisSamples::kSamples - 1) / kStretch;
   static constexpr std::size_t kConstraints = 2 * kStretches + 4;
@@ -200,8 +202,8 @@ class Evaluation {
     double steering = 0.0;
     double acceleration = 0.0;
     double slowest = std::numeric_limits<double>::infinity();
-    // Smallest offset of the curve from the obstacle, toward the passing side, where the curve is
-    // beside the obstacle.
+    // Smallest offset of the curve from the obstacle, measured toward the passing side, over the
+    // part of the curve beside the obstacle.
     double on_side = std::numeric_limits<double>::infinity();
     Vec2 last_at_passage{0.0, 0.0};
     constraints_.fill(-1.0);
@@ -251,8 +253,8 @@ class Evaluation {
   }
 
   /// Returns the distance between the nearest obstacle and the footprint at a point of the curve.
-  /// The result is at most the required clearance plus kMaxExcessDistance. For farther obstacles, a
-  /// check of circumscribed circles replaces the exact distance.
+  /// The result is at most the required clearance plus kMaxExcessDistance. For obstacles farther
+  /// away, the distance between circumscribed circles is used instead of the exact distance.
   [[nodiscard]] double NearestObstacle(const Vec2& rear_axle, const Vec2& forward) const {
     const VehicleParams& vehicle = problem_.vehicle;
     const Vec2 middle = rear_axle + (0.5 * vehicle.length - vehicle.rear_overhang) * forward;
@@ -276,8 +278,8 @@ class Evaluation {
   Vec2 passage_{0.0, 0.0};  // Position of the passed obstacle in the frame of the start.
   Vec2 along_passage_{1.0, 0.0};
   double wanted_;  // Required clearance [m].
-  /// An obstacle in the frame of the start, with the largest distance between the centers of car
-  /// and obstacle at which the two can touch.
+  /// An obstacle in the frame of the start, with the largest distance between car center and
+  /// obstacle center at which the two can touch.
   struct Near {
     OrientedBox box;
     double radius;
@@ -380,7 +382,7 @@ BezierCurve Fit(const CurveProblem& problem, const std::vector<Vec2>& polyline) 
   std::array<double, kVariables> x{seventh, seventh, 0.0, 0.0, 0.0, 0.0, seventh, seventh};
   Points points = ends.ToPoints(x);
   // Subtract the contribution of the known control points from the polyline, then fit the control
-  // points P_3 and P_4 to the rest.
+  // points P_3 and P_4 to the remainder.
   constexpr Eigen::Index kSamples = BasisSamples::kSamples;
   const auto& bernstein = BernsteinBasis().of_order[0];
   Eigen::Matrix<double, kSamples, 2> rest;
@@ -407,8 +409,8 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
     points[i] = problem.Frame().In(guess.control_points()[i]);
   }
   const std::array<double, kVariables> start = evaluation.ends().ToVariables(points);
-  // Each end length is 0.02 to 1 times the distance between the ends. The bounds of the positions
-  // of P_3 and P_4 are wide.
+  // Bounds of the search: each end length is 0.02 to 1 times the distance between the curve's ends.
+  // For the positions of P_3 and P_4, the search uses wide bounds.
   SearchProblem moved{
       .lower = {0.02, 0.02, -1.0, -1.5, -1.0, -1.5, 0.02, 0.02},
       .upper = {1.0, 1.0, 2.0, 1.5, 2.0, 1.5, 1.0, 1.0},
@@ -435,7 +437,8 @@ std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve
   }
   result = search_from(result.x, search);
   if (!result.ok()) {
-    // If the search stalls outside the limits, continue with COBYLA, then retry the first method.
+    // If the search stalls at a curve that violates limits, continue with COBYLA, then retry the
+    // first method.
     result = search_from(result.x, kRescueOptions);
     if (result.ok()) {
       const SearchResult better = search_from(result.x, search);

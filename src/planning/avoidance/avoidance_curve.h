@@ -10,12 +10,12 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/vehicle/params.h"
 
-/// Functions that fit, check and repair a curve past obstacles.
+/// Functions that fit, check and change a curve past obstacles.
 namespace trackbed::avoidance {
 
-/// Coordinate frame of the tree search and of the curve. The origin is the curve's start, and right
-/// turns are mirrored to left turns. Problems that differ only by a translation, rotation or
-/// reflection therefore have the same coordinates in the MirrorFrame.
+/// Coordinate frame in which the tree search and the curve are computed. The origin is the curve's
+/// start, and right turns are mirrored to left turns. Problems that differ only by a translation,
+/// rotation or reflection therefore have the same coordinates in the MirrorFrame.
 struct MirrorFrame {
   Pose2 pose;
   double side = 1.0;  ///< Factor of the y axis: with -1, the y axis points to the right.
@@ -38,10 +38,12 @@ struct CurveEnd {
   double curvature = 0.0;  ///< [1/m]
 };
 
-/// The side on which an obstacle is to be passed.
+/// The side on which the car is to pass an obstacle.
 struct PassageConstraint {
-  Pose2 frame;        ///< Frame at the obstacle, whose x axis points along the path.
-  double side = 1.0;  ///< Passing side: +1 to the left of the frame's origin, -1 to the right.
+  Pose2 frame;  ///< Frame at the obstacle, whose x axis points along the path.
+  /// Side on which the car passes the obstacle: +1 to the left of the frame's origin, -1 to the
+  /// right.
+  double side = 1.0;
 };
 
 struct CurveProblem {
@@ -52,12 +54,13 @@ struct CurveProblem {
   double mirror = 1.0;  ///< Factor of the y axis; with -1, the problem is mirrored (see
                         ///< MirrorFrame).
   std::vector<OrientedBox> obstacles;
-  double safe_distance = 0.0;         ///< Safe distance SD [m].
-  double steering_rate = 0.0;         ///< Steering rate available to the curve [rad/s].
-  double lateral_acceleration = 0.0;  ///< Limit of the lateral acceleration [m/s^2].
-  double start_speed = 0.0;           ///< Speed at the start [m/s].
-  double speed = 0.0;                 ///< Speed to which the car brakes, or to which it accelerates
-                                      ///< immediately [m/s].
+  double safe_distance = 0.0;  ///< Safe distance SD that the curve must keep from obstacles [m].
+  double steering_rate = 0.0;  ///< Maximum steering rate on the curve [rad/s].
+  double lateral_acceleration = 0.0;  ///< Maximum lateral acceleration on the curve [m/s^2].
+  double start_speed = 0.0;           ///< Speed of the car at the start of the curve [m/s].
+  /// Speed of the car on the curve; a faster car brakes to this speed, a slower car is assumed to
+  /// have it at once [m/s].
+  double speed = 0.0;
   double deceleration = 0.0;  ///< Deceleration with which the car brakes to `speed` [m/s^2].
 
   [[nodiscard]] MirrorFrame Frame() const { return {start.pose, mirror}; }
@@ -68,11 +71,13 @@ struct CurveProblem {
 /// Length and clearance of a curve, and the largest steering and acceleration that the curve
 /// requires.
 struct CurveCheck {
-  double length = 0.0;         ///< Length of the curve [m].
-  double clearance = 0.0;      ///< Clearance of the footprint; infinite without obstacles [m].
-  double steering = 0.0;       ///< Largest magnitude of the steering angle [rad].
-  double steering_rate = 0.0;  ///< Largest magnitude of the steering rate [rad/s].
-  double lateral_acceleration = 0.0;  ///< Largest magnitude of the lateral acceleration [m/s^2].
+  double length = 0.0;  ///< Length of the curve [m].
+  /// Smallest distance between footprint and obstacles; infinite without obstacles [m].
+  double clearance = 0.0;
+  double steering = 0.0;       ///< Largest magnitude of the steering angle on the curve [rad].
+  double steering_rate = 0.0;  ///< Largest magnitude of the steering rate on the curve [rad/s].
+  /// Largest magnitude of the lateral acceleration on the curve [m/s^2].
+  double lateral_acceleration = 0.0;
 
   [[nodiscard]] bool Keeps(const CurveProblem& problem) const;
 };
@@ -92,14 +97,14 @@ struct Repair {
   SearchResult search;
 };
 
-/// Returns whether a polyline passes an obstacle on the required side. A polyline that passes there
-/// crosses this side of the obstacle an odd number of times.
+/// Returns whether a polyline passes an obstacle on the required side, which means that it crosses
+/// the lateral axis of the obstacle's frame on this side an odd number of times.
 bool GoesThrough(const PassageConstraint& passage, const std::vector<Vec2>& polyline);
 
-/// Minimizes the integral of (dkappa/ds)^2 ds along a curve by moving the control points P_3 and
-/// P_4 and changing the end lengths, starting at `guess`. The repaired curve passes on the required
-/// side and keeps the safe distance and the limits. Returns none if the search finds no feasible
-/// curve.
+/// Minimizes the integral of (dkappa/ds)^2 ds along a curve, starting at the curve `guess`. The
+/// variables are the positions of the control points P_3 and P_4 and the end lengths. The repaired
+/// curve passes on the required side and keeps the safe distance and the limits. Returns none if
+/// the search finds no feasible curve.
 std::optional<Repair> RepairCurve(const CurveProblem& problem, const BezierCurve& guess,
                                   const SearchOptions& search, std::uint64_t seed);
 

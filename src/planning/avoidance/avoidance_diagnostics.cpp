@@ -3,7 +3,7 @@
 namespace trackbed {
 namespace {
 
-/// Part of plan.json about the tree search for the path past the obstacle.
+/// Data for the part of plan.json about the tree search for the path past the obstacle.
 struct TreeRecord {
   const BezierAvoidanceDiagnostics& own;
 };
@@ -18,7 +18,7 @@ void Visit(DiagnosticsVisitor& out, const TreeRecord& tree) {
   }
 }
 
-/// Part of plan.json about the search that moved the control points of the curve.
+/// Data for the part of plan.json about the search that moved the control points of the curve.
 struct RepairRecord {
   const BezierAvoidanceDiagnostics& own;
 };

@@ -15,15 +15,15 @@
 namespace trackbed::avoidance {
 namespace {
 
-/// Tolerance for rounding errors: of stations, which are sums of lengths [m], and of angles, which
-/// are lengths over radii [rad].
+/// Tolerance for the rounding errors of stations (sums of lengths) [m] and of angles (lengths
+/// divided by radii) [rad].
 constexpr double kRounding = 1e-9;
 
-/// An arc of the plan together with the adjacent straights.
+/// A turn of the plan: an arc together with the two adjacent straights.
 struct Turn {
-  Stations arc;            ///< Stations of the turn's arc [m].
-  double curvature = 0.0;  ///< Signed curvature of the arc [1/m].
-  /// Stations from the start of the first straight to the end of the second [m].
+  Stations arc;            ///< Stations at which the turn's arc begins and ends [m].
+  double curvature = 0.0;  ///< Signed curvature of the turn's arc [1/m].
+  /// Stations at which the first straight begins and the second straight ends [m].
   Stations straights;
 
   [[nodiscard]] double sweep() const { return std::abs(curvature) * (arc.to - arc.from); }
@@ -57,8 +57,8 @@ std::optional<Turn> TurnAt(const Path& path, double s) {
   return turn;
 }
 
-/// Sets up the problem of listing F.2 (Skackauskas). Listing F.2 measures its arc back from a right
-/// angle, even if the turn's heading change is not a right angle.
+/// Sets up the problem of listing F.2 (Skackauskas). Listing F.2 measures the angles on its arc
+/// backward from a right angle, even if the turn's heading change is not a right angle.
 TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceOptions& options,
                         const Turn& turn, const OrientedBox& obstacle, double beside) {
   TurnManeuver problem;
@@ -84,8 +84,8 @@ TurnManeuver ProblemFor(const AvoidanceRequest& request, const ListingAvoidanceO
   return problem;
 }
 
-/// Returns a note if the clearance is below the safe distance. MakeFeasible reports violations of
-/// all other limits.
+/// Returns a note if the curve's clearance is below the safe distance; MakeFeasible reports
+/// violations of all other limits.
 std::vector<std::string> ClearanceNotes(const CurveCheck& check, double safe_distance,
                                         const OrientedBox& obstacle) {
   if (check.clearance >= safe_distance) {

@@ -3,8 +3,8 @@
 #include "src/planning/avoidance/avoidance_stretch.h"
 #include "trackbed/planning/common/plan.h"
 
-/// Avoidance by the curve past an obstacle in a turn that is printed in Skackauskas (dissertation,
-/// listing F.2).
+/// Avoids an obstacle in a turn by the curve that listing F.2 of the dissertation of Skackauskas
+/// defines.
 namespace trackbed::avoidance {
 
 /// Replaces the plan's turn by the curve of listing F.2, which begins at a distance S before the

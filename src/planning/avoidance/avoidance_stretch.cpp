@@ -10,23 +10,24 @@
 #include "trackbed/planning/common/road_hold.h"
 #include "trackbed/world/world.h"
 
-// Finds the stretch of a plan that a curve past an obstacle replaces. RRT* (Karaman and Frazzoli
-// 2011) finds a path on each side of the obstacle. The search loops over demands (comfortable, then
-// slower), sides of the obstacle and stations at which the curve may leave the plan. For each
-// combination, the search tries in order the stations at which the curve may return to the plan.
-// Fit makes an initial curve along the path of RRT*, and RepairCurve makes the curve feasible.
-// After the first feasible curve, the search tries earlier stations of return until one fails.
+// Finds the stretch of a plan that is replaced by a curve past an obstacle. RRT* (Karaman and
+// Frazzoli 2011) finds a path on each side of the obstacle. Nested loops try the demands
+// (comfortable first, then slower), the two sides of the obstacle, and the stations at which the
+// curve may leave the plan. For each combination, the search tries the stations at which the curve
+// may return to the plan, the nearest first. Fit makes an initial curve along the path of RRT*, and
+// RepairCurve makes the curve feasible. After the first feasible curve, the search tries to return
+// at earlier stations until a curve is infeasible.
 
 namespace trackbed::avoidance {
 namespace {
 
-/// Spacing of the stations at which a curve may return to the path [m]. After a bend, the spacing
-/// is doubled.
+/// Spacing of the stations at which a curve may return to the path [m]. Behind a bend, the spacing
+/// of these stations is doubled.
 constexpr double kReturnStep = 2.0;
-/// Ratio between successive speeds that the search tries.
+/// Ratio of each speed that the search tries to the previous speed.
 constexpr double kSpeedRatio = 0.6;
-/// Tolerance for approximating a curve by path pieces [m]. Without the tolerance, a curve that
-/// keeps exactly the safe distance SD could count as a conflict.
+/// Tolerance for approximating a curve by path pieces [m]. Without this tolerance, a curve that
+/// keeps exactly the safe distance SD from an obstacle could count as a conflict.
 constexpr double kRoundingTolerance = 5e-4;
 
 double HalfDiagonal(const OrientedBox& box) {
@@ -45,9 +46,10 @@ std::vector<PathPoint> SamplePoints(const Path& path, double from, double to) {
 /// A bend of the path: a stretch on which the curvature keeps its sign and is at least a tenth of
 /// its peak value.
 struct Bend {
-  double from = 0.0;       ///< [m]
-  double to = 0.0;         ///< [m]
-  double curvature = 0.0;  ///< Signed curvature of the largest magnitude [1/m].
+  double from = 0.0;  ///< Station at which the bend begins [m].
+  double to = 0.0;    ///< Station at which the bend ends [m].
+  /// Signed curvature at the point of the bend with the largest |curvature| [1/m].
+  double curvature = 0.0;
 };
 
 /// One side of an obstacle, and the path that RRT* found on this side.
@@ -56,10 +58,10 @@ struct SidePath {
   RrtStarResult tree;
 };
 
-/// Speed and steering rate that a curve may use.
+/// A demand: the speed and the share of the steering rate that a curve may use.
 struct Demand {
-  double speed = 0.0;  ///< [m/s]
-  double share = 1.0;  ///< Fraction of the steering rate that the curve may use.
+  double speed = 0.0;  ///< Speed of the car on the curve [m/s].
+  double share = 1.0;  ///< Fraction of the car's maximum steering rate that the curve may use.
 };
 
 class StretchFinder {
@@ -86,7 +88,8 @@ class StretchFinder {
     for (const Demand& demand : Demands()) {
       for (const SidePath& side_path : side_paths) {
         if (demand.speed < full && side_path.tree.status == RrtStarStatus::kNotReached) {
-          continue;  // RRT* found no path on this side, and a lower speed does not help.
+          // Skip this side: RRT* found no path here, and a lower speed does not change this.
+          continue;
         }
         for (const double leave : leaves) {
           // Sets up the problem of a curve from `leave` to `back` with this demand.
@@ -114,7 +117,8 @@ class StretchFinder {
             if (!attempt(*back, Fit(problem, Guide(side_path, conflict, bend, problem)))) {
               continue;
             }
-            // Start at the feasible curve, which is a better initial guess than the fit.
+            // Start the search at the feasible curve, which is a better initial guess than the
+            // fitted curve.
             for (auto earlier = back; earlier != backs.begin();) {
               --earlier;
               if (!attempt(*earlier, stretch->repair.curve)) {
@@ -141,8 +145,8 @@ class StretchFinder {
  private:
   [[nodiscard]] const Path& path() const { return plan_.reference.path; }
 
-  /// Returns the bend that contains a conflict. For a conflict on a straight, returns the stretch
-  /// of the conflict.
+  /// Returns the bend in which a conflict with an obstacle lies; for a conflict on a straight,
+  /// returns the stretch of the conflict.
   [[nodiscard]] Bend BendAt(const Conflict& conflict) const {
     Bend bend{conflict.from, conflict.to, 0.0};
     for (const PathPoint& point : SamplePoints(path(), conflict.from, conflict.to)) {
@@ -166,9 +170,9 @@ class StretchFinder {
     return bend;
   }
 
-  /// Returns the distance that the car needs for a lateral shift past the obstacle. A quintic shift
-  /// by D over the length l has its largest dkappa/ds, 60 D/l^3, at both ends. The steering rate
-  /// limits dkappa/ds.
+  /// Returns the distance that the car needs along the path to shift sideways past the obstacle
+  /// [m]. For a quintic lateral shift by D over the length l, dkappa/ds is largest at both ends and
+  /// equals 60 D/l^3 there. The car's maximum steering rate limits dkappa/ds.
   [[nodiscard]] double ShiftLength(const OrientedBox& obstacle) const {
     const double aside =
         HalfDiagonal(obstacle) + options_.safe_distance + 0.5 * request_.vehicle.width;
@@ -185,8 +189,8 @@ class StretchFinder {
                                  : ShiftLength(obstacle) + delay;
   }
 
-  /// Returns whether the scheduled steering angle matches the path's curvature. The two differ only
-  /// on steering ramps.
+  /// Returns whether the scheduled steering angle matches the path's curvature. Steering angle and
+  /// curvature differ only on steering ramps.
   [[nodiscard]] bool IsSteeringSettled(double s) const {
     const double planned = SteeringForCurvature(request_.vehicle, path().At(s).curvature);
     constexpr double kSteeringTolerance = 1e-3;  // [rad]
@@ -206,7 +210,7 @@ class StretchFinder {
     return std::clamp(s, from, to);
   }
 
-  /// Returns the stations at which the car may leave the plan, the preferred station first.
+  /// Returns the stations at which the curve may leave the plan, the preferred station first.
   [[nodiscard]] std::vector<double> DepartureStations(const Conflict& conflict, const Bend& bend,
                                                       double from) const {
     std::vector<double> leaves;
@@ -224,7 +228,7 @@ class StretchFinder {
     return leaves;
   }
 
-  /// Returns the stations at which the car may return to the plan, in ascending order.
+  /// Returns the stations at which the curve may return to the plan, in ascending order.
   [[nodiscard]] std::vector<double> ReturnStations(const Conflict& conflict,
                                                    const Bend& bend) const {
     const double lead = LeadDistance(bend, conflict.obstacle);
@@ -269,9 +273,9 @@ class StretchFinder {
     return problem;
   }
 
-  /// Lowers the limits of the curve to the limits of the road under the replaced part of the path.
-  /// The curve itself may cross a patch of other friction beside the path, which MakeFeasible
-  /// checks later.
+  /// Lowers the limits for the curve to what the road under the replaced part of the path permits.
+  /// MakeFeasible later checks the curve itself, which may cross a patch with another friction
+  /// coefficient beside the path.
   void LowerToRoad(CurveProblem& problem, const Stations& within) const {
     const RoadHoldLimits hold = MinRoadHold(path(), within, road_);
     if (hold.lateral > 0.0) {
@@ -282,8 +286,8 @@ class StretchFinder {
     }
   }
 
-  /// Returns +1 if `passing_side` is to the left of the path at the obstacle, and -1 if it is to
-  /// the right.
+  /// Returns the side of the path at the obstacle on which `passing_side` lies: +1 for left, -1 for
+  /// right.
   [[nodiscard]] static double LateralSign(const Bend& bend, PassingSide passing_side) {
     const double inner = bend.curvature < 0.0 ? -1.0 : 1.0;
     return passing_side == PassingSide::kInner ? inner : -inner;
@@ -297,8 +301,9 @@ class StretchFinder {
   }
 
   /// Returns the demands in the order in which the search tries them. The first demand is
-  /// comfortable: the mission's speed with a fraction of the steering rate. The following demands
-  /// use the full steering rate at falling speeds, down to the slowest allowed speed.
+  /// comfortable; it combines the mission's speed with a fraction of the steering rate. The
+  /// following demands use the full steering rate at falling speeds, down to the slowest allowed
+  /// speed.
   [[nodiscard]] std::vector<Demand> Demands() const {
     const double most = options_.max_steering_rate_fraction;
     std::vector<Demand> demands;

@@ -8,16 +8,17 @@
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/plan.h"
 
-/// Finds the stretch of the plan that a curve replaces, given a conflict with an obstacle.
+/// Finds, for a conflict with an obstacle, the stretch of the plan that a curve past the obstacle
+/// replaces.
 namespace trackbed::avoidance {
 
-/// Spacing of collision checks along a path [m].
+/// Distance between collision checks along a path [m].
 inline constexpr double kPathCheckSpacing = 0.1;
 
 /// A stretch of the plan on which an obstacle is too close to the car.
 struct Conflict {
-  double from = 0.0;  ///< First station of the conflict [m].
-  double to = 0.0;    ///< Last station of the conflict [m].
+  double from = 0.0;  ///< Station at which the conflict begins [m].
+  double to = 0.0;    ///< Station at which the conflict ends [m].
   OrientedBox obstacle;
 };
 
@@ -31,22 +32,22 @@ double StationBeside(const Path& path, const VehicleParams& vehicle, const Confl
 
 /// A curve, found by any method, that replaces the plan between two stations.
 struct Replacement {
-  Stations stations;  ///< Replaced stations of the plan.
+  Stations stations;  ///< Stations of the plan that the curve replaces [m].
   Pose2 start;        ///< Pose at the start of the curve.
   BezierCurve curve;
   CurveCheck check;
   double speed = 0.0;  ///< Speed limit on the curve [m/s].
   PassingSide passing_side = PassingSide::kInner;
-  std::vector<TreeNode> tree;  ///< Nodes of the search tree that led to the curve.
+  std::vector<TreeNode> tree;  ///< Nodes of the search tree whose path the curve follows.
   std::vector<std::string> notes;
-  /// Makes the diagnostics of the method from the new plan and from the stations of the curve on
-  /// the new plan.
+  /// Function that makes the method's diagnostics from the new plan and the curve's stations on the
+  /// new plan.
   std::function<MethodDiagnostics(const Plan& plan, const Stations& curve)> diagnostics;
 };
 
 struct ReplacementSearch {
   std::optional<Replacement> replacement;
-  std::string why;  ///< why no curve was found, as a text for users
+  std::string why;  ///< reason why no curve was found, as a text for users
 };
 
 /// A feasible curve that replaces the plan between two stations.
@@ -59,12 +60,12 @@ struct Stretch {
   RrtStarResult tree;
   OrientedBox obstacle;
   double beside = 0.0;  ///< Station at which the plan runs beside the obstacle [m].
-  int tried = 0;        ///< Number of curves tried.
+  int tried = 0;        ///< Number of curves that the search tried.
 };
 
 struct StretchSearch {
   std::optional<Stretch> stretch;
-  std::string why;  ///< why no stretch was found, as a text for users
+  std::string why;  ///< reason why no stretch was found, as a text for users
 };
 
 /// Finds the stretch of the plan that a curve replaces. The search prefers, in this order, a high

@@ -14,19 +14,21 @@
 #include "trackbed/world/world.h"
 
 // Computes the curve past an obstacle in a turn as printed in Skackauskas (dissertation, listing
-// F.2). Listing F.2 samples the turn's arc; with `literal.grid`, on the printed grid of 0.01 rad.
-// The obstacle stands at n sixths of the arc, and the safe point lies beside the obstacle at the
-// radius r_k. An RRT* with floor(S/2) samples gives the y coordinate of the control point P_3.
-// Explicit formulas give the rest of the eight control points of the Bezier curve. Listing F.2 does
-// not repair the curve. SimulateManeuver only evaluates the curve, at 501 parameters.
+// F.2). Listing F.2 samples the turn's arc; with `literal.grid`, the samples lie on the grid of
+// 0.01 rad that the listing prints. The obstacle stands at n sixths of the arc, and the safe point,
+// which the curve passes, lies beside the obstacle at the radius r_k. An RRT* tree of floor(S/2)
+// samples determines the y coordinate of the control point P_3. Explicit formulas determine all
+// other coordinates of the Bezier curve's eight control points. Listing F.2 does not change an
+// infeasible curve; SimulateManeuver only evaluates the curve at 501 parameters.
 
 namespace trackbed {
 namespace {
 
-constexpr double kGrid = 0.01;          // [rad]
-constexpr double kProbeDistance = 2.0;  // [m]
-constexpr double kTreeStep = 1.0;       // Step EPS of the tree [m].
-constexpr double kNeighbors = 10.0;     // Neighbor radius r of the tree [m].
+constexpr double kGrid = 0.01;  // Step of the printed grid of angles [rad].
+// Distance from the test point to the obstacle along the curve [m].
+constexpr double kProbeDistance = 2.0;
+constexpr double kTreeStep = 1.0;    // Maximum length EPS of an edge of the RRT* tree [m].
+constexpr double kNeighbors = 10.0;  // Radius r in which the RRT* tree searches for neighbors [m].
 constexpr std::size_t kIntervals = 500;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -34,8 +36,8 @@ double Sign(const TurnManeuver& maneuver) {
   return maneuver.side == TurnSide::kLeft ? 1.0 : -1.0;
 }
 
-/// Returns a point on a circle around the turn's center C. Left and right turns differ only in the
-/// sign of y, so that their points are exact mirror images.
+/// Returns a point on a circle around the turn's center C. The points of left and right turns
+/// differ only in the sign of y, so they are exact mirror images.
 Vec2 PointAt(const TurnManeuver& maneuver, double radius, double angle) {
   return {maneuver.straight() + radius * std::sin(angle),
           Sign(maneuver) * (maneuver.radius - radius * std::cos(angle))};
@@ -61,8 +63,8 @@ void CheckRanges(const TurnManeuver& m, const VehicleParams& vehicle) {
   TRACKBED_CHECK(vehicle.width > 0.0 && std::isfinite(vehicle.width), "width {}", vehicle.width);
 }
 
-/// Returns the required width 2 (SD + IS_k + w_a) [m], with the safe distance SD, half the
-/// obstacle's diagonal IS_k and the car's width w_a.
+/// Returns the width 2 (SD + IS_k + w_a) that the maneuver requires [m]; SD is the safe distance,
+/// IS_k half the obstacle's diagonal and w_a the car's width.
 double RequiredWidth(const TurnManeuver& maneuver, double vehicle_width) {
   const double half_diagonal = 0.5 * std::hypot(maneuver.obstacle_width, maneuver.obstacle_length);
   return 2.0 * maneuver.safe_distance + 2.0 * half_diagonal + 2.0 * vehicle_width;
@@ -75,8 +77,8 @@ std::vector<double> ArcAngles(const TurnManeuver& maneuver) {
   if (!(sweep > 0.0)) {
     return angles;
   }
-  // The factor 1 + 1e-12 keeps the last point if the sweep is a whole number of steps up to
-  // rounding.
+  // The factor 1 + 1e-12 ensures that rounding does not drop the last point if the arc's angle is a
+  // whole number of steps.
   const double steps = sweep / kGrid;
   if (maneuver.literal.grid) {
     const double last = std::floor(steps * (1.0 + 1e-12));
@@ -92,8 +94,9 @@ std::vector<double> ArcAngles(const TurnManeuver& maneuver) {
   return angles;
 }
 
-/// Returns whether two line segments cross, which means that the ends of each segment lie on
-/// different sides of the other segment. A point on a line counts as right of the line.
+/// Returns whether two line segments cross: the two ends of each segment must lie on different
+/// sides of the other segment's line. An end point exactly on the other segment's line counts as
+/// right of this line.
 bool LinesCross(const Vec2& a, const Vec2& b, const Vec2& c, const Vec2& d) {
   const auto left = [](const Vec2& p, const Vec2& q, const Vec2& r) {
     return Cross(q - p, r - p) > 0.0;
@@ -113,8 +116,7 @@ bool CrossesNoSide(const Vec2& from, const Vec2& to, const OrientedBox& box) {
   return true;
 }
 
-/// Returns the index of the node nearest to a point, or the first such node if several nodes are
-/// equally near.
+/// Returns the index of the node nearest to a point; among equally near nodes, returns the first.
 std::size_t NearestNode(const std::vector<TreeNode>& nodes, const Vec2& point) {
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < nodes.size(); ++i) {
@@ -174,7 +176,7 @@ TurnLayout LayOutTurn(const TurnManeuver& maneuver, const VehicleParams& vehicle
   layout.safe_angle = obstacle_angle;
   if (maneuver.literal.grid) {
     // Listing F.2 reverses the points of the arc but not their angles. The angle of the safe point
-    // therefore deviates by the remainder of the sweep divided by the grid step.
+    // is therefore wrong by the remainder of the division of the arc's angle by the grid step.
     obstacle_angle = angles[layout.obstacle_at - 1];
     layout.safe_angle = kGrid * static_cast<double>(layout.obstacle_at - 1);
   }
@@ -204,8 +206,8 @@ std::array<Vec2, 8> ControlPoints(const TurnManeuver& maneuver, const TurnLayout
   Vec2 exit{std::cos(end_angle), sign * std::sin(end_angle)};
   points[5] = arc_end;
   if (maneuver.literal.right_angle_rule && maneuver.reduction == 0.0) {
-    // Place P_5 at the y coordinate of the safe point, or, if the car passes on the outside, at the
-    // y coordinate that the safe point would have on the inside.
+    // Give P_5 the y coordinate that the safe point has if the car passes on the inside of the
+    // turn, even if the car passes on the outside.
     const double radius = SafeRadius(maneuver, vehicle.width, PassingSide::kInner);
     const double y = maneuver.passing_side() == PassingSide::kInner
                          ? layout.safe_point.y()
@@ -286,12 +288,12 @@ ManeuverRun SimulateManeuver(const TurnManeuver& maneuver, const TurnLayout& lay
     sample.time = sample.s / maneuver.speed;
     sample.curvature = curve.Curvature(u);
     sample.steering = SteeringForCurvature(vehicle, sample.curvature);
-    // Steering rate: d atan(L K)/dt = v L K'/(1 + (L K)^2).
+    // The steering rate is d atan(L K)/dt = v L K'/(1 + (L K)^2).
     const double slope = vehicle.wheelbase * sample.curvature;
     const double rate =
         std::abs(maneuver.speed * vehicle.wheelbase * curve.Sharpness(u) / (1.0 + slope * slope));
-    // The steering angle is NaN where the derivative of the curve vanishes; treat NaN as exceeding
-    // every limit.
+    // Where the derivative of the curve vanishes, the steering angle is NaN, which counts as
+    // exceeding every limit.
     const double angle = std::abs(sample.steering);
     drive.steering_max = std::max(drive.steering_max, std::isnan(angle) ? kInfinity : angle);
     drive.steering_rate_max =

@@ -10,13 +10,13 @@
 namespace trackbed {
 namespace {
 
-/// Largest number of bins. If the boxes cover a large area, the bins become larger instead of more
-/// numerous.
+/// Largest number of bins into which the checker sorts the obstacle boxes. If the boxes cover a
+/// large area, the checker makes the bins larger instead of using more bins.
 constexpr double kMaxBins = 250000.0;
 /// Shortest step along a path, as a fraction of the car's length.
 constexpr double kStep = 0.02;
-/// Up to this number of boxes, computing the distances to all boxes is faster than many small steps
-/// along the path.
+/// Number of boxes up to which computing the distances to all boxes is faster than taking many
+/// small steps along the path.
 constexpr std::size_t kFullScanLimit = 16;
 
 bool IsBox(const OrientedBox& box) {
@@ -24,8 +24,8 @@ bool IsBox(const OrientedBox& box) {
          std::isfinite(box.length) && box.width >= 0.0 && std::isfinite(box.width);
 }
 
-/// Returns the squared distance from a point to a box. The unit vector `along` points in the
-/// direction of the box's length.
+/// Returns the squared distance from a point to a box. The unit vector `along` is the direction of
+/// the box's length axis.
 double SquareTo(const OrientedBox& box, const Vec2& along, const Vec2& point) {
   const Vec2 offset = point - box.center.position();
   const double x = std::max(std::abs(along.dot(offset)) - 0.5 * box.length, 0.0);
@@ -59,7 +59,7 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
 }
 
 void CollisionChecker::FillBins() {
-  // A box matters for footprints whose center is closer to the box than `near`.
+  // A box is irrelevant for all footprints whose center is farther than `near` from the box.
   const double near = radius_ + distance_ + farthest_;
   const auto reach_of = [&](std::size_t i) {
     const Vec2 along = 0.5 * boxes_[i].length * along_[i];
@@ -73,15 +73,15 @@ void CollisionChecker::FillBins() {
     high = high.cwiseMax(boxes_[i].center.position() + reach_of(i));
   }
   const Vec2 size = high - low_;
-  // The bin size is about the length of a car, but larger if the boxes' extent would then need more
-  // than kMaxBins bins.
+  // The bin size is about the length of a car; it is larger if the area of the boxes would
+  // otherwise need more than kMaxBins bins.
   bin_ = std::max({farthest_, size.maxCoeff() / kMaxBins, std::sqrt(size.prod() / kMaxBins)});
   TRACKBED_REQUIRE(std::isfinite(bin_), "CollisionChecker: boxes over {} x {} m; must be less",
                    size.x(), size.y());
   columns_ = static_cast<int>(size.x() / bin_) + 1;
   rows_ = static_cast<int>(size.y() / bin_) + 1;
   bins_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-  // Distance from a bin's center within which a box may matter for footprints centered in the bin,
+  // Distance from a bin's center up to which a box may be close to a footprint centered in the bin,
   // with a margin for rounding.
   const double far = (near + bin_ * std::sqrt(0.5)) * (1.0 + 1e-9);
   for (std::size_t i = 0; i < boxes_.size(); ++i) {
@@ -115,7 +115,7 @@ double CollisionChecker::Clearance(const Pose2& pose, double at_most) const {
   const std::vector<int>* near = Near(middle);
   double clearance = std::min(farthest_, at_most);
   if (near == nullptr) {
-    // Either no box is nearby, or the pose is not finite.
+    // Here, either no box is near the footprint, or the pose is not finite.
     TRACKBED_REQUIRE(middle.allFinite(), "CollisionChecker: the pose {}, {}, yaw {} is not finite",
                      pose.x, pose.y, pose.yaw);
     return clearance;
@@ -123,8 +123,8 @@ double CollisionChecker::Clearance(const Pose2& pose, double at_most) const {
   const OrientedBox footprint{{middle.x(), middle.y(), pose.yaw}, vehicle_.length, vehicle_.width};
   for (const int i : *near) {
     const auto index = static_cast<std::size_t>(i);
-    // A box farther from the footprint's center neither overlaps the footprint nor reduces the
-    // clearance.
+    // Skip boxes that are so far from the footprint's center that they neither overlap the
+    // footprint nor reduce the clearance.
     const double within = radius_ + std::max(distance_ + clearance, 0.0);
     if (SquareTo(boxes_[index], along_[index], middle) < within * within) {
       clearance = std::min(clearance, Separation(footprint, boxes_[index]) - distance_);
@@ -144,8 +144,8 @@ double CollisionChecker::NextCheck(const Pose2& pose, double room, double moved,
     for (std::size_t i = 0; i < boxes_.size(); ++i) {
       square = std::min(square, SquareTo(boxes_[i], along_[i], middle));
     }
-    // In each step along the path, the distance to the boxes falls by at most `farthest_`. Skip the
-    // checks after steps that cannot bring the footprint close to a box.
+    // In each step of the following loop, the distance between footprint and boxes falls by at most
+    // `farthest_`. No check is needed while the footprint cannot be close to a box.
     for (double left = std::sqrt(square) - radius_ - distance_ - farthest_;
          left > (1.0 + 1e-9) * farthest_ && farthest_ < moved * (length - at); left -= farthest_) {
       at += farthest_ / moved;
@@ -161,7 +161,7 @@ std::optional<double> CollisionChecker::FirstBlocked(const Path& path) const {
                          std::abs(segment.CurvatureAt(segment.length)),
                          std::abs(segment.CurvatureAt(0.5 * segment.length))});
   }
-  // Largest distance that a footprint point moves per meter of path.
+  // Largest distance that any point of the footprint moves per meter of path.
   const double moved = 1.0 + sharpest * reach_;
   for (double s = 0.0;;) {
     const Pose2 pose = path.At(s).pose;

@@ -12,19 +12,20 @@
 #include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/route_start.h"
 
-// Rounds each corner of a polyline by a clothoid, an arc and a second clothoid. The steering rate
-// and the corner's speed determine the sharpness of the clothoids, so a slower corner is shorter.
-// Each corner may use half of each of its two legs. Bisection finds the highest speed at which the
-// tangents of a corner fit on its legs. While the resulting path is too close to an obstacle, the
-// algorithm slows the corner nearest to the collision by a fifth.
+// Rounds each corner of a polyline by a clothoid, an arc and a second clothoid. The maximum
+// steering rate and the speed in the corner determine the sharpness of the clothoids, so the curve
+// gets shorter at a lower speed. The curve at a corner may use half of each of the two adjacent
+// legs. For each corner, bisection finds the highest speed at which the curve fits on these halves
+// of the legs. While the resulting path is too close to an obstacle, the algorithm slows the corner
+// nearest to the collision by a fifth.
 
 namespace trackbed {
 namespace {
 
-/// Heading changes up to this value count as straight [rad].
+/// Largest heading change of a corner that counts as straight [rad].
 constexpr double kStraight = 1e-9;
 
-/// Returns the segments of a rounded corner, with the sign of curvature of the corner's turn.
+/// Returns the path segments of a rounded corner; their curvature is positive in a left turn.
 std::vector<Segment> ToSegments(const RoundCorner& corner) {
   const double side = std::copysign(1.0, corner.heading_change);
   const double ramp = corner.curvature / corner.sharpness;
@@ -41,7 +42,7 @@ std::vector<Segment> ToSegments(const RoundCorner& corner) {
   return segments;
 }
 
-/// Joins the straights and the rounded corners to a path, and sets the stations of the corners.
+/// Joins straights and rounded corners to a path and stores the station of each corner.
 Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners) {
   std::vector<Segment> segments;
   double station = 0.0;
@@ -70,9 +71,9 @@ Path LayOut(const std::vector<Vec2>& polyline, std::vector<RoundCorner>& corners
   return {StartOfRoute(polyline), std::move(segments)};
 }
 
-/// Returns the highest possible speed at the first corner, up to `highest`. The corner's tangent
-/// and the braking distance must both fit on the first leg, which is `leg` [m] long. Returns none
-/// if no speed fits.
+/// Returns the highest speed, at most `highest`, at which the car can drive the first corner. The
+/// corner's tangent and the braking distance must both fit on the first leg, which is `leg` [m]
+/// long. Returns none if no speed satisfies both conditions.
 template <typename Tangent>
 std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highest, double leg,
                                         const Tangent& tangent) {
@@ -84,8 +85,8 @@ std::optional<double> SpeedAfterBraking(const CornerLimits& limits, double highe
   if (lacks(highest) <= 0.0) {
     return highest;
   }
-  // Try speeds one by one: a slower corner is shorter but needs a longer braking distance, so the
-  // condition is not monotonic in the speed.
+  // Try speeds one by one instead of by bisection: a lower corner speed shortens the curve but
+  // lengthens the braking distance, so the condition is not monotonic in the speed.
   constexpr int kSteps = 100;
   for (int i = kSteps - 1; i >= 0; --i) {
     const double v = std::lerp(limits.min_speed, highest, static_cast<double>(i) / kSteps);

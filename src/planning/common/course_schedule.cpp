@@ -15,18 +15,18 @@ double SharpestCurvature(const Segment& segment) {
 SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                                 double speed, const std::vector<SpeedCap>& caps,
                                 const std::vector<double>& stops) {
-  // Length [m] of a ramp for wheels that turn at standstill; not zero, because the schedule is a
-  // function of distance.
+  // Length of the steering ramp for wheels that turn at standstill [m]; not zero, because the
+  // steering schedule is a function of the distance.
   constexpr double kMinRampLength = 1e-6;
-  // Spacing of knots [m] with which the schedule, linear between knots, follows the arctangent of
-  // the curvature within 1e-5 rad.
+  // Spacing of the schedule's knots, chosen so that linear interpolation reproduces the arctangent
+  // of the curvature within 1e-5 rad [m].
   constexpr double kSpacing = 0.5;
   const auto steering = [&](double curvature) { return SteeringForCurvature(vehicle, curvature); };
   const std::vector<SteeringRamp> ramps = RampsOfSteps(vehicle, segments, speed, caps, stops);
   auto ramp = ramps.begin();
   std::vector<SteeringSchedule::Knot> knots;
   double begin = 0.0;
-  double taken = 0.0;  // length of the ramp at the piece's beginning
+  double taken = 0.0;  // length of the steering ramp at the beginning of the piece [m]
   bool is_joined = false;
   for (std::size_t i = 0; i < segments.size(); ++i) {
     const Segment& segment = segments[i];

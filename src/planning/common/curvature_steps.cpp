@@ -10,11 +10,12 @@ namespace {
 /// A joint between two path pieces at which the steering angle changes by a step.
 struct Step {
   double joint;     // Station of the joint [m].
-  double before;    // Curvature before the joint [1/m].
-  double after;     // Curvature after the joint [1/m].
-  double steering;  // Magnitude of the step [rad].
-  double room;      // Room for the steering ramp: length of the shorter adjacent piece [m].
-  bool cusp;        // Whether the direction of motion changes at the joint.
+  double before;    // Curvature of the path just before the joint [1/m].
+  double after;     // Curvature of the path just after the joint [1/m].
+  double steering;  // Magnitude of the change of the steering angle at the joint [rad].
+  // Length available for the steering ramp, equal to that of the shorter adjacent piece [m].
+  double room;
+  bool cusp;  // Whether the direction of motion changes at the joint.
 };
 
 std::vector<Step> CurvatureSteps(const VehicleParams& vehicle,
@@ -37,7 +38,8 @@ std::vector<Step> CurvatureSteps(const VehicleParams& vehicle,
 }
 
 /// Returns the speed at which the steering ramp is as long as the shorter of the adjacent pieces.
-/// The ramp is centered on the joint, so it covers at most half of each piece.
+/// The steering ramp is centered on the joint of two pieces, so the ramp covers at most half of
+/// each piece.
 double RampSpeedLimit(const VehicleParams& vehicle, const Step& step) {
   return vehicle.steering_rate * step.room / step.steering;
 }

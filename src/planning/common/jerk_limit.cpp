@@ -16,7 +16,7 @@ struct Bound {
 
 /// Integrates the equation G'' = K. At each station, the slope rises by 2 jerk/v times half the
 /// length of the two adjacent intervals. The speed v is the largest of the speeds at the station
-/// and at its two neighbors, so that the limit holds exactly for second differences.
+/// and at its two neighbors, so that the second differences satisfy the limit exactly.
 Bound Integrate(const std::vector<double>& stations, double jerk,
                 const std::vector<double>& squares) {
   const std::size_t count = stations.size();
@@ -25,8 +25,8 @@ Bound Integrate(const std::vector<double>& stations, double jerk,
     const std::size_t before = i > 0 ? i - 1 : 0;
     const std::size_t after = std::min(i + 1, count - 1);
     const double fastest = std::max({squares[before], squares[i], squares[after]});
-    // Where the car stands at all three stations, use a small positive speed to avoid a division by
-    // zero.
+    // If the car's speed is 0 at all three stations, use a small positive speed to avoid a division
+    // by zero.
     const double speed = std::sqrt(std::max(fastest, 1e-12));
     const double length = (stations[after] - stations[before]) * (after - before == 1 ? 2.0 : 1.0);
     if (i > 0) {
@@ -38,7 +38,7 @@ Bound Integrate(const std::vector<double>& stations, double jerk,
   return bound;
 }
 
-/// Replaces the squared speeds by w1, step 1 of LimitJerk.
+/// Replaces the squared speeds by w1, the result of step 1 of LimitJerk.
 void LowerValleys(const std::vector<double>& stations, const Bound& bound,
                   std::vector<double>& squares) {
   const std::vector<double> given = squares;
@@ -64,7 +64,7 @@ void LowerValleys(const std::vector<double>& stations, const Bound& bound,
   }
 }
 
-/// Replaces the squared speeds by w2, step 2 of LimitJerk.
+/// Replaces the squared speeds by w2, the result of step 2 of LimitJerk.
 void LowerToHull(const std::vector<double>& stations, const Bound& bound,
                  std::vector<double>& squares) {
   std::vector<std::size_t> hull;

@@ -6,7 +6,7 @@
 namespace trackbed {
 namespace {
 
-/// Steering angles up to this value count as straight [rad].
+/// Largest steering angle that counts as straight ahead [rad].
 constexpr double kStraightSteering = 1e-9;
 
 /// Returns the path of a car whose wheels turn at their full rate from the start steering delta_0

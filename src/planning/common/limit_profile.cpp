@@ -10,17 +10,18 @@
 #include "trackbed/vehicle/params.h"
 
 // Computes the speed profile at the limit of a g-g-v diagram by forward and backward passes
-// (Heilmeier et al. 2020). MaxSquares computes the largest v^2 at each station that the tyres'
-// lateral limit and the cap allow. The forward pass accelerates as hard as possible. The backward
-// pass brakes as late as possible. With a jerk limit, LimitJerk and the passes alternate until the
-// passes hardly change the result. A car that starts too fast brakes as hard as possible, and the
-// first station at which it exceeds the limit is reported. For a lap, the passes start at the
-// slowest station and repeat until the speeds at start and end agree.
+// (Heilmeier et al. 2020). For each station, MaxSquares computes the largest v^2 that the tyres'
+// lateral limit and the speed cap permit. In the forward pass, the car accelerates as hard as
+// possible; in the backward pass, it brakes as late as possible. With a jerk limit, LimitJerk and
+// the two passes are repeated alternately until the passes hardly change the speeds. A car that
+// starts too fast brakes as hard as possible; the result names the first station at which the car
+// exceeds the limit. For a lap, the passes start at the slowest station and repeat until the speeds
+// at start and end agree.
 
 namespace trackbed {
 namespace {
 
-using Squares = std::vector<double>;  // Squared speeds [m^2/s^2], one per station.
+using Squares = std::vector<double>;  // Squared speeds of the car [m^2/s^2], one per station.
 
 /// Computes the accelerations that are available to a car at a station, as functions of the squared
 /// speed.
@@ -41,8 +42,8 @@ class Capability {
   }
 
   /// Returns the margin of the tyres to their limit [m/s^2], which is negative beyond the limit.
-  /// Within the limit, braking can always keep the car from speeding up, although a lack of drive
-  /// force may slow the car down.
+  /// Within the limit, the brakes can always prevent the car from speeding up; a lack of drive
+  /// force may still slow the car down.
   [[nodiscard]] double Margin(const LimitStation& at, double squared) const {
     const Demand demand = DemandAt(at, squared);
     const double across = options_.share * diagram_.MaxLateral(demand.point) - demand.point.lateral;
@@ -58,20 +59,21 @@ class Capability {
     return std::min({across, weight, resistance - options_.share * tyres.braking});
   }
 
-  /// Returns the largest squared speed up to `most` within the tyres' limit, or 0 if no speed is
-  /// within the limit.
+  /// Returns the largest squared speed, at most `most`, that is within the tyres' limit; 0 if no
+  /// speed is.
   [[nodiscard]] double MaxSquared(const LimitStation& at, double most) const;
 
  private:
-  // Smallest load of the car, as a fraction of its weight; with a smaller load, the car counts as
-  // airborne.
+  // Vertical load as a fraction of the weight below which the car counts as airborne.
   static constexpr double kMinLoad = 0.05;
 
   struct Demand {
     GgvPoint point;
-    double load = 1.0;     // Load f_n/g as a fraction of the weight; may be negative.
+    // Vertical load f_n/g of the car as a fraction of the weight; may be negative.
+    double load = 1.0;
     double stretch = 1.0;  // Ratio A of the road's length to its horizontal length.
-    double slope = 0.0;    // Component of gravity against the motion along the road [m/s^2].
+    // Component of gravity that acts against the car's motion along the road [m/s^2].
+    double slope = 0.0;
   };
 
   [[nodiscard]] static Demand DemandAt(const LimitStation& at, double squared) {
@@ -106,8 +108,8 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
   }
   double low = 0.0;
   double at_low = Margin(at, low);
-  // Search for a permitted speed: on a bank too steep to stand on, low speeds are beyond the limit
-  // too.
+  // Search for any permitted speed, because on a bank that is too steep to stand on, low speeds are
+  // not permitted either.
   constexpr int kMaxAttempts = 64;
   for (int i = kMaxAttempts - 1; at_low < 0.0 && i > 0; --i) {
     low = most * i / kMaxAttempts;
@@ -123,9 +125,9 @@ double Capability::MaxSquared(const LimitStation& at, double most) const {
   return Margin(at, above) >= 0.0 ? above : below;
 }
 
-/// Returns the largest squared speed, up to `most`, at one end of an interval of `length` [m]. At
-/// the other end of the interval, the squared speed is `from`. The function `can` returns the
-/// available acceleration, or deceleration, at a squared speed.
+/// Returns the largest squared speed, at most `most`, that a car can have at one end of an interval
+/// of `length` [m], given the squared speed `from` at the other end. The function `can` returns the
+/// available acceleration or deceleration at a squared speed.
 template <typename Can>
 double Reach(double from, double length, double most, const Can& can) {
   const auto spare = [&](double squared) {
@@ -142,7 +144,7 @@ double Reach(double from, double length, double most, const Can& can) {
     at_low = spare(low);
   }
   if (at_low <= 0.0 || low >= most) {
-    return low;  // even the lowest speed is too high, because the road slopes too steeply
+    return low;  // even the lowest speed cannot be reached, because the road is too steep
   }
   std::uintmax_t iterations = 12;
   const auto [below, above] = boost::math::tools::toms748_solve(
@@ -168,8 +170,8 @@ class Passes {
     }
   }
 
-  /// Limits each squared speed to a value from which the car can brake to the speed at the next
-  /// station.
+  /// Limits each squared speed to the largest value from which the car can brake to the speed at
+  /// the next station.
   void Backward(Squares& squares) const {
     for (std::size_t i = squares.size() - 1; i-- > 0;) {
       const double length = stations_[i + 1].s - stations_[i].s;
@@ -182,8 +184,9 @@ class Passes {
     }
   }
 
-  /// Raises the first squared speeds for a car that starts too fast, with the squared speed
-  /// `start`. The car brakes as hard as it can until its speed is that of the profile.
+  /// If the squared speed `start` of the car is above the profile, raises the first squared speeds
+  /// of the profile. On this stretch, the car brakes as hard as it can until its speed meets the
+  /// profile.
   void BrakeFrom(double start, Squares& squares) const {
     squares[0] = start;
     for (std::size_t i = 0; i + 1 < squares.size(); ++i) {
@@ -261,11 +264,13 @@ LimitSpeeds Result(const std::vector<LimitStation>& stations, const Squares& squ
   return result;
 }
 
-/// Alternates smoothing and passes until a pass hardly lowers the smoothed squared speeds.
+/// Repeats jerk limiting and the two passes alternately until the passes hardly lower the squared
+/// speeds.
 template <typename Smooth, typename Pass>
 void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
   constexpr int kMaxIterations = 100;
-  constexpr double kMinDecrease = 1e-4;  // relative decrease of a squared speed
+  // Relative decrease of a squared speed that counts as no change.
+  constexpr double kMinDecrease = 1e-4;
   for (int round = 0; round < kMaxIterations; ++round) {
     smooth(squares);
     const Squares before = squares;
@@ -283,7 +288,7 @@ void SmoothWithin(const Smooth& smooth, const Pass& pass, Squares& squares) {
 }
 
 /// Repeats forward and backward passes over a lap until the speeds at its start and end agree. The
-/// last element of `squares` belongs to the first station, one lap later.
+/// last element of `squares` is the squared speed at the first station one lap later.
 void PassAroundLap(const Passes& passes, Squares& squares) {
   constexpr int kLaps = 50;
   constexpr double kEqualityTolerance = 1e-12;

@@ -8,7 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// Returns column and row of an area's first cell, counted from the frame's origin.
+/// Returns column and row of the first cell of an area's grid, counted from the origin of the
+/// frame.
 Vec2 FirstCell(const GridArea& area, double cell) {
   return {std::floor(area.low.x() / cell), std::floor(area.low.y() / cell)};
 }

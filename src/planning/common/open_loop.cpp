@@ -10,10 +10,12 @@ namespace trackbed {
 OpenLoopRun SimulateOpenLoop(const VehicleParams& vehicle, const Path& path,
                              const SteeringSchedule& schedule, double stop_distance,
                              ReferencePoint reference) {
-  constexpr double kSpacing = 0.5;  // [m]; fine enough, because deviations change slowly over
-                                    // several meters.
-  constexpr double kStep = 0.05;    // [m]; step of the simulation, whose error is of fourth order.
-  constexpr double kSearch = 2.0;   // [m]
+  // Distance between recorded deviations [m]; small enough, because deviations change slowly over
+  // several meters.
+  constexpr double kSpacing = 0.5;
+  // Integration step of the simulation [m]; the integration error is of fourth order.
+  constexpr double kStep = 0.05;
+  constexpr double kSearch = 2.0;  // [m]
   OpenLoopRun drive;
   KinematicState state{.pose = path.At(0.0).pose};
   const std::vector<Stations> legs = SplitIntoLegs(path);

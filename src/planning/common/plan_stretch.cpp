@@ -28,8 +28,8 @@ SpeedProfile JoinedBy(const SpeedProfile& profile, Stations ahead, double speed,
 
 std::vector<SteeringSchedule::Knot> Moved(const SteeringSchedule& schedule, Stations within,
                                           double shift) {
-  // Leave out knots at the ends of the stretch, where another piece of schedule is joined with its
-  // own knot.
+  // Leave out knots at the ends of the stretch, because the adjacent pieces of the schedule have
+  // their own knots there.
   constexpr double kCutTolerance = 1e-9;  // [m]
   std::vector<SteeringSchedule::Knot> knots;
   for (const SteeringSchedule::Knot& knot : schedule.knots()) {
@@ -93,8 +93,8 @@ std::vector<SpeedCap> CapsOf(const Plan& plan) {
   std::vector<SpeedCap> caps;
   const std::vector<SpeedProfile::Knot>& knots = plan.reference.speed.knots();
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    // Use the larger of the two speeds, because the other speed is 0 at the start and end of a
-    // plan.
+    // Use the larger of the two knot speeds, because the smaller speed may be 0 at the start or end
+    // of a plan.
     caps.push_back({knots[i].s, knots[i + 1].s, std::max(knots[i].speed, knots[i + 1].speed)});
   }
   return caps;

@@ -9,8 +9,8 @@
 namespace trackbed {
 namespace {
 
-/// Subtracts gravity's share `against` [1] from `grip` [m/s^2]. A grip of 0 means unknown and stays
-/// 0.
+/// Reduces the acceleration `grip` [m/s^2] by the component of gravity that acts against it, a
+/// fraction `against` of g. A `grip` of 0 means that the grip is unknown, and stays 0.
 double SubtractGravity(double grip, double against) {
   return std::max(0.0, grip - kGravity * std::max(0.0, against));
 }
@@ -41,8 +41,8 @@ RoadHold::Tilt RoadHold::TiltAt(const PathPoint& at) const {
   const Vec2 front = two_axles ? Vec2(rear + wheelbase * forward) : rear;
   const Vec2 slope =
       0.5 * (GroundSlope(request_.ground, rear) + GroundSlope(request_.ground, front));
-  // Along the car, bumps shorter than the wheelbase tilt the car by the height difference of its
-  // axles.
+  // Compute the pitch from the height difference of the axles, so that bumps shorter than the
+  // wheelbase are averaged.
   const double along =
       two_axles
           ? (GroundHeight(request_.ground, front) - GroundHeight(request_.ground, rear)) / wheelbase
@@ -59,7 +59,7 @@ double RoadHold::Lateral(const Path& path, double s, double curvature) const {
   }
   const PathPoint at = path.At(s);
   const Tilt tilt = TiltAt(at);
-  // On a positive curvature the center of the turn is to the left, in forward and in reverse gear.
+  // With a positive curvature, the center of the turn is to the left in both gears.
   const double against = curvature > 0.0   ? tilt.left
                          : curvature < 0.0 ? -tilt.left
                                            : std::abs(tilt.left);

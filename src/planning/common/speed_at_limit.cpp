@@ -13,16 +13,18 @@
 namespace trackbed {
 namespace {
 
-constexpr double kSamePlace = 1e-9;         // [m]
-const std::string kAtLimit = "speeds at ";  // First words of the note with the predicted time.
-/// Stations closer than this fraction of the spacing are merged.
+constexpr double kSamePlace = 1e-9;  // Distance below which two stations count as equal [m].
+// First words of the plan's note with the predicted driving time.
+const std::string kAtLimit = "speeds at ";
+/// Fraction of the station spacing below which two stations are merged.
 constexpr double kMerged = 0.002;
 
 double LargerOf(double a, double b) {
   return std::abs(a) > std::abs(b) ? a : b;
 }
 
-/// Returns stations with their curvature along segments. The first station is at `from`.
+/// Returns stations along path segments, each with the path's curvature. The first station is at
+/// `from`.
 std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double from, double spacing) {
   std::vector<LimitStation> nodes;
   double start = from;
@@ -40,7 +42,7 @@ std::vector<LimitStation> Nodes(const std::vector<Segment>& segments, double fro
     start += segment.length;
   }
   if (nodes.size() > 1 && start - nodes.back().s > 0.0) {
-    nodes.back().s = start;  // avoid the rounding error at the end
+    nodes.back().s = start;  // avoid a rounding error at the end of the path
   }
   return nodes;
 }
@@ -92,8 +94,8 @@ class Surface {
 
   const Path& path_;
   const PlanRequest& request_;
-  double front_ = 0.0;  // Distance of the front axle from the rear axle [m].
-  double share_ = 0.0;  // Fraction of the load on the front axle.
+  double front_ = 0.0;  // Distance between front and rear axle [m].
+  double share_ = 0.0;  // Fraction of the car's weight on the front axle.
   bool flat_ = true;
 };
 
@@ -104,8 +106,8 @@ void ApplyCaps(const std::vector<SpeedCap>& caps, std::vector<LimitStation>& sta
         cap.from > stations.back().s + kSamePlace) {
       continue;
     }
-    // Apply the cap also to the station before and to the station after it: between two stations,
-    // the speed may be as high as the larger of their speeds.
+    // Apply the cap also to the stations just before and just after the capped stretch, because
+    // between two stations the speed may reach the larger of the stations' speeds.
     auto first = std::lower_bound(stations.begin(), stations.end(), cap.from + kSamePlace, before);
     auto last = std::lower_bound(stations.begin(), stations.end(), cap.to - kSamePlace, before);
     first = first == stations.begin() ? first : first - 1;
@@ -184,7 +186,7 @@ std::vector<LimitStation> StationsAlong(const Path& path, const Stations& part,
   if (beyond > kSamePlace) {
     segments.push_back({.length = beyond});
   }
-  // Divide short legs too: a leg that begins and ends at rest needs stations in between.
+  // Divide even short legs, because a leg that begins and ends at rest needs stations in between.
   constexpr double kPieces = 16.0;
   const double spacing =
       std::min({0.5, 0.2 * request.vehicle.wheelbase, (part.to - part.from) / kPieces});

@@ -44,8 +44,8 @@ void AddStraight(double length, std::vector<Segment>& path) {
   }
 }
 
-/// Appends to `path` a lateral shift by `offset` to the left over `length`, which begins and ends
-/// straight.
+/// Appends to `path` a lateral shift to the left by `offset` over `length`; the curvature is zero
+/// at both ends.
 void AddChange(double length, double offset, std::vector<Segment>& path) {
   constexpr double kSpacing = 0.1;  // [m]
   std::vector<Vec2> control;
@@ -132,8 +132,8 @@ std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehiclePar
         if (std::abs(corner.x()) <= 0.5 * lane.length) {
           take(corner);
         }
-        // Check also the moments, between two sampled poses, at which a corner of the car passes
-        // the cones at the ends of the lane.
+        // Also check the poses, between two sampled poses, at which a corner of the car passes the
+        // cones at the ends of the lane.
         for (const double end : {-0.5 * lane.length, 0.5 * lane.length}) {
           if (i > 0 && (before[c].x() - end) * (corner.x() - end) < 0.0) {
             take(before[c] +

@@ -20,7 +20,8 @@ struct CurveGoal {
   CurveGoal(const Pose2& from, const Pose2& to, double radius) {
     TRACKBED_CHECK(radius > 0.0 && std::isfinite(radius), "radius {}", radius);
     const Vec2 local = ToLocal(from, to.position()) / radius;
-    constexpr double kMaxDistance = 1e100;  // [radii]; so small that its square is finite
+    // Upper bound of distances in turning radii, small enough that its square is finite.
+    constexpr double kMaxDistance = 1e100;
     TRACKBED_REQUIRE(local.norm() <= kMaxDistance && std::isfinite(to.yaw - from.yaw),
                      "a curve from {}, {}, yaw {} to {}, {}, yaw {}; must be finite", from.x,
                      from.y, from.yaw, to.x, to.y, to.yaw);
@@ -40,8 +41,8 @@ struct CurveGoal {
     return goal;
   }
 
-  /// Returns the goal mirrored at the y axis. A word to the mirrored goal is, with forward and
-  /// reverse exchanged, a word to this goal.
+  /// Returns the goal mirrored at the y axis. A word to the mirrored goal becomes a word to the
+  /// original goal if forward and reverse are exchanged.
   [[nodiscard]] CurveGoal Reversed() const {
     CurveGoal goal = *this;
     goal.x = -x;
@@ -50,8 +51,8 @@ struct CurveGoal {
     return goal;
   }
 
-  /// Returns the goal that a Reeds-Shepp word to this goal reaches if its pieces are driven in the
-  /// opposite order.
+  /// Returns the pose that a Reeds-Shepp word to this goal reaches if the pieces of the word are
+  /// driven in the opposite order.
   [[nodiscard]] CurveGoal FromGoal() const {
     CurveGoal goal = *this;
     goal.x = x * cos + y * sin;

@@ -29,13 +29,14 @@ struct FoundCurve {
   double cost = 0.0;  // [m]
 };
 
-/// Returns the cheapest of `words` that is free of collisions and whose first segments `may_begin`
-/// accepts. The cost is the length plus kStopPenalty per stop.
+/// Returns the cheapest collision-free curve among `words` that `may_begin` accepts, judging by the
+/// first segments. The cost of a curve is the length plus kStopPenalty per stop.
 template <typename MayBegin>
 std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionChecker& clear,
                                     const Pose2& from, const std::vector<ShortestCurve>& words,
                                     double min_speed, const MayBegin& may_begin) {
-  constexpr double kStopPenalty = 5.0;  // [m]; as for a change of direction in hybrid A*
+  // Cost of a stop [m], equal to the penalty of hybrid A* for a change of direction.
+  constexpr double kStopPenalty = 5.0;
   std::vector<FoundCurve> candidates;
   for (std::size_t i = 0; i < words.size(); ++i) {
     std::vector<Segment> own = ToSegments(words[i]);
@@ -54,7 +55,8 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
   return free == candidates.end() ? std::nullopt : std::optional(std::move(*free));
 }
 
-/// Plans a path from stop to stop. Each leg is the cheapest collision-free curve of `words`.
+/// Plans a path whose leg between two successive stops is the cheapest collision-free curve among
+/// `words`.
 template <typename Options, typename Words>
 Plan PlanCurves(const Options& options, const PlanRequest& request, const Words& words) {
   for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius)}) {
@@ -77,8 +79,9 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
     std::vector<ShortestCurve> all = words(stops[i - 1], stops[i], radius);
     std::optional<FoundCurve> found;
     if (rolls) {
-      // The curve may start at the car if the wheels already have the right angle. Otherwise a
-      // lead-in turns the wheels first. Take the cheaper of the two curves.
+      // The curve may start at the car if the wheels already have the curve's steering angle;
+      // otherwise a lead-in path turns the wheels first. Take the cheaper of the curves with and
+      // without lead-in.
       const double bend = CurvatureForSteering(request.vehicle, request.start_steering);
       found = FirstFree(request, clear, stops[0], all, options.min_speed, [&](const auto& own) {
         constexpr double kEqualityTolerance = 1e-6;  // [1/m]

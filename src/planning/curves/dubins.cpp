@@ -15,7 +15,7 @@ constexpr double kNone = std::numeric_limits<double>::infinity();
 
 constexpr double kRounding = 1e-12;
 
-/// Wraps an angle to [0, 2 pi); an angle within rounding of 2 pi becomes 0.
+/// Wraps an angle to [0, 2 pi); an angle that equals 2 pi up to rounding becomes 0.
 double Positive(double angle) {
   const double turned = angle - kTurn * std::floor(angle / kTurn);
   return turned > kTurn - kRounding ? 0.0 : turned;
@@ -31,10 +31,10 @@ struct Sweeps {
   [[nodiscard]] double Sum() const { return first + middle + last; }
 };
 
-/// The following functions solve the Dubins words that begin with a left arc and are shorter than
-/// `limit`. If no such word exists, the functions return kNone as the middle piece. The center of
-/// the first arc is at (0, 1). The center of the last arc is at (x - sin, y + cos) if this arc is
-/// to the left, and at (x + sin, y - cos) if it is to the right.
+/// Each of the following functions computes one Dubins word that begins with a left arc and is
+/// shorter than `limit`. If no word shorter than `limit` exists, the functions return kNone as the
+/// middle piece. The center of the first arc is at (0, 1). The center of the last arc is at (x -
+/// sin, y + cos) if this arc is to the left, and at (x + sin, y - cos) if it is to the right.
 Sweeps LeftStraightLeft(const CurveGoal& goal, double limit) {
   const double dx = goal.x - goal.sin;
   const double dy = goal.y - 1.0 + goal.cos;
@@ -51,13 +51,14 @@ Sweeps LeftStraightRight(const CurveGoal& goal, double limit) {
   const double dy = goal.y - 1.0 - goal.cos;
   const double square = dx * dx + dy * dy - 4.0;
   if (square < -kRounding) {
-    return {.middle = kNone};  // the circles overlap, so no straight crosses between them
+    return {.middle = kNone};  // the two circles overlap, so they have no inner tangent
   }
   const double straight = std::sqrt(std::max(square, 0.0));
   if (straight >= limit) {
     return {.middle = kNone};
   }
-  // A single arctangent gives the sum of the direction between the centers and atan(2/straight).
+  // Compute the sum of the direction between the centers and atan(2/straight) with a single
+  // arctangent.
   const double first = Positive(std::atan2(dy * straight + 2.0 * dx, dx * straight - 2.0 * dy));
   return {first, straight, Positive(first - goal.yaw)};
 }
@@ -67,10 +68,11 @@ Sweeps LeftRightLeft(const CurveGoal& goal, double limit) {
   const double dy = goal.y - 1.0 + goal.cos;
   const double square = dx * dx + dy * dy;
   if (square > 16.0 + kRounding || limit <= kPi) {
-    return {.middle = kNone};  // the outer circles are too far apart for a circle that touches both
+    // The first and the last circle are too far apart for a middle circle that touches both.
+    return {.middle = kNone};
   }
-  // Seen from the first center, the center of the middle arc lies the angle `tilt` to the left of
-  // the line between the outer centers.
+  // The line from the first center to the center of the middle arc is rotated to the left by
+  // `tilt`, relative to the line from the first to the last center.
   const double tilt = std::acos(std::min(0.25 * std::sqrt(square), 1.0));
   const double middle = kPi + 2.0 * tilt;
   const double first = Positive(std::atan2(dy, dx) + 0.5 * kPi + tilt);

@@ -8,18 +8,18 @@
 #include "trackbed/core/angle.h"
 
 // Shortest paths of a car that drives forwards and backwards (Reeds and Shepp 1990, section 8). A
-// word is a sequence of arcs and straights. Eight functions solve the base words, whose first arc
-// is to the left and forwards. Three symmetries turn a base word into the other words of its
+// word is a sequence of arcs and straights. Eight functions compute the base words, whose first arc
+// turns left and is driven forwards. Three symmetries turn a base word into the other words of its
 // family: exchanging forward and reverse, exchanging left and right, and driving the pieces in the
-// opposite order. The result is the shortest word. A function may stop as soon as its word exceeds
-// the shortest length known.
+// opposite order. The result of ShortestWord is the shortest of all words to the goal. To save
+// time, a function may stop as soon as its word is longer than the shortest word found so far.
 
 namespace trackbed {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::infinity();
 constexpr double kRight = 0.5 * kPi;  // Right angle [rad].
-/// Sweeps within this tolerance of zero count as zero [rad].
+/// Largest magnitude of an arc angle that counts as zero [rad].
 constexpr double kRounding = 1e-12;
 
 /// Wraps an angle to [-pi, pi].
@@ -27,25 +27,27 @@ double WrapToPi(double angle) {
   return angle - 2.0 * kPi * std::nearbyint(angle * (0.5 / kPi));
 }
 
-/// As WrapToPi, but returns pi instead of -pi, for sweeps that must not be negative.
+/// Wraps an angle as WrapToPi does, but returns pi instead of -pi, for arc angles that must not be
+/// negative.
 double WrapNonNegative(double angle) {
   const double near = WrapToPi(angle);
   return near < kRounding - kPi ? near + 2.0 * kPi : near;
 }
 
-/// As WrapToPi, but returns -pi instead of pi, for sweeps that must not be positive.
+/// Wraps an angle as WrapToPi does, but returns -pi instead of pi, for arc angles that must not be
+/// positive.
 double WrapNonPositive(double angle) {
   return -WrapNonNegative(-angle);
 }
 
-/// Returns the square root of a value that is nonnegative up to rounding.
+/// Returns the square root of a value that may be slightly negative due to rounding.
 double Root(double square) {
   return std::sqrt(std::max(square, 0.0));
 }
 
-/// The unknown sweeps t, u and v of a Reeds-Shepp word of three to five pieces. The member `sum` is
-/// the sum of the magnitudes of all sweeps, including fixed right angles. If the word does not
-/// exist, `sum` is kNone.
+/// The sweeps t, u and v (angles of arcs, lengths of straights) that define a Reeds-Shepp word of
+/// three to five pieces. The member `sum` is the sum of the magnitudes of all sweeps, including
+/// fixed right angles. If the Reeds-Shepp word does not exist, `sum` is kNone.
 struct Sweeps {
   double t = 0.0;
   double u = 0.0;
@@ -57,13 +59,13 @@ Sweeps With(double t, double u, double v, double others = 0.0) {
   return {t, u, v, std::abs(t) + std::abs(u) + std::abs(v) + others};
 }
 
-// Each of the following functions solves an equation of Reeds and Shepp 1990, section 8, for the
-// word whose first arc is to the left and forwards. The functions may skip words longer than
-// `limit`. In the names of words, L and R are arcs to the left and right and S is a straight; + is
-// forwards and - is in reverse.
+// Each of the following functions solves an equation of Reeds and Shepp 1990, section 8, for a word
+// whose first arc turns left and is driven forwards. The functions may ignore words longer than
+// `limit`. In the names of words, L is an arc to the left, R an arc to the right and S a straight
+// line; + means forwards and - means in reverse.
 
 /// Returns the vector from the center of the first arc to the center of the last arc. ToLeftCenter
-/// assumes a last arc to the left, ToRightCenter a last arc to the right.
+/// assumes that the last arc turns left, and ToRightCenter that it turns right.
 Vec2 ToLeftCenter(const CurveGoal& goal) {
   return {goal.x - goal.sin, goal.y - 1.0 + goal.cos};
 }
@@ -76,7 +78,7 @@ Sweeps LSL(const CurveGoal& goal, double limit) {
   const Vec2 d = ToLeftCenter(goal);
   const double u = d.norm();
   if (u >= limit || d.y() < -kRounding) {
-    return {};  // the first arc would turn to the right
+    return {};  // reject the word, because its first arc would turn to the right
   }
   const double t = WrapNonNegative(std::atan2(d.y(), d.x()));
   const double v = WrapNonNegative(goal.yaw - t);
@@ -96,7 +98,7 @@ Sweeps LSR(const CurveGoal& goal, double limit) {
   return t >= -kRounding && v >= -kRounding ? With(t, u, v) : Sweeps{};
 }
 
-/// Equations 8.3 and 8.4 solve the words L+R-L, whose last arc may go in either direction.
+/// Equations 8.3 and 8.4 solve the words L+R-L, whose last arc is driven forwards or in reverse.
 Sweeps LRL(const CurveGoal& goal, double /*limit*/) {
   const Vec2 d = ToLeftCenter(goal);
   const double square = d.squaredNorm();
@@ -153,7 +155,7 @@ Sweeps LRSL(const CurveGoal& goal, double limit) {
   if (square < -kRounding || u > kRounding || kRight - u >= limit) {
     return {};
   }
-  // A single arctangent gives the sum of the angles of the vectors d and (-2, r).
+  // Compute the sum of the angles of the vectors d and (-2, r) with a single arctangent.
   const double t = WrapNonNegative(std::atan2(d.x() * r - 2.0 * d.y(), -2.0 * d.x() - d.y() * r));
   const double v = WrapNonPositive(goal.yaw - kRight - t);
   const bool fits = t >= -kRounding && v <= kRounding;
@@ -186,7 +188,7 @@ Sweeps LRSLR(const CurveGoal& goal, double limit) {
   return t >= -kRounding && v >= -kRounding ? With(t, u, v, 2.0 * kRight) : Sweeps{};
 }
 
-/// Sweep of a piece in terms of the unknown sweeps t, u and v of its word.
+/// Expression for the sweep of a piece in terms of the sweeps t, u and v of its word.
 enum class Part : signed char { kT, kU, kMinusU, kV, kMinusRight };
 
 struct Family {
@@ -194,7 +196,7 @@ struct Family {
   int count;
   std::array<Bend, 5> bends;
   std::array<Part, 5> parts;
-  bool is_asymmetric;  ///< whether the opposite order of the pieces gives a different word
+  bool is_asymmetric;  ///< whether the opposite order of the pieces is a different word
 };
 
 constexpr Bend kL = Bend::kLeft;
@@ -256,7 +258,8 @@ ShortestCurve MakeCurve(const Word& word, double radius) {
   return curve;
 }
 
-/// Calls `take` with every Reeds-Shepp word that is shorter than `limit()`, which `take` may lower.
+/// Calls `take` with every Reeds-Shepp word shorter than `limit()`; each call of `take` may lower
+/// the limit.
 template <typename Limit, typename Take>
 void ForEachWord(const CurveGoal& goal, const Limit& limit, const Take& take) {
   const std::array<CurveGoal, 4> seen{goal, goal.Reversed(), goal.Mirrored(),

@@ -5,7 +5,8 @@
 namespace trackbed {
 namespace {
 
-/// Pieces up to this length (in radii) are dropped, because they result from rounding a zero angle.
+/// Largest length, in turning radii, of pieces that are dropped, because they are rounding errors
+/// of a zero angle.
 constexpr double kMinPieceLength = 1e-12;
 
 bool IsThere(const CurvePiece& piece) {

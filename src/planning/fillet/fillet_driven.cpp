@@ -11,9 +11,9 @@
 namespace trackbed::fillet {
 namespace {
 
-/// Spacing of the stations at which the simulated car is compared with its path, and step of the
-/// simulation [m]. Steering ramps are meters long, so the relative error of the integrals is about
-/// a thousandth.
+/// Step of the simulation, and distance between the stations at which the simulated car is compared
+/// with its path [m]. Because steering ramps are meters long, this step causes a relative error of
+/// the integrals of about a thousandth.
 constexpr double kSpacing = 0.5;
 
 class DrivenProblem {
@@ -26,8 +26,8 @@ class DrivenProblem {
     }
   }
 
-  /// Makes the fillet plan for the search variables x. Throws Refusal if the turns of the plan
-  /// overlap or steer before the start.
+  /// Makes the fillet plan for the search variables x. Throws Refusal if the steering ramps of two
+  /// turns overlap or if a ramp begins before the start of the path.
   [[nodiscard]] FilletPlan PlanAt(std::span<const double> x) const {
     std::vector<FilletTurn> turns = start_.turns;
     for (std::size_t k = 0; k < turns.size(); ++k) {
@@ -49,7 +49,7 @@ class DrivenProblem {
     return plan;
   }
 
-  /// Returns the cost J of driving a plan in open loop.
+  /// Returns the cost J of a plan that a simulated car drives in open loop.
   [[nodiscard]] double Cost(const FilletPlan& plan) const {
     const double end = plan.stop_distance;
     const auto intervals = static_cast<std::size_t>(std::ceil(end / kSpacing));
@@ -59,8 +59,8 @@ class DrivenProblem {
       stations[i] = static_cast<double>(i) * spacing;
     }
     const KinematicState start{.pose = StartOfRoute(route_.waypoints),
-                               // Any speed gives the same result, because the schedule is over
-                               // distance.
+                               // The result is the same for every speed, because the steering
+                               // schedule is a function of the distance.
                                .speed = 1.0};
     const auto states =
         RollOut(vehicle_, start, plan.schedule, stations, kSpacing, options_.reference);
@@ -86,7 +86,8 @@ class DrivenProblem {
       problem.upper.insert(problem.upper.end(), {radii.high, 0.5, 0.5});
       problem.start.insert(problem.start.end(), {start_.turns[k].radius, 0.0, 0.0});
     }
-    // The steering ramps change the length of the driven path by a fraction of the ramps' length.
+    // Due to the steering ramps, the driven path is longer or shorter than the plan's path by a
+    // fraction of the ramps' length.
     problem.lower.push_back(-0.25);
     problem.upper.push_back(0.25);
     problem.start.push_back(0.0);
@@ -125,8 +126,8 @@ FilletPlan SearchDriven(const VehicleParams& vehicle, const Route& route,
                               SearchFor(options.search.method).name, result.evaluations,
                               ToString(result.status))};
   }
-  // After the global search has found a valley of the cost function, a gradient method converges
-  // along the floor of the valley.
+  // The global search ends in a narrow valley of the cost function; a gradient method then finds
+  // the minimum in this valley.
   problem.start = result.x;
   SearchOptions polish = global;
   polish.method = SearchMethod::kSlsqp;

@@ -12,7 +12,8 @@
 namespace trackbed::fillet {
 namespace {
 
-constexpr double kNoTurn = 1e-9;  // Heading change [rad] below which legs count as collinear.
+// Heading change between two legs below which the legs count as collinear [rad].
+constexpr double kNoTurn = 1e-9;
 
 void PlaceArc(const Route& route, FilletTurn& turn) {
   const auto corner = static_cast<std::size_t>(turn.waypoint);
@@ -27,7 +28,7 @@ void PlaceArc(const Route& route, FilletTurn& turn) {
   turn.arc_length = turn.radius * std::abs(turn.heading_change);
 }
 
-/// Makes the path of straights and arcs from waypoint to waypoint. Sets the stations of the turns.
+/// Makes the path of straights and arcs along the route and stores the stations of the turns.
 Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
   std::vector<Segment> segments;
   double s = 0.0;
@@ -45,7 +46,8 @@ Path PathThrough(const Route& route, std::vector<FilletTurn>& turns) {
       s += length;
     }
   };
-  // Length of straight since the last arc; a straight may extend over several collinear legs.
+  // Length of the straight since the end of the last arc [m]; a straight may extend over several
+  // collinear legs.
   double pending = 0.0;
   auto turn = turns.begin();
   for (std::size_t i = 0; i < route.legs.size(); ++i) {
@@ -107,8 +109,8 @@ std::vector<FilletTurn> FindTurns(const Route& route) {
     const Leg& out = route.legs[i + 1];
     FilletTurn turn;
     turn.waypoint = static_cast<int>(i) + 1;
-    // Use atan2 instead of the arc cosine of equation C.9, because atan2 is signed and accurate
-    // near 0 and pi.
+    // Use atan2 instead of the arc cosine in equation C.9, because atan2 yields the sign and is
+    // accurate near 0 and pi.
     turn.heading_change =
         std::atan2(Cross(in.direction, out.direction), in.direction.dot(out.direction));
     turn.interior_angle = kPi - std::abs(turn.heading_change);

@@ -13,8 +13,8 @@
 namespace trackbed {
 namespace {
 
-/// Part of plan.json about a search, with its progress. The function `radii` extracts the radii
-/// from the variables of the search.
+/// Data for the part of plan.json about a search and its progress. The function `radii` extracts
+/// the radii from the variables of the search.
 struct SearchRecord {
   const std::string& method;
   const SearchResult& result;
@@ -24,7 +24,7 @@ struct SearchRecord {
 struct ProgressRecord {
   int evaluations = 0;
   double value = 0.0;
-  std::vector<double> radii;  ///< Radii of the turns [m].
+  std::vector<double> radii;  ///< Radii of the turns at this step of the search [m].
 };
 
 void Visit(DiagnosticsVisitor& out, const ProgressRecord& own) {
@@ -49,7 +49,7 @@ void Visit(DiagnosticsVisitor& out, const SearchRecord& own) {
   }
 }
 
-/// Part of plan.json about the search for the radius of a single turn.
+/// Data for the part of plan.json about the search for the radius of a single turn.
 struct TurnSearchRecord {
   const std::string& method;
   const TurnSearch& search;
@@ -96,8 +96,8 @@ std::vector<IsolatedTurn> FindIsolatedTurns(const FilletPlan& plan) {
   return lone;
 }
 
-/// Returns the speed caps of turns slower than `speed`. A cap extends from the start of the turn's
-/// first ramp to the end of its second ramp.
+/// Returns the speed caps of turns slower than `speed`. Each speed cap extends from the start of
+/// the first steering ramp of a turn to the end of the second.
 std::vector<SpeedCap> MakeSpeedCaps(const FilletPlan& plan, double speed) {
   std::vector<SpeedCap> caps;
   for (const FilletTurn& turn : plan.turns) {
@@ -161,7 +161,8 @@ double NeutralSteering(const FilletOptions& options) {
   return options.neutral_steering;
 }
 
-/// Returns the table of convergence histories: the best radii after each generation of a search.
+/// Returns a table with the convergence history of each search: the best radii after each
+/// generation.
 Table ConvergenceTable(const PlanDiagnostics& diagnostics) {
   Table table({"waypoint", "evaluations", "objective", "radius_m"});
   const auto* all_turns = diagnostics.planner.As<FilletDiagnostics>();

@@ -8,20 +8,20 @@
 #include "trackbed/core/angle.h"
 
 // Computes the limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)).
-// Equation C.34 limits the tangent length to half of the shorter leg. Equation C.40 also reserves
-// the distance that the car drives while its wheels turn. The function g(r) of equation C.40 has a
-// single minimum, so the permitted radii are an interval between two roots. If no radius is
-// permitted at the mission's speed, the turn is slowed down, refused, or limited by equation C.34
-// alone.
+// Equation C.34 limits the tangent length of the turn to half of the shorter adjacent leg. Equation
+// C.40 also reserves the distance that the car drives while its wheels turn. The function g(r) of
+// equation C.40 has a single minimum, so the permitted radii form an interval between two roots of
+// g. If no radius is permitted at the mission's speed, the options decide whether the turn gets a
+// lower speed, is refused, or is limited by equation C.34 alone.
 
 namespace trackbed {
 namespace {
 
-/// Relative tolerance of a limit, so that a radius exactly on the limit is accepted.
+/// Relative tolerance of the radius limits, so that a radius exactly on a limit is accepted.
 constexpr double kRounding = 1e-12;
 
-/// Finds the root of f in [a, b]; f must have different signs at a and b. Returns a point with f <=
-/// 0 next to the root.
+/// Finds the root of f in [a, b] and returns a point next to the root at which f <= 0. The function
+/// f must have different signs at a and b.
 template <typename Function>
 double Root(const Function& f, double a, double b) {
   std::uintmax_t iterations = 200;
@@ -38,16 +38,16 @@ double SteeringRoom(const VehicleParams& vehicle, double speed, double interior_
          0.5 * shorter_leg;
 }
 
-/// Returns the radius r that minimizes g(r) of equation C.40. Below this radius, g falls; above
-/// this radius, g rises.
+/// Returns the radius r that minimizes g(r) of equation C.40. The function g decreases below the
+/// returned radius and increases above it.
 double RoomiestRadius(const VehicleParams& vehicle, double speed, double interior_angle,
                       double neutral, RadiusInterval bounds) {
   const double L = vehicle.wheelbase;
   const double squared = speed / vehicle.steering_rate * L * std::tan(interior_angle / 2.0) - L * L;
   double roomiest = std::sqrt(std::max(0.0, squared));
   if (neutral > 0.0) {
-    // Above the radius that belongs to the neutral steering angle d_0, a larger radius needs more
-    // steering travel from d_0.
+    // For radii above the radius driven at the neutral steering angle d_0, the steering travel from
+    // d_0 grows with the radius.
     roomiest = std::min(roomiest, L / std::tan(neutral));
   }
   return std::clamp(roomiest, bounds.low, bounds.high);
@@ -101,8 +101,8 @@ std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double int
 namespace fillet {
 namespace {
 
-/// Returns the neutral steering angle, positive toward the inside of the turn: the argument
-/// `neutral` of SteeringRoomRadii.
+/// Returns the argument `neutral` of SteeringRoomRadii: the neutral steering angle [rad], positive
+/// toward the inside of the turn.
 double NeutralTowardTurn(const FilletTurn& turn) {
   return turn.heading_change < 0.0 ? -turn.neutral : turn.neutral;
 }
@@ -114,7 +114,8 @@ Refusal RefuseTurn(const FilletTurn& turn, PlanStatus status, const std::string&
 }
 
 /// Returns the radii that equation C.40 permits. If equation C.40 permits no radius at the
-/// mission's speed, slows the turn down. Returns none if equation C.34 is to be used instead.
+/// mission's speed, lowers the speed of the turn. Returns none if only equation C.34 is to limit
+/// the radius.
 std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle, double speed,
                                                     const FilletOptions& options,
                                                     const RadiusInterval& bounds,
@@ -163,8 +164,8 @@ std::optional<RadiusInterval> RadiiWithSteeringRoom(const VehicleParams& vehicle
 }
 
 /// Returns the amount by which the length S of the steering ramp to a radius exceeds the longest
-/// permitted length [m]. A ramp centered on the tangent point displaces the car by S^2/(24 r). The
-/// permitted displacement is a quarter of the car's width.
+/// permitted length [m]. A steering ramp centered on the tangent point displaces the car from the
+/// arc by S^2/(24 r). The permitted displacement is a quarter of the car's width.
 double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double speed,
                   double radius) {
   constexpr double kShareOfWidth = 0.25;
@@ -173,8 +174,8 @@ double RampExcess(const VehicleParams& vehicle, const FilletTurn& turn, double s
          std::sqrt(24.0 * radius * kShareOfWidth * vehicle.width);
 }
 
-/// Slows a turn down until the ramp of its largest radius is short enough, but not below
-/// `min_speed`. Returns the radii that equation C.40 permits at the new speed.
+/// Lowers the speed of a turn, at most to `min_speed`, until the steering ramp to the largest
+/// radius is short enough. Returns the radii that equation C.40 permits at the new speed.
 RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions& options,
                                const RadiusInterval& bounds, const RadiusInterval& room,
                                FilletTurn& turn) {
@@ -183,7 +184,8 @@ RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions
       slowest >= turn.speed || RampExcess(vehicle, turn, turn.speed, room.high) <= 0.0) {
     return room;
   }
-  // At a lower speed, the largest radius grows and the ramp of this radius shortens.
+  // At a lower speed, the largest permitted radius is larger, and the steering ramp to this radius
+  // is shorter.
   const auto room_at = [&](double v) {
     return SteeringRoomRadii(vehicle, v, turn.interior_angle, turn.shorter_leg, bounds,
                              NeutralTowardTurn(turn))
@@ -204,7 +206,8 @@ RadiusInterval SlowDownForRamp(const VehicleParams& vehicle, const FilletOptions
 RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const FilletOptions& options,
                          FilletTurn& turn) {
   const double r_min = vehicle.min_turning_radius();
-  // Tolerance for rounding: the minimum radius is computed from the limit of the steering angle.
+  // Relative tolerance for the rounding error of the minimum radius, which is computed from the
+  // limit of the steering angle.
   const double tolerance = 1e-9 * r_min;
   const auto refuse = [&](PlanStatus status, const std::string& why) {
     return RefuseTurn(turn, status, why);

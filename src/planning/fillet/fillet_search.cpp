@@ -9,21 +9,21 @@
 namespace trackbed::fillet {
 namespace {
 
-/// Step of the simulation on steering ramps [m]. The integration is of fourth order, with an error
-/// of 1e-9 rad at a step of 0.1 m.
+/// Step of the simulation of steering ramps [m]. The integration method is of fourth order; with a
+/// step of 0.1 m, the heading error is 1e-9 rad.
 constexpr double kStep = 0.1;
 
-/// A smaller heading change in a window counts as zero [rad].
+/// Heading change in a window below which the change counts as zero [rad].
 constexpr double kNoHeading = 1e-9;
 
-/// Stretch of a turn in the first simulated run: driven distance and heading change.
+/// Driven distance and heading change of a turn in the first simulated run.
 struct Window {
   double distance;
   double heading;
 };
 
-/// Simulates the car with its limited steering rate on a plan at `speed`. Returns the yaw [rad] at
-/// the steering events D_1, D_2, ….
+/// Simulates the car with its limited steering rate on a plan at `speed`. Returns the yaw of the
+/// car at the steering events D_1, D_2, … [rad].
 std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan& plan, double speed,
                                  ReferencePoint reference) {
   // If the first ramp begins before the start of the path, start the car earlier.
@@ -38,7 +38,8 @@ std::vector<double> YawsAtEvents(const VehicleParams& vehicle, const FilletPlan&
     distances.push_back(turn.steer_return);
   }
   const SteeringSchedule schedule = MakeSchedule(vehicle, turns);
-  // Sort the events, because a turn may begin to steer before the previous turn ends.
+  // Sort the steering events, because the steering of a turn may begin before the previous turn
+  // ends.
   std::vector<double> rising = distances;
   std::sort(rising.begin(), rising.end());
   const KinematicState start{.pose = {0.0, 0.0, 0.0}, .speed = speed, .steering = schedule.At(0.0)};
@@ -90,8 +91,8 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   SearchProblem problem;
   problem.lower = {vehicle.min_turning_radius()};
   problem.upper = {std::max(problem.lower[0], options.max_radius)};
-  // Initial radius for local methods, inside the bounds. The radius of the first run lies on a
-  // bound, where an initial simplex would be degenerate.
+  // Choose an initial radius inside the bounds for local search methods. The radius of the first
+  // run lies on a bound, where an initial simplex would be degenerate.
   problem.start = {0.5 * (limits.radii.low + limits.radii.high)};
   problem.objective = [&](std::span<const double> r) {
     const double yaw_rate = sign * speed / std::hypot(r[0], l_g);  // C.25
@@ -104,8 +105,8 @@ TurnSearch SearchTurn(const VehicleParams& vehicle, double speed, const FilletOp
   };
   search.result = Search(problem, options.search, seed);
   if (!search.result.ok()) {
-    // The feasible set is too narrow for the constrained search. The ends of this set are known, so
-    // search between the ends without the constraint.
+    // The interval of feasible radii is too narrow for a search with constraints. The ends of the
+    // interval are known, so search between the ends without the constraint.
     problem.lower = {limits.radii.low};
     problem.upper = {limits.radii.high};
     search.result = Search(problem, options.search, seed);
@@ -128,7 +129,7 @@ void SearchTurns(const VehicleParams& vehicle, const Route& route, double speed,
     }
     FilletTurn& turn = turns[k];
     if (turn.speed < speed) {
-      // the turn was slowed down so far that only a single radius is permitted
+      // The speed of the turn was lowered so far that only a single radius is permitted.
       turn.radius = limits[k].radii.high;
       continue;
     }

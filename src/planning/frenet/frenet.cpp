@@ -13,15 +13,16 @@
 #include "trackbed/core/error.h"
 
 // Plans optimal motions in the Frenet frame (Werling et al. 2010; weights as in the Frenet
-// lecture). For every duration, the planner computes polynomials s(t) to the longitudinal targets.
-// For every end offset, the planner adds a polynomial d(t) or, at low speed, d(s). The planner
-// sorts the candidate motions by their cost C. The plan is the first candidate that passes the
-// coarse check and then the fine check of the full motion.
+// lecture). For every duration of the motion, the planner computes polynomials s(t) that reach the
+// longitudinal targets. For every lateral offset at the end, the planner combines each s(t) with a
+// polynomial d(t) or, at low speed, d(s). The planner sorts the candidate motions by their cost C.
+// The plan is the first candidate that passes the coarse check and then the fine check of the full
+// motion.
 
 namespace trackbed {
 namespace {
 
-// Motions over a shorter distance [m] get no lateral polynomial d(s).
+// Distance below which a motion gets no lateral polynomial d(s) [m].
 constexpr double kShort = 0.05;
 
 /// Returns the polynomials s(t) that reach the longitudinal targets at the end of one duration.
@@ -46,8 +47,8 @@ std::vector<FrenetPiece> AlongPath(const FrenetRequest& request, const FrenetOpt
   return pieces;
 }
 
-/// Returns a motion at constant speed and offset from the end of a piece to the horizon. Returns
-/// none if the piece itself lasts until the horizon.
+/// Returns a motion at constant speed and constant offset that begins at the end of a piece and
+/// lasts until the horizon. Returns none if the piece itself lasts until the horizon.
 std::optional<FrenetPiece> Extrapolate(const FrenetPiece& piece, double horizon) {
   if (!(horizon > piece.duration)) {
     return std::nullopt;

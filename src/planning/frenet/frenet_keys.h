@@ -2,7 +2,7 @@
 
 #include "trackbed/planning/frenet/frenet.h"
 
-/// Keys shared by the planners of motions along a path.
+/// Option keys that all planners of motions along a path share.
 namespace trackbed {
 
 inline constexpr Key kEndOffsets{"end_offsets", "m", "candidate lateral offsets from the route"};

@@ -8,11 +8,11 @@
 namespace trackbed {
 namespace {
 
-/// Points closer together than this distance [m] do not form a segment.
+/// Minimum distance between two points that form a path segment [m].
 constexpr double kMinSegmentLength = 1e-3;
 
-/// Returns the number of equal time intervals into which a piece is divided. Returns none where the
-/// Frenet frame does not exist.
+/// Returns the number of equal time intervals into which a piece is divided. Returns none if the
+/// Frenet frame does not exist at a point of the motion.
 std::optional<int> CountIntervals(const Path& path, const FrenetPiece& piece, double time_step,
                                   double spacing) {
   constexpr int kProbes = 16;
@@ -88,8 +88,8 @@ std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
       if (!points.empty()) {
         const TrajectoryPoint& last = points.back();
         const double h = point.t - last.t;
-        // Euler-Maclaurin formula: the trapezoidal rule, corrected by the accelerations at both
-        // ends.
+        // Integrate by the Euler-Maclaurin formula, which is the trapezoidal rule corrected by the
+        // accelerations at both ends.
         point.distance =
             last.distance +
             std::max(0.0, 0.5 * h * (last.motion.speed + state->speed) +
@@ -111,7 +111,7 @@ Reference ToReference(const std::vector<TrajectoryPoint>& points) {
     }
   }
   if (kept.size() > 1) {
-    kept.back() = points.back();  // keep the end of the motion
+    kept.back() = points.back();  // replace the last kept point by the end of the motion
   }
   std::vector<CurvePoint> curve;
   std::vector<SpeedProfile::Knot> knots;

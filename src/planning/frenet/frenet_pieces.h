@@ -9,13 +9,13 @@ namespace trackbed {
 /// Returns the longitudinal part of a Frenet state: station, speed and acceleration along the path.
 LineMotion LongitudinalMotion(const FrenetState& state);
 
-/// Adds to a piece, which has a longitudinal motion s(t), the lateral motion d(s) from `start` to a
-/// constant `offset`. If the piece is shorter than 5 cm, extrapolates the offset from `start`
-/// instead. Returns false if the piece moves backward by 5 cm or more.
+/// Adds the lateral motion d(s) from `start` to a constant `offset` to a piece that already has a
+/// longitudinal motion s(t). If the piece is shorter than 5 cm, extrapolates the offset from
+/// `start` instead. Returns false if the piece moves backward by 5 cm or more.
 bool AddOverStation(const FrenetState& start, double offset, FrenetPiece& piece);
 
-/// Adds to a piece, which has a longitudinal motion s(t), the lateral motion d(t) from `start` to a
-/// constant `offset`.
+/// Adds the lateral motion d(t) from `start` to a constant `offset` to a piece that already has a
+/// longitudinal motion s(t).
 void AddOverTime(const FrenetState& start, double offset, FrenetPiece& piece);
 
 /// Returns the description of a failure, for example "none of 525 candidates is feasible: 500

@@ -14,33 +14,34 @@
 #include "trackbed/core/error.h"
 
 // Plans motions through a lattice of stations, offsets and speeds (the third variant of the Frenet
-// lecture). By dynamic programming, Label finds the cheapest path to each node over all edges from
-// earlier nodes, layer by layer. Label checks the edges coarsely, in order of cost. Finish checks
-// the cheapest path to the last layer in full. If an edge of the cheapest path fails, Finish bans
-// the edge, and labeling resumes at the layer of the edge.
+// lecture). Label finds the cheapest path to each node by dynamic programming: layer by layer, it
+// considers all edges from earlier nodes. Label performs a coarse feasibility check of the edges,
+// in order of cost. Finish performs the full feasibility check of the cheapest path to the last
+// layer. If an edge of the cheapest path fails, Finish bans the edge, and labeling resumes at the
+// layer of the edge.
 
 namespace trackbed {
 namespace {
 
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
-// Distance from the stopping place within which the car has arrived [m].
+// Distance from the stopping place within which the car counts as arrived [m].
 constexpr double kArrived = 0.05;
 
 /// A node of the lattice, with the cheapest known path from the start to the node.
 struct Node {
   FrenetState state;
-  // Target of the edges that end at this node. For following a leader, each edge sets the target's
-  // station.
+  // Target of the edges that end at this node. If the car follows a leader, each edge sets the
+  // station of the target.
   FrenetTarget target;
   double cost = kInfinite;
   double time = 0.0;
   std::size_t from = 0;
-  FrenetPiece piece;  // Piece from the node `from` to this node.
+  FrenetPiece piece;  // Piece of motion from the node `from` to this node.
   int edges = 0;      // Number of edges that end at this node.
 };
 
 struct Edge {
-  double cost;  // Cost of the whole path.
+  double cost;  // Cost of the whole path from the start over this edge.
   std::size_t from;
   FrenetPiece piece;
 };
@@ -65,8 +66,7 @@ class Lattice {
       plan_.reason = *check.blocked();
       return plan_;
     }
-    // An edge that passed the coarse check may fail the fine check. Then search again without this
-    // edge.
+    // If an edge that passed the coarse check fails the fine check, search again without this edge.
     std::size_t layer = 1;
     while (!plan_.ok() && Label(check, layer)) {
       layer = Finish(check);
@@ -199,8 +199,8 @@ class Lattice {
     return static_cast<std::ptrdiff_t>(layers_[layers_.size() - 2]);
   }
 
-  /// Checks the cheapest path in full. Adopts the path if the path passes the check. If an edge
-  /// fails, bans the edge and returns the layer in which the edge ends.
+  /// Checks the cheapest path in full. If the path passes the check, stores it as the result;
+  /// otherwise bans the failed edge and returns the layer in which this edge ends.
   std::size_t Finish(const TrajectoryCheck& check) {
     const auto end = std::min_element(nodes_.begin() + Last(), nodes_.end(),
                                       [](const Node& a, const Node& b) { return a.cost < b.cost; });
@@ -236,10 +236,13 @@ class Lattice {
   const Path& reference_;
   const FrenetRequest& request_;
   const LatticeOptions& options_;
-  std::vector<Node> nodes_;          // All nodes: the start, then the nodes of each layer.
-  std::vector<std::size_t> layers_;  // Index of each layer's first node, and the number of nodes.
-  std::vector<Edge> edges_;          // Edges to one node.
-  std::vector<std::size_t> ranks_;   // Indices of the edges, cheapest first.
+  // All nodes of the lattice: first the start, then the nodes of each layer.
+  std::vector<Node> nodes_;
+  // Index of each layer's first node, followed by the number of nodes.
+  std::vector<std::size_t> layers_;
+  std::vector<Edge> edges_;  // Edges that end at the node being labeled.
+  // Indices of the edges that end at the node, the cheapest edge first.
+  std::vector<std::size_t> ranks_;
   std::set<std::pair<std::size_t, std::size_t>> banned_;
   FrenetPlan plan_;
 };

@@ -7,8 +7,8 @@ namespace {
 
 constexpr std::size_t kTerms = std::tuple_size_v<decltype(Polynomial::coefficients)>;
 
-/// Factor of the coefficient of t^i in the derivative of the given order: i (i - 1) ... (i - order
-/// + 1).
+/// Returns i (i - 1) ... (i - order + 1), the factor of the coefficient of t^i in the derivative of
+/// the given order.
 using Factors = std::array<std::array<double, kTerms>, kTerms>;
 constexpr Factors kFactors = [] {
   Factors factors{};
@@ -34,7 +34,8 @@ double Polynomial::At(double t, std::size_t order) const {
 
 double Polynomial::IntegralOfSquare(std::size_t order, double duration) const {
   const auto& factors = kFactors.at(order);
-  std::array<double, 2 * kTerms> square{};  // coefficients of the squared derivative
+  // coefficients of the squared derivative, which is a polynomial
+  std::array<double, 2 * kTerms> square{};
   for (std::size_t i = order; i < kTerms; ++i) {
     for (std::size_t j = order; j < kTerms; ++j) {
       square[i + j - 2 * order] += factors[i] * coefficients[i] * factors[j] * coefficients[j];
@@ -49,8 +50,8 @@ double Polynomial::IntegralOfSquare(std::size_t order, double duration) const {
 
 Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration) {
   const double t = duration;
-  // Differences, at the end, between the target and a motion with constant acceleration, scaled by
-  // powers of t.
+  // Differences between the target and the final state of a motion with constant acceleration,
+  // scaled by powers of t.
   const double p = to.position - from.position - t * (from.velocity + 0.5 * t * from.acceleration);
   const double v = t * (to.velocity - from.velocity - t * from.acceleration);
   const double a = t * t * (to.acceleration - from.acceleration);

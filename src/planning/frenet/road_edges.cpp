@@ -12,13 +12,13 @@
 namespace trackbed {
 namespace {
 
-/// A point of the footprint in the Frenet frame of the path.
+/// A point on a side of the footprint, in the Frenet frame of the path.
 struct SidePoint {
   double s = 0.0;  // [m]
   double d = 0.0;  // [m]
 };
 
-constexpr int kPointsPerSide = 5;  // number of points on each long side
+constexpr int kPointsPerSide = 5;  // number of points on each long side of the footprint
 using SidePoints = std::array<SidePoint, 2 * kPointsPerSide>;
 
 /// Returns points on both long sides of the footprint. Returns none if a point lies at or beyond
@@ -42,7 +42,7 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
     }
     // On a path of curvature k, a point has the offset d = (1 - sqrt((k ahead)^2 + (1 - k
     // aside)^2))/k and the station s = atan(k ahead/(1 - k aside))/k relative to the rear axle. The
-    // code uses forms of these equations that also hold for k = 0.
+    // code evaluates these equations in equivalent forms that also hold for k = 0.
     const double turned = k * ahead / to_center;
     constexpr double kSmall = 1e-6;
     const double along = std::abs(turned) < kSmall ? ahead / to_center : std::atan(turned) / k;
@@ -53,9 +53,10 @@ std::optional<SidePoints> SidesOf(const VehicleParams& car, const PathPoint& at,
   return points;
 }
 
-/// Lateral offset of a track edge from a pose, and the direction of the edge at this offset.
+/// Lateral offset at which a pose's lateral axis crosses a track edge, and the direction of the
+/// edge at the crossing.
 struct EdgeAbeam {
-  double offset = 0.0;  // [m]
+  double offset = 0.0;  // Offset of the edge, positive to the left [m].
   double cosine = 1.0;  // Cosine of the angle between the edge and the pose's heading.
 };
 
@@ -93,8 +94,9 @@ EdgeAbeam FindAbeam(const TrackEdgeLine& edge, const Pose2& pose, double share, 
 /// Widens the road edges so that they contain the footprint of a car on the path.
 void WidenToFootprint(const Path& path, const VehicleParams& car, double spacing,
                       std::vector<RoadWidths>& widths) {
-  constexpr double kSampleSpacing = 0.2;     // [m]
-  constexpr double kSampleTolerance = 2e-3;  // [m], allowance for the motion between samples
+  constexpr double kSampleSpacing = 0.2;  // Distance between samples of the path [m].
+  // Allowance for the motion of the footprint between samples [m].
+  constexpr double kSampleTolerance = 2e-3;
   const auto last = static_cast<double>(widths.size() - 1);
   const double count = std::ceil(path.length() / kSampleSpacing);
   for (double i = 0.0; i <= count; i += 1.0) {
@@ -157,8 +159,8 @@ RoadEdges EdgesBeside(const Path& path, const Track& track, const VehicleParams&
     const double share = place.s / track.length();
     const EdgeAbeam left = FindAbeam(track.left_edge(), pose, share, edges.left - place.offset);
     const EdgeAbeam right = FindAbeam(track.right_edge(), pose, share, edges.right - place.offset);
-    // The required distance is perpendicular to the edge, so the distance along the pose's lateral
-    // axis is larger.
+    // The distance required from the edge is perpendicular to the edge; the distance along the
+    // lateral axis of the pose is therefore larger.
     widths.push_back({.left = left.offset - distance / std::max(left.cosine, 0.5),
                       .right = -right.offset - distance / std::max(right.cosine, 0.5)});
   }

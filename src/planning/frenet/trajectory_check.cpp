@@ -10,8 +10,8 @@
 namespace trackbed {
 namespace {
 
-constexpr double kNodeSpacing = 0.25;  // [m]
-// Relative tolerance of limits, for motions that reach a limit exactly.
+constexpr double kNodeSpacing = 0.25;  // Distance between the nodes of the path table [m].
+// Relative tolerance that accepts motions that reach a limit exactly.
 constexpr double kRounding = 1e-9;
 // Smallest speed at which the heading is computed from d(t) [m/s].
 constexpr double kMinHeadingSpeed = 0.1;
@@ -178,8 +178,8 @@ std::optional<Rejection> TrajectoryCheck::CheckCoarsely(const FrenetPiece& piece
   };
   const double duration = piece.duration;
   const int intervals = std::max(1, static_cast<int>(std::ceil(duration / limits_.time_step)));
-  // Quintic polynomials have their highest steering rates at their ends, so also check points at
-  // the fine spacing from both ends.
+  // Motions along quintic polynomials have the highest steering rates at both ends, so also check
+  // points at the fine spacing from each end.
   const double first = std::min(duration / intervals, limits_.spacing / piece.s.At(0.0, 1));
   const double last = std::min(duration / intervals, limits_.spacing / piece.s.At(duration, 1));
   auto rejection = check(0.0);

@@ -8,9 +8,9 @@
 
 namespace trackbed {
 
-/// Table for fast lookup of path points, with nodes every quarter meter. Around each node, a series
-/// expansion assumes that the curvature is linear. The lookup is accurate to 1e-8 m within
-/// clothoids; near joints, it is accurate enough for the coarse check.
+/// Table for fast lookup of path points; its nodes are 0.25 m apart. Between the nodes, points are
+/// computed by a series expansion that assumes linear curvature. The lookup error is at most 1e-8 m
+/// within clothoids; near joints of segments, it is small enough for the coarse check.
 class PathTable {
  public:
   PathTable(const Path& path, Stations within);
@@ -26,7 +26,7 @@ class PathTable {
   std::vector<Node> nodes_;
 };
 
-/// Checks motions against a request and the limits of the request.
+/// Checks whether motions satisfy a planning request and the limits of this request.
 class TrajectoryCheck {
  public:
   /// Tabulates the path up to the station `to`, for CheckCoarsely. All arguments except `to` must
@@ -37,8 +37,8 @@ class TrajectoryCheck {
   /// Returns the reason why no motion is possible from the start; none if a motion may be possible.
   [[nodiscard]] const std::optional<std::string>& blocked() const { return blocked_; }
 
-  /// Checks a piece that begins `time` [s] after the start, at samples every `time_step` and at
-  /// additional samples near the ends of the piece.
+  /// Checks a piece of a motion that begins `time` [s] after the start, at samples every
+  /// `time_step` and at additional samples near the ends of the piece.
   [[nodiscard]] std::optional<Rejection> CheckCoarsely(const FrenetPiece& piece, double time) const;
 
   struct Flaw {
@@ -71,7 +71,7 @@ class TrajectoryCheck {
   const FrenetLimits& limits_;
   PathTable table_;
   std::optional<std::string> blocked_;
-  // Limits of motions, relaxed so far that the start does not violate them.
+  // Limits of motions, relaxed just enough that the start state satisfies all limits.
   double speed_ = 0.0;
   double slowest_ = 0.0;
   double acceleration_ = 0.0;
@@ -81,8 +81,8 @@ class TrajectoryCheck {
   double steering_rate_ = 0.0;
   double left_ = 0.0;
   double right_ = 0.0;
-  double start_excess_ = 0.0;  // Distance by which the footprint at the start is beyond the edges
-                               // [m].
+  // Distance by which the footprint at the start extends beyond the road edges [m].
+  double start_excess_ = 0.0;
   struct Obstacle {
     MovingBox box;
     double margin;  // Required clearance [m].

@@ -9,19 +9,19 @@
 
 #include "trackbed/core/error.h"
 
-// A* (Hart et al. 1968) on a grid with eight neighbors per cell. The grid has a border of occupied
-// cells, so that steps need no bounds check. Open cells are kept in a bucket queue, whose key is
-// the excess of g + h over h(start); a bucket is half a straight step wide. The search ends when no
-// remaining bucket can improve the goal's cost. Before the search, PocketSize detects a start or
-// goal in a pocket of at most 64 cells. The function DistancesTo runs Dijkstra's algorithm with the
-// same kind of buckets.
+// Implements A* (Hart et al. 1968) on a grid in which each cell has eight neighbors. The grid is
+// surrounded by occupied cells, so that steps to neighbors need no bounds check. Open cells are
+// kept in a bucket queue, whose key is the excess of g + h over h(start); a bucket is half a
+// straight step wide. The search ends when no remaining bucket can improve the goal's cost. Before
+// the search, PocketSize detects whether the start or the goal is enclosed in a pocket of at most
+// 64 cells. The function DistancesTo runs Dijkstra's algorithm with the same bucket queue.
 
 namespace trackbed {
 namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Cost stored for occupied cells. This cost is lower than the cost of any path, so the search
-/// never enters an occupied cell.
+/// Cost stored for occupied cells. The cost of occupied cells is lower than the cost of any path,
+/// so no path to an occupied cell is an improvement and the search never enters one.
 constexpr double kOccupied = -kNever;
 
 struct Step {
@@ -33,7 +33,7 @@ constexpr std::array<Step, 8> kSteps{
     {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
 
 /// Cost of the best known path to each cell, on a grid with a border of occupied cells. Because of
-/// the border, steps need no bounds check.
+/// this border, steps to neighbors need no bounds check.
 struct Costs {
   explicit Costs(const OccupancyGrid& grid)
       : width(grid.columns + 2),
@@ -67,17 +67,20 @@ struct Costs {
   int columns;
 };
 
-/// Priority queue of buckets in ascending order of their keys. Within a bucket, the last entry
-/// comes out first. A new key is never below the current bucket, except by rounding.
+/// Priority queue of buckets in ascending order of their keys. Within a bucket, the queue returns
+/// the newest entry first. Except for rounding errors, no new key is below the range of the current
+/// bucket.
 class Buckets {
  public:
   struct Entry {
-    int x;  // column in the bordered grid; stored to avoid two divisions per estimate
+    // Column of the cell in the bordered grid; stored to save two divisions per cost estimate.
+    int x;
     int y;
     double cost;
   };
 
-  /// Width of a bucket, in units of a straight step. With this width, few cells are expanded twice.
+  /// Width of a bucket, in units of a straight step. With buckets of this width, the search expands
+  /// only few cells twice.
   static constexpr double kWidth = 0.5;
 
   void Push(double key, const Entry& entry) {
@@ -89,7 +92,7 @@ class Buckets {
   }
 
   /// Removes the next entry from the queue. After each bucket, calls `done` with the lower bound of
-  /// the remaining keys. Returns false if the queue is empty or `done` returns true.
+  /// the remaining keys. Returns false if the queue is empty or if `done` returns true.
   template <typename Done>
   bool Pop(Entry& entry, const Done& done) {
     while (now_ < buckets_.size() && buckets_[now_].empty()) {
@@ -117,7 +120,7 @@ constexpr std::size_t kPocket = 64;
 
 /// Returns the number of cells that are reachable from `cell`, or 0 if `other` is reachable or more
 /// than kPocket cells are reachable. PocketSize takes only microseconds and detects an enclosed
-/// start or goal. Without PocketSize, the search could expand all other cells before it finds that
+/// start or goal. Without this check, the search could expand all other cells before finding that
 /// the goal is unreachable.
 std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t other) {
   const auto free = [&](int x, int y) {
@@ -130,8 +133,8 @@ std::size_t PocketSize(const OccupancyGrid& grid, std::size_t cell, std::size_t 
   for (std::size_t i = 0; i < reached.size(); ++i) {
     const auto x = static_cast<int>(reached[i] % columns);
     const auto y = static_cast<int>(reached[i] / columns);
-    // Orthogonal moves reach all reachable cells, because diagonal moves need free orthogonal
-    // neighbors.
+    // Orthogonal moves are sufficient to reach all reachable cells, because a diagonal move
+    // requires that both orthogonal neighbors are free.
     for (const auto& [dx, dy] : {kSteps[0], kSteps[1], kSteps[2], kSteps[3]}) {
       if (!free(x + dx, y + dy)) {
         continue;

@@ -32,9 +32,9 @@ PlanStatus ToPlanStatus(GridStatus status) {
   return PlanStatus::kNoPath;
 }
 
-/// Returns half the diagonal of a cell [m], by which obstacles are additionally inflated. With this
-/// additional inflation, free cells and the lines between their centers keep the required distance
-/// from obstacles.
+/// Returns half the diagonal of a cell [m], by which obstacles are additionally inflated. Due to
+/// this additional inflation, free cells and the lines between the centers of free cells keep the
+/// required distance from obstacles.
 double CellInflation(const AStarOptions& options) {
   return 0.5 * std::sqrt(2.0) * options.cell;
 }
@@ -94,7 +94,7 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
 }
 
 /// Returns polylines that leave the start in the direction of the car's heading, the shortest
-/// first. Some of the polylines then turn left or right, once or twice, because the goal may be
+/// first. Some of these polylines also make one or two quarter turns, because the goal may be
 /// behind the car.
 std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request) {
   const double radius = request.vehicle.min_turning_radius();
@@ -150,7 +150,7 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
   Plan direct = PlanGrid(options, request, grid, inflation, {request.start.position()});
   const std::vector<Excess> excesses =
       direct.ok() ? FindExcesses(direct, request) : std::vector<Excess>{};
-  // Ignore violations that a lower speed repairs, because these violations do not depend on the
+  // Ignore violations that a lower speed removes, because such violations do not depend on the
   // initial heading.
   const bool begins_right = std::all_of(excesses.begin(), excesses.end(), [](const Excess& excess) {
     return excess.remedy != Remedy::kNone;

@@ -18,11 +18,11 @@
 
 // Hybrid A* (Dolgov et al. 2008) searches over poses that a car can reach, forwards and in reverse.
 // The heuristic is the larger of the Reeds-Shepp (or Dubins) length and the grid distance.
-// Dijkstra's algorithm computes the grid distance around the obstacles. Expanding a node drives
-// arcs of curvature 0, +-1/(2r) and +-1/r in both directions. The search keeps only the cheapest
-// node per cell of position, heading and direction. The nearer a node is to the goal, the more
-// often the search tries a collision-free curve to the goal. The search ends when the cheapest open
-// node ends with a curve to the goal.
+// Dijkstra's algorithm computes the grid distance around the obstacles. To expand a node, the
+// search drives arcs of curvature 0, +-1/(2r) and +-1/r forwards and in reverse. The search keeps
+// only the cheapest node per cell of position, heading and direction. The nearer a node is to the
+// goal, the more often the search tries a collision-free curve to the goal. The search ends when
+// the cheapest open node is at the goal, reached by a collision-free curve.
 
 namespace trackbed {
 namespace {
@@ -36,9 +36,9 @@ struct Node {
   Pose2 pose;
   double cost = 0.0;
   int parent = -1;
-  Segment step;         ///< Segment that ends at this pose; empty for the start.
-  int last_curve = -1;  ///< For a node at the goal, index of the curve that ends the node's path;
-                        ///< otherwise -1.
+  Segment step;  ///< Path segment that ends at this pose; empty for the start.
+  /// Index of the curve that leads to the goal if this node is at the goal; otherwise -1.
+  int last_curve = -1;
 };
 
 struct Open {
@@ -109,10 +109,10 @@ class HybridAStar {
     return result;
   }
 
-  /// Makes a grid whose cells are occupied if the rear-axle center cannot be anywhere in the cell.
-  /// All points of such a cell are closer to an obstacle than the rear-axle center may be: the
-  /// distance to the footprint's nearest side plus the safe distance. Returns an empty grid if the
-  /// area has too many cells.
+  /// Makes a grid in which a cell is occupied if the rear-axle center cannot be at any point of the
+  /// cell. In such a cell, every point is closer to an obstacle than the permitted minimum: the
+  /// distance from the rear-axle center to the nearest side of the footprint, plus the safe
+  /// distance. Returns an empty grid if the area has too many cells.
   [[nodiscard]] OccupancyGrid MakeGrid(const VehicleParams& vehicle) const {
     const GridArea area =
         AreaAround(problem_.start, {problem_.start.position(), problem_.goal.position()},
@@ -128,8 +128,8 @@ class HybridAStar {
                      std::max(inflation, 0.0));
   }
 
-  /// Returns a lower bound of the remaining distance to the goal [m], from the distance on the
-  /// grid.
+  /// Returns a lower bound of the remaining distance to the goal, computed from the distance on the
+  /// grid [m].
   [[nodiscard]] double LeftOnGrid(const Pose2& pose) const {
     const int cell = grid_.CellAt(pose.position());
     if (cell < 0) {
@@ -172,13 +172,14 @@ class HybridAStar {
   }
 
   void Expand(int index, const Node& node, int expansions) {
-    // Try a curve to the goal more often near the goal: for each turning radius of remaining
-    // distance, skip one more expansion between two tries.
+    // Try a curve to the goal more often near the goal: if n turning radii remain to the goal, try
+    // at every (n + 1)-th expansion.
     const double left = Left(node.pose);
     if (expansions % (1 + static_cast<int>(left / radius_)) == 0 || expansions == 1) {
       TryToEnd(index, node);
     }
-    const double length = 1.5 * options_.cell;  // longer than a cell's diagonal
+    // Length of an arc, longer than a cell's diagonal so that the arc leaves the cell.
+    const double length = 1.5 * options_.cell;
     for (const int direction : {1, -1}) {
       if (direction < 0 && (!options_.reverse || MustGoForwards(node))) {
         continue;
@@ -305,7 +306,7 @@ class HybridAStar {
   std::vector<double> distances_;  // Distances to the goal on the grid.
   std::vector<Node> nodes_;
   std::priority_queue<Open> open_;
-  std::unordered_map<std::int64_t, double> best_;  // Cost of the cheapest node of a cell.
+  std::unordered_map<std::int64_t, double> best_;  // Cost of the cheapest known node in each cell.
   double best_end_ = std::numeric_limits<double>::infinity();
   std::vector<std::vector<Segment>> last_curves_;
 };

@@ -11,8 +11,8 @@ std::size_t Index(const HeightGrid& grid, int column, int row) {
          static_cast<std::size_t>(column);
 }
 
-/// Returns a grid of half the resolution. Each height is the mean of up to four known heights of
-/// the original grid.
+/// Returns a height grid of half the resolution. Each height is the mean of up to four known
+/// heights of the original grid.
 HeightGrid Halved(const HeightGrid& grid) {
   HeightGrid half{.columns = (grid.columns + 1) / 2, .rows = (grid.rows + 1) / 2, .heights = {}};
   for (int row = 0; row < half.rows; ++row) {
@@ -75,8 +75,8 @@ std::vector<double> FillHeights(const HeightGrid& known) {
       }
     }
   }
-  // Relaxation steps per grid. Few steps are enough, because the coarser grids have already
-  // smoothed the large scales.
+  // Number of relaxation steps per grid. A few relaxation steps are enough, because large-scale
+  // height variations have already been smoothed on the coarser grids.
   constexpr int kSteps = 12;
   for (int i = 0; i < kSteps && !complete; ++i) {
     Relax(known, heights);

@@ -13,9 +13,10 @@ struct HeightGrid {
 };
 
 /// Interpolates the unknown heights smoothly between the known heights, which stay unchanged. The
-/// unknown heights start from a recursively filled grid of half the resolution. The unknown heights
-/// then relax toward the mean of the neighboring heights. If no height is known, all heights are 0.
-/// Cost: proportional to the number of heights, about 2 us per height.
+/// initial values of the unknown heights come from a recursively filled grid of half the
+/// resolution; relaxation steps then replace each unknown height by the mean of its neighbors. If
+/// no height is known, all heights are 0. The computing time is proportional to the number of
+/// heights, about 2 us per height.
 std::vector<double> FillHeights(const HeightGrid& known);
 
 }  // namespace trackbed

@@ -24,7 +24,7 @@ std::pair<int, int> OutermostLanes(const LaneSection& section) {
   return found;
 }
 
-/// Smooth step function, which rises from 0 at u = 0 to 1 at u = 1.
+/// Returns the smooth step function, which rises from 0 at u = 0 to 1 at u = 1.
 double SmoothStep(double u) {
   const double v = std::clamp(u, 0.0, 1.0);
   return v * v * (3.0 - 2.0 * v);
@@ -88,8 +88,8 @@ RoadStrip::RoadStrip(const Road& road, double from, double to, double before, do
 }
 
 RoadStrip::Node RoadStrip::ReferenceAt(double s) const {
-  // Interpolates cubically between the nodes. On an arc of 5 m radius, the interpolation error is
-  // 0.02 mm.
+  // Interpolates the reference line cubically between the nodes. On an arc of 5 m radius, the
+  // interpolation error is 0.02 mm.
   const double parts = static_cast<double>(nodes_.size() - 1);
   const double place = parts * (s - from_) / (to_ - from_);
   const std::size_t i = std::min(static_cast<std::size_t>(std::max(place, 0.0)), nodes_.size() - 2);
@@ -114,7 +114,9 @@ std::pair<double, double> RoadStrip::Borders(double s) const {
 }
 
 std::optional<RoadStrip::Place> RoadStrip::Locate(const Vec2& point_W) const {
-  constexpr double kFold = 0.1;  // fraction of the radius of curvature
+  // Distance from the center of curvature below which no place is found, as a fraction of the
+  // radius of curvature.
+  constexpr double kFold = 0.1;
   constexpr double kFoldEnd = 0.5;
   double s = 0.5 * (from_ + to_);
   for (int i = 0; i < 20; ++i) {

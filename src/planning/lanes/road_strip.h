@@ -12,17 +12,19 @@ namespace trackbed {
 /// lies below a point.
 class RoadStrip {
  public:
-  /// Place on the road surface below a point. For this purpose, the surface extends to both sides
-  /// beyond the lanes, and straight beyond the ends of the strip.
+  /// Place on the road surface below a point. To locate points beside the road, the surface is
+  /// extended sideways beyond the lanes and straight beyond the ends of the strip.
   struct Place {
-    double s = 0.0;            ///< Station within the strip [m].
-    double z = 0.0;            ///< Height of the surface [m].
-    double beside = 0.0;       ///< Distance beyond the lanes [m].
-    double beyond = 0.0;       ///< Distance beyond the ends of the strip [m].
+    double s = 0.0;       ///< Station of the place within the strip [m].
+    double z = 0.0;       ///< Height of the road surface at the place [m].
+    double beside = 0.0;  ///< Distance of the place from the nearest lane; 0 on the lanes [m].
+    /// Distance of the place beyond the end of the strip; 0 within the strip [m].
+    double beyond = 0.0;
     double straight_on = 0.0;  ///< Part of `beyond` that lies on the straight extension of the road
                                ///< [m].
-    double share = 1.0;        ///< Weight of the place, which falls to 0 toward the road's center
-                               ///< of curvature.
+    /// Weight of the place in the mean height, which falls to 0 toward the road's center of
+    /// curvature.
+    double share = 1.0;
   };
 
   /// Makes a strip between two stations, which must lie within one lane section and one piece of

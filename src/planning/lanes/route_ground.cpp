@@ -25,27 +25,30 @@
 namespace trackbed {
 namespace {
 
-constexpr double kRoadExtension = 15.0;     // Extension of a road before and after the route [m].
-constexpr double kStraightExtension = 6.0;  // Straight extension beyond the end of a road [m].
+// Length by which a road is included before and after the route [m].
+constexpr double kRoadExtension = 15.0;
+// Length by which a road is extended straight beyond its end [m].
+constexpr double kStraightExtension = 6.0;
 constexpr double kLaneSurfaceMargin = 1.5;  // Width by which a road surface extends beyond its
                                             // lanes [m].
 constexpr double kBlendWidth = 8.0;  // Width of the transition from a road surface to the coarse
                                      // terrain [m].
 constexpr double kInfluenceDistance = kLaneSurfaceMargin + kBlendWidth;
-constexpr double kMargin = 128.0;        // Margin around the route [m].
-constexpr double kLevelBorder = 24.0;    // Width of the level border [m].
-constexpr double kSlopeToBorder = 72.0;  // [m]
-constexpr double kBorderDepth = 1.0;     // Height of the border below the lowest road [m].
+constexpr double kMargin = 128.0;        // Width of the terrain's margin around the route [m].
+constexpr double kLevelBorder = 24.0;    // Width of the level border of the terrain [m].
+constexpr double kSlopeToBorder = 72.0;  // Width of the slope inside the level border [m].
+// Height difference by which the border lies below the lowest road [m].
+constexpr double kBorderDepth = 1.0;
 
 /// Stretch of a road along the route.
 struct Stretch {
   double from = 0.0;
   double to = 0.0;
-  double before = 0.0;  // Straight extension before the stretch [m].
+  double before = 0.0;  // Length of the straight extension before the stretch [m].
   double after = 0.0;
 };
 
-/// Stretches by road id; the stretches of a road are sorted and disjoint.
+/// Maps each road id to the stretches of this road, which are sorted and disjoint.
 using Stretches = std::map<std::string, std::vector<Stretch>>;
 
 Stretches NeededStretches(const RoadNetwork& network, const std::vector<LaneStretch>& route) {
@@ -91,7 +94,7 @@ struct Crossing {
   double apart = 0.0;  // Height difference between the lanes [m].
 };
 
-/// Combined surface of all strips.
+/// Combined road surface of all strips along the route.
 class Surfaces {
  public:
   explicit Surfaces(std::vector<RoadStrip> strips) : strips_(std::move(strips)) {}
@@ -111,12 +114,13 @@ class Surfaces {
 
   struct Blend {
     double z = 0.0;
-    double share = 0.0;  // Weight of z relative to the coarse terrain: 1 on the lanes, falling to 0
-                         // beside the lanes.
+    // Weight of the height z when it is mixed with the coarse terrain: 1 on the lanes, falling to 0
+    // beside the lanes.
+    double share = 0.0;
   };
 
-  /// Returns the mean height of the strips, weighted by proximity to `point`. On a lane, this is
-  /// the height of the lane.
+  /// Returns the mean height of the strips, weighted by proximity to `point`. If the point is on a
+  /// lane, the result is the height of the lane.
   Blend At(const std::vector<const RoadStrip*>& near, const Vec2& point) {
     Blend blend;
     double sum = 0.0;
@@ -159,7 +163,8 @@ class Surfaces {
   [[nodiscard]] const std::optional<Crossing>& crossing() const { return crossing_; }
 
  private:
-  /// Fades from 1 at u = 0 to 0 at u = 1, with zero slope and curvature at both ends.
+  /// Returns a function that falls from 1 at u = 0 to 0 at u = 1, with zero first and second
+  /// derivative at both ends.
   static double Fade(double u) {
     const double v = 1.0 - std::clamp(u, 0.0, 1.0);
     return v * v * v * (10.0 - v * (15.0 - 6.0 * v));
@@ -178,7 +183,7 @@ class Surfaces {
   std::optional<Crossing> crossing_;
 };
 
-/// Returns points across the lanes of a strip, at most 2 m apart along the strip.
+/// Returns points on the lanes of a strip, in rows across the strip that are at most 2 m apart.
 std::vector<RoadPosition> PointsOn(const RoadStrip& strip) {
   constexpr double kSpacing = 2.0;  // [m]
   std::vector<RoadPosition> points;
@@ -203,7 +208,8 @@ double ShareInside(const Terrain::Size& size, int column, int row) {
   return u * u * (3.0 - 2.0 * u);
 }
 
-/// Makes the terrain before refinement. Returns none if the terrain would be too large.
+/// Makes the coarse terrain, before blocks are refined. Returns none if the terrain would be too
+/// large.
 std::optional<Terrain> CoarseTerrain(const std::vector<RoadStrip>& strips) {
   std::vector<RoadPosition> points;
   for (const RoadStrip& strip : strips) {
@@ -258,7 +264,7 @@ void RefineAlong(Surfaces& surfaces, Terrain& terrain) {
   for (int row = 0; row < size.rows; ++row) {
     for (int column = 0; column < size.columns; ++column) {
       const Vec2 middle = size.low + Terrain::kBlock * Vec2(column + 0.5, row + 0.5);
-      // Radius of a circle around a block and its cell.
+      // Radius of a circle that contains a block and a small margin [m].
       constexpr double kRadius = 0.75 * Terrain::kBlock;
       const std::vector<const RoadStrip*> near = surfaces.Near(middle, kRadius);
       if (near.empty()) {
@@ -288,12 +294,13 @@ Deviation LargestDeviation(const RoadNetwork& network, const std::vector<LaneStr
     const double from = std::min(stretch.from, stretch.to);
     const double to = std::max(stretch.from, stretch.to);
     const std::size_t section = road.SectionAt(0.5 * (from + to));
-    constexpr double kSpacing = 0.15;  // [m]; differs from the spacing of the interpolated points
+    // Spacing of the checks [m], chosen different from the spacing of the interpolated points.
+    constexpr double kSpacing = 0.15;
     const double parts = std::max(1.0, std::ceil((to - from) / kSpacing));
     for (double i = 0.0; i <= parts; i += 1.0) {
       const double s = std::lerp(from, to, i / parts);
-      // At the end of a stretch, evaluate the road just before the end, where the next piece may
-      // begin.
+      // At the end of a stretch, evaluate the road just before the end, because the next piece of
+      // the road may begin there.
       const double piece_of = s < to ? s : std::nextafter(to, from);
       for (const int lane : {stretch.lane, stretch.to_lane}) {
         const LaneBorders borders = LaneBordersAt(road, section, lane, s, piece_of);
@@ -326,7 +333,7 @@ bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& ro
 std::string GroundError(const Road& road, double s) {
   const CubicValue height = road.elevation.At(s);
   const double roll = road.superelevation.At(s).value;
-  constexpr double kMaxSlope = 1.0;  // the same limit as for bumps of the world's ground
+  constexpr double kMaxSlope = 1.0;  // equal to the limit for bumps of the world's ground
   if (!(std::abs(height.slope) <= kMaxSlope && std::abs(std::tan(roll)) <= kMaxSlope &&
         std::cos(roll) > 0.0)) {
     return fmt::format(

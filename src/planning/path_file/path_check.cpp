@@ -15,8 +15,9 @@ namespace trackbed {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-6;  // Relative tolerance of a limit.
-// Spacing of the checked points [m]; larger on a path of more than 20 km.
+// Relative excess over a limit that is tolerated as rounding error.
+constexpr double kRounding = 1e-6;
+// Distance between checked points of the path [m]; larger if the path is longer than 20 km.
 constexpr double kSpacing = 0.05;
 constexpr double kMaxPieces = 4e5;
 
@@ -71,8 +72,8 @@ PathCheck Reversed(const FittedPath& fitted, PathCheck check) {
   return check;
 }
 
-/// Returns the steering and acceleration that a path piece requires of the car, and the limit that
-/// allows the lowest speed on this piece.
+/// Returns the steering and the acceleration that the car needs on a path piece, and the limit that
+/// restricts the speed most on this piece.
 std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const PathPoint& begin,
                                               const VehicleParams& vehicle, double speed,
                                               const PathCheck& limits) {
@@ -144,9 +145,8 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
   };
   const double spacing = std::max(kSpacing, path.length() / kMaxPieces);
   ForEachPiece(path, vehicle, spacing, [&](const PathPiece& piece) {
-    // Report a heading jump instead of the curvature of the arc that replaces the jump. The
-    // curvature of this arc depends on the spacing of the points in the file, not on the intended
-    // path.
+    // Where an arc replaces a heading jump, report the jump instead of the arc's curvature, which
+    // depends on the spacing of the points in the file and not on the intended path.
     while (jump != jumps.end() && jump->rounded.to <= piece.stations.from + 1e-9) {
       ++jump;
     }

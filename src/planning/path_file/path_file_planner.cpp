@@ -15,11 +15,11 @@
 namespace trackbed {
 namespace {
 
-/// Returns the speed caps of the file's speeds. Between two points, the cap is the mean of the
-/// speeds at these points.
+/// Returns speed caps that follow the speeds in the file; between two points, the cap is the mean
+/// of the speeds at these points.
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
-  constexpr double kMinSpeed = 0.1;  // [m/s]; lower bound, since a trajectory starts and ends at
-                                     // standstill
+  // Lower bound of the speed caps [m/s], since the speed is 0 at the start and end of a trajectory.
+  constexpr double kMinSpeed = 0.1;
   const std::vector<double>& speed = fitted.given.speed;
   std::vector<SpeedCap> caps;
   for (std::size_t i = 0; i + 1 < speed.size(); ++i) {
@@ -38,8 +38,8 @@ std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
   return caps;
 }
 
-/// Makes the steering schedule. For a path without heading jumps, whose curvature is continuous,
-/// the schedule follows the curvature.
+/// Makes the steering schedule of the fitted path. On a path with continuous curvature and no
+/// heading jumps, the steering schedule follows the curvature.
 SteeringSchedule ScheduleOf(const FittedPath& fitted, const PlanRequest& request,
                             const std::vector<SpeedCap>& caps) {
   const Path& path = fitted.path;
@@ -104,8 +104,8 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
   return plan;
 }
 
-/// Fits a path to the points. Throws InputError with the name of the file, or with the name of an
-/// option key if the option causes the problem.
+/// Fits a path to the points. Throws InputError if no path can be fitted; the error names the file,
+/// or the option key if an option is the cause.
 std::shared_ptr<const FittedPath> Fit(PathPoints points, const PathFileOptions& options,
                                       const std::string& file) {
   try {
@@ -160,7 +160,7 @@ std::vector<InputFile> InputFilesOf(const PathFileOptions& options) {
 
 void Resolve(PathFileOptions& options) {
   options.file = kPathCsv;
-  options.map = {};  // PathCsv uses the default column names
+  options.map = {};  // the output of PathCsv uses the default column names
   options.ahead = 0.0;
 }
 

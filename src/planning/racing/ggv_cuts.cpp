@@ -8,7 +8,8 @@
 namespace trackbed {
 
 GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide side) {
-  constexpr double kStep = 1e-3;  // step of the finite difference, in the sine of the angle
+  // Step of the finite difference with respect to the sine of the angle.
+  constexpr double kStep = 1e-3;
   const GgvDiagram& diagram = limits.diagram;
   GgvPoint point{.speed = std::sqrt(squared), .road = limits.road};
   const double lateral = diagram.MaxLateral(point);
@@ -28,7 +29,7 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
   double along = lateral * sine;
   const double size = std::hypot(across, along);
   if (size <= 1e-9 * lateral) {
-    across = 1.0;  // at a corner of the boundary, the cut limits f_y to its maximum
+    across = 1.0;  // at a corner of the boundary, the inequality only limits f_y to its maximum
     along = 0.0;
   } else {
     across /= size;
@@ -36,7 +37,7 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
   }
   const LongitudinalForces& car = diagram.forces();
   const double resistance = car.drag * squared / car.mass;
-  // Express the cut in the acceleration a, with f_x = a + resistance.
+  // Rewrite the inequality for the acceleration a, using f_x = a + resistance.
   return {.across = across,
           .along = sign * along,
           .bound =
@@ -45,13 +46,14 @@ GgvCut TyreCut(const LapLimits& limits, double squared, double angle, GgvSide si
 }
 
 double TyreCurvature(const LapLimits& limits, double squared, double angle, GgvSide side) {
-  constexpr double kAngleStep = 0.05;  // [rad]; the boundary consists of elliptic arcs
+  // Step of the angle parameter [rad] along the boundary, which consists of elliptic arcs.
+  constexpr double kAngleStep = 0.05;
   const double from = std::max(0.0, angle - kAngleStep);
   const double to = std::min(0.5 * std::numbers::pi, angle + kAngleStep);
   const GgvCut a = TyreCut(limits, squared, from, side);
   const GgvCut b = TyreCut(limits, squared, to, side);
-  // The turning rate is the angle between the two tangents divided by the length of the boundary
-  // between the tangent points.
+  // The curvature of the boundary is the angle between the two tangents, divided by the length of
+  // the boundary between the tangent points.
   const double sign = side == GgvSide::kDriving ? 1.0 : -1.0;
   GgvPoint point{.speed = std::sqrt(squared), .road = limits.road};
   const double lateral = limits.diagram.MaxLateral(point);

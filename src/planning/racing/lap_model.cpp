@@ -20,7 +20,8 @@ double LapModel::SteeringReach(const Lap& lap, std::size_t i) const {
   if (limits_.steering_rate <= 0.0 || limits_.wheelbase <= 0.0) {
     return std::numeric_limits<double>::infinity();
   }
-  // The steering angle delta = atan(L kappa) changes by L |d kappa|/(1 + (L kappa)^2).
+  // If the curvature changes by d kappa, the steering angle delta = atan(L kappa) changes by L |d
+  // kappa|/(1 + (L kappa)^2).
   const double tangent =
       limits_.wheelbase * std::min(std::abs(lap.curvature[i]), std::abs(lap.curvature[After(i)]));
   return limits_.options.share * limits_.steering_rate * lap.lengths[i] *

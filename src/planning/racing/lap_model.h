@@ -15,13 +15,13 @@ namespace trackbed {
 
 /// Shape, speeds and time of a lap along one line.
 struct Lap {
-  std::vector<LineShape> shapes;  // Shapes of the line at the stations.
-  std::vector<double> curvature;  // Curvature kappa at the stations [1/m].
-  std::vector<double> stretch;    // Ratio dl/ds at the stations.
-  std::vector<double> lengths;    // Lengths of the line between adjacent stations [m].
-  std::vector<double> speeds;     // [m/s]
-  double time = 0.0;              // [s]
-  double sharpest = 0.0;          // Largest |kappa| of the lap [1/m].
+  std::vector<LineShape> shapes;  // Shape of the line at each station.
+  std::vector<double> curvature;  // Curvature kappa of the line at each station [1/m].
+  std::vector<double> stretch;  // Ratio dl/ds of line length to center line length at each station.
+  std::vector<double> lengths;  // Length of the line between each station and the next [m].
+  std::vector<double> speeds;   // Speed at each station [m/s].
+  double time = 0.0;            // Lap time [s].
+  double sharpest = 0.0;        // Largest |kappa| of the lap [1/m].
 };
 
 class LapModel {
@@ -40,8 +40,8 @@ class LapModel {
   /// curvature of the track's center line.
   [[nodiscard]] Lap Drive(const TrackLine& line) const;
 
-  /// Returns the change of curvature between the stations i and i + 1 that the steering rate allows
-  /// at a speed of 1 m/s, times this speed [1/s]. Returns infinity if the steering rate is not
+  /// Returns the largest change of curvature between the stations i and i + 1 that the steering
+  /// rate permits, multiplied by the speed [1/s]. Returns infinity if the steering rate is not
   /// limited.
   [[nodiscard]] double SteeringReach(const Lap& lap, std::size_t i) const;
 

@@ -9,27 +9,29 @@
 // Builds the quadratic programs of the trust-region method in minimum_time.h (problem of Casanova
 // 2000 and Christ et al. 2021). The variables are the changes of the line's spline coefficients and
 // the relative changes of the squared speeds. The objective is the lap time, to second order in
-// speeds and lengths. The constraints (rows) of the program are bounds on offsets, steps,
+// speeds and lengths. The constraints (rows) of the quadratic program limit offsets, steps,
 // curvature, steering rate, lateral force, and the forces of motor and brakes. Further constraints
-// are tangents to the tyres' g-g-v boundary. The boundary's curvature at active tangents enters the
-// Hessian, weighted by the multipliers of the previous program.
+// are tangents to the g-g-v boundary of the tyres. The boundary's curvature at active tangents
+// enters the Hessian, weighted by the multipliers of the previous program.
 
 namespace trackbed {
 namespace {
 
-/// Bound of rows that are not bounded, since bounds must be finite. Actual bounds are far smaller.
+/// Large finite number that replaces an infinite bound of a row, since bounds must be finite;
+/// actual bounds are far smaller.
 constexpr double kUnbounded = 50.0;
-/// As the argument `keep` of AddCut, keeps a cut however far it is from the lap. Such cuts are
-/// needed because a braking point may move along a straight, so that intervals change from driving
-/// to braking.
+/// Value of the argument `keep` of AddCut with which no cut (linear inequality) is skipped. No cut
+/// may be skipped if a braking point may move along a straight, so that intervals change from
+/// driving to braking.
 constexpr double kKeepAlways = kUnbounded;
-constexpr double kMinRange = 1e-9;  // Least difference between the two bounds of a row.
+constexpr double kMinRange = 1e-9;  // Minimum difference between upper and lower bound of a row.
 
 double Squared(double x) {
   return x * x;
 }
 
-/// Returns by how much a cut is violated; negative if the cut is satisfied.
+/// Returns the amount by which a cut (linear inequality) is violated; negative if the cut is
+/// satisfied.
 double Excess(const GgvCut& cut, double across, double along) {
   return cut.across * across + cut.along * along - cut.bound;
 }
@@ -64,8 +66,8 @@ void LapProgram::Form::Add(const Form& other, double factor) {
   }
 }
 
-/// Returns the linearized change of a function of d, d' and d'' at the station i. The derivatives
-/// of the function are `by`.
+/// Returns the linearized change of a function of d, d' and d'' at the station i. The vector `by`
+/// holds the derivatives of the function by d, d' and d''.
 LapProgram::Form LapProgram::OffsetForm(std::size_t i, const Eigen::Vector3d& by) const {
   Form form;
   for (std::size_t k = 0; k < ClosedSplineBasis::kSupport; ++k) {
@@ -115,8 +117,8 @@ void LapProgram::AddRow(const Form& form, double lower, double upper) {
   upper_.push_back(std::max(upper, lower + kMinRange));
 }
 
-/// Adds the lap time to the objective: the sum of 2 l/(v_i + v_j), to second order in speeds and
-/// lengths.
+/// Adds the lap time, which is the sum of 2 l/(v_i + v_j), to the objective, up to second order in
+/// speeds and lengths.
 void LapProgram::AddTime(const Lap& lap) {
   const std::size_t count = model_.count();
   std::vector<double> pace(count);  // derivative of the lap time with respect to the stretch at
@@ -190,8 +192,9 @@ void LapProgram::AddCurvatures(const Lap& lap, double share) {
   }
 }
 
-/// Adds rows that require v |turned| <= reach at both ends of an interval, divided by the reach.
-/// For steering in the direction opposite to that of the lap, a row at one end suffices.
+/// Adds rows that limit the curvature change `turned` in an interval: v |turned|/reach <= 1 at both
+/// ends of the interval. To limit steering in the direction opposite to that of the lap, a row at
+/// one end of the interval is sufficient.
 void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   const std::size_t next = model_.After(i);
   const double reach = model_.SteeringReach(lap, i);
@@ -200,8 +203,8 @@ void LapProgram::AddSteering(const Lap& lap, std::size_t i) {
   }
   const double turned = lap.curvature[next] - lap.curvature[i];
   const double side = turned < 0.0 ? -1.0 : 1.0;
-  // The reach is proportional to the interval's length and to 1 + (L kappa)^2 at the end with the
-  // smaller curvature.
+  // The value of `reach` is proportional to the interval's length and to 1 + (L kappa)^2 at the end
+  // with the smaller curvature.
   const std::size_t flat = std::abs(lap.curvature[i]) < std::abs(lap.curvature[next]) ? i : next;
   const double wheelbase = model_.limits().wheelbase;
   const double tangent = wheelbase * lap.curvature[flat];
@@ -239,10 +242,11 @@ void LapProgram::AddLateral(const Lap& lap, std::size_t i) {
   AddRow(form, -largest - std::abs(force), std::max(0.0, largest - std::abs(force)));
 }
 
-/// Adds a row for a cut of the acceleration in the interval `interval`, by the limits at the
-/// interval's end `at`. The argument `bound_rate` is the derivative of the cut, with respect to the
-/// relative change of w, due to its bound and directions. Skips a cut that is satisfied by more
-/// than `keep`. Returns whether the row was added.
+/// Adds a row that applies a cut (linear inequality) to the acceleration in the interval
+/// `interval`, for the limits at the interval's end `at`. The argument `bound_rate` is the
+/// derivative of the cut by the relative change of w, as far as it results from changes of the
+/// cut's bound and direction. Skips the cut if the lap satisfies it with a margin of more than
+/// `keep`. Returns whether the row was added.
 bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                         double bound_rate, double keep) {
   const double squared = Squared(lap.speeds[at]);
@@ -256,14 +260,14 @@ bool LapProgram::AddCut(const Lap& lap, std::size_t at, std::size_t interval, co
   const double side = lap.curvature[at] < 0.0 ? -1.0 : 1.0;
   form.Add(curvature_[at], cut.across * side * squared);
   form.Add(SpeedVariable(at), cut.across * across - bound_rate);
-  // Where the diagram is not convex, a tangent may exclude the lap itself. Then move the bound so
-  // that the lap is feasible.
+  // If the g-g-v diagram is not convex, a tangent may exclude the lap about which the program is
+  // linearized. If a tangent excludes the lap, AddCut moves the bound so that the lap is feasible.
   AddRow(form, -kUnbounded, std::max(0.0, -excess));
   return true;
 }
 
-/// Adds a cost to the objective for the curvature of the boundary, which a tangent neglects. The
-/// cost is weight/2 times the squared displacement along the tangent.
+/// Adds a cost to the objective that accounts for the curvature of the g-g-v boundary, which a
+/// tangent neglects. The added cost is weight/2 times the squared displacement along the tangent.
 void LapProgram::AddBend(const Lap& lap, std::size_t at, std::size_t interval, const GgvCut& cut,
                          double weight) {
   const double squared = Squared(lap.speeds[at]);
@@ -291,8 +295,9 @@ void LapProgram::TakeMultipliers(const Eigen::VectorXd& multipliers) {
 }
 
 void LapProgram::AddTyres(const Lap& lap, std::size_t i, GgvSide side) {
-  constexpr double kStep = 0.01;         // Relative step of the squared speed.
-  constexpr double kKeepFraction = 0.3;  // Fraction of the largest lateral force.
+  constexpr double kStep = 0.01;  // Relative step of the squared speed for finite differences.
+  // Distance from the lap up to which cuts are kept, as a fraction of the largest lateral force.
+  constexpr double kKeepFraction = 0.3;
   const LapLimits& limits = model_.limits();
   const double squared = Squared(lap.speeds[i]);
   const double across = squared * std::abs(lap.curvature[i]);

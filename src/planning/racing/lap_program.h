@@ -11,22 +11,23 @@
 #include "src/planning/racing/line_shape.h"
 #include "trackbed/optimize/sparse_quadratic_program.h"
 
-/// Quadratic programs whose solutions shorten the time of a lap.
+/// Quadratic programs whose solutions reduce the lap time.
 namespace trackbed {
 
-/// Trust region of a quadratic program: largest changes in a step.
+/// Trust region of a quadratic program, given as the largest permitted changes in a step.
 struct LapTrust {
-  double offset = 1.0;   ///< Change of d at a station [m].
-  double squared = 0.3;  ///< Relative change of the squared speed at a station.
+  double offset = 1.0;   ///< Largest change of the offset d at a station [m].
+  double squared = 0.3;  ///< Largest relative change of the squared speed at a station.
 };
 
 /// Builds the quadratic program linearized about each lap of the search.
 ///
 /// The first variables are the changes of the line's coefficients [m]. The remaining variables are
-/// the relative changes of the squared speeds. The tyres' lateral limit is kappa <= a/w, with the
-/// lateral acceleration a and the squared speed w. Where this limit is active, the program uses the
-/// linearized limit kappa <= a/w_0 (1 - (w - w_0)/w_0), which never exceeds a/w. Therefore a step
-/// satisfies the lateral limit, except for the linearization error of the curvature.
+/// the relative changes of the squared speeds. The tyres limit the curvature to kappa <= a/w, where
+/// a is the largest lateral acceleration and w the squared speed. If this limit is active, the
+/// program replaces it by its linearization kappa <= a/w_0 (1 - (w - w_0)/w_0), which never exceeds
+/// a/w. Therefore a step satisfies the lateral limit, except for the linearization error of the
+/// curvature.
 class LapProgram {
  public:
   LapProgram(const LapModel& model, const ClosedSplineBasis& basis,
@@ -36,13 +37,14 @@ class LapProgram {
     return static_cast<Eigen::Index>(basis_.count());
   }
 
-  /// Builds the program linearized about a lap along `line`. Where the curvature exceeds
-  /// LapLimits::curvature_max, the program requires that the excess falls by the fraction `share`.
+  /// Builds the quadratic program that is linearized about a lap along `line`. Where the curvature
+  /// exceeds LapLimits::curvature_max, the program requires that the excess falls by the fraction
+  /// `share`.
   SparseQuadraticProgram About(const TrackLine& line, const Lap& lap, const LapTrust& trust,
                                double share);
 
-  /// Stores the multipliers of the last program. The next program uses the multipliers to weight
-  /// the curvature of the boundary, which tangents neglect.
+  /// Stores the Lagrange multipliers of the last program. The next program uses the multipliers to
+  /// weight the curvature of the boundary, which tangents neglect.
   void TakeMultipliers(const Eigen::VectorXd& multipliers);
 
  private:
@@ -53,10 +55,11 @@ class LapProgram {
     void Add(const Form& other, double factor);
   };
 
-  /// Prices: decreases of the lap time per unit of tyre force in an interval. The first index
-  /// selects the end of the interval whose limits apply, the second index driving or braking.
+  /// Decreases of the lap time per unit of additional tyre force in an interval. The first index
+  /// selects the end of the interval whose limits apply; the second index selects driving or
+  /// braking.
   using Prices = std::array<std::array<double, 2>, 2>;
-  /// A row of a program that represents a tangent.
+  /// Row of a quadratic program that represents a tangent to the g-g-v boundary.
   struct TangentRow {
     Eigen::Index row = 0;
     std::size_t interval = 0;
@@ -87,12 +90,15 @@ class LapProgram {
   std::vector<OffsetBounds> bounds_;
   std::vector<ClosedSplineBasis::Local> locals_;
 
-  std::vector<Prices> prices_;  // Multipliers of the previous program.
+  // Lagrange multipliers of the previous program, one set per interval.
+  std::vector<Prices> prices_;
 
-  // The following members are the linearization about one lap.
-  std::vector<Form> curvature_;     // Change of the curvature at the stations.
-  std::vector<Form> stretch_;       // Change of dl/ds at the stations.
-  std::vector<Form> acceleration_;  // Change of the acceleration in each interval.
+  // The following members hold the linearization about one lap.
+  // Change of the curvature at each station as a function of the variables.
+  std::vector<Form> curvature_;
+  std::vector<Form> stretch_;  // Change of dl/ds at each station as a function of the variables.
+  // Change of the acceleration in each interval as a function of the variables.
+  std::vector<Form> acceleration_;
   std::vector<double> accelerations_;
   std::vector<Eigen::Triplet<double>> rows_;
   std::vector<TangentRow> tangents_;

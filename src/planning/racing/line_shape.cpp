@@ -27,7 +27,7 @@ LineShape ShapeAt(const PathPoint& center, const LineOffset& offset) {
 
 OffsetBounds BoundsAt(const Track& track, const PathPoint& center, double s, double beside) {
   constexpr double kMaxRadiusFraction =
-      0.95;  // Largest |d| as a fraction of the center line's radius of curvature.
+      0.95;  // Largest permitted |d| as a fraction of the center line's radius of curvature.
   const TrackEdges edges = track.EdgesAt(s);
   OffsetBounds bounds{edges.right + beside, edges.left - beside};
   if (center.curvature > 0.0) {

@@ -5,13 +5,14 @@
 
 #include "trackbed/planning/racing/track_line.h"
 
-/// For optimizers: the shape of a line on a track with its derivatives, and the bounds of the
-/// line's offset.
+/// Functions for optimizers that compute the shape of a line on a track, the derivatives of the
+/// shape, and the bounds of the line's offset.
 namespace trackbed {
 
 /// Returns the spline basis for the offsets of lines, with two knots per point of the track. On the
 /// inside of a hairpin, a line has a smaller radius and is shorter than the center line. With only
-/// one knot per point, the line's curvature would ripple there.
+/// one knot per point of the track, the line's curvature would oscillate on the inside of a
+/// hairpin.
 ClosedSplineBasis OffsetBasis(const Track& track);
 
 /// A value with its derivatives with respect to the offset d and the offset's derivatives d' and
@@ -22,8 +23,8 @@ using OffsetDerivatives = Eigen::AutoDiffScalar<Eigen::Vector3d>;
 /// the center line, the derivative of the line's position r with respect to the station is r' = (1
 /// - kappa_c d) t + d' n.
 struct LineShape {
-  OffsetDerivatives cross;  ///< Cross product r' x r''.
-  /// Squared norm |r'|^2; kappa = cross/square^1.5 and dl/ds = square^0.5.
+  OffsetDerivatives cross;  ///< Cross product r' x r'' of the derivatives of the line's position.
+  /// Squared norm |r'|^2, from which follow kappa = cross/square^1.5 and dl/ds = square^0.5.
   OffsetDerivatives square;
 };
 LineShape ShapeAt(const PathPoint& center, const LineOffset& offset);

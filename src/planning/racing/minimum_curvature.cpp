@@ -14,8 +14,8 @@ namespace trackbed {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
-/// Returns the residual kappa sqrt(dl/ds) at a station. The integral of its square over the station
-/// equals the integral of kappa^2 along the line.
+/// Returns the residual kappa sqrt(dl/ds) at a station. The integral of the squared residual over
+/// the station equals the integral of kappa^2 along the line.
 OffsetDerivatives Residual(const PathPoint& center, const LineOffset& at) {
   const LineShape shape = ShapeAt(center, at);
   return shape.cross / pow(shape.square, 1.25);
@@ -79,8 +79,8 @@ class CurvatureProblem {
     }
     Sparse jacobian(Samples(), Variables());
     jacobian.setFromTriplets(entries.begin(), entries.end());
-    // If no edge is active, shifting the whole line hardly changes its curvature, so regularize
-    // toward the last line.
+    // If no bound of the offset is active, shifting the whole line hardly changes the curvature;
+    // therefore penalize the distance from the previous line.
     const Sparse squares = jacobian.transpose() * jacobian;
     const double hold = 1e-10 * squares.diagonal().mean();
     Sparse identity(Variables(), Variables());
@@ -131,7 +131,8 @@ Plan PlanWith(const MinimumCurvatureOptions& options, const PlanRequest& request
 
 MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
   constexpr int kMaxIterations = 30;
-  constexpr double kConvergenceTolerance = 1e-6;  // relative change of the integral
+  // Relative change of the integral below which the iteration ends.
+  constexpr double kConvergenceTolerance = 1e-6;
   CurvatureProblem problem(track, beside);
   MinimumCurvatureLine found{.refused = problem.refused(), .line = {}};
   Eigen::VectorXd line = Eigen::VectorXd::Zero(problem.Variables());
@@ -144,8 +145,8 @@ MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside) {
       found.refused = "the quadratic program for the line was not solved";
       return found;
     }
-    // In the first iteration, the integral may rise, because the initial line may violate the
-    // bounds. In later iterations, the integral must not rise.
+    // In the first iteration, the integral of kappa^2 may rise, because the initial line may
+    // violate the bounds; in later iterations, it must not rise.
     Eigen::VectorXd next = solution.x;
     double next_integral = problem.Integral(next);
     for (int half = 0; found.iterations > 1 && next_integral > integral && half < 10; ++half) {

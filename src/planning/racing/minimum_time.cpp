@@ -15,21 +15,21 @@
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/racing/minimum_curvature.h"
 
-// Finds the line of least lap time (problem of Casanova 2000 and Christ et al. 2021) by a
-// trust-region method. The search starts at the line of least curvature. Each step solves a
+// Finds the line with the least lap time (problem of Casanova 2000 and Christ et al. 2021) by a
+// trust-region method. The search starts at the line with the least curvature. Each step solves a
 // quadratic program (LapProgram) for changes of the line and of the speeds. The search tries the
-// whole step, then a half, a quarter and a tenth of the step. Each new line is evaluated with its
-// own limit speed profile. The search accepts a step only if the lap gets faster, or if an excess
-// of curvature falls. If no step is accepted, the trust region shrinks. The lap times of the result
-// come from a finer model with twice as many stations.
+// whole step, then a half, a quarter and a tenth of the step. For each new line, the lap time is
+// computed with the speed profile at the car's limit on this line. The search accepts a step only
+// if the lap gets faster, or if an excess of curvature falls. If no step is accepted, the trust
+// region shrinks. The lap times of the result come from a finer model with twice as many stations.
 
 namespace trackbed {
 namespace {
 
-constexpr double kSameCurvature = 1e-6;  // relative tolerance of the largest curvature
+constexpr double kSameCurvature = 1e-6;  // relative tolerance of the largest permitted curvature
 
-/// Returns the number of stations of the programs: at least two per knot of the spline, and at most
-/// 2.6 m apart.
+/// Returns the number of stations of the quadratic programs, with at least two stations per knot of
+/// the spline and a spacing of at most 2.6 m.
 std::size_t ProgramStations(const Track& track) {
   constexpr double kMaxSpacing = 2.6;  // [m]
   const double knots = static_cast<double>(OffsetBasis(track).count());
@@ -37,8 +37,8 @@ std::size_t ProgramStations(const Track& track) {
                                   std::max(2.0, std::ceil(track.length() / (knots * kMaxSpacing))));
 }
 
-/// Searches for the line of least lap time. The object holds the best line and lap so far, and the
-/// reason why the search ended.
+/// Searches for the line with the least lap time. The object holds the best line and lap so far,
+/// and the reason why the search ended.
 class LapSearch {
  public:
   LapSearch(const Track& track, double beside, const LapLimits& limits, const TrackLine& start)
@@ -58,8 +58,8 @@ class LapSearch {
   }
 
   [[nodiscard]] const TrackLine& line() const { return line_; }
-  /// Returns the number of iterations, the last gain and the reason for the end of the search. The
-  /// caller sets the line and the times of the result.
+  /// Returns a result with the number of iterations, the last decrease of the lap time and the
+  /// reason for the end of the search. The caller sets the line and the times of the result.
   [[nodiscard]] const MinimumTimeLine& found() const { return found_; }
 
  private:
@@ -81,7 +81,8 @@ class LapSearch {
   /// Solves one quadratic program and tries the resulting step. Returns whether the search is over.
   bool Step() {
     constexpr double kMinScale = 1e-3;
-    constexpr double kConvergenceTolerance = 1e-4;  // fraction of the lap time
+    // Predicted gain below which the search ends, as a fraction of the lap time.
+    constexpr double kConvergenceTolerance = 1e-4;
     const LapTrust trust{.offset = kTrustOffset * scale_, .squared = kTrustSquared * scale_};
     const SparseQuadraticProgram program = program_.About(line_, lap_, trust, share_);
     const SparseQuadraticSolution solution = Solve(
@@ -140,8 +141,9 @@ class LapSearch {
     return false;
   }
 
-  static constexpr double kTrustOffset = 1.0;   // [m]
-  static constexpr double kTrustSquared = 0.3;  // Relative change of a squared speed.
+  static constexpr double kTrustOffset = 1.0;  // Limit of the change of d if the scale is 1 [m].
+  // Limit of the relative change of a squared speed if the scale is 1.
+  static constexpr double kTrustSquared = 0.3;
   static constexpr double kMaxScale = 2.0;
 
   LapModel model_;
@@ -149,12 +151,12 @@ class LapSearch {
   LapProgram program_;
   TrackLine line_;
   Lap lap_;
-  double scale_ = 1.0;  // Scale of the trust region.
-  double share_ = 1.0;  // Argument `share` of LapProgram::About.
+  double scale_ = 1.0;  // Factor by which the trust region is scaled.
+  double share_ = 1.0;  // Value of the argument `share` of LapProgram::About.
   MinimumTimeLine found_;
 };
 
-/// Returns a model with twice as many stations as the programs, to compare lines.
+/// Returns a lap model for comparing lines, with twice as many stations as the quadratic programs.
 LapModel FineModel(const Track& track, const LapLimits& limits) {
   return {track, limits, 2 * ProgramStations(track)};
 }

@@ -15,15 +15,15 @@
 #include "trackbed/planning/frenet/polynomial.h"
 
 // Converts a line on a track to a plan of laps. The line is given by the offset d(s) from the
-// center line. The station s is unrolled: it keeps increasing over all laps. A quintic polynomial
-// for the offset's difference leads from the car's initial offset onto the line. Points along the
-// line, with exact curvatures, become segments of quadratic curvature. After the last lap, the line
-// continues for the braking distance.
+// center line. The station s is unrolled: it keeps increasing over all laps. From the car's initial
+// offset, a quintic polynomial reduces the offset from the line to zero. The path consists of
+// segments of quadratic curvature through points of the line with exact curvatures. After the last
+// lap, the line continues for the braking distance.
 
 namespace trackbed {
 namespace {
 
-/// Transition from the car's offset to the offset of the line.
+/// Transition from the car's initial offset to the offset of the line.
 struct Join {
   double from = 0.0;    // Station at which the transition begins [m].
   double length = 0.0;  // Length of the transition [m].
@@ -48,8 +48,8 @@ class Unrolled {
     return offset;
   }
 
-  /// Returns pose and curvature of the line at the unrolled station s. Returns none where the
-  /// Frenet frame does not exist.
+  /// Returns pose and curvature of the line at the unrolled station s. Returns none if the Frenet
+  /// frame does not exist at this station.
   [[nodiscard]] std::optional<MotionState> At(double s) const {
     const LineOffset offset = OffsetAt(s);
     return FromFrenet(
@@ -77,7 +77,8 @@ double Spacing(const Track& track) {
   return std::min(1.0, 0.25 * track.length() / static_cast<double>(track.points().size()));
 }
 
-/// Points of a path along the line, and the path's stations at given stations of the track.
+/// Points of a path along the line, and the stations of the path that correspond to given stations
+/// of the track.
 struct LinePath {
   std::vector<CurvePoint> points;
   std::vector<double> passed;  // stations of the path [m]
@@ -106,8 +107,8 @@ std::optional<LinePath> TraceLine(const Track& track, const Unrolled& line,
     const double parts = std::ceil(span / spacing);
     for (double k = 0.0; k < parts; k += 1.0) {
       const double s = stations[i] + span * k / parts;
-      // Skip points that are too close together, as on the inside of a hairpin. Otherwise the
-      // finest ripples of the line would limit the speed.
+      // Skip points that are too close together, as on the inside of a hairpin. Without skipping
+      // such points, the finest oscillations of the line's curvature would limit the speed.
       const bool close = k > 0.0 && length - path.points.back().s < kMinSpacing * spacing;
       if (!close && !add(s)) {
         return std::nullopt;
@@ -194,7 +195,8 @@ LineFindings MeasureLine(const Track& track, const TrackLine& line) {
   LineFindings findings;
   double sharpest = 0.0;
   for (double k = 0.0; k < parts; k += 1.0) {
-    // Since kappa^2 is periodic over a lap, the midpoint rule converges as fast as any quadrature.
+    // Use the midpoint rule, which converges as fast as any other quadrature because kappa^2 is
+    // periodic over a lap.
     const double from = track.length() * k / parts;
     const double length = unrolled.Length(from, track.length() * (k + 1.0) / parts);
     const std::optional<MotionState> at = unrolled.At(track.length() * (k + 0.5) / parts);

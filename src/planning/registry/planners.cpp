@@ -26,7 +26,7 @@
 namespace trackbed {
 namespace {
 
-/// Returns the registry of planners. Its table has one line per planner.
+/// Returns the registry of planners, a table with one line per planner.
 Registry<PlannerEntry>& RegisteredPlanners() {
   static Registry<PlannerEntry> table("planner", {
                                                      FilletPlanner(),

@@ -14,25 +14,27 @@
 // Plans motions along a route among obstacles, by polynomials in the Frenet frame or by a lattice.
 // The planner first tries to stop at the goal, to proceed at the wanted speed, and to follow a
 // leading obstacle. If these maneuvers fail, the planner tries to proceed more slowly and then to
-// stop behind an obstacle. The planner accepts a motion only if the car can brake after the motion.
-// While braking, the car must keep clear of obstacles, stay within the steering limits and the
-// track's edges, and stop before the goal. Moving obstacles are extrapolated at constant velocity.
+// stop behind an obstacle. The planner accepts a motion only if the car can brake to a stop after
+// the motion. While braking, the car must keep clear of obstacles, stay within the steering limits
+// and the track's edges, and stop before the goal. Moving obstacles are extrapolated at constant
+// velocity.
 
 namespace trackbed {
 namespace {
 
-/// Largest distance of a smooth stop, as a fraction of speed times duration.
+/// Largest distance of a smooth stop, as a fraction of the product of speed and duration.
 constexpr double kStopShare = 0.55;
 
-/// Tolerance of a stop at the goal [m]; the lattice planner has the same tolerance.
+/// Largest distance between a stop and the goal at which the goal counts as reached [m]; the
+/// lattice planner uses the same value.
 constexpr double kGoalTolerance = 0.05;
 
 double Front(const VehicleParams& vehicle) {
   return vehicle.length - vehicle.rear_overhang;
 }
 
-/// Returns the options of the method, with safe distance and horizon from the settings and the
-/// speed factors `factors`.
+/// Returns the options of the planning method, with the safe distance and the horizon of the
+/// settings, and with the speed factors `factors`.
 FrenetOptions AdaptOptions(FrenetOptions options, const AlongSettings& settings,
                            const std::vector<double>& factors) {
   options.limits.safe_distance = settings.safe_distance;
@@ -56,7 +58,7 @@ FrenetPlan Find(const Path& path, const FrenetRequest& request, const LatticeOpt
   return PlanLattice(path, request, options);
 }
 
-/// Returns the distance over which the method can plan a stop [m].
+/// Returns the longest distance over which the planning method can plan a stop [m].
 double StopReach(const FrenetOptions& options, double speed) {
   const auto longest = std::max_element(options.end_times.begin(), options.end_times.end());
   return longest == options.end_times.end() ? 0.0 : kStopShare * speed * *longest;
@@ -135,10 +137,10 @@ class AlongRoute {
   }
 
  private:
-  /// Finds a motion to the goal state. Requires that the car can brake after the motion, clear of
-  /// obstacles and within the steering limits. Rejects motions that pass the route's goal, braking
-  /// included. Also rejects motions that stop beside the route, because the car could not return to
-  /// the route.
+  /// Finds a motion to the goal state. Accepts a motion only if the car can brake to a stop after
+  /// it without hitting obstacles and within the steering limits. Rejects motions that pass the
+  /// goal of the route before the car has braked to a stop. Also rejects motions that stop beside
+  /// the route, because the car could not return to the route.
   bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
     const FrenetRequest request{.vehicle = request_.vehicle,
                                 .speed = request_.speed,
@@ -157,7 +159,7 @@ class AlongRoute {
     }
     const FrenetState end = found_.motion.At(found_.motion.duration());
     if (std::holds_alternative<StopAt>(goal) && end.s_rate > kAtRestSpeed) {
-      return false;  // the stop is beyond the reach of the lattice
+      return false;  // the lattice does not extend as far as the stop
     }
     return BrakesAfter(end, end.d) || (frame_.edges && end.d != 0.0 && BrakesAfter(end, 0.0));
   }
@@ -171,7 +173,7 @@ class AlongRoute {
   }
 
   /// Returns whether a car that stands at `stop` could return to the route before its goal, by two
-  /// opposite turns at full lock.
+  /// opposite turns at the steering limit.
   [[nodiscard]] bool EndsBeforeGoal(const FrenetState& stop) const {
     const VehicleParams& car = request_.vehicle;
     const double radius = car.wheelbase / std::tan(car.steering_limit);
@@ -184,7 +186,8 @@ class AlongRoute {
                                                          double offset) const {
     FrenetMotion motion = found_.motion;
     if (end.s_rate > 0.0) {
-      // The car stands still after the time end.s_rate/a and the distance end.s_rate^2/(2 a).
+      // With the deceleration a, the car stops after the time end.s_rate/a and the distance
+      // end.s_rate^2/(2 a).
       const double braking = request_.speed.deceleration;
       const double distance = 0.5 * end.s_rate * end.s_rate / braking;
       motion.pieces.push_back(
@@ -194,14 +197,14 @@ class AlongRoute {
     }
     const FrenetLimits& limits = MotionLimits(options_);
     auto points = SampleMotion(frame_.path, motion, limits.time_step, limits.spacing);
-    // If the Frenet frame does not exist at all points until the stop, return the motion without
+    // If the Frenet frame does not exist at some point before the stop, return the motion without
     // braking.
     return points ? std::move(*points) : found_.points;
   }
 
   [[nodiscard]] bool BrakingIsClear() const {
-    constexpr double kClearanceTolerance = 1e-2;  // [m], tolerance, because the clearance between
-                                                  // samples may be smaller
+    // Tolerance of the clearance [m], which may be smaller between samples.
+    constexpr double kClearanceTolerance = 1e-2;
     const double began = found_.motion.duration();
     // A car that starts closer to an obstacle than the safe distance may keep its present distance.
     const OrientedBox footprint = FootprintAt(request_.vehicle, points_.front().motion.pose);
@@ -250,8 +253,8 @@ class AlongRoute {
     return true;
   }
 
-  /// Checks that the footprint stays within the track's edges while braking. A footprint that
-  /// starts beyond the edges may stay beyond the edges by the same distance.
+  /// Checks that the footprint stays within the track's edges while braking. If the footprint
+  /// starts beyond the track's edges, it may stay beyond the edges by the same distance.
   [[nodiscard]] bool BrakingIsOnTrack() const {
     if (!frame_.edges) {
       return true;
@@ -285,7 +288,7 @@ class AlongRoute {
   const AlongRequest& request_;
   const AlongSettings& settings_;
   const AlongOptions& options_;
-  FrenetPlan found_;  // Result of the last attempt.
+  FrenetPlan found_;  // Result of the last attempt to find a motion.
   // Points of the last motion and of the braking after the motion.
   std::vector<TrajectoryPoint> points_;
 };
@@ -329,9 +332,8 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
                 EdgesBeside(path, *route.laps.track, vehicle, edge_distance))};
   }
   // The smoothing window w [m] must be so long that the wheels can follow the curvature. A step
-  // from a straight to a bend of curvature k needs the longest window: while the curvature rises by
-  // k over the window, the steering rate is at most v L k/w. Smoothing increases the bend's own
-  // curvature by the fraction (k w)^2/24.
+  // from a straight to a bend of curvature k needs the longest window, on which the steering rate
+  // is at most v L k/w. Smoothing increases the bend's own curvature by the fraction (k w)^2/24.
   constexpr double kSampleSpacing = 0.5;  // [m]
   double window = 0.1;                    // [m]
   for (const PathPoint& point : path.Sample(kSampleSpacing)) {

@@ -17,30 +17,30 @@
 #include "trackbed/world/world.h"
 
 // Searches for a detour around static obstacles by any planner that keeps clear of obstacles. The
-// detour leaves the driven path on a straight, either at once or after the car's braking distance.
-// The detour returns to the route on one of up to three straights behind the last blocked stretch.
-// For planners without headings, the detour has straight first and last legs of 10, 6 or 3 m. The
-// comparator selects the best path. The car takes this path only if it is better than the current
-// path.
+// detour leaves the driven path on a straight, either as early as possible or after the car's
+// braking distance. The detour returns to the route at one of up to three places on straights
+// behind the last blocked stretch. If the planner ignores headings, the first and the last leg of
+// the detour are straight and 10, 6 or 3 m long. The comparator selects the best path. The car
+// takes the selected path only if the comparator rates it better than the current path.
 
 namespace trackbed {
 namespace {
 
 /// Spacing of collision checks along paths [m].
 constexpr double kPathCheckSpacing = 0.1;
-/// Curvatures up to this value count as straight [1/m].
+/// Largest curvature that counts as straight [1/m].
 constexpr double kStraight = 1e-4;
-/// Lengths that are tried for the first and last straight of a path with corners [m]. Long
-/// straights leave room for gentle corners; short straights fit before nearby obstacles.
+/// Lengths that the search tries for the first and the last straight of a path with corners [m].
+/// Long straights leave room for gentle corners; short straights fit before nearby obstacles.
 constexpr std::array<double, 3> kStraightLengths{10.0, 6.0, 3.0};
 /// Spacing of the places at which the detour may return to the route [m], and the largest number of
 /// these places.
 constexpr double kReturnSpacing = 5.0;
 constexpr int kReturnPoints = 3;
-/// Duration of straight driving required after the return to the route, at the mission's speed [s].
+/// Minimum duration of straight driving at the mission's speed after the return to the route [s].
 constexpr double kSettlingTime = 2.0;
-/// The detour begins at least this far ahead of the car on the driven path: kMinLead [m] plus
-/// kLeadTime [s] at the car's speed.
+/// Minimum distance between the car and the start of the detour on the driven path: kMinLead [m]
+/// plus the distance driven in kLeadTime [s].
 constexpr double kMinLead = 0.5;
 constexpr double kLeadTime = 0.5;
 
@@ -111,7 +111,7 @@ class DetourSearch {
     }
     const Path& path = request_.driven.reference.path;
     const double lead = request_.station + kMinLead + kLeadTime * request_.station_speed;
-    // Leave the driven path at once, or after the braking distance.
+    // Leave the driven path as early as possible, or after the braking distance.
     const double braking =
         0.5 * request_.station_speed * request_.station_speed / request_.speed.deceleration;
     std::vector<double> leaves;
@@ -134,7 +134,7 @@ class DetourSearch {
         }
       }
       if (!detour.route || IsBudgetUsed(detour)) {
-        break;  // another seed would not help
+        break;  // further attempts with another random seed would not help
       }
     }
     if (!detour.route && IsBudgetUsed(detour)) {
@@ -188,8 +188,9 @@ class DetourSearch {
                              path.Cut({request_.route_station, path.length()})));
   }
 
-  /// Scores a path that begins at the car. The path must keep a distance from obstacles: half the
-  /// car's width or its rear overhang, whichever is smaller, plus 0.9 of the safe distance.
+  /// Computes the comparator's score of a path that begins at the car. The distance that the path
+  /// must keep from obstacles is the smaller of half the car's width and the rear overhang, plus
+  /// 0.9 of the safe distance.
   [[nodiscard]] PathScore Score(const std::vector<Vec2>& way) const {
     const VehicleParams& car = request_.vehicle;
     const double inflation =
@@ -273,7 +274,8 @@ class DetourSearch {
   }
 
   /// Makes the steering schedule of a joined path. The first part is the schedule of the driven
-  /// plan over the stations `driven`. The rest follows from the segments of the path.
+  /// plan over the stations `driven`. The schedule of the remaining path follows from the curvature
+  /// of the path segments.
   [[nodiscard]] SteeringSchedule JoinedSchedule(const Path& path, const std::vector<SpeedCap>& caps,
                                                 const Stations& driven) const {
     const double lead = driven.to - driven.from;

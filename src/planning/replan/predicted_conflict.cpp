@@ -14,7 +14,7 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
                                                  double offset) {
   constexpr double kStep = 0.1;  // [s]
   constexpr double kClearanceTolerance =
-      1e-2;  // [m], tolerance for planners that check clearance at samples.
+      1e-2;  // tolerance [m], needed because planners check the clearance only at samples
   // Use only the part of the profile ahead of the car, because a stop behind the car could make all
   // later times infinite.
   const SpeedProfile ahead =
@@ -30,8 +30,8 @@ std::optional<PredictedConflict> PredictConflict(const VehicleParams& vehicle,
     const double time = i * kStep;
     for (std::size_t j = 0; j < obstacles.size(); ++j) {
       if (too_near(time, obstacles[j])) {
-        // In a time step of 0.1 s, a car at 15 m/s moves by 1.5 m, so find the time of first
-        // contact by bisection.
+        // Find the time of the first conflict by bisection, because a car at 15 m/s moves by 1.5 m
+        // in a time step of 0.1 s.
         double clear = i == 0 ? time : time - kStep;
         double near = time;
         for (int halving = 0; halving < 10 && i > 0; ++halving) {
@@ -61,9 +61,9 @@ bool StandsInTurn(const VehicleParams& vehicle, const Path& path, double station
 
 bool MightClear(const VehicleParams& vehicle, const Path& path, double station,
                 const std::vector<MovingBox>& obstacles, double distance) {
-  constexpr double kLookAheadDistance = 30.0;  // [m]
-  constexpr double kLookAheadTime = 60.0;      // [s]
-  constexpr double kStep = 0.5;                // [m] and [s]
+  constexpr double kLookAheadDistance = 30.0;  // Length of the path that is searched [m].
+  constexpr double kLookAheadTime = 60.0;      // Duration that is searched [s].
+  constexpr double kStep = 0.5;                // Step of the search in station [m] and in time [s].
   for (const MovingBox& obstacle : obstacles) {
     if (obstacle.velocity == Vec2::Zero()) {
       continue;

@@ -16,25 +16,26 @@
 #include "trackbed/vehicle/state.h"
 #include "trackbed/world/world.h"
 
-// Replans while the car drives. If the plan is free of conflicts and the car is on the plan, the
-// replanner keeps the plan. Otherwise the replanner takes the first possible of these options:
-// resume the route if the car is back on the route; proceed along the route or follow a leading
-// obstacle (PlanAlongRoute); make a detour around static obstacles (PlanDetour); stop behind an
-// obstacle (PlanAlongRoute); brake along the driven plan, comfortably if possible, otherwise
-// harder.
+// Replans while the car drives. If the plan is free of conflicts and the car follows the plan, the
+// replanner keeps the plan. If the plan cannot be kept, the replanner takes the first possible of
+// these options: resume the route if the car is back on the route; proceed along the route or
+// follow a leading obstacle (PlanAlongRoute); make a detour around static obstacles (PlanDetour);
+// stop behind an obstacle (PlanAlongRoute); brake along the driven plan, comfortably if possible,
+// otherwise harder.
 
 namespace trackbed {
 namespace {
 
-/// Over its last kLastMeters [m], the replanner keeps a plan unless the plan has a conflict.
+/// Remaining length of a plan below which the replanner keeps the plan unless it has a conflict
+/// [m].
 constexpr double kLastMeters = 1.0;
 /// Largest deviations from the route at which a car counts as back on the route.
-constexpr double kBackOffset = 0.02;     // [m]
-constexpr double kBackHeading = 0.005;   // [rad]
-constexpr double kBackSteering = 0.002;  // [rad]
-/// Shorter paths are replaced by empty paths [m].
+constexpr double kBackOffset = 0.02;     // Largest distance from the route [m].
+constexpr double kBackHeading = 0.005;   // Largest difference of the heading [rad].
+constexpr double kBackSteering = 0.002;  // Largest difference of the steering angle [rad].
+/// Length below which a path is replaced by an empty path [m].
 constexpr double kMinPathLength = 1e-3;
-/// A car that brakes for a conflict stops this far before the place of the conflict [m].
+/// Distance before the place of a conflict at which a braking car stops [m].
 constexpr double kBrakeRoom = 0.5;
 
 bool Stands(const MovingBox& box) {
@@ -71,7 +72,7 @@ class Replanning {
   Replanned Run() {
     auto conflict = NextConflict(driving_.plan.reference, driving_.station);
     if (request_.strayed && !conflict) {
-      // Check the plan again, shifted by the car's lateral offset from the plan.
+      // Check the plan a second time, shifted sideways by the car's lateral offset from the plan.
       const Pose2 beside = driving_.plan.reference.path.At(driving_.station).pose;
       conflict = NextConflict(driving_.plan.reference, driving_.station,
                               ToLocal(beside, request_.car.pose.position()).y());
@@ -130,8 +131,8 @@ class Replanning {
  private:
   [[nodiscard]] static Replanned Keep() { return {ReplanKind::kKeep, FeasiblePlan()}; }
 
-  /// Checks a new plan against the limits of car and road. The policy `infeasible` applies if the
-  /// plan exceeds a limit.
+  /// Checks a new plan against the limits of car and road; the policy `infeasible` decides what
+  /// happens if the plan exceeds a limit.
   [[nodiscard]] FeasiblePlan Held(Plan plan, InfeasiblePolicy infeasible,
                                   double deceleration = 0.0) const {
     PlanRequest constrained = RequestOn(request_.road, request_.vehicle, request_.speed);
@@ -217,9 +218,9 @@ class Replanning {
     return Replanned{ReplanKind::kRoute, std::move(rest)};
   }
 
-  /// Returns the mission's speed, or the speed of a slower stretch of the route ahead. A slower
-  /// stretch counts if it begins within the distance driven in 2 s plus the distance needed to slow
-  /// down.
+  /// Returns the mission's speed, or a lower speed if a slower stretch of the route is ahead. A
+  /// slower stretch is considered if its distance from the car is at most the distance driven in 2
+  /// s plus the distance needed to slow down.
   [[nodiscard]] double WantedSpeed(double speed) const {
     constexpr double kSpeedLeadTime = 2.0;  // [s]
     double wanted = request_.speed.speed;
@@ -234,14 +235,14 @@ class Replanning {
     return wanted;
   }
 
-  /// Limits of motions on the road ahead.
+  /// Limits of new motions on the road ahead.
   struct Within {
     SpeedLimits speed;
     AlongOptions options;
   };
 
-  /// Returns the limits of motions, lowered to the accelerations that the road under the route
-  /// ahead allows.
+  /// Returns the limits of new motions, lowered to the accelerations that the road under the route
+  /// ahead permits.
   [[nodiscard]] Within OnThisRoad(double speed) const {
     Within within{request_.speed, *options_.along};
     const double fastest = std::max(speed, request_.speed.speed);
@@ -362,21 +363,21 @@ class Replanning {
     diagnostics_.deceleration = braking;
     stop.diagnostics.replan = diagnostics_;
     FeasiblePlan held = Held(stop, request_.road.infeasible, braking);
-    if (!held.ok()) {  // brake even if the road cannot transmit the braking force
+    if (!held.ok()) {  // brake even if the road's grip is too low for the braking force
       held = Held(stop, InfeasiblePolicy::kAllow, braking);
     }
     return {ReplanKind::kStop, std::move(held)};
   }
 
-  /// Returns whether the next conflict of `plan` is not earlier than `conflict`. Braking can hasten
-  /// a collision from behind.
+  /// Returns whether the next conflict of `plan` is not earlier than `conflict`, because braking
+  /// can cause an earlier collision from behind.
   [[nodiscard]] bool DelaysConflict(const Plan& plan, const PredictedConflict& conflict) const {
     const auto braked = NextConflict(plan.reference, 0.0);
     return !braked || braked->time >= conflict.time;
   }
 
-  /// Returns the hardest braking that the car can achieve [m/s^2], which on ice also limits
-  /// comfortable braking.
+  /// Returns the largest deceleration that the car can achieve [m/s^2]; on ice, it is less than the
+  /// comfortable deceleration and replaces it.
   [[nodiscard]] double HardestBraking() const {
     return request_.max_deceleration > 0.0 ? request_.max_deceleration
                                            : request_.speed.deceleration;
@@ -387,14 +388,14 @@ class Replanning {
   }
 
   /// Returns the deceleration that stops the car from `speed` within `room` [m], clamped to the
-  /// range from comfortable to hardest braking.
+  /// range between the comfortable and the largest deceleration.
   [[nodiscard]] double BrakingWithin(double room, double speed) const {
     const double needed = 0.5 * speed * speed / std::max(room, kMinPathLength);
     return std::min(std::max(needed, ComfortableBraking()), HardestBraking());
   }
 
-  /// Returns the mildest braking with which the car keeps clear of all known obstacles, including
-  /// moving obstacles. If the car cannot keep clear of all obstacles, returns the hardest braking.
+  /// Returns the smallest deceleration with which the car hits no known obstacle, moving obstacles
+  /// included; if a collision is unavoidable, returns the largest deceleration.
   [[nodiscard]] double BrakingFor(double speed) const {
     const double hardest = HardestBraking();
     constexpr int kSteps = 8;
@@ -410,7 +411,7 @@ class Replanning {
   }
 
   /// Makes a plan that stops the car from `speed` over the distance `way` along the driven plan. A
-  /// comfortable stop ends at the end of the driven plan if that is nearer.
+  /// comfortable stop is at the end of the driven plan if this end is nearer than `way`.
   [[nodiscard]] Plan StopAfter(double way, double speed, bool comfortable) const {
     const Path& path = driving_.plan.reference.path;
     const double from = driving_.station;
@@ -424,14 +425,15 @@ class Replanning {
         Path(path.At(from).pose, to - from < kMinPathLength ? std::vector<Segment>{}
                                                             : SegmentsBetween(path, {from, to}));
     const Path& own = plan.reference.path;
-    // Hard braking needs no speed caps: the car slows down as fast as it can anyway.
+    // A plan with hard braking needs no speed caps, because the car already slows down as fast as
+    // it can.
     plan.caps =
         comfortable ? Moved(CapsOf(driving_.plan), {from, to}, -from) : std::vector<SpeedCap>{};
     SpeedLimits limits = request_.speed;
     limits.deceleration = ComfortableBraking();
     plan.reference.speed = StopAtEnd(own.length(), speed, limits, plan.caps);
-    // For a sampled motion, use the steering of the samples: between samples, the path's curvature
-    // may change faster than the wheels can turn.
+    // For a sampled motion, use the steering angles at the samples, because the path's curvature
+    // between samples may change faster than the wheels can turn.
     plan.sampled = driving_.plan.sampled;
     plan.schedule =
         plan.sampled && own.length() > 0.0

@@ -6,11 +6,12 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/planning/replan/replan.h"
 
-/// Keys of `plan.replan`, the options of replanning while the car drives.
+/// Option keys of `plan.replan`, which configure replanning while the car drives.
 namespace trackbed {
 namespace {
 
-/// Visits the key of the road's width on one side of the path; unlimited by default.
+/// Visits the option key for the road's width on one side of the path, which is unlimited by
+/// default.
 void VisitRoadSide(KeyVisitor& keys, const Key& key, double& width) {
   std::optional<double> side;
   if (std::isfinite(width)) {

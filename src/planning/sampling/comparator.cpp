@@ -14,8 +14,8 @@ std::vector<Vec2> Rest(const std::vector<Vec2>& way, const Vec2& position) {
   std::size_t next = way.size();
   Vec2 nearest = way.back();
   double distance = (position - nearest).norm();
-  // Search from the end, so that of two equally near points the later point is found: the car has
-  // already driven the part before it.
+  // Search backward from the end, so that the later of two equally near points is found; the car
+  // has already driven the part before this point.
   for (std::size_t i = way.size() - 1; i > 0; --i) {
     const Vec2 along = way[i] - way[i - 1];
     const double square = along.squaredNorm();

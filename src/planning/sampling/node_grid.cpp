@@ -8,8 +8,8 @@
 namespace trackbed {
 namespace {
 
-/// Mean number of nodes per cell: the value above which the cells are divided, and the value after
-/// the division.
+/// Mean number of nodes per cell above which the cells are divided, and the mean number after the
+/// division.
 constexpr double kMaxNodesPerCell = 16.0;
 constexpr double kNodesPerCell = 4.0;
 
@@ -19,7 +19,7 @@ NodeGrid::NodeGrid(const Vec2& low, const Vec2& high) : low_(low), high_(high), 
   Divide(1.0);
 }
 
-/// Divides the box into at least `cells` square cells, and at most three times as many.
+/// Divides the box into square cells; their number is between `cells` and three times `cells`.
 void NodeGrid::Divide(double cells) {
   const Vec2 box = high_ - low_;
   side_ = std::max(std::sqrt(box.prod() / cells), box.maxCoeff() / cells);
@@ -62,8 +62,8 @@ std::size_t NodeGrid::Nearest(const Vec2& p) const {
   const std::ptrdiff_t column = Column(p.x());
   const std::ptrdiff_t row = Row(p.y());
   Near nearest{std::numeric_limits<double>::infinity(), 0};
-  // Search the rings of cells around the point's cell, from the inside out. Nodes beyond ring r are
-  // more than r cell sides away from the point.
+  // Search the rings of cells around the point's cell, from the inside out. Nodes outside the ring
+  // with the number r are more than r cell sides away from the point.
   const std::ptrdiff_t rings = std::max(columns_, rows_);
   for (std::ptrdiff_t ring = 0; ring < rings; ++ring) {
     for (std::ptrdiff_t y = std::max(row - ring, std::ptrdiff_t{0});

@@ -11,8 +11,8 @@ namespace trackbed {
 /// sorts the points into square cells and divides the cells as the number of points grows, so that
 /// each cell contains only a few points.
 ///
-/// Query results are exact except for rounding. Adding a point costs O(1) amortized. A query visits
-/// only the cells that overlap its circle.
+/// Query results are exact except for rounding. The amortized cost of adding a point is O(1). A
+/// query visits only the cells that overlap the search circle.
 class NodeGrid {
  public:
   struct Entry {
@@ -20,7 +20,7 @@ class NodeGrid {
     std::size_t node;
   };
   struct Near {
-    double square;  ///< square of the distance [m^2]
+    double square;  ///< square of the node's distance from the query point [m^2]
     std::size_t node;
   };
 
@@ -30,8 +30,8 @@ class NodeGrid {
 
   void Add(const Vec2& position, std::size_t node);
 
-  /// Returns the node nearest to the point `p`, which must lie in the box. The index must not be
-  /// empty.
+  /// Returns the node nearest to the point `p`, which must lie in the box. The index must contain
+  /// at least one node.
   [[nodiscard]] std::size_t Nearest(const Vec2& p) const;
 
   /// Finds all nodes within `radius` [m] of the point `p`. Stores the nodes in `near`, in no

@@ -10,11 +10,11 @@ namespace trackbed {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Cost of a corner that the car cannot drive [m].
+/// Cost assigned to a corner that the car cannot drive [m].
 constexpr double kTooTight = 1e6;
 
-/// Returns the cost of the corner at the waypoint `at`. With `all_in` or `all_out`, the corner may
-/// use its whole incoming or outgoing leg; otherwise it may use half of the leg.
+/// Returns the cost of the corner at the waypoint `at`. With `all_in`, the corner may use the whole
+/// incoming leg instead of half of it; `all_out` does the same for the outgoing leg.
 double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& at, const Vec2& to,
                   bool all_in, bool all_out) {
   const Vec2 in = at - from;
@@ -25,7 +25,7 @@ double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& a
   return problem.tangent(turn) > room ? kTooTight : 0.0;
 }
 
-/// The cheapest path whose last line connects two given points.
+/// Cheapest path whose last line connects two given points.
 struct Line {
   double cost = kInfinity;
   std::size_t before = 0;  ///< start point of the line before the last line

@@ -11,26 +11,30 @@
 /// for turning its wheels.
 namespace trackbed {
 
-/// The problem of PruneWaypoints: how the path continues in the whole polyline, and what a path
-/// costs.
+/// Input of PruneWaypoints: the position of the path within the whole polyline, and the parameters
+/// of a path's cost.
 struct PruningProblem {
-  std::optional<Vec2> before;  ///< Point of the polyline before the first point of the path.
-  bool first_leg = true;       ///< Whether the path's first leg is the polyline's first leg.
-  bool last_leg = true;        ///< Whether the path's last leg is the polyline's last leg.
+  /// Point of the whole polyline just before the first point of the path.
+  std::optional<Vec2> before;
+  /// Whether the first leg of the path is also the first leg of the whole polyline.
+  bool first_leg = true;
+  /// Whether the last leg of the path is also the last leg of the whole polyline.
+  bool last_leg = true;
   const std::vector<OrientedBox>& obstacles;
-  double inflation = 0.0;  ///< Required distance of the lines from all obstacles [m].
+  double inflation = 0.0;  ///< Distance that the path must keep from all obstacles [m].
   const WindScoring& wind;
-  double corner_cost = 0.0;               ///< Cost of a corner [m].
-  std::function<double(double)> tangent;  ///< Least tangent length [m] of a corner with
-                                          ///< heading change |h| [rad]: see CornerAt
+  double corner_cost = 0.0;  ///< Cost of each line of the path, which penalizes corners [m].
+  /// Returns the minimum tangent length [m] of a corner for its heading change |h| [rad]; see
+  /// CornerAt
+  std::function<double(double)> tangent;
 };
 
 /// Finds the cheapest path along collision-free straight lines that visits a subset of the given
-/// points in their order. The cost is the length, minus the wind score, plus the corner cost per
-/// line. As in RoundCorners, each corner may use half of each of its lines. The result contains a
-/// corner that does not fit on its lines only if every other path does too. PruneWaypoints assumes
-/// that the lines of the given path are collision-free. Cost: O(n^3) for n points and O(n^2 x
-/// obstacles).
+/// points in their order. The cost of a path is its length, minus the wind score, plus the corner
+/// cost for each line. As in RoundCorners, each corner may use half of each of the two adjacent
+/// lines. The result contains a corner that does not fit on the adjacent lines only if every
+/// possible path contains such a corner. PruneWaypoints assumes that the lines of the given path
+/// are collision-free. For n points, the computing time is O(n^3) plus O(n^2 x obstacles).
 std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem);
 
 /// Splits a path into pieces that are so short that the wind is nearly uniform along each piece.

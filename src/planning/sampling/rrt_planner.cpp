@@ -15,11 +15,11 @@
 #include "trackbed/planning/sampling/comparator.h"
 #include "trackbed/planning/sampling/rrt.h"
 
-// RRT planner for cars (LaValle 1998; smoothing and comparator of the wind-aware RRT). Each try
-// grows one tree per waypoint, smooths the path, removes needless waypoints and rounds the corners.
-// If a tree does not reach its goal, the planner may plan a partial path to the node nearest to the
-// goal. The planner prefers complete plans to partial plans. The comparator selects the best of the
-// complete plans.
+// Implements the RRT planner for cars (LaValle 1998), with the smoothing and the comparator of the
+// wind-aware RRT. In each try, the planner grows one tree per waypoint, smooths the path, removes
+// needless waypoints and rounds the corners. If a tree does not reach its goal, the planner may
+// plan a partial path to the node nearest to the goal. The planner prefers complete plans to
+// partial plans. The comparator selects the best of the complete plans.
 namespace trackbed {
 namespace {
 
@@ -67,7 +67,8 @@ SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& reque
                           request);
 }
 
-/// A path through all goals, or through the first goals if a tree did not reach its goal.
+/// A path through all goals, or only through the goals before the first goal that a tree did not
+/// reach.
 struct TreePath {
   /// Points from the start through the reached goals, in the car's start frame.
   std::vector<Vec2> points;
@@ -85,12 +86,12 @@ struct Forest {
   const PlanRequest& request;
   const SamplingTask& task;
   const CornerTangents& tangents;
-  /// Returns whether the time limit is over; empty without a time limit.
+  /// Function that returns whether the time limit has passed; empty without a time limit.
   std::function<bool()> time_is_over;
 };
 
 /// Appends the nodes of a tree to `tree`, in the world frame. The cost of a node is the length of
-/// its path.
+/// the path from the root to this node.
 void AddTree(const RrtResult& result, const Pose2& frame, std::vector<TreeNode>& tree) {
   const std::size_t first = tree.size();
   for (const RrtNode& node : result.nodes) {
@@ -103,8 +104,8 @@ void AddTree(const RrtResult& result, const Pose2& frame, std::vector<TreeNode>&
   }
 }
 
-/// Smooths a tree's path, removes needless corners and appends the path to `points`. Sets the
-/// findings `leg`.
+/// Smooths a tree's path, removes needless corners and appends the path to `points`. Stores the
+/// results for this leg in `leg`.
 void AddLeg(const Forest& forest, const std::vector<Vec2>& path, bool is_last,
             std::vector<Vec2>& points, RrtLeg& leg) {
   const RrtPlannerOptions& options = forest.options;
@@ -174,8 +175,9 @@ struct Try {
 };
 
 /// Returns whether `other` is better than `current`. Complete plans are better than partial plans,
-/// and partial plans are better than failures. Among complete plans, the score decides. Otherwise
-/// the number of reached goals decides, then the distance to the next goal.
+/// and partial plans are better than failures. Among complete plans, the score decides. Among
+/// partial plans and among failures, the number of reached goals decides, then the distance to the
+/// next goal.
 bool IsBetterTry(const Try& other, const Try& current) {
   const auto rank = [](const Try& each) { return !each.plan.ok() ? 0 : each.is_partial() ? 1 : 2; };
   if (rank(other) != rank(current)) {
@@ -196,8 +198,9 @@ std::string DescribeBudget(const RrtPlannerOptions& options, std::size_t trees, 
                        : fmt::format("of {} samples", options.iterations));
 }
 
-/// Returns the refused plan if no path was found. The start of the last tree cannot be the reason,
-/// because it was checked or is a goal that was reached.
+/// Returns the refused plan for the case that no path was found. A blocked start of the last tree
+/// cannot be the reason for the failure, because the start was checked or is a goal that was
+/// reached.
 Plan RefusedAs(const TreePath& way, const Forest& forest) {
   if (way.status == RrtStatus::kGoalBlocked) {
     return GoalBlocked(forest.task, way.goals + 1);
@@ -216,10 +219,10 @@ Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
   return tested.ok() ? plan : tested;
 }
 
-/// Plans along a path that does not reach its next goal, to the tree's node nearest to this goal.
-/// The car may be unable to stop at the nearest node, because the front of the car extends beyond
-/// the node. Then the plan ends at an earlier node of the tree's path, the last with a feasible
-/// plan.
+/// Plans a partial path that ends at the tree's node nearest to the next goal, because the tree did
+/// not reach this goal. The car may be unable to stop at the nearest node, because the front of the
+/// car extends beyond the node. In this case, the plan ends at the last earlier node of the tree's
+/// path to which a feasible plan exists.
 void UsePartialPath(const Forest& forest, Try& next) {
   const std::vector<Vec2> reached = next.way.points;
   const std::vector<Vec2> nearest = next.way.nearest;
@@ -275,8 +278,8 @@ RrtTreeFindings FindingsOn(const Try& each) {
   return found;
 }
 
-/// Adds to a failed or partial plan a text with the search budget and the distance between the
-/// trees and the goal.
+/// Adds the search budget and the remaining distance to the goal to the text of a failed or partial
+/// plan.
 void RecordBudget(const Forest& forest, const Try& best, const std::string& budget, Plan& plan,
                   RrtDiagnostics& diagnostics) {
   if (plan.status == PlanStatus::kBudgetUsedUp) {
@@ -310,7 +313,7 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
     Try next = TryTree(forest, request.seed + (static_cast<std::uint64_t>(i) << 32U), samples);
     diagnostics.trees.push_back(FindingsOn(next));
     const RrtStatus status = next.way.status;
-    // If the goal is blocked, no tree can reach it.
+    // No tree can reach a blocked goal.
     const bool hopeless = status == RrtStatus::kGoalBlocked;
     if (!best || hopeless || IsBetterTry(next, *best)) {
       best = std::move(next);
@@ -340,7 +343,8 @@ Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {
   }
   TRACKBED_CHECK(options.trees > 0 && options.time_limit.value_or(1.0) > 0.0,
                  "{} trees, time limit {}", options.trees, options.time_limit.value_or(0.0));
-  // With a time limit, each lead-in takes the whole time limit again, so try only one.
+  // With a time limit, try only one lead-in, because each lead-in would use the whole time limit
+  // again.
   return PlanWithLeadIn(options, request, PlanTrees, options.time_limit ? 1 : kLeadIns);
 }
 

@@ -10,17 +10,18 @@
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/box_index.h"
 
-// RRT* (Karaman and Frazzoli 2011), k-nearest form, for a point in the plane. Each sample extends
-// the tree from the nearest node by at most one step. The parent of the new node is the cheapest
-// neighbor with a free edge. Neighbors whose paths are cheaper through the new node are rewired,
-// and the costs of their descendants are updated. Informed sampling rejects nodes that cannot
-// shorten the best path (Gammell et al. 2014). NodeGrid answers the neighbor queries.
+// Implements the k-nearest form of RRT* (Karaman and Frazzoli 2011) for a point in the plane. For
+// each random sample, the tree grows from the nearest node toward the sample by at most one step.
+// The parent of the new node is the cheapest neighbor with a free edge. Neighbors whose paths are
+// cheaper through the new node are rewired, and the costs of their descendants are updated.
+// Informed sampling rejects nodes that cannot shorten the best path (Gammell et al. 2014). NodeGrid
+// is the index for neighbor queries.
 
 namespace trackbed {
 namespace {
 
-// Factor of the number of neighbors, a tenth above the lower bound 2^(d+1) e (1 + 1/d) for d = 2
-// dimensions.
+// Factor in the number of neighbors, chosen a tenth above its lower bound 2^(d+1) e (1 + 1/d) for d
+// = 2 dimensions.
 constexpr double kNeighbors = 1.1 * 12.0 * 2.718281828459045;
 constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
@@ -94,7 +95,7 @@ class RrtStarTree {
   /// tree has fewer nodes, stores all nodes.
   void FindNearest(const Vec2& p, std::size_t count) {
     // For evenly spread nodes, the first search circle contains a quarter more than `count` nodes.
-    // If it contains too few nodes, the circle grows.
+    // If the search circle contains too few nodes, it is enlarged.
     const Vec2 box = problem_.high - problem_.low;
     const double share = static_cast<double>(count) / static_cast<double>(nodes_.size());
     const double even = std::sqrt(1.25 * share * box.prod() / M_PI);
@@ -169,8 +170,8 @@ class RrtStarTree {
     }
     const Neighbor parent = Cheapest(position, first);
     const std::size_t node = Add(position, parent.node, parent.cost);
-    // Drop the neighbors that are not cheaper through the new node. This stays correct while other
-    // nodes are rewired, because rewiring only lowers costs.
+    // Drop the neighbors that are not cheaper through the new node; the selection stays correct
+    // while other nodes are rewired, because rewiring only lowers costs.
     const auto last = std::remove_if(neighbors_.begin(), neighbors_.end(), [&](const Neighbor& of) {
       return parent.cost + of.distance >= nodes_[of.node].cost;
     });
@@ -242,9 +243,10 @@ class RrtStarTree {
   std::vector<std::vector<std::size_t>> children_;
   NodeGrid index_;
   std::size_t goal_ = kNone;
-  std::vector<NodeGrid::Near> near_;  // Nodes found by the last query.
+  std::vector<NodeGrid::Near> near_;  // Nodes found by the last neighbor query.
   std::vector<Neighbor> neighbors_;   // Neighbors of the node being added.
-  std::vector<Neighbor> cheaper_;     // Neighbors that cost less than the extended node.
+  // Neighbors through which the new node costs less than through the extended node.
+  std::vector<Neighbor> cheaper_;
 };
 
 bool IsWithin(const RrtStarProblem& problem, const Vec2& p) {

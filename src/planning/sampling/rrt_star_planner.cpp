@@ -43,7 +43,8 @@ Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
                   task.inflation));
 }
 
-/// Appends the nodes of a tree to `tree`, in the world frame. The root is its own parent.
+/// Appends the nodes of a tree to `tree`, in the world frame. The parent of the root is the root
+/// itself.
 void AddNodes(const RrtStarResult& result, const Pose2& frame, std::vector<TreeNode>& tree) {
   const std::size_t first = tree.size();
   for (const TreeNode& node : result.nodes) {
@@ -135,7 +136,7 @@ Plan PlanStarTrees(const RrtStarPlannerOptions& options, const PlanRequest& requ
                      request.seed + (static_cast<std::uint64_t>(i) << 32U), diagnostics, samples);
     diagnostics.trees.push_back({plan.status, plan.reason});
     if (plan.ok() || plan.status == PlanStatus::kGoalBlocked) {
-      break;  // a blocked goal is blocked for every tree
+      break;  // no tree can reach a blocked goal
     }
   }
   plan.diagnostics.planner = std::move(diagnostics);

@@ -13,13 +13,14 @@
 #include "trackbed/planning/sampling/smoothing.h"
 
 /// Functions that the sampling planners share. The planners draw their random samples in the car's
-/// start frame. Hence moving or rotating a whole mission moves or rotates the plan in the same way.
+/// start frame. Therefore, if a whole mission is moved or rotated, the plan is moved or rotated in
+/// the same way.
 namespace trackbed {
 
 /// The mission in the car's start frame.
 struct SamplingTask {
-  Vec2 lead{0.0, 0.0};      ///< Root of the first tree: the end of the initial straight [m].
-  std::vector<Vec2> goals;  ///< Goals in the order of the mission.
+  Vec2 lead{0.0, 0.0};  ///< Root of the first tree, equal to the end of the initial straight [m].
+  std::vector<Vec2> goals;  ///< Goals of the trees, in the order of the mission.
   std::vector<OrientedBox> obstacles;
   double inflation = 0.0;
   GridArea area;  ///< Area from which the planners sample.
@@ -64,7 +65,7 @@ void AddPruned(const SamplingTask& task, const CornerTangents& tangents, double 
 
 std::vector<Vec2> InWorld(const Pose2& frame, std::vector<Vec2> points);
 
-/// Returns the failed plan for a blocked waypoint. Waypoints are counted from 0.
+/// Returns the failed plan for a blocked waypoint. The argument `waypoint` is counted from 0.
 Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint);
 
 /// Returns the length of the initial straight [m]: `lead_in`, but at most half the distance to the
@@ -75,10 +76,11 @@ double StraightStart(double lead_in, const PlanRequest& request);
 inline constexpr int kLeadIns = 3;
 
 /// Plans with `plan_trees`. If the plan of a rolling car fails because its first corner is too
-/// near, PlanWithLeadIn retries with up to `tries` longer initial straights. The longest straight,
-/// on which the car can stop, comes first. If an obstacle blocks this straight, a half or a quarter
-/// of the added length may fit. For each shorter straight, PlanWithLeadIn grows only one tree,
-/// because many refused missions have no plan at all.
+/// near, PlanWithLeadIn retries with up to `tries` longer initial straights. The first retry uses
+/// the longest initial straight, on which the car can stop. If an obstacle blocks the longest
+/// straight, the next retries add only a half or a quarter of the additional length. For these
+/// shorter straights, PlanWithLeadIn grows only one tree each, because many refused missions have
+/// no plan at all.
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {

@@ -9,8 +9,8 @@
 namespace trackbed {
 namespace {
 
-/// Smaller score differences [m] are rounding errors; in a uniform wind, the scores of all paths
-/// are equal up to rounding.
+/// Score difference up to which two scores count as equal [m]; in a uniform wind, the scores of all
+/// paths are equal up to rounding errors.
 constexpr double kEqualityTolerance = 1e-9;
 
 /// Returns the wind score of one straight line.

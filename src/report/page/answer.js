@@ -1,9 +1,9 @@
-// Draws the first screen of a report. The screen shows how each run ended, the distances of each
-// car from its path and from the other cars, remarks on the moment of the largest distance, and the
-// margins to the expectations.
+// Draws the first screen of a report. The first screen of a report shows how each run ended, the
+// distances of each car from its path and from the other cars, remarks on the moment of the largest
+// distance, and the margins to the expectations.
 
-const MOST_ROWS = 4;  // largest number of listed plants; plants with the largest distance from the
-                      // path come first
+// maximum number of listed plants; plants with the largest distance from the path come first
+const MOST_ROWS = 4;
 
 /** Returns a status of metrics.json as text, such as "rolled over". */
 function statusText(status) {
@@ -82,7 +82,8 @@ function remarks(track, moment) {
     const friction = (patchUnder(track, t) || world).friction;
     return Math.abs(valueAt(track, 'lateral_acceleration', t) || 0) / (friction * car.grip_acceleration);
   };
-  // The kinematic plant has no tyres and may exceed the available grip, so it gets no remark.
+  // The kinematic plant has no tyres and may exceed the available grip, so no remark about grip is
+  // made.
   const used = track.plant === 'kinematic' ? 0 : d3.max(times, share) || 0;
   if (used > 0.8) list.push(`uses ${used > 1 ? 'all' : `${Math.round(100 * used)} %`} of the tyres' lateral grip`);
   const asked = d3.max(times, (t) => Math.abs(valueAt(track, 'steering_command', t) - valueAt(track, 'steering', t))) || 0;
@@ -110,8 +111,8 @@ function drawBar(parent, { value, limit, most, css, good }) {
  * place and distance, then the other cars.
  */
 function drawSentence(parent) {
-  const NEAR = 0.1;  // distance up to which a car counts as on the path [m]; half the width of a
-                     // tyre
+  // distance from the path up to which a car counts as on the path [m]; half the width of a tyre
+  const NEAR = 0.1;
   const found = tracks.map((track) => ({ track, far: furthestFromPath(track) })).filter(({ far }) => far)
     .sort((a, b) => b.far.size - a.far.size);
   const broken = tracks.filter((track) => brokenAt(track) !== undefined).sort((a, b) => brokenAt(a) - brokenAt(b));
@@ -137,7 +138,7 @@ function drawSentence(parent) {
   }
   if (!found.length) return;
   const [{ track, far }, ...others] = found;
-  // After a collision or roll-over, the distances are those before that event.
+  // If a car collided or rolled over, only distances before that event are shown.
   if (broken.length) say('Before: ');
   else if (far.size < NEAR) say(tracks.length > 1 ? 'No car leaves the path: ' : 'The car keeps to the path: ');
   name(track);
@@ -153,7 +154,7 @@ function drawSentence(parent) {
 function drawManeuverRows(parent) {
   const rows = rowsOf(tracks.map((track) => track.numbers))
     .filter((row) => row.path.startsWith('maneuver.') && row.path !== 'maneuver.passed' && (row.limit || row.headline))
-    // If the standard sets a limit for any quantity, quantities without a limit are omitted.
+    // If the standard of the maneuver limits any quantity, quantities without a limit are omitted.
     .filter((row, _, all) => row.limit || !all.some((other) => other.limit));
   if (!rows.length) return;
   const list = parent.append('ul').attr('class', 'rows');
@@ -235,7 +236,7 @@ function drawExpectationBars(parent) {
   if (!all.length) return;
   const panel = parent.append('div').attr('class', 'panel limits');
   panel.append('h2').text('Expectations');
-  // Failed checks come first, followed by the checks that are nearest to their limits.
+  // Failed checks come first, followed by the passed checks that are nearest to their limits.
   const order = [...all].sort((a, b) => a.check.met - b.check.met || (b.share || 0) - (a.share || 0));
   const list = panel.append('ul');
   for (const { run, check, share } of order.slice(0, MOST)) {

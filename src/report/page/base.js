@@ -1,5 +1,5 @@
-// Code shared by all parts of the page: data, tracks, the current time of the page, formatting of
-// numbers.
+// JavaScript code shared by all parts of a report page: data, tracks, the current time of the page,
+// formatting of numbers.
 
 const data = JSON.parse(document.getElementById('data').textContent);
 const runs = data.runs || [];
@@ -23,7 +23,7 @@ function brief(value, unit) {
   if (typeof value !== 'number') return shown(value);
   const size = Math.abs(value);
   if (Number.isInteger(value) || size >= 1e6) return shown(value);
-  // Lengths, angles and times are accurate to four decimals at most.
+  // Lengths, angles and times have at most four decimals, since further digits are not accurate.
   if (size < 5e-5 && ['m', 'rad', 's'].includes(unit)) return '0.0000';
   if (size < 5e-5) return d3.format('.1~e')(value).replace(/-/g, '−');
   return d3.format(size >= 100 ? '.1~f' : size < 0.01 ? '.4~f' : '.3~r')(value).replace('-', '−');
@@ -127,7 +127,8 @@ function poseAt(track, time) {
   };
 }
 
-// The current time, which map, charts and films show. Listeners are notified of its changes.
+// The current time of the page, which map, charts and films show. Listeners are notified when the
+// current time changes.
 const bus = d3.dispatch('time', 'visibility', 'scheme', 'play', 'rows');
 let now = 0;
 

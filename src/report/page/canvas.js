@@ -1,5 +1,6 @@
-// Creates the canvas of the 3D replay before the data and the libraries are loaded. A browser may
-// need most of a second to start its graphics, which then overlaps with loading.
+// Creates the canvas of the 3D replay before the data and the libraries are loaded. Creating the
+// canvas early lets the browser start its graphics, which may take most of a second, while data and
+// libraries load.
 
 /** Returns the WebGL context of a canvas; null if the browser does not support WebGL. */
 function webGlOf(canvas) {

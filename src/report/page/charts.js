@@ -1,7 +1,7 @@
-// Draws a column of charts, with a common cursor at the current time of the page.
+// Draws a column of charts with a common cursor at the current time of the page.
 
-// Titles and readouts of the charts are ordinary elements of the page. The legend of the library
-// dygraphs is not used, because it sets a style attribute, which the Content-Security-Policy
+// Titles and readouts of the charts are ordinary HTML elements. The legend of the chart library
+// dygraphs is not used, because it sets a style attribute, which the page's Content-Security-Policy
 // forbids.
 Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
@@ -11,7 +11,7 @@ function ticksEvery(pixels, name) {
     .map((value) => ({ v: value, label: name(value) }));
 }
 
-// The dygraphs object of each plot, used to place elements over the plot.
+// Maps each plot to its dygraphs object, so that elements can be placed over the plot.
 const graphs = new WeakMap();
 
 function fixed(number, digits) {
@@ -107,8 +107,8 @@ function drawCharts(list, key, axis, charts) {
       ...(range ? { valueRange: range } : {}),
       underlayCallback: (canvas, area, dygraph) => {
         canvas.save();
-        // Grays out the time after the last car's collision or roll-over, where there are no valid
-        // results.
+        // Grays out the time after all cars have collided or rolled over, because there are no
+        // valid results.
         if (lines.length && lines.every(({ until }) => until !== undefined)) {
           const x = dygraph.toDomXCoord(d3.max(lines, ({ until }) => until));
           canvas.fillStyle = cssColor('--grid');
@@ -199,7 +199,8 @@ function drawCharts(list, key, axis, charts) {
     for (const { graph, lines } of drawn) together(() => graph.updateOptions(look(lines)));
     setTime(now);
   });
-  // The charts adapt their widths with a delay, so the cursor is placed again after that.
+  // After a change of the page's width, the charts adapt with a delay, so the cursor is then placed
+  // again.
   new ResizeObserver(() => {
     for (const { graph } of drawn) graph.resize();
     placeCursors(now);

@@ -1,4 +1,4 @@
-// Draws the differences between runs at equal station, as a table and as curves.
+// Draws the differences between runs at equal stations, as a table and as curves.
 
 const DIFFERENCES = [
   { name: 'position', title: 'Distance', unit: 'm', digits: 4 },
@@ -45,7 +45,7 @@ function signOfPair(parent, pair) {
  * the tolerances.
  */
 function drawDifferences() {
-  // For the plants of a single run, the section `between` of the page already shows these
+  // For the plants of a single run, the section `between` of the page already shows the
   // differences.
   if (!pairs.length || (runs.length === 1 && !pairs.some((pair) => pair.tolerances))) return;
   const made = section('differences', 'Differences at equal station');
@@ -85,8 +85,8 @@ function drawDifferenceCharts(parent) {
   const values = Array.from(new Set(own.flatMap((pair) => pair.curve.s))).sort(d3.ascending);
   const spread = ({ curve }, name) => values.map((at) => (
     at < curve.s[0] || at > curve.s[curve.s.length - 1] ? null : interpolated(curve.s, curve[name], at)));
-  // All pairs share the conversion between station and time of the first pair, since the times are
-  // nearly equal.
+  // All pairs use the conversion between station and time of the first pair, since the times of the
+  // pairs are nearly equal.
   const { s, t } = own[0].curve;
   const axis = { values, unit: 'm', at: (time) => interpolated(t, s, time), timeOf: (at) => interpolated(s, t, at) };
   drawCharts(parent.append('div').attr('class', 'series'), 'differences', axis, DIFFERENCES.map((quantity) => ({

@@ -1,4 +1,4 @@
-// Shows the films of the runs, synchronized with the current time of the page.
+// Shows the videos of the runs, synchronized with the current time of the page.
 
 function drawFilms(parent) {
   const filmed = runs.filter((run) => run.film);
@@ -8,8 +8,8 @@ function drawFilms(parent) {
     const figure = films.append('figure').attr('class', 'panel');
     const video = figure.append('video').attr('playsinline', '').attr('preload', 'auto').attr('tabindex', 0)
       .attr('aria-label', `Film of ${run.name}`).property('muted', true).node();
-    // The video controls of the browser cover the film's charts and captions, so the controls are
-    // shown only while the video is in use.
+    // The browser's video controls would cover charts and captions in the video, so the controls
+    // are shown only while the user points at or focuses the video.
     const showControls = (use) => () => { video.controls = use; };
     for (const event of ['mouseenter', 'focus', 'click']) video.addEventListener(event, showControls(true));
     for (const event of ['mouseleave', 'blur']) video.addEventListener(event, showControls(false));
@@ -21,8 +21,8 @@ function drawFilms(parent) {
       video.src = URL.createObjectURL(new Blob([bytes], { type: 'video/mp4' }));
       delete run.film.base64;
     }
-    // A timer moves the page's cursor while the film plays, since the video's own event occurs too
-    // rarely.
+    // A timer updates the page's current time while the video plays, because the browser's own time
+    // event occurs too rarely.
     let ticking = null;
     video.addEventListener('play', () => {
       ticking = d3.timer(() => setTime(video.currentTime, 'film'));

@@ -1,5 +1,5 @@
-// Shows the result of an identification: estimates, their accuracy, and the model before and after
-// the fit.
+// Shows the result of an identification: the estimated parameters, their accuracy, and the model
+// before and after the fit.
 
 const parameterStatus = {
   identified: '', at_lower_bound: 'at its lower bound', at_upper_bound: 'at its upper bound', not_identified: 'not identified', unfinished: 'not finished',

@@ -1,10 +1,10 @@
-// Page of a run in progress, which receives rows from the server of the run, and sends commands
-// that control the run.
+// Implements the page of a run in progress, which receives rows from the server of the run, and
+// sends commands that control the run.
 
 const SPEEDS = [0.1, 0.5, 1, 2, 5, 10, 'max'];
 const live = {
   socket: null,
-  state: null,       // last state received from the server: {id, paused, speed}
+  state: null,       // last state message received from the server: {id, paused, speed}
   connected: false,
   finished: false,
   following: true,   // whether the page always shows the newest state
@@ -67,11 +67,12 @@ function take(message) {
     drawSoon();
   } else if (message.type === 'finished') {
     live.finished = true;
-    window.history.scrollRestoration = 'manual';  // After reloading, the page starts at the top,
-                                                  // where the verdict is.
-    window.location.reload();  // The server now has the finished report.
+    // After reloading, the page is scrolled to the top, where the verdict is.
+    window.history.scrollRestoration = 'manual';
+    // Reloads the page, because the server now serves the finished report.
+    window.location.reload();
   } else if (message.type === 'state') {
-    // Reloads the page if the server now has another run.
+    // Reloads the page if the server now serves another run.
     if (message.id !== data.live.id) window.location.reload();
     live.state = message;
     showState();

@@ -1,4 +1,4 @@
-// Draws all parts of the page in order.
+// Draws all parts of a report page in order.
 
 function drawDrive() {
   const drive = section('drive', tracks.length ? 'Run' : 'Map');
@@ -49,4 +49,4 @@ if (data.study) {
   drawExpectations();
   drawScenarios();
 }
-if (!data.live) drawFoot();  // live.js draws the page of a run in progress
+if (!data.live) drawFoot();  // the page of a run in progress is drawn by live.js instead

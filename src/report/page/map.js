@@ -1,5 +1,5 @@
-// Draws a map with x to the right and y up, in meters. The scales of x and y are equal unless the
-// path is long and narrow.
+// Draws a map with x to the right and y up, in meters. The scales of x and y on the map are equal
+// unless the path is long and narrow.
 
 function extentOfMap() {
   const xs = [];
@@ -42,8 +42,8 @@ function backwards(points) {
  * Otherwise the quantity is the cross-track error of the car that is furthest from its path.
  */
 function shadeOfMap() {
-  if (data.live) return null;  // no colors while a run is in progress, when the largest value is
-                               // not yet known
+  // the path is not colored while a run is in progress, because the largest value is not yet known
+  if (data.live) return null;
   const pair = pairs.filter((one) => one.curve)
     .sort((a, b) => d3.max(b.curve.position) - d3.max(a.curve.position))[0];
   if (pair) {
@@ -62,8 +62,9 @@ function shadeOfMap() {
   };
 }
 
-const LATERAL = 10;  // factor by which distances from the path are enlarged when the user presses a
-                     // button
+// factor by which the map enlarges distances from the path when the user presses the button for
+// this
+const LATERAL = 10;
 
 /**
  * Returns the driven path and the pose of a track, with distances from the planned path multiplied
@@ -97,7 +98,8 @@ function placed(pose) {
 
 function drawMap(parent) {
   let extent = extentOfMap();
-  // Stretches y for long, narrow paths; a lane change, for example, is 150 m long and 4 m wide.
+  // Stretches the y direction of long, narrow paths; a lane change, for example, is 150 m long and
+  // 4 m wide.
   const slender = (extent.x[1] - extent.x[0]) / (extent.y[1] - extent.y[0]);
   const stretch = slender > 6 ? Math.min(8, Math.floor(slender / 3)) : 1;
   const margin = { left: 50, right: 12, top: 52, bottom: 38 };
@@ -111,7 +113,7 @@ function drawMap(parent) {
   const xName = svg.append('text').attr('class', 'axis-name').attr('text-anchor', 'end').text('x [m]');
   const yName = svg.append('text').attr('class', 'axis-name').text(`y [m]${stretch > 1 ? `, stretched ${stretch}×` : ''}`);
 
-  // Elements that are identical in several runs are drawn only once.
+  // Elements of the world that are identical in several runs are drawn only once.
   const once = new Set();
   const fresh = (kind, thing) => {
     const key = kind + JSON.stringify(thing);
@@ -153,7 +155,8 @@ function drawMap(parent) {
     }
     const { walls } = run.world;
     if (walls && fresh('walls', walls)) {
-      // In a frame aligned with the rows of the map, each wall is an axis-aligned rectangle.
+      // In a coordinate frame aligned with the rows of the map, each wall is an axis-aligned
+      // rectangle.
       const [c, s] = [Math.cos(walls.yaw), Math.sin(walls.yaw)];
       const text = walls.boxes.map(([x, y, length, width]) =>
         `M${c * x + s * y - length / 2} ${c * y - s * x - width / 2}h${length}v${width}h${-length}z`).join('');
@@ -179,7 +182,7 @@ function drawMap(parent) {
     shading.selectAll('*').remove();
     if (!shade || !(shade.most > 0)) return;
     const way = ways[shade.track.id];
-    // Draws the path in about 300 colored pieces, since more would not be distinguishable.
+    // Draws the path in about 300 colored pieces, because more pieces would not be distinguishable.
     const step = Math.max(1, Math.floor(shade.points.length / 300));
     for (let i = 0; i + 1 < shade.points.length; i += step) {
       const next = Math.min(i + step, shade.points.length - 1);
@@ -249,7 +252,7 @@ function drawMap(parent) {
       .domain([(margin.left - left) / k, (right - left) / k]);
     const y = d3.scaleLinear().range([bottom, margin.top])
       .domain([(base - bottom) / kY, (base - margin.top) / kY]);
-    // Returns ticks at round numbers of meters, about 60 pixels apart on either axis.
+    // Returns axis ticks at round numbers of meters, about 60 pixels apart on either axis.
     const ticks = (scale, perMeter) => {
       const step = d3.tickStep(0, 60 / perMeter, 1);
       return d3.range(Math.ceil(scale.domain()[0] / step), Math.floor(scale.domain()[1] / step) + 1).map((i) => i * step);
@@ -266,8 +269,8 @@ function drawMap(parent) {
   }
 
   const zoom = d3.zoom().scaleExtent([0.5, 400])
-    // One finger or the mouse wheel scrolls the page. Two fingers, or the wheel with the Ctrl key,
-    // zoom the map.
+    // Touch gestures with one finger and the mouse wheel scroll the page. Two fingers, or the mouse
+    // wheel with the Ctrl key, zoom the map.
     .filter(() => {
       const event = d3.event;
       if (event.type === 'wheel') return event.ctrlKey || event.metaKey || document.activeElement === svg.node();
@@ -302,7 +305,7 @@ function drawMap(parent) {
 
   new ResizeObserver(() => {
     const width = frame.node().clientWidth;
-    // The map is as high as the path needs, within the limits of the style sheet.
+    // The height of the map is chosen to fit the path, within the limits of the style sheet.
     const needed = (stretch * (width - margin.left - margin.right) * (extent.y[1] - extent.y[0]))
       / (extent.x[1] - extent.x[0]) + margin.top + margin.bottom;
     frame.style('height', `${Math.max(280, needed)}px`);
@@ -337,7 +340,7 @@ function drawMap(parent) {
   }));
 }
 
-// Playback of the run, with one clock for the whole page.
+// Plays back the run, with one clock for the whole page.
 const playback = { timer: null, speed: 1 };
 
 function stopPlaying() {
@@ -361,7 +364,7 @@ function togglePlaying() {
   bus.call('play', null, true);
 }
 
-// Playback stops when the time is set by any other part of the page.
+// Playback of the run stops when the time is set by any other part of the page.
 bus.on('time.playback', (time, from) => {
   if (from !== 'clock' && playback.timer) stopPlaying();
 });

@@ -1,5 +1,5 @@
-// Shows the check of a path: whether a car can follow the path at a given speed, where it cannot,
-// and how fast it could go.
+// Shows the result of a path check: whether a car can follow the path at a given speed, where it
+// cannot, and how fast it could drive.
 
 const faultNames = {
   reversal: 'turns back on itself',
@@ -87,7 +87,7 @@ function drawPathCheckMap(panel, { demand, given, faults }) {
       .append('title').text(fault.text);
   }
   svg.append('circle').attr('class', 'start').attr('cx', x(given.x[0])).attr('cy', y(given.y[0])).attr('r', 9).append('title').text('start');
-  // Draws a scale bar whose length is a round number.
+  // Draws the map's scale bar, whose length is a round number.
   const bar = d3.ticks(0, 160 / scale, 2).filter((value) => value > 0)[0];
   svg.append('path').attr('class', 'bar').attr('d', `M${margin / 2} ${height - 14}h${bar * scale}`);
   svg.append('text').attr('x', margin / 2).attr('y', height - 20).text(`${shown(bar)} m`);
@@ -115,7 +115,7 @@ function drawPathCheckCharts(list, check) {
     })),
   });
   const wanted = demand.s.map(() => check.speed_mps);
-  // The axis is clipped, since the possible speed on a straight is unlimited.
+  // The speed axis is limited, because the possible speed on a straight is unlimited.
   const most = 4 * check.speed_mps;
   const possible = demand.speed.map((speed) => Math.min(speed, most));
   const limits = [['friction', check.friction_limit_mps2], ['roll-over', check.rollover_limit_mps2]]

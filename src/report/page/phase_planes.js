@@ -1,4 +1,4 @@
-// Draws phase planes, with a mark at the current time: longitudinal over lateral acceleration, yaw
+// Draws phase planes with a mark at the current time: longitudinal over lateral acceleration, yaw
 // rate over steering angle, and yaw rate over sideslip angle.
 
 const PHASE_PLANES = [
@@ -31,13 +31,14 @@ function drawPhasePlane(parent, plane) {
   const figure = parent.append('figure').attr('class', 'panel').attr('data-plane', plane.name);
   const caption = figure.append('figcaption').text(plane.title);
   const radius = plane.equal ? gripRadius() : null;
-  // Returns the number of rows before a collision or roll-over, or of all rows if there is neither.
+  // Returns the number of log rows before the track's collision or roll-over, or of all rows if
+  // there was neither.
   const rowsOfTrack = (track) => (brokenAt(track) === undefined ? track.log.t.length : d3.bisectRight(track.log.t, brokenAt(track)));
   const all = (axis) => own.flatMap((track) => track.log[plane[axis]].slice(0, rowsOfTrack(track)));
   const reach = (axis) => Math.max(1e-6, d3.max(all(axis), Math.abs)) * 1.08;
   let [xMost, yMost] = [reach('x'), reach('y')];
-  // While a run is in progress, the range of the accelerations is not yet known, so the grip circle
-  // is always shown.
+  // While a run is in progress, the range of the accelerations is unknown, so the grip circle is
+  // always shown.
   const isShown = radius && (data.live || radius < 3 * Math.max(xMost, yMost));
   const setReach = () => {
     [xMost, yMost] = [reach('x'), reach('y')];
@@ -73,7 +74,7 @@ function drawPhasePlane(parent, plane) {
     const { clientWidth: width, clientHeight: height } = svg.node();
     const [w, h] = [width - margin.left - margin.right, height - margin.top - margin.bottom];
     if (w <= 0 || h <= 0) return;
-    // Both axes of this plane have the same scale, so the grip limit is a circle.
+    // If `plane.equal` is set, both axes have the same scale, so the grip limit is a circle.
     const unit = Math.min(w, h) / 2;
     const [xReach, yReach] = plane.equal ? [(xMost * w) / 2 / unit, (yMost * h) / 2 / unit] : [xMost, yMost];
     const x = d3.scaleLinear().domain([-xReach, xReach]).range([margin.left, margin.left + w]);

@@ -1,6 +1,7 @@
-// Draws the 3D replay, at the current time of the page.
+// Draws the 3D replay of the run at the current time of the page.
 
-const MOST_NAMED = 4;  // largest number of ghosts whose names are shown
+// maximum number of ghosts (translucent cars of other plants) whose names are shown
+const MOST_NAMED = 4;
 const CAMERAS = [['follow', 'Follow'], ['orbit', 'Orbit'], ['driver', 'Driver']];
 
 /** Returns the color of a track for WebGL. */
@@ -48,8 +49,8 @@ function planMesh(line, height, color, level) {
 
 function makeReplay(canvas, context) {
   const renderer = new THREE.WebGLRenderer({ canvas, context });
-  // A check of a shader for errors waits until the shader is compiled. Without these checks,
-  // several shaders are compiled at the same time.
+  // Checking a shader for errors would wait until the shader is compiled. Without checks for
+  // errors, several shaders are compiled at the same time.
   renderer.debug.checkShaderErrors = false;
   renderer.shadowMap.enabled = true;
   renderer.shadowMap.type = THREE.PCFShadowMap;
@@ -80,7 +81,8 @@ function makeReplay(canvas, context) {
       ghost: make({ color: solidColor(track), ghost: true }),
       use: tyreUse(track),
       wind: windAt(track),
-      // Trails overlap, so the trails of later tracks are narrower and drawn on top.
+      // The trails of several cars may overlap, so the trails of later tracks are narrower and
+      // drawn on top.
       trail: trailOf(track, motion, height, 0.34 / (1 + track.id), 6 + track.id),
     };
   });
@@ -120,7 +122,7 @@ function makeReplay(canvas, context) {
     drawNewPlans();
   });
 
-  // The car that is shown first, preferably on a MuJoCo plant.
+  // The car that is shown first: preferably that of a MuJoCo plant.
   const lead = cars.find(({ track }) => track.plant.startsWith('mujoco')) || cars[cars.length - 1];
 
   /**
@@ -165,9 +167,10 @@ function makeReplay(canvas, context) {
     return camera;
   }
 
-  let firstPicture = null;  // time from the opening of the page to the first picture [ms]
+  let firstPicture = null;  // time from opening the page to the first rendered frame [ms]
   let shown = { kind: 'follow', apart: false, forces: Boolean(dials) };
-  let views = [];  // views of the last picture, as {car, camera, viewport}, for tests and labels
+  // views in the last rendered frame, as {car, camera, viewport}, for tests and labels
+  let views = [];
   const orbit = new THREE.Vector3(-8, -7, 5);
 
   /** Returns the current distance between two cars [m]. */
@@ -178,7 +181,7 @@ function makeReplay(canvas, context) {
 
   function drawView(car, camera, viewport, others) {
     for (const each of cars) {
-      // Hides ghosts near the driver, since they would cover the road.
+      // Hides ghosts near the driver's camera, because they would cover the road.
       const around = shown.kind === 'driver' && each !== car
         && Math.hypot(...['x', 'y'].map((axis) => poseAt(each.track, now)[axis] - poseAt(car.track, now)[axis])) < runs[car.track.run].car.length;
       const visible = each.track.visible && !around;
@@ -206,7 +209,7 @@ function makeReplay(canvas, context) {
   function draw(time) {
     const [width, high] = [canvas.clientWidth, canvas.clientHeight];
     if (width <= 0 || high <= 0) return;
-    // setSize is called only after a change, since it always allocates new buffers.
+    // setSize is called only if the size has changed, because every call allocates new buffers.
     if (canvas.width !== Math.floor(width * pixelRatio) || canvas.height !== Math.floor(high * pixelRatio)) {
       renderer.setSize(width, high, false);
     }
@@ -262,7 +265,7 @@ function gridOf(count, width, height) {
   const columns = Math.ceil(count / lines);
   return d3.range(count).map((i) => {
     const [column, line] = [i % columns, Math.floor(i / columns)];
-    // If the last row has fewer views, they are wider.
+    // If the last row has fewer views than the others, its views are wider.
     const inLine = line + 1 < lines ? columns : count - columns * (lines - 1);
     const [x0, x1] = [column, column + 1].map((k) => Math.round((k * width) / inLine));
     const [y0, y1] = [lines - 1 - line, lines - line].map((k) => Math.round((k * height) / lines));

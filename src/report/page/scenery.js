@@ -1,4 +1,4 @@
-// Makes the scenery of the 3D scene: ground, road, friction patches, obstacles, cones, trees.
+// Creates the scenery of the 3D scene: ground, road, friction patches, obstacles, cones, trees.
 
 const ROAD = { dash: 3, gap: 6, line: 0.12, post: 10 };  // [m]
 
@@ -48,8 +48,8 @@ function grain(light, spread, repeat) {
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearMipMapLinearFilter;
   texture.generateMipmaps = true;
-  texture.anisotropy = 2;  // anisotropic filtering; larger values are slow without graphics
-                           // hardware
+  // degree of anisotropic filtering; larger values are slow without graphics hardware
+  texture.anisotropy = 2;
   texture.needsUpdate = true;
   return texture;
 }
@@ -149,8 +149,8 @@ function groundMesh(ground, extent) {
   }
   const mesh = new THREE.Mesh(geometry, material);
   mesh.receiveShadow = true;
-  // Level ground is drawn first and does not write to the depth buffer, whose resolution is too
-  // coarse for such a large plane.
+  // Level ground is drawn first and not written to the depth buffer, whose resolution is too coarse
+  // for such a large plane.
   material.depthWrite = Boolean(ground);
   mesh.renderOrder = -1;
   return mesh;
@@ -330,8 +330,8 @@ function obstacleShape(box, make) {
   const [along, across] = [box.length / car.length, box.width / car.width];
   vehicle.group.scale.set(along, across, 0.5 * (along + across));
   vehicle.group.position.x = -along * (car.length / 2 - car.rear_overhang);
-  // Vehicle models face along x. If the obstacle moves in the opposite direction, the car is turned
-  // around.
+  // The model of a vehicle faces along the x axis. If the obstacle moves against its x axis, the
+  // car model is turned around.
   const facing = Math.cos(Math.atan2(box.vy, box.vx) - box.yaw) < 0 ? Math.PI : 0;
   const holder = new THREE.Group();
   vehicle.group.position.applyAxisAngle(new THREE.Vector3(0, 0, 1), facing);
@@ -414,8 +414,8 @@ function drawScenery(scene, height, makers) {
       scene.add(mesh);
     }
   }
-  // The scene has no trees if the world has a map. During a run without a plan, there are no trees
-  // either, because they might stand on the path, which is not yet known.
+  // The scene has no trees if the world has a map. While a run without a plan is in progress, there
+  // are no trees either, because trees might stand on the still unknown path.
   const hasTrees = !runs.some((run) => run.world.walls) && (!data.live || runs.some((run) => run.plan && run.plan.line));
   if (hasTrees) for (const mesh of treeMeshes(extent, busy, height)) scene.add(mesh);
   return {

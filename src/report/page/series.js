@@ -1,4 +1,4 @@
-// Draws the charts over time.
+// Draws the charts of the logged quantities over time.
 
 const QUANTITIES = [
   { name: 'cross_track', title: 'Cross-track error', unit: 'm', digits: 4, note: 'positive: left of the path' },
@@ -37,7 +37,8 @@ function limitsOf(name) {
   }[name];
   const limits = runs.flatMap((run) => run.expectations)
     .filter((check) => check.metric === metric && typeof check.bound === 'number').map((check) => check.bound);
-  // The car's steering limit is shown only if it is less than twice the largest steering angle.
+  // The car's steering limit is drawn only if it is less than twice the largest steering angle of
+  // the run.
   const steering = d3.max(tracks, (track) => d3.max(track.log.steering, Math.abs));
   if (name === 'steering') limits.push(...runs.map((run) => run.car.steering_limit).filter((limit) => limit > 0 && limit < 2 * steering));
   return Array.from(new Set(name === 'clearance' ? limits : limits.flatMap((limit) => [limit, -limit])));
@@ -56,7 +57,7 @@ function drawSeries(parent) {
     return {
       ...quantity,
       limits: limitsOf(quantity.name),
-      // Commanded values are drawn first, below the measured values.
+      // Commanded values are drawn first, so that the measured values are on top.
       lines: [
         ...(quantity.asked ? own.map((track) => line(track, quantity.asked, { pattern: [5, 4], width: 1.2 })) : []),
         ...own.map((track) => line(track, quantity.name, { width: 1.6 })),
@@ -77,6 +78,6 @@ function drawSeries(parent) {
       for (const one of lines) one.values = anew(one.tracks[0], one.quantity);
     }
   });
-  drawCharts(list, 'series', axis, charts);  // charts are drawn after the listener for new rows is
-                                             // registered
+  // the charts are drawn after the listener for new rows is registered
+  drawCharts(list, 'series', axis, charts);
 }

@@ -1,4 +1,4 @@
-// Draws the page of a study: its outputs over its parameters, and the table of all rows.
+// Draws the page of a study: the outputs over the parameters, and the table of all rows.
 
 function drawStudy(study) {
   const columns = study.columns.map((column, index) => ({ ...column, index }));
@@ -6,8 +6,8 @@ function drawStudy(study) {
   const parameters = of('parameter');
   const status = of('status')[0];
   const rows = study.rows.map((cells, index) => ({ index, cells, number: study.row_numbers[index] }));
-  // The page of a large study has only evenly spaced rows, plus the rows with the extremes of each
-  // output.
+  // The page of a large study contains only evenly spaced rows, plus the rows with the extremes of
+  // each output.
   const even = rows.slice(0, study.even_count);
   const isGood = (row) => ['passed', 'found', 'passes_at_to'].includes(row.cells[status.index]);
   const isNumber = (column) => rows.some((row) => typeof row.cells[column.index] === 'number')
@@ -58,8 +58,8 @@ function drawStudy(study) {
   } else if (outputs.length && rows.length) {
     drawStudyAnswer(section('answer', study.bisected ? 'Found' : ''), { study, outputs, varied, rows, status });
   }
-  // In a bisection, the value found for the key is the result of the study, so its chart is drawn
-  // first.
+  // The result of a bisection is the value found for the varied key, so the chart of this value is
+  // drawn first.
   if (study.bisected) drawOutputs();
   if (statistics && statistics.outputs.length && varied.length) {
     drawInfluence(section('influence', 'What matters'), { columns, statistics, nameOf });
@@ -143,7 +143,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
     const by = parameters.find((p) => p.index === color() && p !== x);
     const kinds = by ? Array.from(new Set(rows.map((row) => row.cells[by.index]))) : [null];
     if (by && isNumber(by)) kinds.sort(d3.ascending);
-    // Up to eight values get distinct colors; more numbers get a color scale.
+    // Up to eight values get distinct colors; more numeric values get a color scale.
     const colors = kinds.map((kind, i) => (kinds.length <= 8 || !isNumber(by)
       ? `var(--track-${i % 8})` : d3.interpolateViridis(0.9 * i / (kinds.length - 1))));
     const cssOf = (row) => colors[by ? kinds.indexOf(row.cells[by.index]) : 0];
@@ -162,7 +162,7 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
         .attr('r', 4.5).attr('fill', 'none').attr('stroke', 'currentColor').attr('stroke-width', 1.5);
       sign.append('span').text('hollow: failed');
     }
-    // Lines connect rows that differ only in the parameter of the x axis.
+    // Lines in the chart connect rows that differ only in the parameter of the x axis.
     const others = parameters.filter((p) => p !== x);
     const groups = d3.nest()
       .key((row) => JSON.stringify(others.map((p) => row.cells[p.index]))).entries(rows);
@@ -186,12 +186,11 @@ function drawPlots(parent, { parameters, outputs, rows, isGood, isNumber, nameOf
       : d3.scalePoint().domain(Array.from(new Set(values))).padding(0.5);
     scaleX.range([margin.left, width - margin.right]);
     const range = d3.extent(there, (row) => row.cells[output.index]);
-    // The range of the axis includes zero if all values are positive and the smallest is less than
-    // half of the largest.
+    // The axis includes zero if all values are positive and the smallest is less than half of the
+    // largest.
     if (range[0] > 0 && range[0] < 0.5 * range[1]) range[0] = 0;
     if (range[0] === range[1]) { range[0] -= 1; range[1] += 1; }
-    // For a search, the axis of the robustness has the same scale as in the chart of the search's
-    // history.
+    // For a search, the robustness axis has the same scale as in the chart of the search's history.
     const { scale: scaleY, ticks, note } = search && output.name === 'robustness' && there.length
       ? scaleOfRobustness(there.map((row) => row.cells[output.index])) : { scale: d3.scaleLinear().domain(range).nice(), note: '' };
     scaleY.range([height - margin.bottom - (ticks ? 6 : 0), margin.top]);
@@ -258,7 +257,7 @@ function drawStudyTable(parent, { columns, rows, isGood, isNumber, bus }) {
     const sign = sorted.down ? -1 : 1;
     lines.sort((a, b) => {
       const [left, right] = [a.cells[column.index], b.cells[column.index]];
-      // In both sort orders, empty cells come last.
+      // Empty cells come last, both in ascending and in descending order.
       if (left === null || right === null) return (left === null) - (right === null) || a.index - b.index;
       const order = column.numeric ? left - right : d3.ascending(String(left), String(right));
       return sign * order || a.index - b.index;

@@ -1,4 +1,4 @@
-// Draws the first part of a study's page, with one line per output.
+// Draws the summary at the top of a study's page, with one line per output.
 
 // Texts for the result of a bisection, by the status of its row.
 const BISECTED = {

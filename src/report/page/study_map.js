@@ -1,4 +1,4 @@
-// Draws a color map of an output, or of the pass rate, over two parameters of a study.
+// Draws a map of an output, or of the pass rate, in colors over two parameters of a study.
 
 /**
  * Returns the cells of the map along a parameter: {names, find, place}. `find` returns the cell of
@@ -120,7 +120,7 @@ function drawMapCells(place, { title, nameX, nameY, columns, lines, values, text
     svg.append('path').attr('class', `sign-of ${mark.kind} on-map`).attr('d', signOfPoint(mark.kind))
       .attr('transform', `translate(${margin.left + columns.place(mark.x) * wide} ${height - margin.bottom - lines.place(mark.y) * high})`);
   }
-  // Draws the color bar of the map.
+  // Draws the color bar of the color map.
   const bar = svg.append('g').attr('transform', `translate(${margin.left} ${height - 30})`);
   const steps = 40;
   const length = Math.min(220, width - margin.left - 60);

@@ -1,7 +1,7 @@
-// Draws a search for failures: its result, the margins of each key, its history, and the tried
-// parts of the ranges.
+// Draws the page of a search for failures: the result, the margins of each key, the history, and
+// the tried parts of the ranges.
 
-// Phases of a search, with the symbol and color of their runs.
+// Phases of a search for failures, with the symbol and color of the runs in each phase.
 const PHASES = [
   { name: 'nominal', label: 'nominal point', symbol: d3.symbolDiamond, color: 'var(--text)' },
   { name: 'search', label: 'search', symbol: d3.symbolCircle, color: 'var(--track-0)' },
@@ -217,7 +217,7 @@ function drawHistory(parent, { search, rows, of, isGood, bus, tooltip }) {
       + `${there.filter((row) => !isGood(row)).length} failed, the lowest is ${brief(lowest)}`);
     const margin = { left: 56, right: 18, top: 30, bottom: 44 };
     const { scale: y, ticks, note } = scaleOfRobustness(values);
-    // Leaves space for marks at the ends of the axis.
+    // Leaves space in the chart for marks at the ends of the axis.
     y.range([height - margin.bottom - 12, margin.top + 8]);
     const x = d3.scaleLinear().domain([0, Math.max(1, d3.max(rows, (row) => row.number) || 1)]).range([margin.left + 8, width - margin.right - 8]);
     svg.append('g').attr('class', 'axis').attr('transform', `translate(0 ${height - margin.bottom})`)
@@ -288,7 +288,8 @@ function drawCoverage(parent, { search, rows, of, isGood, bus, tooltip }) {
       .attr('d', (row) => `M${at(row.cells[key.column])} ${isGood(row) ? top + 3 : middle + 2}v${middle - top - 5}`)
       .on('mouseenter click', tooltip.show).on('mouseleave', tooltip.hide);
     const axis = (key.kind === 'log_uniform' ? d3.scaleLog() : d3.scaleLinear()).domain([key.from, key.to]).range([at(key.from), at(key.to)]);
-    // The axis has ticks at both ends of the range and, if there is space, between the ends.
+    // The axis of a key has ticks at both ends of the range and, if there is space, between the
+    // ends.
     const inner = (key.kind === 'log_uniform' ? ticksOfLogarithm(axis)
       : axis.ticks(Math.max(2, Math.min(key.kind === 'integer' ? key.to - key.from : 8, width / 70))))
       .filter((tick) => axis(tick) > at(key.from) + 36 && axis(tick) < at(key.to) - 36);

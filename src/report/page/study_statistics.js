@@ -1,5 +1,5 @@
-// Draws statistics over all rows of a study: distributions, influence of the parameters, worst
-// rows.
+// Draws statistics over all rows of a study: distributions of the outputs, influence of the
+// parameters, worst rows.
 
 /**
  * Makes a row of drop-down lists. `add` adds a list and returns a function that gives the list's
@@ -132,7 +132,7 @@ function drawInfluence(parent, { columns, statistics, nameOf }) {
     const column = columns.find(({ name }) => name === of.name);
     return [i, column ? nameOf(column) : 'pass rate'];
   });
-  // If the statistics contain the pass rate, the list of outputs starts with it.
+  // If the statistics contain the pass rate, it is the first in the list of outputs.
   const rate = statistics.outputs.findIndex(({ name }) => name === 'passed');
   const choices = choicesIn(parent);
   const chosen = choices.add('Of', 'influence-of', named, Math.max(rate, 0), draw);

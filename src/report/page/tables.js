@@ -8,7 +8,7 @@ function verdictOf(run) {
   if (!run.complete) return { good: false, text: 'interrupted' };
   if (run.verdict.passed === null) return { good: true, text: 'not judged' };
   if (!run.verdict.passed) return { good: false, text: 'failed' };
-  // A run that did not arrive can still pass, if the scenario expects this end.
+  // A run that did not reach its goal can still pass, if the scenario expects this.
   const ends = Array.from(new Set(run.plants.map(({ end }) => end.status))).filter((status) => status !== 'arrived');
   return { good: true, text: ends.length ? `as expected: ${ends.map(statusText).join(', ')}` : 'passed' };
 }
@@ -32,7 +32,7 @@ function drawHead() {
     const { good, text } = verdictOf(runs[0]);
     badge(heading, good, text).attr('id', 'verdict');
   }
-  // A comparison without failures and additional notes is shown only as a badge.
+  // A comparison that has neither failures nor additional notes is shown only as a badge.
   const verdicts = (data.comparison || {}).verdicts || [];
   const isBrief = ({ failures, notes }) => runs.length === 1 && !failures.length && notes.every((note) => runs[0].verdict.notes.includes(note));
   for (const { passed } of verdicts.filter(isBrief)) {
@@ -90,7 +90,8 @@ function rowsOf(lists) {
       before = path;
     }
   }
-  // A row that occurs only in a later list is placed after the row that precedes it in that list.
+  // A row that occurs only in a later list is placed after the row that precedes it in the later
+  // list.
   const order = [];
   for (const row of rows.values()) {
     const at = order.findIndex((other) => other.path === row.before);
@@ -141,7 +142,7 @@ function drawManeuver() {
 function drawHeadline() {
   if (!tracks.length) return;
   const all = rowsOf(tracks.map((track) => track.numbers)).filter((row) => row.headline);
-  // The metrics of a maneuver are in a separate section.
+  // The metrics of a maneuver are shown in a separate section.
   const rows = all.filter((row) => !row.path.startsWith('maneuver.'));
   const made = section('headline');
   if (tracks.length > 2) {

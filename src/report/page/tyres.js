@@ -1,10 +1,10 @@
-// Draws the grip used by each tyre in the 3D scene, as size and direction of its force, and skid
-// marks.
+// Draws the grip that each tyre uses in the 3D scene, as size and direction of the tyre's force,
+// and draws skid marks.
 
 const WHEELS = ['fl', 'fr', 'rl', 'rr'];
-const DIAL = 0.62;  // Radius of the circle that represents full grip [m].
-const SKID = { use: 0.9, width: 0.17 };  // Used fraction of the grip above which a tyre leaves a
-                                         // skid mark, and tyre width [m].
+const DIAL = 0.62;  // Radius of the circle in the 3D scene that represents full grip [m].
+// Fraction of the grip above which a tyre leaves a skid mark, and width of the tyre [m].
+const SKID = { use: 0.9, width: 0.17 };
 
 /**
  * Returns the used fraction of each tyre's grip over time, as {t, at(wheel, time), used(wheel,
@@ -35,11 +35,11 @@ function wheelPlaces(vehicle, model, height) {
     const i = model.bodies.findIndex((body) => body.joints.some(({ channel }) => channel === `spin_${wheel}_rad`));
     if (i < 0) continue;
     const { elements } = vehicle.nodes[i].matrix;
-    // The wheel spins about its y axis, so the direction of this axis does not depend on the spin.
-    // The forward direction is 90 degrees to the right of the y axis.
+    // The wheel's y axis is the spin axis, so the direction of the y axis does not depend on the
+    // spin angle. The wheel's forward direction is 90 degrees to the right of the y axis.
     const yaw = Math.atan2(-elements[4], elements[5]);
     const [x, y] = [elements[12], elements[13]];
-    if (elements[14] - height(x, y) > 0.5) continue;  // skips a wheel in the air
+    if (elements[14] - height(x, y) > 0.5) continue;  // a wheel in the air is skipped
     places[wheel] = { x, y, z: height(x, y), yaw };
   }
   return places;
@@ -63,7 +63,7 @@ function makeDials(scene) {
   const ring = new THREE.RingBufferGeometry(DIAL - 0.03, DIAL, 48);
   const disc = new THREE.CircleBufferGeometry(DIAL, 48);
   const arrow = arrowGeometry();
-  // Makes a material that is visible through the car.
+  // Creates a material that is visible through the car.
   const over = (color, opacity) => new THREE.MeshBasicMaterial({ color, transparent: true, opacity, depthTest: false, depthWrite: false, side: THREE.DoubleSide });
   const dials = WHEELS.map(() => {
     const group = new THREE.Group();

@@ -1,7 +1,7 @@
-// Makes the vehicle of the 3D scene. The vehicle's shape comes from the run's model, and its pose
-// from the state log, by forward kinematics of the joints.
+// Creates the vehicle of the 3D scene. The vehicle's shape comes from the run's model; its pose is
+// computed from the state log by forward kinematics of the joints.
 
-const GHOST = 0.42;  // opacity of a ghost
+const GHOST = 0.42;  // opacity of a ghost, the translucent car of another plant
 
 /** Decodes a channel, which is base64 of float32, or of int16 with offset and scale. */
 function numbersOf(channel) {
@@ -13,7 +13,7 @@ function numbersOf(channel) {
 /** Returns the motion of a track: the times, and the channels by name. */
 function motionOf(track) {
   const { motion } = runs[track.run].plants.find((plant) => plant.name === track.plant);
-  // While a run is in progress, the channels grow, so they must be ordinary arrays.
+  // The channels grow while a run is in progress, so they must be ordinary arrays.
   const numbers = (channel) => (data.live ? Array.from(numbersOf(channel)) : numbersOf(channel));
   const channels = Object.fromEntries(Object.entries(motion.channels).map(([name, channel]) => [name, numbers(channel)]));
   return { t: numbers(motion.t), channels };
@@ -78,7 +78,7 @@ function vehicleMaker(model) {
       const material = new THREE.MeshLambertMaterial({
         color: ghost || geom.rgba.join() === paint ? new THREE.Color(color) : new THREE.Color(r, g, b),
         transparent: ghost || a < 1, opacity: ghost ? GHOST : a, depthWrite: true,
-        // Draws a ghost behind a solid car that coincides with it.
+        // Draws the ghost farther away, so that a solid car at the same place hides the ghost.
         polygonOffset: ghost, polygonOffsetFactor: 4, polygonOffsetUnits: 40,
       });
       materials.push(material);
@@ -111,7 +111,7 @@ function vehicleMaker(model) {
           } else if (joint.type === 'slide') {
             position.add(new THREE.Vector3(...joint.axis).multiplyScalar(at(joint.channel)).applyQuaternion(rotation));
           } else {
-            // The joint rotates the body about its anchor, which stays fixed.
+            // The joint rotates the body about the joint's anchor, which stays fixed.
             const anchor = new THREE.Vector3(...joint.pos);
             const turn = new THREE.Quaternion().setFromAxisAngle(new THREE.Vector3(...joint.axis).normalize(), at(joint.channel));
             const before = anchor.clone().applyQuaternion(rotation);

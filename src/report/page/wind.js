@@ -1,7 +1,8 @@
 // Draws the wind in the 3D scene: arrows on the ground around the car, which show the velocity of
 // the air at the car, and outlines of the areas of gusts.
 
-// Units: [m], cells, [m/s], [s], [m].
+// Spacing of the arrows [m], number of arrows to each side, smallest wind speed with an arrow
+// [m/s], arrow length per wind speed [s], longest arrow [m].
 const WIND = { spacing: 6, reach: 3, least: 0.5, perSpeed: 1 / 3, longest: 4.5 };
 
 /**

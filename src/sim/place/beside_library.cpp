@@ -9,8 +9,8 @@ namespace trackbed {
 
 const char* PlaceOfData();
 
-/// Returns the data folder next to this shared library. The library and its data folder may be
-/// moved together.
+/// Returns the data folder next to this shared library. The shared library and its data folder may
+/// be moved together.
 const char* PlaceOfData() {
   static const std::string kPlace = [] {
     namespace fs = std::filesystem;

@@ -4,8 +4,8 @@ namespace trackbed {
 
 const char* PlaceOfData();
 
-/// Throws InputError. This version of PlaceOfData is used in programs that were linked to static
-/// libraries without CMake, where the package's folder is unknown.
+/// Throws InputError. This version of PlaceOfData is for programs that link the static libraries
+/// without CMake; in such programs, the folder of the package is unknown.
 const char* PlaceOfData() {
   throw InputError(Problem{
       .message = "the folder of models/ and scenarios/ is not known: set the environment variable "

@@ -13,8 +13,8 @@
 #include "trackbed/planning/sampling/rrt_star.h"
 #include "trackbed/vehicle/params.h"
 
-/// The geometry of the local planner `listing`: one Bezier curve of degree seven passes an obstacle
-/// in a turn (Skackauskas, dissertation, listing F.2; called "the listing" below).
+/// The geometry of the local planner `listing`, which passes an obstacle in a turn by one Bezier
+/// curve of degree seven (Skackauskas, dissertation, listing F.2; called "the listing" below).
 ///
 /// The maneuver frame M has its origin at the start of the maneuver, its x axis along the heading
 /// at the start, and its y axis to the left. The turn's arc begins at the distance S ahead of the
@@ -28,21 +28,23 @@ namespace trackbed {
 
 enum class TurnSide { kLeft, kRight };
 
-/// The input of a maneuver. The defaults are those of the listing.
+/// The input of a maneuver that passes an obstacle in a turn. The default values are the values in
+/// the listing.
 struct TurnManeuver {
   double radius = 20.0;                    ///< Radius r_1 of the turn [m], > 0.
-  double speed = 3.0;                      ///< Speed v_a [m/s], > 0.
+  double speed = 3.0;                      ///< Constant speed v_a of the car [m/s], > 0.
   double delay = 0.9;                      ///< System delay t_d [s], >= 0.
   double turn_angle = 1.5707963267948966;  ///< Angle theta_turn of the turn [rad].
-  /// Reduction theta_turn_dec [rad]. The heading changes by theta_turn - theta_turn_dec.
+  /// Reduction theta_turn_dec of the turn's angle [rad]: in the turn, the heading changes by
+  /// theta_turn - theta_turn_dec.
   double reduction = 0.2617993877991494;
   TurnSide side = TurnSide::kLeft;
-  int obstacle_sixth = 3;        ///< Number n of sixths of the arc before the obstacle, 1 to 5.
-  double obstacle_length = 2.0;  ///< Length L_k, along the x axis of M [m], > 0.
-  double obstacle_width = 2.0;   ///< Width w_k, along the y axis of M [m], > 0.
+  int obstacle_sixth = 3;  ///< Position n of the obstacle on the arc, in sixths of the arc, 1 to 5.
+  double obstacle_length = 2.0;  ///< Length L_k of the obstacle along the x axis of M [m], > 0.
+  double obstacle_width = 2.0;   ///< Width w_k of the obstacle along the y axis of M [m], > 0.
   double safe_distance = 1.5;    ///< Safe distance SD [m], >= 0.
-  double inner_width = 1.0;      ///< Free width toward the center [m], >= 0.
-  double outer_width = 0.0;      ///< Free width on the outer side [m], >= 0.
+  double inner_width = 1.0;      ///< Free width toward the turn's center [m], >= 0.
+  double outer_width = 0.0;      ///< Free width on the outer side of the turn [m], >= 0.
   LiteralTurn literal;
 
   /// Returns the side with more free width; the inner side if both widths are equal.
@@ -53,118 +55,128 @@ struct TurnManeuver {
   [[nodiscard]] double straight() const { return radius + speed * delay; }
 };
 
-/// The result of laying out a maneuver.
+/// Whether a maneuver could be laid out.
 enum class TurnStatus {
   kOk,
-  kNoTurn,       ///< The reduction leaves no turn, or a turn that is too short for the grid.
-  kNoSafePoint,  ///< r_k <= 0: the turn is too tight to pass the obstacle on the inner side.
+  /// The reduced angle of the turn is not positive, or too small for the steps of the grid.
+  kNoTurn,
+  kNoSafePoint,  ///< The turn is too tight to pass the obstacle on the inner side (r_k <= 0).
 };
 
 /// A point of the turn's arc.
 struct ArcPoint {
-  double angle = 0.0;  ///< Swept angle sigma [rad].
+  double angle = 0.0;  ///< Angle sigma swept from the start of the arc [rad].
   Vec2 position{0.0, 0.0};
 };
 
 /// The layout of a maneuver in the frame M. If the status is not kOk, only the reason is valid.
 struct TurnLayout {
   TurnStatus status = TurnStatus::kOk;
-  std::string reason;         ///< Reason of a failure; empty if ok.
-  std::vector<ArcPoint> arc;  ///< The V_L points of the arc from A to E, at most 0.01 rad apart.
-  /// Index, from 1, of the arc's point nearest to the obstacle (Padetis_k in the listing).
+  std::string reason;  ///< Reason why the layout failed; empty if ok.
+  /// Points of the arc from A to E, at most 0.01 rad apart (V_L points in the listing).
+  std::vector<ArcPoint> arc;
+  /// Index, counted from 1, of the arc's point nearest to the obstacle (Padetis_k in the listing).
   std::size_t obstacle_at = 0;
-  OrientedBox obstacle;       ///< Obstacle, aligned with the axes of M.
-  double safe_radius = 0.0;   ///< Radius r_k [m].
+  OrientedBox obstacle;       ///< Obstacle, aligned with the axes of the frame M.
+  double safe_radius = 0.0;   ///< Distance r_k from the arc's center to the safe point [m].
   double safe_angle = 0.0;    ///< Swept angle sigma of the safe point [rad].
-  Vec2 safe_point{0.0, 0.0};  ///< Safe point q_goal: C + r_k (sin sigma, -sg cos sigma).
+  Vec2 safe_point{0.0, 0.0};  ///< Safe point q_goal = C + r_k (sin sigma, -sg cos sigma).
 
   [[nodiscard]] bool ok() const { return status == TurnStatus::kOk; }
 };
 
-/// Returns the radius r_k for passing on a side [m]; the radius may be negative. On the inner side,
-/// r_k is r_1 - need - inner_width; on the outer side, r_k is 1.5 (r_1 + need + outer_width). The
-/// required width is need = 2 SD + 2 IS_k + 2 w_a, with IS_k half the obstacle's diagonal and w_a
-/// the car's width. The factor 1.5 compensates for the curve not reaching its control point.
+/// Returns the distance r_k from the turn's center to the safe point for passing on the given side
+/// [m]; r_k may be negative. On the inner side, r_k is r_1 - need - inner_width; on the outer side,
+/// r_k is 1.5 (r_1 + need + outer_width). The required width is need = 2 SD + 2 IS_k + 2 w_a, with
+/// IS_k half the obstacle's diagonal and w_a the car's width. The factor 1.5 is needed because the
+/// curve does not reach the control point at the safe point.
 double SafeRadius(const TurnManeuver& maneuver, double vehicle_width, PassingSide passing_side);
 
-/// Computes the arc, the obstacle and the safe point of a maneuver. Errors: InternalError for a
-/// number that is not finite or outside the range stated in TurnManeuver.
+/// Computes the arc, the obstacle and the safe point of a maneuver. Throws InternalError if a
+/// number is not finite or outside the range stated in TurnManeuver.
 TurnLayout LayOutTurn(const TurnManeuver& maneuver, const VehicleParams& vehicle);
 
-/// Computes the control points P_0 to P_7 in the frame M, for a layout that is ok. The argument
-/// `final_y` [m] is q_final.y, the y coordinate of P_3.
+/// Computes the control points P_0 to P_7 of the curve in the frame M; the status of `layout` must
+/// be kOk. The argument `final_y` [m] is q_final.y, the y coordinate of P_3.
 ///
-/// P_0 to P_2 lie on the straight before the turn. P_2 lies at A if the obstacle is past the arc's
-/// middle, else at two thirds of the straight. P_3 has the x coordinate of A, and P_4 is the safe
-/// point. P_5 to P_7 lie on the tangent at E, at the distances 0, S/2 and S from E.
+/// The control points P_0 to P_2 lie on the straight before the turn. P_2 lies at the arc's start A
+/// if the obstacle is past the arc's middle, else at two thirds of the straight. The control point
+/// P_3 has the x coordinate of A, and P_4 is the safe point. The control points P_5 to P_7 lie on
+/// the tangent at the arc's end E, at the distances 0, S/2 and S from E.
 std::array<Vec2, 8> ControlPoints(const TurnManeuver& maneuver, const TurnLayout& layout,
                                   const VehicleParams& vehicle, double final_y);
 
-/// The search tree of the listing.
+/// The search tree that the listing's search computes.
 struct LiteralTree {
-  /// Nodes of the tree. The cost of a node is the cost through the nearest node, not through the
-  /// parent (defect L10).
+  /// Nodes of the search tree. The cost of a node is the length of the path through the nearest
+  /// node, not through the node's parent (defect L10 of the listing).
   std::vector<TreeNode> nodes;
   std::size_t final_node = 0;  ///< Index of the node nearest to the safe point.
   double goal_distance = 0.0;  ///< Distance from the final node to the safe point [m].
-  /// Coordinate q_final.y [m], the only value of the tree that the curve uses.
+  /// Coordinate q_final.y of the final node [m]; the curve uses no other value of the search tree.
   double final_y = 0.0;
 };
 
-/// Runs the search of the listing as printed, including its defects L5 to L13. The search draws
-/// floor(S/2) samples in the box between the start and the obstacle's center. For passing on the
-/// outer side, the box is mirrored at the x axis. The coordinates of samples are rounded down to
-/// whole meters. Steps are at most 1 m long. A step is accepted if the whole line to the sample
-/// crosses no side of the obstacle. The parent is the cheapest node within 10 m, without rewiring.
-/// The search ignores the car's width and never reaches its goal, which lies outside the box and
-/// beyond its steps. The search is only a reference: use PlanRrtStar.
+/// Runs the search exactly as printed in the listing, including the defects L5 to L13. The search
+/// draws floor(S/2) samples in the box between the start and the obstacle's center. For passing on
+/// the outer side, the box is mirrored at the x axis. The coordinates of the samples are rounded
+/// down to whole meters. A new node lies at most 1 m from the nearest node, toward the sample. The
+/// new node is accepted if the whole line from the nearest node to the sample crosses no side of
+/// the obstacle. The parent of a new node is the node within 10 m through which the path to the new
+/// node is shortest; existing nodes never change their parents. The search ignores the car's width
+/// and never reaches its goal, because the goal lies outside the sampled box. LiteralRrtStar serves
+/// only for comparison; use PlanRrtStar to find paths.
 LiteralTree LiteralRrtStar(const TurnManeuver& maneuver, const TurnLayout& layout,
                            std::uint64_t seed);
 
-/// The point of the curve at one of the parameters u = 0, 0.002, ..., 1.
+/// A sample of the curve, at one of the parameters u = 0, 0.002, ..., 1.
 struct ManeuverSample {
   double u = 0.0;
-  Pose2 pose;              ///< Pose of the rear axle on the curve, x along the tangent.
-  double s = 0.0;          ///< Distance from the start along the chords between samples [m].
-  double time = 0.0;       ///< Time s/v_a [s].
-  double curvature = 0.0;  ///< Curvature K [1/m], positive to the left.
-  double steering = 0.0;   ///< Steering delta = atan(L K) [rad].
+  Pose2 pose;  ///< Pose of the rear axle on the curve, with the x axis along the curve's tangent.
+  /// Distance from the curve's start, measured along the chords between samples [m].
+  double s = 0.0;
+  double time = 0.0;       ///< Time s/v_a since the curve's start [s].
+  double curvature = 0.0;  ///< Curvature K of the curve [1/m], positive to the left.
+  double steering = 0.0;   ///< Steering angle delta = atan(L K) [rad].
 };
 
-/// The result of driving along a curve. Largest and smallest values are taken over the samples.
+/// The result of simulating a drive along a curve. Maxima and minima are taken over the samples of
+/// the curve.
 struct ManeuverRun {
-  /// Samples of the curve. The steering over the time is the steering signal of the listing.
+  /// Samples of the curve; the steering angles of the samples are the steering signal of the
+  /// listing.
   std::vector<ManeuverSample> samples;
-  double length = 0.0;             ///< Total length ARC_L of the chords [m].
-  double duration = 0.0;           ///< Duration length/v_a [s].
-  double steering_max = 0.0;       ///< Largest |delta| [rad].
-  double steering_rate_max = 0.0;  ///< Largest |d delta/dt| [rad/s].
+  double length = 0.0;             ///< Length of the curve, as the sum ARC_L of all chords [m].
+  double duration = 0.0;           ///< Duration of the drive, equal to length/v_a [s].
+  double steering_max = 0.0;       ///< Largest steering angle |delta| on the curve [rad].
+  double steering_rate_max = 0.0;  ///< Largest steering rate |d delta/dt| on the curve [rad/s].
   Vec2 test_point{0.0, 0.0};       ///< Point of the curve that the listing's safety check tests.
-  Vec2 test_corner{0.0, 0.0};      ///< Corner of the obstacle used in the test.
-  /// The listing's safety check: distance from the test point to the corner [m].
+  Vec2 test_corner{0.0, 0.0};      ///< Corner of the obstacle that the listing's safety check uses.
+  /// Distance from the test point to the corner in the listing's safety check [m].
   double test_distance = 0.0;
-  /// Smallest distance from footprint to obstacle [m]; 0 for a collision.
+  /// Smallest distance from the car's footprint to the obstacle [m]; 0 for a collision.
   double clearance = 0.0;
 
-  bool test_passed = false;  ///< Whether test_distance >= SD + w_a/2.
-  bool keeps_clear = false;  ///< Whether clearance >= SD.
+  /// Whether the listing's safety check passes: test_distance >= SD + w_a/2.
+  bool test_passed = false;
+  bool keeps_clear = false;  ///< Whether `clearance` is at least the safe distance SD.
   /// Whether steering angle and steering rate are within the car's limits.
   bool steerable = false;
   [[nodiscard]] bool ok() const { return test_passed && keeps_clear && steerable; }
 };
 
-/// Simulates driving along a curve at constant speed, with 501 samples. Cost: 0.15 ms. The test
-/// point is two samples before the first sample with s >= n/6 of the length minus 2 m. The
-/// listing's check compares only this point with one corner of the obstacle, and can pass although
-/// the car comes close to the obstacle elsewhere. The function therefore also computes the smallest
-/// clearance along the whole curve. The result `steerable` covers the curve between its ends, but
-/// not how the wheels reach their initial angle. A curve without a direction at a sample is not
-/// steerable.
+/// Simulates driving along a curve at constant speed, with 501 samples. Computing time: 0.15 ms.
+/// The test point of the listing's safety check is two samples before the first sample with s >= n
+/// length/6 - 2 m. The listing's safety check compares only one test point with one corner of the
+/// obstacle, and can pass even if the car comes close to the obstacle elsewhere. The function
+/// therefore also computes the smallest clearance along the whole curve. The result `steerable`
+/// covers the curve between its ends, but not how the wheels reach the steering angle at the
+/// curve's start. A curve that has no tangent direction at a sample is not steerable.
 ManeuverRun SimulateManeuver(const TurnManeuver& maneuver, const TurnLayout& layout,
                              const VehicleParams& vehicle, const BezierCurve& curve);
 
 /// Returns the pose X_WM of the maneuver frame for a turn whose arc begins at the pose X_WA. The
-/// frame lies the distance S behind the start of the arc, with the same heading.
+/// maneuver frame lies at the distance S behind the start of the arc, with the same heading.
 Pose2 ManeuverFrame(const TurnManeuver& maneuver, const Pose2& X_WA);
 
 }  // namespace trackbed

@@ -10,36 +10,38 @@
 
 namespace trackbed {
 
-/// Tests whether a car's footprint keeps a required distance from boxes. The class is made for many
-/// queries. The checker is immutable.
+/// Tests whether a car's footprint keeps a required distance from boxes. A checker is immutable and
+/// designed for many queries.
 class CollisionChecker {
  public:
-  /// Upper bound of farthest(), for long cars [m].
+  /// Upper bound of the result of farthest(), which applies to long cars [m].
   static constexpr double kMaxClearance = 4.0;
 
   /// `distance` [m], >= 0, is the required distance of the footprint from every box. Throws
-  /// PreconditionError unless the boxes are finite. The memory grows with the extent of the boxes,
-  /// up to an extent of about 2 km for a car.
+  /// PreconditionError if a box has a number that is not finite. The required memory grows with the
+  /// area over which the boxes are spread, but no further beyond an extent of about 2 km for a car.
   CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance);
 
-  /// Returns the upper bound of the results of Clearance [m]: the car's length, at most
-  /// kMaxClearance.
+  /// Returns the largest value that Clearance can return [m]: the car's length, or kMaxClearance if
+  /// the car is longer.
   [[nodiscard]] double farthest() const { return farthest_; }
 
   /// Returns the clearance of the footprint from the nearest box minus the required distance [m].
-  /// The returned clearance is exact. It is negative if the footprint is too near to a box, and at
-  /// most `at_most` and farthest(). Throws PreconditionError for a pose that is not finite. Cost: a
-  /// few ns for each nearby box, about 50 ns for each box that may be the nearest.
+  /// The returned value is exact. The value is negative if the footprint is too near to a box, and
+  /// never exceeds `at_most` and farthest(). Throws PreconditionError if the pose is not finite.
+  /// Computing time: a few ns for each nearby box, about 50 ns for each box that may be the nearest
+  /// one.
   [[nodiscard]] double Clearance(const Pose2& pose,
                                  double at_most = std::numeric_limits<double>::infinity()) const;
 
   [[nodiscard]] bool IsFree(const Pose2& pose) const { return Clearance(pose, 0.0) >= 0.0; }
 
   /// Returns the first tested station at which the car is too near to a box; nullopt if the car is
-  /// clear at all tested stations. The search advances by the distance that is free according to
-  /// the clearance, but by at least 2 cm (a fiftieth of the length for a car shorter than 1 m).
-  /// Between two stations, the clearance may therefore be negative, by at most half of this
-  /// smallest step times the motion of the footprint's fastest corner per meter of path.
+  /// clear at all tested stations. The search advances along the path by the distance that is free
+  /// according to the clearance, but by at least 2 cm (for a car shorter than 1 m, a fiftieth of
+  /// its length). Between two tested stations, the clearance may therefore be negative, by at most
+  /// half of the smallest step times the motion of the footprint's fastest corner per meter of
+  /// path.
   [[nodiscard]] std::optional<double> FirstBlocked(const Path& path) const;
 
   /// Returns whether the car is clear of all boxes along an arc or a line, tested as in
@@ -52,23 +54,24 @@ class CollisionChecker {
   std::vector<Vec2> along_;  // Unit vectors along the lengths of the boxes.
   double distance_;
   double farthest_;
-  double middle_;  // Distance of the footprint's middle ahead of the rear axle.
+  double middle_;  // Distance from the rear axle forward to the middle of the footprint.
   double radius_;  // Radius of the circle around the footprint.
-  double step_;    // Smallest step along a path.
+  double step_;    // Smallest step between tested stations of a path.
   double reach_;   // Distance from the rear axle to the footprint's farthest corner.
 
   void FillBins();
 
-  // Returns the next station to test after station `at`, where the clearance was `room`. That
-  // clearance guarantees that the path is free up to the next station, unless the step is the
-  // smallest one. `moved` is the largest motion of a point of the footprint per meter of path.
+  // Returns the next station to test after station `at`, where the clearance was `room`. The
+  // clearance `room` guarantees that the path is free up to the returned station, unless the step
+  // is the smallest one. The argument `moved` is the largest motion of a point of the footprint per
+  // meter of path.
   [[nodiscard]] double NextCheck(const Pose2& pose, double room, double moved, double at,
                                  double length) const;
 
   // Returns the boxes that can be the nearest one for a car with the middle of its footprint at
   // `middle`.
   [[nodiscard]] const std::vector<int>* Near(const Vec2& middle) const;
-  double bin_ = 0.0;  // Side of a bin [m].
+  double bin_ = 0.0;  // Side length of a square bin [m].
   Vec2 low_{0.0, 0.0};
   int columns_ = 0;
   int rows_ = 0;

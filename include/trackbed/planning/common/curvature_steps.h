@@ -6,37 +6,38 @@
 #include "trackbed/path/reference.h"
 #include "trackbed/vehicle/params.h"
 
-/// Adapts the speed on paths of arcs and straights to wheels with a limited steering rate.
+/// Adapts a car's speed on paths of arcs and straights to the limited steering rate of its wheels.
 ///
-/// Symbols, for a joint where the curvature steps by dkappa [1/m] and the steering by ddelta [rad]:
-/// S = v |ddelta|/omega_delta [m] is the distance that the car drives while its wheels turn. If the
-/// wheels begin to turn S/2 before the joint, the car ends with the heading of the path and with a
-/// lateral offset of |dkappa| S^2/24 [m] from the path.
+/// At a joint between two segments, the curvature steps by dkappa [1/m] and the steering angle by
+/// ddelta [rad]; S = v |ddelta|/omega_delta [m] is the distance that the car drives while its
+/// wheels turn. If the wheels begin to turn S/2 before the joint, the car ends with the heading of
+/// the path and with a lateral offset of |dkappa| S^2/24 [m] from the path.
 namespace trackbed {
 
-/// The largest lateral offset from the path that a step of curvature may cause [m].
+/// Largest permitted lateral offset from the path due to a step of curvature [m].
 inline constexpr double kStepDeviation = 0.1;
 
 /// Returns the speed [m/s] at which a step of curvature between two pieces causes a lateral offset
-/// of kStepDeviation. The speed is v = omega_delta sqrt(24 kStepDeviation/|dkappa|)/|ddelta|, or
-/// infinite without a step.
+/// of kStepDeviation. The returned speed is v = omega_delta sqrt(24
+/// kStepDeviation/|dkappa|)/|ddelta|, or infinite if the curvature does not step.
 double StepSpeed(const VehicleParams& vehicle, double curvature_before, double curvature_after);
 
 /// The stretch of the path on which the wheels turn to follow a step of curvature.
 struct SteeringRamp {
-  double joint = 0.0;  ///< Station of the step [m].
+  double joint = 0.0;  ///< Station of the step of curvature [m].
   double from = 0.0;   ///< Station at which the wheels begin to turn [m].
   double to = 0.0;     ///< Station at which the wheels finish turning [m].
   /// Speed at which the wheels can follow the ramp, at most the requested speed [m/s].
   double speed = 0.0;
-  double steering = 0.0;  ///< Steering step |ddelta| [rad].
+  double steering = 0.0;  ///< Change |ddelta| of the steering angle on the ramp [rad].
 };
 
-/// Returns the steering ramps at all steps of curvature at which the car does not stop, in order.
-/// The car drives at `speed` [m/s], or more slowly within `caps`. Each ramp is as long as the
-/// wheels need at this speed, but covers at most half of each adjacent piece, so that ramps never
-/// overlap. The car drives more slowly on a ramp that is shortened. Changes of direction and
-/// `stops` have no ramp: the wheels turn while the car stands.
+/// Returns, in order, the steering ramps at all steps of curvature at which the car does not stop.
+/// The car is assumed to drive at `speed` [m/s], or more slowly within `caps`. Each ramp is as long
+/// as the wheels need at the car's speed, but covers at most half of each adjacent piece, so that
+/// ramps never overlap. On a ramp that is shortened for this reason, the car drives more slowly.
+/// Changes of direction and the stations `stops` have no ramp, because the wheels turn there while
+/// the car stands.
 std::vector<SteeringRamp> RampsOfSteps(const VehicleParams& vehicle,
                                        const std::vector<Segment>& segments, double speed,
                                        const std::vector<SpeedCap>& caps = {},
@@ -44,16 +45,16 @@ std::vector<SteeringRamp> RampsOfSteps(const VehicleParams& vehicle,
 
 /// Speeds and stops that keep a car on its path at steps of curvature.
 struct StepSpeeds {
-  /// Speed caps on the steering ramps. A cap is the speed of StepSpeed, or a lower speed if the
-  /// adjacent pieces are short, but not less than the minimum speed.
+  /// Speed caps on the steering ramps. Each speed cap is the result of StepSpeed, or a lower speed
+  /// if the adjacent pieces are short, but never less than the minimum speed.
   std::vector<SpeedCap> caps;
   /// Stations [m] of the joints between pieces that are too short for a ramp at the minimum speed.
-  /// The car stops at such a joint and turns its wheels at rest.
+  /// The car stops at each of these joints and turns its wheels at rest.
   std::vector<double> stops;
 };
 
-/// Computes the speeds and stops that keep a car on its path at steps of curvature. `min_speed`
-/// [m/s] > 0 is the lowest speed of a ramp.
+/// Computes the speeds and stops that keep a car on its path at steps of curvature. The argument
+/// `min_speed` [m/s], > 0, is the lowest speed on a steering ramp.
 StepSpeeds PlanSteps(const VehicleParams& vehicle, const std::vector<Segment>& segments,
                      double min_speed);
 

@@ -15,7 +15,7 @@
 #include "trackbed/geometry/pose.h"
 #include "trackbed/path/path.h"
 
-/// Typed diagnostics of planners, independent of a file format.
+/// Typed diagnostics of planners, independent of any file format.
 ///
 /// The diagnostics of a planner can be any copyable struct. A function `Visit`, found by
 /// argument-dependent lookup, names the fields of the struct:
@@ -26,18 +26,18 @@
 ///     }
 ///
 /// The writer of plan.json and the printer of `trackbed plan` are visitors. The name of a field
-/// includes the unit, as in the names of table columns: "cost_m".
+/// ends with its unit, as the names of table columns do, for example "cost_m".
 namespace trackbed {
 
 class DiagnosticsVisitor {
  public:
   virtual ~DiagnosticsVisitor() = default;
 
-  /// Returns whether to visit all fields, as for plan.json. If false, only a summary is visited,
-  /// without points, histories and values derived from other fields.
+  /// Returns whether the visitor wants all fields, as for plan.json. If false, `Visit` should visit
+  /// only a summary, without points, histories and values derived from other fields.
   [[nodiscard]] virtual bool full() const = 0;
 
-  /// Visits a number. In plan.json, a number that is not finite becomes null.
+  /// Visits a number. A number that is not finite becomes null in plan.json.
   virtual void Number(const char* name, double value) = 0;
   virtual void Integer(const char* name, std::int64_t value) = 0;
   virtual void Flag(const char* name, bool value) = 0;
@@ -72,13 +72,14 @@ class DiagnosticsVisitor {
   virtual void VisitList(const char* name, std::size_t size, const Element& element) = 0;
 };
 
-/// The diagnostics of one method: empty, or any copyable struct that has a function `Visit`.
+/// Holds the diagnostics of one method: nothing, or any copyable struct that has a function
+/// `Visit`.
 ///
 /// A struct that contains stations of the path may also have the function
 ///
 ///     void ReplaceStretch(MyDiagnostics& own, const Stations& replaced, double shift);
 ///
-/// When a stretch of the path is replaced, this function shifts the stations beyond the replaced
+/// When a stretch of the path is replaced, ReplaceStretch shifts the struct's stations beyond that
 /// stretch by `shift` [m].
 class MethodDiagnostics {
  public:
@@ -86,7 +87,7 @@ class MethodDiagnostics {
 
   template <typename Struct>
   requires(!std::is_same_v<std::decay_t<Struct>, MethodDiagnostics>) MethodDiagnostics(
-      Struct own)  // NOLINT(google-explicit-constructor): converts implicitly by design
+      Struct own)  // NOLINT(google-explicit-constructor): the conversion is implicit by design
       : value_(std::move(own)), visit_([](DiagnosticsVisitor& out, const std::any& value) {
           Visit(out, *std::any_cast<Struct>(&value));
         }) {
@@ -101,13 +102,14 @@ class MethodDiagnostics {
 
   [[nodiscard]] bool has_value() const { return value_.has_value(); }
 
-  /// Returns the struct if its type is `Struct`; else null.
+  /// Returns the contained struct if its type is `Struct`; else null.
   template <typename Struct>
   [[nodiscard]] const Struct* As() const {
     return std::any_cast<Struct>(&value_);
   }
 
-  /// Returns the struct. Throws InternalError if the type of the struct is not `Struct`.
+  /// Returns the struct. Returns the contained struct. Throws InternalError if the type of the
+  /// contained struct is not `Struct`.
   template <typename Struct>
   [[nodiscard]] const Struct& Get() const {
     TRACKBED_CHECK(As<Struct>() != nullptr, "diagnostics of another method: {}",
@@ -115,7 +117,7 @@ class MethodDiagnostics {
     return *As<Struct>();
   }
 
-  /// Visits the fields of the struct; visits no field if there is no struct.
+  /// Visits the fields of the contained struct, if there is one.
   friend void Visit(DiagnosticsVisitor& out, const MethodDiagnostics& own) {
     if (own.visit_ != nullptr) {
       own.visit_(out, own.value_);

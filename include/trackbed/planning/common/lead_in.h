@@ -4,20 +4,21 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// The first meters of a plan for a car that is already rolling.
+/// Computes the first meters of a plan for a car that is already rolling.
 namespace trackbed {
 
-/// A path that a rolling car can drive from any steering angle: the car straightens its wheels,
-/// then continues straight.
+/// A start of a path that a rolling car can drive with any initial steering angle: the car
+/// straightens its wheels, then continues straight.
 struct LeadIn {
-  std::vector<Segment> segments;  ///< Segments from the car's start; empty for a car at rest.
-  Pose2 end;                      ///< Pose at the end of the segments.
-  double length = 0.0;            ///< Length of the segments [m].
+  /// Segments of the lead-in, from the car's start on; empty for a car at rest.
+  std::vector<Segment> segments;
+  Pose2 end;            ///< Pose of the car at the end of the lead-in.
+  double length = 0.0;  ///< Length of the lead-in [m].
 };
 
-/// Computes the lead-in for the car of a request. The car straightens its wheels at the start
-/// speed. Then the car continues straight while it slows down to `speed` [m/s] with the
-/// deceleration of the request, and for another `beyond` [m].
+/// Computes the lead-in, the first meters of a plan, for the car of a request. On the lead-in, the
+/// car first straightens its wheels at the start speed. Then the car continues straight, slows down
+/// to `speed` [m/s] with the deceleration of the request, and drives another `beyond` [m].
 LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond);
 
 }  // namespace trackbed

@@ -6,22 +6,24 @@
 #include "trackbed/path/path.h"
 #include "trackbed/vehicle/params.h"
 
-/// Computes the steering that a path demands, piece by piece.
+/// Computes the steering that a path demands from a car, for each short piece of the path.
 namespace trackbed {
 
 /// A short piece of a path, and its largest steering demands.
 struct PathPiece {
   Stations stations;
-  double curvature = 0.0;  ///< Largest |kappa| [1/m].
-  double slope = 0.0;      ///< Largest |d delta/ds| [rad/m] while the curvature is continuous.
+  double curvature = 0.0;  ///< Largest curvature |kappa| on the piece [1/m].
+  /// Largest slope |d delta/ds| of the steering angle on the piece, apart from steps of curvature
+  /// [rad/m].
+  double slope = 0.0;
 };
 
-/// Returns the slope |d delta/ds| of the steering angle over the station [rad/m]: L |kappa'|/(1 +
-/// (L kappa)^2).
+/// Returns the derivative of the steering angle by the station, |d delta/ds| = L |kappa'|/(1 + (L
+/// kappa)^2) [rad/m].
 double SteeringSlope(const VehicleParams& vehicle, double curvature, double sharpness);
 
 /// Divides each segment of the path into equal pieces of at most `spacing` [m], and calls `call`
-/// for each piece. A segment shorter than `spacing` is one piece.
+/// for each piece. A segment shorter than `spacing` forms a single piece.
 template <typename Call>
 void ForEachPiece(const Path& path, const VehicleParams& vehicle, double spacing,
                   const Call& call) {

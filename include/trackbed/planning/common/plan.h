@@ -21,84 +21,88 @@
 #include "trackbed/world/road.h"
 #include "trackbed/world/wind.h"
 
-/// Input and output of planners.
+/// Defines the input and the output of planners.
 namespace trackbed {
 
 class Track;
 
 /// Laps to drive on a closed track.
 struct TrackLaps {
-  std::shared_ptr<const Track> track{};  ///< Track; null if the mission is not on a track.
-  int laps = 1;                          ///< Number of laps, >= 1.
+  /// Track of the mission; null if the mission is not on a track.
+  std::shared_ptr<const Track> track{};
+  int laps = 1;  ///< Number of laps to drive, >= 1.
 };
 
-/// Laps of a plan on a closed track.
+/// Describes the laps of a plan on a closed track.
 struct PlannedLaps {
-  std::shared_ptr<const Track> track{};  ///< Track; null if the plan is not on a track.
-  /// Stations at which the plan crosses the start line [m]: one more than the number of laps. The
-  /// first station is 0 if the plan begins on or beyond the start line. In a plan made during a
-  /// run, crossings behind the car have negative stations.
+  std::shared_ptr<const Track> track{};  ///< Track of the plan; null if the plan is not on a track.
+  /// Stations at which the plan crosses the start line [m]; there is one more crossing than laps.
+  /// The first of these stations is 0 if the plan begins on or beyond the start line. In a plan
+  /// made during a run, crossings of the start line behind the car have negative stations.
   std::vector<double> lines{};
 };
 
 /// A route over the lanes of a road network.
 struct LaneMission {
-  /// Road network; null if the mission is not on roads.
+  /// Road network of the mission; null if the mission is not on roads.
   std::shared_ptr<const RoadNetwork> network{};
-  std::vector<LanePlace> route{};  ///< Places of the route, from the first to the last.
+  std::vector<LanePlace> route{};  ///< Places that the route visits, from the first to the last.
 };
 
-/// A section of a course with cones on either side.
+/// A section of a lane-change course that has cones on either side.
 struct Gate {
-  int section = 0;   ///< Number of the section in the course.
-  OrientedBox lane;  ///< Lane between the cones, with the x axis along the course.
+  int section = 0;   ///< Number of the section within the course.
+  OrientedBox lane;  ///< Rectangle between the cones, with its x axis along the course.
 };
 
 /// A node of a search tree. The first node of a tree is the start, which is its own parent.
 struct TreeNode {
-  Vec2 position{0.0, 0.0};  ///< Position [m].
-  std::size_t parent = 0;   ///< Index of the parent in the tree.
-  double cost = 0.0;        ///< Length of the path from the start along the tree [m].
+  Vec2 position{0.0, 0.0};  ///< Position of the node [m].
+  std::size_t parent = 0;   ///< Index of the node's parent in the tree.
+  double cost = 0.0;        ///< Length of the path along the tree from the start to the node [m].
 };
 
-/// Default of PlanRequest::max_samples; RRT* takes about 24 s for this number.
+/// Default of PlanRequest::max_samples; RRT* takes about 24 s for this number of samples.
 inline constexpr long kMaxSamples = 2'000'000;
 
-/// Describes the planning problem, independent of the method. Planners keep no state and read no
-/// clock: the same request gives the same plan. Only a planner with a time limit reads the caller's
-/// clock, so that its plan depends on the speed of the machine.
+/// Describes a planning problem, independently of the planning method. Planners keep no state and
+/// read no clock, so that the same request always yields the same plan. The only exception is a
+/// planner with a time limit: such a planner reads the caller's clock, so that the plan depends on
+/// the speed of the machine.
 struct PlanRequest {
   VehicleParams vehicle;
-  std::vector<Vec2> waypoints;  ///< Points of the route [m].
-  /// Heading of the car at each waypoint [rad]; empty: the headings follow the legs, see
-  /// PlannedStops.
+  std::vector<Vec2> waypoints;  ///< Waypoints of the route, from start to goal [m].
+  /// Required heading of the car at each waypoint [rad]; if empty, PlannedStops chooses the
+  /// headings.
   std::vector<double> headings{};
-  std::vector<OrientedBox> obstacles{};  ///< Known obstacles.
+  std::vector<OrientedBox> obstacles{};  ///< Obstacles that are known when the plan is made.
   Wind wind{};                           ///< Wind at the start of the run.
-  Pose2 start;                           ///< Pose of the car.
-  double start_speed = 0.0;              ///< Speed of the car [m/s].
-  double start_steering = 0.0;  ///< Steering angle of wheels and actuator at the start [rad].
-  SpeedLimits speed;            ///< The mission's speed, acceleration and deceleration.
-  std::uint64_t seed = 0;       ///< Seed of all random choices.
+  Pose2 start;                           ///< Pose of the car at the start.
+  double start_speed = 0.0;              ///< Speed of the car at the start [m/s].
+  /// Steering angle of the wheels and of the actuator at the start [rad].
+  double start_steering = 0.0;
+  SpeedLimits speed;       ///< Speed, acceleration and deceleration of the mission.
+  std::uint64_t seed = 0;  ///< Seed of the planner's random numbers.
   /// Returns the current time [s] from an arbitrary origin. Only planners with a time limit call
   /// `clock`. If `clock` is empty, time limits are ignored.
   std::function<double()> clock{};
-  /// Maximum number of random samples that the planner may draw in all its trees
-  /// (PlanDiagnostics::samples), regardless of its options. The maximum bounds the computing time,
-  /// which is about 12 us per sample.
+  /// Maximum number of random samples that the planner may draw for all search trees together
+  /// (PlanDiagnostics::samples), whatever its options say. The maximum number of samples bounds the
+  /// computing time, which is about 12 us per sample.
   long max_samples = kMaxSamples;
-  double friction = 1.0;  ///< Friction of the road, a factor on the tyres' friction.
-  std::vector<FrictionPatch> friction_patches{};  ///< Patches of the road with another friction.
+  double friction = 1.0;  ///< Friction of the road, as a factor on the tyres' friction coefficient.
+  /// Patches of the road that have a different friction.
+  std::vector<FrictionPatch> friction_patches{};
   Ground ground{};       ///< Ground under the road; slopes reduce the grip.
-  TrackLaps on_track{};  ///< Laps on a track, for planners that follow a track.
-  LaneMission lanes{};   ///< Route over lanes, for planners that follow lanes.
+  TrackLaps on_track{};  ///< Track and laps to drive, for planners that follow a track.
+  LaneMission lanes{};   ///< Route over the lanes of roads, for planners that follow lanes.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
-  /// The car's limits, for a plan with speeds at these limits. If nullopt, the speeds follow
-  /// `speed`.
+  /// The car's limits, if the planned speeds should be as high as these limits allow. If nullopt,
+  /// the planned speeds follow `speed`.
   std::optional<SpeedAtLimit> limits{};
 };
 
-/// The conditions of the road that limit a plan, and the policy for plans that exceed the limits.
+/// Conditions of the road that limit a plan, and the policy for plans that exceed the car's limits.
 struct RoadConditions {
   double friction = 1.0;                          ///< Same as PlanRequest::friction.
   std::vector<FrictionPatch> friction_patches{};  ///< Same as PlanRequest::friction_patches.
@@ -107,31 +111,35 @@ struct RoadConditions {
   std::optional<SpeedAtLimit> limits{};  ///< Same as PlanRequest::limits.
 };
 
-/// The output of a planner. If the status is not kOk, there is a reason and no path.
+/// The output of a planner: path, speeds, steering and diagnostics. If the status is not kOk, the
+/// plan has a reason and no path.
 struct Plan {
   PlanStatus status = PlanStatus::kOk;
-  std::string reason;         ///< Reason of a failure; empty if ok.
-  Reference reference;        ///< Path and speed for closed-loop controllers.
-  SteeringSchedule schedule;  ///< Open-loop steering over the driven distance.
-  /// Speed in an open-loop run; ends at the station at which the run stops.
+  std::string reason;   ///< Reason why planning failed; empty if ok.
+  Reference reference;  ///< Path and speeds for closed-loop controllers.
+  /// Steering angle as a function of the driven distance, for open-loop runs.
+  SteeringSchedule schedule;
+  /// Speeds for open-loop runs; the profile ends at the station at which the run stops.
   SpeedProfile schedule_speed;
-  std::vector<SpeedCap> caps;  ///< Sections that the car drives at a lower speed.
-  /// Stations, besides the cusps, at which the car stops to turn its wheels [m].
+  std::vector<SpeedCap> caps;  ///< Sections of the path on which the car drives at a lower speed.
+  /// Stations at which the car stops to turn its wheels, in addition to the path's cusps [m].
   std::vector<double> stops;
-  /// End of the mission; also the end of the path, unless the path is blocked or partial.
+  /// Pose at which the mission ends; the path also ends at this pose unless the path is blocked or
+  /// partial.
   Pose2 goal;
-  /// Reason why the path ends before the goal; else empty.
+  /// Reason why the path stops before the goal, for example because of an obstacle; else empty.
   std::string blocked;
-  /// Reason why a search was ended before the path reached the goal; else empty. Replanning during
-  /// the run does not extend a partial plan.
+  /// Reason why the planner's search ended before the path reached the goal; empty if the path
+  /// reached the goal. Replanning during the run does not extend a partial plan.
   std::string partial;
   std::vector<Gate> gates;          ///< Gates that the path passes through.
   std::vector<IsolatedTurn> turns;  ///< Turns whose open-loop error can be predicted.
   /// Remarks for the user, for example that the plan was slowed down.
   std::vector<std::string> notes;
-  PlanDiagnostics diagnostics;  ///< How the plan was found, for plan.json.
-  /// Whether the path interpolates samples of a motion at most 0.1 m apart. The schedule then has
-  /// the steering rate of the motion; between the samples, the path may need a higher rate.
+  PlanDiagnostics diagnostics;  ///< Describes how the plan was found, for plan.json.
+  /// Whether the path interpolates samples of a motion, at most 0.1 m apart. For such a path, the
+  /// steering schedule has the steering rate of the motion; the path itself may need a higher
+  /// steering rate between the samples.
   bool sampled = false;
   PlannedLaps laps;            ///< Laps of a plan on a track.
   std::vector<TreeNode> tree;  ///< Nodes of all RRT and RRT* trees, one tree after the other.

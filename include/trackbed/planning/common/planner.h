@@ -11,31 +11,33 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/planner_options.h"
 
-/// The interface of planners that plan a whole path.
+/// Defines the interface of planners that plan a whole path.
 namespace trackbed {
 
-/// The state in which the plans of a planner begin. This state overrides the start state of the
-/// mission.
+/// The state of the car in which the plans of a planner begin. The planner's start state overrides
+/// the mission's start state.
 struct PlannedStart {
   Pose2 pose;
-  double curvature = 0.0;       ///< Curvature of the path at the start, positive to the left [1/m].
-  std::optional<double> speed;  ///< Speed at the start [m/s]; none: the start speed of the mission.
+  double curvature = 0.0;  ///< Curvature of the path at the start, positive to the left [1/m].
+  /// Speed of the car at the start [m/s]; none: the mission's start speed.
+  std::optional<double> speed;
 };
 
-/// An additional table of a plan in the run folder.
+/// An additional table about a plan, written into the run folder.
 struct PlannerTable {
-  const char* file;  ///< File name, such as "convergence.csv".
-  /// Makes the table. The run folder contains the table only if it has rows.
+  const char* file;  ///< File name of the table, such as "convergence.csv".
+  /// Makes the table. The table is written into the run folder only if it has rows.
   Table (*make)(const PlanDiagnostics& diagnostics);
 };
 
-/// A planner in the registry (planners.h). All functions except `plan` may be null.
+/// An entry of the planner registry (planners.h). All function pointers except `plan` may be null.
 struct PlannerEntry {
   const char* name;
-  const char* summary;  ///< One-line summary for users.
+  const char* summary;  ///< One-line description of the planner for users.
   PlannerOptions defaults;
   Plan (*plan)(const PlanRequest& request, const PlannerOptions& options);
-  std::size_t min_waypoints = 0;  ///< Minimum number of waypoints; 0: the planner takes no route.
+  /// Minimum number of waypoints of the route; 0 if the planner needs no route.
+  std::size_t min_waypoints = 0;
   /// Whether the planner follows a track, and thus needs PlanRequest::on_track.
   bool follows_track = false;
   /// Whether the planner always plans speeds at the car's limit, and thus needs
@@ -47,47 +49,52 @@ struct PlannerEntry {
   bool has_headings = false;  ///< Whether the planner meets PlanRequest::headings at the waypoints.
   bool has_gates = false;     ///< Whether the planned paths pass through gates (Plan::gates).
   bool goes_backwards = false;  ///< Whether the planned paths may contain reverse segments.
-  /// Whether the planner searches for a path around obstacles, within a budget.
+  /// Whether the planner searches for a path around obstacles within a limited budget.
   bool searches = false;
-  /// Whether the choice between paths of equal cost, such as mirrored paths, is arbitrary.
+  /// Whether the planner may choose arbitrarily between paths of equal cost, such as mirrored
+  /// paths.
   bool has_ties = false;
-  bool is_random = false;  ///< Whether the plan depends on PlanRequest::seed.
-  /// Returns whether a plan with these options may contain reverse segments. If null,
-  /// goes_backwards applies.
+  /// Whether the planner is random, so that its plan depends on PlanRequest::seed.
+  bool is_random = false;
+  /// Returns whether a plan made with the given options may contain reverse segments. If this
+  /// function is null, `goes_backwards` applies.
   bool (*may_go_backwards)(const PlannerOptions& options) = nullptr;
-  /// Returns whether a plan with these options may be partial (Plan::partial). If null, no plan may
-  /// be partial.
+  /// Returns whether a plan made with the given options may be partial (Plan::partial). If this
+  /// function is null, no plan may be partial.
   bool (*may_be_partial)(const PlannerOptions& options) = nullptr;
 
-  // Rules of the options. OnOptions adapts functions that take the options struct.
+  // Rules that the planner's options must meet. OnOptions adapts functions that take the planner's
+  // own options struct.
 
-  /// Checks rules that relate several keys of the planner.
+  /// Checks rules that relate the values of several options of the planner.
   std::vector<OptionProblem> (*check)(const PlannerOptions& options,
                                       const CouldReadKey& could_read) = nullptr;
-  /// Checks further rules for a planner of detours (plan.replan.detour).
+  /// Checks further rules for the options if the planner plans detours (plan.replan.detour).
   std::vector<OptionProblem> (*check_detour)(const PlannerOptions& options) = nullptr;
-  /// Default options of the planner when it plans detours. If nullopt, `defaults` applies.
+  /// Default options of the planner when it plans detours. If nullopt, `defaults` also applies to
+  /// detours.
   std::optional<PlannerOptions> detour_defaults{};
-  /// Returns the steering angle of the bicycle model on straights [rad]. If null, the angle is 0.
-  /// The option of this angle has the key `neutral_steering`.
+  /// Returns the steering angle of the bicycle model on straights [rad]; if this function is null,
+  /// the angle is 0. The scenario key of this angle is `neutral_steering`.
   double (*neutral_steering)(const PlannerOptions& options) = nullptr;
-  /// Returns the state in which plans begin. If null, or if the result is nullopt, plans begin in
-  /// the start state of the mission.
+  /// Returns the state of the car in which plans begin. If this function is null or returns
+  /// nullopt, plans begin in the mission's start state.
   std::optional<PlannedStart> (*start)(const PlannerOptions& options) = nullptr;
 
-  // Input files of the options.
+  // Input files that the planner's options name.
 
-  /// Reads the files that the options name into the options.
+  /// Reads the files that the options name, and stores the contents of these files in the options.
   void (*read_inputs)(PlannerOptions& options, InputReader& reader) = nullptr;
-  /// Returns the files of the options in the form that the run folder stores.
+  /// Returns the options' input files in the form in which the run folder stores them.
   std::vector<InputFile> (*input_files)(const PlannerOptions& options) = nullptr;
-  std::vector<std::string> input_names{};  ///< All names that `input_files` may return.
-  /// Changes the options so that they name the files of `input_files`.
+  std::vector<std::string> input_names{};  ///< All file names that `input_files` may return.
+  /// Changes the options so that the options name the files that `input_files` returns.
   void (*resolve)(PlannerOptions& options) = nullptr;
-  std::vector<PlannerTable> tables{};  ///< Additional tables of a plan.
+  std::vector<PlannerTable> tables{};  ///< Additional tables that are written for each plan.
 };
 
-/// Adapts a planning function that takes its options struct to PlannerEntry::plan.
+/// Adapts a planning function that takes its own options struct to the signature of
+/// PlannerEntry::plan.
 template <typename Options, Plan (*PlanWith)(const Options&, const PlanRequest&)>
 Plan PlanBy(const PlanRequest& request, const PlannerOptions& options) {
   return PlanWith(options.Get<Options>(), request);

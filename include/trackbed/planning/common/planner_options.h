@@ -6,14 +6,14 @@ namespace trackbed {
 
 struct Plan;
 
-/// How to treat a plan that exceeds the car's limits (feasibility.h).
+/// Policy for a plan that exceeds the car's limits (feasibility.h).
 enum class InfeasiblePolicy {
-  kSlowDown,  ///< Slow the plan down if that helps, else reject it.
+  kSlowDown,  ///< Slow the plan down if lower speeds meet the limits, else reject the plan.
   kRefuse,    ///< Reject the plan.
   kAllow,     ///< Drive the plan unchanged.
 };
 
-/// The options of a planner. The type of the contained struct identifies the planner.
+/// The options of any planner. The type of the contained options struct identifies the planner.
 using PlannerOptions = MethodOptions<Plan>;
 
 }  // namespace trackbed

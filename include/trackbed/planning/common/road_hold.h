@@ -5,80 +5,91 @@
 
 namespace trackbed {
 
-/// Largest accelerations of a car on a path, from the road's friction, patches and slope. If the
-/// axles are on different friction, the lower friction applies.
+/// Computes the largest accelerations of a car on a path from the road's friction, friction patches
+/// and slope. If the friction under the two axles differs, the lower friction applies.
 ///
-/// Symbols: theta slope of the road; mu friction factor of the road times the tyres' coefficient.
-/// The tyres' load is that of a flat road times cos(theta). Gravity reduces the limits: braking
-/// downhill, driving uphill, and the lateral limit if it pulls toward the outside of a bend.
-/// Gravity never raises a limit.
+/// Symbols: theta is the slope of the road; mu_x and mu_y are the tyres' friction coefficients
+/// along and across the path, times the friction factor of the road. The load on the tyres is the
+/// load on a flat road times cos(theta). Gravity reduces three limits: the deceleration downhill,
+/// the acceleration uphill, and the lateral acceleration where gravity pulls toward the outside of
+/// a bend. Gravity never raises any limit of the car.
 class RoadHold {
  public:
-  /// Keeps a reference to the request, whose vehicle, friction, patches and ground are used.
+  /// Keeps a reference to the request, and uses its vehicle, friction, friction patches and ground.
   explicit RoadHold(const PlanRequest& request);
 
-  /// Largest v^2 |kappa| [m/s^2] at a station with that signed curvature [1/m]: mu_y g cos(theta),
-  /// minus gravity. With curvature 0, the smaller value of both sides. 0 if unknown, or if gravity
+  /// Returns the largest lateral acceleration v^2 |kappa| [m/s^2] at a station with the given
+  /// signed curvature [1/m]: mu_y g cos(theta), minus gravity's pull. For curvature 0, returns the
+  /// smaller value of a left and a right bend. Returns 0 if the limit is unknown, or if gravity
   /// exceeds the grip.
   [[nodiscard]] double Lateral(const Path& path, double s, double curvature) const;
 
-  /// Largest deceleration [m/s^2]. 0 if unknown, or if gravity exceeds the grip.
+  /// Returns the largest deceleration of the car at a station [m/s^2]; 0 if the limit is unknown,
+  /// or if gravity exceeds the grip.
   [[nodiscard]] double Braking(const Path& path, double s) const;
 
-  /// Largest acceleration [m/s^2]. 0 if unknown, or if gravity exceeds the grip.
+  /// Returns the largest acceleration of the car at a station [m/s^2]; 0 if the limit is unknown,
+  /// or if gravity exceeds the grip.
   [[nodiscard]] double Driving(const Path& path, double s) const;
 
-  /// The acceleration that a plan needs along and across the path together, and its limit.
+  /// The combined acceleration along and across the path that a plan requires, and the limit of
+  /// this acceleration.
   struct Combined {
-    double required = 0.0;  ///< Required acceleration, with gravity's pull against it [m/s^2].
-    double limit =
-        0.0;  ///< Limit in the same direction, by the friction ellipse [m/s^2]; 0: unknown.
+    /// Required acceleration, increased by gravity's opposing pull [m/s^2].
+    double required = 0.0;
+    /// Limit of the friction ellipse in the direction of the required acceleration [m/s^2]; 0:
+    /// unknown.
+    double limit = 0.0;
   };
 
-  /// Combines the acceleration `along` the path [m/s^2], positive forwards, with v^2 kappa =
-  /// `across` [m/s^2], positive to the left.
+  /// Combines the acceleration `along` the path [m/s^2], positive forwards, with the lateral
+  /// acceleration `across` = v^2 kappa [m/s^2], positive to the left.
   [[nodiscard]] Combined Both(const Path& path, double s, double along, double across) const;
 
-  /// Largest v^2 |kappa| [m/s^2] at a station with that signed curvature, while the car accelerates
-  /// with `along` [m/s^2]. Negative if gravity and `along` need more than the grip; infinite if
-  /// unknown.
+  /// Returns the largest lateral acceleration v^2 |kappa| [m/s^2] at a station with the given
+  /// signed curvature, while the car accelerates with `along` [m/s^2]. The result is negative if
+  /// gravity and `along` together exceed the grip, and infinite if the limit is unknown.
   [[nodiscard]] double LateralBeside(const Path& path, double s, double curvature,
                                      double along) const;
 
-  /// Gravity's pull along the slope, and the largest pull that tyres, brakes and drive can hold.
+  /// Gravity's pull on the car along the slope, and the largest pull that tyres, brakes and drive
+  /// can hold.
   struct Pull {
-    double pull = 0.0;  ///< Pull of gravity [m/s^2], >= 0.
-    double hold = 0.0;  ///< Largest pull that can be held [m/s^2]; 0: unknown.
+    double pull = 0.0;  ///< Pull of gravity on the car [m/s^2], >= 0.
+    double hold = 0.0;  ///< Largest pull that the car can hold [m/s^2]; 0: unknown.
   };
 
-  /// The pull along or across the path, whichever is closer to its limit. If the pull exceeds the
-  /// limit, the car slides. The result is {0, 0} on flat ground.
+  /// Returns gravity's pull along or across the path, whichever is closer to the pull that the car
+  /// can hold. If gravity's pull exceeds the pull that the car can hold, the car slides. Returns
+  /// {0, 0} on flat ground.
   [[nodiscard]] Pull Slope(const Path& path, double s) const;
 
   [[nodiscard]] bool flat() const { return flat_; }
-  /// Whether the road is the same everywhere.
+  /// Whether friction and slope of the road are the same everywhere.
   [[nodiscard]] bool uniform() const { return flat_ && request_.friction_patches.empty(); }
 
  private:
-  /// The slope under the car, as direction cosines of gravity.
+  /// The slope of the ground under the car, as direction cosines of gravity.
   struct Tilt {
-    double load = 1.0;  ///< Cosine of the slope.
-    double up = 0.0;    ///< Sine of the rise in the direction of travel.
-    double left = 0.0;  ///< Sine of the rise to the left of the car.
+    double load = 1.0;  ///< Cosine of the slope's angle.
+    double up = 0.0;    ///< Sine of the rise angle in the direction of travel.
+    double left = 0.0;  ///< Sine of the rise angle to the left of the car.
   };
 
-  /// Grip and demand at a station.
+  /// The grip of the tyres and the required accelerations at a station.
   struct Demand {
-    double grip_along =
-        0.0;  ///< Semi-axis of the friction ellipse along the path [m/s^2]; 0: unknown.
-    double grip_across = 0.0;  ///< Semi-axis across the path [m/s^2]; 0: unknown.
-    double along = 0.0;  ///< Acceleration along the path, with gravity's pull against it [m/s^2].
+    /// Semi-axis of the friction ellipse along the path [m/s^2]; 0: unknown.
+    double grip_along = 0.0;
+    /// Semi-axis of the friction ellipse across the path [m/s^2]; 0: unknown.
+    double grip_across = 0.0;
+    /// Acceleration along the path, increased by gravity's opposing pull [m/s^2].
+    double along = 0.0;
     double pull_across = 0.0;  ///< Gravity's pull toward the outside of the bend [m/s^2], >= 0.
 
     [[nodiscard]] bool is_known() const { return grip_along > 0.0 && grip_across > 0.0; }
   };
 
-  /// `side` has the sign of the curvature.
+  /// Computes grip and required accelerations at a station; `side` has the sign of the curvature.
   [[nodiscard]] Demand DemandAt(const Path& path, double s, double along, double side) const;
   [[nodiscard]] double Factor(const Pose2& pose) const;
   [[nodiscard]] Tilt TiltAt(const PathPoint& at) const;
@@ -87,12 +98,13 @@ class RoadHold {
   bool flat_;
 };
 
-/// The minimum of each limit over the stations `within` of a path, sampled every 0.1 m. 0 if
-/// unknown, or if gravity exceeds the grip.
+/// The smallest value of each limit of RoadHold over a part of a path, sampled every 0.1 m. A value
+/// is 0 if the limit is unknown, or if gravity exceeds the grip.
 struct RoadHoldLimits {
-  double lateral = 0.0;  ///< Lateral limit, the smaller one of both sides [m/s^2].
-  double braking = 0.0;  ///< Limit of braking [m/s^2].
-  double driving = 0.0;  ///< Limit of driving [m/s^2].
+  /// Smallest limit of the lateral acceleration, for bends to either side [m/s^2].
+  double lateral = 0.0;
+  double braking = 0.0;  ///< Smallest limit of the deceleration [m/s^2].
+  double driving = 0.0;  ///< Smallest limit of the acceleration [m/s^2].
 };
 RoadHoldLimits MinRoadHold(const Path& path, Stations within, const PlanRequest& request);
 

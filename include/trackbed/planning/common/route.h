@@ -10,52 +10,53 @@
 #include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/plan.h"
 
-/// Functions shared by the planners that plan from stop to stop and avoid obstacles.
+/// Functions shared by the planners that plan from stop to stop along a route and avoid obstacles.
 namespace trackbed {
 
-/// Returns the stops of a route with their headings: the car's start, then every waypoint except
-/// the first. Without given headings, the goal has the heading of the last leg. The heading of an
-/// intermediate waypoint points from the preceding stop to the next stop.
+/// Returns the poses at the stops of a route: the car's start pose, then the pose at every waypoint
+/// except the first. If the request has no headings, the heading at the goal is the direction of
+/// the last leg, and the heading at any other waypoint points from the preceding stop to the next
+/// stop.
 std::vector<Pose2> PlannedStops(const PlanRequest& request);
 
 namespace route {
 
-/// Makes a rejected plan with a reason.
+/// Makes a rejected plan that states the reason.
 Plan Refused(PlanStatus status, std::string reason);
 
-/// Checks the route. Returns a rejected plan if the route has a problem.
+/// Returns a rejected plan if the route of the request is not valid, else a plan without a path.
 Plan CheckRoute(const PlanRequest& request);
 
-/// Returns a rejected plan if a radius is requested on which the car cannot turn.
+/// Returns a rejected plan if the requested turning radius is too small for the car.
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
 
-/// Returns a rejected plan if the car is too near to an obstacle at a stop.
+/// Returns a rejected plan if the car would be too near to an obstacle at one of the stops.
 Plan CheckStops(const std::vector<Pose2>& stops, const CollisionChecker& clear);
 
-/// Returns the radius for planning [m]: the requested radius, or 1.1 times the car's smallest
-/// radius.
+/// Returns the turning radius for planning [m]: the requested radius if given, else 1.1 times the
+/// car's smallest turning radius.
 double RadiusFor(const VehicleParams& vehicle, const std::optional<double>& radius);
 
 /// Returns whether the car is clear of obstacles along segments that begin at `pose`.
 bool IsFree(const CollisionChecker& clear, const Pose2& pose, const std::vector<Segment>& segments);
 
-/// Computes the lead-in of a rolling car. The lead-in ends when the car has slowed down for the
-/// first step of curvature.
+/// Computes the first meters of a plan for a rolling car (lead_in.h), which end when the car has
+/// slowed down for the first step of curvature.
 LeadIn LeadInForCurves(const PlanRequest& request, double radius, double min_speed);
 
 /// Sets the members of a plan that depend only on the path, the speed caps and the request.
 void Complete(Plan& plan, const PlanRequest& request);
 
-/// Completes a plan along arcs and straights.
+/// Completes a plan whose path consists of the given arcs and straights.
 Plan AlongSegments(Plan plan, const PlanRequest& request, std::vector<Segment> segments,
                    double min_speed);
 
-/// Completes a plan along a polyline. `corners` states how to treat the corners of the polyline.
-/// The argument `plan` contains the diagnostics of the search.
+/// Completes a plan whose path follows a polyline. The argument `corners` states how to treat the
+/// corners of the polyline. The argument `plan` already contains the diagnostics of the search.
 Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2>& points,
                    Corners corners, double safe_distance, double min_speed);
 
-// Keys shared by several planners that plan from stop to stop.
+// Scenario keys shared by several planners that plan from stop to stop.
 
 inline constexpr Key kFootprintDistance{"safe_distance", "m",
                                         "minimum distance of the car's footprint from obstacles"};
@@ -65,11 +66,11 @@ inline constexpr Key kGridMargin{"margin", "m",
 inline constexpr Range kCellSize{.min = 0.05, .max = 10.0};
 inline constexpr Key kCornerSpeed{"min_speed", "m/s", "minimum speed in corners"};
 
-/// Visits the keys of planners whose paths consist of arcs and straights.
+/// Visits the scenario keys of planners whose paths consist of arcs and straights.
 void VisitCurves(KeyVisitor& keys, std::optional<double>& radius, double& safe_distance,
                  double& min_speed);
 
-/// Visits the keys of planners that round the corners of a polyline.
+/// Visits the scenario keys of planners that round the corners of a polyline.
 void VisitCorners(KeyVisitor& keys, Corners& corners, double& safe_distance, double& corner_room);
 
 }  // namespace route

@@ -9,48 +9,49 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/world/road.h"
 
-/// Computes the speeds of plans that drive at the car's limit.
+/// Computes the speeds of plans that use the car's limits fully.
 namespace trackbed {
 
 struct Plan;
 struct PlanRequest;
 
-/// The inputs for speeds at the car's limit, if the mission requests such speeds.
+/// The inputs for computing speeds at the car's limit, if the mission requests such speeds.
 struct SpeedAtLimit {
-  GgvDiagram diagram;  ///< g-g-v diagram that covers all roads of the world.
+  GgvDiagram diagram;  ///< The car's g-g-v diagram, for the friction of all roads in the world.
   LimitProfileOptions options{};
   Ground ground{};
 };
 
-/// Diagnostics of a plan's speeds at the limit, for plan.json.
+/// Diagnostics of planned speeds at the car's limit, for plan.json.
 struct LimitProfileFindings {
   double share = 0.0;  ///< Value of LimitProfileOptions::share.
-  /// Time from start to goal [s]; infinite if the car stops on the way.
+  /// Predicted driving time from start to goal [s]; infinite if the car stops on the way.
   double predicted_time = 0.0;
-  /// Lowest speed between braking and a following acceleration [m/s]; 0: none.
+  /// Lowest speed at which the car changes from braking to accelerating [m/s]; 0 if it never does.
   double slowest = 0.0;
-  double slowest_s = 0.0;    ///< Station of the lowest speed [m].
-  double lateral_max = 0.0;  ///< Largest v^2 |kappa| [m/s^2].
-  double driving_max = 0.0;  ///< Largest acceleration [m/s^2].
-  double braking_max = 0.0;  ///< Largest deceleration [m/s^2].
+  double slowest_s = 0.0;    ///< Station at which the car has the speed `slowest` [m].
+  double lateral_max = 0.0;  ///< Largest planned lateral acceleration v^2 |kappa| [m/s^2].
+  double driving_max = 0.0;  ///< Largest planned acceleration [m/s^2].
+  double braking_max = 0.0;  ///< Largest planned deceleration [m/s^2].
 };
 void Visit(DiagnosticsVisitor& out, const LimitProfileFindings& findings);
 
-/// Returns stations along a part of the path, including both ends and every joint of segments. The
-/// stations are at most a fifth of the wheelbase, and at most 0.5 m, apart. Beyond its end, the
-/// path continues straight. Heights and slopes of the ground are means of both axles, weighted by
-/// axle load. Slopes along the path are differences of height over the wheelbase. The friction
-/// factor is the smaller one of the factors under the two axles. A speed cap applies at the
-/// stations in its range and at the next station on either side. On reverse segments, the g-g-v
-/// diagram applies as if the car drove forward.
+/// Returns stations along a part of the path, including both ends of the part and every joint of
+/// segments. Neighboring stations are at most a fifth of the wheelbase, and at most 0.5 m, apart.
+/// The path is extended straight beyond its end. The height and the slopes of the ground at a
+/// station are means of the values at both axles, weighted by axle load. The slope along the path
+/// is a difference of heights, divided by the wheelbase. The friction factor at a station is the
+/// smaller of the factors under the two axles. A speed cap applies at the stations in the range of
+/// the cap, and at the next station on either side. On reverse segments, the car's limits are the
+/// same as for driving forward.
 std::vector<LimitStation> StationsAlong(const Path& path, const Stations& part,
                                         const PlanRequest& request,
                                         const std::vector<SpeedCap>& caps);
 
-/// Sets the plan's speeds, for closed-loop and open-loop runs, to the limit of `request.limits`. No
-/// speed exceeds the caps. The car stops at each cusp and stop of the plan. Adds diagnostics and a
-/// note to the plan. If the car starts too fast, returns the place at which the car exceeds the
-/// limit.
+/// Sets the plan's speeds, for closed-loop and open-loop runs, to the highest speeds within
+/// `request.limits` and `caps`. The planned speed is 0 at each cusp and stop of the plan. The
+/// function also adds diagnostics and a note to the plan. If the car starts too fast, returns the
+/// place at which the car exceeds the limit.
 std::optional<LimitExcess> SetSpeedsAtLimit(Plan& plan, const PlanRequest& request,
                                             const std::vector<SpeedCap>& caps);
 

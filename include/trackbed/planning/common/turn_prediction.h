@@ -3,36 +3,38 @@
 #include "trackbed/path/path.h"
 #include "trackbed/vehicle/params.h"
 
-/// Predicts the smallest error that the limited steering rate causes in a turn of an open-loop run.
+/// Predicts the smallest deviation from the path that the limited steering rate causes in a turn of
+/// an open-loop run.
 namespace trackbed {
 
 /// An isolated turn: the wheels are straight before the turn, and reach the steering angle of the
 /// arc by the middle of the turn.
 struct IsolatedTurn {
-  int waypoint = 0;       ///< Index of the corner in the route.
+  int waypoint = 0;       ///< Index of the turn's waypoint in the route.
   double from = 0.0;      ///< Station at which the wheels begin to turn [m].
-  double middle = 0.0;    ///< Station of the middle of the arc [m].
-  double steering = 0.0;  ///< Steering on the arc, signed [rad].
-  double speed = 0.0;     ///< Speed in the turn [m/s].
+  double middle = 0.0;    ///< Station of the middle of the turn's arc [m].
+  double steering = 0.0;  ///< Steering angle on the arc, positive to the left [rad].
+  double speed = 0.0;     ///< Speed of the car in the turn [m/s].
 };
 
-/// The error of a car at the middle of a turn. The error compares the motions of car and path since
-/// the point at which the wheels began to turn.
+/// Heading and lateral deviation of a car from the path at the middle of a turn, if the car was
+/// exactly on the path when its wheels began to turn.
 struct TurnError {
   double heading_deficit = 0.0;  ///< Heading of the path minus heading of the car [rad].
   double lateral_offset = 0.0;   ///< Offset of the car from the path, positive to the left [m].
 };
 
-/// Returns the error of a car that drives from pose `X_W_from` to pose `X_W_middle`, while the path
-/// leads from the station `turn.from` to the station `turn.middle`.
+/// Compares the motion of a car from pose `X_W_from` to pose `X_W_middle` with the course of the
+/// path from the station `turn.from` to the station `turn.middle`, and returns the deviation of the
+/// car.
 TurnError ErrorInTurn(const Path& path, const IsolatedTurn& turn, const Pose2& X_W_from,
                       const Pose2& X_W_middle);
 
-/// Computes the exact error of a kinematic car with rate-limited steering. The actuator begins to
-/// turn the wheels at the station `turn.from`, and then holds the steering angle delta of the arc.
-/// The wheels follow the actuator with a delay of `lag` [s]. For a ramp of the length S = v
-/// delta/omega, centered on the tangent point, the heading deficit is kappa S/2 - (v/(L omega))
-/// (-ln cos delta) + kappa v lag.
+/// Computes the exact deviation of a kinematic car with rate-limited steering at the middle of a
+/// turn. The steering actuator begins to move at the station `turn.from`, and then holds the
+/// steering angle delta of the arc. The wheels follow the steering actuator with a delay of `lag`
+/// [s]. If the steering ramp has the length S = v delta/omega and is centered on the start of the
+/// arc, the heading deficit is kappa S/2 - (v/(L omega)) (-ln cos delta) + kappa v lag.
 TurnError PredictTurn(const VehicleParams& vehicle, const Path& path, const IsolatedTurn& turn,
                       double lag);
 

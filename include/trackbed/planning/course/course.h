@@ -10,46 +10,48 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
 
-/// Plans exact courses of straights, arcs and curvature ramps, which are given piece by piece. Such
-/// courses model proving grounds, or test controllers with steps of curvature. The planner does not
-/// avoid obstacles.
+/// Plans exact courses that are given piece by piece, as straights, arcs and curvature ramps. Exact
+/// courses can model proving grounds, or test how controllers react to steps of curvature. The
+/// planner `course` does not avoid obstacles.
 ///
-/// Symbols: kappa curvature [1/m], positive to the left. On a ramp (a clothoid), kappa is linear in
-/// the distance.
+/// Symbols: kappa is the curvature [1/m], positive to the left. On a curvature ramp (a clothoid),
+/// kappa is linear in the distance.
 namespace trackbed {
 
-/// One piece of a course: a constant `curvature`, or a ramp from one curvature to another.
+/// One piece of a course, which has either a constant `curvature`, or a linear ramp from one
+/// curvature to another.
 struct CoursePiece {
-  double length = 0.0;              ///< Length [m], > 0.
-  std::optional<double> curvature;  ///< Curvature kappa of a straight (0) or an arc [1/m].
-  /// Initial curvature of a ramp [1/m]; none: the curvature at the end of the previous piece.
+  double length = 0.0;              ///< Length of the piece [m], > 0.
+  std::optional<double> curvature;  ///< Curvature kappa of an arc, or 0 for a straight [1/m].
+  /// Curvature at the start of a ramp [1/m]; none: the curvature at the end of the previous piece.
   std::optional<double> curvature_from;
-  std::optional<double> curvature_to;  ///< Final curvature of a ramp [1/m].
+  std::optional<double> curvature_to;  ///< Curvature at the end of a ramp [1/m].
 };
 void Visit(KeyVisitor& keys, CoursePiece& piece);
 
 struct CourseOptions {
-  std::vector<CoursePiece> segments;  ///< Pieces from the car's start on, at least one.
+  /// Pieces of the course, in order from the car's start; at least one.
+  std::vector<CoursePiece> segments;
 };
 void Visit(KeyVisitor& keys, CourseOptions& options);
 
-/// Converts the pieces to the segments of a forward path. Throws InternalError unless every piece
-/// is either constant or a ramp.
+/// Converts the pieces of a course to the segments of a forward path. Throws InternalError unless
+/// every piece has either a constant curvature or a ramp.
 std::vector<Segment> CourseSegments(const CourseOptions& options);
 
-/// Findings on a piece of the planned course.
+/// Diagnostics of a piece of the planned course.
 struct CourseSegmentFindings {
-  double start = 0.0;           ///< Start station [m].
-  double length = 0.0;          ///< Length [m].
-  double curvature_from = 0.0;  ///< Initial curvature [rad/m].
-  double curvature_to = 0.0;    ///< Final curvature [rad/m].
-  /// Largest lateral acceleration at the mission's speed [m/s^2].
+  double start = 0.0;           ///< Station at the start of the piece [m].
+  double length = 0.0;          ///< Length of the piece [m].
+  double curvature_from = 0.0;  ///< Curvature at the start of the piece [rad/m].
+  double curvature_to = 0.0;    ///< Curvature at the end of the piece [rad/m].
+  /// Largest lateral acceleration on the piece at the mission's speed [m/s^2].
   double lateral_acceleration = 0.0;
 };
 void Visit(DiagnosticsVisitor& out, const CourseSegmentFindings& own);
 
 struct CourseDiagnostics {
-  /// Index of the first piece that the car cannot steer.
+  /// Index of the first piece whose curvature is too large for the car's steering.
   std::optional<std::size_t> failed_segment;
   std::vector<CourseSegmentFindings> segments;
 };

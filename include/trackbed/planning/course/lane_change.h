@@ -8,10 +8,10 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/vehicle/params.h"
 
-/// Plans the double lane changes of ISO 3888: paths through three gates.
+/// Plans the double lane changes of ISO 3888, which lead through three gates of cones.
 ///
-/// Lengths and widths of the sections along the course, with w the car's width without mirrors.
-/// Sections 2 and 4 have no cones:
+/// The table shows lengths (upper rows) and widths (lower rows) of the course's sections, with w
+/// the car's width without mirrors. Sections 2 and 4 have no cones:
 ///
 ///   section       1             2     3             4     5
 ///   ISO 3888-1    15 m          30    25 m          25    30 m          (2018, table 1; its
@@ -20,10 +20,10 @@
 ///   ISO 3888-2    12 m          13.5  11 m          12.5  12 m          (2011, table 1)
 ///                 1.1 w + 0.25        w + 1               max(1.3 w + 0.25, 3)
 ///
-/// Lane offsets: in part 1, the right edge of section 3 lies 3.5 m to the left of the right edge of
-/// section 1. In part 2, the right edge of section 3 lies 1 m to the left of the left edge of
-/// section 1. Sections 1 and 5 have the same right edge. The course is mirrored if the first change
-/// is to the right.
+/// Lane offsets: in part 1 of the standard, the right edge of section 3 lies 3.5 m to the left of
+/// the right edge of section 1. In part 2 of the standard, the right edge of section 3 lies 1 m to
+/// the left of the left edge of section 1. The right edges of sections 1 and 5 are on one line. The
+/// whole course is mirrored if the first lane change is to the right.
 namespace trackbed {
 
 enum class LaneChangeStandard { kIso3888_1, kIso3888_2 };
@@ -32,48 +32,54 @@ enum class Side { kLeft, kRight };
 
 struct LaneChangePlannerOptions {
   LaneChangeStandard standard = LaneChangeStandard::kIso3888_1;
-  Side first = Side::kLeft;  ///< Side on which section 3 lies.
-  double lead_in = 30.0;     ///< Distance from the start to section 1 [m], > 0.
-  /// Length of the straight after section 5, before the car brakes [m], > 0.
+  /// Side to which the first lane change leads, from section 1 to section 3.
+  Side first = Side::kLeft;
+  double lead_in = 30.0;  ///< Distance from the car's start to section 1 [m], > 0.
+  /// Length of the straight between section 5 and the point at which the car begins to brake [m], >
+  /// 0.
   double lead_out = 20.0;
-  /// The rear axle leaves the middle of a gate at the distance `leave` before the gate's end [m].
-  /// The rear axle reaches the middle of the next gate at the distance `join` after that gate's
-  /// start [m]. Larger values lengthen the transition, which then bends less; the car comes nearer
-  /// to the cones.
+  /// The planned path leaves the middle line of a gate at the distance `leave` before the gate's
+  /// end [m]. The planned path reaches the middle line of the next gate at the distance `join`
+  /// after that gate's start [m]. Larger values of `leave` and `join` make the transition between
+  /// gates longer and less curved, but bring the car nearer to the cones.
   double leave = 0.0;
   double join = 0.0;
 };
 void Visit(KeyVisitor& keys, LaneChangePlannerOptions& options);
 
-/// Returns the gates of a course. `start` is the middle of the beginning of section 1.
+/// Returns the gates of a lane-change course. The pose `start` is the middle of the beginning of
+/// section 1.
 std::vector<Gate> LaneChangeGates(LaneChangeStandard standard, Side first, double vehicle_width,
                                   const Pose2& start);
 
-/// Returns the positions of the cones of a gate [m]: five cones along each edge, from end to end,
-/// with the inner sides of the cones on the edge.
+/// Returns the positions of the cones of a gate [m]. Five cones are spread over the length of each
+/// edge of the gate, with the inner side of each cone on the edge.
 std::vector<Vec2> GateCones(const Gate& gate);
 
-/// Computes the path from `start` along the middles of the gates. A transition to a gate with the
-/// lateral offset h is y = h (10 u^3 - 15 u^4 + 6 u^5), with u from 0 to 1. The curvature of a
-/// transition is continuous, 0 at both ends and at most 5.77 h/length^2. The transitions are
-/// approximated by arcs that are at most 0.1 m long. The curvature steps between these arcs by less
-/// than 6 m h/length^3. The path ends at the distance `lead_out` plus `stop` after the last gate.
+/// Computes the path from `start` along the middle lines of the gates. The transition to a gate
+/// with the lateral offset h is the curve y = h (10 u^3 - 15 u^4 + 6 u^5), with u from 0 to 1 along
+/// the transition. The curvature of this curve is continuous, 0 at both ends and at most 5.77
+/// h/length^2. The transition is approximated by arcs that are at most 0.1 m long. Between
+/// neighboring arcs, the curvature steps by less than 6 m h/length^3. The path ends at the distance
+/// `lead_out` plus `stop` behind the last gate.
 std::vector<Segment> LaneChangePath(const LaneChangePlannerOptions& options,
                                     const std::vector<Gate>& gates, const Pose2& start,
                                     double stop);
 
-/// Returns, for each gate, the smallest distance [m] from a corner of the car's footprint to an
-/// edge, while the corner was between the gate's ends. The distance is negative if a corner was
-/// outside of the gate, and infinite if no corner reached the gate. The function assumes that the
-/// car moves straight between the given poses of its rear axle.
+/// Returns the margin of a drive to each gate [m]: the smallest distance from a corner of the car's
+/// footprint to an edge of the gate, while the corner was between the gate's ends. The margin is
+/// negative if a corner was outside of the gate, and infinite if no corner reached the gate. The
+/// function assumes that the car moves straight between the given poses of its rear axle.
 std::vector<double> GateMargins(const std::vector<Gate>& gates, const VehicleParams& vehicle,
                                 const std::vector<Pose2>& poses);
 
-/// A gate of the course, and the margin of the planned path to this gate.
+/// A gate of the course, and the distance that a car on the planned path keeps from the gate's
+/// edges.
 struct GateFindings {
   Gate gate;
-  std::vector<Vec2> cones;      ///< Positions of the cones [m].
-  double planned_margin = 0.0;  ///< Margin of the planned path, see GateMargins [m].
+  std::vector<Vec2> cones;  ///< Positions of the gate's cones [m].
+  /// Margin of the planned path to the gate, as defined by GateMargins [m].
+  double planned_margin = 0.0;
 };
 void Visit(DiagnosticsVisitor& out, const GateFindings& own);
 

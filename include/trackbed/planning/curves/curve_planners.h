@@ -7,19 +7,21 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// Planners whose paths are the shortest curves between poses.
+/// Planners that join poses by the shortest possible curves.
 namespace trackbed {
 
 /// Options of the planner `dubins`, which joins the stops of a route by Dubins curves (dubins.h).
 struct DubinsOptions {
-  std::optional<double> radius;  ///< Radius of every arc [m]; none: 1.1 times the car's smallest.
-  double safe_distance = 0.3;    ///< Distance of the footprint from obstacles [m], >= 0.
-  double min_speed = 0.3;        ///< Lowest speed at a step of curvature [m/s].
+  /// Radius of every arc [m]; none: 1.1 times the car's smallest turning radius.
+  std::optional<double> radius;
+  /// Distance that the car's footprint keeps from obstacles [m], >= 0.
+  double safe_distance = 0.3;
+  double min_speed = 0.3;  ///< Lowest speed of the car at a step of curvature [m/s].
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);
 
-/// Options of the planner `reeds_shepp` (reeds_shepp.h). The options have the same meaning as the
-/// options of the planner `dubins`.
+/// Options of the planner `reeds_shepp` (reeds_shepp.h). Each option has the same meaning as for
+/// the planner `dubins`.
 struct ReedsSheppOptions {
   std::optional<double> radius;
   double safe_distance = 0.3;
@@ -27,12 +29,12 @@ struct ReedsSheppOptions {
 };
 void Visit(KeyVisitor& keys, ReedsSheppOptions& options);
 
-/// Findings on the curve from one stop to the next.
+/// Diagnostics of the curve from one stop to the next.
 struct CurveFindings {
-  std::string word;     ///< Word of the curve, such as "L+S+R+".
+  std::string word;     ///< Word that describes the curve, such as "L+S+R+".
   double length = 0.0;  ///< Length of the curve [m].
-  double radius = 0.0;  ///< Radius of the arcs [m].
-  /// Number of shorter curves rejected because of obstacles or the car's initial motion.
+  double radius = 0.0;  ///< Radius of the curve's arcs [m].
+  /// Number of shorter curves that were rejected because of obstacles or the car's initial motion.
   std::ptrdiff_t shorter_ones_blocked = 0;
 };
 void Visit(DiagnosticsVisitor& out, const CurveFindings& own);

@@ -15,10 +15,10 @@
 #include "trackbed/vehicle/params.h"
 #include "trackbed/vehicle/steering_schedule.h"
 
-/// The geometry of the global planner: straight legs join the waypoints, and arcs round the corners
-/// (Skackauskas, dissertation, eqs. (C.1)-(C.19); the fillet path of Beard and McLain 2012). The
-/// planner also computes the distances at which a car with rate-limited steering has to start
-/// turning its wheels (listing F.1).
+/// Plans paths in which straight legs join the waypoints, and arcs round the corners (Skackauskas,
+/// dissertation, eqs. (C.1)-(C.19); the fillet path of Beard and McLain 2012). The planner `fillet`
+/// also computes the distances at which a car with rate-limited steering has to start turning its
+/// wheels (listing F.1 of the dissertation).
 ///
 /// Symbols, for the turn at waypoint w between the legs q_in and q_out (unit vectors):
 ///   phi  interior angle between the legs [rad]: pi for straight on, 0 for a U-turn
@@ -34,146 +34,156 @@
 ///   D_end  distance at which the car stops [m]
 namespace trackbed {
 
-/// The constraint on the radius of a turn.
+/// The constraint on the radius of each turn.
 enum class RadiusConstraint {
-  /// Eq. (C.40): K <= q_S/2 - S_delta. The arc leaves enough of each half leg for the wheels to
-  /// turn.
+  /// The tangent length K must meet eq. (C.40), K <= q_S/2 - S_delta. On each half leg, the arc
+  /// leaves enough distance for the wheels to turn.
   kSteeringRoom,
-  kHalfLeg,  ///< Eq. (C.34): K <= q_S/2. Turns do not overlap.
-  /// Arcs with given radii must only fit on their legs.
+  /// The tangent length K must meet eq. (C.34), K <= q_S/2, so that turns do not overlap.
+  kHalfLeg,
+  /// Arcs with given radii must fit on their legs, without any further constraint.
   kNone,
 };
 
-/// How to treat a turn for which no radius meets eq. (C.40) at the mission's speed.
+/// Policy for a turn in which no radius meets eq. (C.40) at the mission's speed.
 enum class InfeasibleTurnPolicy {
-  /// Drive the turn as fast as eq. (C.40) allows, but not more slowly than `min_speed`. Reject the
-  /// plan if, at `min_speed`, half the ramp plus the arc's tangent exceeds half the leg.
+  /// Drive the turn as fast as eq. (C.40) allows, but not more slowly than `min_speed`. If half the
+  /// steering ramp at `min_speed` plus the arc's tangent length exceeds half the leg, reject the
+  /// plan.
   kSlowDown,
-  /// Apply eq. (C.34) instead: the wheels may turn on the arcs of the neighboring turns.
+  /// Apply eq. (C.34) instead of eq. (C.40), so that the wheels may turn while the car is on the
+  /// arcs of the neighboring turns.
   kHalfLeg,
   kRefuse,  ///< Reject the plan.
 };
 
-/// The criterion by which radii are chosen.
+/// The criterion by which the radii of turns are chosen.
 enum class RadiusObjective {
-  /// The largest radius that meets the constraint. The largest radius has a closed form and needs
-  /// no search.
+  /// Chooses the largest radius that meets the constraint. The largest radius has a closed form and
+  /// needs no search.
   kLargest,
-  /// Chooses radii by the two passes of listing F.1 (Skackauskas, dissertation). A first run on the
-  /// smallest radii gives the time t and the heading change dpsi from the moment at which the
-  /// wheels turn back from one turn to the same moment of the next turn. The search then minimizes
-  /// (psi'(r) t - dpsi)^2, where psi'(r) is the yaw rate on the radius r. The time t includes the
-  /// straight before the turn, so that the optimum for the first turn always lies on the
-  /// constraint.
+  /// Chooses radii by the two passes of listing F.1 (Skackauskas, dissertation). The first pass
+  /// simulates a run with the smallest radii. For each turn, this run yields the time t and the
+  /// heading change dpsi from the moment at which the wheels turn back at the end of the previous
+  /// turn to the same moment of this turn. The second pass is a search that minimizes (psi'(r) t -
+  /// dpsi)^2, where psi'(r) is the yaw rate on the radius r. The time t includes the straight
+  /// before the turn; therefore, the optimum for the first turn always lies on the constraint.
   kLiteral,
-  /// Same as kLiteral, but t and dpsi cover only the turn, from D_{2k-1} to D_2k. The result is the
-  /// radius that the rate-limited car actually drove.
+  /// Same as kLiteral, but t and dpsi cover only the turn itself, from D_{2k-1} to D_2k. The chosen
+  /// radius is then the radius that the rate-limited car actually drove in the first run.
   kTurnLocal,
-  /// Optimizes all radii and the distances D_{2k-1}, D_2k and D_end together (all of eq. (C.20)).
-  /// The objective J (DrivenWeights) keeps the simulated car near the planned point of equal arc
-  /// length, and near the goal at the end.
+  /// Optimizes all radii and the distances D_{2k-1}, D_2k and D_end together (the complete eq.
+  /// (C.20)). The objective J (DrivenWeights) penalizes the distance between the simulated car and
+  /// the planned point at the same driven distance, and the car's final distance from the goal.
   kDriven,
 };
 
-/// Weights of the objective J of kDriven: J = position int(e_x^2 + e_y^2) ds + heading int(e_psi^2)
+/// Weights of the objective of kDriven, J = position int(e_x^2 + e_y^2) ds + heading int(e_psi^2)
 /// ds + end |e(D_end)|^2.
 struct DrivenWeights {
-  double position = 1.0;  ///< Weight w_xy [1/m^3], >= 0.
-  double heading = 1.0;   ///< Weight w_psi [1/m], >= 0.
-  double end = 100.0;     ///< Weight w_end [1/m^2], >= 0.
+  double position = 1.0;  ///< Weight w_xy of the position error [1/m^3], >= 0.
+  double heading = 1.0;   ///< Weight w_psi of the heading error [1/m], >= 0.
+  double end = 100.0;     ///< Weight w_end of the distance from the goal [1/m^2], >= 0.
 };
 void Visit(KeyVisitor& keys, DrivenWeights& weights);
 
 struct FilletOptions {
-  /// Radius of every turn [m]. Nullopt: the objective determines the radii.
+  /// Radius of every turn [m]; if nullopt, the objective determines the radii.
   std::optional<double> radius;
   RadiusConstraint constraint = RadiusConstraint::kSteeringRoom;
-  /// Neutral angle d_0 of the road wheels [rad], positive to the left. The wheels leave this angle
-  /// at the start of a turn and return to this angle at the end. The steering angle delta on the
-  /// arc does not depend on d_0. Unless d_0 is 0, a kinematic car drifts off its straight legs, on
-  /// a circle of radius L/tan(d_0).
+  /// Neutral angle d_0 of the road wheels [rad], positive to the left. The wheels have the neutral
+  /// angle between turns. The steering angle delta on an arc does not depend on d_0. If d_0 is not
+  /// 0, a kinematic car leaves the straight legs of the path, because the car drives on a circle of
+  /// radius L/tan(d_0) between turns.
   double neutral_steering = 0.0;
-  /// Upper bound of the radius in the search [m]. The default is from listing F.1 and corresponds
-  /// to a steering angle of one degree.
+  /// Upper bound of the radii that the search considers [m]. The default of 154 m is taken from
+  /// listing F.1 and corresponds to a steering angle of one degree.
   double max_radius = 154.0;
   InfeasibleTurnPolicy without_room = InfeasibleTurnPolicy::kSlowDown;
-  double min_speed = 0.5;  ///< Lowest speed in a turn [m/s].
+  double min_speed = 0.5;  ///< Lowest speed of the car in a turn [m/s].
   RadiusObjective objective = RadiusObjective::kLargest;
-  SearchOptions search;  ///< Options of the search, for every objective except kLargest.
-  /// Whether kLiteral and kTurnLocal repeat the first run before every turn.
+  SearchOptions search;  ///< Options of the search for radii, for every objective except kLargest.
+  /// Whether kLiteral and kTurnLocal repeat the first run before the search of every turn.
   bool resimulate_each_turn = false;
-  /// The point of the car that follows the path in the first run and in the verification.
+  /// Point of the car that follows the path in the first run and in the verification.
   ReferencePoint reference = ReferencePoint::kRearAxle;
-  DrivenWeights weights;  ///< Weights of kDriven.
+  DrivenWeights weights;  ///< Weights of the objective kDriven.
 };
 void Visit(KeyVisitor& keys, FilletOptions& options);
 
 /// The constraint or option that determines a radius.
 enum class ActiveConstraint {
-  kGiven,         ///< The given FilletOptions::radius.
-  kNone,          ///< No constraint: the objective has an optimum inside the bounds.
-  kMinRadius,     ///< The smallest radius, at the car's full lock.
-  kMaxRadius,     ///< The bound FilletOptions::max_radius.
-  kHalfLeg,       ///< The constraint of eq. (C.34).
-  kSteeringRoom,  ///< The constraint of eq. (C.40).
+  kGiven,  ///< The radius is given (FilletOptions::radius).
+  /// No constraint determines the radius, because the objective has an optimum inside the bounds.
+  kNone,
+  kMinRadius,     ///< The radius is the smallest possible one, at the car's largest steering angle.
+  kMaxRadius,     ///< The radius is limited by FilletOptions::max_radius.
+  kHalfLeg,       ///< The radius is limited by eq. (C.34).
+  kSteeringRoom,  ///< The radius is limited by eq. (C.40).
 };
 
-/// Returns the spelling of a constraint in plan.json: "given", "none", ….
+/// Returns the name of a constraint as written in plan.json: "given", "none", ….
 const char* ToString(ActiveConstraint constraint);
 
-/// How the radius of one turn was found.
+/// Describes how the search found the radius of one turn.
 struct TurnSearch {
-  double first_radius = 0.0;  ///< Radius of the first run [m].
-  double time = 0.0;          ///< Duration t of the evaluated part of the first run [s].
-  double heading = 0.0;       ///< Signed heading change dpsi over the duration t [rad].
-  /// Radius r* at which the objective is 0 [m]; infinite if the car did not turn over the duration
-  /// t.
+  double first_radius = 0.0;  ///< Radius of the turn in the first run [m].
+  double time = 0.0;  ///< Duration t of the part of the first run that the objective evaluates [s].
+  double heading = 0.0;  ///< Heading change dpsi over the duration t, positive to the left [rad].
+  /// Radius r* at which the objective is 0 [m]; infinite if the car did not turn during the time t.
   double free_radius = 0.0;
-  SearchResult result;  ///< Result of the search, with x = {r [m]}.
+  SearchResult result;  ///< Result of the search, whose only variable is the radius r [m].
 };
 
-/// One corner of the route.
+/// A turn of the plan, at one corner of the route.
 struct FilletTurn {
-  int waypoint = 0;             ///< Index of the waypoint in the route.
-  double heading_change = 0.0;  ///< Heading change h [rad].
-  double interior_angle = 0.0;  ///< Interior angle phi [rad].
-  double shorter_leg = 0.0;     ///< Length q_S of the shorter leg [m].
-  double radius = 0.0;          ///< Radius r [m].
-  double speed = 0.0;           ///< Speed v in the turn [m/s].
+  int waypoint = 0;             ///< Index of the turn's waypoint in the route.
+  double heading_change = 0.0;  ///< Heading change h of the turn [rad], positive to the left.
+  double interior_angle = 0.0;  ///< Interior angle phi between the legs [rad].
+  double shorter_leg = 0.0;     ///< Length q_S of the shorter one of the two legs [m].
+  double radius = 0.0;          ///< Radius r of the arc [m].
+  double speed = 0.0;           ///< Speed v of the car in the turn [m/s].
   ActiveConstraint active = ActiveConstraint::kNone;
-  /// Reason why the turn is slower than the mission's speed, or does not meet eq. (C.40); else
-  /// empty.
+  /// Reason why the car drives the turn below the mission's speed, or why the turn does not meet
+  /// eq. (C.40); else empty.
   std::string note;
-  std::optional<TurnSearch> search;  ///< Result of the search of kLiteral or kTurnLocal.
-  double tangent_length = 0.0;       ///< Tangent length K [m].
-  Vec2 center{0.0, 0.0};             ///< Center C of the arc (C.19).
-  Vec2 arc_start{0.0, 0.0};          ///< Start H_i of the arc (C.14).
-  Vec2 arc_end{0.0, 0.0};            ///< End H_{i+1} of the arc (C.15).
-  double arc_start_s = 0.0;          ///< Station of H_i [m].
-  double arc_length = 0.0;           ///< Length r |h| of the arc [m].
-  double neutral = 0.0;              ///< Wheel angle d_0 before and after the turn [rad].
-  double steering = 0.0;             ///< Signed steering delta of the arc [rad].
-  double ramp_time = 0.0;            ///< Duration |delta - d_0|/omega_delta of the ramp [s].
-  double ramp_distance = 0.0;        ///< Length S_delta of the ramp [m].
-  /// Distance D_{2k-1} at which the wheels begin to turn into the turn [m]; half a ramp before H_i
-  /// unless optimized.
+  /// Result of the search for this turn's radius, with the objective kLiteral or kTurnLocal.
+  std::optional<TurnSearch> search;
+  /// Tangent length K, from the waypoint to either end of the arc [m].
+  double tangent_length = 0.0;
+  Vec2 center{0.0, 0.0};     ///< Center C of the arc [m], eq. (C.19).
+  Vec2 arc_start{0.0, 0.0};  ///< Start point H_i of the arc [m], eq. (C.14).
+  Vec2 arc_end{0.0, 0.0};    ///< End point H_{i+1} of the arc [m], eq. (C.15).
+  double arc_start_s = 0.0;  ///< Station of the arc's start H_i [m].
+  double arc_length = 0.0;   ///< Length of the arc, equal to r |h| [m].
+  double neutral = 0.0;      ///< Steering angle d_0 before and after the turn [rad].
+  double steering = 0.0;     ///< Steering angle delta on the arc, positive to the left [rad].
+  /// Duration of the steering ramp, equal to |delta - d_0|/omega_delta [s].
+  double ramp_time = 0.0;
+  double ramp_distance = 0.0;  ///< Length S_delta of the steering ramp [m].
+  /// Driven distance D_{2k-1} at which the wheels begin to turn for the arc [m]; unless optimized,
+  /// half a ramp before the arc's start H_i.
   double steer_start = 0.0;
-  /// Distance D_{2k} at which the wheels begin to turn back [m]; half a ramp before H_{i+1} unless
-  /// optimized.
+  /// Driven distance D_{2k} at which the wheels begin to turn back [m]; unless optimized, half a
+  /// ramp before the arc's end H_{i+1}.
   double steer_return = 0.0;
-  bool ramp_truncated = false;  ///< Whether the wheels turn back before they reach `steering`.
+  /// Whether the wheels turn back before they reach the angle `steering`.
+  bool ramp_truncated = false;
 };
 
 struct FilletPlan {
   PlanStatus status = PlanStatus::kOk;
-  int waypoint = -1;   ///< Index of the waypoint at which planning failed; -1: none.
-  std::string reason;  ///< Reason of a failure; empty if ok.
+  /// Index of the waypoint at which planning failed; -1 if planning did not fail at a waypoint.
+  int waypoint = -1;
+  std::string reason;  ///< Reason why planning failed; empty if ok.
   std::vector<FilletTurn> turns;
   Path path;
   SteeringSchedule schedule;
-  double stop_distance = 0.0;          ///< Distance D_end [m]; the path's length unless optimized.
-  OpenLoopRun verification;            ///< Simulated run of the final plan.
-  std::optional<SearchResult> search;  ///< Result of the search of kDriven.
+  /// Driven distance D_end at which the car stops [m]; unless optimized, the path's length.
+  double stop_distance = 0.0;
+  OpenLoopRun verification;  ///< Simulated open-loop run of the final plan.
+  /// Result of the search over all turns together, with the objective kDriven.
+  std::optional<SearchResult> search;
 };
 
 /// A closed interval of radii [m].
@@ -183,10 +193,10 @@ struct RadiusInterval {
 };
 
 /// Returns the radii within `bounds` that meet eq. (C.40); nullopt if there are none. Eq. (C.40) is
-/// g(r) = r/tan(phi/2) + v/omega_delta |atan(L/r) - n| - q_S/2 <= 0. The argument `neutral` is n =
-/// sgn(h) d_0 [rad], positive toward the turn. The function g decreases and then increases, so that
-/// the returned radii form one interval. The ends of the interval are accurate to the last few
-/// bits.
+/// equivalent to g(r) = r/tan(phi/2) + v/omega_delta |atan(L/r) - n| - q_S/2 <= 0. The argument
+/// `neutral` is n = sgn(h) d_0 [rad], positive toward the turn. With growing r, the function g
+/// first decreases and then increases, so that the returned radii form one interval. The ends of
+/// the returned interval are accurate to the last few bits.
 std::optional<RadiusInterval> SteeringRoomRadii(const VehicleParams& vehicle, double speed,
                                                 double interior_angle, double shorter_leg,
                                                 RadiusInterval bounds, double neutral = 0.0);
@@ -197,8 +207,8 @@ struct SpeedInterval {
   double high = 0.0;
 };
 
-/// Returns the highest of `speeds` at which eq. (C.40) allows a radius within `bounds`; nullopt if
-/// there is no such speed.
+/// Returns the highest speed within `speeds` at which eq. (C.40) allows a radius within `bounds`;
+/// nullopt if there is no such speed.
 std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double interior_angle,
                                         double shorter_leg, RadiusInterval bounds,
                                         SpeedInterval speeds, double neutral = 0.0);
@@ -211,45 +221,47 @@ std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter
 inline constexpr std::size_t kMinFilletWaypoints = 3;
 
 /// Plans a path along a route of N >= 3 waypoints. The car drives at `speed` [m/s], and more slowly
-/// in turns that require a lower speed. Collinear waypoints make no turn. `seed` initializes the
-/// random numbers of the search.
+/// in turns that require a lower speed. A waypoint at which the route continues straight is no
+/// turn. The argument `seed` initializes the random numbers of the search.
 ///
 /// Guarantees: the path is continuous in position and heading to 1e-9, starts at the first waypoint
 /// along the first leg and ends at the last waypoint. Every radius meets the constraint of its
-/// turn: with kLargest, to rounding; with a search, to 1e-9 m of the leg. A mirrored or moved route
-/// gives the mirrored or moved plan, to the tolerance of the search, if any. The curvature of the
-/// path jumps at tangent points. The steering schedule therefore begins each turn half a ramp
-/// before the arc. Obstacles, and heading changes below 1e-9 rad, are ignored. Cost: tens of
-/// microseconds for kLargest. A search costs about 0.2 us per evaluation and turn, plus NLopt's own
-/// time; kDriven costs 20 us per evaluation.
+/// turn: with kLargest, except for rounding errors; with a search, with a tolerance of 1e-9 m on
+/// the leg. For a mirrored or moved route, the result is the mirrored or moved plan, within the
+/// tolerance of the search. The curvature of the path jumps at both ends of each arc. The steering
+/// schedule therefore begins to turn the wheels half a ramp before the arc. The planner ignores
+/// obstacles and heading changes below 1e-9 rad. Computing time with kLargest: tens of
+/// microseconds. A search takes about 0.2 us per evaluation and turn, plus NLopt's own time; the
+/// search of kDriven takes 20 us per evaluation.
 FilletPlan PlanFillets(const VehicleParams& vehicle, const std::vector<Vec2>& waypoints,
                        double speed, const FilletOptions& options, std::uint64_t seed = 0);
 
 /// Diagnostics of a turn of a plan, stored in PlanDiagnostics::turns.
 struct FilletTurnFindings {
   FilletTurn turn;
-  std::string search_method;           ///< Name of the method of `turn.search`, if any.
-  std::optional<TurnError> predicted;  ///< Open-loop error of an isolated turn.
+  std::string search_method;  ///< Name of the search method that `turn.search` used, if any.
+  /// Predicted open-loop error at the middle of the turn, if the turn is isolated.
+  std::optional<TurnError> predicted;
 };
 void Visit(DiagnosticsVisitor& out, const FilletTurnFindings& own);
-/// Shifts the stations of a turn beyond a replaced stretch of the path. Adds a note to a turn that
-/// overlaps the stretch.
+/// Shifts the stations of a turn that lies beyond a replaced stretch of the path. Adds a note to a
+/// turn that overlaps the replaced stretch.
 void ReplaceStretch(FilletTurnFindings& own, const Stations& replaced, double shift);
 
 /// Diagnostics of a plan or of its failure, stored in PlanDiagnostics::planner.
 struct FilletDiagnostics {
-  std::optional<int> failed_waypoint;  ///< Waypoint at which planning failed.
-  double neutral_steering = 0.0;       ///< Neutral steering d_0 [rad].
-  /// Curvature that a kinematic car drives with the steering angle d_0 [rad/m].
+  std::optional<int> failed_waypoint;  ///< Index of the waypoint at which planning failed.
+  double neutral_steering = 0.0;       ///< Neutral steering angle d_0 between turns [rad].
+  /// Curvature on which a kinematic car drives with the steering angle d_0 [rad/m].
   double neutral_curvature = 0.0;
-  std::string search_method;  ///< Name of the method of `search`, if any.
+  std::string search_method;  ///< Name of the search method that `search` used, if any.
   /// Result of the search over all turns together (kDriven).
   std::optional<SearchResult> search{};
 };
 void Visit(DiagnosticsVisitor& out, const FilletDiagnostics& own);
 
-/// Extracts the radii [m] from the variables x of a search over all turns together. `x` is a result
-/// of the search, or an entry of its history.
+/// Extracts the radii [m] from the variables `x` of a search over all turns together (kDriven). The
+/// argument `x` is the result of such a search, or an entry of the search's history.
 std::vector<double> DrivenRadii(const std::vector<double>& x);
 
 /// Returns the planner `fillet`.

@@ -7,32 +7,34 @@
 #include "trackbed/path/reference.h"
 #include "trackbed/planning/frenet/polynomial.h"
 
-/// Motions along a path, described by polynomials in the path's Frenet frame. Converts motions to
-/// references for controllers.
+/// Describes motions along a path by polynomials in the path's Frenet frame, and converts motions
+/// to references for controllers.
 namespace trackbed {
 
-/// A piece of a motion: the station s(t), and the offset d as a function of the time or of the
-/// station.
+/// A piece of a motion, given by the station s(t) and by the offset d as a function of the time or
+/// of the station.
 struct FrenetPiece {
-  double duration = 0.0;  ///< Duration [s].
-  Polynomial s;           ///< Station over the time since the start of the piece.
-  Polynomial d;           ///< Offset over the time since the start of the piece, or over s - s(0).
-  bool over_station = false;  ///< Whether d is a function of s - s(0).
+  double duration = 0.0;  ///< Duration of the piece [s].
+  Polynomial s;  ///< Station s [m] as a function of the time since the start of the piece [s].
+  /// Offset d [m] as a function of the time since the start of the piece [s], or of s - s(0) [m].
+  Polynomial d;
+  bool over_station = false;  ///< Whether the offset d is a function of s - s(0), not of time.
 
-  /// Returns the state `t` [s] after the start of the piece. If d is a function of time, d' =
-  /// d_t/s_t and d'' are not finite while s_t = 0.
+  /// Returns the state of the car at the time `t` [s] after the start of the piece. If d is a
+  /// function of time, the derivatives d' = d_t/s_t and d'' are not finite while s_t = 0.
   [[nodiscard]] FrenetState At(double t) const;
 
   bool operator==(const FrenetPiece&) const = default;
 };
 
-/// A motion of consecutive pieces.
+/// A motion that consists of consecutive pieces.
 struct FrenetMotion {
   std::vector<FrenetPiece> pieces;
 
   [[nodiscard]] double duration() const;
-  /// Returns the state `t` [s] after the start of the motion. `t` is clamped to the duration of the
-  /// motion. Throws InternalError if the motion has no pieces.
+  /// Returns the state of the car at the time `t` [s] after the start of the motion. Values of `t`
+  /// outside of the motion are clamped to its start or end. Throws InternalError if the motion has
+  /// no pieces.
   [[nodiscard]] FrenetState At(double t) const;
 
   bool operator==(const FrenetMotion&) const = default;
@@ -40,28 +42,29 @@ struct FrenetMotion {
 
 /// A point of a motion along a path.
 struct TrajectoryPoint {
-  double t = 0.0;         ///< Time since the start [s].
-  double distance = 0.0;  ///< Distance driven since the start [m].
+  double t = 0.0;         ///< Time since the start of the motion [s].
+  double distance = 0.0;  ///< Distance driven since the start of the motion [m].
   FrenetState frenet;
   MotionState motion;
 
   bool operator==(const TrajectoryPoint&) const = default;
 };
 
-/// Samples the motion at the ends of its pieces and evenly between them, at most `time_step` [s]
-/// and about `spacing` [m] apart. The driven distance is integrated to fourth order. Returns
-/// nullopt if the Frenet frame is undefined (see FromFrenet), or if d is a function of time and the
-/// car does not move forward.
+/// Samples a motion at the ends of its pieces and evenly between these ends, at most `time_step`
+/// [s] and about `spacing` [m] apart. The driven distance is integrated with an error of fourth
+/// order. Returns nullopt if the Frenet frame is undefined (see FromFrenet), or if d is a function
+/// of time while the car does not move forward.
 std::optional<std::vector<TrajectoryPoint>> SampleMotion(const Path& path,
                                                          const FrenetMotion& motion,
                                                          double time_step, double spacing);
 
-/// Makes the reference of a controller from the points of a motion. The path passes through the
-/// points with their headings and curvatures; the speed profile is a function of the path's
-/// station. Between points 0.1 m apart, the path stays within 1e-5 m and 1e-5 rad of a motion over
-/// a path with smooth curvature. A point closer than a millimeter to the previous point is left
-/// out; such points occur when a car starts or stops. If the car does not move, the path has the
-/// length 0. Throws InternalError if there are no points.
+/// Makes the reference of a controller from the points of a motion. The reference path passes
+/// through the points with their headings and curvatures; the speed profile is a function of the
+/// station on this path. If the points are 0.1 m apart and the motion follows a path with smooth
+/// curvature, the reference path stays within 1e-5 m and 1e-5 rad of the motion. A point closer
+/// than a millimeter to the previous point is left out; such points occur when a car starts or
+/// stops. If the car does not move, the reference path has the length 0. Throws InternalError if
+/// `points` is empty.
 Reference ToReference(const std::vector<TrajectoryPoint>& points);
 
 }  // namespace trackbed

@@ -5,12 +5,12 @@
 
 namespace trackbed {
 
-/// A polynomial x(t) = sum c_i t^i of degree 5 at most.
+/// A polynomial x(t) = sum c_i t^i of degree 5 or less.
 struct Polynomial {
   std::array<double, 6> coefficients{};
 
-  /// Returns the derivative d^order x/dt^order at t, for an order from 0 to 5. Cost: five
-  /// multiplications at most.
+  /// Returns the derivative d^order x/dt^order at t, for an order from 0 to 5. Computing cost: at
+  /// most five multiplications.
   [[nodiscard]] double At(double t, std::size_t order = 0) const;
   /// Returns the integral of (d^order x/dt^order)^2 over [0, duration], in closed form.
   [[nodiscard]] double IntegralOfSquare(std::size_t order, double duration) const;
@@ -18,18 +18,19 @@ struct Polynomial {
   bool operator==(const Polynomial&) const = default;
 };
 
-/// The state of a motion along a line at one moment.
+/// Position, velocity and acceleration of a motion along a line at one moment.
 struct LineMotion {
   double position = 0.0;
   double velocity = 0.0;
   double acceleration = 0.0;
 };
 
-/// Returns the motion between two states within `duration` > 0 that has the smallest integral of
-/// the squared jerk.
+/// Returns the motion from the state `from` to the state `to` within `duration` > 0 for which the
+/// integral of the squared jerk is smallest.
 Polynomial QuinticBetween(const LineMotion& from, const LineMotion& to, double duration);
 
-/// Same as QuinticBetween, but with a free end position. The position of `to` is ignored.
+/// Same as QuinticBetween, but the end position is free. The function ignores the position of the
+/// state `to`.
 Polynomial QuarticBetween(const LineMotion& from, const LineMotion& to, double duration);
 
 }  // namespace trackbed

@@ -8,23 +8,25 @@
 #include "trackbed/track/track.h"
 #include "trackbed/vehicle/params.h"
 
-/// Limits of the car's footprint on either side of a path, as functions of the path's station. The
-/// limits represent the edges of a track, relative to a line on the track.
+/// Limits how far the car's footprint may reach to the left and right of a path, as functions of
+/// the path's station. The limits of the footprint represent the edges of a track, relative to a
+/// line on the track.
 ///
-/// Symbols: as in path/frenet_frame.h; a point of the footprint has the station s and offset d of
-/// the nearest point of the path.
+/// Symbols: as in path/frenet_frame.h. The station s and offset d of a point of the footprint refer
+/// to the nearest point of the path.
 namespace trackbed {
 
-/// Edges on both sides of a path. The class is immutable.
+/// The edges of the road on both sides of a path. Objects of this class are immutable.
 class RoadEdges {
  public:
-  /// The `widths` are given at the stations 0, `spacing`, 2 `spacing`, ... of the path. If both
-  /// edges are to the left of the path, the right width is negative, and vice versa. Throws
-  /// InternalError if there are no widths, or unless the spacing is positive.
+  /// The `widths` are the distances of the edges from the path at the stations 0, `spacing`, 2
+  /// `spacing`, ... Where both edges are to the left of the path, the right width is negative;
+  /// where both are to the right, the left width is negative. Throws InternalError if `widths` is
+  /// empty, or if `spacing` is not positive.
   RoadEdges(double spacing, std::vector<RoadWidths> widths);
 
-  /// Returns the widths at a station. The widths are linear between the given stations, and
-  /// constant before the first and beyond the last given station.
+  /// Returns the widths of the road at a station. The widths are interpolated linearly between the
+  /// given stations, and are constant before the first and beyond the last given station.
   [[nodiscard]] RoadWidths At(double s) const;
 
  private:
@@ -32,22 +34,24 @@ class RoadEdges {
   std::vector<RoadWidths> widths_;
 };
 
-/// Returns the largest distance of a footprint beyond the edges [m], negative if the footprint is
-/// within the edges. Tests five points of each long side, from corner to corner. Approximates the
-/// path by its circle of curvature at the rear axle. The error of this approximation is at most
-/// sharpness length^3/6, with the sharpness of the path and the length of the car. The result is
-/// infinite if the footprint reaches the center of the circle of curvature. Cost: 0.3 us.
+/// Returns how far the car's footprint reaches beyond the edges of the road [m]; negative if the
+/// footprint is within the edges. The function tests five points on each long side of the
+/// footprint, from corner to corner. In the test of the footprint, the path is approximated by its
+/// circle of curvature at the rear axle. The error of this approximation is at most c l^3/6, where
+/// c is the sharpness dkappa/ds of the path and l the length of the car. The result is infinite if
+/// the footprint reaches the center of the circle of curvature. Computing time: 0.3 us.
 double ReachBeyond(const RoadEdges& edges, const VehicleParams& vehicle, const PathPoint& at,
                    const FrenetState& frenet);
 
-/// Computes the edges of a track relative to a path along the track, for a footprint that keeps
-/// `distance` [m] from the edges. If a car on the path is closer to an edge than `distance`, the
-/// footprint may come as close to this edge as that car. A car on the path is therefore always
-/// within the limits, even where the path leaves the track. Beyond the path's end, the edges keep
-/// the distance from the path that they have at the end.
+/// Computes the edges of a track relative to a path along the track, for a car whose footprint
+/// keeps `distance` [m] from the edges. Where a car exactly on the path would be closer to an edge
+/// than `distance`, other cars may come as close to this edge as the car on the path. A car on the
+/// path is therefore always within the computed edges, even where the path leaves the track. Beyond
+/// the path's end, the edges keep their distance from the path at the end.
 ///
-/// Guarantees: the result is exact for the polylines of the edges (Track::left_edge) at stations at
-/// most 0.5 m apart, and linear in between. Cost: 40 us per meter of path.
+/// Guarantees: at stations at most 0.5 m apart, the result is exact for the polylines of the edges
+/// (Track::left_edge); between these stations, the result is linear. Computing time: 40 us per
+/// meter of path.
 RoadEdges EdgesBeside(const Path& path, const Track& track, const VehicleParams& vehicle,
                       double distance);
 

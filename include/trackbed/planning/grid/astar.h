@@ -6,47 +6,50 @@
 
 #include "trackbed/planning/common/occupancy_grid.h"
 
-/// A* (Hart et al. 1968) on a grid with eight neighbors: the baseline for comparing planners. The
-/// search ignores the heading and the turning circle of a car.
+/// Searches for paths by A* (Hart et al. 1968) on a grid in which each cell has eight neighbors;
+/// serves as the baseline for comparing planners. The search by A* ignores the car's heading and
+/// turning circle.
 ///
-/// Symbols: g(n) cost of the best known path to cell n, h(n) octile distance from n to the goal,
-/// both in cells. A straight move costs 1, a diagonal one sqrt(2). A diagonal move is allowed only
-/// if both cells beside it are free.
+/// Symbols: g(n) is the cost of the best known path to cell n, and h(n) the octile distance from n
+/// to the goal, both in cells. A straight move costs 1, a diagonal move sqrt(2). A diagonal move is
+/// allowed only if the two cells beside the move are free.
 namespace trackbed {
 
-/// Returns the cost of the cheapest path over `dx` columns and `dy` rows without obstacles:
-/// max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|). The octile distance never exceeds the true cost
-/// (admissible), and h(m) <= c(m, n) + h(n) for neighbors m, n (consistent).
+/// Returns the octile distance, which is the cost of the cheapest path over `dx` columns and `dy`
+/// rows without obstacles: max(|dx|, |dy|) + (sqrt(2) - 1) min(|dx|, |dy|). The octile distance
+/// never exceeds the true cost (admissible). For neighboring cells m and n with the cost c(m, n) of
+/// a move, h(m) <= c(m, n) + h(n) holds (consistent).
 double OctileDistance(int dx, int dy);
 
 enum class GridStatus {
   kFound,
   kStartOccupied,
   kGoalOccupied,
-  kUnreachable,   ///< The search expanded all reachable cells without reaching the goal.
+  kUnreachable,   ///< The search has expanded all reachable cells, and the goal is not among them.
   kBudgetUsedUp,  ///< The search used up its budget before it reached the goal.
 };
 
-/// Returns the spelling of a status in plan.json: "found", "start_occupied", ….
+/// Returns the name of a status as written in plan.json: "found", "start_occupied", ….
 const char* ToString(GridStatus status);
 
 struct GridPath {
   GridStatus status = GridStatus::kUnreachable;
-  /// Adjacent cells from start to goal; empty unless found.
+  /// Indices of the path's cells from start to goal; empty unless a path was found.
   std::vector<std::size_t> cells;
-  double cost = std::numeric_limits<double>::infinity();  ///< Cost of the path [cells].
-  long expansions = 0;                                    ///< Number of expanded cells.
+  /// Cost of the found path, in side lengths of a cell.
+  double cost = std::numeric_limits<double>::infinity();
+  long expansions = 0;  ///< Number of cells that the search expanded.
 
   [[nodiscard]] bool ok() const { return status == GridStatus::kFound; }
 };
 
 /// Finds the cheapest path between two cells of the grid, expanding at most `budget` cells. Throws
-/// InternalError for cells outside of the grid. Cost: 30 ns per expanded cell.
+/// InternalError if a cell is outside of the grid. Computing time: 30 ns per expanded cell.
 GridPath SearchGrid(const OccupancyGrid& grid, std::size_t start, std::size_t goal,
                     long budget = std::numeric_limits<long>::max());
 
-/// Computes the cost from every cell to `goal` by Dijkstra's algorithm. The cost is infinite if
-/// there is no path.
+/// Computes the cost from every cell to `goal` by Dijkstra's algorithm. The cost of a cell without
+/// a path to `goal` is infinite.
 std::vector<double> DistancesTo(const OccupancyGrid& grid, std::size_t goal);
 
 }  // namespace trackbed

@@ -11,34 +11,37 @@
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/vehicle/params.h"
 
-/// Hybrid A* (Dolgov et al. 2008): a search over the poses that a car can drive through, forwards
-/// and backwards. The poses of the search are continuous. Only the cheapest pose is kept for each
-/// cell of position and heading and each direction of travel.
+/// Plans paths by Hybrid A* (Dolgov et al. 2008), a search over the poses that a car can reach by
+/// driving forwards and backwards. The poses are not rounded to a grid. The search keeps only the
+/// cheapest pose for each cell of position and heading, and for each direction of travel.
 ///
-/// Symbols: r radius of the sharpest arcs [m]; a step is an arc of curvature 0, +-1/(2r) or +-1/r.
-/// The cost of a path is its length [m], with reverse stretches weighted by `reverse_cost`. Every
-/// change of direction adds `switch_cost`. Every joint adds `steering_cost` times the change of
-/// curvature relative to 1/r. The estimate of the cost-to-go is the larger of two lengths. The
-/// first length is that of the shortest Reeds-Shepp curve. The second length is that of the
-/// shortest grid path around the obstacles, divided by 1.0824, the largest ratio of a grid path's
-/// length to that of a straight line.
+/// Symbols: r is the radius of the sharpest arcs [m]. Each step of the search is an arc of
+/// curvature 0, +-1/(2r) or +-1/r. The cost of a path is its length [m], where reverse stretches
+/// count `reverse_cost` times. Every change of direction adds `switch_cost` to the cost of the
+/// path. Every joint between arcs adds `steering_cost` times the change of curvature divided by
+/// 1/r. The search estimates the cost from a pose to the goal as the length of the shortest
+/// Reeds-Shepp curve or, if larger, as the length of the shortest grid path around the obstacles,
+/// divided by 1.0824. The divisor 1.0824 is needed because a path on an empty grid is up to 1.0824
+/// times as long as a straight line.
 namespace trackbed {
 
 struct HybridAStarOptions {
-  std::optional<double> radius;  ///< Radius r [m]; none: 1.1 times the car's smallest.
-  double safe_distance = 0.3;    ///< Distance of the footprint from obstacles [m], >= 0.
-  bool reverse = true;           ///< Whether reverse driving is allowed.
-  double reverse_cost = 2.0;     ///< Cost of a meter backwards, >= 1.
-  double switch_cost = 5.0;      ///< Cost of a change of direction [m], >= 0.
-  double steering_cost = 2.0;    ///< Cost of a step of curvature of 1/r [m], >= 0.
-  /// Weight of the cost-to-go, >= 1. Above 1, fewer poses are expanded, and the result costs at
-  /// most `weight` times the optimum.
+  /// Radius r of the sharpest arcs [m]; none: 1.1 times the car's smallest turning radius.
+  std::optional<double> radius;
+  /// Distance that the car's footprint keeps from obstacles [m], >= 0.
+  double safe_distance = 0.3;
+  bool reverse = true;         ///< Whether the car may drive backwards.
+  double reverse_cost = 2.0;   ///< Cost of driving one meter backwards, >= 1.
+  double switch_cost = 5.0;    ///< Cost of a change between forward and backward driving [m], >= 0.
+  double steering_cost = 2.0;  ///< Cost of a change of curvature by 1/r at a joint [m], >= 0.
+  /// Weight of the estimated cost to the goal, >= 1. With a weight above 1, the search expands
+  /// fewer poses, and the found path costs at most `weight` times as much as the optimum.
   double weight = 2.0;
-  double cell = 0.5;       ///< Side of a cell [m], > 0.
+  double cell = 0.5;       ///< Side length of a position cell [m], > 0.
   int headings = 72;       ///< Number of heading cells per full turn, >= 8.
   double margin = 10.0;    ///< Margin of the search area around start, goal and obstacles [m].
-  double min_speed = 0.3;  ///< Lowest speed at a step of curvature [m/s].
-  int budget = 200000;     ///< Maximum number of expanded poses, >= 0.
+  double min_speed = 0.3;  ///< Lowest speed of the car at a step of curvature [m/s].
+  int budget = 200000;     ///< Maximum number of poses that the search may expand, >= 0.
 };
 void Visit(KeyVisitor& keys, HybridAStarOptions& options);
 
@@ -46,36 +49,38 @@ struct HybridAStarProblem {
   Pose2 start;
   Pose2 goal;
   std::vector<OrientedBox> obstacles{};
-  /// Whether the car rolls forwards at the start, so that it cannot begin backwards.
+  /// Whether the car rolls forwards at the start, so that the path cannot begin backwards.
   bool rolls = false;
 };
 
 struct HybridAStarResult {
   PlanStatus status = PlanStatus::kNoPath;
-  std::string reason;             ///< Reason of a failure; empty if ok.
-  std::vector<Segment> segments;  ///< Segments from the start; empty unless ok.
+  std::string reason;             ///< Reason why the search failed; empty if ok.
+  std::vector<Segment> segments;  ///< Segments of the path from the start pose; empty unless ok.
   double cost = std::numeric_limits<double>::infinity();
   int expansions = 0;
-  int cells = 0;  ///< Number of cells of the search area, without headings.
+  int cells = 0;  ///< Number of position cells of the search area.
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };
 
-/// Guarantees for the status kOk: the path ends at the goal pose within 1e-9 m and rad. The last
-/// leg is a Reeds-Shepp curve, or a Dubins curve if reverse driving is not allowed. No curvature
-/// exceeds 1/r. The car's footprint is clear of all obstacles (CollisionChecker). The same input
-/// gives the same result. The path is not globally optimal: it is the cheapest path that the cells
-/// distinguish and that ends with a Reeds-Shepp or Dubins curve. If the budget is used up, returns
-/// the best path found so far. The status is kNoPath if all poses have been expanded. Throws
-/// InternalError for options out of range. Cost: about 10 us per expansion.
+/// Searches for a path by Hybrid A*. Guarantees for the status kOk: the path ends within 1e-9 m and
+/// 1e-9 rad of the goal pose. The last part of the path is a Reeds-Shepp curve, or a Dubins curve
+/// if the car may not drive backwards. The curvature of the path never exceeds 1/r. The car's
+/// footprint is clear of all obstacles (CollisionChecker). The same input always yields the same
+/// result. The path is not globally optimal, because the search keeps only one pose per cell, and
+/// because the path must end with a Reeds-Shepp or Dubins curve. If the budget is used up, the
+/// function returns the best path found so far. The status is kNoPath if the search has expanded
+/// all poses without finding a path. Throws InternalError if an option is out of range. Computing
+/// time: about 10 us per expanded pose.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 
-/// The search from one stop to the next.
+/// Diagnostics of the search from one stop to the next.
 struct HybridAStarLeg {
   double cost = 0.0;   ///< Cost of the path [m].
-  int expansions = 0;  ///< Number of expanded poses.
-  int cells = 0;       ///< Number of cells of the search area, without headings.
+  int expansions = 0;  ///< Number of poses that the search expanded.
+  int cells = 0;       ///< Number of position cells of the search area.
 };
 void Visit(DiagnosticsVisitor& out, const HybridAStarLeg& leg);
 

@@ -5,9 +5,9 @@
 
 namespace trackbed {
 
-/// Converts the cells of a map to a grid for A* (astar.h). Obstacles are not inflated, so that
-/// planned paths are paths of a point. The cell in a column and row of the map has the index row x
-/// columns + column.
+/// Converts the cells of a map to an occupancy grid for A* (astar.h). The obstacles of the map are
+/// not inflated, so that paths on the grid are paths of a point without extent. The map cell in
+/// column c and row r has the index r x columns + c.
 OccupancyGrid ToOccupancyGrid(const GridMap& map, UnknownCells unknown);
 
 }  // namespace trackbed

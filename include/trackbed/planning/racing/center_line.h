@@ -2,7 +2,7 @@
 
 #include "trackbed/planning/common/planner.h"
 
-/// Plans laps along the surveyed middle of a track (PlanRequest::on_track), with FollowLine.
+/// Plans laps along the surveyed center line of a track (PlanRequest::on_track) by FollowLine.
 namespace trackbed {
 
 struct CenterLineOptions {};

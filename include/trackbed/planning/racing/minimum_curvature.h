@@ -6,46 +6,49 @@
 #include "trackbed/planning/racing/track_line.h"
 #include "trackbed/track/track.h"
 
-/// Finds the line of least curvature around a track, which permits high speeds through all bends
-/// together.
+/// Finds the line of least curvature around a track; this line permits high speeds in all bends.
 ///
-/// Symbols: d(s) offset of the line from the center line over its station [m]; kappa, l curvature
-/// and length of the line; b half of the car's width plus the margin [m].
+/// Symbols: d(s) is the offset of the line from the track's center line at the station s [m]; kappa
+/// is the curvature of the line, and l the length along the line; b is half of the car's width plus
+/// the margin [m].
 ///
 ///   minimize  integral of kappa^2 dl   subject to  right(s) + b <= d(s) <= left(s) - b
 ///
-/// The offset d is a closed spline with as many knots as the track has points. Each step linearizes
-/// kappa sqrt(dl/ds) about the last line, with the exact derivatives with respect to d, d' and d''
-/// (Gauss-Newton). Each step then solves the quadratic program for d. Braghin et al. 2008 minimize
-/// curvature by a quadratic program; Heilmeier et al. 2020 repeat the linearization.
+/// The offset d is a closed spline with as many knots as the track has points. The solution is
+/// iterative (Gauss-Newton): each step linearizes kappa sqrt(dl/ds) about the last line, with the
+/// exact derivatives by d, d' and d'', and then solves a quadratic program for d. Braghin et al.
+/// 2008 minimize the curvature by one quadratic program; Heilmeier et al. 2020 repeat the
+/// linearization.
 namespace trackbed {
 
 struct MinimumCurvatureOptions {
-  double margin = 0.5;  ///< Distance of the car's sides from the edges [m], >= 0.
+  double margin = 0.5;  ///< Distance of the car's sides from the track's edges [m], >= 0.
 };
 void Visit(KeyVisitor& keys, MinimumCurvatureOptions& options);
 
 struct MinimumCurvatureLine {
-  std::string refused;  ///< Reason why there is no line; else empty.
+  std::string refused;  ///< Reason why no line was found; else empty.
   TrackLine line;
-  int iterations = 0;  ///< Number of quadratic programs solved.
+  int iterations = 0;  ///< Number of quadratic programs that were solved.
 };
 
-/// Finds the line of least curvature whose points stay at least b = `beside` [m] away from the
-/// edges. The result has no line if the track is too narrow.
+/// Finds the line of least curvature that stays at least b = `beside` [m] away from the track's
+/// edges. If the track is too narrow, the result contains no line.
 ///
-/// Guarantees: the bounds are met to 1e-6 m at two points per knot; the last step changed the
-/// integral of kappa^2 by a fraction of less than 1e-6. The line is a local minimum, because the
-/// problem is not convex. The rear axle follows the line. In bends of radius r, a front corner of
-/// the car is therefore farther out than the side at the rear axle, by about l^2/(2 r). Here, l is
-/// the distance from the rear axle to the car's front [m]. Throws RunError in a build without
-/// IPOPT. Cost: 0.6 s per kilometer of points 5 m apart.
+/// Guarantees: at two points per knot, the line keeps the distance b from the edges, to within 1e-6
+/// m; the last step changed the integral of kappa^2 by a fraction of less than 1e-6. The problem is
+/// not convex, so that the line is only a local minimum. The car's rear axle follows the line. In a
+/// bend of radius r, a front corner of the car is therefore farther out than the car's side at the
+/// rear axle, by about l_f^2/(2 r), where l_f is the distance from the rear axle to the car's front
+/// [m]. Throws RunError if the program was built without IPOPT. Computing time: 0.6 s per kilometer
+/// of track, for track points 5 m apart.
 MinimumCurvatureLine FindMinimumCurvature(const Track& track, double beside);
 
 struct MinimumCurvatureDiagnostics {
   TrackPlanDiagnostics plan;
   int iterations = 0;
-  /// Integral of kappa^2 over the center line [1/m], see LineFindings::curvature_square.
+  /// Integral of kappa^2 over the length of the center line [1/m], see
+  /// LineFindings::curvature_square.
   double center_curvature_square = 0.0;
 };
 void Visit(DiagnosticsVisitor& out, const MinimumCurvatureDiagnostics& own);

@@ -7,89 +7,98 @@
 #include "trackbed/planning/racing/track_line.h"
 #include "trackbed/track/track.h"
 
-/// Finds the line around a track with the shortest lap time at the car's limit.
+/// Finds the line around a track on which a car that uses its limits fully has the shortest lap
+/// time.
 ///
-/// Symbols: d(s) offset of the line from the center line over its station [m], with coefficients c;
-/// b half of the car's width plus the margin [m]; T lap time of the limit profile
-/// (LimitSpeedsAround) on the line [s].
+/// Symbols: d(s) is the offset of the line from the track's center line at the station s [m], a
+/// spline with the coefficients c; b is half of the car's width plus the margin [m]; T is the lap
+/// time [s] on the line at the highest possible speeds (LimitSpeedsAround).
 ///
 ///   minimize T(c)   subject to   right(s) + b <= d(s) <= left(s) - b,   |kappa| <= kappa_max
 ///
 /// The solver is a trust-region method that starts at the line of least curvature. Each step
-/// linearizes curvature and length of the line and the boundary of the g-g-v diagram about the last
-/// line and its limit profile, and solves a quadratic program for changes of c and of the speeds at
-/// all stations. The new line gets a new limit profile, and is kept only if it is faster. The
-/// problem is that of Casanova 2000 and of Christ et al. 2021, but for a point mass with a g-g-v
-/// diagram. The limit profile eliminates the speeds from the problem.
+/// linearizes three quantities about the last line and its speeds: the curvature of the line, the
+/// length of the line, and the boundary of the g-g-v diagram. The step then solves a quadratic
+/// program for changes of c and of the speeds at all stations. LimitSpeedsAround computes the
+/// speeds of the new line, and the new line is kept only if it is faster. Casanova 2000 and Christ
+/// et al. 2021 solve the same problem, but for vehicle models in place of the point mass with a
+/// g-g-v diagram used here. The speeds are not unknowns of the problem, because LimitSpeedsAround
+/// computes the speeds of any line.
 namespace trackbed {
 
-/// The limits on the speed of a lap, on a level road with uniform friction.
+/// The limits on a car's speed during a lap, on a level road with uniform friction.
 struct LapLimits {
   GgvDiagram diagram;
   LimitOptions options{};
-  double road = 1.0;           ///< Factor on the tyres' friction [1], > 0.
-  double wheelbase = 0.0;      ///< Wheelbase L [m], for steering angles atan(L kappa).
-  double steering_rate = 0.0;  ///< Largest steering rate [rad/s]; 0: no limit.
-  double curvature_max = 0.0;  ///< Largest curvature kappa_max [1/m]; 0: no limit.
+  double road = 1.0;  ///< Friction of the road, as a factor on the tyres' friction [1], > 0.
+  /// Wheelbase L of the car, for computing steering angles atan(L kappa) [m].
+  double wheelbase = 0.0;
+  double steering_rate = 0.0;  ///< Largest steering rate of the car [rad/s]; 0: no limit.
+  /// Largest permitted curvature kappa_max of the line [1/m]; 0: no limit.
+  double curvature_max = 0.0;
 };
 
-/// Returns the limits of a lap for a request that has PlanRequest::limits.
+/// Returns the limits of a lap for the given request, which must have PlanRequest::limits.
 LapLimits LimitsOfLap(const PlanRequest& request);
 
-/// Returns the lap time [s] of a line by its limit profile. The stations of the profile are a
-/// quarter of the spacing of the track's points apart, at most 1.3 m. Throws PreconditionError if
-/// the line folds back on itself.
+/// Returns the lap time on a line at the highest possible speeds [s]. The speeds are computed at
+/// stations whose spacing is a quarter of the spacing of the track's points, but at most 1.3 m.
+/// Throws PreconditionError if the line folds back on itself.
 double LapTime(const Track& track, const TrackLine& line, const LapLimits& limits);
 
 enum class MinimumTimeEnd {
-  /// The predicted gain of a step is at most 1e-4 of the lap time; or the predicted gain is at most
-  /// 5e-4 of the lap time, and no part of the step makes the lap faster.
+  /// The search has converged: the predicted gain of a step is at most 1e-4 of the lap time; or the
+  /// predicted gain is at most 5e-4 of the lap time, and no fraction of the step makes the lap
+  /// faster.
   kConverged,
-  kNoGain,          ///< No step makes the lap faster, even with changes of only a millimeter.
-  kIterationLimit,  ///< The maximum number of iterations is reached.
+  /// No step makes the lap faster, not even a step that changes the line by only a millimeter.
+  kNoGain,
+  kIterationLimit,  ///< The search has reached the maximum number of iterations.
   kProgramNotSolved,
 };
-/// Returns the spelling of an end in plan.json: "converged", "no_gain", "iteration_limit",
-/// "program_not_solved".
+/// Returns the name, as written in plan.json, of the reason why the search ended: "converged",
+/// "no_gain", "iteration_limit", "program_not_solved".
 const char* ToString(MinimumTimeEnd end);
 
 struct MinimumTimeLine {
-  std::string refused;  ///< Reason why there is no line; else empty.
+  std::string refused;  ///< Reason why no line was found; else empty.
   TrackLine line;
-  double time = 0.0;        ///< LapTime of the line [s].
-  double start_time = 0.0;  ///< LapTime of the line of least curvature [s].
-  /// Whether the line is faster than the line of least curvature; if not, the result is the line of
-  /// least curvature.
+  double time = 0.0;        ///< Lap time on the found line, computed by LapTime [s].
+  double start_time = 0.0;  ///< Lap time on the line of least curvature, computed by LapTime [s].
+  /// Whether the found line is faster than the line of least curvature; if not, the result is the
+  /// line of least curvature.
   bool improved = false;
   MinimumTimeEnd end = MinimumTimeEnd::kConverged;
-  int iterations = 0;      ///< Number of quadratic programs solved.
-  double last_gain = 0.0;  ///< Gain of the last accepted step [s].
+  int iterations = 0;      ///< Number of quadratic programs that were solved.
+  double last_gain = 0.0;  ///< Reduction of the lap time by the last accepted step [s].
 };
 
-/// Finds the fastest line whose points stay at least b = `beside` [m] away from the edges. The
-/// result has no line if the track is too narrow, if no line within kappa_max was found, or if the
-/// car cannot keep moving.
+/// Finds the fastest line that stays at least b = `beside` [m] away from the track's edges. The
+/// result contains no line if the track is too narrow, if no line within kappa_max was found, or if
+/// the car cannot keep moving.
 ///
-/// Guarantees: by LapTime, the line is never slower than the line of least curvature for the same
-/// b. The bounds are met to 1e-6 m at two points or more per knot. The same arguments give the same
-/// bits on one machine. The line is a local minimum, because the problem is not convex. Slopes,
-/// banks and changes of friction are ignored. Throws RunError in a build without IPOPT. Cost: 5 to
-/// 20 programs, each 1.4 s per kilometer of points 5 m apart.
+/// Guarantees: the lap time on the line (LapTime) is never longer than on the line of least
+/// curvature for the same b. At two points or more per knot, the line keeps the distance b from the
+/// edges, to within 1e-6 m. On one machine, the same arguments always yield a bit-identical line.
+/// The problem is not convex, so that the line is only a local minimum. The function ignores
+/// slopes, banks and changes of friction along the track. Throws RunError if the program was built
+/// without IPOPT. Computing time: 5 to 20 quadratic programs, each 1.4 s per kilometer of track,
+/// for track points 5 m apart.
 MinimumTimeLine FindMinimumTime(const Track& track, double beside, const LapLimits& limits,
                                 int iterations = 40);
 
 struct MinimumTimeOptions {
-  double margin = 0.5;  ///< Distance of the car's sides from the edges [m], >= 0.
+  double margin = 0.5;  ///< Distance of the car's sides from the track's edges [m], >= 0.
   int iterations = 40;  ///< Maximum number of iterations, >= 1.
 };
 void Visit(KeyVisitor& keys, MinimumTimeOptions& options);
 
 struct MinimumTimeDiagnostics {
   TrackPlanDiagnostics plan;
-  double lap_time = 0.0;  ///< Lap time of the line [s], see MinimumTimeLine::time.
-  /// Lap time of the line of least curvature [s], see MinimumTimeLine::start_time.
+  double lap_time = 0.0;  ///< Lap time on the found line [s], see MinimumTimeLine::time.
+  /// Lap time on the line of least curvature [s], see MinimumTimeLine::start_time.
   double minimum_curvature_lap_time = 0.0;
-  std::string end;  ///< Name of MinimumTimeLine::end.
+  std::string end;  ///< Name of the value of MinimumTimeLine::end.
   int iterations = 0;
 };
 void Visit(DiagnosticsVisitor& out, const MinimumTimeDiagnostics& own);

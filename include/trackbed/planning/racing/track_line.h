@@ -7,30 +7,31 @@
 #include "trackbed/track/closed_spline.h"
 #include "trackbed/track/track.h"
 
-/// Closed lines on a track, described by their offset from the center line, and plans along such
-/// lines.
+/// Describes closed lines on a track by their offset from the track's center line, and plans laps
+/// along such lines.
 ///
-/// Symbols: s station along the center line [m], kappa_c(s) its curvature; d(s) offset of the line
-/// [m], positive to the left.
+/// Symbols: s is the station along the track's center line [m], kappa_c(s) the curvature of the
+/// center line, and d(s) the offset of the line from the center line [m], positive to the left.
 namespace trackbed {
 
-/// The offset d and its derivatives d' and d'' at one station.
+/// The offset d of a line and the derivatives d' and d'' at one station.
 struct LineOffset {
-  double d = 0.0;      ///< Offset [m].
-  double slope = 0.0;  ///< Slope dd/ds.
-  double bend = 0.0;   ///< Second derivative d^2d/ds^2 [1/m].
+  double d = 0.0;      ///< Offset d of the line from the center line [m].
+  double slope = 0.0;  ///< First derivative d' = dd/ds of the offset.
+  double bend = 0.0;   ///< Second derivative d'' = d^2d/ds^2 of the offset [1/m].
 };
 
-/// A closed line on a track. The default is the center line.
+/// A closed line on a track. A default-constructed TrackLine is the center line.
 class TrackLine {
  public:
   TrackLine() = default;
-  /// Makes a line whose offset d is a closed spline over the station. The matrix of coefficients
-  /// has one column; the period of the basis is the length of the track.
+  /// Makes a line whose offset d is a closed spline as a function of the station. The matrix
+  /// `coefficients` must have one column, and the period of `basis` must be the length of the
+  /// track.
   TrackLine(const ClosedSplineBasis& basis, Eigen::MatrixXd coefficients);
 
   [[nodiscard]] LineOffset At(double s) const;
-  /// Returns the coefficients of the spline; empty for the center line.
+  /// Returns the coefficients of the offset spline; empty for the center line.
   [[nodiscard]] const Eigen::MatrixXd& coefficients() const { return coefficients_; }
 
  private:
@@ -38,38 +39,44 @@ class TrackLine {
   Eigen::MatrixXd coefficients_;
 };
 
-/// Measures of a closed line over one lap.
+/// Length, curvature and tightest bend of a closed line.
 struct LineFindings {
-  double length = 0.0;            ///< Length of the line [m].
-  double curvature_square = 0.0;  ///< Integral of kappa^2 over the line [1/m].
-  double radius_min = 0.0;        ///< Radius of the tightest bend [m].
+  double length = 0.0;  ///< Length of the closed line [m].
+  /// Integral of the squared curvature kappa^2 over the length of the line [1/m].
+  double curvature_square = 0.0;
+  double radius_min = 0.0;  ///< Radius of the line's tightest bend [m].
 };
 LineFindings MeasureLine(const Track& track, const TrackLine& line);
 
 /// Diagnostics of a plan on a track, for plan.json.
 struct TrackPlanDiagnostics {
-  double track_length = 0.0;   ///< Length of the center line [m].
-  double smoothing = 0.0;      ///< Wavelength below which the center line is smoothed [m].
-  double deviation_max = 0.0;  ///< Largest displacement of a track point by smoothing [m].
-  double deviation_rms = 0.0;  ///< Root mean square displacement of all track points [m].
-  double join = 0.0;           ///< Distance over which the car joins the line [m].
-  double run_out = 0.0;        ///< Braking distance beyond the finish line [m].
-  LineFindings lap;            ///< Measures of the line over one lap.
+  double track_length = 0.0;   ///< Length of the track's center line [m].
+  double smoothing = 0.0;      ///< Wavelength below which the track's center line is smoothed [m].
+  double deviation_max = 0.0;  ///< Largest distance by which smoothing moved a track point [m].
+  /// Root mean square of the distances by which smoothing moved the track points [m].
+  double deviation_rms = 0.0;
+  double join = 0.0;  ///< Distance over which the car moves from its start onto the line [m].
+  /// Distance that the plan continues beyond the finish line, for braking [m].
+  double run_out = 0.0;
+  LineFindings lap;  ///< Length, curvature and tightest bend of the line.
 };
 void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 
-/// Plans laps along a line. The plan leads from the car onto the line, TrackLaps::laps times around
-/// the track, and beyond the finish line by the braking distance from the mission's speed.
+/// Plans laps along a line on the track. The plan leads from the car onto the line, TrackLaps::laps
+/// times around the track, and then beyond the finish line by the distance that the car needs to
+/// brake from the mission's speed.
 ///
-/// The car may start anywhere on the track, facing along the track. A car up to half a lap before
-/// the start line first drives to the start line; a car on or beyond the start line begins in its
-/// first lap. A polynomial of degree 5 reduces the car's offset from the line to 0. The length of
-/// this polynomial is the largest of three values, but at most half a lap: the distance of three
-/// seconds at the mission's speed, ten times the offset, and four wheelbases.
+/// The car may start anywhere on the track, facing along the track. A car that starts up to half a
+/// lap before the start line first drives to the start line; a car that starts on or beyond the
+/// start line begins its first lap at once. From its start, the car approaches the line along a
+/// polynomial of degree 5, which reduces the car's offset from the line to 0. The approach is at
+/// most half a lap long; otherwise, its length is the largest of three values: the distance that
+/// the car drives in three seconds at the mission's speed, ten times the offset, and four
+/// wheelbases.
 ///
-/// Guarantees: the curvature is continuous. Obstacles are ignored. The plan is rejected, with a
-/// reason, if there is no track, or if the car is off the track or faces across the track. Cost: 50
-/// us per meter.
+/// Guarantees: the curvature of the path is continuous. The planned path ignores obstacles. The
+/// plan is rejected, with a reason, if there is no track, or if the car is off the track or faces
+/// across the track. Computing time: 50 us per meter of path.
 Plan FollowLine(const PlanRequest& request, const TrackLine& line);
 
 }  // namespace trackbed

@@ -7,35 +7,37 @@
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/planner.h"
 
-/// The registry of planners.
+/// The registry of all planners, to which programs can add their own.
 namespace trackbed {
 
-/// Returns all planners; the built-in planners come first.
+/// Returns all registered planners; the built-in planners come first.
 const std::vector<PlannerEntry>& Planners();
 
-/// Adds a planner to the registry, for scenarios, `trackbed list`, messages and reports. Call
-/// RegisterPlanner at the start of main: it invalidates references to entries and is not
-/// thread-safe. Throws PreconditionError if the name or the type of the options is taken.
+/// Adds a planner to the registry, so that the planner is available in scenarios, `trackbed list`,
+/// messages and reports. Call RegisterPlanner only at the start of main, because the function
+/// invalidates references to registry entries and is not thread-safe. Throws PreconditionError if
+/// another planner has the same name or the same options type.
 void RegisterPlanner(PlannerEntry entry);
 
-/// Returns the entry of the planner to which the options belong. Throws InternalError for empty
-/// options.
+/// Returns the registry entry of the planner to which the options belong. Throws InternalError if
+/// the options are empty.
 const PlannerEntry& PlannerFor(const PlannerOptions& options);
 
-/// Returns whether a plan with these options may contain reverse segments.
+/// Returns whether a plan made with the given options may contain reverse segments.
 bool MayGoBackwards(const PlannerOptions& options);
 
-/// Returns whether a plan with these options may be partial (Plan::partial).
+/// Returns whether a plan made with the given options may be partial (Plan::partial).
 bool MayBePartial(const PlannerOptions& options);
 
-/// Returns the distance [m] that plans with these options keep between car and obstacles: the value
-/// of the planner's key `safe_distance`. Returns nullopt for planners without that key.
+/// Returns the distance that plans with these options keep between car and obstacles, which is the
+/// value of the planner's key `safe_distance` [m]. Returns nullopt if the planner has no such key.
 std::optional<double> PlannerSafeDistance(const PlannerOptions& options);
 
-/// Plans with the planner to which the options belong, and makes the plan feasible (feasibility.h).
-/// Never throws for a mission that cannot be planned. Throws InternalError for a mission that the
-/// caller should have rejected (a non-finite number). Throws PreconditionError if an option is
-/// outside the range of its key.
+/// Makes a plan by the planner to which the options belong, and makes the plan feasible
+/// (feasibility.h). If no plan exists for the mission, the status of the returned plan says so;
+/// this is not an exception. Throws InternalError if the mission contains a number that is not
+/// finite, which the caller should have rejected. Throws PreconditionError if an option is outside
+/// the range of its key.
 FeasiblePlan MakePlan(const PlanRequest& request, const PlannerOptions& options);
 
 }  // namespace trackbed

@@ -8,40 +8,41 @@
 #include "trackbed/planning/frenet/frenet_options.h"
 #include "trackbed/planning/sampling/comparator_options.h"
 
-/// The options of replanning (replan.h, along_route.h).
+/// The options for replanning during a run (replan.h, along_route.h).
 namespace trackbed {
 
-/// The method that finds motions: PlanFrenet or PlanLattice. The safe distance in these options is
-/// ignored; AlongSettings::safe_distance applies.
+/// Options of the method that finds motions along the route, which is PlanFrenet or PlanLattice.
+/// AlongSettings::safe_distance applies instead of the safe distance in these options.
 using AlongOptions = std::variant<FrenetOptions, LatticeOptions>;
 
 struct AlongSettings {
-  double safe_distance = 0.3;  ///< Distance of the car's footprint from obstacles [m], >= 0.
+  /// Distance that the car's footprint keeps from obstacles [m], >= 0.
+  double safe_distance = 0.3;
   RoadWidths road;
-  double gap = 3.0;       ///< Gap to an obstacle ahead, between the bumpers at rest [m].
-  double time_gap = 1.5;  ///< Additional gap to a moving obstacle ahead [s].
-  /// Time for which the way must be clear [s], on the motion and on its continuation. If the
-  /// horizon of the method is longer, that horizon applies.
+  double gap = 3.0;  ///< Distance to an obstacle ahead when both stand, from bumper to bumper [m].
+  double time_gap = 1.5;  ///< Additional time gap to a moving obstacle ahead [s].
+  /// Time for which a motion and its continuation must be clear of obstacles [s]. If the horizon of
+  /// the method (PlanFrenet or PlanLattice) is longer, the horizon of the method applies.
   double look_ahead = 12.0;
 };
 
-/// How a detour is chosen (detour.h).
+/// Settings for choosing a detour (detour.h).
 struct DetourChoice {
-  int attempts = 4;  ///< Number of attempts of a random planner, with different seeds, >= 1.
-  double wind_weight = 1.0;  ///< Weight k_w of wind, see WindScoring.
+  int attempts = 4;  ///< Number of attempts with different seeds, if the planner is random, >= 1.
+  double wind_weight = 1.0;  ///< Weight k_w of the wind in the score of a path, see WindScoring.
   ComparatorOptions comparator;
 };
 void Visit(KeyVisitor& keys, DetourChoice& choice);
 
 struct ReplanOptions {
-  double period = 0.5;  ///< Time between two checks [s], > 0.
-  /// Settings of motions. The current plan, at its planned speeds, is also checked over the
-  /// look-ahead of these settings.
+  double period = 0.5;  ///< Time between two checks of the current plan [s], > 0.
+  /// Settings for motions along the route. The look-ahead in these settings also applies when the
+  /// current plan is checked for conflicts.
   AlongSettings settings;
   std::optional<AlongOptions> along;
-  /// Planner of detours, which must meet the requirements of PlanDetour.
+  /// Options of the planner for detours, which must meet the requirements of PlanDetour.
   std::optional<PlannerOptions> detour;
-  /// Settings for choosing a detour; none: the defaults.
+  /// Settings for choosing a detour; none: the default settings.
   std::optional<DetourChoice> comparator{};
 };
 void Visit(KeyVisitor& keys, ReplanOptions& options);

@@ -3,7 +3,7 @@
 namespace trackbed {
 
 struct ComparatorOptions {
-  /// Penalty added to the score of a path that collides [m], >= 0.
+  /// Penalty that is added to the score of a path that collides with an obstacle [m], >= 0.
   double collision_penalty = 1000.0;
 };
 

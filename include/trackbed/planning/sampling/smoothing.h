@@ -6,42 +6,45 @@
 #include "trackbed/geometry/pose.h"
 #include "trackbed/world/wind.h"
 
-/// Smooths a path with corners ("Smoothing" of the wind-aware RRT; Thrun 2012): each inner point
-/// moves toward its original position and toward the middle of its neighbors, unless an obstacle is
-/// in the way or the wind score would decrease.
+/// Smooths a path with corners ("Smoothing" of the wind-aware RRT; Thrun 2012). Each inner point of
+/// the path moves toward its original position and toward the middle of its two neighbors, unless
+/// an obstacle is in the way or the wind score would decrease.
 ///
-/// Symbols: x_i given points, y_i smoothed points, both ends fixed; alpha weight of the data, beta
-/// weight of smoothness; w wind [m/s]; V airspeed [m/s].
+/// Symbols: x_i are the original points and y_i the smoothed points, whose first and last are
+/// fixed; alpha is the weight of the original points, and beta the weight of smoothness; w is the
+/// wind [m/s], and V the airspeed [m/s].
 namespace trackbed {
 
 /// Describes how the wind contributes to the score of a path.
 struct WindScoring {
   Wind wind;
-  double time = 0.0;    ///< Time at which gusts are evaluated [s].
-  double speed = 1.0;   ///< Airspeed V [m/s], > 0.
-  double weight = 1.0;  ///< Weight k_w; 0: wind is ignored.
+  double time = 0.0;    ///< Time at which the gusts of the wind are evaluated [s].
+  double speed = 1.0;   ///< Airspeed V of the vehicle [m/s], > 0.
+  double weight = 1.0;  ///< Weight k_w of the wind in the score; 0: wind is ignored.
 };
 
 /// Returns the wind score W [m] of a path: W = k_w sum(w . dx)/V over the segments dx of the path,
-/// with the wind w at the middle of each segment. The score is positive in tailwind. To first
-/// order, the score is the length that the wind saves for a vehicle with airspeed V. In uniform
-/// wind, the score depends only on the ends of the path. The score is 0 for fewer than two points.
+/// with the wind w at the middle of each segment. In a tailwind, the wind score is positive. To
+/// first order, the wind score is the path length that the wind saves for a vehicle with the
+/// airspeed V. In uniform wind, the wind score depends only on the two ends of the path. For a path
+/// of fewer than two points, the wind score is 0.
 double WindScore(const std::vector<Vec2>& path, const WindScoring& scoring);
 
 struct SmoothingOptions {
-  double data = 0.5;  ///< Weight alpha, >= 0.
-  /// Weight beta, >= 0. With 0 < alpha + 2 beta < 1, the smoothing converges without overshoot.
+  double data = 0.5;  ///< Weight alpha of the original points, >= 0.
+  /// Weight beta of smoothness, >= 0. With 0 < alpha + 2 beta < 1, the smoothing converges without
+  /// overshoot.
   double smoothness = 0.1;
-  /// Smoothing ends when the changes of all coordinates in a sweep add up to less than `tolerance`
-  /// [m], which must be > 0.
+  /// Smoothing ends after a sweep in which the changes of all coordinates add up to less than
+  /// `tolerance` [m], > 0.
   double tolerance = 1e-6;
-  int sweeps = 1000;  ///< Maximum number of sweeps, >= 0.
+  int sweeps = 1000;  ///< Maximum number of sweeps over all points, >= 0.
 };
 
 struct SmoothingResult {
   std::vector<Vec2> path;
-  int sweeps = 0;          ///< Number of sweeps, including the last sweep.
-  bool converged = false;  ///< Whether the last sweep moved the points by less than the tolerance.
+  int sweeps = 0;          ///< Number of sweeps over all points, including the last sweep.
+  bool converged = false;  ///< Whether the last sweep moved the points by less than `tolerance`.
 };
 
 /// Smooths a path, point by point and coordinate by coordinate: y_i <- y_i + alpha (x_i - y_i) +
@@ -49,10 +52,12 @@ struct SmoothingResult {
 /// farther than `inflation` [m] from every obstacle, and the wind score of the two edges does not
 /// decrease.
 ///
-/// Guarantees: the ends do not move, and a free path stays free. Without obstacles and wind, the
-/// path converges to (alpha + 2 beta) y_i - beta (y_{i-1} + y_{i+1}) = alpha x_i. Obstacles may
-/// stop a point in only one of its coordinates. The result is a polyline: corners are not rounded.
-/// Errors: InternalError for options out of range. Cost: O(sweeps x points x obstacles).
+/// Guarantees: the two ends of the path do not move, and a path that is free of obstacles stays
+/// free. Without obstacles and wind, the smoothed points converge to the solution of (alpha + 2
+/// beta) y_i - beta (y_{i-1} + y_{i+1}) = alpha x_i. An obstacle may block the motion of a point
+/// along x but not along y, or vice versa. The resulting path is a polyline, whose corners are not
+/// rounded. Throws InternalError if an option is out of range. Computing time: O(sweeps x points x
+/// obstacles).
 SmoothingResult SmoothPath(const std::vector<Vec2>& path, const std::vector<OrientedBox>& obstacles,
                            double inflation, const WindScoring& wind,
                            const SmoothingOptions& options);
