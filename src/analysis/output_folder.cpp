@@ -175,8 +175,8 @@ bool NeedsRecovery(const fs::path& folder) {
   return IsFolder(folder / run_folder::kPartial) || IsFolder(folder / run_folder::kComplete);
 }
 
-/// Completes the committed result of a killed process and removes an incomplete result. The caller
-/// of Recover must hold the lock of the folder.
+/// If a killed process left a result in a hidden folder, moves a complete result into place and
+/// deletes an incomplete result. The caller of Recover must hold the lock of the folder.
 void Recover(const fs::path& folder) {
   if (IsFolder(folder / run_folder::kPartial)) {
     RemovePartial(folder);

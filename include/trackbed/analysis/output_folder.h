@@ -22,10 +22,11 @@ struct Manifest;
 ///
 /// The lock uses flock, which leaves no lock file and is released when the process ends. If a
 /// second process opens a locked folder, the constructor throws an error immediately. If a killed
-/// process left a complete result in a hidden folder, opening the folder moves that result into
-/// place. An incomplete result of a killed process is removed. On file systems without locks, and
-/// between machines that share a folder over NFS, several processes may write to a folder at the
-/// same time. The hashes in manifest.json then reveal a mixture of results.
+/// process left a complete result in a hidden folder inside the output folder, the next process
+/// that opens the output folder moves that result into place. An incomplete result of a killed
+/// process is removed. On file systems without locks, and between machines that share a folder over
+/// NFS, several processes may write to a folder at the same time. The hashes in manifest.json then
+/// reveal a mixture of results.
 class OutputFolder {
  public:
   enum class For {

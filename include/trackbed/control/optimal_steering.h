@@ -64,8 +64,8 @@ struct OptimalSteeringOptions {
   /// is at least 1.5 cbrt(e L v/omega) for a car with the offset e from its path, as in
   /// PreviewOptions.
   std::optional<double> horizon;
-  /// Minimum driving time over the horizon S [s], >= 0: S is at least `time` times |v|, or `time`
-  /// times v_0 with kTime.
+  /// Minimum time that the horizon covers [s], >= 0: the length S of the horizon is at least this
+  /// time multiplied by the speed of the car (kArcLength) or of the primary (kTime).
   double time = 0.0;
   SearchOptions search{.method = SearchMethod::kNelderMead, .population = 20, .tolerance = 1e-6};
   DeviationWeights weights;

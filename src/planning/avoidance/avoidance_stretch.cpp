@@ -217,7 +217,8 @@ class StretchFinder {
     const double lead = LeadDistance(bend, conflict.obstacle);
     for (const double share : {1.0, 1.5, 2.25}) {
       const double wanted = bend.from - share * lead;
-      // A curve that begins at the car's present position may begin on a steering ramp.
+      // A curve that begins at the car's present position may begin while the steering angle is
+      // still changing; any other curve begins where the steering is settled, if possible.
       const double s = request_.car && wanted <= 0.0 ? 0.0
                                                      : SettledNear(std::max(wanted, from), from,
                                                                    std::max(from, conflict.from));

@@ -22,8 +22,8 @@ class RoadStrip {
     double beyond = 0.0;
     double straight_on = 0.0;  ///< Part of `beyond` that lies on the straight extension of the road
                                ///< [m].
-    /// Weight of the place in the mean height, which falls to 0 toward the road's center of
-    /// curvature.
+    /// Factor from 0 to 1 by which the height `z` counts in the mean height of nearby strips.
+    /// The factor falls to 0 toward the road's center of curvature.
     double share = 1.0;
   };
 

@@ -28,7 +28,8 @@ double CornerCost(const PruningProblem& problem, const Vec2& from, const Vec2& a
 /// Cheapest path whose last line connects two given points.
 struct Line {
   double cost = kInfinity;
-  std::size_t before = 0;  ///< start point of the line before the last line
+  /// Index of the waypoint at which the second-to-last line of the path begins.
+  std::size_t before = 0;
 };
 
 }  // namespace

@@ -101,10 +101,13 @@ class RoadHold {
 /// The smallest value of each limit of RoadHold over a part of a path, sampled every 0.1 m. A value
 /// is 0 if the limit is unknown, or if gravity exceeds the grip.
 struct RoadHoldLimits {
-  /// Smallest limit of the lateral acceleration, for bends to either side [m/s^2].
+  /// Smallest value of the lateral acceleration limit along the part of the path, for bends to
+  /// either side [m/s^2].
   double lateral = 0.0;
-  double braking = 0.0;  ///< Smallest limit of the deceleration [m/s^2].
-  double driving = 0.0;  ///< Smallest limit of the acceleration [m/s^2].
+  /// Smallest value of the deceleration limit along the part of the path [m/s^2].
+  double braking = 0.0;
+  /// Smallest value of the forward acceleration limit along the part of the path [m/s^2].
+  double driving = 0.0;
 };
 RoadHoldLimits MinRoadHold(const Path& path, Stations within, const PlanRequest& request);
 
