@@ -4,7 +4,7 @@
 ///
 ///     const trackbed::RunResult run = trackbed::RunScenario("corner.yaml");
 ///     if (const auto car = run.Find("mujoco")) {
-///       std::cout << car->metrics.tracking->cross_track.max;
+///       std::cout << car->metrics.tracking->cross_track_max;
 ///     }
 ///     const trackbed::PlantComparison apart = trackbed::Compare(run, "kinematic", "mujoco");
 ///

@@ -22,7 +22,7 @@ int main() {
   for (const char* plant : {"kinematic", "mujoco"}) {
     const auto [log, metrics] = *run.Find(plant);
     std::printf("%s: %zu rows, largest cross-track error %.4f m\n", plant, log.rows.size(),
-                metrics.tracking->cross_track.max);
+                metrics.tracking->cross_track_max);
   }
   const trackbed::PlantComparison apart = trackbed::Compare(run, "kinematic", "mujoco");
   std::printf("at most %.4f m apart\n", apart.position.max);

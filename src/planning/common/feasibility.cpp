@@ -94,8 +94,9 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
   const bool is_at_limit = IsAtLimit(plan, request);
   ForEachPiece(path, vehicle, feasible_speeds::kCheckSpacing, [&](const PathPiece& piece) {
     const double s = piece.stations.from;
-    const double v =
-        std::max(plan.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(piece.stations.to));
+    const double v_from = plan.reference.speed.SpeedAt(s);
+    const double v_to = plan.reference.speed.SpeedAt(piece.stations.to);
+    const double v = std::max(v_from, v_to);
     if (!plan.sampled) {
       rate.Take(v * piece.slope, vehicle.steering_rate, s);
     }
@@ -108,7 +109,7 @@ void CheckPath(const Plan& plan, const PlanRequest& request, std::vector<Excess>
     }
     const RoadHold::Pull pull = road.Slope(path, s);
     slope.Take(pull.pull, pull.hold, s);
-    const RoadHold::Combined both = feasible_speeds::CombinedOver(road, plan, piece);
+    const RoadHold::Combined both = feasible_speeds::CombinedOver(road, path, piece, v_from, v_to);
     combined.Take(both.required, both.limit, s);
   });
   slope.AddTo(found);

@@ -15,14 +15,16 @@ double LateralOver(const RoadHold& road, const Path& path, const Stations& piece
                   road.Lateral(path, piece.to, curvature));
 }
 
-RoadHold::Combined CombinedOver(const RoadHold& road, const Plan& plan, const PathPiece& piece) {
+RoadHold::Combined CombinedOver(const RoadHold& road, const Path& path, const PathPiece& piece,
+                                double v_from, double v_to) {
+  if (road.flat() && (piece.curvature == 0.0 || v_from == v_to)) {
+    return {};
+  }
   const auto [from, to] = piece.stations;
-  const Path& path = plan.reference.path;
-  const double v_from = plan.reference.speed.SpeedAt(from);
-  const double v_to = plan.reference.speed.SpeedAt(to);
   const double along = to > from ? 0.5 * (v_to * v_to - v_from * v_from) / (to - from) : 0.0;
   const double across = std::max(v_from * v_from, v_to * v_to) * piece.curvature;
-  return road.Both(path, from, along, std::copysign(across, path.At(0.5 * (from + to)).curvature));
+  const bool bends_left = road.flat() || path.At(0.5 * (from + to)).curvature >= 0.0;
+  return road.Both(path, from, along, bends_left ? across : -across);
 }
 
 bool EndsAtStop(const std::vector<Stations>& legs, double s) {
@@ -112,7 +114,9 @@ std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request,
       }
     }
     bend.push_back({from, to, std::sqrt(std::max(0.0, lateral) / piece.curvature)});
-    const RoadHold::Combined both = CombinedOver(road, plan, piece);
+    const SpeedProfile& speed = plan.reference.speed;
+    const RoadHold::Combined both =
+        CombinedOver(road, path, piece, speed.SpeedAt(from), speed.SpeedAt(to));
     is_exceeded = is_exceeded || (both.limit > 0.0 && both.required > both.limit);
   });
   finish_bend();

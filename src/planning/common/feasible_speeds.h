@@ -33,9 +33,11 @@ void ForEachRamp(const SteeringSchedule& schedule, const Call& call) {
 /// piece of the path.
 double LateralOver(const RoadHold& road, const Path& path, const Stations& piece);
 
-/// Returns the combined longitudinal and lateral acceleration that the plan requires on a piece of
-/// its path, together with the limit.
-RoadHold::Combined CombinedOver(const RoadHold& road, const Plan& plan, const PathPiece& piece);
+/// Returns the combined longitudinal and lateral acceleration that a plan requires on a piece of
+/// its path, together with the limit. `v_from` and `v_to` are the speeds at both ends of the piece
+/// [m/s].
+RoadHold::Combined CombinedOver(const RoadHold& road, const Path& path, const PathPiece& piece,
+                                double v_from, double v_to);
 
 /// Returns whether a leg ends at the station s with an intermediate stop, at which the wheels may
 /// turn at standstill.
