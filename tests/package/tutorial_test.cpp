@@ -247,8 +247,8 @@ TEST(Tutorial, EndsAsItsPageSays) {
   EXPECT_THAT(
       text,
       testing::HasSubstr(fmt::format(
-          "At 5 s the wheels are at {:.3f} and {:.3f} rad, and the yaw rates are "
-          "{:.3f} and {:.3f} rad/s",
+          "At 5 s, the wheel angles of the kinematic car and of the car on tyres are {:.3f} and "
+          "{:.3f} rad, but the yaw rates are {:.3f} and {:.3f} rad/s",
           AtFiveSeconds(kinematic, "steering_rad"), AtFiveSeconds(tyres, "steering_rad"),
           AtFiveSeconds(kinematic, "yaw_rate_radps"), AtFiveSeconds(tyres, "yaw_rate_radps"))));
   EXPECT_THAT(
