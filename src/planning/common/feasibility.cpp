@@ -306,9 +306,13 @@ Plan Repaired(Plan plan, const PlanRequest& request) {
   // begin earlier.
   constexpr int kMaxAttempts = 4;
   std::vector<Excess> left = first;
+  std::vector<Excess> reasons = first;
   for (int i = 0; i < kMaxAttempts && !left.empty(); ++i) {
     limits = ReduceAccelerations(limits, left);
     if (Has(left, Remedy::kGentlerBends)) {
+      if (!Has(reasons, Remedy::kGentlerBends)) {
+        reasons.insert(reasons.end(), left.begin(), left.end());
+      }
       limits = feasible_speeds::LeaveGripForBends(limits, plan.reference.path, request);
       const std::vector<SpeedCap> bends = feasible_speeds::CapsInBends(slower, request, limits);
       slower.caps.insert(slower.caps.end(), bends.begin(), bends.end());
@@ -322,7 +326,7 @@ Plan Repaired(Plan plan, const PlanRequest& request) {
   }
   slower.notes.push_back(fmt::format("{}: at {:.3g} m/s {}",
                                      DescribeSpeedChanges(request.speed, limits, slowest),
-                                     request.speed.speed, Listed(first)));
+                                     request.speed.speed, Listed(reasons)));
   return slower;
 }
 

@@ -117,7 +117,8 @@ std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request,
     const SpeedProfile& speed = plan.reference.speed;
     const RoadHold::Combined both =
         CombinedOver(road, path, piece, speed.SpeedAt(from), speed.SpeedAt(to));
-    is_exceeded = is_exceeded || (both.limit > 0.0 && both.required > both.limit);
+    is_exceeded =
+        is_exceeded || (both.limit > 0.0 && both.required > both.limit * (1.0 + kRounding));
   });
   finish_bend();
   std::erase_if(caps, [&](const SpeedCap& cap) { return cap.speed >= limits.speed; });

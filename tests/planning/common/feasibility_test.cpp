@@ -65,7 +65,8 @@ TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {
                                         {.length = 200.0, .curvature = 0.0}};
   const Plan plan = Course(request, pieces);
   ASSERT_TRUE(plan.ok()) << plan.reason;
-  EXPECT_EQ(plan.notes.size(), 1U);
+  ASSERT_EQ(plan.notes.size(), 1U);
+  EXPECT_THAT(plan.notes[0], testing::HasSubstr("; combined acceleration "));
   const auto limit = [](double grip) { return std::sqrt(20.0 * std::sqrt(grip * grip - 2.25)); };
   EXPECT_NEAR(plan.reference.speed.SpeedAt(275.0), limit(0.9 * 9.81), Tolerance(1e-9));
   EXPECT_TRUE(FindExcesses(plan, request).empty());
