@@ -56,7 +56,7 @@ class LiveConnection : public std::enable_shared_from_this<LiveConnection> {
   }
 
   void Accept(const http::request<http::empty_body>& request) {
-    // the WebSocket has a timeout of its own, set in the constructor
+    // the WebSocket uses the timeout that the constructor sets
     beast::get_lowest_layer(socket_).expires_never();
     socket_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (!error) {

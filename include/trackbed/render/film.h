@@ -62,7 +62,7 @@ struct FilmOptions {
   std::optional<double> to{};
 };
 
-/// What a finished video contains.
+/// Contents of a finished video.
 struct FilmReport {
   int frames = 0;
   double duration = 0.0;  ///< Simulated time from the first to the last frame [s].

@@ -82,7 +82,7 @@ struct PlanSpec {
   std::optional<AvoiderOptions> avoid;
   /// Periodic replanning during the run; nullopt: no replanning.
   std::optional<ReplanOptions> replan;
-  /// What to do with plans that the car cannot follow.
+  /// Decides whether a plan that the car cannot follow is slowed down, refused or driven.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
 };
 
