@@ -78,9 +78,12 @@ void DriveClock::Advance(std::size_t plant, double time) {
   const double tolerance = 0.5 * period_;
   while (!released_) {
     const bool others_arrived = SlowestTime() > time - tolerance;
-    const double moment = pace_.MomentOf(next - tolerance);
-    const double wait = moment - Now();
+    // A period that one plant has begun is simulated by all plants, even if a pause begins
+    // meanwhile.
+    const bool begun = begun_ > next - tolerance;
+    const double wait = begun ? 0.0 : pace_.MomentOf(next - tolerance) - Now();
     if (others_arrived && wait <= 0.0) {
+      begun_ = std::max(begun_, next);
       return;
     }
     if (others_arrived && std::isfinite(wait)) {
@@ -105,25 +108,25 @@ void DriveClock::Release() {
 
 void DriveClock::Pause() {
   const std::lock_guard lock(mutex_);
-  pace_.Pause(Reached());
+  pace_.Pause(begun_);
   changed_.notify_all();
 }
 
 void DriveClock::Resume() {
   const std::lock_guard lock(mutex_);
-  pace_.Resume(Reached(), Now());
+  pace_.Resume(begun_, Now());
   changed_.notify_all();
 }
 
 void DriveClock::Step() {
   const std::lock_guard lock(mutex_);
-  pace_.Step(Reached(), period_);
+  pace_.Step(begun_, period_);
   changed_.notify_all();
 }
 
 void DriveClock::SetSpeed(double speed) {
   const std::lock_guard lock(mutex_);
-  pace_.SetSpeed(speed, Reached(), Now());
+  pace_.SetSpeed(speed, begun_, Now());
   changed_.notify_all();
 }
 
@@ -134,10 +137,6 @@ DriveClock::State DriveClock::state() const {
 
 double DriveClock::SlowestTime() const {
   return *std::min_element(times_.begin(), times_.end());
-}
-
-double DriveClock::Reached() const {
-  return std::max(0.0, SlowestTime());
 }
 
 double DriveClock::Now() const {

@@ -52,8 +52,9 @@ class Pace {
 };
 
 /// Synchronizes the plants of a run, each of which has its own thread. A plant begins a control
-/// period only when all other plants have reached the start of this period. All functions of
-/// DriveClock are thread-safe.
+/// period only when all other plants have reached the start of this period. A pause begins at the
+/// end of a period: all plants stop at the same simulated time. All functions of DriveClock are
+/// thread-safe.
 class DriveClock {
  public:
   /// `period` is the control period of the run [s].
@@ -83,8 +84,6 @@ class DriveClock {
  private:
   // Smallest simulated time of all plants that have not ended [s].
   [[nodiscard]] double SlowestTime() const;
-  // Simulated time that all plants have reached [s]; 0 until all plants have begun.
-  [[nodiscard]] double Reached() const;
   [[nodiscard]] double Now() const;  // Wall-clock time [s].
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -94,6 +93,7 @@ class DriveClock {
   Pace pace_;
   // simulated time of each plant; negative before the plant has begun, infinite after its end
   std::vector<double> times_;
+  double begun_ = 0.0;  // end of the last control period that a plant has begun [s]
   bool released_ = false;
 };
 

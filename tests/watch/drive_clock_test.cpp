@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <future>
 #include <limits>
 #include <mutex>
+#include <thread>
 #include <vector>
 
 namespace trackbed {
@@ -136,6 +138,27 @@ TEST(DriveClock, StepsAllPlantsByOnePeriod) {
   }
   clock.Release();
   plants.Join();
+}
+
+// One plant has begun a period, the other one is still on its way into it when the pause begins.
+TEST(DriveClock, PausesAllPlantsAtTheSameTime) {
+  for (int repetition = 0; repetition < 200; ++repetition) {
+    DriveClock clock(2, kPeriod, kInfinity, false);
+    std::atomic<bool> comes = false;
+    std::future<void> other = std::async(std::launch::async, [&] {
+      comes = true;
+      clock.Advance(1, 0.0);
+    });
+    // The other plant most probably waits in Advance() afterwards. The test also passes if not.
+    for (int turn = 0; turn < 1000 || !comes; ++turn) {
+      std::this_thread::yield();
+    }
+    clock.Advance(0, 0.0);
+    clock.Pause();
+    const bool begins = other.wait_for(std::chrono::seconds(60)) == std::future_status::ready;
+    clock.Release();
+    ASSERT_TRUE(begins) << "repetition " << repetition;
+  }
 }
 
 TEST(DriveClock, LetsPlantsGoOnWhenAnotherHasEnded) {
