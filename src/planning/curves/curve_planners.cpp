@@ -7,6 +7,7 @@
 
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"
+#include "trackbed/planning/curves/drivable_curve.h"
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
 
@@ -26,25 +27,47 @@ struct FoundCurve {
   std::vector<Segment> segments;
   ShortestCurve curve;
   std::ptrdiff_t shorter_ones_blocked = 0;
-  double cost = 0.0;  // [m]
+  double length = 0.0;  // [m]
+  double radius = 0.0;  // of the sharpest arc [m]
+  double cost = 0.0;    // [m]
 };
+
+double Length(const std::vector<Segment>& segments) {
+  double length = 0.0;
+  for (const Segment& segment : segments) {
+    length += segment.length;
+  }
+  return length;
+}
+
+/// Returns the radius of the sharpest arc [m]; `radius` if no arc is sharper.
+double SmallestRadius(const std::vector<Segment>& segments, double radius) {
+  double sharpest = 0.0;
+  for (const Segment& segment : segments) {
+    sharpest = std::max(sharpest, std::abs(segment.curvature));
+  }
+  return sharpest > 0.0 && sharpest < 1.0 / radius ? 1.0 / sharpest : radius;
+}
 
 /// Returns the cheapest collision-free curve among `words` that `may_begin` accepts, judging by the
 /// first segments. The cost of a curve is the length plus kStopPenalty per stop.
 template <typename MayBegin>
 std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionChecker& clear,
-                                    const Pose2& from, const std::vector<ShortestCurve>& words,
-                                    double min_speed, const MayBegin& may_begin) {
+                                    const Pose2& from, const Pose2& to,
+                                    const std::vector<ShortestCurve>& words,
+                                    const CurveDrive& drive, const MayBegin& may_begin) {
   // Cost of a stop [m], equal to the penalty of hybrid A* for a change of direction.
   constexpr double kStopPenalty = 5.0;
   std::vector<FoundCurve> candidates;
   for (std::size_t i = 0; i < words.size(); ++i) {
-    std::vector<Segment> own = ToSegments(words[i]);
+    std::vector<Segment> own = DrivablePieces(request.vehicle, from, to, words[i], drive);
     if (may_begin(own)) {
       const auto stops =
-          static_cast<double>(PlanSteps(request.vehicle, own, min_speed).stops.size());
-      candidates.push_back({std::move(own), words[i], static_cast<std::ptrdiff_t>(i),
-                            words[i].length + kStopPenalty * stops});
+          static_cast<double>(PlanSteps(request.vehicle, own, drive.min_speed).stops.size());
+      const double length = Length(own);
+      const double sharpest = SmallestRadius(own, drive.radius);
+      candidates.push_back({std::move(own), words[i], static_cast<std::ptrdiff_t>(i), length,
+                            sharpest, length + kStopPenalty * stops});
     }
   }
   std::stable_sort(candidates.begin(), candidates.end(),
@@ -53,6 +76,47 @@ std::optional<FoundCurve> FirstFree(const PlanRequest& request, const CollisionC
       std::find_if(candidates.begin(), candidates.end(),
                    [&](const FoundCurve& curve) { return IsFree(clear, from, curve.segments); });
   return free == candidates.end() ? std::nullopt : std::optional(std::move(*free));
+}
+
+/// Returns the cheapest first curve of a rolling car. The curve begins at the car if the wheels
+/// have the curve's steering angle, or where the wheels are straight, or behind a straight line on
+/// which the car slows down.
+template <typename Words>
+std::optional<FoundCurve> FirstRolling(const PlanRequest& request, const CollisionChecker& clear,
+                                       const Pose2& to, const Words& words, CurveDrive drive) {
+  drive.speed = std::max(drive.speed, request.start_speed);
+  drive.start_speed = request.start_speed;
+  drive.deceleration = request.speed.deceleration;
+  std::optional<FoundCurve> found;
+  const auto take_from = [&](const LeadIn& lead, double slowed, const auto& may_begin) {
+    if (!IsFree(clear, request.start, lead.segments)) {
+      return;
+    }
+    std::optional<FoundCurve> own = FirstFree(request, clear, lead.end, to,
+                                              words(lead.end, to, drive.radius), drive, may_begin);
+    // The length on which the car slows down counts twice: the car needs up to twice the time.
+    if (own && (!found || lead.length + slowed + own->cost < found->cost)) {
+      own->cost += lead.length + slowed;
+      std::vector<Segment> segments = lead.segments;
+      AppendPieces(segments, own->segments);
+      own->segments = std::move(segments);
+      found = std::move(own);
+    }
+  };
+  const auto from = [&](double curvature) {
+    return [&, curvature](const std::vector<Segment>& own) {
+      return CanStartRolling(request, curvature, own, drive.min_speed);
+    };
+  };
+  take_from({.segments = {}, .end = request.start}, 0.0,
+            from(CurvatureForSteering(request.vehicle, request.start_steering)));
+  take_from(ComputeLeadIn(request, request.start_speed, 0.0), 0.0, from(0.0));
+  drive.start_speed = 0.0;
+  const LeadIn slowing = LeadInForCurves(request, drive.radius, drive.min_speed);
+  take_from(slowing, slowing.length, [](const std::vector<Segment>& own) {
+    return own.empty() || own.front().direction > 0;
+  });
+  return found;
 }
 
 /// Plans a path whose leg between two successive stops is the cheapest collision-free curve among
@@ -64,7 +128,10 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
       return refused;
     }
   }
-  const double radius = RadiusFor(request.vehicle, options.radius);
+  CurveDrive drive{.speed = std::max(request.speed.speed, options.min_speed),
+                   .min_speed = options.min_speed,
+                   .radius = RadiusFor(request.vehicle, options.radius),
+                   .road = request.friction};
   const CollisionChecker clear(request.vehicle, request.obstacles, options.safe_distance);
   const std::vector<Pose2> stops = PlannedStops(request);
   if (Plan refused = CheckStops(stops, clear); !refused.ok()) {
@@ -76,34 +143,16 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
   const auto any = [](const std::vector<Segment>&) { return true; };
   for (std::size_t i = 1; i < stops.size(); ++i) {
     const bool rolls = i == 1 && request.start_speed > 0.0;
-    std::vector<ShortestCurve> all = words(stops[i - 1], stops[i], radius);
-    std::optional<FoundCurve> found;
-    if (rolls) {
-      // The curve may start at the car if the wheels already have the curve's steering angle;
-      // otherwise a lead-in path turns the wheels first. Take the cheaper of the curves with and
-      // without lead-in.
-      const double bend = CurvatureForSteering(request.vehicle, request.start_steering);
-      found = FirstFree(request, clear, stops[0], all, options.min_speed, [&](const auto& own) {
-        constexpr double kEqualityTolerance = 1e-6;  // [1/m]
-        return !own.empty() && own.front().direction > 0 &&
-               std::abs(own.front().curvature - bend) < kEqualityTolerance;
-      });
-      const LeadIn lead = LeadInForCurves(request, radius, options.min_speed);
-      const auto forwards = [](const std::vector<Segment>& own) {
-        return own.empty() || own.front().direction > 0;
-      };
-      std::optional<FoundCurve> later;
-      if (IsFree(clear, stops[0], lead.segments)) {
-        later = FirstFree(request, clear, lead.end, words(lead.end, stops[1], radius),
-                          options.min_speed, forwards);
-      }
-      if (later && (!found || lead.length + later->cost < found->cost)) {
-        later->segments.insert(later->segments.begin(), lead.segments.begin(), lead.segments.end());
-        found = std::move(later);
-      }
-    } else {
-      found = FirstFree(request, clear, stops[i - 1], all, options.min_speed, any);
+    const std::vector<ShortestCurve> all = words(stops[i - 1], stops[i], drive.radius);
+    drive.before = LastBend(segments);
+    drive.after = {};
+    if (i + 1 < stops.size()) {
+      const auto next = words(stops[i], stops[i + 1], drive.radius);
+      drive.after = FirstBend(request.vehicle, next.front(), drive);
     }
+    const std::optional<FoundCurve> found =
+        rolls ? FirstRolling(request, clear, stops[1], words, drive)
+              : FirstFree(request, clear, stops[i - 1], stops[i], all, drive, any);
     if (!found) {
       return Refused(
           PlanStatus::kNoPath,
@@ -112,10 +161,10 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
                               "0) has more curves"
                             : ""));
     }
-    segments.insert(segments.end(), found->segments.begin(), found->segments.end());
+    AppendPieces(segments, found->segments);
     found_curves.curves.push_back({.word = CurveWord(found->curve),
-                                   .length = found->curve.length,
-                                   .radius = radius,
+                                   .length = found->length,
+                                   .radius = found->radius,
                                    .shorter_ones_blocked = found->shorter_ones_blocked});
   }
   plan.diagnostics.planner = std::move(found_curves);

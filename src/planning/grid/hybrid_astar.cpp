@@ -12,6 +12,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/collision_checker.h"
+#include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
 #include "trackbed/planning/grid/astar.h"
@@ -56,7 +57,8 @@ class HybridAStar {
  public:
   HybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
               const HybridAStarOptions& options)
-      : options_(options),
+      : vehicle_(vehicle),
+        options_(options),
         problem_(problem),
         radius_(options.radius.value_or(1.1 * vehicle.min_turning_radius())),
         clear_(vehicle, problem.obstacles, options.safe_distance),
@@ -216,19 +218,16 @@ class HybridAStar {
   void TryToEnd(int index, const Node& node) {
     constexpr std::size_t kMaxAttempts = 4;
     struct Curve {
-      double cost;
+      ShortestCurve word;
       std::vector<Segment> segments;
+      double cost;
     };
     std::vector<Curve> curves;
     for (const ShortestCurve& word : options_.reverse
                                          ? ReedsSheppWords(node.pose, problem_.goal, radius_)
                                          : DubinsWords(node.pose, problem_.goal, radius_)) {
-      Curve curve{node.cost, ToSegments(word)};
-      const Segment* before = &node.step;
-      for (const Segment& segment : curve.segments) {
-        curve.cost += StepCost(*before, segment);
-        before = &segment;
-      }
+      Curve curve{word, ToSegments(word), 0.0};
+      curve.cost = EndCost(node, curve.segments);
       const bool backwards = !curve.segments.empty() && curve.segments.front().direction < 0;
       if (curve.cost < best_end_ && !(backwards && MustGoForwards(node))) {
         curves.push_back(std::move(curve));
@@ -238,7 +237,14 @@ class HybridAStar {
                      [](const Curve& a, const Curve& b) { return a.cost < b.cost; });
     curves.resize(std::min(curves.size(), kMaxAttempts));
     for (Curve& curve : curves) {
-      if (IsFree(node.pose, curve.segments)) {
+      std::vector<Segment> gentle = GentlerPieces(node, curve.word);
+      if (gentle != curve.segments && IsFree(node.pose, gentle)) {
+        curve.cost = EndCost(node, gentle);
+        curve.segments = std::move(gentle);
+      } else if (!IsFree(node.pose, curve.segments)) {
+        continue;
+      }
+      if (curve.cost < best_end_) {
         best_end_ = curve.cost;
         Push({.pose = problem_.goal,
               .cost = curve.cost,
@@ -250,6 +256,44 @@ class HybridAStar {
         return;
       }
     }
+  }
+
+  /// The cost of a path that ends with a curve from a node.
+  [[nodiscard]] double EndCost(const Node& node, const std::vector<Segment>& curve) const {
+    double cost = node.cost;
+    const Segment* before = &node.step;
+    for (const Segment& segment : curve) {
+      cost += StepCost(*before, segment);
+      before = &segment;
+    }
+    return cost;
+  }
+
+  /// Whether the car would have to stop in a curve from a node to turn its wheels.
+  [[nodiscard]] bool HasStop(const Node& node, const std::vector<Segment>& curve) const {
+    std::vector<Segment> path;
+    if (node.parent >= 0) {
+      path.push_back(node.step);
+    }
+    AppendPieces(path, curve);
+    return !PlanSteps(vehicle_, path, problem_.drive->min_speed).stops.empty();
+  }
+
+  /// The pieces of a last curve: without short arcs, if that costs no more or saves a stop.
+  [[nodiscard]] std::vector<Segment> GentlerPieces(const Node& node,
+                                                   const ShortestCurve& word) const {
+    std::vector<Segment> shortest = ToSegments(word);
+    if (!problem_.drive) {
+      return shortest;
+    }
+    CurveDrive drive = *problem_.drive;
+    if (node.parent >= 0) {
+      drive.before = {node.step.curvature, node.step.direction};
+    }
+    std::vector<Segment> gentle = DrivablePieces(vehicle_, node.pose, problem_.goal, word, drive);
+    const bool is_better =
+        EndCost(node, gentle) <= EndCost(node, shortest) || HasStop(node, shortest);
+    return is_better ? gentle : shortest;
   }
 
   [[nodiscard]] bool IsFree(Pose2 pose, const std::vector<Segment>& segments) const {
@@ -298,6 +342,7 @@ class HybridAStar {
                 fmt::format("no path found in {} expansions", result.expansions));
   }
 
+  const VehicleParams& vehicle_;
   const HybridAStarOptions& options_;
   const HybridAStarProblem& problem_;
   double radius_;

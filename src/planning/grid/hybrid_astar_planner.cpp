@@ -1,6 +1,12 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"
+#include "trackbed/planning/curves/drivable_curve.h"
+#include "trackbed/planning/curves/dubins.h"
+#include "trackbed/planning/curves/reeds_shepp.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 
 namespace trackbed {
@@ -13,42 +19,121 @@ using route::LeadInForCurves;
 using route::RadiusFor;
 using route::Refused;
 
+/// What the planner knows of all legs.
+struct Route {
+  const HybridAStarOptions& options;
+  const PlanRequest& request;
+  std::vector<Pose2> stops;
+  CurveDrive drive;
+  CollisionChecker clear;
+};
+
+/// How the leg after the one to stop `i` begins if no obstacle is in its way.
+PathBend BendAfter(const Route& route, std::size_t i) {
+  if (i + 1 == route.stops.size()) {
+    return {};
+  }
+  const ShortestCurve next =
+      route.options.reverse ? ReedsShepp(route.stops[i], route.stops[i + 1], route.drive.radius)
+                            : Dubins(route.stops[i], route.stops[i + 1], route.drive.radius);
+  return FirstBend(route.request.vehicle, next, route.drive);
+}
+
+HybridAStarResult SearchLeg(const Route& route, const Pose2& from, std::size_t to,
+                            const PathBend& before, bool rolls) {
+  CurveDrive drive = route.drive;
+  drive.before = before;
+  drive.after = BendAfter(route, to);
+  return SearchHybridAStar(route.request.vehicle,
+                           {.start = from,
+                            .goal = route.stops[to],
+                            .obstacles = route.request.obstacles,
+                            .rolls = rolls,
+                            .drive = drive},
+                           route.options);
+}
+
+/// The shortest curve forwards to the first stop for a rolling car, once its wheels are straight,
+/// if the car can follow it without a stop and the curve is free.
+HybridAStarResult RollAtOnce(const Route& route) {
+  const PlanRequest& request = route.request;
+  const LeadIn lead = ComputeLeadIn(request, request.start_speed, 0.0);
+  CurveDrive drive = route.drive;
+  drive.speed = std::max(drive.speed, request.start_speed);
+  drive.start_speed = request.start_speed;
+  drive.deceleration = request.speed.deceleration;
+  drive.after = BendAfter(route, 1);
+  const std::vector<Segment> curve =
+      DrivablePieces(request.vehicle, lead.end, route.stops[1],
+                     Dubins(lead.end, route.stops[1], drive.radius), drive);
+  HybridAStarResult result;
+  result.segments = lead.segments;
+  AppendPieces(result.segments, curve);
+  if (CanStartRolling(request, 0.0, curve, drive.min_speed) &&
+      PlanSteps(request.vehicle, curve, drive.min_speed).stops.empty() &&
+      IsFree(route.clear, request.start, result.segments)) {
+    result.status = PlanStatus::kOk;
+    result.cost = Path(request.start, result.segments).length();
+  }
+  return result;
+}
+
+/// From the first stop to the second for a rolling car: at once, or by a search that begins where
+/// the car has slowed down for its first turn; whichever is shorter.
+HybridAStarResult FirstRollingLeg(const Route& route) {
+  const PlanRequest& request = route.request;
+  HybridAStarResult at_once = RollAtOnce(route);
+  const LeadIn lead = LeadInForCurves(request, route.drive.radius, route.drive.min_speed);
+  HybridAStarResult found;
+  if (IsFree(route.clear, request.start, lead.segments)) {
+    found = SearchLeg(route, lead.end, 1, LastBend(lead.segments), true);
+    found.reason = "from waypoint 0 to 1: " + found.reason;
+  } else {
+    found.status = PlanStatus::kStartBlocked;
+    found.reason = fmt::format(
+        "an obstacle is too close to the first {:.3g} m, in which the car slows down for its first "
+        "turn",
+        lead.length);
+  }
+  // To slow down takes up to twice as long as to drive on: the length counts again.
+  if (at_once.ok() && at_once.cost <= 2.0 * lead.length + found.cost) {
+    return at_once;
+  }
+  std::vector<Segment> segments = lead.segments;
+  AppendPieces(segments, found.segments);
+  found.segments = std::move(segments);
+  return found;
+}
+
 Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
   for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius)}) {
     if (!refused.ok()) {
       return refused;
     }
   }
-  std::vector<Pose2> stops = PlannedStops(request);
+  const Route route{
+      .options = options,
+      .request = request,
+      .stops = PlannedStops(request),
+      .drive = {.speed = std::max(request.speed.speed, options.min_speed),
+                .min_speed = options.min_speed,
+                .radius = RadiusFor(request.vehicle, options.radius),
+                .road = request.friction},
+      .clear = CollisionChecker(request.vehicle, request.obstacles, options.safe_distance)};
   Plan plan;
   HybridAStarDiagnostics diagnostics;
-  const bool rolls = request.start_speed > 0.0;
   std::vector<Segment> segments;
-  if (rolls) {
-    const LeadIn lead =
-        LeadInForCurves(request, RadiusFor(request.vehicle, options.radius), options.min_speed);
-    const CollisionChecker clear(request.vehicle, request.obstacles, options.safe_distance);
-    if (!IsFree(clear, stops[0], lead.segments)) {
-      return Refused(PlanStatus::kStartBlocked,
-                     fmt::format("an obstacle is too close to the first {:.3g} m, in which the car "
-                                 "slows down for its first turn",
-                                 lead.length));
-    }
-    segments = lead.segments;
-    stops[0] = lead.end;
-  }
-  for (std::size_t i = 1; i < stops.size(); ++i) {
-    const HybridAStarResult found = SearchHybridAStar(request.vehicle,
-                                                      {.start = stops[i - 1],
-                                                       .goal = stops[i],
-                                                       .obstacles = request.obstacles,
-                                                       .rolls = i == 1 && rolls},
-                                                      options);
+  for (std::size_t i = 1; i < route.stops.size(); ++i) {
+    const bool rolls = i == 1 && request.start_speed > 0.0;
+    HybridAStarResult found =
+        rolls ? FirstRollingLeg(route)
+              : SearchLeg(route, route.stops[i - 1], i, LastBend(segments), false);
     if (!found.ok()) {
-      return Refused(found.status,
-                     fmt::format("from waypoint {} to {}: {}", i - 1, i, found.reason));
+      return Refused(
+          found.status,
+          rolls ? found.reason : fmt::format("from waypoint {} to {}: {}", i - 1, i, found.reason));
     }
-    segments.insert(segments.end(), found.segments.begin(), found.segments.end());
+    AppendPieces(segments, found.segments);
     diagnostics.legs.push_back(
         {.cost = found.cost, .expansions = found.expansions, .cells = found.cells});
   }

@@ -9,6 +9,7 @@
 #include "trackbed/path/path.h"
 #include "trackbed/planning/common/plan_status.h"
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/curves/drivable_curve.h"
 #include "trackbed/vehicle/params.h"
 
 /// Plans paths by Hybrid A* (Dolgov et al. 2008), a search over the poses that a car can reach by
@@ -51,6 +52,9 @@ struct HybridAStarProblem {
   std::vector<OrientedBox> obstacles{};
   /// Whether the car rolls forwards at the start, so that the path cannot begin backwards.
   bool rolls = false;
+  /// How the car drives the last curve, whose short arcs then become gentler (drivable_curve.h). If
+  /// empty, the last curve is a shortest curve.
+  std::optional<CurveDrive> drive{};
 };
 
 struct HybridAStarResult {
@@ -66,13 +70,13 @@ struct HybridAStarResult {
 
 /// Searches for a path by Hybrid A*. Guarantees for the status kOk: the path ends within 1e-9 m and
 /// 1e-9 rad of the goal pose. The last part of the path is a Reeds-Shepp curve, or a Dubins curve
-/// if the car may not drive backwards. The curvature of the path never exceeds 1/r. The car's
-/// footprint is clear of all obstacles (CollisionChecker). The same input always yields the same
-/// result. The path is not globally optimal, because the search keeps only one pose per cell, and
-/// because the path must end with a Reeds-Shepp or Dubins curve. If the budget is used up, the
-/// function returns the best path found so far. The status is kNoPath if the search has expanded
-/// all poses without finding a path. Throws InternalError if an option is out of range. Computing
-/// time: about 10 us per expanded pose.
+/// if the car may not drive backwards; with `drive`, its short arcs are gentler. The curvature of
+/// the path never exceeds 1/r. The car's footprint is clear of all obstacles (CollisionChecker).
+/// The same input always yields the same result. The path is not globally optimal, because the
+/// search keeps only one pose per cell, and because the path must end with a Reeds-Shepp or Dubins
+/// curve. If the budget is used up, the function returns the best path found so far. The status is
+/// kNoPath if the search has expanded all poses without finding a path. Throws InternalError if an
+/// option is out of range. Computing time: about 10 us per expanded pose.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 

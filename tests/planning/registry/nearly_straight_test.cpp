@@ -1,0 +1,185 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "tests/geometry/random.h"
+#include "tests/planning/poses.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/common/route.h"
+#include "trackbed/planning/common/route_start.h"
+#include "trackbed/planning/curves/curve_planners.h"
+#include "trackbed/planning/grid/hybrid_astar.h"
+#include "trackbed/planning/registry/planners.h"
+
+// Routes along a line whose waypoints and headings are rounded, as people write them.
+namespace trackbed {
+namespace {
+
+constexpr double kDeceleration = 1.5;  // [m/s^2]
+
+struct NamedPlanner {
+  const char* name;
+  PlannerOptions options;
+};
+
+std::vector<NamedPlanner> CurvePlanners() {
+  HybridAStarOptions forwards;
+  forwards.reverse = false;
+  return {{"dubins", DubinsOptions{}},
+          {"reeds_shepp", ReedsSheppOptions{}},
+          {"hybrid_astar", HybridAStarOptions{}},
+          {"hybrid_astar_forwards", forwards}};
+}
+
+PlanRequest Route(std::vector<Vec2> waypoints, std::vector<double> headings, double speed,
+                  double start_speed) {
+  PlanRequest request;
+  request.vehicle = ReferenceCar();
+  request.start = StartOfRoute(waypoints);
+  if (!headings.empty()) {
+    request.start.yaw = headings[0];
+  }
+  request.waypoints = std::move(waypoints);
+  request.headings = std::move(headings);
+  request.start_speed = start_speed;
+  request.speed = {.speed = speed, .acceleration = 1.0, .deceleration = kDeceleration};
+  return request;
+}
+
+double Rounded(double value, double unit) {
+  return unit * std::nearbyint(value / unit);
+}
+
+/// Two to five waypoints along a line, up to 40 m apart, here or a thousand kilometers away,
+/// rounded to between 1e-6 and 0.1 m, and their headings, if given, to between 1e-6 and 0.01 rad.
+/// Legs are `shortest` [m] long or more at up to 4 m/s; at higher speeds ramps are longer by the
+/// root of the speed.
+PlanRequest NearlyStraight(Random& random, double shortest) {
+  const double position = std::pow(10.0, random.Uniform(-6.0, -1.0));
+  const double heading = std::pow(10.0, random.Uniform(-6.0, -2.0));
+  const double yaw = random.Uniform(-kPi, kPi);
+  const bool has_headings = random.Below(2) == 0;
+  const double speed = random.Uniform(1.0, random.Below(2) == 0 ? 4.0 : 15.0);
+  const double longest = 40.0 * std::max(1.0, std::sqrt(speed / 4.0));
+  const double offset = random.Below(2) == 0 ? 0.0 : 1e6;
+  Vec2 at{offset + random.Uniform(-50.0, 50.0), offset + random.Uniform(-50.0, 50.0)};
+  std::vector<Vec2> waypoints;
+  std::vector<double> headings;
+  double length = 0.0;
+  for (int left = 2 + random.Below(4); left > 0; --left) {
+    waypoints.emplace_back(Rounded(at.x(), position), Rounded(at.y(), position));
+    if (has_headings) {
+      headings.push_back(Rounded(yaw, heading));
+    }
+    const double leg = longest * random.Uniform(shortest / 40.0, 1.0);
+    at += leg * Direction(yaw);
+    length += left > 1 ? leg : 0.0;
+  }
+  // It can brake from its start speed before the goal.
+  const double start_speed = std::min(speed, std::sqrt(2.0 * kDeceleration * 0.9 * length));
+  return Route(std::move(waypoints), std::move(headings), speed,
+               random.Below(2) == 0 ? start_speed : 0.0);
+}
+
+/// The path meets every stop: positions to a tenth of a millimeter, the goal's heading to the
+/// rounding of sums of a few dozen segments.
+void ExpectStopsMet(const PlanRequest& request, const Plan& plan) {
+  const Path& path = plan.reference.path;
+  const std::vector<Pose2> stops = PlannedStops(request);
+  const Pose2 end = path.At(path.length()).pose;
+  EXPECT_LE((end.position() - stops.back().position()).norm(), Tolerance(1e-4));
+  EXPECT_LE(std::abs(AngleDifference(end.yaw, stops.back().yaw)), Tolerance(1e-9));
+  for (const Pose2& stop : stops) {
+    EXPECT_LE(std::abs(path.Project(stop).cross_track), Tolerance(1e-4));
+  }
+}
+
+void ExpectNoStop(const PlanRequest& request, const Plan& plan) {
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_TRUE(plan.stops.empty()) << plan.stops.front();
+  EXPECT_EQ(SplitIntoLegs(plan.reference.path).size(), 1U);
+  ExpectStopsMet(request, plan);
+}
+
+/// The plan takes no longer than one of the same length without a turn of the wheels, up to
+/// rounding: a millionth, as limits are checked to.
+void ExpectFullSpeed(const PlanRequest& request, const Plan& plan) {
+  const double length = plan.reference.path.length();
+  const double least = StopAtEnd(length, request.start_speed, request.speed).TimeAt(length);
+  EXPECT_LE(plan.reference.speed.TimeAt(length), least * (1.0 + Tolerance(1e-6)));
+}
+
+/// TRACKBED_NEARLY_STRAIGHT sets how many routes are made.
+int Count() {
+  const char* count = std::getenv("TRACKBED_NEARLY_STRAIGHT");
+  return count == nullptr ? 300 : std::atoi(count);
+}
+
+std::string Described(const PlanRequest& request) {
+  std::string text = fmt::format("{} m/s from {} m/s,", request.speed.speed, request.start_speed);
+  for (std::size_t i = 0; i < request.waypoints.size(); ++i) {
+    text += fmt::format(" [{}, {}]", request.waypoints[i].x(), request.waypoints[i].y());
+    text += request.headings.empty() ? "" : fmt::format(" {}", request.headings[i]);
+  }
+  return text;
+}
+
+TEST(NearlyStraightRoutes, AreDrivenAtTheirSpeed) {
+  // The wheels have room for each turn of at most 0.03 rad between waypoints 10 m apart: an arc of
+  // sqrt(L v phi/omega) = 1.5 m at 4 m/s, with as much of a straight on either side.
+  Random random(47);
+  for (int i = 0; i < Count() && !HasFailure(); ++i) {
+    const PlanRequest request = NearlyStraight(random, 10.0);
+    for (const NamedPlanner& planner : CurvePlanners()) {
+      SCOPED_TRACE(fmt::format("{}, route {}: {}", planner.name, i, Described(request)));
+      const Plan plan = MakePlan(request, planner.options);
+      ExpectNoStop(request, plan);
+      if (plan.ok()) {
+        ExpectFullSpeed(request, plan);
+      }
+    }
+  }
+}
+
+TEST(NearlyStraightRoutes, SlowDownWhereLegsAreShort) {
+  Random random(48);
+  for (int i = 0; i < Count() && !HasFailure(); ++i) {
+    const PlanRequest request = NearlyStraight(random, 5.0);
+    for (const NamedPlanner& planner : CurvePlanners()) {
+      SCOPED_TRACE(fmt::format("{}, route {}: {}", planner.name, i, Described(request)));
+      ExpectNoStop(request, MakePlan(request, planner.options));
+    }
+  }
+}
+
+TEST(NearlyStraightRoutes, TakeMillimetersForWaypoints) {
+  const std::vector<PlanRequest> routes{
+      Route({{0, 0}, {20.13, 13.74}, {40.27, 27.47}, {60.4, 41.21}}, {}, 3.0, 3.0),
+      Route({{0, 0}, {20.131, 13.736}, {40.266, 27.472}, {60.4, 41.21}}, {}, 3.0, 3.0),
+      Route({{0, 0}, {0, 40}}, {1.5708, 1.5708}, 3.0, 0.0),
+      Route({{0, 0}, {40, 0}}, {0, 1e-5}, 3.0, 0.0),
+      Route({{0, 0}, {40, 0}}, {0, 0.05}, 3.0, 0.0),
+      Route({{0, 0}, {40, 0}}, {0.05, 0}, 3.0, 3.0)};
+  for (const PlanRequest& request : routes) {
+    for (const NamedPlanner& planner : CurvePlanners()) {
+      SCOPED_TRACE(fmt::format("{}: {}", planner.name, Described(request)));
+      const Plan plan = MakePlan(request, planner.options);
+      ExpectNoStop(request, plan);
+      if (plan.ok()) {
+        ExpectFullSpeed(request, plan);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
