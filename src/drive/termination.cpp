@@ -94,7 +94,7 @@ std::optional<DriveStatus> Termination::Fault(const LoopStatus& now) {
   return std::nullopt;
 }
 
-DriveStatus Termination::StatusAtEnd(const LoopStatus& now) const {
+DriveStatus Termination::StatusAtEnd(const LoopStatus& now) {
   const Path& path = now.segment.reference.path;
   if (now.interrupted) {
     return DriveStatus::kInterrupted;
@@ -112,19 +112,32 @@ DriveStatus Termination::StatusAtEnd(const LoopStatus& now) const {
   if (HasArrived(now)) {
     return DriveStatus::kArrived;
   }
-  return now.at_rest ? DriveStatus::kStopped : DriveStatus::kTimeLimit;
+  if (now.at_rest) {
+    cause_ = now.is_last_segment ? GoalError(now.state.pose, now.segment.goal) : "";
+    return DriveStatus::kStopped;
+  }
+  return DriveStatus::kTimeLimit;
 }
 
 bool Termination::HasArrived(const LoopStatus& now) const {
   if (!has_path_) {
     return end_time_ == duration_;
   }
-  const Pose2& goal = now.segment.goal;
-  const bool heading_fits =
-      !goal_heading_tolerance_ ||
-      std::abs(AngleDifference(now.state.pose.yaw, goal.yaw)) <= *goal_heading_tolerance_;
-  return now.at_rest && now.is_last_segment && heading_fits &&
-         DistanceBetween(now.state.pose, goal) <= goal_tolerance_;
+  return now.at_rest && now.is_last_segment && GoalError(now.state.pose, now.segment.goal).empty();
+}
+
+std::string Termination::GoalError(const Pose2& pose, const Pose2& goal) const {
+  const double distance = DistanceBetween(pose, goal);
+  if (distance > goal_tolerance_) {
+    return fmt::format("distance of {:.4g} m to the goal exceeds {:.4g} m", distance,
+                       goal_tolerance_);
+  }
+  const double heading = AngleDifference(pose.yaw, goal.yaw);
+  if (goal_heading_tolerance_ && std::abs(heading) > *goal_heading_tolerance_) {
+    return fmt::format("heading error {:.4g} rad exceeds {:.4g} rad", heading,
+                       *goal_heading_tolerance_);
+  }
+  return "";
 }
 
 }  // namespace trackbed

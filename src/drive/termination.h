@@ -39,15 +39,20 @@ class Termination {
   /// Returns the final status if the run has ended. Call Update once per control period.
   std::optional<DriveStatus> Update(const LoopStatus& now);
 
-  /// Returns the text for RunLog::cause; empty unless a fault of the physics ended the run.
+  /// Returns the text for RunLog::cause; empty unless a fault of the physics ended the run or the
+  /// car stopped beside the goal.
   [[nodiscard]] const std::string& cause() const { return cause_; }
 
   /// Returns the latest possible end of the run, as known so far [s].
   [[nodiscard]] double end_time() const { return end_time_; }
 
  private:
-  [[nodiscard]] DriveStatus StatusAtEnd(const LoopStatus& now) const;
+  /// Returns the status of a run that ends without a fault. Sets `cause_` if the car stopped beside
+  /// the goal.
+  DriveStatus StatusAtEnd(const LoopStatus& now);
   [[nodiscard]] bool HasArrived(const LoopStatus& now) const;
+  /// Returns which tolerance of the goal the pose exceeds; empty if the pose is at the goal.
+  [[nodiscard]] std::string GoalError(const Pose2& pose, const Pose2& goal) const;
   /// If a fault of the physics ends the run, sets `cause_` and returns the final status; otherwise
   /// returns none.
   std::optional<DriveStatus> Fault(const LoopStatus& now);

@@ -102,6 +102,22 @@ TEST_F(TerminationTest, AsksForTheHeadingWhereItMatters) {
   }
 }
 
+TEST_F(TerminationTest, SaysByHowMuchTheGoalIsMissed) {
+  config_.goal_heading_tolerance = 0.2;
+  const auto cause = [&] {
+    Termination termination(config_, plan_);
+    Ask(termination);
+    return termination.cause();
+  };
+  EXPECT_EQ(cause(), "");
+  state_.pose.yaw = -0.28;
+  EXPECT_EQ(cause(), "heading error -0.28 rad exceeds 0.2 rad");
+  state_.pose.x = 9.0;
+  EXPECT_EQ(cause(), "distance of 1 m to the goal exceeds 0.4 m");
+  is_last_segment_ = false;  // the goal is not next
+  EXPECT_EQ(cause(), "");
+}
+
 TEST_F(TerminationTest, DoesNotArriveBeforeTheLastSegment) {
   is_last_segment_ = false;
   EXPECT_EQ(Ask(), DriveStatus::kStopped);

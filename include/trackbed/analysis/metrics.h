@@ -93,8 +93,8 @@ struct PlantMetrics {
   DriveStatus status = DriveStatus::kArrived;
   double contact_s = 0.0;  ///< Station at which the car first touched an obstacle [m].
   double contact_t = 0.0;  ///< Time of the first contact, from the start of the run [s].
-  /// Reason why the physics simulation ended the run (RunLog::cause); empty if the run ended
-  /// otherwise.
+  /// Reason why the physics simulation ended the run, or by what a stopped car missed the goal
+  /// (RunLog::cause); otherwise empty.
   std::string cause;
   double distance = 0.0;  ///< Driven distance [m].
   double time = 0.0;      ///< Simulated time [s].

@@ -71,7 +71,9 @@ struct PlanChange {
 struct RunLog {
   std::string plant;
   DriveStatus status = DriveStatus::kArrived;
-  std::string cause;  ///< Reason if the physics simulation ended the run; otherwise empty.
+  /// Reason if the physics simulation ended the run, or if the car stopped beside the goal;
+  /// otherwise empty.
+  std::string cause;
   /// Time of the first contact with an obstacle [s]; nullopt if the car touched no obstacle.
   std::optional<double> contact_time;
   std::vector<std::string> controller_columns;  ///< Names from SteeringController::Columns.
