@@ -427,11 +427,17 @@ class DriveCheck {
     }
   }
 
+  /// The goal of the mission. Of a mission without one, the end of the first plan: later plans end
+  /// millimeters beside it.
+  [[nodiscard]] Point Goal() const {
+    const Driven first = DrivenFrom(record_.plan, 0.0, 0.0);
+    return record_.mission.goal.value_or(Point{first.end.x, first.end.y});
+  }
+
   /// A car that stands at the goal has arrived, whatever it is commanded.
   void CheckStuck() {
     const TimedPose& last = rows_.back();
-    const std::vector<Driven> plans = DrivenPlans(record_.plan, drive_.changes, 0.0);
-    const Point goal = record_.mission.goal.value_or(Point{plans.back().end.x, plans.back().end.y});
+    const Point goal = Goal();
     const double away = std::hypot(last.x - goal.x, last.y - goal.y);
     // Of a loop, the start is as near.
     const bool has_driven = drive_.metrics.at("distance").get<double>() > record_.car.length;
@@ -443,8 +449,7 @@ class DriveCheck {
   void CheckArrival() {
     const TimedPose& last = rows_.back();
     const Mission& mission = record_.mission;
-    const std::vector<Driven> plans = DrivenPlans(record_.plan, drive_.changes, 0.0);
-    const Point goal = mission.goal.value_or(Point{plans.back().end.x, plans.back().end.y});
+    const Point goal = Goal();
     const double away = std::hypot(last.x - goal.x, last.y - goal.y);
     const double near = tolerances_.goal_position * record_.car.length;
     if (away > near) {
