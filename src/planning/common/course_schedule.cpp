@@ -16,7 +16,8 @@ SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<
                                 double speed, const std::vector<SpeedCap>& caps,
                                 const std::vector<double>& stops) {
   // Length of the steering ramp for wheels that turn at standstill [m]; not zero, because the
-  // steering schedule is a function of the distance.
+  // steering schedule is a function of the distance. A ramp that is less than half as long stems
+  // from rounding of the curvature, and gets no knot of its own.
   constexpr double kMinRampLength = 1e-6;
   // Spacing of the schedule's knots, chosen so that linear interpolation reproduces the arctangent
   // of the curvature within 1e-5 rad [m].
@@ -53,7 +54,7 @@ SteeringSchedule CourseSchedule(const VehicleParams& vehicle, const std::vector<
                              : std::ceil(std::max(to - from, kMinRampLength) / kSpacing);
     for (double k = is_joined || i == 0 ? 0.0 : 1.0; k <= parts; k += 1.0) {
       const double d = std::lerp(from, to, k / parts);
-      if (knots.empty() || begin + d > knots.back().distance) {
+      if (knots.empty() || begin + d > knots.back().distance + 0.5 * kMinRampLength) {
         knots.push_back({begin + d, steering(segment.CurvatureAt(d))});
       }
     }

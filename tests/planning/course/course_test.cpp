@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
@@ -87,6 +88,27 @@ TEST(CourseSchedule, DrivesAStepAsARampAboutIt) {
   EXPECT_NEAR(schedule.knots()[1].distance, 20.0 - half_ramp, Tolerance(1e-12));
   EXPECT_NEAR(schedule.knots()[2].distance, 20.0 + half_ramp, Tolerance(1e-12));
   EXPECT_NEAR(schedule.At(40.0), steering, Tolerance(1e-15));
+}
+
+TEST(CourseSchedule, TakesRoundingOfTheCurvatureForNoRamp) {
+  // A spiral in pieces of 0.25 m, whose curvatures are rounded to 1e-15 1/m. The knots of a ramp
+  // for a step of 1e-15 rad would be closer than two doubles at 44 m.
+  constexpr double kSharpness = 0.005;
+  std::vector<Segment> segments{{.length = 40.0}};
+  Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    segments.push_back({.length = 0.25,
+                        .curvature = 0.25 * kSharpness * i + random.Uniform(-1e-15, 1e-15),
+                        .sharpness = kSharpness});
+  }
+  const SteeringSchedule schedule = CourseSchedule(ReferenceCar(), segments, 3.0);
+  const std::vector<SteeringSchedule::Knot>& knots = schedule.knots();
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const double slope =
+        (knots[i].steering - knots[i - 1].steering) / (knots[i].distance - knots[i - 1].distance);
+    // d atan(L kappa)/ds <= L dkappa/ds
+    EXPECT_LE(std::abs(slope), ReferenceCar().wheelbase * kSharpness * (1.0 + Tolerance(1e-9)));
+  }
 }
 
 TEST(CourseSchedule, RisesHoweverShortThePiecesAre) {

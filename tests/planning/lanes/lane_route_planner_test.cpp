@@ -1,13 +1,16 @@
 #include "trackbed/planning/lanes/lane_route_planner.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/geometry/random.h"
 #include "tests/road_network/documents.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
@@ -103,6 +106,72 @@ TEST(LaneRoutePlanner, RefusesLanesThatTheCarCannotSteerThrough) {
   PlanRequest request = AroundTheLoop();
   request.vehicle.steering_limit = 0.05;
   ExpectRefused(request, PlanStatus::kTurnTooTight, "exceeds the limit of 0.050 rad");
+}
+
+/// A reference line of a straight, a spiral, an arc, a spiral and a straight, as road designers
+/// draw bends. The pieces are rounded to micrometers, as in files.
+class SpiralBend {
+ public:
+  SpiralBend(double curvature, double spiral, double arc) {
+    Add(40.0, 0.0, 0.0, "<line/>");
+    Add(spiral, 0.0, curvature,
+        fmt::format("<spiral curvStart='0' curvEnd='{:.12g}'/>", curvature));
+    Add(arc, curvature, curvature, fmt::format("<arc curvature='{:.12g}'/>", curvature));
+    Add(spiral, curvature, 0.0,
+        fmt::format("<spiral curvStart='{:.12g}' curvEnd='0'/>", curvature));
+    Add(40.0, 0.0, 0.0, "<line/>");
+  }
+
+  [[nodiscard]] double length() const { return station_; }
+  [[nodiscard]] std::string Xml() const {
+    RoadText road;
+    road.length = fmt::format("{:.12g}", station_);
+    road.geometry = geometry_;
+    return road.Xml();
+  }
+
+ private:
+  void Add(double length, double from, double to, const std::string& shape) {
+    geometry_ += fmt::format(
+        "<geometry s='{:.12g}' x='{:.6f}' y='{:.6f}' hdg='{:.12g}' length='{:.12g}'>{}</geometry>",
+        station_, at_.x, at_.y, at_.yaw, length, shape);
+    const Path piece(at_,
+                     {{.length = length, .curvature = from, .sharpness = (to - from) / length}});
+    at_ = piece.At(length).pose;
+    station_ += length;
+  }
+
+  std::string geometry_;
+  double station_ = 0.0;
+  Pose2 at_{};
+};
+
+TEST(LaneRoutePlanner, SlowsDownForSpirals) {
+  Random random(11);
+  for (int i = 0; i < 100; ++i) {
+    const double radius = random.Uniform(12.0, 150.0);
+    const double curvature = (random.Below(2) == 0 ? 1.0 : -1.0) / radius;
+    const SpiralBend bend(curvature, random.Uniform(0.1, 0.6) * radius,
+                          random.Uniform(0.05, 1.0) * radius);
+    PlanRequest request;
+    request.vehicle = ReferenceCar();
+    request.lanes = {Shared(ParseNetwork(bend.Xml())),
+                     {{"1", -1, 1.0}, {"1", -1, bend.length() - 1.0}}};
+    request.start = PoseAt(*request.lanes.network, request.lanes.route.front());
+    // From rest, the car can slow down for everything.
+    request.speed = {.speed = random.Uniform(3.0, 20.0), .acceleration = 1.0, .deceleration = 1.5};
+    const Plan plan = PlanOf(request);
+    ASSERT_TRUE(plan.ok()) << i << ": radius " << radius << ", " << plan.reason;
+    EXPECT_TRUE(plan.stops.empty()) << i;
+    // The turn of the wheels over the distance, seen in steps of 0.5 m.
+    for (double s = 0.0; s + 0.5 < plan.reference.path.length(); s += 0.5) {
+      const double slope = std::abs(plan.schedule.At(s + 0.5) - plan.schedule.At(s)) / 0.5;
+      const double speed =
+          std::min(plan.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(s + 0.5));
+      // The smaller speed times the mean slope is at most the largest product within the step.
+      EXPECT_LE(speed * slope, 1.0001 * request.vehicle.steering_rate) << i << " at " << s;
+    }
+  }
 }
 
 TEST(LaneRoutePlanner, PlansInThePlaneWhateverTheRoadsHeights) {
