@@ -9,6 +9,7 @@
 
 #include "src/planning/common/feasible_speeds.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/path/acceleration_caps.h"
 #include "trackbed/planning/common/path_pieces.h"
 #include "trackbed/planning/common/road_hold.h"
 
@@ -16,9 +17,10 @@
 // The check covers the start, the path, the steering rate and the accelerations, at samples along
 // the path. For each checked quantity, the result holds the largest excess over the limit and the
 // remedy against it. If slower driving helps, MakeFeasible adds speed caps and lowers the
-// acceleration limits, up to four times. The speed caps enforce the limits of steering rate, top
-// speed and lateral acceleration. If slower driving does not help, MakeFeasible refuses the plan.
-// SetSpeedsAtLimit computes new speeds for plans at the limit of the g-g-v diagram.
+// acceleration limits where the road's grip is smaller, up to four times. The speed caps enforce
+// the limits of steering rate, top speed and lateral acceleration. If slower driving does not help,
+// MakeFeasible refuses the plan. SetSpeedsAtLimit computes new speeds for plans at the limit of the
+// g-g-v diagram.
 
 namespace trackbed {
 namespace {
@@ -27,6 +29,7 @@ constexpr double kMinPlanSpeed = 0.1;  // Minimum speed of a plan; a slower plan
 // Tolerance of the start position [m]; for a wheelbase below 1 m, multiplied by the wheelbase in
 // meters.
 constexpr double kSamePlace = 1e-3;
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr double kSameHeading = 1e-3;   // [rad]
 constexpr double kSameSteering = 1e-3;  // [rad]
 
@@ -156,9 +159,9 @@ void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector
     for (double look = 0.0; look <= looks; look += 1.0) {
       const double s = std::lerp(a.s, b.s, look / looks);
       if (change < 0.0) {
-        braking.Take(-change, road.Braking(path, s), a.s);
+        braking.Take(-change, road.Braking(path, s), s);
       } else {
-        driving.Take(change, road.Driving(path, s), a.s);
+        driving.Take(change, road.Driving(path, s), s);
       }
     }
     braking.Take(-change, kController * request.speed.deceleration, a.s);
@@ -203,19 +206,25 @@ double MinSpeedOf(const std::vector<SpeedCap>& caps, double speed) {
   return speed;
 }
 
-/// Returns acceleration limits that are so low that the car does not slide while it speeds up or
-/// slows down.
-SpeedLimits ReduceAccelerations(const SpeedLimits& limits, const std::vector<Excess>& excesses) {
-  SpeedLimits gentler = limits;
-  for (const Excess& excess : excesses) {
-    const double below = 0.999 * excess.limit;
-    if (excess.remedy == Remedy::kGentlerBraking) {
-      gentler.deceleration = std::min(gentler.deceleration, below);
-    } else if (excess.remedy == Remedy::kGentlerDriving) {
-      gentler.acceleration = std::min(gentler.acceleration, below);
-    }
+/// Returns `limits`, lowered to the smallest acceleration and deceleration of the sections.
+SpeedLimits SmallestOf(SpeedLimits limits, const std::vector<AccelerationCap>& sections) {
+  for (const AccelerationCap& section : sections) {
+    limits.acceleration = std::min(limits.acceleration, section.acceleration);
+    limits.deceleration = std::min(limits.deceleration, section.deceleration);
   }
-  return gentler;
+  return limits;
+}
+
+/// Computes the speeds of a plan like SetSpeeds, with the acceleration limits of `sections`.
+void SetSpeedsOn(Plan& plan, double start_speed, const SpeedLimits& limits,
+                 const std::vector<AccelerationCap>& sections) {
+  const Path& path = plan.reference.path;
+  const double stop =
+      plan.schedule_speed.knots().empty() ? path.length() : plan.schedule_speed.knots().back().s;
+  plan.reference.speed = StopAtCusps(path, start_speed, limits, plan.caps, plan.stops, sections);
+  plan.schedule_speed = std::abs(stop - path.length()) < 1e-9
+                            ? plan.reference.speed
+                            : StopAtEnd(stop, start_speed, limits, plan.caps, sections);
 }
 
 /// Describes the changes made to a plan, for example "speed reduced to 2.1 m/s where needed".
@@ -301,32 +310,39 @@ Plan Repaired(Plan plan, const PlanRequest& request) {
   }
   Plan slower = plan;
   slower.caps.insert(slower.caps.end(), caps.begin(), caps.end());
-  SpeedLimits limits = request.speed;
   // Iterate, because braking for the new speed caps may itself be too hard; gentler braking must
   // begin earlier.
   constexpr int kMaxAttempts = 4;
+  constexpr double kNearlyAll = 0.999;
   std::vector<Excess> left = first;
   std::vector<Excess> reasons = first;
+  feasible_speeds::GripShares shares;
+  std::vector<AccelerationCap> sections;
   for (int i = 0; i < kMaxAttempts && !left.empty(); ++i) {
-    limits = ReduceAccelerations(limits, left);
+    shares.braking =
+        std::min(shares.braking, Has(left, Remedy::kGentlerBraking) ? kNearlyAll : kUnlimited);
+    shares.driving =
+        std::min(shares.driving, Has(left, Remedy::kGentlerDriving) ? kNearlyAll : kUnlimited);
     if (Has(left, Remedy::kGentlerBends)) {
       if (!Has(reasons, Remedy::kGentlerBends)) {
         reasons.insert(reasons.end(), left.begin(), left.end());
       }
-      limits = feasible_speeds::LeaveGripForBends(limits, plan.reference.path, request);
-      const std::vector<SpeedCap> bends = feasible_speeds::CapsInBends(slower, request, limits);
+      shares = feasible_speeds::kBendShares;
+      const std::vector<SpeedCap> bends = feasible_speeds::CapsInBends(slower, request);
       slower.caps.insert(slower.caps.end(), bends.begin(), bends.end());
       slowest = MinSpeedOf(bends, slowest);
     }
-    SetSpeeds(slower, request.start_speed, limits);
+    sections = feasible_speeds::SectionsOfLessGrip(slower.reference.path, request, shares);
+    SetSpeedsOn(slower, request.start_speed, request.speed, sections);
     left = FindExcesses(slower, request);
   }
   if (!left.empty() || slowest < kMinPlanSpeed) {
     return Refuse(left.empty() ? first : left, plan);
   }
-  slower.notes.push_back(fmt::format("{}: at {:.3g} m/s {}",
-                                     DescribeSpeedChanges(request.speed, limits, slowest),
-                                     request.speed.speed, Listed(reasons)));
+  slower.notes.push_back(
+      fmt::format("{}: at {:.3g} m/s {}",
+                  DescribeSpeedChanges(request.speed, SmallestOf(request.speed, sections), slowest),
+                  request.speed.speed, Listed(reasons)));
   return slower;
 }
 
@@ -338,13 +354,7 @@ std::string ToString(const Excess& excess) {
 }
 
 void SetSpeeds(Plan& plan, double start_speed, const SpeedLimits& limits) {
-  const Path& path = plan.reference.path;
-  const double stop =
-      plan.schedule_speed.knots().empty() ? path.length() : plan.schedule_speed.knots().back().s;
-  plan.reference.speed = StopAtCusps(path, start_speed, limits, plan.caps, plan.stops);
-  plan.schedule_speed = std::abs(stop - path.length()) < 1e-9
-                            ? plan.reference.speed
-                            : StopAtEnd(stop, start_speed, limits, plan.caps);
+  SetSpeedsOn(plan, start_speed, limits, {});
 }
 
 std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request) {

@@ -5,6 +5,14 @@
 #include <limits>
 
 namespace trackbed::feasible_speeds {
+namespace {
+
+/// Returns the share of the road's grip; infinite if the grip is unknown (0).
+double Allowed(double grip, double share) {
+  return grip > 0.0 ? share * grip : std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
 
 double LateralOver(const RoadHold& road, const Path& path, const Stations& piece) {
   if (road.uniform()) {
@@ -72,22 +80,37 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
   return caps;
 }
 
-SpeedLimits LeaveGripForBends(const SpeedLimits& limits, const Path& path,
-                              const PlanRequest& request) {
-  constexpr double kShare = 0.7;
-  const RoadHoldLimits hold = MinRoadHold(path, {0.0, path.length()}, request);
-  SpeedLimits gentler = limits;
-  if (hold.braking > 0.0) {
-    gentler.deceleration = std::min(gentler.deceleration, kShare * hold.braking);
+std::vector<AccelerationCap> SectionsOfLessGrip(const Path& path, const PlanRequest& request,
+                                                const GripShares& shares) {
+  const RoadHold road(request);
+  const auto at = [&](double s) {
+    return AccelerationCap{s, s, Allowed(road.Driving(path, s), shares.driving),
+                           Allowed(road.Braking(path, s), shares.braking)};
+  };
+  std::vector<AccelerationCap> sections;
+  const double count = road.uniform() ? 1.0 : std::ceil(path.length() / kCheckSpacing);
+  AccelerationCap from = at(0.0);
+  for (double i = 1.0; i <= count; i += 1.0) {
+    const AccelerationCap to = at(path.length() * (i / count));
+    const AccelerationCap section{from.from, to.to, std::min(from.acceleration, to.acceleration),
+                                  std::min(from.deceleration, to.deceleration)};
+    from = to;
+    if (section.acceleration >= request.speed.acceleration &&
+        section.deceleration >= request.speed.deceleration) {
+      continue;
+    }
+    AccelerationCap* last = sections.empty() ? nullptr : &sections.back();
+    if (last != nullptr && last->to == section.from && last->acceleration == section.acceleration &&
+        last->deceleration == section.deceleration) {
+      last->to = section.to;
+    } else {
+      sections.push_back(section);
+    }
   }
-  if (hold.driving > 0.0) {
-    gentler.acceleration = std::min(gentler.acceleration, kShare * hold.driving);
-  }
-  return gentler;
+  return sections;
 }
 
-std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request,
-                                  const SpeedLimits& limits) {
+std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request) {
   const Path& path = plan.reference.path;
   const RoadHold road(request);
   std::vector<SpeedCap> caps;
@@ -109,7 +132,11 @@ std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request,
     const double curvature = path.At(0.5 * (from + to)).curvature;
     double lateral = std::numeric_limits<double>::infinity();
     for (const double s : {from, to}) {
-      for (const double along : {-limits.deceleration, limits.acceleration}) {
+      const double driving =
+          std::min(request.speed.acceleration, Allowed(road.Driving(path, s), kBendShares.driving));
+      const double braking =
+          std::min(request.speed.deceleration, Allowed(road.Braking(path, s), kBendShares.braking));
+      for (const double along : {-braking, driving}) {
         lateral = std::min(lateral, road.LateralBeside(path, s, curvature, along));
       }
     }
@@ -121,7 +148,7 @@ std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request,
         is_exceeded || (both.limit > 0.0 && both.required > both.limit * (1.0 + kRounding));
   });
   finish_bend();
-  std::erase_if(caps, [&](const SpeedCap& cap) { return cap.speed >= limits.speed; });
+  std::erase_if(caps, [&](const SpeedCap& cap) { return cap.speed >= request.speed.speed; });
   return caps;
 }
 

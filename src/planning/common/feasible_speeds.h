@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
+#include "trackbed/path/acceleration_caps.h"
 #include "trackbed/planning/common/path_pieces.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/road_hold.h"
@@ -50,15 +52,25 @@ bool EndsAtStop(const std::vector<Stations>& legs, double s);
 /// speeds.
 std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request);
 
-/// Returns acceleration limits reduced to at most 0.7 (about 1/sqrt(2)) of the road's grip, which
-/// leaves grip for bends.
-SpeedLimits LeaveGripForBends(const SpeedLimits& limits, const Path& path,
-                              const PlanRequest& request);
+/// The shares of the road's grip that a plan may use along the path, > 0; infinite if the plan does
+/// not exceed the road's grip.
+struct GripShares {
+  double driving = std::numeric_limits<double>::infinity();
+  double braking = std::numeric_limits<double>::infinity();
+};
+
+/// Shares that leave grip for bends: about 1/sqrt(2).
+inline constexpr GripShares kBendShares{0.7, 0.7};
+
+/// Returns the sections of the path on which the given shares of the road's grip allow less than
+/// the limits of the request. Samples the grip every kCheckSpacing.
+std::vector<AccelerationCap> SectionsOfLessGrip(const Path& path, const PlanRequest& request,
+                                                const GripShares& shares);
 
 /// Returns speed caps for each bend in which the plan exceeds the friction ellipse. A bend here is
 /// a stretch of the path between two straights. With these caps, the car stays within the friction
-/// ellipse in the bend even if it speeds up or slows down at the acceleration limits.
-std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request,
-                                  const SpeedLimits& limits);
+/// ellipse in the bend even if it speeds up or slows down at the acceleration limits of the
+/// request, or at the shares kBendShares of the road's grip if these are lower.
+std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request);
 
 }  // namespace trackbed::feasible_speeds

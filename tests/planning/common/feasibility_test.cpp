@@ -214,6 +214,57 @@ TEST(Feasibility, BrakesGentlyOnIce) {
   }
 }
 
+FrictionPatch IceAcross(double from, double length) {
+  return {.area = {{from + 0.5 * length, 0.0, 0.0}, length, 20.0}, .friction = 0.05};
+}
+
+TEST(Feasibility, BrakesBeforeIceAtTheEnd) {
+  // On the last 30 m, the tyres hold 0.999 * 0.9 * 0.05 * 9.81 = 0.441 m/s^2. Both axles count: the
+  // front axle is 2.7 m ahead.
+  PlanRequest request = Request(10.0, {{0.0, 0.0}});
+  request.friction_patches = {IceAcross(120.0, 40.0)};
+  const Plan plan = Course(request, {{.length = 150.0, .curvature = 0.0}});
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_TRUE(FindExcesses(plan, request).empty());
+  const double ice = 0.999 * 0.05 * 0.9 * 9.81;
+  EXPECT_NEAR(plan.reference.speed.AccelerationAt(140.0), -ice, Tolerance(1e-9));
+  EXPECT_NEAR(plan.reference.speed.AccelerationAt(115.0), -1.5, Tolerance(1e-9));
+}
+
+TEST(Feasibility, NamesTheIceWhereTheCarIsTooFast) {
+  // Even at twice the deceleration of the speed control, the car is too fast for the ice.
+  PlanRequest request = Request(10.0, {{0.0, 0.0}});
+  request.friction_patches = {IceAcross(12.0, 60.0)};
+  request.infeasible = InfeasiblePolicy::kRefuse;
+  const Plan plan = Course(request, {{.length = 60.0, .curvature = 0.0}});
+  EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
+  // The front axle meets the ice at s = 12 - 2.7 m, and the check looks at least every 0.1 m.
+  const double station = std::stod(plan.reason.substr(plan.reason.rfind("s = ") + 4));
+  EXPECT_GE(station, 9.3);
+  EXPECT_LE(station, 60.0);
+}
+
+TEST(Feasibility, HoldsOnRandomRoadsWithIce) {
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  int ok = 0;
+  for (int i = 0; i < 200; ++i) {
+    PlanRequest request = Request(2.0 + 8.0 * unit(random), {{0.0, 0.0}});
+    for (int k = 0; k < 3; ++k) {
+      FrictionPatch patch = IceAcross(200.0 * unit(random), 1.0 + 40.0 * unit(random));
+      patch.friction = 0.04 + 0.4 * unit(random);
+      request.friction_patches.push_back(patch);
+    }
+    request.ground.grade = {0.03 * (unit(random) - 0.5), 0.0};
+    const Plan plan = Course(request, {{.length = 200.0, .curvature = 0.0}});
+    if (plan.ok()) {
+      EXPECT_TRUE(FindExcesses(plan, request).empty()) << i;
+      ++ok;
+    }
+  }
+  EXPECT_GT(ok, 150);
+}
+
 /// Random missions for every waypoint planner: a successful plan starts at the car's pose, speed
 /// and steering, whatever these are.
 // Only MakeFeasible makes one, and it does not change afterwards.
