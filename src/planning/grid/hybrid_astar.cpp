@@ -1,17 +1,13 @@
-#include "trackbed/planning/grid/hybrid_astar.h"
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <queue>
 #include <unordered_map>
+#include <utility>
 
+#include "src/planning/grid/pose_search.h"
 #include "trackbed/core/angle.h"
-#include "trackbed/core/error.h"
-#include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/curves/dubins.h"
 #include "trackbed/planning/curves/reeds_shepp.h"
@@ -23,7 +19,8 @@
 // search drives arcs of curvature 0, +-1/(2r) and +-1/r forwards and in reverse. The search keeps
 // only the cheapest node per cell of position, heading and direction. The nearer a node is to the
 // goal, the more often the search tries a collision-free curve to the goal. The search ends when
-// the cheapest open node is at the goal, reached by a collision-free curve.
+// the cheapest open node is at the goal, reached by a collision-free curve. A search from the goal
+// does the same along the path driven backwards in time, from the goal to the start.
 
 namespace trackbed {
 namespace {
@@ -53,115 +50,117 @@ struct Open {
   }
 };
 
-class HybridAStar {
+class HybridAStar final : public PoseSearch {
  public:
-  HybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
-              const HybridAStarOptions& options)
-      : vehicle_(vehicle),
-        options_(options),
-        problem_(problem),
-        radius_(options.radius.value_or(1.1 * vehicle.min_turning_radius())),
-        clear_(vehicle, problem.obstacles, options.safe_distance),
-        grid_(MakeGrid(vehicle)) {}
+  HybridAStar(const SearchSpace& space, const Resolution& resolution, SearchSide side,
+              std::shared_ptr<const GridDistance> left)
+      : vehicle_(space.vehicle),
+        options_(space.options),
+        problem_(space.problem),
+        radius_(space.radius),
+        clear_(space.clear),
+        resolution_(resolution),
+        from_start_(side == SearchSide::kStart),
+        target_(from_start_ ? problem_.goal : problem_.start),
+        left_(std::move(left)) {
+    nodes_.push_back({.pose = from_start_ ? problem_.start : problem_.goal});
+    open_.push({options_.weight * Left(nodes_.front().pose), 0});
+  }
 
-  HybridAStarResult Run() {
-    HybridAStarResult result;
-    if (grid_.size() == 0) {
-      return Fail(result, PlanStatus::kBudgetUsedUp,
-                  fmt::format("more than {:.3g} cells of {:.3g} m", kMaxCells, options_.cell));
-    }
-    result.cells = static_cast<int>(grid_.size());
-    if (!clear_.IsFree(problem_.start)) {
-      return Fail(result, PlanStatus::kStartBlocked, "the start is too close to an obstacle");
-    }
-    if (!clear_.IsFree(problem_.goal)) {
-      return Fail(result, PlanStatus::kGoalBlocked, "the goal is too close to an obstacle");
-    }
-    const int goal_cell = grid_.CellAt(problem_.goal.position());
-    distances_ = DistancesTo(grid_, static_cast<std::size_t>(goal_cell));
-    if (!std::isfinite(LeftOnGrid(problem_.start))) {
-      return Fail(result, PlanStatus::kNoPath, "obstacles enclose the start or the goal");
-    }
-    nodes_.push_back({.pose = problem_.start});
-    open_.push({options_.weight * Left(problem_.start), 0});
-    while (!open_.empty()) {
+  void Advance() override {
+    while (!ended()) {
       const int index = open_.top().node;
       const Node node = nodes_[static_cast<std::size_t>(index)];
-      if (node.last_curve >= 0) {
-        return Found(result, index);
-      }
       open_.pop();
-      if (node.parent >= 0 && best_.at(NodeKey(node)) < node.cost) {
-        continue;  // the search has since found a cheaper path to this cell
+      if (node.parent < 0 || best_.at(NodeKey(node)) >= node.cost) {
+        Expand(index, node, ++expansions_);
+        return;
       }
-      if (result.expansions >= options_.budget) {
-        return BudgetUsedUp(result);
-      }
-      ++result.expansions;
-      Expand(index, node, result.expansions);
+      // The search has since found a cheaper path to this cell.
     }
-    return Fail(result, PlanStatus::kNoPath, "no feasible path");
+  }
+
+  [[nodiscard]] bool ended() const override {
+    return open_.empty() || nodes_[static_cast<std::size_t>(open_.top().node)].last_curve >= 0;
+  }
+
+  [[nodiscard]] int expansions() const override { return expansions_; }
+
+  [[nodiscard]] double cost() const override { return best_end_; }
+
+  [[nodiscard]] std::vector<Segment> Path() const override {
+    // The last node with a curve has the cheapest path.
+    const auto end = std::find_if(nodes_.rbegin(), nodes_.rend(),
+                                  [](const Node& node) { return node.last_curve >= 0; });
+    std::vector<Segment> steps;
+    if (end == nodes_.rend()) {
+      return steps;
+    }
+    const auto& last = last_curves_[static_cast<std::size_t>(end->last_curve)];
+    std::copy(last.rbegin(), last.rend(), std::back_inserter(steps));
+    for (int i = end->parent; nodes_[static_cast<std::size_t>(i)].parent >= 0;) {
+      const Node& node = nodes_[static_cast<std::size_t>(i)];
+      steps.push_back(node.step);
+      i = node.parent;
+    }
+    std::vector<Segment> path;
+    // The steps are in the order of the path if the search began at the goal.
+    if (from_start_) {
+      std::reverse(steps.begin(), steps.end());
+    }
+    for (Segment& step : steps) {
+      step.direction = IsReverse(step) ? -1 : 1;
+      Segment* before = path.empty() ? nullptr : &path.back();
+      if (before != nullptr && before->curvature == step.curvature &&
+          before->direction == step.direction) {
+        before->length += step.length;
+      } else {
+        path.push_back(step);
+      }
+    }
+    return path;
   }
 
  private:
-  static HybridAStarResult Fail(HybridAStarResult& result, PlanStatus status,
-                                const std::string& reason) {
-    result.status = status;
-    result.reason = reason;
-    return result;
-  }
-
-  /// Makes a grid in which a cell is occupied if the rear-axle center cannot be at any point of the
-  /// cell. In such a cell, every point is closer to an obstacle than the permitted minimum: the
-  /// distance from the rear-axle center to the nearest side of the footprint, plus the safe
-  /// distance. Returns an empty grid if the area has too many cells.
-  [[nodiscard]] OccupancyGrid MakeGrid(const VehicleParams& vehicle) const {
-    const GridArea area =
-        AreaAround(problem_.start, {problem_.start.position(), problem_.goal.position()},
-                   problem_.obstacles, options_.margin);
-    if (CellsIn(area, options_.cell) > kMaxCells) {
-      return {};
-    }
-    const double nearest_side = std::min(
-        {0.5 * vehicle.width, vehicle.rear_overhang, vehicle.length - vehicle.rear_overhang});
-    const double inflation =
-        nearest_side + options_.safe_distance - 0.5 * std::sqrt(2.0) * options_.cell;
-    return Rasterize(problem_.start, area, options_.cell, problem_.obstacles,
-                     std::max(inflation, 0.0));
-  }
-
-  /// Returns a lower bound of the remaining distance to the goal, computed from the distance on the
-  /// grid [m].
   [[nodiscard]] double LeftOnGrid(const Pose2& pose) const {
-    const int cell = grid_.CellAt(pose.position());
-    if (cell < 0) {
-      return std::numeric_limits<double>::infinity();
-    }
-    // Points of two cells may be closer together than the cells' centers, by up to the diagonal of
-    // a cell.
-    const double steps = distances_[static_cast<std::size_t>(cell)] / kOctileOverStraight;
-    return options_.cell * std::max(steps - std::sqrt(2.0), 0.0);
+    return left_->LowerBound(pose.position());
+  }
+
+  /// Returns the poses at the start and at the end of a curve between a node and the target.
+  [[nodiscard]] std::pair<Pose2, Pose2> CurveEnds(const Pose2& node) const {
+    return from_start_ ? std::pair(node, target_) : std::pair(target_, node);
   }
 
   [[nodiscard]] double Left(const Pose2& pose) const {
-    const double curve = options_.reverse ? ReedsSheppLength(pose, problem_.goal, radius_)
-                                          : Dubins(pose, problem_.goal, radius_).length;
+    const auto [from, to] = CurveEnds(pose);
+    const double curve =
+        options_.reverse ? ReedsSheppLength(from, to, radius_) : Dubins(from, to, radius_).length;
     return std::max(LeftOnGrid(pose), curve);
   }
 
   /// Returns the key of the cell of position, heading and direction of motion that contains a node.
-  [[nodiscard]] std::int64_t NodeKey(const Node& node) const {
-    const std::int64_t cell = grid_.CellAt(node.pose.position());
+  [[nodiscard]] std::uint64_t NodeKey(const Node& node) const {
+    // Keys of bins are unique within 2^25 bins of the start.
+    const Vec2 local = ToLocal(problem_.start, node.pose.position()) / resolution_.cell;
+    const auto column = static_cast<std::uint64_t>(std::llround(local.x()));
+    const auto row = static_cast<std::uint64_t>(std::llround(local.y()));
     const double turn = WrapAngle(node.pose.yaw - problem_.start.yaw) / (2.0 * kPi);
-    std::int64_t heading = std::llround(turn * options_.headings);
-    heading = (heading + options_.headings) % options_.headings;
-    return (cell * options_.headings + heading) * 2 + (node.step.direction > 0 ? 1 : 0);
+    const std::int64_t heading = std::llround(turn * resolution_.headings) + resolution_.headings;
+    const auto headings = static_cast<std::uint64_t>(resolution_.headings);
+    const std::uint64_t bin =
+        ((row << 26) + column) * headings + static_cast<std::uint64_t>(heading) % headings;
+    return bin * 2 + (node.step.direction > 0 ? 1 : 0);
+  }
+
+  /// Returns whether the car drives a segment of the search backwards.
+  [[nodiscard]] bool IsReverse(const Segment& segment) const {
+    return (segment.direction < 0) == from_start_;
   }
 
   /// Returns the cost of a segment, including the changes of direction and steering after the
   /// previous segment.
   [[nodiscard]] double StepCost(const Segment& before, const Segment& segment) const {
-    double cost = segment.length * (segment.direction > 0 ? 1.0 : options_.reverse_cost);
+    double cost = segment.length * (IsReverse(segment) ? options_.reverse_cost : 1.0);
     if (before.length > 0.0) {
       cost += before.direction != segment.direction ? options_.switch_cost : 0.0;
       cost += options_.steering_cost * radius_ * std::abs(segment.curvature - before.curvature);
@@ -170,7 +169,15 @@ class HybridAStar {
   }
 
   [[nodiscard]] bool MustGoForwards(const Node& node) const {
-    return problem_.rolls && node.parent < 0;
+    return problem_.rolls && from_start_ && node.parent < 0;
+  }
+
+  /// Returns whether a curve between a node and the target lets a rolling car begin forwards.
+  [[nodiscard]] bool BeginsWell(const Node& node, const std::vector<Segment>& curve) const {
+    if (from_start_) {
+      return !MustGoForwards(node) || curve.empty() || !IsReverse(curve.front());
+    }
+    return !problem_.rolls || !IsReverse(curve.empty() ? node.step : curve.back());
   }
 
   void Expand(int index, const Node& node, int expansions) {
@@ -180,15 +187,14 @@ class HybridAStar {
     if (expansions % (1 + static_cast<int>(left / radius_)) == 0 || expansions == 1) {
       TryToEnd(index, node);
     }
-    // Length of an arc, longer than a cell's diagonal so that the arc leaves the cell.
-    const double length = 1.5 * options_.cell;
     for (const int direction : {1, -1}) {
-      if (direction < 0 && (!options_.reverse || MustGoForwards(node))) {
-        continue;
-      }
       for (const double bend : {0.0, 0.5, -0.5, 1.0, -1.0}) {
-        const Segment step{.length = length, .curvature = bend / radius_, .direction = direction};
-        const double along = direction * length;
+        const Segment step{
+            .length = resolution_.step, .curvature = bend / radius_, .direction = direction};
+        if (IsReverse(step) && (!options_.reverse || MustGoForwards(node))) {
+          break;
+        }
+        const double along = direction * step.length;
         Node child{.pose = MoveOnArc(node.pose, along, step.curvature * along),
                    .cost = node.cost + StepCost(node.step, step),
                    .parent = index,
@@ -214,6 +220,18 @@ class HybridAStar {
     nodes_.push_back(node);
   }
 
+  /// Returns the segments of a path in the order and in the directions of the search. The function
+  /// is its own inverse.
+  [[nodiscard]] std::vector<Segment> InSearchOrder(std::vector<Segment> segments) const {
+    if (!from_start_) {
+      std::reverse(segments.begin(), segments.end());
+      for (Segment& segment : segments) {
+        segment.direction = -segment.direction;
+      }
+    }
+    return segments;
+  }
+
   /// Tries to reach the goal by the cheapest collision-free curve among the few cheapest curves.
   void TryToEnd(int index, const Node& node) {
     constexpr std::size_t kMaxAttempts = 4;
@@ -223,13 +241,12 @@ class HybridAStar {
       double cost;
     };
     std::vector<Curve> curves;
-    for (const ShortestCurve& word : options_.reverse
-                                         ? ReedsSheppWords(node.pose, problem_.goal, radius_)
-                                         : DubinsWords(node.pose, problem_.goal, radius_)) {
-      Curve curve{word, ToSegments(word), 0.0};
+    const auto [from, to] = CurveEnds(node.pose);
+    for (const ShortestCurve& word :
+         options_.reverse ? ReedsSheppWords(from, to, radius_) : DubinsWords(from, to, radius_)) {
+      Curve curve{word, InSearchOrder(ToSegments(word)), 0.0};
       curve.cost = EndCost(node, curve.segments);
-      const bool backwards = !curve.segments.empty() && curve.segments.front().direction < 0;
-      if (curve.cost < best_end_ && !(backwards && MustGoForwards(node))) {
+      if (curve.cost < best_end_ && BeginsWell(node, curve.segments)) {
         curves.push_back(std::move(curve));
       }
     }
@@ -246,7 +263,7 @@ class HybridAStar {
       }
       if (curve.cost < best_end_) {
         best_end_ = curve.cost;
-        Push({.pose = problem_.goal,
+        Push({.pose = target_,
               .cost = curve.cost,
               .parent = index,
               .step = {},
@@ -271,26 +288,30 @@ class HybridAStar {
 
   /// Whether the car would have to stop in a curve from a node to turn its wheels.
   [[nodiscard]] bool HasStop(const Node& node, const std::vector<Segment>& curve) const {
-    std::vector<Segment> path;
+    std::vector<Segment> pieces;
     if (node.parent >= 0) {
-      path.push_back(node.step);
+      pieces.push_back(node.step);
     }
-    AppendPieces(path, curve);
+    pieces.insert(pieces.end(), curve.begin(), curve.end());
+    std::vector<Segment> path;
+    AppendPieces(path, InSearchOrder(std::move(pieces)));
     return !PlanSteps(vehicle_, path, problem_.drive->min_speed).stops.empty();
   }
 
   /// The pieces of a last curve: without short arcs, if that costs no more or saves a stop.
   [[nodiscard]] std::vector<Segment> GentlerPieces(const Node& node,
                                                    const ShortestCurve& word) const {
-    std::vector<Segment> shortest = ToSegments(word);
+    std::vector<Segment> shortest = InSearchOrder(ToSegments(word));
     if (!problem_.drive) {
       return shortest;
     }
     CurveDrive drive = *problem_.drive;
     if (node.parent >= 0) {
-      drive.before = {node.step.curvature, node.step.direction};
+      PathBend& bend = from_start_ ? drive.before : drive.after;
+      bend = {node.step.curvature, IsReverse(node.step) ? -1 : 1};
     }
-    std::vector<Segment> gentle = DrivablePieces(vehicle_, node.pose, problem_.goal, word, drive);
+    const auto [from, to] = CurveEnds(node.pose);
+    std::vector<Segment> gentle = InSearchOrder(DrivablePieces(vehicle_, from, to, word, drive));
     const bool is_better =
         EndCost(node, gentle) <= EndCost(node, shortest) || HasStop(node, shortest);
     return is_better ? gentle : shortest;
@@ -307,67 +328,50 @@ class HybridAStar {
     return true;
   }
 
-  HybridAStarResult Found(HybridAStarResult& result, int index) const {
-    std::vector<Segment> backwards;
-    const Node& goal = nodes_[static_cast<std::size_t>(index)];
-    const auto& last = last_curves_[static_cast<std::size_t>(goal.last_curve)];
-    std::copy(last.rbegin(), last.rend(), std::back_inserter(backwards));
-    for (int i = goal.parent; nodes_[static_cast<std::size_t>(i)].parent >= 0;) {
-      const Node& node = nodes_[static_cast<std::size_t>(i)];
-      backwards.push_back(node.step);
-      i = node.parent;
-    }
-    for (auto step = backwards.rbegin(); step != backwards.rend(); ++step) {
-      Segment* before = result.segments.empty() ? nullptr : &result.segments.back();
-      if (before != nullptr && before->curvature == step->curvature &&
-          before->direction == step->direction) {
-        before->length += step->length;
-      } else {
-        result.segments.push_back(*step);
-      }
-    }
-    result.status = PlanStatus::kOk;
-    result.cost = goal.cost;
-    return result;
-  }
-
-  /// Returns the cheapest path to the goal found so far, or the failure.
-  HybridAStarResult BudgetUsedUp(HybridAStarResult& result) const {
-    for (std::size_t i = nodes_.size(); i-- > 0;) {
-      if (nodes_[i].last_curve >= 0) {
-        return Found(result, static_cast<int>(i));  // the last path found is the cheapest path
-      }
-    }
-    return Fail(result, PlanStatus::kBudgetUsedUp,
-                fmt::format("no path found in {} expansions", result.expansions));
-  }
-
   const VehicleParams& vehicle_;
   const HybridAStarOptions& options_;
   const HybridAStarProblem& problem_;
   double radius_;
-  CollisionChecker clear_;
-  OccupancyGrid grid_;
-  std::vector<double> distances_;  // Distances to the goal on the grid.
+  const CollisionChecker& clear_;
+  Resolution resolution_;
+  bool from_start_;
+  Pose2 target_;
+  std::shared_ptr<const GridDistance> left_;
   std::vector<Node> nodes_;
   std::priority_queue<Open> open_;
-  std::unordered_map<std::int64_t, double> best_;  // Cost of the cheapest known node in each cell.
+  std::unordered_map<std::uint64_t, double> best_;  // Cost of the cheapest known node in each cell.
+  int expansions_ = 0;
   double best_end_ = std::numeric_limits<double>::infinity();
   std::vector<std::vector<Segment>> last_curves_;
 };
 
 }  // namespace
 
-HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
-                                    const HybridAStarOptions& options) {
-  TRACKBED_CHECK(options.cell > 0.0 && options.headings >= 8 && options.margin >= 0.0 &&
-                     options.budget >= 0 && options.radius.value_or(1.0) > 0.0 &&
-                     options.weight >= 1.0 && options.reverse_cost >= 1.0 &&
-                     options.switch_cost >= 0.0 && options.steering_cost >= 0.0,
-                 "cells of {} m and {} headings, margin {}, budget {}, costs {}, {}, {}",
-                 options.cell, options.headings, options.margin, options.budget,
-                 options.reverse_cost, options.switch_cost, options.steering_cost);
-  return HybridAStar(vehicle, problem, options).Run();
+GridDistance::GridDistance(std::shared_ptr<const OccupancyGrid> grid, const Vec2& target)
+    : grid_(std::move(grid)),
+      distances_(DistancesTo(*grid_, static_cast<std::size_t>(grid_->CellAt(target)))) {}
+
+double GridDistance::LowerBound(const Vec2& point) const {
+  const int cell = grid_->CellAt(point);
+  if (cell < 0) {
+    return std::numeric_limits<double>::infinity();
+  }
+  // Points of two cells may be closer together than the cells' centers, by up to the diagonal of a
+  // cell.
+  const double steps = distances_[static_cast<std::size_t>(cell)] / kOctileOverStraight;
+  return grid_->cell * std::max(steps - std::sqrt(2.0), 0.0);
+}
+
+Resolution Resolution::WithBins(double cell, int headings, double radius) {
+  return {.cell = cell,
+          .headings = headings,
+          .step = std::max(1.5 * cell, 2.0 * kPi * radius / headings)};
+}
+
+std::unique_ptr<PoseSearch> MakePoseSearch(const SearchSpace& space, const Resolution& resolution,
+                                           SearchSide side,
+                                           std::shared_ptr<const GridDistance> left) {
+  return std::make_unique<HybridAStar>(space, resolution, side, std::move(left));
 }
 
 }  // namespace trackbed

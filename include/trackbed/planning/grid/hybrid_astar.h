@@ -24,6 +24,12 @@
 /// Reeds-Shepp curve or, if larger, as the length of the shortest grid path around the obstacles,
 /// divided by 1.0824. The divisor 1.0824 is needed because a path on an empty grid is up to 1.0824
 /// times as long as a straight line.
+///
+/// Steps are as long as the larger of 1.5 cells and one heading cell times r, so that no step of
+/// curvature 1/r shares a cell with a straight step. If the search at the requested cells finds no
+/// path, other searches follow at a fixed series of resolutions, from the start and from the goal.
+/// The series depends only on r and on the problem: finer cells or headings lose no path that the
+/// series finds.
 namespace trackbed {
 
 struct HybridAStarOptions {
@@ -38,11 +44,11 @@ struct HybridAStarOptions {
   /// Weight of the estimated cost to the goal, >= 1. With a weight above 1, the search expands
   /// fewer poses, and the found path costs at most `weight` times as much as the optimum.
   double weight = 2.0;
-  double cell = 0.5;       ///< Side length of a position cell [m], > 0.
-  int headings = 72;       ///< Number of heading cells per full turn, >= 8.
+  double cell = 0.5;       ///< Side length of a position cell of the first search [m], > 0.
+  int headings = 72;       ///< Number of heading cells of the first search per full turn, >= 8.
   double margin = 10.0;    ///< Margin of the search area around start, goal and obstacles [m].
   double min_speed = 0.3;  ///< Lowest speed of the car at a step of curvature [m/s].
-  int budget = 200000;     ///< Maximum number of poses that the search may expand, >= 0.
+  int budget = 200000;     ///< Maximum number of poses that all searches may expand, >= 0.
 };
 void Visit(KeyVisitor& keys, HybridAStarOptions& options);
 
@@ -62,28 +68,31 @@ struct HybridAStarResult {
   std::string reason;             ///< Reason why the search failed; empty if ok.
   std::vector<Segment> segments;  ///< Segments of the path from the start pose; empty unless ok.
   double cost = std::numeric_limits<double>::infinity();
-  int expansions = 0;
-  int cells = 0;  ///< Number of position cells of the search area.
+  int expansions = 0;  ///< Number of poses that all searches expanded.
+  int cells = 0;       ///< Number of position cells of the search area.
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
 };
 
 /// Searches for a path by Hybrid A*. Guarantees for the status kOk: the path ends within 1e-9 m and
 /// 1e-9 rad of the goal pose. The last part of the path is a Reeds-Shepp curve, or a Dubins curve
-/// if the car may not drive backwards; with `drive`, its short arcs are gentler. The curvature of
-/// the path never exceeds 1/r. The car's footprint is clear of all obstacles (CollisionChecker).
-/// The same input always yields the same result. The path is not globally optimal, because the
-/// search keeps only one pose per cell, and because the path must end with a Reeds-Shepp or Dubins
-/// curve. If the budget is used up, the function returns the best path found so far. The status is
-/// kNoPath if the search has expanded all poses without finding a path. Throws InternalError if an
-/// option is out of range. Computing time: about 10 us per expanded pose.
+/// if the car may not drive backwards; if the path was found from the goal, the first part is. With
+/// `drive`, short arcs of this curve are gentler. The curvature of the path never exceeds 1/r. The
+/// car's footprint is clear of all obstacles (CollisionChecker). The same input always yields the
+/// same result. The path is not globally optimal, because the search keeps only one pose per cell,
+/// and because the path must contain a Reeds-Shepp or Dubins curve. If the budget is used up, the
+/// function returns the best path found so far. Half of the budget is reserved for the series of
+/// resolutions, unless the search at the requested resolution finds a path with the other half. The
+/// status is kNoPath if obstacles enclose the start or the goal, or if there is no path with steps
+/// of 0.016 r: the searches have expanded all poses around the start or around the goal. Throws
+/// InternalError if an option is out of range. Computing time: about 10 us per expanded pose.
 HybridAStarResult SearchHybridAStar(const VehicleParams& vehicle, const HybridAStarProblem& problem,
                                     const HybridAStarOptions& options);
 
 /// Diagnostics of the search from one stop to the next.
 struct HybridAStarLeg {
   double cost = 0.0;   ///< Cost of the path [m].
-  int expansions = 0;  ///< Number of poses that the search expanded.
+  int expansions = 0;  ///< Number of poses that all searches expanded.
   int cells = 0;       ///< Number of position cells of the search area.
 };
 void Visit(DiagnosticsVisitor& out, const HybridAStarLeg& leg);
