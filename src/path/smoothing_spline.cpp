@@ -17,7 +17,8 @@ namespace {
 constexpr int kDegree = 5;
 using Spline = Eigen::Spline<double, 2, Eigen::Dynamic>;
 
-/// Returns the weight of each point: the length of the path that the point represents [m].
+/// Returns the weight of each point: the length of the path that the point represents [m], at the
+/// ends of an open path times a large factor.
 std::vector<double> Weights(const ChordPoints& fitted, double period) {
   const std::size_t count = fitted.u.size();
   std::vector<double> weights(count, 0.0);
@@ -30,6 +31,11 @@ std::vector<double> Weights(const ChordPoints& fitted, double period) {
     const double half = 0.5 * (fitted.u.front() + period - fitted.u.back());
     weights.front() += half;
     weights.back() += half;
+  } else {
+    // An open path begins and ends at its points.
+    constexpr double kEnds = 1e6;
+    weights.front() *= kEnds;
+    weights.back() *= kEnds;
   }
   return weights;
 }
@@ -37,7 +43,7 @@ std::vector<double> Weights(const ChordPoints& fitted, double period) {
 }  // namespace
 
 SmoothingSpline::SmoothingSpline(const ChordPoints& fitted, double period)
-    : period_(period), knots_(fitted.u) {
+    : period_(period), knots_(fitted.u), weights_(Weights(fitted, period)) {
   TRACKBED_CHECK(knots_.size() >= (period > 0.0 ? 3U : 2U), "{} points", knots_.size());
   const auto count = static_cast<Eigen::Index>(knots_.size());
   if (period > 0.0) {
@@ -68,13 +74,12 @@ SmoothingSpline::Basis SmoothingSpline::BasisAt(double u, int order) const {
 }
 
 void SmoothingSpline::AddData(const ChordPoints& fitted) {
-  const std::vector<double> weights = Weights(fitted, period_);
   std::vector<Eigen::Triplet<double>> entries;
   right_ = Eigen::MatrixX2d::Zero(size_, 2);
   for (std::size_t i = 0; i < fitted.u.size(); ++i) {
     const Basis basis = BasisAt(fitted.u[i], 0);
     for (Eigen::Index a = 0; a <= kDegree; ++a) {
-      const double factor = weights[i] * basis.factors(0, a);
+      const double factor = weights_[i] * basis.factors(0, a);
       right_.row(Coefficient(basis.first + a)) += factor * fitted.points[i].transpose();
       for (Eigen::Index b = 0; b <= kDegree; ++b) {
         entries.emplace_back(Coefficient(basis.first + a), Coefficient(basis.first + b),

@@ -35,6 +35,10 @@ class SmoothingSpline {
   /// path, and that of the first point plus `period` for a closed path.
   [[nodiscard]] const std::vector<double>& knots() const { return knots_; }
 
+  /// Returns the weight of each point: the length of the path that the point represents [m]. The
+  /// ends of an open path have a much larger weight, so the spline passes them.
+  [[nodiscard]] const std::vector<double>& weights() const { return weights_; }
+
  private:
   using Matrix = Eigen::SparseMatrix<double>;
 
@@ -52,6 +56,7 @@ class SmoothingSpline {
 
   double period_;
   std::vector<double> knots_;
+  std::vector<double> weights_;
   Eigen::Array<double, 1, Eigen::Dynamic> all_knots_;
   Eigen::Index size_ = 0;  // number of coefficients
   Matrix data_;

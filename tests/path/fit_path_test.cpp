@@ -127,7 +127,8 @@ TEST(FitPath, FindsTheCurvatureOfALemniscate) {
     for (int i = 0; i < count; ++i) {
       given.points.push_back(curve(2.0 * kPi * i / count));
     }
-    const FittedPath fitted = FitPath(given, {.max_deviation = 1e-6, .closed = true});
+    // With a larger deviation, the smoothing changes the curvature by more than the interpolation.
+    const FittedPath fitted = FitPath(given, {.max_deviation = 1e-8, .closed = true});
     double largest = 0.0;
     for (int i = 0; i < count; ++i) {
       const double own = fitted.path.At(fitted.stations[static_cast<std::size_t>(i)]).curvature;

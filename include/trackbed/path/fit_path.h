@@ -93,24 +93,30 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// Because a Path has a continuous heading, each corner of a polyline becomes an arc. The arc is at
 /// most 2 mm long, is within 1 mm of the corner, and is far too tight for any car.
 ///
-/// A spline has degree 5 over the chord length u, with a knot at every point, and minimizes
+/// A spline is fitted in two steps. First, a quintic spline over the chord length u, with a knot at
+/// every point, minimizes
 ///     sum over i of w_i |P(u_i) - p_i|^2 + l^6 integral of |P'''(u)|^2 du,
 /// where w_i [m] is the length of path that point i represents, and l [m] is the smoothing length.
 /// Details of the points that are shorter than the smoothing length l are smoothed out (Reinsch
-/// 1967). Unlike in Reinsch's method, the integral penalizes the third derivative, so the fitted
-/// path can be driven with slow steering. Bisection finds the largest smoothing length l, to 10 %,
-/// for which the deviation of the points is at most max_deviation. Curvature and curvature rate of
-/// the spline are continuous. At both ends of the spline, P''' is 0: the curvature rate falls to 0
-/// over a distance of about two points or of the smoothing length l, whichever is longer. Next to
-/// these stretches, the curvature rate of the spline is up to a tenth too large.
+/// 1967). Bisection finds the largest l, to 10 %, for which the deviation of the points is at most
+/// max_deviation. Second, Newton's method, which starts at this spline, minimizes over all curves
+///     sum over i of w_i n_i^2 + l^6 integral of (kappa'(s) - c)^2 ds,
+/// where n_i [m] is the distance of point i from the curve, kappa' is the curvature rate, and c is
+/// its mean: a minimum variation curve (Moreton and Séquin 1992). Lines, arcs and clothoids have
+/// the integral 0, so points on one of them are fitted by the line, arc or clothoid itself.
+/// Curvature and curvature rate are continuous. If the curve exceeds max_deviation, l is shortened.
+/// If no curve converges, the path is the quintic spline itself.
 ///
-/// Guarantees: no point lies further than max_deviation from the path's point at the same station,
-/// as measured on the fitted path. With `resample`, the deviation is measured from the resampled
-/// points on the straight lines between the given points. Between widely spaced points, a spline
-/// deviates from the straight lines (`bulge`); next to corners, the deviation is a tenth of the
-/// spacing or more. The deviation of a spline from the straight lines (`bulge`) is at most the
-/// larger of two values: a fifth of the spacing, and the height of an arc that turns by the same
-/// angle as the points. The fit does not account for obstacles or the limits of a car.
+/// Guarantees: an open path begins at the first point and ends at the last point, to 1e-9 m (at
+/// coordinates of 1e6 m and more, to their rounding). If all points lie on one line, arc or
+/// clothoid, the path deviates from it by at most 1e-9 m. No point lies further than max_deviation
+/// from the path's point at the same station, as measured on the fitted path. With `resample`, the
+/// deviation is measured from the resampled points on the straight lines between the given points.
+/// Between widely spaced points, a spline deviates from the straight lines (`bulge`); next to
+/// corners, the deviation is a tenth of the spacing or more. The deviation of a spline from the
+/// straight lines (`bulge`) is at most the larger of two values: a fifth of the spacing, and the
+/// height of an arc that turns by the same angle as the points. The fit does not account for
+/// obstacles or the limits of a car.
 ///
 /// Throws InputError if there are fewer than two different points or more than 200 000 points to be
 /// fitted, or if no spline stays within max_deviation. Throws InputError if the heading of a point
@@ -118,8 +124,8 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// InputError if the path is longer than kMaxPathLength; the message names the largest gap between
 /// points. Throws InputError if a spline deviates more than guaranteed from the straight lines; the
 /// message names the point that is probably wrong. Throws PreconditionError if a number is not
-/// finite or the lists have different lengths. Fitting a spline takes about 0.2 ms and 1 kB per
-/// point, plus 30 us and 1 kB per meter.
+/// finite or the lists have different lengths. Fitting a spline takes about 0.3 ms and 3 kB per
+/// point.
 FittedPath FitPath(PathPoints given, const PathFitOptions& options);
 
 }  // namespace trackbed

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "src/path/points_to_fit.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+
+/// Deviation of a curve from the straight line between two adjacent knots.
+struct Bulge {
+  // Largest distance of the curve from the straight line between the knots [m].
+  double distance = 0.0;
+  // Largest distance from the straight line that is plausible for a smooth path through the points
+  // [m].
+  double plausible = 0.0;
+  double length = 0.0;   // Length of the curve between the knots [m].
+  double chord = 0.0;    // Length of the straight line between the knots [m].
+  std::size_t knot = 0;  // Index of the knot at which the stretch begins.
+
+  /// Returns whether the curve deviates from the line by more than a plausible distance. The check
+  /// takes into account that the curve may pass both ends of the line at a distance of up to the
+  /// tolerance.
+  [[nodiscard]] bool IsAside(double tolerance) const {
+    return distance > plausible + tolerance || length > 0.5 * kPi * chord + 2.0 * tolerance;
+  }
+};
+
+/// Returns the point of a curve for a knot and a share from 0 to 1 of the way to the next knot.
+using CurveBetweenKnots = std::function<Vec2(std::size_t, double)>;
+
+/// Returns the first stretch between two knots on which a curve deviates too far from the straight
+/// line (IsAside). If the curve deviates too far on no stretch, returns the stretch with the
+/// largest distance.
+Bulge FindBulge(const CurveBetweenKnots& curve, const ChordPoints& fitted, double period,
+                double tolerance);
+
+/// Throws InputError that names the point of the stretch that is probably wrong.
+[[noreturn]] void RefuseBulge(const Bulge& bulge, const ChordPoints& fitted,
+                              const DistinctPoints& distinct, const PathPoints& given);
+
+}  // namespace trackbed

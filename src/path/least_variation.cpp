@@ -1,0 +1,325 @@
+#include "src/path/least_variation.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "src/path/curve_step.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/core/error.h"
+
+// Each iteration of Newton's method linearizes the curve at its nodes. A node moves by n across the
+// curve, and by a known distance along the curve, to the foot of its point. The linearized problem
+// is a linear-quadratic control problem with the state (n, heading, curvature, sharpness) and the
+// sharpness of the next node as its control. The Riccati recursion eliminates the controls from the
+// last node to the first. Multipliers of the end conditions, the constant c and the number 1, which
+// carries the affine terms, extend the state by constants. The curve's nodes are first moved
+// independently, with gaps that close as the method converges (multiple shooting), and then joined.
+//
+// Lengths are divided by the smoothing length, which makes all weights independent of the units.
+
+namespace trackbed {
+namespace {
+
+/// The movement of a node and the change of the length before it.
+struct Change {
+  Eigen::Matrix<double, kStates, 1> state;
+  double length = 0.0;
+};
+
+/// Returns an upper bound of the heading changes within a segment [rad].
+double MaxTurn(const CurveNode& from, const CurveNode& to) {
+  const double h = to.length;
+  return h * (std::abs(from.curvature) +
+              h * (std::abs(from.sharpness) / 3.0 + std::abs(to.sharpness) / 6.0));
+}
+
+// Largest turn of a segment [rad].
+constexpr double kMaxTurn = 2.0 * kPi;
+
+// Smallest factor by which a segment may be shortened.
+constexpr double kMinShortening = 0.2;
+
+class Newton {
+ public:
+  Newton(std::vector<CurveNode> nodes, bool closed) : nodes_(std::move(nodes)), closed_(closed) {
+    for (const CurveNode& node : nodes_) {
+      shortest_.push_back(kMinShortening * node.length);
+    }
+  }
+
+  /// Moves the nodes. Returns the largest movement, or infinity if the curve degenerates.
+  double Iterate();
+  /// Joins the nodes by moving each to the end of the segment before it.
+  void Join();
+  /// Returns how far a joined curve misses its end conditions.
+  [[nodiscard]] double EndError() const;
+  [[nodiscard]] const std::vector<CurveNode>& nodes() const { return nodes_; }
+
+ private:
+  void Slide();
+  double Move(StateVector state);
+  void AddPoint(StateMatrix& cost, const CurveNode& node) const;
+  StateVector Start(const StateMatrix& cost) const;
+
+  std::vector<CurveNode> nodes_;
+  bool closed_;
+  double mean_ = 0.0;             // The constant c.
+  std::vector<double> shortest_;  // Smallest length before each node.
+  std::vector<double> slides_;    // Distance that each node moves along the curve.
+  std::vector<CurveStep> steps_;
+  std::vector<Change> changes_;
+};
+
+/// Sets the slides: to the foot of the point at a node with a point, and linear in between.
+void Newton::Slide() {
+  const std::size_t count = nodes_.size();
+  slides_.assign(count, 0.0);
+  std::size_t before = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool is_end = closed_ && i + 1 == count;
+    if (!is_end && !nodes_[i].point) {
+      continue;
+    }
+    slides_[i] =
+        is_end ? slides_[0]
+               : Direction(nodes_[i].pose.yaw).dot(*nodes_[i].point - nodes_[i].pose.position());
+    double length = 0.0;
+    for (std::size_t k = before + 1; k <= i; ++k) {
+      length += nodes_[k].length;
+    }
+    double at = 0.0;
+    for (std::size_t k = before + 1; k < i; ++k) {
+      at += nodes_[k].length;
+      slides_[k] = std::lerp(slides_[before], slides_[i], at / length);
+    }
+    before = i;
+  }
+  // Points may follow each other more closely along the curve than a node can follow a node.
+  const double last = slides_.back();
+  for (std::size_t i = 1; i < count; ++i) {
+    slides_[i] = std::max(slides_[i], slides_[i - 1] + shortest_[i] - nodes_[i].length);
+  }
+  slides_.back() = last;
+  for (std::size_t i = count - 1; i > 0; --i) {
+    slides_[i - 1] = std::min(slides_[i - 1], slides_[i] + nodes_[i].length - shortest_[i]);
+  }
+  if (closed_) {
+    slides_.back() = slides_.front();
+  }
+}
+
+double OffsetOf(const CurveNode& node) {
+  return LeftNormal(Direction(node.pose.yaw)).dot(*node.point - node.pose.position());
+}
+
+void Newton::AddPoint(StateMatrix& cost, const CurveNode& node) const {
+  if (node.point) {
+    StateRow row = StateRow::Zero();
+    row(kOffset) = 1.0;
+    row(kOne) = -OffsetOf(node);
+    AddSquare(cost, row, node.weight);
+  }
+}
+
+/// Returns the state at the first node that minimizes the cost and meets the conditions.
+StateVector Newton::Start(const StateMatrix& cost) const {
+  StateVector state = StateVector::Zero();
+  state(kOne) = 1.0;
+  std::vector<int> free{kHeading, kCurvature, kSharpness, kMean, kMultiplier};
+  if (closed_) {
+    free = {kOffset, kHeading, kCurvature, kSharpness, kMean};
+    for (int i = 0; i < kStates; ++i) {
+      free.push_back(kMultiplier + i);
+    }
+  } else {
+    state(kOffset) = OffsetOf(nodes_.front());
+  }
+  const Eigen::MatrixXd system = cost(free, free);
+  const Eigen::VectorXd right = -(cost * state)(free);
+  Eigen::FullPivLU<Eigen::MatrixXd> solver(system);
+  solver.setThreshold(0.0);
+  const Eigen::VectorXd found = solver.solve(right);
+  for (std::size_t i = 0; i < free.size(); ++i) {
+    state(free[i]) = found(static_cast<Eigen::Index>(i));
+  }
+  return state;
+}
+
+double Newton::Iterate() {
+  Slide();
+  const std::size_t count = nodes_.size();
+  StateMatrix cost = StateMatrix::Zero();
+  if (closed_) {
+    for (int i = 0; i < kStates; ++i) {
+      cost(i, kMultiplier + i) = cost(kMultiplier + i, i) = 1.0;
+    }
+  } else {
+    cost(kOffset, kMultiplier) = cost(kMultiplier, kOffset) = 1.0;
+    cost(kOne, kMultiplier) = cost(kMultiplier, kOne) = -OffsetOf(nodes_.back());
+  }
+  // Where the points leave the constant open, as three points do, it stays as it is.
+  double length = 0.0;
+  for (std::size_t i = 1; i < count; ++i) {
+    length += nodes_[i].length;
+  }
+  StateRow change = StateRow::Zero();
+  change(kMean) = 1.0;
+  change(kOne) = -mean_;
+  AddSquare(cost, change, 1e-9 * std::min(length, std::pow(length, 7)));
+  steps_.resize(count);
+  for (std::size_t i = count - 1; i > 0; --i) {
+    // Below a sixteenth of the length of a segment, a smoothing length has no effect but rounding.
+    const double smoothing = std::pow(std::max(1.0, nodes_[i].length / 16.0), 6);
+    steps_[i] = Linearize(nodes_[i - 1], nodes_[i], slides_[i - 1], slides_[i]);
+    cost = Eliminate(steps_[i], cost, nodes_[i - 1], nodes_[i], smoothing);
+    if (i > 1 || closed_) {
+      AddPoint(cost, nodes_[i - 1]);
+    }
+  }
+  if (closed_) {
+    for (int i = 0; i < kStates; ++i) {
+      cost(i, kMultiplier + i) -= 1.0;
+      cost(kMultiplier + i, i) -= 1.0;
+    }
+  }
+  return Move(Start(cost));
+}
+
+double Newton::Move(StateVector state) {
+  // Largest movement of an iteration: of nodes, relative to the smoothing length, or of headings.
+  constexpr double kMaxMove = 0.5;
+  const std::size_t count = nodes_.size();
+  const double mean = state(kMean);
+  double largest = 0.0;
+  double share = 1.0;
+  changes_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    Change& change = changes_[i];
+    change.length = 0.0;
+    if (i > 0) {
+      const CurveStep& step = steps_[i];
+      const double control = step.gain.dot(state);
+      change.length = step.length.dot(state) + step.length_control * control;
+      const Eigen::Vector3d next = step.next * state + step.control * control;
+      state.head<3>() = next;
+      state(kSharpness) = control;
+      share = std::min(share, 0.5 * nodes_[i].length / std::max(-change.length, 1e-300));
+    }
+    change.state = state.head<kStates>();
+    largest =
+        std::max({largest, std::hypot(slides_[i], state(kOffset)), std::abs(state(kHeading))});
+    if (!change.state.allFinite() || !std::isfinite(change.length)) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+  share = std::min(share, kMaxMove / std::max(largest, kMaxMove));
+  mean_ += share * (mean - mean_);
+  for (std::size_t i = 0; i < count; ++i) {
+    CurveNode& node = nodes_[i];
+    const Change& change = changes_[i];
+    const Vec2 along = Direction(node.pose.yaw);
+    const Vec2 move = share * (slides_[i] * along + change.state(kOffset) * LeftNormal(along));
+    node.pose = {node.pose.x + move.x(), node.pose.y + move.y(),
+                 node.pose.yaw + share * change.state(kHeading)};
+    node.curvature += share * change.state(kCurvature);
+    node.sharpness += share * change.state(kSharpness);
+    node.length += share * change.length;
+    if (i > 0 && MaxTurn(nodes_[i - 1], node) > kMaxTurn) {
+      return std::numeric_limits<double>::infinity();
+    }
+  }
+  return largest;
+}
+
+double Newton::EndError() const {
+  const CurveNode& last = nodes_.back();
+  if (!closed_) {
+    return std::max((*last.point - last.pose.position()).norm(),
+                    (*nodes_.front().point - nodes_.front().pose.position()).norm());
+  }
+  const CurveNode& first = nodes_.front();
+  return std::max((last.pose.position() - first.pose.position()).norm(),
+                  std::abs(AngleDifference(last.pose.yaw, first.pose.yaw)));
+}
+
+void Newton::Join() {
+  for (std::size_t i = 1; i < nodes_.size(); ++i) {
+    nodes_[i] = Follow(nodes_[i - 1], nodes_[i]);
+  }
+}
+
+/// Multiplies all lengths by a factor.
+void Scale(std::vector<CurveNode>& nodes, double factor) {
+  for (CurveNode& node : nodes) {
+    node.pose.x *= factor;
+    node.pose.y *= factor;
+    node.curvature /= factor;
+    node.sharpness /= factor * factor;
+    node.length *= factor;
+    node.weight *= factor;
+    if (node.point) {
+      *node.point *= factor;
+    }
+  }
+}
+
+}  // namespace
+
+std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode> nodes,
+                                                          double smoothing_length, bool closed) {
+  constexpr int kMaxIterations = 30;
+  // Iterations after which nodes that still move by kFar smoothing lengths are given up.
+  constexpr int kFarIterations = 10;
+  constexpr double kFar = 0.1;
+  double length = 0.0;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    length += nodes[i].length;
+  }
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    if (!(nodes[i].length > 0.0 && MaxTurn(nodes[i - 1], nodes[i]) <= kMaxTurn)) {
+      return std::nullopt;
+    }
+  }
+  Scale(nodes, 1.0 / smoothing_length);
+  Newton newton(std::move(nodes), closed);
+  // Movement below which rounding dominates.
+  const double rounding = 1e-14 * length / smoothing_length;
+  double before = std::numeric_limits<double>::infinity();
+  bool is_joined = false;
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const double moved = newton.Iterate();
+    if (!std::isfinite(moved) || (i >= kFarIterations && moved > kFar)) {
+      return std::nullopt;
+    }
+    const bool is_still = moved <= rounding || (moved < 1e-7 && moved > 0.5 * before);
+    const bool was_joined = is_joined;
+    is_joined = is_joined || moved < 1e-4;
+    if (is_joined) {
+      newton.Join();
+    }
+    if (was_joined && (is_still || i + 1 == kMaxIterations)) {
+      break;
+    }
+    before = moved;
+  }
+  constexpr double kMaxEndError = 1e-10;  // [m]
+  if (!is_joined ||
+      newton.EndError() > std::max(1000.0 * rounding, kMaxEndError / smoothing_length)) {
+    return std::nullopt;
+  }
+  std::vector<CurveNode> found = newton.nodes();
+  Scale(found, smoothing_length);
+  return found;
+}
+
+std::vector<Segment> SegmentsBetween(const std::vector<CurveNode>& nodes) {
+  std::vector<Segment> segments;
+  for (std::size_t i = 1; i < nodes.size(); ++i) {
+    segments.push_back(SegmentBetween(nodes[i - 1], nodes[i]));
+  }
+  return segments;
+}
+
+}  // namespace trackbed

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "trackbed/path/path.h"
+
+namespace trackbed {
+
+/// A point of a LeastVariationCurve at which two of its segments meet.
+struct CurveNode {
+  Pose2 pose;              ///< Position [m] and heading [rad, not wrapped] of the curve.
+  double curvature = 0.0;  ///< Curvature [1/m], positive to the left.
+  double sharpness = 0.0;  ///< Derivative of the curvature along the curve [1/m^2].
+  /// Length from the preceding node to this node [m], > 0; without meaning at the first node.
+  double length = 0.0;
+  /// Point to which the curve is fitted at this node [m]; nullopt at a node between two points.
+  std::optional<Vec2> point{};
+  double weight = 0.0;  ///< Length of the path that the point represents [m].
+};
+
+/// Fits a curve of which the curvature varies as little as possible (a minimum variation curve,
+/// Moreton and Séquin 1992). The curve minimizes
+///     sum over i of w_i n_i^2 + l^6 integral of (kappa'(s) - c)^2 ds,
+/// where n_i [m] is the distance of the point i from the curve, w_i [m] is its weight, l [m] is the
+/// smoothing length, kappa' is the sharpness, and the constant c is chosen to minimize the sum.
+/// The integral is 0 for lines, arcs and clothoids: if all points lie on one of these curves, the
+/// fitted curve is this curve, up to rounding.
+///
+/// The sharpness is continuous and is linear between nodes, so curvature and sharpness are
+/// continuous. An open curve begins at the first point and ends at the last point. A closed curve
+/// returns to its first node with equal curvature and sharpness; the last node repeats the first.
+///
+/// `nodes` are the initial values, at least three; a first and last node of an open curve have
+/// points. Newton's method converges if the initial curve is near the points compared with its
+/// radii. Returns nullopt if the method does not converge. Costs about 20 us per node.
+std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode> nodes,
+                                                          double smoothing_length, bool closed);
+
+/// Returns the segments between the nodes.
+std::vector<Segment> SegmentsBetween(const std::vector<CurveNode>& nodes);
+
+}  // namespace trackbed
