@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "src/path/points_to_fit.h"
@@ -18,6 +19,15 @@
 
 namespace trackbed {
 namespace {
+
+/// Finds the distinct points of the given points. A polyline passes all points, so it has no noise.
+DistinctPoints DistinctFor(const PathPoints& given, const PathFitOptions& options) {
+  // The points within a box of noise are nearer to its center than half of this share of the
+  // deviation, and points at the ends are nearer to the end than this share.
+  constexpr double kNoise = 0.9;
+  return Distinct(given, options.closed,
+                  options.fit == PathFit::kSpline ? kNoise * options.max_deviation : 0.0);
+}
 
 std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period) {
   std::vector<HeadingJump> reversals;
@@ -36,6 +46,38 @@ std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period)
 /// Returns the points to which the path is fitted.
 ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& options) {
   return options.resample ? Resampled(distinct, *options.resample) : distinct.chords;
+}
+
+/// Returns a number above 0, rounded up to two digits.
+double RoundedUp(double number) {
+  const double unit = std::pow(10.0, std::floor(std::log10(number)) - 1.0);
+  return unit * std::ceil(number / unit - 1e-9);
+}
+
+/// Returns a largest deviation of about the smallest size with which a spline can be fitted [m].
+/// Returns nullopt if it exceeds a tenth of the length of the path.
+std::optional<double> NoiseDeviation(const PathPoints& given, const PathFitOptions& options,
+                                     double length) {
+  constexpr double kStep = 1.1;
+  PathFitOptions spline = options;
+  spline.fit = PathFit::kSpline;
+  double allowed =
+      options.fit == PathFit::kSpline ? kStep * spline.max_deviation : kEqualityTolerance;
+  for (; allowed <= 0.1 * length; allowed *= kStep) {
+    spline.max_deviation = RoundedUp(allowed);
+    const DistinctPoints distinct = DistinctFor(given, spline);
+    if (distinct.chords.points.size() < 2 || distinct.chords.u.back() > kMaxPathLength ||
+        !FindReversals(KnotsOf(distinct, spline), distinct.period).empty()) {
+      continue;
+    }
+    try {
+      static_cast<void>(FitPath(given, spline));
+      return spline.max_deviation;
+    } catch (const InputError&) {
+      continue;
+    }
+  }
+  return std::nullopt;
 }
 
 /// Fits a path that consists of straight lines joined by tiny arcs.
@@ -143,7 +185,7 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
     }
     return given;
   }
-  const ChordPoints chords = Distinct(given, false).chords;
+  const ChordPoints chords = Distinct(given, false, 0.0).chords;
   if (chords.points.size() < 2) {
     return given;
   }
@@ -177,7 +219,7 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
 
 FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
   CheckArguments(given, options);
-  const DistinctPoints distinct = Distinct(given, options.closed);
+  const DistinctPoints distinct = DistinctFor(given, options);
   FittedPath fitted;
   fitted.given = std::move(given);
   fitted.options = options;
@@ -188,6 +230,7 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
   }
   CheckLength(distinct, fitted.given);
   fitted.repeated = distinct.repeated;
+  fitted.merged = distinct.merged;
   const ChordPoints own = KnotsOf(distinct, options);
   if (own.points.size() > kMaxFittedPoints) {
     FailFit("resample",
@@ -202,6 +245,7 @@ FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
   fitted.reversals = FindReversals(own, distinct.period);
   if (!fitted.reversals.empty()) {
     name_points(fitted.reversals);
+    fitted.noise_deviation = NoiseDeviation(fitted.given, options, distinct.chords.u.back());
     return fitted;
   }
   std::vector<double> stations;  // stations of the distinct points

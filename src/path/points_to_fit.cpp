@@ -2,12 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <utility>
 
 #include "trackbed/core/error.h"
 
-// Prepares the points of a file for a fit: drops repeated points, and resamples points along
-// straight lines.
+// Prepares the points of a file for a fit: drops repeated points, merges points of noise, and
+// resamples points along straight lines.
+//
+// Noise is found by its steps: a recorder of a car that stands or creeps logs steps that turn back
+// although the car does not. Groups of consecutive points are kept on a stack. A group at which the
+// polyline turns by more than a right angle absorbs its neighbors as long as their common bounding
+// box is small enough. Passes repeat until no group changes.
 
 namespace trackbed {
 namespace {
@@ -20,6 +26,72 @@ Vec2 OnLines(const ChordPoints& chords, double u) {
   }
   const double share = (u - chords.u[i]) / (chords.u[i + 1] - chords.u[i]);
   return chords.points[i] + share * (chords.points[i + 1] - chords.points[i]);
+}
+
+/// Consecutive points that one point replaces.
+struct PointGroup {
+  Vec2 low;
+  Vec2 high;
+  std::size_t begin = 0;      // Index of the first point among the given points.
+  std::size_t count = 1;      // Number of distinct points.
+  bool is_noise = false;      // Whether a step within the group turned back.
+  std::optional<Vec2> end{};  // Position of a group that contains an end of an open path.
+
+  [[nodiscard]] Vec2 At() const { return end ? *end : Vec2(0.5 * (low + high)); }
+};
+
+/// Returns the two groups as one.
+PointGroup Merged(const PointGroup& a, const PointGroup& b) {
+  PointGroup both = a;
+  both.low = a.low.cwiseMin(b.low);
+  both.high = a.high.cwiseMax(b.high);
+  both.count = a.count + b.count;
+  both.is_noise = true;
+  both.end = a.end ? a.end : b.end;
+  return both;
+}
+
+/// Returns whether two groups can be merged: their box is small, and they do not contain both ends
+/// of the path.
+bool CanMerge(const PointGroup& a, const PointGroup& b, double noise) {
+  const PointGroup both = Merged(a, b);
+  return (both.high - both.low).norm() <= noise && !(a.end && b.end);
+}
+
+bool TurnsBack(const PointGroup& a, const PointGroup& b, const PointGroup& c) {
+  return (b.At() - a.At()).dot(c.At() - b.At()) < 0.0;
+}
+
+/// Merges groups at which the polyline turns back with their neighbors. Returns whether any groups
+/// were merged.
+bool MergePass(std::vector<PointGroup>& groups, double noise) {
+  std::vector<PointGroup> kept;
+  const auto merge_last = [&] {
+    kept[kept.size() - 2] = Merged(kept[kept.size() - 2], kept.back());
+    kept.pop_back();
+  };
+  const auto can_merge_last = [&] {
+    return kept.size() > 1 && CanMerge(kept[kept.size() - 2], kept.back(), noise);
+  };
+  for (const PointGroup& group : groups) {
+    kept.push_back(group);
+    const std::size_t count = kept.size();
+    if (count > 1 && kept[count - 2].is_noise && can_merge_last()) {
+      merge_last();
+    } else if (count > 2 && TurnsBack(kept[count - 3], kept[count - 2], kept[count - 1])) {
+      kept.pop_back();
+      while (can_merge_last()) {
+        merge_last();
+      }
+      kept.push_back(group);
+      if (can_merge_last()) {
+        merge_last();
+      }
+    }
+  }
+  const bool has_merged = kept.size() < groups.size();
+  groups = std::move(kept);
+  return has_merged;
 }
 
 }  // namespace
@@ -39,20 +111,32 @@ std::string NameOf(const PathPoints& given, std::size_t point) {
                      line > 0 ? static_cast<std::size_t>(line) : point + 1, at.x(), at.y());
 }
 
-DistinctPoints Distinct(const PathPoints& given, bool closed) {
+DistinctPoints Distinct(const PathPoints& given, bool closed, double noise) {
   DistinctPoints distinct;
-  ChordPoints& chords = distinct.chords;
+  std::vector<PointGroup> groups;
   for (std::size_t i = 0; i < given.points.size(); ++i) {
     const Vec2& point = given.points[i];
-    const double step = chords.points.empty() ? 0.0 : (point - chords.points.back()).norm();
-    if (chords.points.empty() || step > kEqualityTolerance) {
-      chords.u.push_back(chords.u.empty() ? 0.0 : chords.u.back() + step);
-      chords.points.push_back(point);
-      distinct.number.push_back(i);
+    if (groups.empty() || (point - groups.back().low).norm() > kEqualityTolerance) {
+      groups.push_back({.low = point, .high = point, .begin = i});
     }
-    distinct.given_u.push_back(chords.u.back());
   }
-  distinct.repeated = given.points.size() - chords.points.size();
+  distinct.repeated = given.points.size() - groups.size();
+  if (!groups.empty() && !closed) {
+    groups.front().end = groups.front().low;
+    groups.back().end = groups.back().low;
+  }
+  while (MergePass(groups, noise)) {
+  }
+  ChordPoints& chords = distinct.chords;
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const Vec2 point = groups[i].At();
+    chords.u.push_back(i == 0 ? 0.0 : chords.u.back() + (point - chords.points.back()).norm());
+    chords.points.push_back(point);
+    distinct.number.push_back(groups[i].begin);
+    distinct.merged += groups[i].count - 1;
+    const std::size_t end = i + 1 < groups.size() ? groups[i + 1].begin : given.points.size();
+    distinct.given_u.resize(end, chords.u.back());
+  }
   if (closed && chords.points.size() > 2) {
     double gap = (chords.points.front() - chords.points.back()).norm();
     if (gap <= kEqualityTolerance) {

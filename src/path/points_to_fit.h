@@ -22,17 +22,22 @@ int LineOf(const PathPoints& given, std::size_t point);
 /// numbers are not known.
 std::string NameOf(const PathPoints& given, std::size_t point);
 
-/// The given points without repeated points, with the chord length at each point.
+/// The given points without repeated points and without noise that turns back, with the chord
+/// length at each point.
 struct DistinctPoints {
   ChordPoints chords;
   std::vector<std::size_t> number;  // Index of each distinct point among the given points.
   std::vector<double> given_u;      // Chord length of each given point's distinct point.
   double period = 0.0;              // Period of a closed path [m]; 0 for an open path.
   std::size_t repeated = 0;         // Points that equal the preceding point.
+  std::size_t merged = 0;           // Points that were merged with their neighbors.
 };
 
-/// Finds the distinct points.
-DistinctPoints Distinct(const PathPoints& given, bool closed);
+/// Finds the distinct points. Steps that turn back by more than a right angle within `noise` [m]
+/// are noise of the positions: where they occur, all neighboring points within a box with the
+/// diagonal `noise` are replaced by the center of the box. The first and the last point of an open
+/// path keep their positions.
+DistinctPoints Distinct(const PathPoints& given, bool closed, double noise);
 
 /// Returns the index of the last element that is at most u, for u >= 0 and an ascending list that
 /// begins with 0.

@@ -167,5 +167,50 @@ TEST(FitPath, KeepsTheEndsOfRandomPoints) {
   EXPECT_GE(fits, 15);
 }
 
+/// The log of a car that drives on a circle of 20 m, stops twice and drives on, with noise of the
+/// standard deviation `noise` [m].
+PathPoints Recording(double noise, Dice& dice) {
+  PathPoints given;
+  double s = 0.0;
+  for (int i = 0; i < 600; ++i) {
+    const double phase = (i % 200) / 200.0;
+    s += phase < 0.3 ? 0.0 : 0.1 * std::sin(kPi * (phase - 0.3) / 0.7);
+    given.points.push_back(Vec2(20.0 * std::sin(s / 20.0), 20.0 * (1.0 - std::cos(s / 20.0))) +
+                           Vec2(dice.Normal(noise), dice.Normal(noise)));
+  }
+  return given;
+}
+
+TEST(FitPath, TakesTheJitterOfARecorder) {
+  Dice dice(50);
+  for (int run = 0; run < 10; ++run) {
+    SCOPED_TRACE(run);
+    const PathPoints given = Recording(0.005, dice);
+    for (const auto& resample : {std::optional<double>(), std::optional<double>(0.5)}) {
+      const FittedPath fitted = FitPath(given, {.max_deviation = 0.06, .resample = resample});
+      ASSERT_TRUE(fitted.reversals.empty());
+      EXPECT_GT(fitted.merged, 0U);
+      EXPECT_LE(fitted.deviation, 0.06);
+      EXPECT_TRUE(std::is_sorted(fitted.stations.begin(), fitted.stations.end()));
+      // Drives 26.7 m. The ends are off by some standard deviations.
+      EXPECT_NEAR(fitted.path.length(), 26.7, Tolerance(0.1));
+      for (const PathPoint& point : fitted.path.Sample(0.1)) {
+        // The true curvature is 0.05.
+        EXPECT_LE(std::abs(point.curvature), 0.3) << point.s;
+      }
+    }
+  }
+}
+
+TEST(FitPath, NamesTheDeviationThatTakesTheNoise) {
+  Dice dice(51);
+  const PathPoints given = Recording(0.005, dice);
+  const FittedPath refused = FitPath(given, {.max_deviation = 0.005});
+  ASSERT_FALSE(refused.reversals.empty());
+  ASSERT_TRUE(refused.noise_deviation.has_value());
+  EXPECT_LE(*refused.noise_deviation, 0.06);
+  EXPECT_TRUE(FitPath(given, {.max_deviation = *refused.noise_deviation}).reversals.empty());
+}
+
 }  // namespace
 }  // namespace trackbed

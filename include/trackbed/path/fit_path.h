@@ -62,11 +62,17 @@ struct FittedPath {
   double bulge_station = 0.0;
   /// Number of points that were dropped because they equal the preceding point.
   std::size_t repeated = 0;
+  /// Number of points that were merged with their neighbors, because steps between them turn back
+  /// within the largest deviation of a spline.
+  std::size_t merged = 0;
   /// Corners of a polyline at which the direction changes by more than 1e-9 rad.
   std::vector<HeadingJump> jumps;
   /// Points at which the direction of travel changes by more than kMaxHeadingJump. If any point has
   /// such a change, no path is fitted.
   std::vector<HeadingJump> reversals;
+  /// If `reversals` is not empty: a value of max_deviation with which a spline can be fitted, of
+  /// about the smallest size [m]; nullopt if it exceeds a tenth of the length of the points.
+  std::optional<double> noise_deviation{};
   /// Smoothing length l of the fitted spline [m]; 0 for a polyline.
   double smoothing_length = 0.0;
   /// Largest difference between a given heading and the heading of the fitted path [rad].
@@ -106,6 +112,9 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// the integral 0, so points on one of them are fitted by the line, arc or clothoid itself.
 /// Curvature and curvature rate are continuous. If the curve exceeds max_deviation, l is shortened.
 /// If no curve converges, the path is the quintic spline itself.
+///
+/// Steps that turn back by more than a right angle within max_deviation are noise, as of a recorder
+/// in a car that stands: a spline is fitted to the centers of these points.
 ///
 /// Guarantees: an open path begins at the first point and ends at the last point, to 1e-9 m (at
 /// coordinates of 1e6 m and more, to their rounding). If all points lie on one line, arc or

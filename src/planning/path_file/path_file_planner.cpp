@@ -15,6 +15,16 @@
 namespace trackbed {
 namespace {
 
+/// Returns the remedy if the points turn back because of noise.
+std::string NoiseRemedy(const FittedPath& fitted) {
+  if (!fitted.noise_deviation) {
+    return "";
+  }
+  return fmt::format(
+      "; if this is noise of the positions, use fit: spline with max_deviation: {:.2g}",
+      *fitted.noise_deviation);
+}
+
 /// Returns speed caps that follow the speeds in the file; between two points, the cap is the mean
 /// of the speeds at these points.
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
@@ -70,6 +80,7 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
     plan.status = PlanStatus::kUTurn;
     plan.reason = fmt::format("the path turns back on itself by {:.3g} rad at ({:.6g}, {:.6g})",
                               std::abs(first.angle), first.position.x(), first.position.y());
+    plan.reason += NoiseRemedy(fitted);
     return plan;
   }
   plan.diagnostics.planner = DiagnosticsOf(fitted);
@@ -199,6 +210,9 @@ std::string Describe(const FittedPath& fitted) {
   }
   if (fitted.options.closed) {
     text += ", closed";
+  }
+  if (fitted.merged > 0) {
+    text += fmt::format(", {} points merged whose steps turn back", fitted.merged);
   }
   if (fitted.repeated > 0) {
     text += fmt::format(", {} repeated points left out", fitted.repeated);

@@ -118,6 +118,29 @@ TEST(PathFilePlanner, SaysWhyThereIsNoPath) {
   const Plan plan = MakePlan(RequestAlong(back), back);
   EXPECT_EQ(plan.status, PlanStatus::kUTurn);
   EXPECT_THAT(plan.reason, HasSubstr("(5, 0)"));
+  // A step back of 4 m of 9 m is no noise.
+  EXPECT_THAT(plan.reason, testing::Not(HasSubstr("noise")));
+}
+
+TEST(PathFilePlanner, NamesTheDeviationThatTakesJitter) {
+  std::vector<Vec2> points;
+  for (int i = 0; i <= 40; ++i) {
+    points.emplace_back(0.5 * i, 0.0);
+    if (i == 20) {
+      points.emplace_back(9.99, 0.001);
+      points.emplace_back(10.005, -0.001);
+    }
+  }
+  const PathFileOptions tight = Options(points, {.max_deviation = 1e-3});
+  const Plan refused = MakePlan(RequestAlong(Bend()), tight);
+  EXPECT_EQ(refused.status, PlanStatus::kUTurn);
+  EXPECT_THAT(
+      refused.reason,
+      HasSubstr("if this is noise of the positions, use fit: spline with max_deviation: 0.0"));
+  const PathFileOptions wide = Options(points, {.max_deviation = *tight.path->noise_deviation});
+  const Plan plan = MakePlan(RequestAlong(wide), wide);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  EXPECT_THAT(plan.notes, Contains(HasSubstr("points merged whose steps turn back")));
 }
 
 TEST(PathFilePlanner, RefusesACarThatStartsElsewhere) {
