@@ -1,10 +1,12 @@
 #include "trackbed/planning/replan/along_route.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 
+#include "src/planning/replan/passing.h"
 #include "trackbed/core/error.h"
 #include "trackbed/path/smooth_curvature.h"
 #include "trackbed/planning/common/plan.h"
@@ -12,12 +14,12 @@
 #include "trackbed/world/world.h"
 
 // Plans motions along a route among obstacles, by polynomials in the Frenet frame or by a lattice.
-// The planner first tries to stop at the goal, to proceed at the wanted speed, and to follow a
-// leading obstacle. If these maneuvers fail, the planner tries to proceed more slowly and then to
-// stop behind an obstacle. The planner accepts a motion only if the car can brake to a stop after
-// the motion. While braking, the car must keep clear of obstacles, stay within the steering limits
-// and the track's edges, and stop before the goal. Moving obstacles are extrapolated at constant
-// velocity.
+// The planner first tries to stop at the goal, to proceed at the wanted speed, to pull out beside a
+// moving leading obstacle, and to follow it. If these maneuvers fail, the planner tries to proceed
+// more slowly and then to stop behind an obstacle. The planner accepts a motion only if the car can
+// brake to a stop after the motion. While braking, the car must keep clear of obstacles, stay
+// within the steering limits and the track's edges, and stop before the goal. Moving obstacles are
+// extrapolated at constant velocity.
 
 namespace trackbed {
 namespace {
@@ -28,10 +30,6 @@ constexpr double kStopShare = 0.55;
 /// Largest distance between a stop and the goal at which the goal counts as reached [m]; the
 /// lattice planner uses the same value.
 constexpr double kGoalTolerance = 0.05;
-
-double Front(const VehicleParams& vehicle) {
-  return vehicle.length - vehicle.rear_overhang;
-}
 
 /// Returns the options of the planning method, with the safe distance and the horizon of the
 /// settings, and with the speed factors `factors`.
@@ -56,6 +54,13 @@ FrenetPlan Find(const Path& path, const FrenetRequest& request, const FrenetOpti
 
 FrenetPlan Find(const Path& path, const FrenetRequest& request, const LatticeOptions& options) {
   return PlanLattice(path, request, options);
+}
+
+AlongOptions WithFactors(const AlongOptions& options, const AlongSettings& settings,
+                         const std::vector<double>& factors) {
+  return std::visit(
+      [&](const auto& own) -> AlongOptions { return AdaptOptions(own, settings, factors); },
+      options);
 }
 
 /// Returns the longest distance over which the planning method can plan a stop [m].
@@ -94,9 +99,9 @@ class AlongRoute {
       return plan;
     }
     // Look farther ahead than the motions reach, to find the obstacles that the motions approach.
-    const auto leader = LeaderIn(
-        frame_.path, request_, settings_,
-        request_.start.s + Front(request_.vehicle) + std::max(reach, speed * settings_.look_ahead));
+    const auto leader = LeaderIn(frame_.path, request_, settings_,
+                                 request_.start.s + FrontOverAxle(request_.vehicle) +
+                                     std::max(reach, speed * settings_.look_ahead));
     const std::vector<double>& all = SpeedFactors(options_);
     std::vector<double> falling = all;
     std::sort(falling.rbegin(), falling.rend());
@@ -105,7 +110,7 @@ class AlongRoute {
       if (!Try(KeepSpeed{request_.wanted}, factors)) {
         return false;
       }
-      if (!leader || PassesObstacle(*leader)) {
+      if (!leader || Passes(*leader)) {
         return true;
       }
       if (!for_now) {
@@ -116,10 +121,17 @@ class AlongRoute {
     if (on({falling.front()})) {
       return AcceptedPlan(ManeuverType::kProceed);
     }
-    if (leader && leader->speed >= kStandstillSpeed &&
-        Try(FollowLeader{leader->rear, std::min(leader->speed, request_.wanted), settings_.gap,
-                         settings_.time_gap})) {
-      return AcceptedPlan(ManeuverType::kFollow);
+    if (leader && leader->speed >= kStandstillSpeed) {
+      if (PullsOut(*leader)) {
+        return AcceptedPlan(ManeuverType::kProceed);
+      }
+      const std::string why = why_;
+      if (Try(FollowLeader{leader->rear, std::min(leader->speed, request_.wanted), settings_.gap,
+                           settings_.time_gap})) {
+        AlongPlan plan = AcceptedPlan(ManeuverType::kFollow);
+        plan.why = why;
+        return plan;
+      }
     }
     if (on(all)) {
       return AcceptedPlan(ManeuverType::kProceed);
@@ -129,8 +141,11 @@ class AlongRoute {
         return AcceptedPlan(ManeuverType::kProceed);
       }
     }
+    if (request_.start.d != 0.0 && KeepsOffset(all) && (!leader || Passes(*leader))) {
+      return AcceptedPlan(ManeuverType::kProceed);
+    }
     if (leader && leader->speed < kStandstillSpeed &&
-        Try(StopAt{leader->rear - Front(request_.vehicle) - settings_.gap})) {
+        Try(StopAt{leader->rear - FrontOverAxle(request_.vehicle) - settings_.gap})) {
       return AcceptedPlan(ManeuverType::kStop);
     }
     return for_now ? *for_now : AlongPlan{.kind = ManeuverType::kNone, .found = found_};
@@ -142,6 +157,11 @@ class AlongRoute {
   /// goal of the route before the car has braked to a stop. Also rejects motions that stop beside
   /// the route, because the car could not return to the route.
   bool Try(const FrenetGoal& goal, const std::vector<double>& factors = {1.0}) {
+    return TryWith(goal, WithFactors(options_, settings_, factors));
+  }
+
+  bool TryWith(const FrenetGoal& goal, const AlongOptions& options) {
+    passes_ = false;
     const FrenetRequest request{.vehicle = request_.vehicle,
                                 .speed = request_.speed,
                                 .road = settings_.road,
@@ -149,11 +169,7 @@ class AlongRoute {
                                 .goal = goal,
                                 .obstacles = request_.obstacles,
                                 .edges = frame_.edges};
-    found_ = std::visit(
-        [&](const auto& own) {
-          return Find(frame_.path, request, AdaptOptions(own, settings_, factors));
-        },
-        options_);
+    found_ = std::visit([&](const auto& own) { return Find(frame_.path, request, own); }, options);
     if (!found_.ok()) {
       return false;
     }
@@ -203,28 +219,8 @@ class AlongRoute {
   }
 
   [[nodiscard]] bool BrakingIsClear() const {
-    // Tolerance of the clearance [m], which may be smaller between samples.
-    constexpr double kClearanceTolerance = 1e-2;
-    const double began = found_.motion.duration();
-    // A car that starts closer to an obstacle than the safe distance may keep its present distance.
-    const OrientedBox footprint = FootprintAt(request_.vehicle, points_.front().motion.pose);
-    std::vector<double> margins;
-    for (const MovingBox& obstacle : request_.obstacles) {
-      margins.push_back(std::min(settings_.safe_distance, Separation(footprint, obstacle.box)) -
-                        kClearanceTolerance);
-    }
-    return std::all_of(points_.begin(), points_.end(), [&](const TrajectoryPoint& point) {
-      if (point.t <= began) {
-        return true;
-      }
-      const OrientedBox there = FootprintAt(request_.vehicle, point.motion.pose);
-      for (std::size_t i = 0; i < margins.size(); ++i) {
-        if (Separation(there, request_.obstacles[i].At(point.t)) < margins[i]) {
-          return false;
-        }
-      }
-      return true;
-    });
+    const auto margins = ClearanceMargins(request_, settings_, points_.front().motion.pose);
+    return !FirstTooNear(request_, margins, points_, found_.motion.duration());
   }
 
   /// Checks the steering limits while the car brakes, because the car may be too fast for a bend
@@ -270,18 +266,72 @@ class AlongRoute {
     });
   }
 
+  /// Tries to keep the present offset, which may be the only one beside an obstacle on a narrow
+  /// road.
+  bool KeepsOffset(const std::vector<double>& factors) {
+    AlongOptions options = WithFactors(options_, settings_, factors);
+    std::visit([&](auto& own) { own.end_offsets = {request_.start.d}; }, options);
+    return TryWith(KeepSpeed{request_.wanted}, options);
+  }
+
+  /// Tries to pull out beside a moving leader, at the desired speed or more slowly. If no motion
+  /// pulls out, or if the car could not finish passing, stores the reason.
+  bool PullsOut(const Leader& leader) {
+    const std::vector<double> offsets = PassingOffsets(request_, settings_, leader, options_);
+    const std::vector<double> speeds = PassingSpeeds(request_, leader, options_);
+    why_ = leader.speed >= request_.wanted
+               ? fmt::format("it drives at {:.3g} m/s, no slower than the car's desired {:.3g} m/s",
+                             leader.speed, request_.wanted)
+           : offsets.empty() ? WhyNoRoom(request_, settings_, leader)
+                             : std::string();
+    if (!why_.empty()) {
+      return false;
+    }
+    RejectionCounts rejected;
+    for (const double speed : speeds) {
+      if (TryWith(
+              KeepSpeed{request_.wanted},
+              PullOutOptions(WithFactors(options_, settings_, {1.0}), request_, offsets, speed)) &&
+          Passes(leader)) {
+        return true;
+      }
+      for (std::size_t i = 0; i < rejected.counts.size(); ++i) {
+        rejected.counts[i] += found_.rejected.counts[i];
+      }
+    }
+    why_ = why_.empty() ? WhyNoPullOut(rejected) : why_;
+    return false;
+  }
+
+  /// Returns whether the motion passes the obstacle. A motion that passes a moving obstacle must
+  /// also leave room for the rest of the maneuver; otherwise, stores the reason.
+  bool Passes(const Leader& leader) {
+    if (!PassesObstacle(leader)) {
+      return false;
+    }
+    if (leader.speed >= kStandstillSpeed) {
+      const std::string why =
+          WhyNotPast(frame_, request_, settings_, MotionLimits(options_), leader, found_.motion);
+      if (!why.empty()) {
+        why_ = why;
+        return false;
+      }
+    }
+    passes_ = true;
+    return true;
+  }
+
   /// Returns whether the motion ends beyond the obstacle, or beside the obstacle and laterally
   /// clear of it.
   [[nodiscard]] bool PassesObstacle(const Leader& leader) const {
     const FrenetState end = found_.motion.At(found_.motion.duration());
-    const double room = 0.5 * request_.vehicle.width + settings_.safe_distance;
-    return end.d - room >= leader.left || end.d + room <= leader.right ||
+    return ClearsLaterally(request_, settings_, leader, end.d) ||
            end.s - request_.vehicle.rear_overhang >
                leader.rear + leader.speed * found_.motion.duration();
   }
 
   [[nodiscard]] AlongPlan AcceptedPlan(ManeuverType kind) const {
-    return {.kind = kind, .found = found_, .points = points_};
+    return {.kind = kind, .found = found_, .points = points_, .passes = passes_};
   }
 
   const RouteFrame& frame_;
@@ -291,6 +341,8 @@ class AlongRoute {
   FrenetPlan found_;  // Result of the last attempt to find a motion.
   // Points of the last motion and of the braking after the motion.
   std::vector<TrajectoryPoint> points_;
+  bool passes_ = false;  // Whether the last motion passes an obstacle.
+  std::string why_;      // Reason why the car does not pass its leader, if there is one.
 };
 
 }  // namespace
@@ -354,34 +406,6 @@ RouteFrame MakeRouteFrame(const VehicleParams& vehicle, const Plan& route, const
   return frame;
 }
 
-std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
-                               const AlongSettings& settings, double to) {
-  const double front = Front(request.vehicle);
-  const double room = 0.5 * request.vehicle.width + settings.safe_distance;
-  const Stations within{request.start.s, to};
-  std::optional<Leader> nearest;
-  for (std::size_t i = 0; i < request.obstacles.size(); ++i) {
-    const OrientedBox& box = request.obstacles[i].box;
-    Leader leader{.obstacle = i,
-                  .rear = std::numeric_limits<double>::infinity(),
-                  .left = -std::numeric_limits<double>::infinity(),
-                  .right = std::numeric_limits<double>::infinity()};
-    for (const Vec2& corner : box.Corners()) {
-      const Projection at = path.Project({corner.x(), corner.y(), 0.0}, within);
-      leader.rear = std::min(leader.rear, at.s);
-      leader.left = std::max(leader.left, at.cross_track);
-      leader.right = std::min(leader.right, at.cross_track);
-    }
-    const bool in_lane = leader.right < room && leader.left > -room;
-    const bool ahead = leader.rear > request.start.s + front && leader.rear < to;
-    if (in_lane && ahead && (!nearest || leader.rear < nearest->rear)) {
-      leader.speed = request.obstacles[i].velocity.dot(Direction(path.At(leader.rear).pose.yaw));
-      nearest = leader;
-    }
-  }
-  return nearest;
-}
-
 AlongPlan PlanAlongRoute(const RouteFrame& frame, const AlongRequest& request,
                          const AlongSettings& settings, const AlongOptions& options) {
   TRACKBED_CHECK(request.wanted >= 0.0 && request.wanted <= request.speed.speed &&
@@ -404,6 +428,9 @@ void Visit(DiagnosticsVisitor& out, const AlongPlan& along) {
     out.Number("duration_s", along.found.motion.duration());
     out.Number("end_offset_m", end.d);
     out.Number("end_speed_mps", end.s_rate);
+  }
+  if (!along.why.empty()) {
+    out.Text("why", along.why);
   }
 }
 

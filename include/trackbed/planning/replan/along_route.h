@@ -81,6 +81,9 @@ struct AlongPlan {
   /// found. The list is empty if no motion was found.
   std::vector<TrajectoryPoint> points;
   bool to_goal = false;  ///< Whether the motion leads to the end of the route.
+  bool passes = false;   ///< Whether the motion passes an obstacle in the way.
+  /// Reason why the car follows its leader instead of passing it; empty unless `kind` is kFollow.
+  std::string why{};
 
   [[nodiscard]] bool ok() const { return kind != ManeuverType::kNone; }
 };
@@ -97,6 +100,8 @@ struct Leader {
   /// Largest offset of the obstacle's footprint from the path [m], positive to the left.
   double left = 0.0;
   double right = 0.0;
+  /// Present station of the obstacle's front end [m].
+  double front = 0.0;
 };
 
 /// Finds the nearest obstacle in the car's way up to the station `to`; nullopt if the way is clear.
@@ -104,11 +109,17 @@ std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
                                const AlongSettings& settings, double to);
 
 /// Plans the next motion along the route. The function tries motions in this order: stop at the end
-/// of the route, if the end is near; continue at the speed V, past obstacles in the way; follow a
+/// of the route, if the end is near; continue at the speed V, past obstacles in the way; pull out
+/// beside a moving leader that is slower than V, at a lower speed, down to the leader's; follow a
 /// moving leader; continue at a lower speed, if the car can pass the obstacle at that speed; stop
 /// behind a standing leader; continue for now, as fast as the free space allows. A motion at lower
 /// speed may have a lower cost than a motion that passes the obstacle. The function nevertheless
 /// tries to pass at the speed V first, because slowing down does not remove a standing obstacle.
+///
+/// The car passes a moving leader only if it could finish passing at the speed V: get past the
+/// leader, return to the route and brake to a stop before the route's end, with all obstacles
+/// extrapolated at constant velocity. If the car follows its leader instead, AlongPlan::why states
+/// the reason.
 ///
 /// Guarantees: the motion has the guarantees of PlanFrenet or PlanLattice. During the braking after
 /// the motion, the car also meets the limits and keeps the safe distance, checked every 0.1 s. On a

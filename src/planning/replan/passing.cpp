@@ -1,0 +1,305 @@
+#include "src/planning/replan/passing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "trackbed/vehicle/state.h"
+#include "trackbed/world/world.h"
+
+// Finds the leader, and decides where, how fast and whether a car may pass a moving leader. A car
+// that pulls out drives where others come toward it. Therefore the car pulls out only if it could
+// finish passing: the rest of the maneuver, with constant limits, is checked against all obstacles
+// and against the end of the route.
+
+namespace trackbed {
+namespace {
+
+/// Tolerance of offsets and speeds that reach a bound exactly.
+constexpr double kRounding = 1e-9;
+
+/// Tolerance of the clearance [m], which may be smaller between samples.
+constexpr double kClearanceTolerance = 1e-2;
+
+/// Largest slopes of the quintic that moves by 1 within a length of 1: 10/sqrt(3) in the second
+/// derivative, 60 in the third.
+const double kQuinticBend = 10.0 / std::sqrt(3.0);
+constexpr double kQuinticJerk = 60.0;
+
+/// Largest acceleration of the quartic between two speeds that differ by 1 within a time of 1.
+constexpr double kQuarticAcceleration = 1.5;
+
+double RoomBeside(const AlongRequest& request, const AlongSettings& settings) {
+  return 0.5 * request.vehicle.width + settings.safe_distance;
+}
+
+/// Continues a motion after its end. Times count from the end of the motion.
+class Continuation {
+ public:
+  explicit Continuation(const FrenetState& from) : end_(from) {}
+
+  void ChangeSpeed(double speed, double acceleration) {
+    const double duration = kQuarticAcceleration * std::abs(speed - end_.s_rate) / acceleration;
+    if (duration > 0.0) {
+      Add({duration, QuarticBetween({end_.s, end_.s_rate, 0.0}, {0.0, speed, 0.0}, duration),
+           Polynomial{{end_.d}}, true});
+    }
+  }
+
+  void KeepSpeed(double duration) {
+    if (duration > 0.0) {
+      Add({duration, Polynomial{{end_.s, end_.s_rate}}, Polynomial{{end_.d}}, true});
+    }
+  }
+
+  void ReturnWithin(double length) {
+    if (length > 0.0) {
+      Add({length / end_.s_rate, Polynomial{{end_.s, end_.s_rate}},
+           QuinticBetween({end_.d}, {0.0}, length), true});
+    }
+  }
+
+  [[nodiscard]] const FrenetState& end() const { return end_; }
+  [[nodiscard]] const FrenetMotion& motion() const { return motion_; }
+
+ private:
+  void Add(const FrenetPiece& piece) {
+    motion_.pieces.push_back(piece);
+    end_ = piece.At(piece.duration);
+  }
+
+  FrenetState end_;
+  FrenetMotion motion_;
+};
+
+}  // namespace
+
+double FrontOverAxle(const VehicleParams& vehicle) {
+  return vehicle.length - vehicle.rear_overhang;
+}
+
+std::optional<Leader> LeaderIn(const Path& path, const AlongRequest& request,
+                               const AlongSettings& settings, double to) {
+  const double front = FrontOverAxle(request.vehicle);
+  const double room = 0.5 * request.vehicle.width + settings.safe_distance;
+  std::optional<Leader> nearest;
+  for (std::size_t i = 0; i < request.obstacles.size(); ++i) {
+    const OrientedBox& box = request.obstacles[i].box;
+    Leader leader{.obstacle = i,
+                  .rear = std::numeric_limits<double>::infinity(),
+                  .left = -std::numeric_limits<double>::infinity(),
+                  .right = std::numeric_limits<double>::infinity(),
+                  .front = -std::numeric_limits<double>::infinity()};
+    // Project beyond `to`, because the front of an obstacle may be beyond it.
+    const Stations within{request.start.s, to + std::hypot(box.length, box.width)};
+    for (const Vec2& corner : box.Corners()) {
+      const Projection at = path.Project({corner.x(), corner.y(), 0.0}, within);
+      leader.rear = std::min(leader.rear, at.s);
+      leader.front = std::max(leader.front, at.s);
+      leader.left = std::max(leader.left, at.cross_track);
+      leader.right = std::min(leader.right, at.cross_track);
+    }
+    const bool in_lane = leader.right < room && leader.left > -room;
+    const bool ahead = leader.rear > request.start.s + front && leader.rear < to;
+    if (in_lane && ahead && (!nearest || leader.rear < nearest->rear)) {
+      leader.speed = request.obstacles[i].velocity.dot(Direction(path.At(leader.rear).pose.yaw));
+      nearest = leader;
+    }
+  }
+  return nearest;
+}
+
+std::vector<double> ClearanceMargins(const AlongRequest& request, const AlongSettings& settings,
+                                     const Pose2& start) {
+  const OrientedBox footprint = FootprintAt(request.vehicle, start);
+  std::vector<double> margins;
+  for (const MovingBox& obstacle : request.obstacles) {
+    margins.push_back(std::min(settings.safe_distance, Separation(footprint, obstacle.box)) -
+                      kClearanceTolerance);
+  }
+  return margins;
+}
+
+std::optional<std::size_t> FirstTooNear(const AlongRequest& request,
+                                        const std::vector<double>& margins,
+                                        const std::vector<TrajectoryPoint>& points, double from,
+                                        double shift) {
+  for (const TrajectoryPoint& point : points) {
+    if (point.t <= from) {
+      continue;
+    }
+    const OrientedBox there = FootprintAt(request.vehicle, point.motion.pose);
+    for (std::size_t i = 0; i < margins.size(); ++i) {
+      if (Separation(there, request.obstacles[i].At(shift + point.t)) < margins[i]) {
+        return i;
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+bool ClearsLaterally(const AlongRequest& request, const AlongSettings& settings,
+                     const Leader& leader, double d) {
+  const double room = RoomBeside(request, settings) - kRounding;
+  return d - room >= leader.left || d + room <= leader.right;
+}
+
+double ShiftLength(const VehicleParams& vehicle, const FrenetLimits& limits, double speed,
+                   double aside) {
+  const double shift = std::abs(aside);
+  const double rate = limits.max_steering_rate_fraction * vehicle.steering_rate;
+  const double bend = kQuinticBend * shift;
+  return std::max({std::cbrt(kQuinticJerk * vehicle.wheelbase * shift * speed / rate),
+                   std::sqrt(bend * vehicle.min_turning_radius()),
+                   speed * std::sqrt(bend / limits.max_lateral_acceleration)});
+}
+
+std::vector<double> PassingOffsets(const AlongRequest& request, const AlongSettings& settings,
+                                   const Leader& leader, const AlongOptions& options) {
+  const double room = RoomBeside(request, settings);
+  std::vector<double> offsets{leader.left + room, leader.right - room};
+  std::visit(
+      [&](const auto& own) {
+        offsets.insert(offsets.end(), own.end_offsets.begin(), own.end_offsets.end());
+      },
+      options);
+  const double half = 0.5 * request.vehicle.width - kRounding;
+  std::erase_if(offsets, [&](double d) {
+    return !ClearsLaterally(request, settings, leader, d) || d + half > settings.road.left ||
+           half - d > settings.road.right;
+  });
+  return offsets;
+}
+
+std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& leader,
+                                  const AlongOptions& options) {
+  if (leader.speed >= request.wanted) {
+    return {};
+  }
+  std::vector<double> speeds;
+  if (request.start.s_rate >= leader.speed) {
+    speeds.push_back(leader.speed);
+  }
+  std::visit(
+      [&](const auto& own) {
+        for (const double factor : own.speed_factors) {
+          if (factor * request.wanted > leader.speed) {
+            speeds.push_back(factor * request.wanted);
+          }
+        }
+      },
+      options);
+  std::sort(speeds.rbegin(), speeds.rend());
+  return speeds;
+}
+
+AlongOptions PullOutOptions(AlongOptions options, const AlongRequest& request,
+                            const std::vector<double>& offsets, double speed) {
+  // Multiples of the shortest end time. The longer end time leaves a margin for the approximations
+  // of ShiftLength.
+  constexpr std::array kEndTimes{1.0, 1.5};
+  std::visit(
+      [&](auto& own) {
+        own.end_offsets = offsets;
+        own.speed_factors = {speed / request.wanted};
+      },
+      options);
+  if (auto* frenet = std::get_if<FrenetOptions>(&options)) {
+    if (frenet->lateral == LateralMotion::kAuto) {
+      frenet->lateral = LateralMotion::kOverStation;
+    }
+    const double start = std::max(request.start.s_rate, 0.0);
+    std::vector<double> aside(offsets);
+    for (double& offset : aside) {
+      offset = std::abs(offset - request.start.d);
+    }
+    const double nearest = *std::min_element(aside.begin(), aside.end());
+    const double length =
+        ShiftLength(request.vehicle, frenet->limits, std::max(start, speed), nearest);
+    for (const double times : kEndTimes) {
+      const double end_time = times * length / (0.5 * (start + speed));
+      if (end_time > 0.0) {
+        frenet->end_times.push_back(end_time);
+      }
+    }
+  }
+  return options;
+}
+
+std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
+                       const AlongSettings& settings, const FrenetLimits& limits,
+                       const Leader& leader, const FrenetMotion& motion) {
+  const double began = motion.duration();
+  Continuation past(motion.At(began));
+  if (past.end().s_rate < request.wanted) {
+    past.ChangeSpeed(request.wanted, request.speed.acceleration);
+  }
+  const double speed = past.end().s_rate;
+  const double behind = leader.front + leader.speed * (began + past.motion().duration()) +
+                        settings.safe_distance + request.vehicle.rear_overhang - past.end().s;
+  if (behind > 0.0 && speed <= leader.speed) {
+    return fmt::format("the leader drives at {:.3g} m/s, the car at most at {:.3g} m/s",
+                       leader.speed, speed);
+  }
+  const double pulling_in = ShiftLength(request.vehicle, limits, speed, past.end().d);
+  const double passing = behind > 0.0 ? behind / (speed - leader.speed) : 0.0;
+  const double braking = 0.5 * speed * speed / request.speed.deceleration;
+  if (!(past.end().s + speed * passing + pulling_in + braking <= frame.goal)) {
+    return "the route ends before the car could be past";
+  }
+  past.KeepSpeed(passing);
+  past.ReturnWithin(pulling_in);
+  if (past.motion().pieces.empty()) {
+    return "";
+  }
+  const auto points = SampleMotion(frame.path, past.motion(), limits.time_step,
+                                   std::numeric_limits<double>::infinity());
+  if (!points) {
+    return "the route bends too much beside the leader";
+  }
+  const auto start = FromFrenet(frame.path, request.start);
+  if (start && FirstTooNear(request, ClearanceMargins(request, settings, start->pose), *points, 0.0,
+                            began)) {
+    return "an obstacle would be in the way before the car could be past";
+  }
+  return "";
+}
+
+std::string WhyNoPullOut(const RejectionCounts& rejected) {
+  const auto any = [&](std::initializer_list<Rejection> of) {
+    return std::any_of(of.begin(), of.end(), [&](Rejection each) { return rejected.Of(each) > 0; });
+  };
+  std::vector<const char*> needs;
+  if (any({Rejection::kCollision})) {
+    needs.push_back("come closer to an obstacle than plan.replan.safe_distance");
+  }
+  if (any({Rejection::kRoad})) {
+    needs.push_back("leave the road");
+  }
+  if (any({Rejection::kCurvature, Rejection::kSteeringRate})) {
+    needs.push_back("steer more than the car can");
+  }
+  if (any({Rejection::kSpeed, Rejection::kAcceleration})) {
+    needs.push_back("exceed the limits of speed or acceleration");
+  }
+  if (any({Rejection::kFrame})) {
+    needs.push_back("turn away from the route");
+  }
+  return needs.empty()
+             ? "beside the leader, the car could not brake to a stop"
+             : fmt::format("each motion beside the leader would {}", fmt::join(needs, " or "));
+}
+
+std::string WhyNoRoom(const AlongRequest& request, const AlongSettings& settings,
+                      const Leader& leader) {
+  const double needed = request.vehicle.width + settings.safe_distance;
+  return fmt::format(
+      "no room to pass: it would need a road of {:.3g} m to the left of the route or {:.3g} m to "
+      "the right, and plan.replan.road has {:.3g} m and {:.3g} m",
+      leader.left + needed, needed - leader.right, settings.road.left, settings.road.right);
+}
+
+}  // namespace trackbed

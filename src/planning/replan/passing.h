@@ -1,0 +1,79 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/planning/replan/along_route.h"
+
+/// The parts of PlanAlongRoute that concern leaders: finding, following and passing them.
+///
+/// Symbols: as in trackbed/planning/replan/along_route.h.
+namespace trackbed {
+
+/// Returns the distance from the car's rear axle to its front [m].
+double FrontOverAxle(const VehicleParams& vehicle);
+
+/// Returns the distance that the car keeps from each obstacle [m]. A car that starts closer to an
+/// obstacle than the safe distance may keep its present distance.
+std::vector<double> ClearanceMargins(const AlongRequest& request, const AlongSettings& settings,
+                                     const Pose2& start);
+
+/// Returns the index of the first obstacle to which the car comes closer than its margin; nullopt
+/// if the points are clear. Ignores the points up to the time `from`. The time 0 of the points is
+/// `shift` [s] after the present.
+std::optional<std::size_t> FirstTooNear(const AlongRequest& request,
+                                        const std::vector<double>& margins,
+                                        const std::vector<TrajectoryPoint>& points, double from,
+                                        double shift = 0.0);
+
+/// Returns whether the car at the offset `d` [m] clears the leader laterally, at its present
+/// offsets, by the safe distance.
+bool ClearsLaterally(const AlongRequest& request, const AlongSettings& settings,
+                     const Leader& leader, double d);
+
+/// Returns the shortest distance [m] over which the car at the constant speed `speed` [m/s] can
+/// move sideways by `aside` [m] with a quintic d(s), within the limits of the steering angle, the
+/// steering rate and the lateral acceleration. The computation assumes small heading errors.
+double ShiftLength(const VehicleParams& vehicle, const FrenetLimits& limits, double speed,
+                   double aside);
+
+/// Returns the offsets [m] at which the car can pass the leader on the road: the offsets of the
+/// method's options that clear the leader, and the nearest such offset on each side. Empty if the
+/// road is too narrow.
+std::vector<double> PassingOffsets(const AlongRequest& request, const AlongSettings& settings,
+                                   const Leader& leader, const AlongOptions& options);
+
+/// Returns the speeds [m/s] at which the car may pull out beside the leader, the fastest first: the
+/// speeds of the method's options above the leader's speed, then the leader's own speed. A car that
+/// is slower than the leader does not pull out at the leader's speed, because following the leader
+/// reaches this speed sooner. Empty if the leader is not slower than the desired speed.
+std::vector<double> PassingSpeeds(const AlongRequest& request, const Leader& leader,
+                                  const AlongOptions& options);
+
+/// Returns the options with which the method searches for motions that pull out to one of `offsets`
+/// and end at `speed` [m/s]. The offset is a function of the station unless the options say
+/// otherwise, because a car that accelerates then needs a lower steering rate. The end times
+/// include those that the steering needs at this speed.
+AlongOptions PullOutOptions(AlongOptions options, const AlongRequest& request,
+                            const std::vector<double>& offsets, double speed);
+
+/// Returns why the car could not finish passing the leader after `motion`; empty if it could. To
+/// pass, the car accelerates to the desired speed at the last offset of the motion, drives until
+/// its rear is the safe distance ahead of the leader's front, and returns to the route. The whole
+/// maneuver must keep the safe distance from all obstacles, which are extrapolated at constant
+/// velocity, and must leave the distance in which the car brakes to a stop at the end of the route.
+std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
+                       const AlongSettings& settings, const FrenetLimits& limits,
+                       const Leader& leader, const FrenetMotion& motion);
+
+/// Explains for people why no motion of a method pulls out, by the reasons that occur in
+/// `rejected`. If no motion was rejected, the car could not brake after the motions.
+std::string WhyNoPullOut(const RejectionCounts& rejected);
+
+/// Explains for people that the road has no room beside the leader, with the room that the car
+/// would need.
+std::string WhyNoRoom(const AlongRequest& request, const AlongSettings& settings,
+                      const Leader& leader);
+
+}  // namespace trackbed

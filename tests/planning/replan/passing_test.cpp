@@ -1,0 +1,262 @@
+#include "src/planning/replan/passing.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/planning/frenet_scenes.h"
+#include "tests/tolerance.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/replan/replan.h"
+#include "trackbed/world/world.h"
+
+// Tests how a car passes a slower leader: the geometry of pulling out, the conditions under which
+// the car follows instead, and whole maneuvers that are replanned twice a second.
+namespace trackbed {
+namespace {
+
+constexpr SpeedLimits kLimits{8.0, 1.5, 2.0};
+
+/// A car 40 m after the start of a straight route of 400 m, behind a leader 2 m long, 1.5 m wide.
+struct Road {
+  Path path{{0.0, 0.0, 0.0}, {{400.0, 0.0}}};
+  RouteFrame frame;
+  AlongRequest request{.vehicle = ReferenceCar(),
+                       .speed = kLimits,
+                       .wanted = kLimits.speed,
+                       .start = {},
+                       .obstacles = {}};
+  AlongSettings settings;
+
+  Road(double speed, double lead, double gap) {
+    Plan plan;
+    plan.reference = {path, SpeedProfile({{0.0, kLimits.speed}})};
+    plan.schedule_speed = plan.reference.speed;
+    plan.goal = path.At(path.length()).pose;
+    frame = MakeRouteFrame(ReferenceCar(), plan, kLimits, 200.0);
+    request.start.s = 40.0;
+    request.start.s_rate = speed;
+    request.obstacles = {BoxAt(path, 40.0 + FrontOverAxle(ReferenceCar()) + gap + 1.0, 0.0)};
+    request.obstacles[0].velocity = {lead, 0.0};
+  }
+
+  [[nodiscard]] AlongPlan Go(const AlongOptions& options) const {
+    return PlanAlongRoute(frame, request, settings, options);
+  }
+
+  void OpenOnTheLeft() { settings.road = {5.0, 1.5}; }
+
+  /// Adds a car that comes toward the car on its left.
+  void AddOncoming(double ahead, double speed) {
+    request.obstacles.push_back(BoxAt(path, 40.0 + ahead, 3.0));
+    request.obstacles.back().velocity = {-speed, 0.0};
+  }
+};
+
+class Passing : public testing::TestWithParam<AlongEntry> {};
+INSTANTIATE_TEST_SUITE_P(Planning, Passing, testing::ValuesIn(AlongMethods()),
+                         [](const auto& of) { return std::string(of.param.name); });
+
+TEST(ShiftLength, UsesTheTightestLimitOfTheQuintic) {
+  // A quintic d(s) over this length, sampled by its own derivatives, reaches exactly one of the
+  // limits: steering rate L d''' v, curvature d'', lateral acceleration v^2 d''. Its second
+  // derivative is largest at (3 - sqrt 3)/6 of the length, its third at the ends.
+  const VehicleParams car = ReferenceCar();
+  const FrenetLimits limits{.max_lateral_acceleration = 2.0, .max_steering_rate_fraction = 0.8};
+  for (const double speed : {0.3, 1.0, 3.0, 8.0, 20.0, 40.0}) {
+    for (const double aside : {0.2, -2.0, 3.5}) {
+      const double length = ShiftLength(car, limits, speed, aside);
+      const Polynomial d = QuinticBetween({0.0}, {aside}, length);
+      const double bend = std::abs(d.At(length * (3.0 - std::sqrt(3.0)) / 6.0, 2));
+      const double rate = std::abs(d.At(0.0, 3)) * speed * car.wheelbase;
+      const double used = std::max({bend * car.min_turning_radius(), bend * speed * speed / 2.0,
+                                    rate / (0.8 * car.steering_rate)});
+      EXPECT_NEAR(used, 1.0, Tolerance(1e-9)) << speed << " m/s, " << aside << " m";
+    }
+  }
+}
+
+TEST_P(Passing, PullsOutFromBehindALeaderOfAnySpeedOnAWideRoad) {
+  // The car follows at the distance at which it settles behind the leader, and at the leader's
+  // speed. The road is open on both sides, so nothing keeps the car from passing.
+  for (const double lead : {0.5, 1.0, 2.0, 3.0, 4.0, 5.0}) {
+    Road road(lead, lead, 0.0);
+    const double gap = road.settings.gap + road.settings.time_gap * lead;
+    road.request.obstacles[0].box.center.x += gap;
+    const AlongPlan plan = road.Go(GetParam().defaults);
+    EXPECT_EQ(plan.kind, ManeuverType::kProceed) << lead << " m/s: " << plan.why;
+    EXPECT_TRUE(plan.passes);
+    EXPECT_EQ(plan.why, "");
+    EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
+  }
+}
+
+TEST_P(Passing, FollowsOnANarrowRoadAndSaysHowWideItWouldHaveToBe) {
+  Road road(2.0, 2.0, 6.0);
+  road.settings.road = {1.5, 1.6};
+  const AlongPlan plan = road.Go(GetParam().defaults);
+  ASSERT_EQ(plan.kind, ManeuverType::kFollow);
+  EXPECT_FALSE(plan.passes);
+  // Half the leader, the car, and the safe distance between them.
+  const double needed = 0.75 + ReferenceCar().width + road.settings.safe_distance;
+  EXPECT_EQ(plan.why, fmt::format("no room to pass: it would need a road of {:.3g} m to the left "
+                                  "of the route or {:.3g} m to the right, and plan.replan.road "
+                                  "has 1.5 m and 1.6 m",
+                                  needed, needed));
+  // A road of this width is wide enough.
+  road.settings.road.left = needed + 0.05;
+  road.request.obstacles[0].box.center.x += 6.0;
+  EXPECT_EQ(road.Go(GetParam().defaults).why.find("no room"), std::string::npos);
+}
+
+TEST_P(Passing, FollowsALeaderThatIsNoSlower) {
+  Road road(3.0, 3.0, 10.0);
+  road.request.wanted = 3.0;
+  const AlongPlan plan = road.Go(GetParam().defaults);
+  ASSERT_EQ(plan.kind, ManeuverType::kFollow);
+  EXPECT_EQ(plan.why, "it drives at 3 m/s, no slower than the car's desired 3 m/s");
+}
+
+TEST_P(Passing, DoesNotPullOutWhereTheRouteEndsFirst) {
+  // From the leader's 5 m/s at best, the car gains 3 m/s on it: 15 m take 5 s, that is 40 m, and
+  // then the car needs 16 m to stop. The route ends in 45 m.
+  Road road(5.0, 5.0, 10.5);
+  road.request.start.s = road.frame.goal - 45.0;
+  road.request.obstacles[0].box.center.x += road.request.start.s - 40.0;
+  const AlongPlan plan = road.Go(GetParam().defaults);
+  EXPECT_FALSE(plan.passes);
+  if (plan.kind == ManeuverType::kFollow) {
+    EXPECT_EQ(plan.why, "the route ends before the car could be past");
+  }
+}
+
+TEST_P(Passing, WaitsForOncomingTraffic) {
+  // At 8 m/s the car needs at least 8 s to get past a leader at 4 m/s: 9 m behind it, 2 m long, 4.5
+  // m of its own, more than 3 m/s slower at first. A car that comes at 8 m/s from 80 m ahead meets
+  // the car within 6 s on its left.
+  Road road(4.0, 4.0, 9.0);
+  road.OpenOnTheLeft();
+  EXPECT_EQ(road.Go(GetParam().defaults).kind, ManeuverType::kProceed);
+  road.AddOncoming(80.0, 8.0);
+  const AlongPlan plan = road.Go(GetParam().defaults);
+  EXPECT_EQ(plan.kind, ManeuverType::kFollow);
+  EXPECT_FALSE(plan.why.empty());
+  // Traffic that stays away does not matter.
+  road.request.obstacles.back().velocity = {8.0, 0.0};
+  EXPECT_EQ(road.Go(GetParam().defaults).kind, ManeuverType::kProceed);
+}
+
+/// Drives a car among its obstacles for at most `time` [s] and replans twice a second. If there is
+/// no motion, the car keeps its last one; before the first, it brakes. Returns the time at which
+/// the car is past the leader and back on its route; infinite if it never is.
+double TimeToPass(Road road, const AlongOptions& options, double time, double& nearest) {
+  constexpr double kPeriod = 0.5;
+  constexpr double kStep = 0.05;
+  AlongPlan driven;
+  double began = 0.0;
+  for (double now = 0.0; now < time; now += kPeriod) {
+    if (AlongPlan plan = road.Go(options); plan.ok()) {
+      driven = std::move(plan);
+      began = now;
+    }
+    FrenetState& car = road.request.start;
+    for (double t = kStep; t < kPeriod + 0.5 * kStep; t += kStep) {
+      if (driven.ok()) {
+        const double since = now + t - began;
+        const auto at =
+            std::find_if(driven.points.begin(), driven.points.end() - 1,
+                         [&](const TrajectoryPoint& point) { return point.t >= since; });
+        const FrenetMotion& motion = driven.found.motion;
+        car = since < motion.duration() ? motion.At(since) : at->frenet;
+      } else {
+        car.s += kStep * (car.s_rate - 0.5 * kStep * kLimits.deceleration);
+        car.s_rate -= kStep * kLimits.deceleration;
+      }
+      const auto motion = FromFrenet(road.frame.path, car);
+      for (MovingBox& box : road.request.obstacles) {
+        box.box = box.At(kStep);
+        nearest = std::min(nearest, Separation(FootprintAt(ReferenceCar(), motion->pose), box.box));
+      }
+    }
+    const double leader_front = road.request.obstacles[0].box.center.x + 1.0;
+    if (car.s - ReferenceCar().rear_overhang > leader_front && std::abs(car.d) < 0.05) {
+      return now + kPeriod;
+    }
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+TEST_P(Passing, GetsPastFromManyStarts) {
+  for (const double lead : {0.5, 1.0, 2.0, 3.0}) {
+    for (const double gap : {8.0, 12.0, 25.0}) {
+      for (const double speed : {1.0, 2.0, 4.0}) {
+        SCOPED_TRACE(fmt::format("lead {} m/s, gap {} m, start {} m/s", lead, gap, speed));
+        double nearest = 1e9;
+        // The car closes the gap and passes 6.5 m at 5 m/s or more, and pulls out within 25 s even
+        // at 0.5 m/s (ShiftLength).
+        EXPECT_LT(TimeToPass(Road(speed, lead, gap), GetParam().defaults, 40.0, nearest), 40.0);
+        // Motions may come 1 cm closer between their samples.
+        EXPECT_GE(nearest, AlongSettings{}.safe_distance - 0.01);
+      }
+    }
+  }
+}
+
+TEST_P(Passing, KeepsClearOfOncomingTraffic) {
+  int passed = 0;
+  for (double ahead = 20.0; ahead <= 150.0; ahead += 10.0) {
+    for (const double speed : {2.0, 5.0, 10.0}) {
+      Road road(3.0, 3.0, 7.5);
+      road.OpenOnTheLeft();
+      road.AddOncoming(ahead, speed);
+      double nearest = 1e9;
+      passed += TimeToPass(road, GetParam().defaults, 20.0, nearest) < 20.0 ? 1 : 0;
+      EXPECT_GE(nearest, AlongSettings{}.safe_distance - 0.01)
+          << ahead << " m, " << speed << " m/s";
+    }
+  }
+  // Cars at 10 m/s from up to 100 m ahead are past after 10 s, and leave 10 s for passing.
+  EXPECT_GE(passed, 10);
+}
+
+TEST(Replan, KeepsAMotionThatPassesInsteadOfFollowingAgain) {
+  const Road road(4.0, 3.0, 12.0);
+  Driving driving;
+  driving.route.reference = {road.path, SpeedProfile({{0.0, kLimits.speed}})};
+  driving.route.schedule_speed = driving.route.reference.speed;
+  driving.route.goal = road.path.At(road.path.length()).pose;
+  driving.frame = road.frame;
+  driving.plan = driving.route;
+  driving.station = 40.0;
+  driving.route_station = 40.0;
+  ReplanRequest request{.vehicle = ReferenceCar(), .speed = kLimits};
+  request.car = {.pose = {40.0, 0.0, 0.0}, .speed = 4.0};
+  request.obstacles = road.request.obstacles;
+  // The plan of the route is faster than the car, so the first motion starts at the car's state.
+  request.strayed = true;
+  ReplanOptions options;
+  options.along = FrenetOptions{};
+  const Replanned out = Replan(request, driving, options);
+  ASSERT_EQ(out.kind, ReplanKind::kMotion);
+  const auto* found = out.plan->diagnostics.replan.As<ReplanDiagnostics>();
+  ASSERT_TRUE(found != nullptr && found->along && found->along->passes);
+  // No new motion pulls out on this road, but the old motion is still clear.
+  options.settings.road = {1.5, 1.5};
+  driving.plan = out.plan;
+  driving.on_route = false;
+  driving.station = 0.5;
+  const PathPoint at = out.plan->reference.path.At(0.5);
+  request.strayed = false;
+  request.car = {
+      .pose = at.pose, .curvature = at.curvature, .speed = out.plan->reference.speed.SpeedAt(0.5)};
+  driving.route_station = at.pose.x;
+  EXPECT_EQ(Replan(request, driving, options).kind, ReplanKind::kKeep);
+}
+
+}  // namespace
+}  // namespace trackbed
