@@ -305,6 +305,9 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
     }
     metrics.blocked = scenario.plan->avoid ? "why" : "";
     metrics.partial = MayBePartial(scenario.plan->global) ? "why" : "";
+    if (scenario.mission.waypoints.size() > 1) {
+      metrics.waypoint_miss.emplace();
+    }
     // The path turns at most once at each waypoint between the first and the last waypoint.
     metrics.turns.resize(std::max<std::size_t>(scenario.mission.waypoints.size(), 2) - 2);
   }

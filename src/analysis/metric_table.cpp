@@ -27,6 +27,11 @@ const ClearanceMetrics* SelectMetrics(const PlantMetrics& metrics,
   return metrics.clearance ? &*metrics.clearance : nullptr;
 }
 
+const WaypointMissMetrics* SelectMetrics(const PlantMetrics& metrics,
+                                         const WaypointMissMetrics* /*which*/) {
+  return metrics.waypoint_miss ? &*metrics.waypoint_miss : nullptr;
+}
+
 const RecordMetrics* SelectMetrics(const PlantMetrics& metrics, const RecordMetrics* /*which*/) {
   return metrics.recorded ? &*metrics.recorded : nullptr;
 }
@@ -115,6 +120,7 @@ std::vector<MetricEntry> BuiltInMetrics() {
   using T = TrackingMetrics;
   using C = ClearanceMetrics;
   using R = RecordMetrics;
+  using W = WaypointMissMetrics;
   constexpr MetricSpan kEnd = MetricSpan::kEnd;
   return {
       Located({"status", "End status", "", Status}),
@@ -131,6 +137,11 @@ std::vector<MetricEntry> BuiltInMetrics() {
                    At(&T::heading_error_max, &T::heading_error_max_s, &T::heading_error_max_t)})),
       Headline({"goal_distance", "Distance to the goal", "m", Of(&T::goal_distance, kEnd)}),
       {"goal_heading_error", "Heading error at the goal", "rad", Of(&T::goal_heading_error, kEnd)},
+      Located({"waypoint_miss.max", "Largest distance from a waypoint", "m",
+               At(&W::max, &W::max_s, &W::max_t)}),
+      {"waypoint_miss.waypoint", "Waypoint with the largest distance", "", Of(&W::waypoint)},
+      {"waypoint_miss.planned", "Largest distance of the plan from a waypoint", "m",
+       Of(&W::planned)},
       Located({"overspeed_max", "Maximum speed above the plan", "m/s", Overspeed}),
       Headline(
           Located({"clearance_min", "Minimum clearance", "m", At(&C::min, &C::min_s, &C::min_t)})),

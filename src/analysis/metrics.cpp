@@ -6,6 +6,7 @@
 
 #include "src/analysis/peaks.h"
 #include "src/analysis/track_metrics.h"
+#include "src/analysis/waypoint_metrics.h"
 #include "trackbed/analysis/compare.h"
 #include "trackbed/analysis/metric_registry.h"
 #include "trackbed/control/steering_controller.h"
@@ -173,6 +174,7 @@ PlantMetrics Measure(const RunLog& log, const Plan& plan, const VehicleParams& v
   if (log.rows.front().tracking) {
     metrics.tracking = MeasureTracking(log, plan.goal, vehicle.width);
   }
+  metrics.waypoint_miss = MeasureWaypointMiss(log, plan);
   if (log.rows.front().clearance) {
     metrics.clearance = MeasureClearance(log);
   }

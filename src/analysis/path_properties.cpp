@@ -5,6 +5,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "trackbed/planning/common/waypoint_miss.h"
+
 namespace trackbed {
 namespace {
 
@@ -178,6 +180,11 @@ const std::vector<PathProperty>& PathProperties() {
       {"curvature_jump_max_radpm", "Largest jump of the plan's curvature", "rad/m",
        [](const PlannedPath& path) -> std::optional<double> { return MaxCurvatureJump(path); }},
       {"clearance_min_m", "Minimum clearance of the plan", "m", MinClearance},
+      {"waypoint_miss_max_m", "Largest distance of the plan from a waypoint", "m",
+       [](const PlannedPath& path) -> std::optional<double> {
+         const auto miss = LargestWaypointMiss(path.plan.reference.path, path.plan.waypoints);
+         return miss ? std::optional(miss->distance) : std::nullopt;
+       }},
   };
   return properties;
 }

@@ -14,6 +14,7 @@
 #include "trackbed/analysis/run.h"
 #include "trackbed/analysis/written_names.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/common/waypoint_miss.h"
 
 namespace trackbed::cli {
 namespace {
@@ -47,8 +48,15 @@ int RunPlanVerb(const PlanOptions& options) {
     Print("{}: planned {:.3f} m in {:.2f} s, in {}\n", scenario.name, length,
           plan.reference.speed.TimeAt(length), out.string());
     Print("{}", Lines{DiagnosticsText(plan)});
+    if (const auto miss = LargestWaypointMiss(plan.reference.path, plan.waypoints)) {
+      Print("  largest distance from a waypoint: {:.4g} m ({})\n", miss->distance,
+            DescribeWaypoint(miss->waypoint, miss->at));
+    }
     if (!plan.partial.empty()) {
       Print("  partial: {}\n", plan.partial);
+    }
+    for (const std::string& note : plan.notes) {
+      Print("  note: {}\n", note);
     }
   }
   return kOk;

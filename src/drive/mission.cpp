@@ -10,6 +10,7 @@
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/waypoint_miss.h"
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/road_network/open_drive.h"
 #include "trackbed/scenario/initial_state.h"
@@ -41,6 +42,33 @@ void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
   if (const std::optional<double> s = touching.FirstBlocked(plan->reference.path)) {
     plan.AddNote(fmt::format("the path hits an obstacle at s = {:.4g} m", *s));
   }
+}
+
+/// Adds a note to the plan if the path passes a waypoint at a distance of more than a car length. A
+/// blocked or partial plan says itself where it ends.
+void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
+  const auto miss = LargestWaypointMiss(plan->reference.path, plan->waypoints);
+  if (miss && miss->distance > vehicle.length && plan->blocked.empty() && plan->partial.empty()) {
+    plan.AddNote(fmt::format("{} is missed by {:.4g} m, at s = {:.4g} m",
+                             DescribeWaypoint(miss->waypoint, miss->at), miss->distance,
+                             miss->station));
+  }
+}
+
+/// Returns the obstacles and walls that are known at the start. In a run with replanning, skips
+/// moving obstacles, because the replanner handles them.
+std::vector<OrientedBox> KnownAtStart(const Scenario& scenario, const VehicleParams& vehicle,
+                                      const Pose2& start) {
+  std::vector<OrientedBox> known;
+  for (const Obstacle& obstacle : scenario.world.obstacles) {
+    const bool for_later = obstacle.moves() && scenario.plan->replan;
+    if (!for_later && IsKnown(obstacle, 0.0, FootprintAt(vehicle, start))) {
+      known.push_back(obstacle.footprint);
+    }
+  }
+  const std::vector<OrientedBox>& walls = MapWalls(scenario.world);
+  known.insert(known.end(), walls.begin(), walls.end());
+  return known;
 }
 
 /// Returns the distinct friction coefficients in a world.
@@ -83,17 +111,7 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
     plan.schedule_speed = plan.reference.speed;
     return MakeFeasible(std::move(plan), RequestOn({}, vehicle, MakeSpeedLimits(scenario)));
   }
-  std::vector<OrientedBox> known;
-  for (const Obstacle& obstacle : scenario.world.obstacles) {
-    // Skip moving obstacles in a run with replanning, because the replanner handles moving
-    // obstacles.
-    const bool for_later = obstacle.moves() && scenario.plan->replan;
-    if (!for_later && IsKnown(obstacle, 0.0, FootprintAt(vehicle, start.pose))) {
-      known.push_back(obstacle.footprint);
-    }
-  }
-  const std::vector<OrientedBox>& walls = MapWalls(scenario.world);
-  known.insert(known.end(), walls.begin(), walls.end());
+  std::vector<OrientedBox> known = KnownAtStart(scenario, vehicle, start.pose);
   const auto begin = std::chrono::steady_clock::now();
   const PlanRequest request{
       .vehicle = vehicle,
@@ -128,12 +146,13 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
     if (!scenario.plan->replan) {
       NoteObstacle(plan, vehicle, known);
     }
+    NoteMissedWaypoint(plan, vehicle);
     return plan;
   }
   std::erase_if(known, [&](const OrientedBox& box) {
     return !IsForAvoider(MakeReplanningConfig(scenario), vehicle, plan->reference.path, 0.0, box);
   });
-  return PlanAround({.vehicle = vehicle,
+  plan = PlanAround({.vehicle = vehicle,
                      .plan = plan,
                      .speed = MakeSpeedLimits(scenario),
                      .obstacles = known,
@@ -147,6 +166,10 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
                               .infeasible = request.infeasible,
                               .limits = request.limits}},
                     *scenario.plan->avoid);
+  if (plan.ok()) {
+    NoteMissedWaypoint(plan, vehicle);
+  }
+  return plan;
 }
 
 }  // namespace

@@ -23,6 +23,7 @@ PlantMetrics All() {
   metrics.end_s = 20.0;
   metrics.tracking.emplace().overspeed_max = 0.1;
   metrics.clearance.emplace();
+  metrics.waypoint_miss.emplace();
   metrics.recovery.emplace();
   metrics.yaw_rate_ratio = 1.0;
   metrics.blocked = "waits";

@@ -115,6 +115,13 @@ TEST(PathProperties, MeasureTheClearanceOfWhatThePlannerKnew) {
   EXPECT_EQ(*Property("clearance_min_m", plan, world), 0.0);
 }
 
+TEST(PathProperties, MeasureTheDistanceFromWaypoints) {
+  Plan plan = PlanOf({{.length = 10.0}});
+  EXPECT_EQ(Property("waypoint_miss_max_m", plan), std::nullopt);
+  plan.waypoints = {{0.0, 9.0}, {4.0, -2.0}, {10.0, 0.0}};
+  EXPECT_NEAR(*Property("waypoint_miss_max_m", plan), 2.0, kRounding);
+}
+
 TEST(PathProperties, OfNoLength) {
   Plan plan;
   plan.reference.speed = SpeedProfile({{0.0, 0.0}});

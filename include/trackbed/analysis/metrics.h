@@ -56,6 +56,17 @@ struct ClearanceMetrics {
   double force_max_t = 0.0;
 };
 
+/// Distances of a plan and of a run from the mission's waypoints. The distance of a path from a
+/// waypoint is the smallest distance between the rear axle and the waypoint. The first waypoint is
+/// the start of the route, and does not count.
+struct WaypointMissMetrics {
+  double planned = 0.0;  ///< Largest distance of the initial plan from a waypoint [m].
+  double max = 0.0;      ///< Largest distance of the driven path from a waypoint [m].
+  int waypoint = 0;      ///< Index of the waypoint from which the distance `max` is measured.
+  double max_s = 0.0;    ///< Station at which the car is nearest to this waypoint [m].
+  double max_t = 0.0;    ///< Time at which the car is nearest to this waypoint [s].
+};
+
 /// The path error that the limited steering rate causes in one turn: the measured error, and the
 /// error predicted for open-loop steering.
 struct TurnMetrics {
@@ -133,6 +144,8 @@ struct PlantMetrics {
   std::optional<double> yaw_rate_ratio;
   /// Path tracking errors; nullopt if the run has no path.
   std::optional<TrackingMetrics> tracking;
+  /// Distances from the waypoints; nullopt if the mission has no waypoints.
+  std::optional<WaypointMissMetrics> waypoint_miss;
   /// Clearance from obstacles; nullopt if the world has no obstacles.
   std::optional<ClearanceMetrics> clearance;
   /// Recovery after a disturbance; nullopt if no disturbance ends during the run.

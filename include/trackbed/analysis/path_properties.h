@@ -42,6 +42,8 @@ struct PathProperty {
 ///   clearance_min_m: smallest distance of the footprint from static obstacles that are known from
 ///   the start, overestimated by at most 1 cm; 0 if the footprint touches an obstacle, nullopt if
 ///   there are no such obstacles.
+///   waypoint_miss_max_m: largest distance of the path from a waypoint (waypoint_miss.h); nullopt
+///   if the mission has no waypoints.
 ///
 /// All properties except clearance_min_m are exact except for rounding errors, and are 0 for a path
 /// of length 0. Cost: a few us per path segment, plus one call of Clearance() per step of the

@@ -135,7 +135,9 @@ FeasiblePlan MakePlan(const PlanRequest& request, const PlannerOptions& options)
   CheckRequest(request);
   PlannerOptions own = options;
   RequireInRange("MakePlan", [&](KeyVisitor& keys) { Visit(keys, own); });
-  FeasiblePlan plan = MakeFeasible(PlannerFor(options).plan(request, options), request);
+  Plan planned = PlannerFor(options).plan(request, options);
+  planned.waypoints = request.waypoints;
+  FeasiblePlan plan = MakeFeasible(std::move(planned), request);
   if (plan.ok() && !plan->diagnostics.open_loop) {
     plan.diagnostics().open_loop =
         SimulateOpenLoop(request.vehicle, plan->reference.path, plan->schedule,

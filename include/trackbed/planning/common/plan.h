@@ -124,6 +124,9 @@ struct Plan {
   std::vector<SpeedCap> caps;  ///< Sections of the path on which the car drives at a lower speed.
   /// Stations at which the car stops to turn its wheels, in addition to the path's cusps [m].
   std::vector<double> stops;
+  /// Waypoints of the request, whose first is the start of the route; empty if the mission has no
+  /// waypoints.
+  std::vector<Vec2> waypoints;
   /// Pose at which the mission ends; the path also ends at this pose unless the path is blocked or
   /// partial.
   Pose2 goal;

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/path/path.h"
+
+/// Measures how far a path passes from the waypoints of its route.
+///
+/// The distance of a path from a waypoint is the smallest distance between the waypoint and the
+/// path, which is the path of the rear axle. The order in which the path passes the waypoints does
+/// not matter. The first waypoint is the start of the route and does not count.
+namespace trackbed {
+
+/// The distance of a path from one waypoint.
+struct WaypointMiss {
+  std::size_t waypoint = 0;  ///< Index of the waypoint in the route, >= 1.
+  Vec2 at{0.0, 0.0};         ///< Position of the waypoint [m].
+  double distance = 0.0;     ///< Smallest distance between the path and the waypoint [m].
+  double station = 0.0;      ///< Station at which the path is nearest to the waypoint [m].
+};
+
+/// Distances that differ by less count as equal [m], because rounding errors of a path that is far
+/// from the origin may be as large.
+inline constexpr double kSameMiss = 1e-6;
+
+/// Returns the waypoint from which the path is farthest, or the first of several such waypoints
+/// (kSameMiss); nullopt if there are fewer than two waypoints. The distance is exact on lines and arcs, and has
+/// the precision of Path::Project on other segments. Throws PreconditionError if a waypoint is not
+/// finite. Cost: one call of Path::Project for each waypoint.
+std::optional<WaypointMiss> LargestWaypointMiss(const Path& path,
+                                                const std::vector<Vec2>& waypoints);
+
+/// Formats a waypoint for messages, for example "waypoint 1 at (60, 0)".
+std::string DescribeWaypoint(std::size_t waypoint, const Vec2& at);
+
+}  // namespace trackbed

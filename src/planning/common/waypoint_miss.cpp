@@ -1,0 +1,25 @@
+#include "trackbed/planning/common/waypoint_miss.h"
+
+#include <fmt/format.h>
+
+namespace trackbed {
+
+std::optional<WaypointMiss> LargestWaypointMiss(const Path& path,
+                                                const std::vector<Vec2>& waypoints) {
+  std::optional<WaypointMiss> largest;
+  for (std::size_t i = 1; i < waypoints.size(); ++i) {
+    const Vec2& at = waypoints[i];
+    const double s = path.Project({at.x(), at.y(), 0.0}, {0.0, path.length()}).s;
+    const double distance = (path.At(s).pose.position() - at).norm();
+    if (!largest || distance > largest->distance + kSameMiss) {
+      largest = WaypointMiss{i, at, distance, s};
+    }
+  }
+  return largest;
+}
+
+std::string DescribeWaypoint(std::size_t waypoint, const Vec2& at) {
+  return fmt::format("waypoint {} at ({:.10g}, {:.10g})", waypoint, at.x(), at.y());
+}
+
+}  // namespace trackbed

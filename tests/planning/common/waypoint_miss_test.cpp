@@ -1,0 +1,63 @@
+#include "trackbed/planning/common/waypoint_miss.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/geometry/random.h"
+#include "tests/tolerance.h"
+
+namespace trackbed {
+namespace {
+
+/// 10 m straight on, then a quarter turn to the left around (10, 10).
+Path LineAndArc() {
+  return {{}, {{.length = 10.0}, {.length = 5.0 * std::numbers::pi, .curvature = 0.1}}};
+}
+
+TEST(LargestWaypointMiss, IsTheDistanceFromALineOrAnArc) {
+  const auto miss = LargestWaypointMiss(LineAndArc(), {{0, 50}, {5, 3}, {20, 0}, {20, 10}});
+  ASSERT_TRUE(miss.has_value());
+  EXPECT_EQ(miss->waypoint, 2U);
+  EXPECT_EQ(miss->at, Vec2(20, 0));
+  // (20, 0) lies on the diagonal from the arc's center. Rounding of a few operations.
+  EXPECT_NEAR(miss->distance, 10.0 * (std::numbers::sqrt2 - 1.0), Tolerance(1e-12));
+  EXPECT_NEAR(miss->station, 10.0 + 2.5 * std::numbers::pi, Tolerance(1e-12));
+}
+
+TEST(LargestWaypointMiss, DoesNotExtendThePathBeyondItsEnds) {
+  EXPECT_NEAR(LargestWaypointMiss(LineAndArc(), {{0, 0}, {20, 16}})->distance, 6.0,
+              Tolerance(1e-12));
+  EXPECT_NEAR(LargestWaypointMiss(LineAndArc(), {{0, 0}, {-3, 4}})->distance, 5.0,
+              Tolerance(1e-12));
+}
+
+TEST(LargestWaypointMiss, SkipsTheStartOfTheRoute) {
+  EXPECT_FALSE(LargestWaypointMiss(LineAndArc(), {}).has_value());
+  EXPECT_FALSE(LargestWaypointMiss(LineAndArc(), {{30, 30}}).has_value());
+}
+
+TEST(LargestWaypointMiss, IsThatOfADenseSampleOfClothoids) {
+  Random random(1);
+  for (int i = 0; i < 20; ++i) {
+    std::vector<Segment> segments;
+    for (int k = 0; k < 4; ++k) {
+      segments.push_back({.length = random.Uniform(2.0, 10.0),
+                          .curvature = random.Uniform(-0.1, 0.1),
+                          .direction = 1,
+                          .sharpness = random.Uniform(-0.02, 0.02)});
+    }
+    const Path path({}, segments);
+    const Vec2 waypoint{random.Uniform(-10.0, 30.0), random.Uniform(-20.0, 20.0)};
+    double nearest = 1e9;
+    for (const PathPoint& point : path.Sample(0.01)) {
+      nearest = std::min(nearest, (point.pose.position() - waypoint).norm());
+    }
+    // The nearest sample is at most half of the spacing from the nearest point.
+    EXPECT_NEAR(LargestWaypointMiss(path, {{0, 0}, waypoint})->distance, nearest, Tolerance(0.005));
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
