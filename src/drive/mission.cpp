@@ -49,9 +49,9 @@ void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
 void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
   const auto miss = LargestWaypointMiss(plan->reference.path, plan->waypoints);
   if (miss && miss->distance > vehicle.length && plan->blocked.empty() && plan->partial.empty()) {
-    plan.AddNote(fmt::format("{} is missed by {:.4g} m, at s = {:.4g} m",
-                             DescribeWaypoint(miss->waypoint, miss->at), miss->distance,
-                             miss->station));
+    plan.AddNote(fmt::format(
+        "{} is missed by {:.4g} m, at s = {:.4g} m; plan.max_waypoint_miss bounds this distance",
+        DescribeWaypoint(miss->waypoint, miss->at), miss->distance, miss->station));
   }
 }
 
@@ -136,6 +136,7 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
                       : TrackLaps{},
       .lanes = MakeLaneMission(scenario),
       .infeasible = scenario.plan->infeasible,
+      .max_waypoint_miss = scenario.plan->max_waypoint_miss,
       .limits = std::move(limits)};
   FeasiblePlan plan = MakePlan(request, scenario.plan->global);
   if (!plan.ok()) {

@@ -15,6 +15,7 @@ struct PlanLayers {
   std::optional<AvoiderOptions>& avoid;
   std::optional<ReplanOptions>& replan;
   InfeasiblePolicy& infeasible;
+  std::optional<double>& max_waypoint_miss;
 };
 
 inline constexpr Key kPlan{"plan", "", "planner; without it there is no path to follow"};
@@ -22,20 +23,25 @@ inline constexpr Key kAvoid{"avoid", "",
                             "local planner: reroutes the path around static obstacles"};
 inline constexpr Key kReplan{"replan", "", "replanning during the run"};
 
-inline void VisitInfeasible(KeyVisitor& a, InfeasiblePolicy& policy) {
+/// Visits the keys that apply to the plans of all planners.
+inline void VisitPlanRules(KeyVisitor& a, InfeasiblePolicy& policy,
+                           std::optional<double>& max_waypoint_miss) {
   static const EnumNames<InfeasiblePolicy> policies{{InfeasiblePolicy::kSlowDown, "slow_down"},
                                                     {InfeasiblePolicy::kRefuse, "refuse"},
                                                     {InfeasiblePolicy::kAllow, "allow"}};
   a.Field({"infeasible", "",
            "handling of plans that exceed the car's steering, friction or braking limits"},
           policy, Need::kOptional, policies);
+  a.Field({"max_waypoint_miss", "m",
+           "maximum distance of the planned path from each waypoint; default: no bound"},
+          max_waypoint_miss, kNonNegative);
 }
 
 inline void Visit(KeyVisitor& a, PlanLayers& layers) {
   a.Method({"global", "", "global planner"}, layers.global, Planners(), Need::kRequired);
   a.Method(kAvoid, layers.avoid, LocalPlanners(), Need::kOptional);
   a.Section(kReplan, layers.replan);
-  VisitInfeasible(a, layers.infeasible);
+  VisitPlanRules(a, layers.infeasible, layers.max_waypoint_miss);
 }
 
 /// Visits the section `plan`. A scenario may write `plan: {method: …}` as a short form of `plan:
@@ -53,8 +59,9 @@ inline void VisitPlan(KeyVisitor& a, std::optional<PlanSpec>& plan) {
   std::optional<AvoiderOptions> avoid = given.avoid;
   std::optional<ReplanOptions> replan = given.replan;
   InfeasiblePolicy infeasible = given.infeasible;
+  std::optional<double> max_waypoint_miss = given.max_waypoint_miss;
   if (avoid || replan || a.HasAny(kPlan.name, {"global", "avoid", "replan"})) {
-    PlanLayers layers{global, avoid, replan, infeasible};
+    PlanLayers layers{global, avoid, replan, infeasible, max_waypoint_miss};
     a.Section(kPlan, layers);
   } else {
     a.Method(kPlan, global, Planners(), Need::kOptional, [&](KeyVisitor& inner) {
@@ -65,11 +72,11 @@ inline void VisitPlan(KeyVisitor& a, std::optional<PlanSpec>& plan) {
         inner.Method(kAvoid, avoid, LocalPlanners(), Need::kOptional);
         inner.Section(kReplan, replan);
       }
-      VisitInfeasible(inner, infeasible);
+      VisitPlanRules(inner, infeasible, max_waypoint_miss);
     });
   }
   if (global && a.mode() == Mode::kRead) {
-    plan = {*global, avoid, replan, infeasible};
+    plan = {*global, avoid, replan, infeasible, max_waypoint_miss};
   }
 }
 

@@ -72,6 +72,8 @@ RunResult Drive(const std::string& plan, const std::string& waypoints) {
                     "miss.yaml", "."));
 }
 
+const char* const kHairpin = "[[0, 0], [60, 0], [0, 20]]";
+
 TEST(WaypointMetrics, NoteAWaypointThatIsMissedByACarLength) {
   const RunResult far = Drive("{method: fillet}", "[[0, 0], [300, 0], [0, 40]]");
   ASSERT_EQ(far.metrics.size(), 1U);
@@ -84,6 +86,16 @@ TEST(WaypointMetrics, NoteAWaypointThatIsMissedByACarLength) {
   const RunResult near = Drive("{method: fillet}", "[[0, 0], [60, 0], [90, 20]]");
   EXPECT_LT(near.metrics[0].waypoint_miss->planned, 4.0);
   EXPECT_THAT(near.verdict.notes, Not(Contains(HasSubstr("is missed"))));
+}
+
+TEST(WaypointMetrics, OfFilletAreBoundedIfAsked) {
+  const RunResult refused = Drive("{method: fillet, max_waypoint_miss: 4}", kHairpin);
+  EXPECT_EQ(refused.plan->status, PlanStatus::kWaypointMissed);
+  EXPECT_THAT(refused.plan->reason, HasSubstr("waypoint 1 at (60, 0) is missed by "));
+  const RunResult near =
+      Drive("{method: fillet, max_waypoint_miss: 4}", "[[0, 0], [60, 0], [60, 60]]");
+  ASSERT_TRUE(near.plan.ok()) << near.plan->reason;
+  EXPECT_LE(near.metrics[0].waypoint_miss->planned, 4.0 + Tolerance(1e-9));
 }
 
 }  // namespace waypoint_metrics_test

@@ -84,6 +84,8 @@ struct PlanSpec {
   std::optional<ReplanOptions> replan;
   /// Decides whether a plan that the car cannot follow is slowed down, refused or driven.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
+  /// Largest allowed distance of the planned path from each waypoint [m], >= 0; nullopt: no bound.
+  std::optional<double> max_waypoint_miss{};
 };
 
 struct ControlSpec {

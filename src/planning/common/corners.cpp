@@ -11,13 +11,14 @@
 #include "trackbed/core/error.h"
 #include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/route_start.h"
+#include "trackbed/planning/common/waypoint_miss.h"
 
 // Rounds each corner of a polyline by a clothoid, an arc and a second clothoid. The maximum
 // steering rate and the speed in the corner determine the sharpness of the clothoids, so the curve
 // gets shorter at a lower speed. The curve at a corner may use half of each of the two adjacent
 // legs. For each corner, bisection finds the highest speed at which the curve fits on these halves
-// of the legs. While the resulting path is too close to an obstacle, the algorithm slows the corner
-// nearest to the collision by a fifth.
+// of the legs, and passes close enough to a waypoint at the corner. While the resulting path is too
+// close to an obstacle, the algorithm slows the corner nearest to the collision by a fifth.
 
 namespace trackbed {
 namespace {
@@ -102,6 +103,17 @@ std::string DescribePlace(const RoundCorner& corner) {
                      corner.at.x(), corner.at.y());
 }
 
+/// Describes a waypoint that the slowest possible curve misses by more than `max_gap` [m].
+std::string DescribeMiss(const RoundCorner& slowest, std::size_t waypoint, double max_gap) {
+  return fmt::format(
+      "{} is missed by {:.4g} m, more than {:.4g} m: the turn of {:.3g} deg there is rounded with "
+      "a "
+      "radius of {:.3g} m and steering ramps at {:.3g} m/s; {}",
+      DescribeWaypoint(waypoint, slowest.at), slowest.gap, max_gap,
+      slowest.heading_change * 180.0 / kPi, 1.0 / slowest.curvature, slowest.speed,
+      RemedyForMiss(slowest.gap));
+}
+
 /// Returns the corner nearest to a station, or null if the path has no corner or the nearest corner
 /// already has the minimum speed.
 RoundCorner* CornerToSlow(std::vector<RoundCorner>& corners, double station, double min_speed) {
@@ -140,6 +152,8 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
   const Path path({}, std::move(half));
   const Vec2 middle = path.At(path.length()).pose.position();
   corner.tangent_length = middle.x() + std::abs(middle.y()) * std::tan(0.5 * h);
+  // The curve is convex, so its point on the bisector is nearest to the corner.
+  corner.gap = std::abs(middle.y()) / std::cos(0.5 * h);
   return corner;
 }
 
@@ -150,6 +164,33 @@ RoundCorner AtSpeed(const VehicleParams& vehicle, const CornerLimits& limits,
   RoundCorner slower = CornerAt(vehicle, corner.heading_change, speed, limits.max_curvature);
   slower.at = corner.at;
   return slower;
+}
+
+/// Returns the index of the waypoint at a corner whose distance from the curve is limited; nullopt
+/// if there is no such waypoint.
+std::optional<std::size_t> WaypointAt(const CornerLimits& limits, const Vec2& corner) {
+  constexpr double kAtWaypoint = 1e-6;  // [m]
+  if (limits.max_gap == std::numeric_limits<double>::infinity()) {
+    return std::nullopt;
+  }
+  for (std::size_t i = 1; i < limits.waypoints.size(); ++i) {
+    if ((limits.waypoints[i] - corner).norm() < kAtWaypoint) {
+      return i;
+    }
+  }
+  return std::nullopt;
+}
+
+/// Returns the highest speed within the limits at which `excess` is not positive. The function
+/// `excess` grows with the speed and is not positive at the lowest speed.
+template <typename Excess>
+double HighestSpeed(const CornerLimits& limits, const Excess& excess) {
+  constexpr double kClose = 1e-6;  // [m/s]
+  return excess(limits.speed) <= 0.0
+             ? limits.speed
+             : boost::math::tools::bisect(excess, limits.min_speed, limits.speed,
+                                          [](double a, double b) { return b - a < kClose; })
+                   .first;
 }
 
 /// Lays out the path and slows down corners until the path is clear of obstacles. Returns an error
@@ -201,28 +242,33 @@ RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2
       result.corners.push_back(corner);
       continue;
     }
+    const std::optional<std::size_t> waypoint = WaypointAt(limits, corner.at);
+    const auto refuse_sharp = [&](PlanStatus status, const std::string& reason) {
+      refuse(status, reason);
+      result.sharp_corner = waypoint ? std::optional(i) : std::nullopt;
+      return result;
+    };
     if (std::abs(corner.heading_change) > kPi - kStraight) {
-      return refuse(PlanStatus::kUTurn, DescribePlace(corner) + " turns back on itself");
+      return refuse_sharp(PlanStatus::kUTurn, DescribePlace(corner) + " turns back on itself");
     }
     const double room_out = out.norm() * (i + 2 == polyline.size() ? 1.0 : 0.5);
     const double room_in = in.norm() * (i == 1 ? 1.0 : 0.5);
-    const auto lacks = [&](double speed) {
-      return at_speed(corner, speed).tangent_length - std::min(room_in, room_out);
-    };
-    if (lacks(limits.min_speed) > 0.0) {
-      return refuse(
+    const double max_gap = waypoint ? limits.max_gap : std::numeric_limits<double>::infinity();
+    const RoundCorner slowest = at_speed(corner, limits.min_speed);
+    if (slowest.tangent_length > std::min(room_in, room_out)) {
+      return refuse_sharp(
           PlanStatus::kTurnTooTight,
           fmt::format("{} needs {:.3g} m of its legs even at {:.3g} m/s; available {:.3g}",
-                      DescribePlace(corner), at_speed(corner, limits.min_speed).tangent_length,
-                      limits.min_speed, std::min(room_in, room_out)));
+                      DescribePlace(corner), slowest.tangent_length, limits.min_speed,
+                      std::min(room_in, room_out)));
     }
-    double speed = limits.speed;
-    if (lacks(speed) > 0.0) {
-      constexpr double kClose = 1e-6;  // [m/s]
-      speed = boost::math::tools::bisect(lacks, limits.min_speed, speed, [](double a, double b) {
-                return b - a < kClose;
-              }).first;
+    if (slowest.gap > max_gap) {
+      return refuse_sharp(PlanStatus::kWaypointMissed, DescribeMiss(slowest, *waypoint, max_gap));
     }
+    double speed = HighestSpeed(limits, [&](double v) {
+      const RoundCorner at = at_speed(corner, v);
+      return std::max(at.tangent_length - std::min(room_in, room_out), at.gap - max_gap);
+    });
     if (i == 1) {
       const auto slowed = SpeedAfterBraking(
           limits, speed, room_in, [&](double v) { return at_speed(corner, v).tangent_length; });

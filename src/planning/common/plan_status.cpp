@@ -34,6 +34,8 @@ const char* ToString(PlanStatus status) {
       return "collides";
     case PlanStatus::kInfeasible:
       return "infeasible";
+    case PlanStatus::kWaypointMissed:
+      return "waypoint_missed";
   }
   return "";
 }

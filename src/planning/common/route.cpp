@@ -74,13 +74,17 @@ Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2
       return Refused(PlanStatus::kTurnTooTight, corner);
     }
   }
+  CornerLimits limits{.speed = request.speed.speed,
+                      .min_speed = std::min(min_speed, request.speed.speed),
+                      .max_curvature = 1.0 / request.vehicle.min_turning_radius(),
+                      .start_speed = request.start_speed,
+                      .deceleration = request.speed.deceleration};
+  if (request.max_waypoint_miss) {
+    limits.waypoints = request.waypoints;
+    limits.max_gap = *request.max_waypoint_miss;
+  }
   RoundedCorners rounded =
-      RoundCorners(request.vehicle, points,
-                   {.speed = request.speed.speed,
-                    .min_speed = std::min(min_speed, request.speed.speed),
-                    .max_curvature = 1.0 / request.vehicle.min_turning_radius(),
-                    .start_speed = request.start_speed,
-                    .deceleration = request.speed.deceleration},
+      RoundCorners(request.vehicle, points, limits,
                    CollisionChecker(request.vehicle, request.obstacles, safe_distance));
   if (rounded.status != PlanStatus::kOk) {
     return Refused(rounded.status, rounded.reason);

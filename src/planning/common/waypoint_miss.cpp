@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace trackbed {
 
 std::optional<WaypointMiss> LargestWaypointMiss(const Path& path,
@@ -20,6 +23,13 @@ std::optional<WaypointMiss> LargestWaypointMiss(const Path& path,
 
 std::string DescribeWaypoint(std::size_t waypoint, const Vec2& at) {
   return fmt::format("waypoint {} at ({:.10g}, {:.10g})", waypoint, at.x(), at.y());
+}
+
+std::string RemedyForMiss(double distance) {
+  // The last of three digits, at least a millimeter.
+  const double digit = std::pow(10.0, std::max(std::floor(std::log10(distance)) - 2.0, -3.0));
+  return fmt::format("set plan.max_waypoint_miss to at least {:.10g}, or move the waypoint",
+                     digit * (std::floor(distance / digit) + 1.0));
 }
 
 }  // namespace trackbed

@@ -57,6 +57,8 @@ const char* ToString(ActiveConstraint constraint) {
       return "half_leg";
     case ActiveConstraint::kSteeringRoom:
       return "steering_room";
+    case ActiveConstraint::kWaypointMiss:
+      return "waypoint_miss";
   }
   throw InternalError("no such constraint");
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "src/planning/fillet/fillet_layout.h"
+#include "trackbed/planning/common/waypoint_miss.h"
 #include "trackbed/planning/fillet/fillet.h"
 
 // Converts a fillet plan (Skackauskas, dissertation, appendix C and listing F.1) to a Plan. The
@@ -108,12 +109,18 @@ std::vector<SpeedCap> MakeSpeedCaps(const FilletPlan& plan, double speed) {
   return caps;
 }
 
-Plan PlanWith(const FilletOptions& options, const PlanRequest& request) {
+Plan PlanWith(const FilletOptions& given, const PlanRequest& request) {
+  FilletOptions options = given;
+  options.max_waypoint_miss = request.max_waypoint_miss.value_or(given.max_waypoint_miss);
   const FilletPlan fillets =
       PlanFillets(request.vehicle, request.waypoints, request.speed.speed, options, request.seed);
   Plan plan;
   plan.status = fillets.status;
   plan.reason = fillets.reason;
+  if (plan.status == PlanStatus::kWaypointMissed) {
+    const auto waypoint = static_cast<std::size_t>(fillets.waypoint);
+    plan.reason = DescribeWaypoint(waypoint, request.waypoints[waypoint]) + " is " + plan.reason;
+  }
   if (!plan.ok()) {
     plan.diagnostics.planner = FilletDiagnostics{.failed_waypoint = fillets.waypoint};
     return plan;

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
+#include <limits>
 
 #include "src/planning/fillet/fillet_layout.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/planning/common/waypoint_miss.h"
 
 // Computes the limits of a turn's radius (Skackauskas, dissertation, eqs. (C.34) and (C.40)).
 // Equation C.34 limits the tangent length of the turn to half of the shorter adjacent leg. Equation
@@ -111,6 +113,26 @@ Refusal RefuseTurn(const FilletTurn& turn, PlanStatus status, const std::string&
   return {status, turn.waypoint,
           fmt::format("turn of {:.4g} deg at waypoint {}: {}", turn.heading_change * 180.0 / kPi,
                       turn.waypoint, why)};
+}
+
+/// Returns the distance of an arc of radius 1 m from the waypoint between its tangents [m].
+double UnitMiss(double interior_angle) {
+  return 1.0 / std::sin(0.5 * interior_angle) - 1.0;
+}
+
+/// Returns the largest radius of an arc that passes a waypoint at a distance of at most `max_miss`
+/// [m].
+double LargestRadiusNear(double max_miss, double interior_angle) {
+  const double unit = UnitMiss(interior_angle);
+  return unit > 0.0 ? max_miss / unit : std::numeric_limits<double>::infinity();
+}
+
+std::string DescribeMiss(double max_miss, const FilletTurn& turn, double radius) {
+  const double miss = radius * UnitMiss(turn.interior_angle);
+  return fmt::format(
+      "missed by {:.4g} m, more than {:.4g} m: the turn of {:.4g} deg there has a radius of {:.4g} "
+      "m; {}",
+      miss, max_miss, turn.heading_change * 180.0 / kPi, radius, RemedyForMiss(miss));
 }
 
 /// Returns the radii that equation C.40 permits. If equation C.40 permits no radius at the
@@ -226,9 +248,14 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
   }
   turn.speed = speed;
   turn.neutral = options.neutral_steering;
-  const RadiusInterval bounds = options.radius
-                                    ? RadiusInterval{*options.radius, *options.radius}
-                                    : RadiusInterval{r_min, std::max(r_min, options.max_radius)};
+  const double near = LargestRadiusNear(options.max_waypoint_miss, turn.interior_angle);
+  if (const double smallest = options.radius.value_or(r_min); smallest > near) {
+    throw Refusal{PlanStatus::kWaypointMissed, turn.waypoint,
+                  DescribeMiss(options.max_waypoint_miss, turn, smallest)};
+  }
+  const RadiusInterval bounds =
+      options.radius ? RadiusInterval{*options.radius, *options.radius}
+                     : RadiusInterval{r_min, std::min(near, std::max(r_min, options.max_radius))};
   if (options.radius && options.constraint == RadiusConstraint::kNone) {
     return {bounds, ActiveConstraint::kGiven, ActiveConstraint::kGiven, options.constraint};
   }
@@ -256,7 +283,8 @@ RadiusLimits LimitRadius(const VehicleParams& vehicle, double speed, const Fille
     limits.radii = bounds;
     limits.at_low = limits.at_high = ActiveConstraint::kGiven;
   } else if (limits.radii.high >= bounds.high) {
-    limits.at_high = ActiveConstraint::kMaxRadius;
+    limits.at_high =
+        near < options.max_radius ? ActiveConstraint::kWaypointMiss : ActiveConstraint::kMaxRadius;
   }
   return limits;
 }

@@ -1,5 +1,7 @@
 #include "trackbed/planning/registry/planners.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "trackbed/core/error.h"
@@ -8,6 +10,7 @@
 #include "trackbed/planning/common/open_loop.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/planner.h"
+#include "trackbed/planning/common/waypoint_miss.h"
 #include "trackbed/planning/course/course.h"
 #include "trackbed/planning/course/lane_change.h"
 #include "trackbed/planning/course/straight.h"
@@ -94,12 +97,35 @@ void CheckRequest(const PlanRequest& request) {
   }
   TRACKBED_CHECK(request.headings.empty() || request.headings.size() == request.waypoints.size(),
                  "{} headings for {} waypoints", request.headings.size(), request.waypoints.size());
+  TRACKBED_CHECK(request.max_waypoint_miss.value_or(0.0) >= 0.0, "max_waypoint_miss {}",
+                 *request.max_waypoint_miss);
   for (const double heading : request.headings) {
     TRACKBED_CHECK(std::isfinite(heading), "heading {}", heading);
   }
   TRACKBED_CHECK(request.on_track.laps >= 1, "{} laps", request.on_track.laps);
   CheckVehicle(request.vehicle);
   CheckWorld(request);
+}
+
+/// Returns the plan, or a rejected plan if the path passes a waypoint farther away than the request
+/// allows. A partial plan says itself which waypoints it does not reach.
+Plan KeepToWaypoints(Plan plan, const PlanRequest& request) {
+  plan.waypoints = request.waypoints;
+  if (!plan.ok() || !plan.partial.empty() || !request.max_waypoint_miss) {
+    return plan;
+  }
+  const double bound = *request.max_waypoint_miss;
+  const auto miss = LargestWaypointMiss(plan.reference.path, plan.waypoints);
+  if (!miss || miss->distance <= bound + kSameMiss) {
+    return plan;
+  }
+  Plan refused;
+  refused.status = PlanStatus::kWaypointMissed;
+  refused.reason = fmt::format("{} is missed by {:.4g} m, more than {:.4g} m; {}",
+                               DescribeWaypoint(miss->waypoint, miss->at), miss->distance, bound,
+                               RemedyForMiss(miss->distance));
+  refused.diagnostics = std::move(plan.diagnostics);
+  return refused;
 }
 
 }  // namespace
@@ -135,9 +161,8 @@ FeasiblePlan MakePlan(const PlanRequest& request, const PlannerOptions& options)
   CheckRequest(request);
   PlannerOptions own = options;
   RequireInRange("MakePlan", [&](KeyVisitor& keys) { Visit(keys, own); });
-  Plan planned = PlannerFor(options).plan(request, options);
-  planned.waypoints = request.waypoints;
-  FeasiblePlan plan = MakeFeasible(std::move(planned), request);
+  FeasiblePlan plan =
+      MakeFeasible(KeepToWaypoints(PlannerFor(options).plan(request, options), request), request);
   if (plan.ok() && !plan->diagnostics.open_loop) {
     plan.diagnostics().open_loop =
         SimulateOpenLoop(request.vehicle, plan->reference.path, plan->schedule,

@@ -19,6 +19,7 @@ TEST(PlanStatus, HasTheSpellingsOfPlanJson) {
   EXPECT_STREQ(ToString(PlanStatus::kNoPath), "no_path");
   EXPECT_STREQ(ToString(PlanStatus::kBudgetUsedUp), "budget_used_up");
   EXPECT_STREQ(ToString(PlanStatus::kCollides), "collides");
+  EXPECT_STREQ(ToString(PlanStatus::kWaypointMissed), "waypoint_missed");
 }
 
 }  // namespace

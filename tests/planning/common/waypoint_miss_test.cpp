@@ -59,5 +59,14 @@ TEST(LargestWaypointMiss, IsThatOfADenseSampleOfClothoids) {
   }
 }
 
+TEST(RemedyForMiss, RoundsUp) {
+  EXPECT_EQ(RemedyForMiss(24.31),
+            "set plan.max_waypoint_miss to at least 24.4, or move the waypoint");
+  EXPECT_EQ(RemedyForMiss(0.0),
+            "set plan.max_waypoint_miss to at least 0.001, or move the waypoint");
+  EXPECT_EQ(RemedyForMiss(1234.5),
+            "set plan.max_waypoint_miss to at least 1240, or move the waypoint");
+}
+
 }  // namespace
 }  // namespace trackbed

@@ -49,6 +49,15 @@ FilletPlan PlanGiven(const std::vector<Vec2>& route, double radius,
   return PlanFillets(ReferenceCar(), route, kSpeed, options);
 }
 
+/// Plans with arcs that pass each waypoint at a distance of at most `max_miss` [m].
+FilletPlan PlanNear(const std::vector<Vec2>& route, double max_miss,
+                    std::optional<double> radius = std::nullopt) {
+  FilletOptions options;
+  options.radius = radius;
+  options.max_waypoint_miss = max_miss;
+  return PlanFillets(ReferenceCar(), route, kSpeed, options);
+}
+
 std::string Describe(const std::vector<Vec2>& route) {
   std::string text = "route";
   for (const Vec2& w : route) {
@@ -1073,6 +1082,34 @@ INSTANTIATE_TEST_SUITE_P(
         EndCase{"BRoomRear", RouteB(), Chosen(RadiusConstraint::kSteeringRoom), kRear, 0.0104, 4},
         EndCase{"BRoomCg", RouteB(), Chosen(RadiusConstraint::kSteeringRoom), kCg, 0.566, 3}),
     [](const auto& test) { return std::string(test.param.name); });
+
+// An arc of radius r misses the corner of two legs at right angles by r (sqrt 2 - 1).
+TEST(WaypointMiss, LimitsTheRadius) {
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}};
+  const double unit = std::sqrt(2.0) - 1.0;
+  const FilletPlan near = PlanNear(route, 3.0);
+  ASSERT_EQ(near.status, PlanStatus::kOk) << near.reason;
+  EXPECT_NEAR(near.turns[0].radius, 3.0 / unit, Tolerance(kRounding));
+  EXPECT_EQ(near.turns[0].active, ActiveConstraint::kWaypointMiss);
+  // Far away, another constraint decides, as without a bound.
+  const FilletPlan far = PlanNear(route, 1000.0);
+  EXPECT_EQ(far.turns[0].radius, PlanWith(route, RadiusConstraint::kSteeringRoom).turns[0].radius);
+  EXPECT_NE(far.turns[0].active, ActiveConstraint::kWaypointMiss);
+}
+
+TEST(WaypointMiss, RefusesRadiiThatAreTooLarge) {
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}};
+  // The car's smallest radius of 5.1 m misses by 2.112 m, a radius of 10 m by 4.142 m.
+  const FilletPlan smallest = PlanNear(route, 2.0);
+  EXPECT_EQ(smallest.status, PlanStatus::kWaypointMissed);
+  EXPECT_EQ(smallest.waypoint, 1);
+  EXPECT_THAT(smallest.reason, HasSubstr("missed by 2.112 m, more than 2 m"));
+  EXPECT_THAT(smallest.reason, HasSubstr("set plan.max_waypoint_miss to at least 2.12,"));
+  EXPECT_EQ(PlanNear(route, 2.12).status, PlanStatus::kOk);
+  const FilletPlan given = PlanNear(route, 4.0, 10.0);
+  EXPECT_EQ(given.status, PlanStatus::kWaypointMissed);
+  EXPECT_THAT(given.reason, HasSubstr("missed by 4.142 m, more than 4 m"));
+}
 
 TEST(OpenLoop, MirroredPlanDrivesMirrored) {
   std::vector<Vec2> mirrored = RouteB();

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstddef>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +36,10 @@ struct CornerLimits {
   /// until the car has braked for the first corner.
   double start_speed = 0.0;
   double deceleration = 1.0;  ///< Deceleration of the car before the first corner [m/s^2], > 0.
+  /// Waypoints of the route [m]; the bound `max_gap` applies to corners that lie at a waypoint.
+  std::vector<Vec2> waypoints{};
+  /// Upper limit of the distance of the curve from a corner at a waypoint [m], >= 0.
+  double max_gap = std::numeric_limits<double>::infinity();
 };
 
 /// A rounded corner.
@@ -44,6 +51,7 @@ struct RoundCorner {
   double curvature = 0.0;       ///< Magnitude of the curve's peak curvature kappa [1/m].
   /// Tangent length T, from the corner to either end of its curve [m].
   double tangent_length = 0.0;
+  double gap = 0.0;   ///< Smallest distance of the curve from the corner [m].
   double from = 0.0;  ///< Station of the curve's start [m].
   double to = 0.0;    ///< Station of the curve's end [m].
 };
@@ -52,6 +60,9 @@ void Visit(DiagnosticsVisitor& out, const RoundCorner& corner);
 struct RoundedCorners {
   PlanStatus status = PlanStatus::kOk;
   std::string reason;  ///< Reason why rounding failed; empty if ok.
+  /// Index of the polyline's point at which a waypoint is missed, or at which the polyline turns
+  /// back on itself; nullopt if rounding failed for another reason.
+  std::optional<std::size_t> sharp_corner{};
   Path path;
   std::vector<RoundCorner> corners;
   /// Speed caps for the corners in which the car must drive below the speed limit.
@@ -70,12 +81,13 @@ RoundCorner CornerAt(const VehicleParams& vehicle, double heading_change, double
 /// adjacent first or last leg. On the first leg, the curve begins only after the distance that a
 /// rolling car needs to slow down. The planned speed in each corner is as high as the lengths of
 /// the legs allow. If the car's footprint on the rounded path is too near to a box, the function
-/// lowers the speed in the nearest corner, so that the path stays closer to that corner. Guarantees
-/// for the status kOk: the path starts at the first point along the first leg, and ends at the last
-/// point. The curvature of the rounded path is continuous and at most `max_curvature`. At the
-/// capped speeds, the steering rate is within the car's limit. The car's footprint is clear of all
-/// boxes (CollisionChecker). If the status is not kOk, the reason names the corner or the place of
-/// the collision.
+/// lowers the speed in the nearest corner, so that the path stays closer to that corner. In a
+/// corner at a waypoint, the speed is so low that the curve stays within `max_gap` of the corner;
+/// if no speed is low enough, the status is kWaypointMissed. Guarantees for the status kOk: the
+/// path starts at the first point along the first leg, and ends at the last point. The curvature of
+/// the rounded path is continuous and at most `max_curvature`. At the capped speeds, the steering
+/// rate is within the car's limit. The car's footprint is clear of all boxes (CollisionChecker). If
+/// the status is not kOk, the reason names the corner or the place of the collision.
 RoundedCorners RoundCorners(const VehicleParams& vehicle, const std::vector<Vec2>& polyline,
                             const CornerLimits& limits, const CollisionChecker& clear);
 

@@ -23,6 +23,8 @@ enum class PlanStatus {
   kBudgetUsedUp,  ///< The search for a path ended before the goal was reached.
   kCollides,      ///< The drivable path comes too near to an obstacle.
   kInfeasible,    ///< The plan exceeds the car's limits (feasibility.h).
+  /// The path would pass a waypoint farther away than PlanRequest::max_waypoint_miss.
+  kWaypointMissed,
 };
 
 /// Returns the name of a status as written in plan.json: "ok", "too_few_waypoints", ….

@@ -36,4 +36,9 @@ std::optional<WaypointMiss> LargestWaypointMiss(const Path& path,
 /// Formats a waypoint for messages, for example "waypoint 1 at (60, 0)".
 std::string DescribeWaypoint(std::size_t waypoint, const Vec2& at);
 
+/// Formats the remedies against a missed waypoint, for example "set plan.max_waypoint_miss to at
+/// least 24.4, or move the waypoint". The argument `distance` is the smallest possible distance of
+/// the path from the waypoint [m], which the message rounds up.
+std::string RemedyForMiss(double distance);
+
 }  // namespace trackbed

@@ -108,6 +108,9 @@ struct FilletOptions {
   /// Point of the car that follows the path in the first run and in the verification.
   ReferencePoint reference = ReferencePoint::kRearAxle;
   DrivenWeights weights;  ///< Weights of the objective kDriven.
+  /// Largest allowed distance of each arc from its waypoint [m]; infinite: no bound. The planner
+  /// `fillet` takes this bound from PlanRequest::max_waypoint_miss.
+  double max_waypoint_miss = std::numeric_limits<double>::infinity();
 };
 void Visit(KeyVisitor& keys, FilletOptions& options);
 
@@ -120,6 +123,7 @@ enum class ActiveConstraint {
   kMaxRadius,     ///< The radius is limited by FilletOptions::max_radius.
   kHalfLeg,       ///< The radius is limited by eq. (C.34).
   kSteeringRoom,  ///< The radius is limited by eq. (C.40).
+  kWaypointMiss,  ///< The radius is limited by FilletOptions::max_waypoint_miss.
 };
 
 /// Returns the name of a constraint as written in plan.json: "given", "none", ….
