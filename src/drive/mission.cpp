@@ -55,6 +55,13 @@ void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
   }
 }
 
+/// Returns the bound on the distance of the path from waypoints [m]; nullopt if there is no bound.
+std::optional<double> MaxWaypointMiss(const PlanSpec& plan, const VehicleParams& vehicle) {
+  const bool is_bounded = PlannerFor(plan.global).bounds_waypoint_miss && vehicle.length > 0.0;
+  return plan.max_waypoint_miss || !is_bounded ? plan.max_waypoint_miss
+                                               : std::optional(vehicle.length);
+}
+
 /// Returns the obstacles and walls that are known at the start. In a run with replanning, skips
 /// moving obstacles, because the replanner handles them.
 std::vector<OrientedBox> KnownAtStart(const Scenario& scenario, const VehicleParams& vehicle,
@@ -136,7 +143,7 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
                       : TrackLaps{},
       .lanes = MakeLaneMission(scenario),
       .infeasible = scenario.plan->infeasible,
-      .max_waypoint_miss = scenario.plan->max_waypoint_miss,
+      .max_waypoint_miss = MaxWaypointMiss(*scenario.plan, vehicle),
       .limits = std::move(limits)};
   FeasiblePlan plan = MakePlan(request, scenario.plan->global);
   if (!plan.ok()) {

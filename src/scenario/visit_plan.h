@@ -33,7 +33,8 @@ inline void VisitPlanRules(KeyVisitor& a, InfeasiblePolicy& policy,
            "handling of plans that exceed the car's steering, friction or braking limits"},
           policy, Need::kOptional, policies);
   a.Field({"max_waypoint_miss", "m",
-           "maximum distance of the planned path from each waypoint; default: no bound"},
+           "maximum distance of the planned path from each waypoint; default: the car's length for "
+           "planners that search a polyline and round its corners, otherwise no bound"},
           max_waypoint_miss, kNonNegative);
 }
 

@@ -88,6 +88,18 @@ TEST(WaypointMetrics, NoteAWaypointThatIsMissedByACarLength) {
   EXPECT_THAT(near.verdict.notes, Not(Contains(HasSubstr("is missed"))));
 }
 
+TEST(WaypointMetrics, OfSearchesAreAtMostACarLengthUnlessAsked) {
+  for (const std::string method : {"astar", "rrt", "rrt_star"}) {
+    const RunResult run = Drive("{method: " + method + "}", kHairpin);
+    ASSERT_TRUE(run.plan.ok()) << method << ": " << run.plan->reason;
+    EXPECT_LE(run.metrics[0].waypoint_miss->planned, run.vehicle.length) << method;
+    EXPECT_TRUE(run.verdict.passed) << method;
+  }
+  const RunResult free = Drive("{method: astar, max_waypoint_miss: 100}", kHairpin);
+  EXPECT_GT(free.metrics[0].waypoint_miss->planned, 20.0);
+  EXPECT_THAT(free.verdict.notes, Contains(HasSubstr("plan: waypoint 1 at (60, 0) is missed by")));
+}
+
 TEST(WaypointMetrics, OfFilletAreBoundedIfAsked) {
   const RunResult refused = Drive("{method: fillet, max_waypoint_miss: 4}", kHairpin);
   EXPECT_EQ(refused.plan->status, PlanStatus::kWaypointMissed);

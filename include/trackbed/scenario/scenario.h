@@ -84,7 +84,8 @@ struct PlanSpec {
   std::optional<ReplanOptions> replan;
   /// Decides whether a plan that the car cannot follow is slowed down, refused or driven.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
-  /// Largest allowed distance of the planned path from each waypoint [m], >= 0; nullopt: no bound.
+  /// Largest allowed distance of the planned path from each waypoint [m], >= 0; nullopt: the car's
+  /// length for planners with PlannerEntry::bounds_waypoint_miss, no bound for other planners.
   std::optional<double> max_waypoint_miss{};
 };
 

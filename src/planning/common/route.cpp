@@ -84,8 +84,8 @@ Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2
     limits.max_gap = *request.max_waypoint_miss;
   }
   RoundedCorners rounded =
-      RoundCorners(request.vehicle, points, limits,
-                   CollisionChecker(request.vehicle, request.obstacles, safe_distance));
+      RoundCornersOrTurnBehind(request.vehicle, points, limits,
+                               CollisionChecker(request.vehicle, request.obstacles, safe_distance));
   if (rounded.status != PlanStatus::kOk) {
     return Refused(rounded.status, rounded.reason);
   }

@@ -215,6 +215,7 @@ PlannerEntry AStarPlanner() {
           .plan = PlanBy<AStarOptions, PlanWith>,
           .min_waypoints = 2,
           .keeps_clear = true,
+          .bounds_waypoint_miss = true,
           .searches = true,
           .has_ties = true};
 }

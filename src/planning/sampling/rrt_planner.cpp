@@ -357,6 +357,7 @@ PlannerEntry RrtPlanner() {
           .plan = PlanBy<RrtPlannerOptions, PlanWith>,
           .min_waypoints = 2,
           .keeps_clear = true,
+          .bounds_waypoint_miss = true,
           .searches = true,
           .is_random = true,
           .may_be_partial = MayBePartial,

@@ -205,6 +205,7 @@ PlannerEntry RrtStarPlanner() {
       .plan = PlanBy<RrtStarPlannerOptions, PlanStar>,
       .min_waypoints = 2,
       .keeps_clear = true,
+      .bounds_waypoint_miss = true,
       .searches = true,
       .is_random = true};
 }

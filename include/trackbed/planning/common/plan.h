@@ -98,7 +98,8 @@ struct PlanRequest {
   LaneMission lanes{};   ///< Route over the lanes of roads, for planners that follow lanes.
   InfeasiblePolicy infeasible = InfeasiblePolicy::kSlowDown;
   /// Largest allowed distance of the path from each waypoint after the first [m], >= 0; nullopt: no
-  /// bound. Planners that round corners use smaller radii. MakePlan rejects plans that exceed the bound (kWaypointMissed), except for
+  /// bound. Planners that round corners use smaller radii, or drive past the waypoint and turn
+  /// around behind it. MakePlan rejects plans that exceed the bound (kWaypointMissed), except for
   /// partial plans.
   std::optional<double> max_waypoint_miss{};
   /// The car's limits, if the planned speeds should be as high as these limits allow. If nullopt,

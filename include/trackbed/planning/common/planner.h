@@ -49,6 +49,9 @@ struct PlannerEntry {
   bool has_headings = false;  ///< Whether the planner meets PlanRequest::headings at the waypoints.
   bool has_gates = false;     ///< Whether the planned paths pass through gates (Plan::gates).
   bool goes_backwards = false;  ///< Whether the planned paths may contain reverse segments.
+  /// Whether scenarios bound the distance of the planned path from the waypoints
+  /// (PlanRequest::max_waypoint_miss) by the car's length, unless they set another bound.
+  bool bounds_waypoint_miss = false;
   /// Whether the planner searches for a path around obstacles within a limited budget.
   bool searches = false;
   /// Whether the planner may choose arbitrarily between paths of equal cost, such as mirrored

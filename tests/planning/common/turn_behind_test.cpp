@@ -1,0 +1,142 @@
+// Tests that rounded polylines pass their waypoints as closely as the limits require.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/planning/routes.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/corners.h"
+
+namespace trackbed {
+namespace {
+
+using ::testing::HasSubstr;
+
+CornerLimits Limits(const std::vector<Vec2>& route, double max_gap) {
+  return {.speed = 3.0,
+          .min_speed = 0.5,
+          .max_curvature = 1.0 / 5.1,
+          .waypoints = route,
+          .max_gap = max_gap};
+}
+
+const CollisionChecker& NothingAround() {
+  static const CollisionChecker clear(ReferenceCar(), {}, 0.0);
+  return clear;
+}
+
+/// Half of the distance between samples [m], by which SampledDistance is at most too large.
+constexpr double kHalfSample = 0.05;
+
+/// Smallest distance of samples of the path from a point.
+double SampledDistance(const Path& path, const Vec2& point) {
+  double nearest = 1e9;
+  for (const PathPoint& sample : path.Sample(2.0 * kHalfSample)) {
+    nearest = std::min(nearest, (sample.pose.position() - point).norm());
+  }
+  return nearest;
+}
+
+TEST(CornerAt, HasTheGapOfItsCurve) {
+  for (const double h : {0.3, -1.5, 2.5}) {
+    for (const double speed : {0.5, 3.0}) {
+      const Vec2 corner{200.0, 0.0};
+      const std::vector<Vec2> route{{0, 0}, corner, corner + 200.0 * Direction(h)};
+      CornerLimits limits = Limits({}, 0.0);
+      limits.speed = limits.min_speed = speed;
+      const RoundedCorners rounded = RoundCorners(ReferenceCar(), route, limits, NothingAround());
+      ASSERT_EQ(rounded.status, PlanStatus::kOk) << rounded.reason;
+      EXPECT_NEAR(rounded.corners[0].gap, SampledDistance(rounded.path, corner),
+                  Tolerance(kHalfSample));
+    }
+  }
+}
+
+TEST(RoundCorners, SlowsDownToPassNearAWaypoint) {
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}};
+  const auto rounded = [&](double max_gap) {
+    return RoundCorners(ReferenceCar(), route, Limits(route, max_gap), NothingAround());
+  };
+  const RoundedCorners free = rounded(100.0);
+  EXPECT_EQ(free.corners[0].speed, 3.0);
+  // Half of the possible gaps: the bisection of the speed to 1e-6 m/s keeps the bound, and comes
+  // close to it, as the gap grows by less than 10 m per m/s.
+  const double gap =
+      0.5 * (free.corners[0].gap + CornerAt(ReferenceCar(), 0.5 * kPi, 0.5, 1.0 / 5.1).gap);
+  const RoundedCorners near = rounded(gap);
+  ASSERT_EQ(near.status, PlanStatus::kOk) << near.reason;
+  EXPECT_LE(near.corners[0].gap, gap);
+  EXPECT_NEAR(near.corners[0].gap, gap, Tolerance(1e-5));
+  EXPECT_LT(near.corners[0].speed, 3.0);
+}
+
+TEST(RoundCorners, NamesTheWaypointThatItMisses) {
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}};
+  const RoundedCorners rounded =
+      RoundCorners(ReferenceCar(), route, Limits(route, 1.0), NothingAround());
+  EXPECT_EQ(rounded.status, PlanStatus::kWaypointMissed);
+  EXPECT_EQ(rounded.sharp_corner, 1U);
+  EXPECT_THAT(rounded.reason, HasSubstr("waypoint 1 at (60, 0) is missed by "));
+  EXPECT_THAT(rounded.reason, HasSubstr("more than 1 m"));
+}
+
+TEST(RoundCornersOrTurnBehind, PassesEveryWaypointOfSharpRoutes) {
+  Random random(1);
+  for (int i = 0; i < 60; ++i) {
+    // Legs of at least 60 m have room for turns behind both of their ends, as a turn needs less
+    // than 30 m of each.
+    std::vector<Vec2> route = RandomRoute(random, 5, 60.0, 120.0, kPi);
+    if (i % 4 == 0) {
+      route.resize(3);
+      route[2] = route[0];  // back to the start, along the same line
+    }
+    const double max_gap = random.Uniform(0.0, 5.0);
+    const RoundedCorners rounded =
+        RoundCornersOrTurnBehind(ReferenceCar(), route, Limits(route, max_gap), NothingAround());
+    ASSERT_EQ(rounded.status, PlanStatus::kOk) << i << ": " << rounded.reason;
+    for (std::size_t k = 1; k < route.size(); ++k) {
+      EXPECT_LE(SampledDistance(rounded.path, route[k]), max_gap + Tolerance(kHalfSample)) << i;
+    }
+    // Rounding over some hundred meters.
+    const Vec2 end = rounded.path.At(rounded.path.length()).pose.position();
+    EXPECT_NEAR((end - route.back()).norm(), 0.0, Tolerance(1e-8));
+  }
+}
+
+TEST(RoundCornersOrTurnBehind, TurnsToTheSideThatIsFree) {
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {0, 20}};
+  for (const double side : {1.0, -1.0}) {
+    const CollisionChecker clear(ReferenceCar(), {{{72.0, 12.0 * side, 0.0}, 4.0, 10.0}}, 0.2);
+    const RoundedCorners rounded =
+        RoundCornersOrTurnBehind(ReferenceCar(), route, Limits(route, 1.0), clear);
+    ASSERT_EQ(rounded.status, PlanStatus::kOk) << rounded.reason;
+    EXPECT_FALSE(clear.FirstBlocked(rounded.path));
+    EXPECT_LE(SampledDistance(rounded.path, route[1]), 1.0 + Tolerance(kHalfSample));
+  }
+}
+
+TEST(RoundCornersOrTurnBehind, SaysWhatWasMissingBeforeAWall) {
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {0, 20}};
+  const CollisionChecker wall(ReferenceCar(), {{{66.0, 0.0, 0.0}, 2.0, 100.0}}, 0.2);
+  const RoundedCorners rounded =
+      RoundCornersOrTurnBehind(ReferenceCar(), route, Limits(route, 4.0), wall);
+  EXPECT_EQ(rounded.status, PlanStatus::kWaypointMissed);
+  EXPECT_THAT(rounded.reason, HasSubstr("waypoint 1 at (60, 0) is missed by "));
+  EXPECT_THAT(rounded.reason, HasSubstr("no room for a turn behind the waypoint"));
+}
+
+TEST(RoundCornersOrTurnBehind, IsRoundCornersWithoutABound) {
+  const std::vector<Vec2> route{{0, 0}, {60, 0}, {0, 20}};
+  const CornerLimits limits{.speed = 3.0, .min_speed = 0.5, .max_curvature = 1.0 / 5.1};
+  EXPECT_EQ(
+      RoundCornersOrTurnBehind(ReferenceCar(), route, limits, NothingAround()).path.segments(),
+      RoundCorners(ReferenceCar(), route, limits, NothingAround()).path.segments());
+}
+
+}  // namespace
+}  // namespace trackbed
