@@ -89,14 +89,6 @@ std::vector<double> Roads(const World& world) {
   return roads;
 }
 
-/// Returns the mission's route on the world's road network; empty if the mission has no route.
-LaneMission MakeLaneMission(const Scenario& scenario) {
-  const auto& roads = scenario.world.road_network;
-  return roads && roads->data
-             ? LaneMission{{roads->data, &roads->data->network}, scenario.mission.route}
-             : LaneMission{};
-}
-
 /// Returns the data for planning speeds at the car's limit; none if the mission does not ask for
 /// such speeds. `diagram` returns the g-g-v diagram for given friction coefficients.
 template <typename Diagram>
@@ -138,10 +130,8 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
       .friction = scenario.world.friction,
       .friction_patches = scenario.world.friction_patches,
       .ground = scenario.world.ground,
-      .on_track = scenario.mission.track
-                      ? TrackLaps{scenario.mission.track->data, scenario.mission.track->laps}
-                      : TrackLaps{},
-      .lanes = MakeLaneMission(scenario),
+      .on_track = TrackOf(scenario),
+      .lanes = LaneMissionOf(scenario),
       .infeasible = scenario.plan->infeasible,
       .max_waypoint_miss = MaxWaypointMiss(*scenario.plan, vehicle),
       .limits = std::move(limits)};

@@ -1,6 +1,7 @@
 #include "trackbed/scenario/initial_state.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "src/scenario/start_state.h"
 #include "trackbed/control/playback.h"
@@ -56,8 +57,8 @@ Pose2 StartPose(const Scenario& scenario) {
 }
 
 /// Returns the road wheel angle at the start of the run, which is also the angle of the steering
-/// actuator [rad].
-double StartSteering(const Scenario& scenario) {
+/// actuator [rad], if the mission or a recording determines this angle.
+std::optional<double> GivenSteering(const Scenario& scenario) {
   if (const std::optional<double>& given = scenario.mission.start.steering) {
     return *given;
   }
@@ -69,10 +70,41 @@ double StartSteering(const Scenario& scenario) {
     return scenario.record->steering == ReplaySteering::kMeasured ? recorded->steering
                                                                   : recorded->steering_command;
   }
-  return NeutralSteering(scenario);
+  return std::nullopt;
+}
+
+/// Returns the steering angle with which the planner's route begins [rad]. Returns nullopt if the
+/// planner follows no given route, or if the angle exceeds the car's limit.
+std::optional<double> RouteSteering(const Scenario& scenario, const VehicleParams& vehicle,
+                                    const Pose2& start) {
+  if (!scenario.plan) {
+    return std::nullopt;
+  }
+  const PlannerOptions& options = scenario.plan->global;
+  const PlannerEntry& planner = PlannerFor(options);
+  if (planner.start_curvature == nullptr) {
+    return std::nullopt;
+  }
+  const std::optional<double> curvature = planner.start_curvature(
+      options, {.pose = start, .on_track = TrackOf(scenario), .lanes = LaneMissionOf(scenario)});
+  const double steering = SteeringForCurvature(vehicle, curvature.value_or(0.0));
+  return curvature && std::abs(steering) <= vehicle.steering_limit ? std::optional(steering)
+                                                                   : std::nullopt;
 }
 
 }  // namespace
+
+TrackLaps TrackOf(const Scenario& scenario) {
+  const std::optional<TrackSpec>& track = scenario.mission.track;
+  return track ? TrackLaps{track->data, track->laps} : TrackLaps{};
+}
+
+LaneMission LaneMissionOf(const Scenario& scenario) {
+  const auto& roads = scenario.world.road_network;
+  return roads && roads->data
+             ? LaneMission{{roads->data, &roads->data->network}, scenario.mission.route}
+             : LaneMission{};
+}
 
 double NeutralSteering(const Scenario& scenario) {
   if (!scenario.plan) {
@@ -105,7 +137,7 @@ std::optional<double> StartSpeedBesideMission(const Scenario& scenario) {
 StartState InitialState(const Scenario& scenario) {
   StartState start{.pose = StartPose(scenario),
                    .speed = StartSpeedBesideMission(scenario).value_or(scenario.mission.speed),
-                   .steering = StartSteering(scenario)};
+                   .steering = GivenSteering(scenario).value_or(NeutralSteering(scenario))};
   const RecordedSample* recorded = FirstSample(scenario);
   if (recorded != nullptr) {
     const StartState own = StartFrom(*recorded, start.steering);
@@ -120,10 +152,8 @@ StartState InitialState(const Scenario& scenario) {
 
 StartState InitialState(const Scenario& scenario, const VehicleParams& vehicle) {
   StartState start = InitialState(scenario);
-  const std::optional<PlannedStart> planned = StartOfPlan(scenario);
-  if (planned && !scenario.mission.start.steering) {
-    start.steering = std::clamp(SteeringForCurvature(vehicle, planned->curvature),
-                                -vehicle.steering_limit, vehicle.steering_limit);
+  if (!GivenSteering(scenario)) {
+    start.steering = RouteSteering(scenario, vehicle, start.pose).value_or(start.steering);
   }
   return start;
 }

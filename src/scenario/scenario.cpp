@@ -262,13 +262,13 @@ std::string OptionDefaults(const ManeuverOptions& options) {
 std::string ResolvedYaml(const Scenario& scenario) {
   Scenario resolved = WithResolvedFiles(scenario);
   const StartState start = InitialState(scenario);
-  const bool planner_sets_start =
-      scenario.plan && PlannerFor(scenario.plan->global).start != nullptr;
-  // If a recorded drive or the planner determines the initial state, write the initial steering
-  // angle only if the user has specified the angle, because SimulateScenario and InitialState
-  // compute the angle again.
+  const bool route_sets_steering =
+      scenario.plan && PlannerFor(scenario.plan->global).start_curvature != nullptr;
+  // If a recorded drive or the route determines the initial steering angle, write this angle only
+  // if the user has specified it, because SimulateScenario and InitialState compute the angle
+  // again.
   const std::optional<double> steering =
-      scenario.record || planner_sets_start ? scenario.mission.start.steering : start.steering;
+      scenario.record || route_sets_steering ? scenario.mission.start.steering : start.steering;
   resolved.mission.start = {start.pose.x, start.pose.y, start.pose.yaw, start.speed, steering};
   resolved.mission.duration = RunDuration(scenario);
   YAML::Emitter out;

@@ -51,8 +51,9 @@ inline void Visit(KeyVisitor& a, StartSpec& start) {
        "of the mission"},
       start.speed, kSpeedRange);
   a.Field({"steering", "rad",
-           "initial bicycle angle of wheels and actuator; default: the plan's neutral_steering, or "
-           "0; with a record or prescribed steering, the recorded angle"},
+           "initial bicycle angle of wheels and actuator; default: that of the start of a given "
+           "route (path_file, course, lane_route, tracks), the plan's neutral_steering, or 0; with "
+           "a record or prescribed steering, the recorded angle"},
           start.steering, kSteering);
 }
 

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,8 +9,10 @@
 #include "tests/road_network/documents.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/scenario/initial_state.h"
 #include "trackbed/scenario/scenario.h"
 
 // Tests scenarios on road networks.
@@ -65,6 +68,30 @@ TEST(Roads, AreWhereTheCarStarts) {
   EXPECT_NEAR(start.y, 1.75, Tolerance(1e-12));
   EXPECT_NEAR(std::abs(start.yaw), kPi, Tolerance(1e-12));
   EXPECT_EQ(InitialState(RoadFolder().Read({"mission.start={y: 2}"})).pose.y, 2.0);
+}
+
+TEST(Roads, BendTheWheelsOfACarThatStartsInABend) {
+  const TempFolder folder;
+  RoadText bend;
+  bend.geometry =
+      "<geometry s=\"0\" x=\"0\" y=\"0\" hdg=\"0\" length=\"100\"><arc "
+      "curvature=\"0.02\"/></geometry>";
+  folder.Write("roads.xodr", Document(bend.Xml()));
+  const auto read = [&](int lane, int from, int to) {
+    return ParseScenario(
+        kOnRoads, "test.yaml", folder.path(),
+        {fmt::format("mission.route=[{{road: 1, lane: {0}, s: {1}}}, {{road: 1, lane: {0}, s: "
+                     "{2}}}]",
+                     lane, from, to)});
+  };
+  // The centers of the lanes are 1.75 m beside the reference line, whose radius is 50 m. The path
+  // is a chain of arcs within 0.05 m of the lane over some ten meters, which changes its curvature
+  // by less than 1 %.
+  const double right = std::atan(2.7 / 51.75);
+  EXPECT_NEAR(InitialState(read(-1, 20, 80), ReferenceCar()).steering, right, 0.01 * right);
+  const double left = -std::atan(2.7 / 48.25);  // against the road's direction
+  EXPECT_NEAR(InitialState(read(1, 80, 20), ReferenceCar()).steering, left, -0.01 * left);
+  EXPECT_THAT(ResolvedYaml(read(-1, 20, 80)), testing::Not(HasSubstr("steering: 0\n")));
 }
 
 TEST(Roads, StayBesideTheResolvedScenario) {

@@ -4,12 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/geometry/random.h"
 #include "tests/support/temp_folder.h"
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/corners.h"
 #include "trackbed/planning/fillet/fillet.h"
+#include "trackbed/scenario/initial_state.h"
 #include "trackbed/scenario/scenario.h"
 
 namespace trackbed {
@@ -43,6 +46,24 @@ TEST(StartState, IsWherePathsAlongTheRouteBegin) {
     }
   }
   EXPECT_GT(planned, 100);
+}
+
+// A course begins with the curvature of its first segment, and the car's wheels with the angle of
+// this curvature, unless the mission fixes the angle or the car cannot steer it.
+TEST(StartState, HasTheSteeringOfTheCourse) {
+  const auto steering = [](const std::string& first, const std::string& mission) {
+    const Scenario scenario =
+        ParseScenario("schema: 1\nname: x\nmission: {speed: 3" + mission +
+                          "}\nplan: {method: course, segments: [{length: 20, " + first + "}]}\n",
+                      "x.yaml", {});
+    return InitialState(scenario, ReferenceCar()).steering;
+  };
+  EXPECT_EQ(steering("curvature: -0.05", ""), std::atan(2.7 * -0.05));
+  EXPECT_EQ(steering("curvature: -0.05", ", start: {speed: 0}"), std::atan(2.7 * -0.05));
+  EXPECT_EQ(steering("curvature_from: 0.08, curvature_to: 0", ""), std::atan(2.7 * 0.08));
+  EXPECT_EQ(steering("curvature_to: 0.1", ""), 0.0);
+  EXPECT_EQ(steering("curvature: 0.05", ", start: {steering: 0.01}"), 0.01);
+  EXPECT_EQ(steering("curvature: 5", ""), 0.0);
 }
 
 // The mission's speed may be missing exactly if the start defines a speed.

@@ -1,13 +1,17 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "tests/track/rings.h"
+#include "tests/vehicle/reference_car.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/scenario/initial_state.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/plant.h"
 #include "trackbed/track/track_file.h"
@@ -44,6 +48,25 @@ TEST(MissionTrack, IsReadAndStartsOnItsLine) {
       ParseScenario(kLapScenario, "laps.yaml", folder.path(), {"mission.start={x: 38, speed: 0}"});
   EXPECT_EQ(InitialState(at_rest).pose.x, 38.0);
   EXPECT_EQ(InitialState(at_rest).speed, 0.0);
+}
+
+TEST(MissionTrack, StartsWithTheSteeringOfTheTrack) {
+  const TempFolder folder;
+  folder.Write("ring.csv", TrackCsv(Ring()));
+  for (const char* method : {"center_line", "minimum_curvature"}) {
+    const auto steering = [&](const std::vector<Override>& more) {
+      std::vector<Override> overrides{fmt::format("plan.method={}", method)};
+      overrides.insert(overrides.end(), more.begin(), more.end());
+      return InitialState(ParseScenario(kLapScenario, "laps.yaml", folder.path(), overrides),
+                          ReferenceCar())
+          .steering;
+    };
+    // A ring of 40 m radius; the car 2 m to the left is on a circle of 38 m. The smoothing of the
+    // center line shrinks its radius by 0.02 m.
+    EXPECT_NEAR(steering({}), std::atan(2.7 / 40.0), Tolerance(1e-4));
+    EXPECT_NEAR(steering({"mission.start={x: 38}"}), std::atan(2.7 / 38.0), Tolerance(1e-4));
+    EXPECT_EQ(steering({"mission.start={steering: -0.1}"}), -0.1);
+  }
 }
 
 TEST(MissionTrack, ResolvesToItsOwnFile) {

@@ -1,13 +1,21 @@
 #pragma once
 
+#include "trackbed/planning/common/plan.h"
 #include "trackbed/scenario/scenario.h"
 
 namespace trackbed {
 
 /// Returns the same initial state as InitialState(scenario), except for the steering angle on a
-/// path from a file. On a path from a file, the wheels start at the steering angle that matches the
-/// curvature of the first point, clamped to the car's limit. If the mission sets the steering
-/// angle, the wheels start at this angle instead.
+/// route that the mission gives: a path from a file, a course, a route over lanes, or a track. On
+/// these routes, the wheels start at the steering angle that matches the curvature at the start of
+/// the route, if this angle is within the car's limit. If the mission or a recording sets the
+/// steering angle, the wheels start at that angle instead. Cost: a route over lanes is searched.
 StartState InitialState(const Scenario& scenario, const VehicleParams& vehicle);
+
+/// Returns the track and the laps of the mission; no track if the mission is not on a track.
+TrackLaps TrackOf(const Scenario& scenario);
+
+/// Returns the mission's route on the world's road network; empty if the world has no road network.
+LaneMission LaneMissionOf(const Scenario& scenario);
 
 }  // namespace trackbed

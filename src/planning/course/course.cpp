@@ -93,6 +93,14 @@ std::vector<OptionProblem> CheckSegments(const CourseOptions& options,
   return problems;
 }
 
+std::optional<double> StartCurvature(const CourseOptions& options, const RouteStart& /*route*/) {
+  if (options.segments.empty()) {
+    return std::nullopt;
+  }
+  const CoursePiece& first = options.segments.front();
+  return first.curvature.value_or(first.curvature_from.value_or(0.0));
+}
+
 }  // namespace
 
 void Visit(DiagnosticsVisitor& out, const CourseSegmentFindings& own) {
@@ -133,7 +141,8 @@ PlannerEntry CoursePlanner() {
           .summary = "straights, arcs and curvature ramps as given",
           .defaults = CourseOptions{},
           .plan = PlanBy<CourseOptions, PlanWith>,
-          .check = OnOptions<CourseOptions, CheckSegments>};
+          .check = OnOptions<CourseOptions, CheckSegments>,
+          .start_curvature = OnOptions<CourseOptions, StartCurvature>};
 }
 
 }  // namespace trackbed

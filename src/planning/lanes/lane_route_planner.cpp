@@ -52,18 +52,24 @@ std::string SteeringLimitError(const VehicleParams& vehicle, const std::vector<S
   return "";
 }
 
-Plan PlanWith(const LaneRouteOptions& options, const PlanRequest& request) {
-  const LaneMission& lanes = request.lanes;
+/// Finds the mission's route; the result is not ok if the mission has no valid route.
+LaneRoute FindRoute(const LaneMission& lanes) {
+  LaneRoute found;
   if (!lanes.network || lanes.route.size() < 2) {
-    return route::Refused(PlanStatus::kNoPath,
-                          "needs a road network and a route of at least two places");
+    found.failure = "needs a road network and a route of at least two places";
+    return found;
   }
   for (const LanePlace& place : lanes.route) {
-    if (const std::string why = LanePlaceError(*lanes.network, place); !why.empty()) {
-      return route::Refused(PlanStatus::kNoPath, why);
+    found.failure = LanePlaceError(*lanes.network, place);
+    if (!found.failure.empty()) {
+      return found;
     }
   }
-  LaneRoute found = FindLaneRoute(*lanes.network, lanes.route);
+  return FindLaneRoute(*lanes.network, lanes.route);
+}
+
+Plan PlanWith(const LaneRouteOptions& options, const PlanRequest& request) {
+  LaneRoute found = FindRoute(request.lanes);
   if (!found.ok()) {
     return route::Refused(PlanStatus::kNoPath, found.failure);
   }
@@ -79,6 +85,11 @@ Plan PlanWith(const LaneRouteOptions& options, const PlanRequest& request) {
   plan.diagnostics.planner =
       LaneRouteDiagnostics{.stretches = std::move(found.stretches), .deviation = found.deviation};
   return route::AlongSegments(std::move(plan), request, found.path.segments(), options.min_speed);
+}
+
+std::optional<double> StartCurvature(const LaneRouteOptions& /*options*/, const RouteStart& route) {
+  const LaneRoute found = FindRoute(route.lanes);
+  return found.ok() ? std::optional(found.path.At(0.0).curvature) : std::nullopt;
 }
 
 }  // namespace
@@ -106,7 +117,8 @@ PlannerEntry LaneRoutePlanner() {
           .summary = "lane centers of a road network, from place to place of mission.route",
           .defaults = LaneRouteOptions{},
           .plan = PlanBy<LaneRouteOptions, PlanWith>,
-          .follows_lanes = true};
+          .follows_lanes = true,
+          .start_curvature = OnOptions<LaneRouteOptions, StartCurvature>};
 }
 
 }  // namespace trackbed

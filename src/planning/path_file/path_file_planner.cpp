@@ -153,8 +153,7 @@ std::optional<PlannedStart> StartOf(const PathFileOptions& options) {
   if (options.path == nullptr) {
     return std::nullopt;
   }
-  const PathPoint first = options.path->path.At(0.0);
-  PlannedStart start{.pose = first.pose, .curvature = first.curvature};
+  PlannedStart start{.pose = options.path->path.At(0.0).pose};
   const std::vector<double>& speed = options.path->given.speed;
   if (options.speeds == PathSpeeds::kFile && !speed.empty()) {
     start.speed = speed.front();
@@ -254,6 +253,11 @@ void Visit(KeyVisitor& keys, PathFileOptions& options) {
        "straight lines from point to point, or a smoothing spline with continuous curvature"},
       options.fit.fit, Need::kOptional, fits);
   keys.Field({"max_deviation", "m", "largest distance of the points from the spline"},
+std::optional<double> StartCurvature(const PathFileOptions& options, const RouteStart& /*route*/) {
+  return options.path == nullptr ? std::nullopt
+                                 : std::optional(options.path->path.At(0.0).curvature);
+}
+
              options.fit.max_deviation, Need::kOptional, Range{.min = 1e-6, .max = 100.0});
   keys.Field({"closed", "", "whether the path leads back to its first point"}, options.fit.closed,
              Need::kOptional);
@@ -282,3 +286,4 @@ PlannerEntry PathFilePlanner() {
 }
 
 }  // namespace trackbed
+          .start_curvature = OnOptions<PathFileOptions, StartCurvature>,

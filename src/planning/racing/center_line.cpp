@@ -19,7 +19,8 @@ PlannerEntry CenterLinePlanner() {
           .summary = "laps along the center line of a track",
           .defaults = CenterLineOptions{},
           .plan = PlanBy<CenterLineOptions, PlanWith>,
-          .follows_track = true};
+          .follows_track = true,
+          .start_curvature = StartCurvatureOnTrack};
 }
 
 }  // namespace trackbed

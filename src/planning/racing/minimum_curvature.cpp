@@ -182,7 +182,8 @@ PlannerEntry MinimumCurvaturePlanner() {
           .summary = "laps along the line of least curvature within the edges of a track",
           .defaults = MinimumCurvatureOptions{},
           .plan = PlanBy<MinimumCurvatureOptions, PlanWith>,
-          .follows_track = true};
+          .follows_track = true,
+          .start_curvature = StartCurvatureOnTrack};
 }
 
 }  // namespace trackbed

@@ -308,7 +308,8 @@ PlannerEntry MinimumTimePlanner() {
           .defaults = MinimumTimeOptions{},
           .plan = PlanBy<MinimumTimeOptions, PlanWith>,
           .follows_track = true,
-          .needs_limits = true};
+          .needs_limits = true,
+          .start_curvature = StartCurvatureOnTrack};
 }
 
 }  // namespace trackbed

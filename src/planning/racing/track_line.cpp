@@ -268,3 +268,18 @@ Plan FollowLine(const PlanRequest& request, const TrackLine& line) {
 }
 
 }  // namespace trackbed
+std::optional<double> StartCurvatureOnTrack(const PlannerOptions& /*options*/,
+                                            const RouteStart& route) {
+  if (!route.on_track.track) {
+    return std::nullopt;
+  }
+  const Track& track = *route.on_track.track;
+  std::optional<FrenetState> car = track.ToFrenet({.pose = route.pose, .speed = 1.0});
+  if (!car) {
+    return std::nullopt;
+  }
+  car->d_bend = 0.0;
+  const std::optional<MotionState> along = FromFrenet(track.At(car->s), *car);
+  return along ? std::optional(along->curvature) : std::nullopt;
+}
+

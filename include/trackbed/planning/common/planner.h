@@ -18,9 +18,15 @@ namespace trackbed {
 /// the mission's start state.
 struct PlannedStart {
   Pose2 pose;
-  double curvature = 0.0;  ///< Curvature of the path at the start, positive to the left [1/m].
   /// Speed of the car at the start [m/s]; none: the mission's start speed.
   std::optional<double> speed;
+};
+
+/// The part of a mission that determines how a given route begins.
+struct RouteStart {
+  Pose2 pose;            ///< Pose of the car at the start.
+  TrackLaps on_track{};  ///< Same as PlanRequest::on_track.
+  LaneMission lanes{};   ///< Same as PlanRequest::lanes.
 };
 
 /// An additional table about a plan, written into the run folder.
@@ -83,6 +89,12 @@ struct PlannerEntry {
   /// Returns the state of the car in which plans begin. If this function is null or returns
   /// nullopt, plans begin in the mission's start state.
   std::optional<PlannedStart> (*start)(const PlannerOptions& options) = nullptr;
+  /// Returns the curvature with which the mission's route begins [1/m], positive to the left. If
+  /// the mission does not set the start steering, the wheels start at the steering angle of this
+  /// curvature. Only planners that follow a given route have this function; the paths of other
+  /// planners begin with PlanRequest::start_steering. Returns nullopt if the route is not known.
+  std::optional<double> (*start_curvature)(const PlannerOptions& options,
+                                           const RouteStart& route) = nullptr;
 
   // Input files that the planner's options name.
 

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/planner.h"
 #include "trackbed/track/closed_spline.h"
 #include "trackbed/track/track.h"
 
@@ -80,3 +81,8 @@ void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 Plan FollowLine(const PlanRequest& request, const TrackLine& line);
 
 }  // namespace trackbed
+/// Returns the curvature of a path through the car's pose that keeps the offset and the angle that
+/// the car has from the center line [1/m]; PlannerEntry::start_curvature of the planners on tracks.
+/// Returns nullopt if there is no track, or if the car does not face along the track.
+std::optional<double> StartCurvatureOnTrack(const PlannerOptions& options, const RouteStart& route);
+
