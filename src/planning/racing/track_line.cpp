@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "trackbed/core/angle.h"
@@ -16,9 +17,10 @@
 
 // Converts a line on a track to a plan of laps. The line is given by the offset d(s) from the
 // center line. The station s is unrolled: it keeps increasing over all laps. From the car's initial
-// offset, a quintic polynomial reduces the offset from the line to zero. The path consists of
-// segments of quadratic curvature through points of the line with exact curvatures. After the last
-// lap, the line continues for the braking distance.
+// offset, a quintic polynomial reduces the offset from the line to zero, over a distance on which a
+// rolling car can steer fast enough. The path consists of segments of quadratic curvature through
+// points of the line with exact curvatures. After the last lap, the line continues for the braking
+// distance.
 
 namespace trackbed {
 namespace {
@@ -145,8 +147,9 @@ Start FindStart(const Track& track, const PlanRequest& request) {
   return start;
 }
 
+/// Returns the transition from the car to the line, which is at least `length` long [m].
 Join MakeJoin(const Track& track, const TrackLine& line, const FrenetState& car,
-              const PlanRequest& request) {
+              const PlanRequest& request, double length) {
   constexpr double kTime = 3.0;  // [s]
   constexpr double kOffsets = 10.0;
   constexpr double kWheelbases = 4.0;
@@ -154,11 +157,67 @@ Join MakeJoin(const Track& track, const TrackLine& line, const FrenetState& car,
   const LineMotion from{car.d - own.d, car.d_slope - own.slope, car.d_bend - own.bend};
   Join join;
   join.from = car.s;
-  join.length = std::min(0.5 * track.length(),
-                         std::max({kTime * request.speed.speed, kOffsets * std::abs(from.position),
-                                   kWheelbases * request.vehicle.wheelbase}));
+  join.length = std::min(0.5 * track.length(), std::max({length, kTime * request.speed.speed,
+                                                         kOffsets * std::abs(from.position),
+                                                         kWheelbases * request.vehicle.wheelbase}));
   join.difference = QuinticBetween(from, {}, join.length);
   return join;
+}
+
+/// Returns the largest steering rate on the transition of a car that brakes from its start speed at
+/// the request's deceleration [rad/s]; infinite if the path folds over.
+double SteeringRateOn(const Join& join, const Track& track, const TrackLine& line,
+                      const PlanRequest& request) {
+  const Unrolled path(track, line, join);
+  const double parts = std::ceil(join.length / Spacing(track));
+  double fastest = 0.0;
+  double length = 0.0;
+  double before = 0.0;
+  for (double k = 0.0; k <= parts; k += 1.0) {
+    const double s = join.from + join.length * k / parts;
+    const std::optional<MotionState> at = path.At(s);
+    if (!at) {
+      return std::numeric_limits<double>::infinity();
+    }
+    const double steering = SteeringForCurvature(request.vehicle, at->curvature);
+    if (k > 0.0) {
+      const double piece = path.Length(join.from + join.length * (k - 1.0) / parts, s);
+      const double squared =
+          request.start_speed * request.start_speed - 2.0 * request.speed.deceleration * length;
+      fastest = std::max(fastest,
+                         std::sqrt(std::max(0.0, squared)) * std::abs(steering - before) / piece);
+      length += piece;
+    }
+    before = steering;
+  }
+  return fastest;
+}
+
+/// Returns the transition from the car to the line. If a rolling car cannot steer fast enough on
+/// the usual transition, the transition is longer, up to half a lap.
+Join DrivableJoin(const Track& track, const TrackLine& line, const FrenetState& car,
+                  const PlanRequest& request) {
+  constexpr double kGrowth = 1.25;
+  // Usable fraction of the steering rate, because the mean rate between two points of the path is
+  // a few percent lower than the largest rate.
+  constexpr double kUsable = 0.9;
+  const double longest = 0.5 * track.length();
+  Join best = MakeJoin(track, line, car, request, 0.0);
+  if (!(request.start_speed > 0.0)) {
+    return best;
+  }
+  double least = SteeringRateOn(best, track, line, request);
+  double length = best.length;
+  while (least > kUsable * request.vehicle.steering_rate && length < longest) {
+    length = std::min(kGrowth * length, longest);
+    const Join join = MakeJoin(track, line, car, request, length);
+    const double rate = SteeringRateOn(join, track, line, request);
+    if (rate < least) {
+      best = join;
+      least = rate;
+    }
+  }
+  return best;
 }
 
 double RunOut(const PlanRequest& request) {
@@ -230,7 +289,7 @@ Plan FollowLine(const PlanRequest& request, const TrackLine& line) {
   if (!start.refused.empty()) {
     return route::Refused(PlanStatus::kStartBlocked, start.refused);
   }
-  const Join join = MakeJoin(track, line, *start.at, request);
+  const Join join = DrivableJoin(track, line, *start.at, request);
   const double run_out = RunOut(request);
   const double first = start.at->s;
   std::vector<double> stations{first};
@@ -267,7 +326,6 @@ Plan FollowLine(const PlanRequest& request, const TrackLine& line) {
   return plan;
 }
 
-}  // namespace trackbed
 std::optional<double> StartCurvatureOnTrack(const PlannerOptions& /*options*/,
                                             const RouteStart& route) {
   if (!route.on_track.track) {
@@ -283,3 +341,4 @@ std::optional<double> StartCurvatureOnTrack(const PlannerOptions& /*options*/,
   return along ? std::optional(along->curvature) : std::nullopt;
 }
 
+}  // namespace trackbed

@@ -5,6 +5,8 @@
 
 #include <cmath>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "tests/tolerance.h"
 #include "tests/track/rings.h"
@@ -122,6 +124,31 @@ TEST(CenterLine, MayStartFlying) {
   // The initial curvature matches the wheels, to rounding.
   EXPECT_NEAR(plan.reference.path.At(0.0).curvature, std::tan(request.start_steering) / 2.7,
               Tolerance(1e-12));
+}
+
+// A flying start beside the line: on the usual 25 m, ten times the offset, the wheels would have to
+// turn at about v L 60 d/25^3 = 0.21 rad/s, faster than the car's 0.15 rad/s.
+TEST(CenterLine, LeadsARollingCarOntoTheLineAsFastAsItCanSteer) {
+  for (const double offset : {2.5, -2.5}) {
+    PlanRequest request = RingLaps(1);
+    request.start = Compose(request.start, {0.0, offset, 0.0});
+    request.start_speed = 8.0;
+    const RouteStart route{.pose = request.start, .on_track = request.on_track};
+    const std::optional<double> curvature = StartCurvatureOnTrack(CenterLineOptions{}, route);
+    ASSERT_TRUE(curvature);
+    EXPECT_NEAR(*curvature, 1.0 / (kRadius - offset), Tolerance(1e-4));
+    request.start_steering = SteeringForCurvature(request.vehicle, *curvature);
+    const Plan plan = MakePlan(request, CenterLineOptions{});
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    EXPECT_EQ(plan.reference.speed.SpeedAt(0.0), 8.0);
+    const double join = DiagnosticsJson(plan).at("join_m").get<double>();
+    EXPECT_GT(join, 25.0);
+    request.start_speed = 0.0;
+    const Plan at_rest = MakePlan(request, CenterLineOptions{});
+    // Ten times the offset, which the projection onto the center line finds to 1e-10 m.
+    EXPECT_NEAR(DiagnosticsJson(at_rest).at("join_m").get<double>(), 25.0, Tolerance(1e-8));
+  }
+  EXPECT_FALSE(StartCurvatureOnTrack(CenterLineOptions{}, {}));
 }
 
 TEST(CenterLine, IsMovedAndTurnedWithItsTrack) {

@@ -73,16 +73,17 @@ void Visit(DiagnosticsVisitor& out, const TrackPlanDiagnostics& own);
 /// polynomial of degree 5, which reduces the car's offset from the line to 0. The approach is at
 /// most half a lap long; otherwise, its length is the largest of three values: the distance that
 /// the car drives in three seconds at the mission's speed, ten times the offset, and four
-/// wheelbases.
+/// wheelbases. If a car that starts rolling cannot steer fast enough on this length, the approach
+/// is longer.
 ///
 /// Guarantees: the curvature of the path is continuous. The planned path ignores obstacles. The
 /// plan is rejected, with a reason, if there is no track, or if the car is off the track or faces
 /// across the track. Computing time: 50 us per meter of path.
 Plan FollowLine(const PlanRequest& request, const TrackLine& line);
 
-}  // namespace trackbed
 /// Returns the curvature of a path through the car's pose that keeps the offset and the angle that
 /// the car has from the center line [1/m]; PlannerEntry::start_curvature of the planners on tracks.
 /// Returns nullopt if there is no track, or if the car does not face along the track.
 std::optional<double> StartCurvatureOnTrack(const PlannerOptions& options, const RouteStart& route);
 
+}  // namespace trackbed
