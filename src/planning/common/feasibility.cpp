@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "src/planning/common/feasible_speeds.h"
+#include "src/planning/common/start_excess.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/path/acceleration_caps.h"
 #include "trackbed/planning/common/path_pieces.h"
@@ -29,9 +30,8 @@ constexpr double kMinPlanSpeed = 0.1;  // Minimum speed of a plan; a slower plan
 // Tolerance of the start position [m]; for a wheelbase below 1 m, multiplied by the wheelbase in
 // meters.
 constexpr double kSamePlace = 1e-3;
+constexpr double kSameHeading = 1e-3;  // [rad]
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-constexpr double kSameHeading = 1e-3;   // [rad]
-constexpr double kSameSteering = 1e-3;  // [rad]
 
 /// Keeps the largest excess over the limit of one quantity.
 class WorstExcess {
@@ -76,11 +76,8 @@ void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess
   WorstExcess heading("initial heading error", "rad", Remedy::kNone);
   heading.Take(std::abs(AngleDifference(first.pose.yaw, request.start.yaw)), kSameHeading, 0.0);
   heading.AddTo(found);
-  if (request.start_speed > 0.0) {
-    const double steering = SteeringForCurvature(request.vehicle, first.curvature);
-    WorstExcess wheels("initial steering step", "rad", Remedy::kNone);
-    wheels.Take(std::abs(steering - request.start_steering), kSameSteering, 0.0);
-    wheels.AddTo(found);
+  if (std::optional<Excess> step = start_excess::SteeringStep(plan, request)) {
+    found.push_back(std::move(*step));
   }
 }
 
@@ -142,8 +139,6 @@ void CheckSteeringRate(const Plan& plan, const PlanRequest& request, std::vector
 }
 
 void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
-  // Factor by which the controller may exceed the planned deceleration; see SpeedControl.
-  constexpr double kController = 2.0;
   const Path& path = plan.reference.path;
   const RoadHold road(request);
   WorstExcess braking("deceleration", "m/s^2", Remedy::kGentlerBraking);
@@ -164,7 +159,7 @@ void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector
         driving.Take(change, road.Driving(path, s), s);
       }
     }
-    braking.Take(-change, kController * request.speed.deceleration, a.s);
+    braking.Take(-change, kMaxBrakingFactor * request.speed.deceleration, a.s);
   }
   braking.AddTo(found);
   driving.AddTo(found);
@@ -243,10 +238,29 @@ std::string DescribeSpeedChanges(const SpeedLimits& before, const SpeedLimits& a
   return fmt::format("{}", fmt::join(texts, ", "));
 }
 
+/// Returns the excess of a car that arrives too fast at a place. `fast` is the first place at which
+/// the car exceeds the limit of the g-g-v diagram, although it brakes from the start.
+Excess StartExcessAtLimit(const Plan& plan, const PlanRequest& request,
+                          const std::vector<SpeedCap>& caps, const LimitExcess& fast,
+                          Refusal refusal) {
+  const Excess speed{"speed", fast.speed, fast.allowed, "m/s", fast.s, Remedy::kNone};
+  if (refusal == Refusal::kBrief) {
+    return speed;
+  }
+  PlanRequest own = request;
+  const auto highest = start_excess::HighestStartSpeed(request.start_speed, [&](double start) {
+    Plan trial = plan;
+    own.start_speed = start;
+    return !SetSpeedsAtLimit(trial, own, caps);
+  });
+  return highest ? start_excess::TooFast(request.start_speed, *highest, ToString(speed), fast.s)
+                 : speed;
+}
+
 /// Returns the plan with speeds at the limit of the g-g-v diagram. Speeds at the limit of the g-g-v
 /// diagram are feasible by construction. The plan can still be infeasible if the car cannot follow
 /// the path at any speed, or if the car is too fast at the start.
-Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
+Plan DriveAtLimit(Plan plan, const PlanRequest& request, Refusal refusal) {
   std::vector<Excess> excesses;
   for (Excess& excess : FindExcesses(plan, request)) {
     if (excess.remedy == Remedy::kNone) {
@@ -262,7 +276,7 @@ Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
   }
   caps.insert(caps.end(), plan.caps.begin(), plan.caps.end());
   if (const std::optional<LimitExcess> fast = SetSpeedsAtLimit(plan, request, caps)) {
-    excesses.push_back({"speed", fast->speed, fast->allowed, "m/s", fast->s, Remedy::kNone});
+    excesses.push_back(StartExcessAtLimit(plan, request, caps, *fast, refusal));
   }
   const auto& knots = plan.reference.speed.knots();
   const auto stuck =
@@ -281,11 +295,86 @@ Plan DriveAtLimit(Plan plan, const PlanRequest& request) {
   return plan;
 }
 
+/// A plan that was slowed down, and the excesses that remain.
+struct SlowerPlan {
+  Plan plan;
+  SpeedLimits limits;           ///< Smallest limits of the accelerations along the plan.
+  double slowest = 0.0;         ///< Smallest speed cap [m/s].
+  std::vector<Excess> reasons;  ///< Excesses for which the plan was slowed down.
+  std::vector<Excess> left;     ///< Excesses that slowing down does not repair.
+
+  [[nodiscard]] bool ok() const { return left.empty(); }
+};
+
+/// Slows a plan down where it has the excesses `first`.
+SlowerPlan SlowDown(const Plan& plan, const PlanRequest& request,
+                    const std::vector<Excess>& first) {
+  const std::vector<SpeedCap> caps = feasible_speeds::CapsFor(plan, request);
+  SlowerPlan slower{.plan = plan,
+                    .limits = request.speed,
+                    .slowest = MinSpeedOf(caps, request.speed.speed),
+                    .reasons = first,
+                    .left = first};
+  if (slower.slowest < kMinPlanSpeed) {
+    return slower;
+  }
+  std::vector<SpeedCap>& own = slower.plan.caps;
+  own.insert(own.end(), caps.begin(), caps.end());
+  // Iterate, because braking for the new speed caps may itself be too hard; gentler braking must
+  // begin earlier.
+  constexpr int kMaxAttempts = 4;
+  constexpr double kNearlyAll = 0.999;
+  feasible_speeds::GripShares shares;
+  for (int i = 0; i < kMaxAttempts && !slower.left.empty(); ++i) {
+    shares.braking = std::min(shares.braking,
+                              Has(slower.left, Remedy::kGentlerBraking) ? kNearlyAll : kUnlimited);
+    shares.driving = std::min(shares.driving,
+                              Has(slower.left, Remedy::kGentlerDriving) ? kNearlyAll : kUnlimited);
+    if (Has(slower.left, Remedy::kGentlerBends)) {
+      if (!Has(slower.reasons, Remedy::kGentlerBends)) {
+        slower.reasons.insert(slower.reasons.end(), slower.left.begin(), slower.left.end());
+      }
+      shares = feasible_speeds::kBendShares;
+      const std::vector<SpeedCap> bends = feasible_speeds::CapsInBends(slower.plan, request);
+      own.insert(own.end(), bends.begin(), bends.end());
+      slower.slowest = MinSpeedOf(bends, slower.slowest);
+    }
+    const std::vector<AccelerationCap> sections =
+        feasible_speeds::SectionsOfLessGrip(plan.reference.path, request, shares);
+    SetSpeedsOn(slower.plan, request.start_speed, request.speed, sections);
+    slower.limits = SmallestOf(request.speed, sections);
+    slower.left = FindExcesses(slower.plan, request);
+  }
+  if (slower.left.empty() && slower.slowest < kMinPlanSpeed) {
+    slower.left = first;
+  }
+  return slower;
+}
+
+/// Returns the excess of the start speed, if the plan is feasible for a car that starts slower.
+/// `left` are the excesses that slowing down does not repair.
+std::optional<Excess> StartSpeedExcess(const Plan& plan, const PlanRequest& request,
+                                       const std::vector<Excess>& left) {
+  PlanRequest own = request;
+  const auto highest = start_excess::HighestStartSpeed(request.start_speed, [&](double start) {
+    Plan trial = plan;
+    own.start_speed = start;
+    SetSpeeds(trial, start, own.speed);
+    const std::vector<Excess> first = FindExcesses(trial, own);
+    return first.empty() || (!Has(first, Remedy::kNone) && SlowDown(trial, own, first).ok());
+  });
+  if (!highest) {
+    return std::nullopt;
+  }
+  const Excess cause = start_excess::LeftAfterBraking(plan, request).value_or(left.front());
+  return start_excess::TooFast(request.start_speed, *highest, ToString(cause), cause.station);
+}
+
 /// Returns the plan after the changes that the request asks for, or a refused plan; see
 /// MakeFeasible.
-Plan Repaired(Plan plan, const PlanRequest& request) {
+Plan Repaired(Plan plan, const PlanRequest& request, Refusal refusal) {
   if (request.limits) {
-    return DriveAtLimit(std::move(plan), request);
+    return DriveAtLimit(std::move(plan), request, refusal);
   }
   std::vector<Excess> first = FindExcesses(plan, request);
   // The plan is the remainder of an earlier plan whose speeds were determined by the g-g-v diagram.
@@ -303,54 +392,26 @@ Plan Repaired(Plan plan, const PlanRequest& request) {
   if (hopeless || request.infeasible == InfeasiblePolicy::kRefuse) {
     return Refuse(first, plan);
   }
-  const std::vector<SpeedCap> caps = feasible_speeds::CapsFor(plan, request);
-  double slowest = MinSpeedOf(caps, request.speed.speed);
-  if (slowest < kMinPlanSpeed) {
-    return Refuse(first, plan);
+  SlowerPlan slower = SlowDown(plan, request, first);
+  if (!slower.ok()) {
+    const std::optional<Excess> start = refusal == Refusal::kExplained
+                                            ? StartSpeedExcess(plan, request, slower.left)
+                                            : std::nullopt;
+    return Refuse(start ? std::vector{*start} : slower.left, plan);
   }
-  Plan slower = plan;
-  slower.caps.insert(slower.caps.end(), caps.begin(), caps.end());
-  // Iterate, because braking for the new speed caps may itself be too hard; gentler braking must
-  // begin earlier.
-  constexpr int kMaxAttempts = 4;
-  constexpr double kNearlyAll = 0.999;
-  std::vector<Excess> left = first;
-  std::vector<Excess> reasons = first;
-  feasible_speeds::GripShares shares;
-  std::vector<AccelerationCap> sections;
-  for (int i = 0; i < kMaxAttempts && !left.empty(); ++i) {
-    shares.braking =
-        std::min(shares.braking, Has(left, Remedy::kGentlerBraking) ? kNearlyAll : kUnlimited);
-    shares.driving =
-        std::min(shares.driving, Has(left, Remedy::kGentlerDriving) ? kNearlyAll : kUnlimited);
-    if (Has(left, Remedy::kGentlerBends)) {
-      if (!Has(reasons, Remedy::kGentlerBends)) {
-        reasons.insert(reasons.end(), left.begin(), left.end());
-      }
-      shares = feasible_speeds::kBendShares;
-      const std::vector<SpeedCap> bends = feasible_speeds::CapsInBends(slower, request);
-      slower.caps.insert(slower.caps.end(), bends.begin(), bends.end());
-      slowest = MinSpeedOf(bends, slowest);
-    }
-    sections = feasible_speeds::SectionsOfLessGrip(slower.reference.path, request, shares);
-    SetSpeedsOn(slower, request.start_speed, request.speed, sections);
-    left = FindExcesses(slower, request);
-  }
-  if (!left.empty() || slowest < kMinPlanSpeed) {
-    return Refuse(left.empty() ? first : left, plan);
-  }
-  slower.notes.push_back(
-      fmt::format("{}: at {:.3g} m/s {}",
-                  DescribeSpeedChanges(request.speed, SmallestOf(request.speed, sections), slowest),
-                  request.speed.speed, Listed(reasons)));
-  return slower;
+  slower.plan.notes.push_back(fmt::format(
+      "{}: at {:.3g} m/s {}", DescribeSpeedChanges(request.speed, slower.limits, slower.slowest),
+      request.speed.speed, Listed(slower.reasons)));
+  return std::move(slower.plan);
 }
 
 }  // namespace
 
 std::string ToString(const Excess& excess) {
-  return fmt::format("{} {:.3g} {} exceeds {:.3g} {} at s = {:.4g} m", excess.what, excess.required,
-                     excess.unit, excess.limit, excess.unit, excess.station);
+  const std::string text =
+      fmt::format("{} {:.3g} {} exceeds {:.3g} {} at s = {:.4g} m", excess.what, excess.required,
+                  excess.unit, excess.limit, excess.unit, excess.station);
+  return excess.hint.empty() ? text : fmt::format("{} ({})", text, excess.hint);
 }
 
 void SetSpeeds(Plan& plan, double start_speed, const SpeedLimits& limits) {
@@ -372,11 +433,11 @@ std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request) {
   return found;
 }
 
-FeasiblePlan MakeFeasible(Plan plan, const PlanRequest& request) {
+FeasiblePlan MakeFeasible(Plan plan, const PlanRequest& request, Refusal refusal) {
   if (!plan.ok()) {
     return FeasiblePlan(std::move(plan));
   }
-  return FeasiblePlan(Repaired(std::move(plan), request));
+  return FeasiblePlan(Repaired(std::move(plan), request, refusal));
 }
 
 PlanRequest RequestOn(const RoadConditions& road, const VehicleParams& vehicle,

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "trackbed/path/acceleration_caps.h"
+#include "trackbed/planning/common/feasibility.h"
 #include "trackbed/planning/common/path_pieces.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/road_hold.h"

@@ -162,7 +162,8 @@ FeasiblePlan MakePlan(const PlanRequest& request, const PlannerOptions& options)
   PlannerOptions own = options;
   RequireInRange("MakePlan", [&](KeyVisitor& keys) { Visit(keys, own); });
   FeasiblePlan plan =
-      MakeFeasible(KeepToWaypoints(PlannerFor(options).plan(request, options), request), request);
+      MakeFeasible(KeepToWaypoints(PlannerFor(options).plan(request, options), request), request,
+                   Refusal::kExplained);
   if (plan.ok() && !plan->diagnostics.open_loop) {
     plan.diagnostics().open_loop =
         SimulateOpenLoop(request.vehicle, plan->reference.path, plan->schedule,

@@ -183,6 +183,69 @@ TEST(Feasibility, RefusesAStartOnABendForACarThatRolls) {
   EXPECT_TRUE(Course(request, bend).ok());
 }
 
+/// Number that follows the last `words` in a text.
+double NumberAfter(const std::string& text, const std::string& words) {
+  const std::size_t at = text.rfind(words);
+  return at == std::string::npos ? NAN : std::stod(text.substr(at + words.size()));
+}
+
+TEST(Feasibility, GivesTheStartSteeringThatFits) {
+  for (const double curvature : {0.1, -0.03}) {
+    PlanRequest request = Request(3.0, {{0.0, 0.0}});
+    const std::vector<CoursePiece> bend{{.length = 20.0, .curvature = curvature}};
+    request.start_steering = 0.2;
+    const Plan refused = Course(request, bend);
+    EXPECT_EQ(refused.status, PlanStatus::kInfeasible);
+    const double fitting = NumberAfter(refused.reason, "set mission.start.steering: ");
+    // Four significant digits.
+    EXPECT_NEAR(fitting, std::atan(2.7 * curvature), 5e-5) << refused.reason;
+    request.start_steering = fitting;
+    EXPECT_TRUE(Course(request, bend).ok());
+  }
+  // A bend that the car cannot steer at all is the cause itself.
+  PlanRequest request = Request(3.0, {{0.0, 0.0}});
+  request.vehicle.steering_limit = 0.2;
+  Plan plan;
+  plan.reference.path = Path(request.start, {{.length = 20.0, .curvature = 0.1}});
+  plan.reference.speed = StopAtEnd(20.0, 3.0, request.speed);
+  plan.schedule_speed = plan.reference.speed;
+  EXPECT_THAT(Kinds(plan, request), testing::ElementsAre("steering angle"));
+}
+
+// The tyres hold v^2 kappa <= 0.9 * 9.81 m/s^2 at a constant speed. While the car brakes with up to
+// 1.5 m/s^2 or speeds up, the friction circle leaves sqrt((0.9 * 9.81)^2 - 1.5^2) m/s^2.
+TEST(Feasibility, GivesTheStartSpeedForABend) {
+  for (const double curvature : {0.1, 0.05, -0.02}) {
+    const double highest = std::sqrt(0.9 * 9.81 / std::abs(curvature));
+    const double gentle = std::sqrt(std::sqrt(0.81 * 9.81 * 9.81 - 2.25) / std::abs(curvature));
+    PlanRequest request = Request(1.3 * highest, {{0.0, 0.0}});
+    request.start_steering = std::atan(2.7 * curvature);
+    const std::vector<CoursePiece> pieces{{.length = 10.0, .curvature = curvature},
+                                          {.length = 60.0, .curvature_to = 0.0},
+                                          {.length = 300.0, .curvature = 0.0}};
+    const Plan refused = Course(request, pieces);
+    EXPECT_EQ(refused.status, PlanStatus::kInfeasible);
+    EXPECT_THAT(refused.reason, testing::HasSubstr("start speed "));
+    EXPECT_THAT(refused.reason, testing::HasSubstr("lateral acceleration 14.9 m/s^2 exceeds 8.83"));
+    EXPECT_THAT(refused.reason, testing::Not(testing::HasSubstr("deceleration")));
+    const double given = NumberAfter(refused.reason, "set mission.start.speed to at most ");
+    // The bisection ends within 0.4 % of the start speed, and the message rounds down three digits.
+    EXPECT_LE(given, highest) << refused.reason;
+    EXPECT_GE(given, gentle - 0.004 * request.start_speed - 0.01 * highest) << refused.reason;
+    request.start_speed = given;
+    EXPECT_TRUE(Course(request, pieces).ok());
+  }
+}
+
+TEST(Feasibility, GivesTheStartSpeedForAShortPath) {
+  // The speed control brakes with up to 2 * 1.5 m/s^2: sqrt(2 * 3 m/s^2 * 10 m) = 7.75 m/s.
+  PlanRequest request = Request(8.0, {{0.0, 0.0}});
+  const Plan refused = Course(request, {{.length = 10.0, .curvature = 0.0}});
+  EXPECT_NEAR(NumberAfter(refused.reason, "set mission.start.speed to at most "), std::sqrt(60.0),
+              0.004 * 8.0 + 0.01)
+      << refused.reason;
+}
+
 TEST(Feasibility, RefusesAPathThatBeginsElsewhere) {
   PlanRequest request = Request(3.0, {{0.0, 0.0}, {40.0, 0.0}, {40.0, 40.0}});
   request.start.x = -20.0;

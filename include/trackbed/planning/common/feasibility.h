@@ -56,12 +56,25 @@ struct Excess {
   std::string unit;       ///< Unit of the quantity, such as "rad/s".
   double station = 0.0;   ///< Station of the worst violation [m].
   Remedy remedy = Remedy::kNone;
+  std::string hint{};  ///< Cause and remedy for people; empty if the other members suffice.
 };
+
+/// Largest planned deceleration, as a multiple of SpeedLimits::deceleration; the speed control can
+/// brake this hard.
+inline constexpr double kMaxBrakingFactor = 2.0;
 
 /// Finds all limits that the plan exceeds, and returns one entry for each limited quantity, at the
 /// place of its worst violation. Skips limits that are unknown, that is 0 in the vehicle's
 /// parameters. Computing time: 5 us per meter of path.
 std::vector<Excess> FindExcesses(const Plan& plan, const PlanRequest& request);
+
+/// How much MakeFeasible finds out about the cause of a refusal.
+enum class Refusal {
+  kBrief,  ///< Lists the exceeded limits.
+  /// If the car starts too fast, also finds the highest feasible start speed. A refusal then takes
+  /// up to ten times as long.
+  kExplained,
+};
 
 /// A plan that has passed MakeFeasible. Only MakeFeasible creates a FeasiblePlan, and cars are
 /// driven only along a FeasiblePlan. The path, speeds and steering of a FeasiblePlan cannot be
@@ -83,7 +96,7 @@ class FeasiblePlan {
 
  private:
   explicit FeasiblePlan(Plan plan) : plan_(std::move(plan)) {}
-  friend FeasiblePlan MakeFeasible(Plan plan, const PlanRequest& request);
+  friend FeasiblePlan MakeFeasible(Plan plan, const PlanRequest& request, Refusal refusal);
 
   Plan plan_;
 };
@@ -94,7 +107,7 @@ class FeasiblePlan {
 /// would have to be slower than 0.1 m/s is rejected. With PlanRequest::limits, the function
 /// replaces the planned speeds by the speeds at the car's limit. A plan with speeds at the car's
 /// limit is rejected if the car cannot follow the path or starts too fast.
-FeasiblePlan MakeFeasible(Plan plan, const PlanRequest& request);
+FeasiblePlan MakeFeasible(Plan plan, const PlanRequest& request, Refusal refusal = Refusal::kBrief);
 
 /// Makes a PlanRequest that contains a vehicle, speed limits and a road, but no mission.
 PlanRequest RequestOn(const RoadConditions& road, const VehicleParams& vehicle,
@@ -109,8 +122,8 @@ FeasiblePlan MakeFeasibleFromHere(Plan plan, const PlanRequest& request);
 /// and stops.
 void SetSpeeds(Plan& plan, double start_speed, const SpeedLimits& limits);
 
-/// Formats an exceeded limit, for example "a steering rate of 0.95 rad/s at s = 42 m (limit 0.1506
-/// rad/s)".
+/// Formats an exceeded limit, for example "steering rate 0.95 rad/s exceeds 0.151 rad/s at s = 42
+/// m". The hint follows in parentheses.
 std::string ToString(const Excess& excess);
 
 }  // namespace trackbed
