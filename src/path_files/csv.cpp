@@ -21,7 +21,8 @@
 // '#'. The reader identifies columns by their usual names (PathColumnNames) or by names that the
 // caller specifies. The reader converts the values to SI units and collects problems with their
 // line and column. If the table has times but no speed column, the speeds are computed from the
-// times.
+// times. Invalid cells in the columns of curvature, speed and time only make these columns
+// unusable.
 namespace trackbed {
 namespace {
 
@@ -75,7 +76,14 @@ struct Column {
   double largest = 0.0;  // largest permitted magnitude of the quantity, in SI units
 };
 
+/// Quantities of a path. The quantities from kCurvature on are not needed for the path itself.
 enum Quantity { kX, kY, kYaw, kCurvature, kSpeed, kTime, kQuantities };
+
+/// Invalid cells of a column.
+struct InvalidCells {
+  Problem first;
+  std::size_t count = 0;
+};
 
 class CsvPath {
  public:
@@ -90,15 +98,56 @@ class CsvPath {
       AddError(1, "", "no rows after the comments");
     }
     problems_.ThrowIfAny();
-    if (columns_[kTime] && !columns_[kSpeed]) {
-      AddSpeeds(found_.points, times_, file_.string());
-    }
+    FinishOptionalColumns();
     return std::move(found_);
   }
 
  private:
   void AddError(int line, const std::string& column, std::string message) {
     problems_.Add({file_.string(), line, 0, column, std::move(message)});
+  }
+
+  /// Drops the columns of curvature, speed and time that have an invalid cell, and evaluates the
+  /// times.
+  void FinishOptionalColumns() {
+    PathPoints& points = found_.points;
+    const auto describe = [&](const InvalidCells& invalid) {
+      return invalid.count > 1 ? fmt::format("{}, and {} more invalid cells in this column",
+                                             invalid.first.message, invalid.count - 1)
+                               : invalid.first.message;
+    };
+    if (const InvalidCells& invalid = invalid_[kCurvature]; invalid.count > 0) {
+      points.curvature.clear();
+      found_.notes.push_back(fmt::format("column {} is ignored: line {}: {}", invalid.first.key,
+                                         invalid.first.line, describe(invalid)));
+    }
+    for (const Quantity quantity : {kSpeed, kTime}) {
+      if (const InvalidCells& invalid = invalid_[quantity]; invalid.count > 0) {
+        found_.speed_problems.push_back(invalid.first);
+        found_.speed_problems.back().message = describe(invalid);
+      }
+    }
+    if (!found_.speed_problems.empty()) {
+      points.speed.clear();
+    } else if (columns_[kTime]) {
+      TakeTimes(found_, times_, file_.string());
+    }
+    const std::optional<Column>& yaw = columns_[kYaw];
+    if (yaw && yaw->factor == 1.0 && yaw->offset == 0.0) {
+      if (const std::string problem = HeadingUnitProblem(points); !problem.empty()) {
+        Refuse(file_, names_[yaw->index], problem);
+      }
+    }
+  }
+
+  /// Reports an invalid cell. An invalid cell in a column that may be unused is only counted.
+  void TakeInvalidCell(Quantity quantity, int line, std::string message) {
+    const std::string& name = names_[columns_[quantity]->index];
+    if (quantity < kCurvature) {
+      AddError(line, name, std::move(message));
+    } else if (InvalidCells& invalid = invalid_[quantity]; invalid.count++ == 0) {
+      invalid.first = {file_.string(), line, 0, name, std::move(message)};
+    }
   }
 
   void Take(std::vector<std::string>& cells, int line) {
@@ -255,13 +304,14 @@ class CsvPath {
       const std::optional<double> number = CellNumber(cells[column.index]);
       values[i] = number.value_or(0.0) * column.factor + column.offset;
       const double smallest = i == kSpeed ? 0.0 : -column.largest;
+      const auto quantity = static_cast<Quantity>(i);
       if (!number) {
-        AddError(line, names_[column.index],
-                 fmt::format("'{}' is not a finite number", cells[column.index]));
+        TakeInvalidCell(quantity, line,
+                        fmt::format("'{}' is not a finite number", cells[column.index]));
       } else if (values[i] < smallest || values[i] > column.largest) {
-        AddError(line, names_[column.index],
-                 fmt::format("{} is out of range; must be between {} and {} in SI units", *number,
-                             smallest, column.largest));
+        TakeInvalidCell(quantity, line,
+                        fmt::format("{} is out of range; must be between {} and {} in SI units",
+                                    *number, smallest, column.largest));
       }
     }
     PathPoints& points = found_.points;
@@ -288,6 +338,7 @@ class CsvPath {
   int comment_line_ = 0;
   std::vector<std::string> names_;
   std::array<std::optional<Column>, kQuantities> columns_;
+  std::array<InvalidCells, kQuantities> invalid_;
   std::vector<double> times_;
   PathFile found_;
 };

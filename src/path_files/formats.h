@@ -51,9 +51,16 @@ nlohmann::json ParseYamlText(const std::string& text, const std::string& file);
 double NumberOf(const nlohmann::json& value, const std::string& key, double largest,
                 const std::string& file);
 
-/// Computes the speed at each point from the times at which the points are reached [s]. Throws
-/// InputError, naming the point, if the times do not increase.
-void AddSpeeds(PathPoints& points, const std::vector<double>& times, const std::string& file);
+/// Evaluates the times at which the points are reached [s]. If the points have no speeds, computes
+/// the speed at each point from the times. If the times do not increase, or if the car stands for
+/// some time between the ends of the path, drops the speeds and adds a problem that names the point
+/// to PathFile::speed_problems.
+void TakeTimes(PathFile& found, const std::vector<double>& times, const std::string& file);
+
+/// Returns how the headings of the points fit the direction of travel, if they do not fit as
+/// radians from the x axis but in another common unit or direction; for people, with the remedy.
+/// Returns an empty text if the headings fit as radians, or fit in no way.
+std::string HeadingUnitProblem(const PathPoints& points);
 
 [[noreturn]] void Refuse(const std::filesystem::path& file, const std::string& key,
                          std::string message, int line = 0);

@@ -34,6 +34,18 @@ std::string Error(const std::string& name, const std::string& text, const PathMa
   }
 }
 
+/// The only problem of the speeds in a CSV file whose path is valid, as "line: key: message".
+std::string SpeedProblem(const std::string& csv) {
+  const TempFolder folder;
+  const PathFile found = ReadPathFile(folder.Write("p.csv", csv));
+  EXPECT_TRUE(found.points.speed.empty());
+  if (found.speed_problems.size() != 1) {
+    return fmt::format("{} problems", found.speed_problems.size());
+  }
+  const Problem& problem = found.speed_problems.front();
+  return fmt::format("{}: {}: {}", problem.line, problem.key, problem.message);
+}
+
 PathMap Of(PathFormat format) {
   PathMap map;
   map.format = format;
@@ -92,8 +104,8 @@ TEST(PathCsv, ReadsRacingLinesOfTum) {
 TEST(PathCsv, MakesSpeedsOfTimes) {
   const PathPoints points = Read("p.csv", "t_s,x,y\n10,0,0\n11,3,0\n13,3,8\n");
   EXPECT_EQ(points.speed, (std::vector<double>{3.0, 4.0, 4.0}));
-  EXPECT_THAT(Error("p.csv", "t_s,x,y\n1,0,0\n1,3,0\n"), HasSubstr("must be above"));
-  EXPECT_THAT(Error("p.csv", "t_s,x,y\n1,0,0\n1.001,3,0\n"), HasSubstr("at most 100 m/s"));
+  EXPECT_THAT(SpeedProblem("t_s,x,y\n1,0,0\n1,3,0\n"), HasSubstr("must be above"));
+  EXPECT_THAT(SpeedProblem("t_s,x,y\n1,0,0\n1.001,3,0\n"), HasSubstr("at most 100 m/s"));
 }
 
 TEST(PathCsv, WritesWhatItReads) {
@@ -121,7 +133,7 @@ TEST(PathCsv, SaysWhatIsWrong) {
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,nan\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,inf\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,1e300\n"), HasSubstr("out of range"));
-  EXPECT_THAT(Error("p.csv", "x,y,v\n1,2,-1\n3,4,1\n"), HasSubstr("out of range"));
+  EXPECT_THAT(SpeedProblem("x,y,v\n1,2,-1\n3,4,1\n"), HasSubstr("out of range"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3\n"), HasSubstr("1 cells, the header has 2"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n"), HasSubstr("1 point; a path has at least 2"));
   EXPECT_THAT(Error("p.csv", "x,x,y\n1,2,3\n"), HasSubstr("repeated column"));
@@ -131,6 +143,55 @@ TEST(PathCsv, SaysWhatIsWrong) {
   PathMap unit;
   unit.columns.yaw_unit = "grad";
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,4\n", unit), HasSubstr("unknown unit 'grad'"));
+}
+
+TEST(PathCsv, ReadsThePathBesideInvalidSpeeds) {
+  std::string rows;
+  for (int i = 0; i < 100; ++i) {
+    rows += fmt::format("{},0,-3\n", i);
+  }
+  EXPECT_EQ(SpeedProblem("x,y,v\n" + rows),
+            "2: v: -3 is out of range; must be between 0 and 100 in SI units, and 99 more invalid "
+            "cells in this column");
+  const TempFolder folder;
+  const PathFile found =
+      ReadPathFile(folder.Write("p.csv", "x,y,kappa,t\n0,0,none,0\n1,0,0,1\n2,0,nan,2\n"));
+  EXPECT_EQ(found.points.speed, (std::vector<double>{1.0, 1.0, 1.0}));
+  EXPECT_TRUE(found.points.curvature.empty());
+  EXPECT_THAT(found.notes, ::testing::Contains(HasSubstr("column kappa is ignored: line 2")));
+}
+
+// A stop of the recorded car: at its ends the path may stand, and between them it cannot wait.
+TEST(PathCsv, RefusesToWaitOnTheWay) {
+  EXPECT_THAT(
+      SpeedProblem("t,x,y,v\n0,0,0,3\n1,3,0,0\n2,3,0,0\n4,3,0,0\n5,6,0,3\n"),
+      AllOf(HasSubstr("3: time: the car stands for 3 s at point 2"), HasSubstr("points 3 to 4")));
+  const PathPoints ends = Read("p.csv", "t,x,y\n0,0,0\n2,0,0\n3,3,0\n4,6,0\n9,6,0\n");
+  EXPECT_EQ(ends.speed, (std::vector<double>{0.0, 3.0, 3.0, 0.0, 0.0}));
+}
+
+/// A CSV file of an arc with the heading in the unit and direction of `number`.
+std::string ArcWithHeadings(double (*number)(double yaw)) {
+  std::string text = "x,y,yaw\n";
+  for (int i = 0; i < 60; ++i) {
+    const double yaw = 0.7 + 0.03 * i;
+    text += fmt::format("{},{},{}\n", 40.0 * std::sin(yaw), -40.0 * std::cos(yaw), number(yaw));
+  }
+  return text;
+}
+
+TEST(PathCsv, RecognizesHeadingsInOtherUnits) {
+  EXPECT_EQ(Error("p.csv", ArcWithHeadings([](double yaw) { return yaw; })), "");
+  EXPECT_EQ(Error("p.csv", ArcWithHeadings([](double yaw) { return yaw + kPi; })), "");
+  const std::string degrees = ArcWithHeadings([](double yaw) { return yaw * 180.0 / kPi; });
+  EXPECT_THAT(Error("p.csv", degrees), HasSubstr("degrees; set columns.yaw_unit: deg"));
+  PathMap map;
+  map.columns.yaw_unit = "deg";
+  EXPECT_EQ(Error("p.csv", degrees, map), "");
+  EXPECT_THAT(Error("p.csv", ArcWithHeadings([](double yaw) { return 90.0 - yaw * 180.0 / kPi; })),
+              HasSubstr("degrees, clockwise from north; convert them"));
+  EXPECT_THAT(Error("p.csv", ArcWithHeadings([](double yaw) { return 0.5 * kPi - yaw; })),
+              HasSubstr("radians, clockwise from north; convert them"));
 }
 
 TEST(PathCsv, IsBoundedInPoints) {

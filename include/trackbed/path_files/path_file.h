@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/core/error.h"
 #include "trackbed/path/fit_path.h"
 #include "trackbed/path_files/path_map.h"
 
@@ -16,6 +17,9 @@ struct PathFile {
   /// Remarks on how the file was read: format, columns and units, map projection, and skipped
   /// parts.
   std::vector<std::string> notes;
+  /// Reasons why the speeds of the file cannot be driven, with their lines; `points` has no speeds
+  /// then. A caller that needs the speeds should throw these problems as InputError.
+  std::vector<Problem> speed_problems;
 };
 
 /// The maximum number of points in a path file.
@@ -27,16 +31,22 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// point and the next point. The speed of the last point is the mean speed between the last two
 /// points.
 ///
+/// Invalid speeds and times do not make a path unusable; PathFile::speed_problems lists them: cells
+/// of a CSV file that are not finite numbers or out of range (speeds from 0 to 100 m/s), times that
+/// do not increase, and a car that stands for some time between the ends of the path. Invalid
+/// curvatures are dropped, with a note.
+///
 /// ReadPathFile does not fit a curve, and does not check whether a car can follow the path.
 ///
-/// Throws InputError, with file, line and column or key, for every cell that is not a finite number
-/// or is out of range (positions to 1e7 m, speeds from 0 to 100 m/s). Throws InputError if a column
-/// is missing (the message suggests the most similar name), or if a required member of a YAML or
-/// JSON file is missing. Throws InputError if the times do not increase, or if there are fewer than
-/// two or more than kMaxPathPoints points. Throws InputError if the text is malformed, is nested
-/// deeper than 64 levels, has YAML aliases, or contains coordinates that do not exist on Earth.
-/// Throws RunError if the file cannot be read or is larger than 512 MiB (CSV) or 16 MiB (other
-/// formats). Reading takes about 1 us per point.
+/// Throws InputError, with file, line and column or key, for every other cell that is not a finite
+/// number or is out of range (positions to 1e7 m). Throws InputError if a column is missing (the
+/// message suggests the most similar name), or if a required member of a YAML or JSON file is
+/// missing. Throws InputError if a heading is against the direction of travel, and the headings are
+/// degrees or compass headings (the message suggests the unit). Throws InputError if there are
+/// fewer than two or more than kMaxPathPoints points. Throws InputError if the text is malformed,
+/// is nested deeper than 64 levels, has YAML aliases, or contains coordinates that do not exist on
+/// Earth. Throws RunError if the file cannot be read or is larger than 512 MiB (CSV) or 16 MiB
+/// (other formats). Reading takes about 1 us per point.
 PathFile ReadPathFile(const std::filesystem::path& file, const PathMap& map = {});
 
 /// Returns true if a YAML file in a folder of scenarios is a path and not a scenario. Returns false
