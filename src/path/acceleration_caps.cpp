@@ -9,8 +9,9 @@
 // stretches at the ends of all caps. A backward pass limits the speed at each end of a stretch, so
 // that the car can brake in time for the rest of the path. A forward pass limits the speed to what
 // the car can reach by accelerating from the start. StopAtEnd then adds knots to each stretch where
-// the car starts to cruise and where it starts to brake. A car that starts too fast brakes as hard
-// as needed until its speed meets the profile.
+// the car starts to cruise and where it starts to brake. A car that starts too fast brakes, as hard
+// as the strict caps, the sections of less grip and the end of the path demand, until its speed
+// meets the profile.
 
 namespace trackbed {
 namespace {
@@ -121,6 +122,28 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
   }
 }
 
+/// Returns the constant deceleration at which a car slows down if it starts faster than the profile
+/// [m/s^2]. This is the deceleration of the first stretch, or more if the car would otherwise be
+/// too fast at the start of a strict cap, at the start of a section of less grip, or at the end of
+/// the path. `squared` are the largest squared speeds at the ends of the stretches.
+double BrakingFromStart(double length, double start_squared, double deceleration,
+                        const std::vector<SpeedCap>& caps, const std::vector<Stretch>& stretches,
+                        const std::vector<double>& squared) {
+  double braking = std::max(stretches.front().deceleration, start_squared / (2.0 * length));
+  for (const SpeedCap& cap : caps) {
+    if (cap.strict && cap.from > kNegligible && cap.from < length - kNegligible &&
+        cap.to > cap.from) {
+      braking = std::max(braking, (start_squared - cap.speed * cap.speed) / (2.0 * cap.from));
+    }
+  }
+  for (std::size_t i = 1; i < stretches.size(); ++i) {
+    if (stretches[i].deceleration < deceleration) {
+      braking = std::max(braking, (start_squared - squared[i]) / (2.0 * stretches[i].from));
+    }
+  }
+  return braking;
+}
+
 void CheckArguments(double length, double start_speed, const SpeedLimits& limits,
                     const std::vector<SpeedCap>& caps,
                     const std::vector<AccelerationCap>& sections) {
@@ -144,6 +167,16 @@ void CheckArguments(double length, double start_speed, const SpeedLimits& limits
   }
 }
 
+/// Returns the caps with stations that count from the station `start`.
+template <typename Cap>
+std::vector<Cap> From(double start, std::vector<Cap> caps) {
+  for (Cap& cap : caps) {
+    cap.from -= start;
+    cap.to -= start;
+  }
+  return caps;
+}
+
 }  // namespace
 
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
@@ -158,19 +191,14 @@ SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& lim
   // Compute the largest squared speeds at the ends of the stretches: first backward from standstill
   // at the end, then forward from the start speed.
   std::vector<double> squared(stretches.size() + 1, 0.0);
-  double braking = std::max(stretches.front().deceleration, start_squared / (2.0 * length));
   for (std::size_t i = stretches.size(); i-- > 0;) {
     const Stretch& stretch = stretches[i];
-    const double speed = stretch.speed;
-    const double here = i == 0 ? speed : std::min(speed, stretches[i - 1].speed);
+    const double here = i == 0 ? stretch.speed : std::min(stretch.speed, stretches[i - 1].speed);
     squared[i] = std::min(
         here * here, squared[i + 1] + 2.0 * stretch.deceleration * (stretch.to - stretch.from));
-    if (stretch.from > 0.0) {
-      // On a section with less deceleration, the car cannot make up for its start speed.
-      const double needed = stretch.deceleration < limits.deceleration ? squared[i] : speed * speed;
-      braking = std::max(braking, (start_squared - needed) / (2.0 * stretch.from));
-    }
   }
+  const double braking =
+      BrakingFromStart(length, start_squared, limits.deceleration, caps, stretches, squared);
   // A car that starts too fast for the path ahead brakes at `braking` until its speed meets the
   // profile.
   bool too_fast = start_squared > squared[0];
@@ -200,15 +228,8 @@ SpeedProfile StopAtCusps(const Path& path, double start_speed, const SpeedLimits
     if (!knots.empty() && leg.to - leg.from < 2.0 * kNegligible) {
       continue;
     }
-    std::vector<SpeedCap> own;
-    for (const SpeedCap& cap : caps) {
-      own.push_back({cap.from - leg.from, cap.to - leg.from, cap.speed});
-    }
-    std::vector<AccelerationCap> own_sections = sections;
-    for (AccelerationCap& section : own_sections) {
-      section.from -= leg.from;
-      section.to -= leg.from;
-    }
+    const std::vector<SpeedCap> own = From(leg.from, caps);
+    const std::vector<AccelerationCap> own_sections = From(leg.from, sections);
     const bool first = knots.empty();
     const SpeedProfile profile =
         StopAtEnd(leg.to - leg.from, first ? start_speed : 0.0, limits, own, own_sections);

@@ -128,7 +128,8 @@ std::optional<double> StartSpeedBesideMission(const Scenario& scenario) {
   }
   if (const std::optional<PlannedStart> planned = StartOfPlan(scenario);
       planned && planned->speed) {
-    return planned->speed;
+    const double most = scenario.mission.speed;
+    return most > 0.0 ? std::min(*planned->speed, most) : *planned->speed;
   }
   const Signal& over_time = scenario.control.speed.over_time;
   return over_time.empty() ? std::nullopt : std::optional(over_time.At(0.0));

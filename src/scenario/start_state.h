@@ -12,7 +12,7 @@ double NeutralSteering(const Scenario& scenario);
 
 /// Returns the initial speed [m/s] if a source other than mission.speed defines the initial speed.
 /// The sources are, in the order of their priority: mission.start.speed, a recording with speeds, a
-/// recorded drive, the speeds of a followed path, and control.speed.over_time.
+/// recorded drive, the speeds of a followed path, up to mission.speed, and control.speed.over_time.
 std::optional<double> StartSpeedBesideMission(const Scenario& scenario);
 
 }  // namespace trackbed

@@ -197,6 +197,58 @@ TEST(StopAtEnd, KeepsRandomCaps) {
   }
 }
 
+// The general limit is no cap: it is in force from the start, however the caps divide the path.
+TEST(StopAtEnd, SlowsDownToTheLimitAcrossTheEndsOfCaps) {
+  const std::vector<SpeedCap> caps{{1.0, 2.0, 6.9}, {2.0, 3.0, 6.8}};
+  // (4^2 - 3^2)/(2 * 1.5 m/s^2) = 7/3 m, as without caps.
+  const SpeedProfile profile = StopAtEnd(100.0, 4.0, kLimits, caps);
+  EXPECT_NEAR(profile.AccelerationAt(0.5), -1.5, Tolerance(1e-12));
+  EXPECT_NEAR(profile.AccelerationAt(2.2), -1.5, Tolerance(1e-12));
+  EXPECT_NEAR(profile.SpeedAt(7.0 / 3.0), 3.0, Tolerance(1e-12));
+  EXPECT_NEAR(profile.SpeedAt(50.0), 3.0, Tolerance(1e-12));
+}
+
+// The oracle at each station: the car brakes at most at the maximum deceleration, and is nowhere
+// faster than its limit or than a car that has braked at the maximum deceleration from the start.
+TEST(StopAtEnd, SlowsDownGentlyToCapsThatAreNotStrict) {
+  Random random(23);
+  for (int i = 0; i < 2000; ++i) {
+    const SpeedLimits limits{random.Uniform(0.5, 10.0), random.Uniform(0.2, 3.0),
+                             random.Uniform(0.2, 3.0)};
+    const double start = random.Uniform(0.0, 12.0);
+    const double length = start * start / (2.0 * limits.deceleration) + random.Uniform(1.0, 100.0);
+    std::vector<SpeedCap> caps;
+    double s = 0.0;
+    while (s < length) {
+      const double to = s + random.Uniform(0.05, 5.0);
+      caps.push_back({s, to, random.Uniform(0.1, 10.0), /*strict=*/false});
+      s = to;
+    }
+    SCOPED_TRACE(::testing::Message() << "case " << i);
+    const SpeedProfile profile = StopAtEnd(length, start, limits, caps);
+    EXPECT_EQ(profile.SpeedAt(0.0), start);
+    EXPECT_EQ(profile.SpeedAt(length), 0.0);
+    for (std::size_t k = 1; k < profile.knots().size(); ++k) {
+      const auto& [from, v_from] = profile.knots()[k - 1];
+      const auto& [until, v_to] = profile.knots()[k];
+      // v^2 is up to 144 over an interval of at least 1e-9 m; its rounding is 1e-14 of it.
+      const double rounding = 1e-6 + 2e-12 / (until - from);
+      EXPECT_GE((v_to * v_to - v_from * v_from) / (2.0 * (until - from)),
+                -limits.deceleration - rounding);
+    }
+    for (const SpeedCap& cap : caps) {
+      for (const double share : {0.1, 0.5, 0.9}) {
+        const double at = std::lerp(cap.from, std::min(cap.to, length), share);
+        const double braked = start * start - 2.0 * limits.deceleration * at;
+        const double allowed = std::min(cap.speed, limits.speed);
+        EXPECT_LE(profile.SpeedAt(at),
+                  std::sqrt(std::max(allowed * allowed, braked)) + Tolerance(1e-6))
+            << at;
+      }
+    }
+  }
+}
+
 TEST(StopAtEnd, OfNoLengthStands) {
   ExpectKnots(StopAtEnd(0.0, 0.0, kLimits), {{0, 0}});
 }
@@ -256,6 +308,13 @@ TEST(StopAtCusps, StopsAtEveryChangeOfDirection) {
     EXPECT_GE(profile.AccelerationAt(s), -1.5 - Tolerance(1e-9));
   }
   EXPECT_TRUE(std::isfinite(profile.TimeAt(40.0)));
+}
+
+TEST(StopAtCusps, KeepsTheKindOfItsCaps) {
+  const SpeedLimits limits{.speed = 9.0, .acceleration = 1.0, .deceleration = 1.5};
+  const std::vector<SpeedCap> caps{{0.0, 1.0, 5.0, false}, {1.0, 100.0, 4.0, false}};
+  const SpeedProfile profile = StopAtCusps(Path({}, {{.length = 100.0}}), 6.0, limits, caps);
+  EXPECT_NEAR(profile.AccelerationAt(0.5), -1.5, Tolerance(1e-12));
 }
 
 TEST(Excerpt, HoldsNothingOfTheLegBefore) {

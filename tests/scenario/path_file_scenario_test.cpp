@@ -74,6 +74,45 @@ TEST(PathFileScenario, StartsOnThePath) {
             1.0);
 }
 
+TEST(PathFileScenario, StartsNoFasterThanTheMission) {
+  const TempFolder folder;
+  folder.Write("p.csv", Circle());  // 3 m/s at first
+  const auto start_speed = [&](const std::vector<Override>& overrides) {
+    return InitialState(Parse(folder, std::string(kCircle) + ", speeds: file", overrides)).speed;
+  };
+  EXPECT_NEAR(start_speed({"mission.speed=4"}), 3.0, Tolerance(1e-14));
+  EXPECT_EQ(start_speed({"mission.speed=2"}), 2.0);
+  EXPECT_EQ(start_speed({"mission.speed=2", "mission.start.speed=5"}), 5.0);
+}
+
+TEST(PathFileScenario, RefusesSpeedsThatCannotBeDriven) {
+  const TempFolder folder;
+  const auto error = [&](const std::string& csv, const std::string& keys) {
+    folder.Write("v.csv", csv);
+    return Error(folder, "file: v.csv, speeds: " + keys);
+  };
+  const std::string zeros = "x,y,v\n0,0,2\n10,0,0\n20,0,0\n30,0,2\n";
+  EXPECT_THAT(
+      error(zeros, "file"),
+      AllOf(HasSubstr("v.csv:3: speed: the speed is 0 from point 2 to point 3, which are 10 "
+                      "m apart"),
+            HasSubstr("speeds: mission")));
+  EXPECT_EQ(error(zeros, "mission"), "");
+  EXPECT_EQ(error("x,y,v\n0,0,0\n10,0,2\n20,0,0\n30,0,2\n40,0,0\n", "file"), "");
+  // A car that stands, and whose measured position jitters by less than max_deviation.
+  EXPECT_EQ(error("x,y,v\n0,0,0\n0.01,0,0\n10,0,2\n20,0,2\n", "file"), "");
+  EXPECT_THAT(error("x,y\n0,0\n10,0\n", "file"), HasSubstr("columns.speed"));
+  EXPECT_THAT(error("x,y,v\n0,0,1\n10,0,-1\n20,0,-2\n", "file"),
+              AllOf(HasSubstr("v.csv:3: v: -1 is out of range"),
+                    HasSubstr("and 1 more invalid cells in this column")));
+  EXPECT_EQ(error("x,y,v\n0,0,1\n10,0,-1\n20,0,-2\n", "mission"), "");
+  const std::string waits = "t,x,y\n0,0,0\n1,3,0\n2,6,0\n7,6,0\n8,9,0\n9,12,0\n";
+  EXPECT_THAT(error(waits, "file"),
+              AllOf(HasSubstr("v.csv:4: time: the car stands for 5 s at point 3"),
+                    HasSubstr("points 4 to 4")));
+  EXPECT_EQ(error(waits, "mission"), "");
+}
+
 TEST(PathFileScenario, HasItsPointsBesideIt) {
   const TempFolder folder;
   folder.Write("p.csv", Circle());

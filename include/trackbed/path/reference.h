@@ -56,15 +56,20 @@ struct SpeedCap {
   double from = 0.0;   ///< Start station [m].
   double to = 0.0;     ///< End station [m].
   double speed = 0.0;  ///< Speed limit of the section [m/s], > 0.
+  /// Whether a car that starts too fast brakes as hard as it must to keep the limit from the start
+  /// of the section on. Otherwise, the car brakes at the maximum deceleration, and may be faster
+  /// than the limit until its speed has fallen to the limit, as for SpeedLimits::speed.
+  bool strict = true;
 };
 
 /// Makes a speed profile that starts at s = 0 with `start_speed`, is as fast as `limits` and `caps`
 /// allow, and stops at s = `length`. If the length is too short to reach the speed limit, the
 /// highest speed of the profile is below the limit. If the length is too short to brake from the
-/// start speed at the maximum deceleration of `limits`, the profile brakes harder, at a constant
-/// deceleration. If the start speed is above the speed limit or a cap, the profile slows down at
-/// the maximum deceleration of `limits`. Throws PreconditionError if a number is not finite; only
-/// the numbers of a cap may be infinite.
+/// start speed at the maximum deceleration of `limits`, or to slow down before a strict cap, the
+/// profile brakes harder, at a constant deceleration. If the start speed is above the speed limit,
+/// above a cap that is not strict, or above a cap at the start, the profile slows down at the
+/// maximum deceleration of `limits`. Throws PreconditionError if a number is not finite; only the
+/// numbers of a cap may be infinite.
 SpeedProfile StopAtEnd(double length, double start_speed, const SpeedLimits& limits,
                        const std::vector<SpeedCap>& caps = {});
 

@@ -58,7 +58,7 @@ std::vector<SpeedCap> Moved(const std::vector<SpeedCap>& caps, Stations within, 
     const double from = std::max(cap.from, within.from);
     const double to = std::min(cap.to, within.to);
     if (to > from) {
-      moved.push_back({from + shift, to + shift, cap.speed});
+      moved.push_back({from + shift, to + shift, cap.speed, cap.strict});
     }
   }
   return moved;

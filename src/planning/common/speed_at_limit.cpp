@@ -99,7 +99,15 @@ class Surface {
   bool flat_ = true;
 };
 
-void ApplyCaps(const std::vector<SpeedCap>& caps, std::vector<LimitStation>& stations) {
+/// Applies speed caps to stations. A cap that is not strict is raised where a car that brakes at
+/// the request's deceleration from its start is faster.
+void ApplyCaps(const std::vector<SpeedCap>& caps, const PlanRequest& request,
+               std::vector<LimitStation>& stations) {
+  const auto allowed = [&](const SpeedCap& cap, double s) {
+    const double braked =
+        request.start_speed * request.start_speed - 2.0 * request.speed.deceleration * s;
+    return cap.strict ? cap.speed : std::sqrt(std::max(cap.speed * cap.speed, braked));
+  };
   const auto before = [](const LimitStation& at, double s) { return at.s < s; };
   for (const SpeedCap& cap : caps) {
     if (stations.empty() || cap.to < stations.front().s - kSamePlace ||
@@ -113,7 +121,8 @@ void ApplyCaps(const std::vector<SpeedCap>& caps, std::vector<LimitStation>& sta
     first = first == stations.begin() ? first : first - 1;
     last = last == stations.end() ? last : last + 1;
     for (; first != last; ++first) {
-      first->cap = first->cap > 0.0 ? std::min(first->cap, cap.speed) : cap.speed;
+      const double speed = allowed(cap, first->s);
+      first->cap = first->cap > 0.0 ? std::min(first->cap, speed) : speed;
     }
   }
 }
@@ -195,7 +204,7 @@ std::vector<LimitStation> StationsAlong(const Path& path, const Stations& part,
   for (LimitStation& at : stations) {
     surface.Describe(at);
   }
-  ApplyCaps(caps, stations);
+  ApplyCaps(caps, request, stations);
   return stations;
 }
 

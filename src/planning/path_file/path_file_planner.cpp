@@ -11,9 +11,13 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/common/course_schedule.h"
+#include "trackbed/planning/common/feasibility.h"
 
 namespace trackbed {
 namespace {
+
+// Lower bound of the speed caps [m/s]. Next to a stop, the mean of the file's speeds may be lower.
+constexpr double kMinSpeed = 0.1;
 
 /// Returns the remedy if the points turn back because of noise.
 std::string NoiseRemedy(const FittedPath& fitted) {
@@ -26,35 +30,102 @@ std::string NoiseRemedy(const FittedPath& fitted) {
 }
 
 /// Returns speed caps that follow the speeds in the file; between two points, the cap is the mean
-/// of the speeds at these points.
+/// of the speeds at these points. The car may start faster than the file's speeds, and then slows
+/// down at the mission's deceleration.
 std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
-  // Lower bound of the speed caps [m/s], since the speed is 0 at the start and end of a trajectory.
-  constexpr double kMinSpeed = 0.1;
   const std::vector<double>& speed = fitted.given.speed;
   std::vector<SpeedCap> caps;
-  for (std::size_t i = 0; i + 1 < speed.size(); ++i) {
-    const double from = fitted.stations[i];
-    const double to = fitted.stations[i + 1];
+  const auto add = [&](double from, double to, double a, double b) {
     if (to > from) {
-      caps.push_back({from, to, std::max(0.5 * (speed[i] + speed[i + 1]), kMinSpeed)});
+      caps.push_back({from, to, std::max(0.5 * (a + b), kMinSpeed), /*strict=*/false});
     }
+  };
+  for (std::size_t i = 0; i + 1 < speed.size(); ++i) {
+    add(fitted.stations[i], fitted.stations[i + 1], speed[i], speed[i + 1]);
   }
   // On a closed path, add a cap from the last point back to the first point.
-  const double length = fitted.path.length();
-  if (!speed.empty() && fitted.options.closed && fitted.stations.back() < length) {
-    caps.push_back({fitted.stations.back(), length,
-                    std::max(0.5 * (speed.back() + speed.front()), kMinSpeed)});
+  if (!speed.empty() && fitted.options.closed) {
+    add(fitted.stations.back(), fitted.path.length(), speed.back(), speed.front());
   }
   return caps;
+}
+
+/// A part of the path, between two of its points, on which the speed in the file is 0.
+struct Standstill {
+  std::size_t first;
+  std::size_t last;
+};
+
+std::vector<Standstill> FindStandstills(const std::vector<double>& speed) {
+  std::vector<Standstill> found;
+  for (std::size_t i = 0; i < speed.size(); ++i) {
+    if (speed[i] > 0.0) {
+      continue;
+    }
+    if (!found.empty() && found.back().last + 1 == i) {
+      found.back().last = i;
+    } else {
+      found.push_back({i, i});
+    }
+  }
+  return found;
+}
+
+/// Returns the stations between the ends of the path at which the speed in the file is 0.
+std::vector<double> StopsOf(const FittedPath& fitted) {
+  std::vector<double> stops;
+  for (const auto& [first, last] : FindStandstills(fitted.given.speed)) {
+    if (fitted.stations[first] > 0.0 && fitted.stations[last] < fitted.path.length()) {
+      stops.push_back(fitted.stations[first]);
+    }
+  }
+  return stops;
+}
+
+/// Returns the problems of the speeds in a file that the car should follow.
+std::vector<Problem> SpeedProblems(const FittedPath& fitted, const std::string& file) {
+  const PathPoints& given = fitted.given;
+  std::vector<Problem> problems;
+  for (const auto& [first, last] : FindStandstills(given.speed)) {
+    // Points that are closer than the fit resolves are one place, at which the car stands.
+    const double extent = fitted.stations[last] - fitted.stations[first];
+    if (extent > fitted.options.max_deviation) {
+      problems.push_back(
+          {.file = file,
+           .line = given.lines.empty() ? 0 : given.lines[first],
+           .key = "speed",
+           .message = fmt::format("the speed is 0 from point {} to point {}, which are {:.4g} m "
+                                  "apart, so the car would never arrive; give speeds above 0, or "
+                                  "set speeds: mission",
+                                  first + 1, last + 1, extent)});
+    }
+  }
+  return problems;
+}
+
+/// Describes where the car drives differently from the speeds in the file, one line each.
+std::vector<std::string> SpeedNotes(const FittedPath& fitted, const std::vector<double>& stops) {
+  std::vector<std::string> notes;
+  if (!stops.empty()) {
+    notes.push_back(
+        fmt::format("stops where the file's speed is 0: s = {:.4g} m", fmt::join(stops, ", ")));
+  }
+  const std::vector<double>& speed = fitted.given.speed;
+  const bool has_slow = std::any_of(speed.begin(), speed.end(),
+                                    [](double own) { return own > 0.0 && own < kMinSpeed; });
+  if (has_slow) {
+    notes.push_back(fmt::format("the file's speeds below {} m/s are raised to it", kMinSpeed));
+  }
+  return notes;
 }
 
 /// Makes the steering schedule of the fitted path. On a path with continuous curvature and no
 /// heading jumps, the steering schedule follows the curvature.
 SteeringSchedule ScheduleOf(const FittedPath& fitted, const PlanRequest& request,
-                            const std::vector<SpeedCap>& caps) {
+                            const std::vector<SpeedCap>& caps, const std::vector<double>& stops) {
   const Path& path = fitted.path;
   if (!fitted.jumps.empty()) {
-    return CourseSchedule(request.vehicle, path.segments(), request.speed.speed, caps);
+    return CourseSchedule(request.vehicle, path.segments(), request.speed.speed, caps, stops);
   }
   std::vector<SteeringSchedule::Knot> knots;
   double s = 0.0;
@@ -100,10 +171,11 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
   const double length = fitted.path.length();
   if (options.speeds == PathSpeeds::kFile) {
     plan.caps = CapsOf(fitted);
+    plan.stops = StopsOf(fitted);
+    plan.notes = SpeedNotes(fitted, plan.stops);
   }
-  plan.reference.speed = StopAtEnd(length, request.start_speed, request.speed, plan.caps);
-  plan.schedule = ScheduleOf(fitted, request, plan.caps);
-  plan.schedule_speed = plan.reference.speed;
+  SetSpeeds(plan, request.start_speed, request.speed);
+  plan.schedule = ScheduleOf(fitted, request, plan.caps, plan.stops);
   plan.goal = fitted.path.At(length).pose;
   if (options.notes) {
     std::istringstream lines(*options.notes);
@@ -145,7 +217,24 @@ void ReadPath(PathFileOptions& options, InputReader& reader) {
     if (!options.notes) {
       options.notes = fmt::format("{}", fmt::join(found.notes, "\n"));
     }
-    options.path = Fit(std::move(found.points), options, file.string());
+    const bool needs_speeds = options.speeds == PathSpeeds::kFile;
+    if (needs_speeds && found.speed_problems.empty() && found.points.speed.empty()) {
+      found.speed_problems.push_back(
+          {.file = file.string(),
+           .key = "speed",
+           .message = "the file has no speeds; name their column by columns.speed, or set speeds: "
+                      "mission"});
+    }
+    if (needs_speeds && !found.speed_problems.empty()) {
+      throw InputError(std::move(found.speed_problems));
+    }
+    std::shared_ptr<const FittedPath> path = Fit(std::move(found.points), options, file.string());
+    if (needs_speeds && path->reversals.empty()) {
+      if (std::vector<Problem> problems = SpeedProblems(*path, file.string()); !problems.empty()) {
+        throw InputError(std::move(problems));
+      }
+    }
+    options.path = std::move(path);
   });
 }
 
@@ -159,6 +248,11 @@ std::optional<PlannedStart> StartOf(const PathFileOptions& options) {
     start.speed = speed.front();
   }
   return start;
+}
+
+std::optional<double> StartCurvature(const PathFileOptions& options, const RouteStart& /*route*/) {
+  return options.path == nullptr ? std::nullopt
+                                 : std::optional(options.path->path.At(0.0).curvature);
 }
 
 std::vector<InputFile> InputFilesOf(const PathFileOptions& options) {
@@ -253,11 +347,6 @@ void Visit(KeyVisitor& keys, PathFileOptions& options) {
        "straight lines from point to point, or a smoothing spline with continuous curvature"},
       options.fit.fit, Need::kOptional, fits);
   keys.Field({"max_deviation", "m", "largest distance of the points from the spline"},
-std::optional<double> StartCurvature(const PathFileOptions& options, const RouteStart& /*route*/) {
-  return options.path == nullptr ? std::nullopt
-                                 : std::optional(options.path->path.At(0.0).curvature);
-}
-
              options.fit.max_deviation, Need::kOptional, Range{.min = 1e-6, .max = 100.0});
   keys.Field({"closed", "", "whether the path leads back to its first point"}, options.fit.closed,
              Need::kOptional);
@@ -265,9 +354,11 @@ std::optional<double> StartCurvature(const PathFileOptions& options, const Route
              options.fit.resample, Range{.min = 1e-3, .max = 1e3});
   static const EnumNames<PathSpeeds> speeds{{PathSpeeds::kMission, "mission"},
                                             {PathSpeeds::kFile, "file"}};
-  keys.Field({"speeds", "",
-              "the mission's speed, or at most those of the file, from point to point their mean"},
-             options.speeds, Need::kOptional, speeds);
+  keys.Field(
+      {"speeds", "",
+       "the mission's speed, or at most those of the file, from point to point their mean, with "
+       "a stop where they are 0"},
+      options.speeds, Need::kOptional, speeds);
   keys.Field({"notes", "", "what was found in the file, a line for each remark; runs write it"},
              options.notes);
 }
@@ -279,6 +370,7 @@ PlannerEntry PathFilePlanner() {
           .defaults = PathFileOptions{},
           .plan = PlanBy<PathFileOptions, PlanWith>,
           .start = OnOptions<PathFileOptions, StartOf>,
+          .start_curvature = OnOptions<PathFileOptions, StartCurvature>,
           .read_inputs = OnOptions<PathFileOptions, ReadPath>,
           .input_files = OnOptions<PathFileOptions, InputFilesOf>,
           .input_names = {kPathCsv},
@@ -286,4 +378,3 @@ PlannerEntry PathFilePlanner() {
 }
 
 }  // namespace trackbed
-          .start_curvature = OnOptions<PathFileOptions, StartCurvature>,

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "tests/geometry/random.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/planning/registry/planners.h"
@@ -99,6 +100,58 @@ TEST(PathFilePlanner, KeepsTheSpeedsOfTheFileAllAround) {
   for (const SpeedProfile::Knot& knot : plan.reference.speed.knots()) {
     EXPECT_LE(knot.speed, 2.0 + Tolerance(1e-9)) << knot.s;
   }
+}
+
+// Random speeds of points 0.1 to 3 m apart, and any start speed: braking at the mission's
+// deceleration is always enough, because the path is long enough to stop.
+TEST(PathFilePlanner, SlowsDownToTheSpeedsOfTheFileFromAnyStart) {
+  Random random(5);
+  for (int i = 0; i < 300; ++i) {
+    PathPoints given;
+    for (double x = 0.0; x < 60.0; x += random.Uniform(0.1, 3.0)) {
+      given.points.emplace_back(x, 0.0);
+      given.speed.push_back(random.Uniform(0.2, 8.0));
+    }
+    PathFileOptions options;
+    options.speeds = PathSpeeds::kFile;
+    options.path = std::make_shared<const FittedPath>(FitPath(given, options.fit));
+    PlanRequest request = RequestAlong(options);
+    request.start_speed = i % 2 == 0 ? given.speed.front() : random.Uniform(0.0, 10.0);
+    request.speed.speed = random.Uniform(1.0, 8.0);
+    const Plan plan = MakePlan(request, options);
+    ASSERT_TRUE(plan.ok()) << i << ": " << plan.reason;
+    EXPECT_EQ(plan.reference.speed.SpeedAt(0.0), request.start_speed);
+    for (std::size_t k = 0; k + 1 < given.points.size(); ++k) {
+      const double s = 0.5 * (options.path->stations[k] + options.path->stations[k + 1]);
+      const double cap = std::min(request.speed.speed, 0.5 * (given.speed[k] + given.speed[k + 1]));
+      const double braked = request.start_speed * request.start_speed - 2.0 * 1.5 * s;
+      EXPECT_LE(plan.reference.speed.SpeedAt(s),
+                std::sqrt(std::max(cap * cap, braked)) + Tolerance(1e-6))
+          << i << ", " << s;
+    }
+  }
+}
+
+TEST(PathFilePlanner, StopsWhereTheSpeedInTheFileIsZero) {
+  PathPoints given;
+  for (int i = 0; i <= 40; ++i) {
+    given.points.emplace_back(1.0 * i, 0.0);
+    given.speed.push_back(i == 0 || i == 15 || i == 40 ? 0.0 : 3.0);
+  }
+  PathFileOptions options;
+  options.speeds = PathSpeeds::kFile;
+  options.path = std::make_shared<const FittedPath>(FitPath(given, {}));
+  PlanRequest request = RequestAlong(options);
+  request.start_speed = 0.0;
+  const Plan plan = MakePlan(request, options);
+  ASSERT_TRUE(plan.ok()) << plan.reason;
+  ASSERT_EQ(plan.stops.size(), 1U);
+  EXPECT_EQ(plan.stops[0], options.path->stations[15]);
+  EXPECT_EQ(plan.reference.speed.SpeedAt(plan.stops[0]), 0.0);
+  EXPECT_GT(plan.reference.speed.SpeedAt(10.0), 1.0);
+  EXPECT_THAT(plan.notes, Contains(HasSubstr("stops where the file's speed is 0: s = 1")));
+  options.speeds = PathSpeeds::kMission;
+  EXPECT_TRUE(MakePlan(request, options)->stops.empty());
 }
 
 TEST(PathFilePlanner, RefusesHeadingJumpsUnlessAllowed) {
