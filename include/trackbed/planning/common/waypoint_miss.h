@@ -27,9 +27,9 @@ struct WaypointMiss {
 inline constexpr double kSameMiss = 1e-6;
 
 /// Returns the waypoint from which the path is farthest, or the first of several such waypoints
-/// (kSameMiss); nullopt if there are fewer than two waypoints. The distance is exact on lines and arcs, and has
-/// the precision of Path::Project on other segments. Throws PreconditionError if a waypoint is not
-/// finite. Cost: one call of Path::Project for each waypoint.
+/// (kSameMiss); nullopt if there are fewer than two waypoints. The distance is exact on lines and
+/// arcs, and has the precision of Path::Project on other segments. Throws PreconditionError if a
+/// waypoint is not finite. Cost: one call of Path::Project for each waypoint.
 std::optional<WaypointMiss> LargestWaypointMiss(const Path& path,
                                                 const std::vector<Vec2>& waypoints);
 
