@@ -104,6 +104,23 @@ std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const Path
   return {demand, least->second};
 }
 
+/// Returns the largest slope |d delta/ds| of the steering angle on a piece [rad/m]. On tight bends,
+/// the slope varies within a piece, so it is taken wherever the steering has turned by about 0.02
+/// rad.
+double SteepestSlope(const Path& path, const PathPiece& piece, const VehicleParams& vehicle) {
+  constexpr double kTurn = 0.02;  // [rad]
+  constexpr double kMaxParts = 100.0;
+  const double turn = piece.slope * (piece.stations.to - piece.stations.from);
+  const double parts = std::min(kMaxParts, std::ceil(turn / kTurn));
+  double steepest = piece.slope;
+  for (double part = 1.0; part < parts; part += 1.0) {
+    const PathPoint point =
+        path.At(std::lerp(piece.stations.from, piece.stations.to, part / parts));
+    steepest = std::max(steepest, SteeringSlope(vehicle, point.curvature, point.sharpness));
+  }
+  return steepest;
+}
+
 }  // namespace
 
 double RollOverAcceleration(double track, double cg_height) {
@@ -161,8 +178,10 @@ PathCheck CheckPath(const FittedPath& fitted, const VehicleParams& vehicle,
       ++jump;
       return;
     }
+    PathPiece own = piece;
+    own.slope = SteepestSlope(path, piece, vehicle);
     const auto [demand, limit] =
-        DemandOf(piece, path.At(piece.stations.from), vehicle, options.speed, check);
+        DemandOf(own, path.At(piece.stations.from), vehicle, options.speed, check);
     check.demands.push_back(demand);
     limit_speed(demand.speed, demand.s, limit);
     angle.Take(piece.stations, demand.steering, path, check.faults);
