@@ -48,38 +48,6 @@ ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& option
   return options.resample ? Resampled(distinct, *options.resample) : distinct.chords;
 }
 
-/// Returns a number above 0, rounded up to two digits.
-double RoundedUp(double number) {
-  const double unit = std::pow(10.0, std::floor(std::log10(number)) - 1.0);
-  return unit * std::ceil(number / unit - 1e-9);
-}
-
-/// Returns a largest deviation of about the smallest size with which a spline can be fitted [m].
-/// Returns nullopt if it exceeds a tenth of the length of the path.
-std::optional<double> NoiseDeviation(const PathPoints& given, const PathFitOptions& options,
-                                     double length) {
-  constexpr double kStep = 1.1;
-  PathFitOptions spline = options;
-  spline.fit = PathFit::kSpline;
-  double allowed =
-      options.fit == PathFit::kSpline ? kStep * spline.max_deviation : kEqualityTolerance;
-  for (; allowed <= 0.1 * length; allowed *= kStep) {
-    spline.max_deviation = RoundedUp(allowed);
-    const DistinctPoints distinct = DistinctFor(given, spline);
-    if (distinct.chords.points.size() < 2 || distinct.chords.u.back() > kMaxPathLength ||
-        !FindReversals(KnotsOf(distinct, spline), distinct.period).empty()) {
-      continue;
-    }
-    try {
-      static_cast<void>(FitPath(given, spline));
-      return spline.max_deviation;
-    } catch (const InputError&) {
-      continue;
-    }
-  }
-  return std::nullopt;
-}
-
 /// Fits a path that consists of straight lines joined by tiny arcs.
 void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
                  std::vector<double>& stations) {
@@ -171,6 +139,109 @@ double HeadingDifference(const FittedPath& fitted) {
   return largest;
 }
 
+/// Fits a path as FitPath does, without a search for a larger deviation if the fit fails.
+FittedPath FitOnce(PathPoints given, const PathFitOptions& options) {
+  const DistinctPoints distinct = DistinctFor(given, options);
+  FittedPath fitted;
+  fitted.given = std::move(given);
+  fitted.options = options;
+  const std::size_t count = distinct.chords.points.size();
+  if (count < 2 || (options.closed && count < 3)) {
+    FailFit("", fmt::format("{} different point{}; must be at least {}", count,
+                            count == 1 ? "" : "s", options.closed ? 3 : 2));
+  }
+  CheckLength(distinct, fitted.given);
+  fitted.repeated = distinct.repeated;
+  fitted.merged = distinct.merged;
+  const ChordPoints own = KnotsOf(distinct, options);
+  if (own.points.size() > kMaxFittedPoints) {
+    FailFit("resample",
+            fmt::format("{} points; must be at most {}, give a distance to resample them",
+                        own.points.size(), kMaxFittedPoints));
+  }
+  const auto name_points = [&](std::vector<HeadingJump>& jumps) {
+    for (HeadingJump& jump : jumps) {
+      jump.point = distinct.number[LastBefore(distinct.chords.u, own.u[jump.point])];
+    }
+  };
+  fitted.reversals = FindReversals(own, distinct.period);
+  if (!fitted.reversals.empty()) {
+    name_points(fitted.reversals);
+    return fitted;
+  }
+  std::vector<double> stations;  // stations of the distinct points
+  if (options.fit == PathFit::kSpline && own.points.size() > 2) {
+    FitSpline(own, distinct, fitted, stations);
+  } else {
+    std::vector<double> own_stations;
+    FitPolyline(own, distinct.period, fitted, own_stations);
+    if (options.resample) {
+      for (std::size_t i = 0; i < count; ++i) {
+        const Vec2& point = distinct.chords.points[i];
+        const double about = distinct.chords.u[i];
+        stations.push_back(
+            fitted.path
+                .Project({point.x(), point.y(), 0.0},
+                         {about - 2.0 * *options.resample, about + *options.resample})
+                .s);
+      }
+    } else {
+      stations = std::move(own_stations);
+    }
+    name_points(fitted.jumps);
+  }
+  // A repeated point gets the station of its predecessor. The last point of a closed path gets the
+  // station of the path's end.
+  for (const double u : distinct.given_u) {
+    const std::size_t i = LastBefore(distinct.chords.u, u);
+    fitted.stations.push_back(u > distinct.chords.u[i] ? fitted.path.length() : stations[i]);
+    const std::size_t point = fitted.stations.size() - 1;
+    const Vec2 at = fitted.path.At(fitted.stations.back()).pose.position();
+    const double deviation = (at - fitted.given.points[point]).norm();
+    if (deviation > fitted.deviation) {
+      fitted.deviation = deviation;
+      fitted.deviation_point = point;
+    }
+  }
+  fitted.heading_difference = HeadingDifference(fitted);
+  return fitted;
+}
+
+/// Returns a number above 0, rounded up to two digits.
+double RoundedUp(double number) {
+  const double unit = std::pow(10.0, std::floor(std::log10(number)) - 1.0);
+  return unit * std::ceil(number / unit - 1e-9);
+}
+
+/// Returns a largest deviation of about the smallest size with which a spline can be fitted [m].
+/// Returns nullopt if it exceeds a tenth of the length of the points, or after kMaxFits failures.
+std::optional<double> NoiseDeviation(const PathPoints& given, const PathFitOptions& options) {
+  constexpr double kStep = 1.1;
+  constexpr int kMaxFits = 8;
+  int fits = 0;
+  const double length = Distinct(given, options.closed, 0.0).chords.u.back();
+  PathFitOptions spline = options;
+  spline.fit = PathFit::kSpline;
+  double allowed =
+      options.fit == PathFit::kSpline ? kStep * spline.max_deviation : kEqualityTolerance;
+  for (; allowed <= 0.1 * length && fits < kMaxFits; allowed *= kStep) {
+    spline.max_deviation = RoundedUp(allowed);
+    const DistinctPoints distinct = DistinctFor(given, spline);
+    if (distinct.chords.points.size() < 2 || distinct.chords.u.back() > kMaxPathLength ||
+        !FindReversals(KnotsOf(distinct, spline), distinct.period).empty()) {
+      continue;
+    }
+    ++fits;
+    try {
+      static_cast<void>(FitOnce(given, spline));
+      return spline.max_deviation;
+    } catch (const InputError&) {
+      continue;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 PathPoints AtRearAxle(PathPoints given, double ahead) {
@@ -219,71 +290,24 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
 
 FittedPath FitPath(PathPoints given, const PathFitOptions& options) {
   CheckArguments(given, options);
-  const DistinctPoints distinct = DistinctFor(given, options);
-  FittedPath fitted;
-  fitted.given = std::move(given);
-  fitted.options = options;
-  const std::size_t count = distinct.chords.points.size();
-  if (count < 2 || (options.closed && count < 3)) {
-    FailFit("", fmt::format("{} different point{}; must be at least {}", count,
-                            count == 1 ? "" : "s", options.closed ? 3 : 2));
-  }
-  CheckLength(distinct, fitted.given);
-  fitted.repeated = distinct.repeated;
-  fitted.merged = distinct.merged;
-  const ChordPoints own = KnotsOf(distinct, options);
-  if (own.points.size() > kMaxFittedPoints) {
-    FailFit("resample",
-            fmt::format("{} points; must be at most {}, give a distance to resample them",
-                        own.points.size(), kMaxFittedPoints));
-  }
-  const auto name_points = [&](std::vector<HeadingJump>& jumps) {
-    for (HeadingJump& jump : jumps) {
-      jump.point = distinct.number[LastBefore(distinct.chords.u, own.u[jump.point])];
+  try {
+    FittedPath fitted = FitOnce(given, options);
+    if (!fitted.reversals.empty()) {
+      fitted.noise_deviation = NoiseDeviation(given, options);
     }
-  };
-  fitted.reversals = FindReversals(own, distinct.period);
-  if (!fitted.reversals.empty()) {
-    name_points(fitted.reversals);
-    fitted.noise_deviation = NoiseDeviation(fitted.given, options, distinct.chords.u.back());
     return fitted;
-  }
-  std::vector<double> stations;  // stations of the distinct points
-  if (options.fit == PathFit::kSpline && own.points.size() > 2) {
-    FitSpline(own, distinct, fitted, stations);
-  } else {
-    std::vector<double> own_stations;
-    FitPolyline(own, distinct.period, fitted, own_stations);
-    if (options.resample) {
-      for (std::size_t i = 0; i < count; ++i) {
-        const Vec2& point = distinct.chords.points[i];
-        const double about = distinct.chords.u[i];
-        stations.push_back(
-            fitted.path
-                .Project({point.x(), point.y(), 0.0},
-                         {about - 2.0 * *options.resample, about + *options.resample})
-                .s);
+  } catch (const InputError& error) {
+    // Noise that turns back may be too large for a spline, although no point is a reversal.
+    std::vector<Problem> problems = error.problems();
+    if (problems.front().key == "max_deviation" && DistinctFor(given, options).merged > 0) {
+      if (const std::optional<double> allowed = NoiseDeviation(given, options)) {
+        problems.front().message += fmt::format(
+            "; the points turn back, as noise of the positions does: use at least {:.2g}",
+            *allowed);
       }
-    } else {
-      stations = std::move(own_stations);
     }
-    name_points(fitted.jumps);
+    throw InputError(std::move(problems));
   }
-  // A repeated point gets the station of its predecessor. The last point of a closed path gets the
-  // station of the path's end.
-  for (const double u : distinct.given_u) {
-    const std::size_t i = LastBefore(distinct.chords.u, u);
-    fitted.stations.push_back(u > distinct.chords.u[i] ? fitted.path.length() : stations[i]);
-    const std::size_t point = fitted.stations.size() - 1;
-    const Vec2 at = fitted.path.At(fitted.stations.back()).pose.position();
-    const double deviation = (at - fitted.given.points[point]).norm();
-    if (deviation > fitted.deviation) {
-      fitted.deviation = deviation;
-      fitted.deviation_point = point;
-    }
-  }
-  fitted.heading_difference = HeadingDifference(fitted);
-  return fitted;
 }
 
 }  // namespace trackbed

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <string>
 #include <vector>
 
 #include "tests/tolerance.h"
@@ -168,13 +170,13 @@ TEST(FitPath, KeepsTheEndsOfRandomPoints) {
 }
 
 /// The log of a car that drives on a circle of 20 m, stops twice and drives on, with noise of the
-/// standard deviation `noise` [m].
-PathPoints Recording(double noise, Dice& dice) {
+/// standard deviation `noise` [m]. The points are up to `step` [m] apart.
+PathPoints Recording(double noise, Dice& dice, double step = 0.1) {
   PathPoints given;
   double s = 0.0;
   for (int i = 0; i < 600; ++i) {
     const double phase = (i % 200) / 200.0;
-    s += phase < 0.3 ? 0.0 : 0.1 * std::sin(kPi * (phase - 0.3) / 0.7);
+    s += phase < 0.3 ? 0.0 : step * std::sin(kPi * (phase - 0.3) / 0.7);
     given.points.push_back(Vec2(20.0 * std::sin(s / 20.0), 20.0 * (1.0 - std::cos(s / 20.0))) +
                            Vec2(dice.Normal(noise), dice.Normal(noise)));
   }
@@ -200,6 +202,28 @@ TEST(FitPath, TakesTheJitterOfARecorder) {
       }
     }
   }
+}
+
+// The message of a spline that cannot keep the noise names a deviation that can.
+TEST(FitPath, SaysHowMuchDeviationTheNoiseNeeds) {
+  Dice dice(52);
+  int messages = 0;
+  for (int run = 0; run < 30; ++run) {
+    const PathPoints given = Recording(0.005, dice, dice.Between(0.01, 0.25));
+    try {
+      static_cast<void>(
+          FitPath(given, {.max_deviation = dice.Between(0.015, 0.03), .resample = 0.5}));
+    } catch (const InputError& error) {
+      const std::string text = error.what();
+      const std::size_t value = text.find("use at least ");
+      ASSERT_NE(value, std::string::npos) << text;
+      const double allowed = std::stod(text.substr(value + 13));
+      const FittedPath fitted = FitPath(given, {.max_deviation = allowed, .resample = 0.5});
+      EXPECT_TRUE(fitted.reversals.empty());
+      ++messages;
+    }
+  }
+  EXPECT_GE(messages, 3);
 }
 
 TEST(FitPath, NamesTheDeviationThatTakesTheNoise) {
