@@ -95,7 +95,8 @@ class AlongRoute {
     const bool goal_in_reach = frame_.goal - request_.start.s <= reach;
     if (goal_in_reach && Try(StopAt{frame_.goal})) {
       AlongPlan plan = AcceptedPlan(ManeuverType::kProceed);
-      plan.to_goal = true;
+      // A motion that stops before an obstacle near the goal does not lead to the goal.
+      plan.to_goal = std::abs(points_.back().frenet.s - frame_.goal) <= kGoalTolerance;
       return plan;
     }
     // Look farther ahead than the motions reach, to find the obstacles that the motions approach.

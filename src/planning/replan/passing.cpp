@@ -246,9 +246,26 @@ std::string WhyNotPast(const RouteFrame& frame, const AlongRequest& request,
   }
   const double pulling_in = ShiftLength(request.vehicle, limits, speed, past.end().d);
   const double passing = behind > 0.0 ? behind / (speed - leader.speed) : 0.0;
-  const double braking = 0.5 * speed * speed / request.speed.deceleration;
-  if (!(past.end().s + speed * passing + pulling_in + braking <= frame.goal)) {
+  // A stop by a quartic s(t) takes the time c v/a and the distance c v^2/(2 a).
+  const double stopping = kQuarticAcceleration * speed / request.speed.deceleration;
+  const double left = frame.goal - past.end().s - 0.5 * speed * stopping;
+  if (!(speed * passing + pulling_in <= left)) {
     return "the route ends before the car could be past";
+  }
+  // At the end of the route, the leader may still approach the car that has passed it.
+  double arrival = began + past.motion().duration() + left / speed + stopping;
+  AlongRequest beyond = request;
+  beyond.start.s = leader.front - FrontOverAxle(request.vehicle);
+  const auto next = LeaderIn(frame.path, beyond, settings, frame.goal);
+  if (next && next->speed >= kStandstillSpeed && next->speed < speed) {
+    // The car may have to follow the next leader to the end of the route.
+    const double ahead = FrontOverAxle(request.vehicle) + settings.gap;
+    arrival = std::max(arrival, (frame.goal + ahead - next->rear) / next->speed +
+                                    settings.time_gap + 0.5 * stopping);
+  }
+  const double behind_goal = frame.goal - request.vehicle.rear_overhang - settings.gap;
+  if (leader.front + leader.speed * (arrival + settings.time_gap) > behind_goal) {
+    return "the leader would reach the car where it stops at the end of the route";
   }
   past.KeepSpeed(passing);
   past.ReturnWithin(pulling_in);

@@ -97,9 +97,6 @@ class Replanning {
         return std::move(*back);
       }
     }
-    if (along.kind == ManeuverType::kFollow && IsPassing() && !conflict && !request_.strayed) {
-      return Keep();
-    }
     if (along.kind == ManeuverType::kProceed || along.kind == ManeuverType::kFollow) {
       return Follow(std::move(motion), along);
     }
@@ -174,14 +171,6 @@ class Replanning {
   /// Returns the remaining length of the driven plan [m].
   [[nodiscard]] double LeftToDrive() const {
     return driving_.plan.reference.path.length() - driving_.station;
-  }
-
-  /// Returns whether the car drives a motion that passes an obstacle, and has not reached the
-  /// braking phase after this motion.
-  [[nodiscard]] bool IsPassing() const {
-    const auto* found = driving_.plan.diagnostics.replan.As<ReplanDiagnostics>();
-    return found != nullptr && found->along && found->along->passes &&
-           driving_.station < found->along->found.points.back().distance;
   }
 
   [[nodiscard]] bool IsNearGoal() const { return LeftToDrive() < kLastMeters; }

@@ -12,7 +12,6 @@
 #include "tests/planning/frenet_scenes.h"
 #include "tests/tolerance.h"
 #include "trackbed/planning/common/plan.h"
-#include "trackbed/planning/replan/replan.h"
 #include "trackbed/world/world.h"
 
 // Tests how a car passes a slower leader: the geometry of pulling out, the conditions under which
@@ -224,38 +223,22 @@ TEST_P(Passing, KeepsClearOfOncomingTraffic) {
   EXPECT_GE(passed, 10);
 }
 
-TEST(Replan, KeepsAMotionThatPassesInsteadOfFollowingAgain) {
-  const Road road(4.0, 3.0, 12.0);
-  Driving driving;
-  driving.route.reference = {road.path, SpeedProfile({{0.0, kLimits.speed}})};
-  driving.route.schedule_speed = driving.route.reference.speed;
-  driving.route.goal = road.path.At(road.path.length()).pose;
-  driving.frame = road.frame;
-  driving.plan = driving.route;
-  driving.station = 40.0;
-  driving.route_station = 40.0;
-  ReplanRequest request{.vehicle = ReferenceCar(), .speed = kLimits};
-  request.car = {.pose = {40.0, 0.0, 0.0}, .speed = 4.0};
-  request.obstacles = road.request.obstacles;
-  // The plan of the route is faster than the car, so the first motion starts at the car's state.
-  request.strayed = true;
-  ReplanOptions options;
-  options.along = FrenetOptions{};
-  const Replanned out = Replan(request, driving, options);
-  ASSERT_EQ(out.kind, ReplanKind::kMotion);
-  const auto* found = out.plan->diagnostics.replan.As<ReplanDiagnostics>();
-  ASSERT_TRUE(found != nullptr && found->along && found->along->passes);
-  // No new motion pulls out on this road, but the old motion is still clear.
-  options.settings.road = {1.5, 1.5};
-  driving.plan = out.plan;
-  driving.on_route = false;
-  driving.station = 0.5;
-  const PathPoint at = out.plan->reference.path.At(0.5);
-  request.strayed = false;
-  request.car = {
-      .pose = at.pose, .curvature = at.curvature, .speed = out.plan->reference.speed.SpeedAt(0.5)};
-  driving.route_station = at.pose.x;
-  EXPECT_EQ(Replan(request, driving, options).kind, ReplanKind::kKeep);
+TEST_P(Passing, LeadsToTheGoalOnlyIfItEndsThere) {
+  // A box stands across the route near its end. The car can stop before it, but not at the goal.
+  for (double beyond = -6.0; beyond <= 6.0; beyond += 0.5) {
+    Road road(3.0, 0.0, 0.0);
+    road.settings.road = {1.5, 1.5};
+    road.request.start.s = road.frame.goal - 12.0;
+    const double front = road.frame.goal + FrontOverAxle(ReferenceCar()) + beyond;
+    road.request.obstacles = {BoxAt(road.frame.path, front + 1.0, 0.0)};
+    const AlongPlan plan = road.Go(GetParam().defaults);
+    if (plan.to_goal) {
+      EXPECT_NEAR(plan.points.back().frenet.s, road.frame.goal, Tolerance(0.05)) << beyond;
+    }
+    if (beyond < road.settings.safe_distance) {
+      EXPECT_FALSE(plan.to_goal) << beyond;
+    }
+  }
 }
 
 }  // namespace
