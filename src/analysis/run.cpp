@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -21,6 +22,7 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
+#include "trackbed/planning/replan/replan.h"
 #include "trackbed/scenario/input_files.h"
 #include "trackbed/sim/scene.h"
 
@@ -155,6 +157,33 @@ void NoteSlidingContacts(RunResult& result, const CarModel& car) {
   }
 }
 
+/// Adds a note to the verdict for each plant whose car followed a slower obstacle: for how long,
+/// and the reason for not passing that held longest.
+void NoteFollowing(RunResult& result) {
+  for (const RunLog& log : result.logs) {
+    std::map<std::string, double> times;  // Time for which each reason held [s].
+    double total = 0.0;
+    for (std::size_t i = 0; i < log.changes.size(); ++i) {
+      const auto* found = log.changes[i].plan.diagnostics.replan.As<ReplanDiagnostics>();
+      if (found == nullptr || !found->along || found->along->kind != ManeuverType::kFollow) {
+        continue;
+      }
+      const double end =
+          i + 1 < log.changes.size() ? log.changes[i + 1].time : log.rows.back().state.time;
+      times[found->along->why] += end - log.changes[i].time;
+      total += end - log.changes[i].time;
+    }
+    if (total > 0.0) {
+      const auto longest =
+          std::max_element(times.begin(), times.end(),
+                           [](const auto& a, const auto& b) { return a.second < b.second; });
+      result.verdict.notes.push_back(
+          fmt::format("{}: followed a slower obstacle for {:.3g} s instead of passing it: {}",
+                      log.plant, total, longest->first));
+    }
+  }
+}
+
 }  // namespace
 
 ordered_json Versions() {
@@ -249,6 +278,7 @@ RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& ho
     result.verdict.notes.push_back(fmt::format("steering rate set to {:.4g} rad/s", *rate));
   }
   NoteSlidingContacts(result, car);
+  NoteFollowing(result);
   if (scenario.record) {
     for (const std::string& note : scenario.record->data->notes) {
       result.verdict.notes.push_back("record: " + note);

@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -99,6 +100,37 @@ TEST(RunScenario, TakesPlantsFromFunctionsWithState) {
   const RunResult run =
       RunScenario(folder.Write("corner.yaml", kCorner), {"drive.plants=[kinematic, crooked]"});
   EXPECT_GT(Compare(run, "kinematic", "crooked").position.max, 0.01);
+}
+
+RunResult RunBehind(double lead, const std::string& road) {
+  return RunScenario(ParseScenario(
+      fmt::format(
+          "schema: 1\nname: behind\nvehicle: {{model: prius}}\n"
+          "mission: {{speed: 8, waypoints: [[0, 0], [120, 0]], start: {{speed: 3}}}}\n"
+          "world: {{obstacles: [{{box: {{x: 15, y: 0, length: 4, width: 1.8, height: 1.5}}, "
+          "velocity: {{x: {}}}}}]}}\n"
+          "plan: {{global: {{method: dubins}}, replan: {{road: {}, along: {{method: "
+          "frenet}}}}}}\n"
+          "drive: {{plants: [kinematic]}}\n",
+          lead, road),
+      "behind.yaml", ""));
+}
+
+TEST(FollowingNote, SaysHowLongAndWhy) {
+  const RunResult result = RunBehind(3.0, "{left: 1.9, right: 1.9}");
+  ASSERT_EQ(result.verdict.notes.size(), 1U);
+  const std::string& note = result.verdict.notes.front();
+  EXPECT_EQ(note.find("kinematic: followed a slower obstacle for "), 0U) << note;
+  EXPECT_NE(note.find(" s instead of passing it: no room to pass"), std::string::npos) << note;
+  // The car follows until the leader is past the goal: 105 m at 3 m/s, less the last meters, in
+  // which the car brakes to its goal from 3 m/s.
+  const double time = std::stod(note.substr(note.find(" for ") + 5));
+  EXPECT_GT(time, 25.0);
+  EXPECT_LT(time, 40.0);
+}
+
+TEST(FollowingNote, IsAbsentWhereTheCarPassesAtOnce) {
+  EXPECT_TRUE(RunBehind(0.5, "{left: 6, right: 6}").verdict.notes.empty());
 }
 
 }  // namespace
