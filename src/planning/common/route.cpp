@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trackbed/core/error.h"
 #include "trackbed/planning/common/course_schedule.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/feasibility.h"
+#include "trackbed/world/world.h"
 
 namespace trackbed {
 namespace {
@@ -109,15 +111,31 @@ double RadiusFor(const VehicleParams& vehicle, const std::optional<double>& radi
   return radius.value_or(1.1 * vehicle.min_turning_radius());
 }
 
-Plan CheckStops(const std::vector<Pose2>& stops, const CollisionChecker& clear) {
+std::string NearestObstacle(const VehicleParams& vehicle, const Pose2& pose,
+                            const std::vector<OrientedBox>& obstacles, double distance) {
+  TRACKBED_CHECK(!obstacles.empty(), "no obstacles");
+  const OrientedBox footprint = FootprintAt(vehicle, pose);
+  const auto nearest = std::min_element(
+      obstacles.begin(), obstacles.end(), [&](const OrientedBox& a, const OrientedBox& b) {
+        return Separation(footprint, a) < Separation(footprint, b);
+      });
+  const double apart = Separation(footprint, *nearest);
+  return fmt::format("the obstacle at ({:.4g}, {:.4g}) {}; safe_distance is {:.4g} m",
+                     nearest->center.x, nearest->center.y,
+                     apart < 0.0 ? fmt::format("overlaps the car's footprint by {:.3g} m", -apart)
+                                 : fmt::format("is {:.3g} m from the car's footprint", apart),
+                     distance);
+}
+
+Plan CheckStops(const std::vector<Pose2>& stops, const PlanRequest& request, double safe_distance) {
+  const CollisionChecker clear(request.vehicle, request.obstacles, safe_distance);
   for (std::size_t i = 0; i < stops.size(); ++i) {
     if (!clear.IsFree(stops[i])) {
-      const std::string place = fmt::format("({:.4g}, {:.4g})", stops[i].x, stops[i].y);
-      return i == 0
-                 ? Refused(PlanStatus::kStartBlocked,
-                           "the start is too close to an obstacle at " + place)
-                 : Refused(PlanStatus::kGoalBlocked,
-                           fmt::format("waypoint {} is too close to an obstacle at {}", i, place));
+      const std::string why =
+          NearestObstacle(request.vehicle, stops[i], request.obstacles, safe_distance);
+      return i == 0 ? Refused(PlanStatus::kStartBlocked, "the start is blocked: " + why)
+                    : Refused(PlanStatus::kGoalBlocked,
+                              fmt::format("waypoint {} is blocked: {}", i, why));
     }
   }
   return {};

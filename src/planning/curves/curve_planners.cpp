@@ -134,7 +134,7 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
                    .road = request.friction};
   const CollisionChecker clear(request.vehicle, request.obstacles, options.safe_distance);
   const std::vector<Pose2> stops = PlannedStops(request);
-  if (Plan refused = CheckStops(stops, clear); !refused.ok()) {
+  if (Plan refused = CheckStops(stops, request, options.safe_distance); !refused.ok()) {
     return refused;
   }
   Plan plan;

@@ -9,6 +9,7 @@
 #include "src/planning/grid/pose_search.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/planning/common/route.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 
 // Runs hybrid A* at the requested resolution and, if this finds no path, at a fixed series of
@@ -56,10 +57,10 @@ class Searches {
     const std::shared_ptr<const OccupancyGrid> grid = MakeGrid(options_.cell);
     result_.cells = static_cast<int>(grid->size());
     if (!clear_.IsFree(problem_.start)) {
-      return Fail(PlanStatus::kStartBlocked, "the start is too close to an obstacle");
+      return Fail(PlanStatus::kStartBlocked, "the start is blocked: " + Nearest(problem_.start));
     }
     if (!clear_.IsFree(problem_.goal)) {
-      return Fail(PlanStatus::kGoalBlocked, "the goal is too close to an obstacle");
+      return Fail(PlanStatus::kGoalBlocked, "the goal is blocked: " + Nearest(problem_.goal));
     }
     const auto to_goal = DistanceTo(grid, problem_.goal);
     if (!Connects(*to_goal)) {
@@ -91,6 +92,11 @@ class Searches {
   }
 
  private:
+  /// Describes the obstacle nearest to the car at `pose`, for people.
+  [[nodiscard]] std::string Nearest(const Pose2& pose) const {
+    return route::NearestObstacle(vehicle_, pose, problem_.obstacles, options_.safe_distance);
+  }
+
   HybridAStarResult Fail(PlanStatus status, const std::string& reason) {
     result_.status = status;
     result_.reason = reason;

@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/planning/common/route.h"
+
+// Tests the refusal of routes whose stops are too close to an obstacle.
+namespace trackbed {
+namespace {
+
+/// A route of 40 m along x; boxes are 2 m long and wide.
+PlanRequest RouteWith(const std::vector<Vec2>& boxes) {
+  PlanRequest request{.vehicle = ReferenceCar()};
+  request.waypoints = {{0.0, 0.0}, {40.0, 0.0}};
+  for (const Vec2& box : boxes) {
+    request.obstacles.push_back({{box.x(), box.y(), 0.0}, 2.0, 2.0});
+  }
+  return request;
+}
+
+Plan Check(const PlanRequest& request, double safe_distance) {
+  return route::CheckStops(PlannedStops(request), request, safe_distance);
+}
+
+TEST(CheckStops, NamesTheNearestObstacleItsDistanceAndTheRequiredOne) {
+  const VehicleParams car = ReferenceCar();
+  const double front = car.length - car.rear_overhang;
+  // The rear side of the second box is 0.25 m ahead of the car's front.
+  const Plan plan = Check(RouteWith({{0.0, 9.0}, {front + 1.25, 0.0}}), 0.5);
+  EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
+  EXPECT_EQ(plan.reason, fmt::format("the start is blocked: the obstacle at ({:.4g}, 0) is 0.25 m "
+                                     "from the car's footprint; safe_distance is 0.5 m",
+                                     front + 1.25));
+  EXPECT_TRUE(Check(RouteWith({{front + 1.25, 0.0}}), 0.25 - 1e-9).ok());
+}
+
+TEST(CheckStops, NamesTheDepthOfAnOverlap) {
+  const double front = ReferenceCar().length - ReferenceCar().rear_overhang;
+  const Plan plan = Check(RouteWith({{40.0 + front + 0.6, 0.0}}), 0.3);
+  EXPECT_EQ(plan.status, PlanStatus::kGoalBlocked);
+  EXPECT_EQ(plan.reason,
+            fmt::format("waypoint 1 is blocked: the obstacle at ({:.4g}, 0) overlaps the car's "
+                        "footprint by 0.4 m; safe_distance is 0.3 m",
+                        40.0 + front + 0.6));
+}
+
+}  // namespace
+}  // namespace trackbed
