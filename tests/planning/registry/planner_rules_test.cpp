@@ -108,7 +108,7 @@ TEST(PlannerStart, IsThatOfThePathInAFile) {
   PathFileOptions options = Line();
   const auto start = PlannerFor(options).start;
   EXPECT_EQ(start(options)->pose, (Pose2{1.0, 2.0, 0.5}));
-  EXPECT_EQ(start(options)->curvature, 0.02);
+  EXPECT_EQ(PlannerFor(options).start_curvature(options, RouteStart{}), 0.02);
   EXPECT_EQ(start(options)->speed, std::nullopt);
   options.speeds = PathSpeeds::kFile;
   EXPECT_EQ(start(options)->speed, 3.0);
