@@ -8,6 +8,7 @@
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/drive/start_overlap.h"
 #include "trackbed/falsify/falsify.h"
 #include "trackbed/identify/identify.h"
 
@@ -42,7 +43,11 @@ void AddCheck(const Command& command) {
             static_cast<void>(CheckSearch(std::move(study)));
           }
         } else {
-          static_cast<void>(LoadCar(options->scenario.Read(file)));
+          const Scenario scenario = options->scenario.Read(file);
+          if (std::string why = StartOverlap(scenario, LoadCar(scenario).params()); !why.empty()) {
+            throw InputError(
+                Problem{.file = file.string(), .key = "mission.start", .message = std::move(why)});
+          }
         }
         if (!options->scenario.quiet) {
           Print("{}: ok\n", file.string());

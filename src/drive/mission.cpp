@@ -6,6 +6,7 @@
 #include "src/drive/replanning_monitor.h"
 #include "src/drive/scenario_parts.h"
 #include "trackbed/drive/drive.h"
+#include "trackbed/drive/start_overlap.h"
 #include "trackbed/planning/avoidance/avoidance.h"
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/common/feasibility.h"
@@ -101,9 +102,44 @@ std::optional<SpeedAtLimit> LimitsFor(const Scenario& scenario, const Diagram& d
   return SpeedAtLimit{diagram(Roads(scenario.world)), *limits, scenario.world.ground};
 }
 
+/// Refuses a mission with this reason.
+FeasiblePlan Refused(PlanStatus status, std::string reason, const PlanRequest& request) {
+  Plan plan;
+  plan.status = status;
+  plan.reason = std::move(reason);
+  return MakeFeasible(std::move(plan), request);
+}
+
+/// Adds to the reason of a plan that failed how to leave obstacles to the layers that plan during
+/// the run. Adds nothing if the planner fails without the obstacles, too, or if the scenario has no
+/// such layers.
+FeasiblePlan WithHint(FeasiblePlan plan, PlanRequest request, const Scenario& scenario) {
+  const PlanSpec& spec = *scenario.plan;
+  const std::vector<OrientedBox>& walls = MapWalls(scenario.world);
+  if (!(spec.avoid || spec.replan) || request.obstacles.size() == walls.size()) {
+    return plan;
+  }
+  request.obstacles = walls;
+  if (!MakePlan(request, spec.global).ok()) {
+    return plan;
+  }
+  return Refused(
+      plan->status,
+      fmt::format("{}; without the obstacles that are known at the start, {} finds a path: to "
+                  "leave an obstacle to {}, give it known_from: {{time: 0.1}}, or use a planner "
+                  "that ignores obstacles, such as plan.global: {{method: course}}",
+                  plan->reason, PlannerFor(spec.global).name,
+                  spec.replan ? "plan.replan" : "plan.avoid"),
+      request);
+}
+
 FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
                       std::optional<SpeedAtLimit> limits) {
   const StartState start = InitialState(scenario, vehicle);
+  if (std::string why = StartOverlap(scenario, vehicle); !why.empty()) {
+    return Refused(PlanStatus::kStartBlocked, std::move(why),
+                   RequestOn({}, vehicle, MakeSpeedLimits(scenario)));
+  }
   if (!scenario.plan) {
     Plan plan;
     plan.reference.speed = SpeedProfile({{0.0, MissionSpeed(scenario)}});
@@ -137,7 +173,7 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
       .limits = std::move(limits)};
   FeasiblePlan plan = MakePlan(request, scenario.plan->global);
   if (!plan.ok()) {
-    return plan;
+    return WithHint(std::move(plan), request, scenario);
   }
   NoteSlowTurns(plan, request.speed.speed);
   if (!scenario.plan->avoid) {

@@ -1,0 +1,84 @@
+#include "trackbed/drive/start_overlap.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/drive/drive.h"
+#include "trackbed/planning/common/plan.h"
+
+// Tests the refusal of starts inside obstacles, and the hint how to leave obstacles to the layers
+// that plan during the run.
+namespace trackbed {
+namespace {
+
+/// A mission of 100 m along x from the origin, with one obstacle 2 m long and wide.
+Scenario ScenarioWith(double x, double y, const std::string& more,
+                      const std::string& plan = "{method: dubins}") {
+  return ParseScenario(
+      fmt::format("schema: 1\nname: start\nmission: {{speed: 3, waypoints: [[0, 0], [100, 0]]}}\n"
+                  "world: {{obstacles: [{{box: {{x: {}, y: {}, length: 2, width: 2, height: 1}}{}"
+                  "}}]}}\nplan: {}\n",
+                  x, y, more, plan),
+      "start.yaml", "");
+}
+
+TEST(StartOverlap, NamesTheObstacleAndTheDepth) {
+  const VehicleParams car = ReferenceCar();
+  const double front = car.length - car.rear_overhang;
+  // The obstacle reaches from x - 1 m on; moving it forward by the overlap frees the car. Obstacles
+  // that move, or become known later, overlap alike.
+  for (const char* more : {"", ", velocity: {x: 5}", ", known_from: {time: 3}"}) {
+    EXPECT_EQ(StartOverlap(ScenarioWith(front + 0.75, 0.2, more), car),
+              fmt::format("world.obstacles[0] at ({:.4g}, 0.2) overlaps the car, which starts at "
+                          "(0, 0), by 0.25 m; move one of them by at least this distance",
+                          front + 0.75));
+    EXPECT_EQ(StartOverlap(ScenarioWith(front + 1.0, 0.2, more), car), "");  // it touches the car
+  }
+  EXPECT_NE(StartOverlap(ScenarioWith(0.0, -0.5 * car.width - 0.9, ""), car).find("by 0.1 m"),
+            std::string::npos);
+}
+
+TEST(StartOverlap, RefusesTheRun) {
+  for (const char* plan : {"{method: dubins}",
+                           "{global: {method: dubins}, replan: {along: "
+                           "{method: frenet}}}"}) {
+    const Scenario scenario = ScenarioWith(1.0, 0.0, ", known_from: {time: 3}", plan);
+    const FeasiblePlan refused = PlanScenario(scenario, ReferenceCar());
+    EXPECT_EQ(refused->status, PlanStatus::kStartBlocked);
+    EXPECT_EQ(refused->reason, StartOverlap(scenario, ReferenceCar()));
+  }
+}
+
+TEST(PlanScenario, SaysHowToLeaveAnObstacleToReplanning) {
+  const std::string replan = "{global: {method: dubins}, replan: {along: {method: frenet}}}";
+  const FeasiblePlan refused = PlanScenario(ScenarioWith(50.0, 0.2, "", replan), ReferenceCar());
+  ASSERT_FALSE(refused.ok());
+  EXPECT_NE(refused->reason.find("to leave an obstacle to plan.replan, give it known_from: {time: "
+                                 "0.1}, or use a planner that ignores obstacles"),
+            std::string::npos)
+      << refused->reason;
+  // Both remedies make a plan.
+  EXPECT_TRUE(
+      PlanScenario(ScenarioWith(50.0, 0.2, ", known_from: {time: 0.1}", replan), ReferenceCar())
+          .ok());
+  // Without layers that plan during the run, the hint would be wrong.
+  const FeasiblePlan alone = PlanScenario(ScenarioWith(50.0, 0.2, ""), ReferenceCar());
+  ASSERT_FALSE(alone.ok());
+  EXPECT_EQ(alone->reason.find("known_from"), std::string::npos) << alone->reason;
+}
+
+TEST(PlanScenario, GivesNoHintWhereTheObstacleIsNotTheCause) {
+  // A radius of 2 m is below the minimum of the car, with or without the obstacle.
+  const FeasiblePlan refused = PlanScenario(
+      ScenarioWith(50.0, 0.2, "",
+                   "{global: {method: dubins, radius: 2}, replan: {along: {method: frenet}}}"),
+      ReferenceCar());
+  ASSERT_FALSE(refused.ok());
+  EXPECT_EQ(refused->reason.find("known_from"), std::string::npos) << refused->reason;
+}
+
+}  // namespace
+}  // namespace trackbed
