@@ -20,7 +20,7 @@ struct HeadingMeaning {
   double unit;
   double sign;
   double offset;
-  const char* remedy;  ///< What the user should change; empty for radians from the x axis.
+  const char* remedy;  ///< Change that the user should make; empty for radians from the x axis.
 };
 
 constexpr double kDegree = kPi / 180.0;

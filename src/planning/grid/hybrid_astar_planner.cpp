@@ -19,7 +19,7 @@ using route::LeadInForCurves;
 using route::RadiusFor;
 using route::Refused;
 
-/// What the planner knows of all legs.
+/// Data that the plans of all legs need.
 struct Route {
   const HybridAStarOptions& options;
   const PlanRequest& request;
@@ -95,7 +95,7 @@ HybridAStarResult FirstRollingLeg(const Route& route) {
         "turn",
         lead.length);
   }
-  // To slow down takes up to twice as long as to drive on: the length counts again.
+  // The length on which the car slows down counts twice: the car needs up to twice the time.
   if (at_once.ok() && at_once.cost <= 2.0 * lead.length + found.cost) {
     return at_once;
   }

@@ -66,7 +66,7 @@ class PoseSearch {
   /// Returns the number of expanded poses.
   [[nodiscard]] virtual int expansions() const = 0;
 
-  /// Returns the cost of the cheapest path found so far; infinite if there is none.
+  /// Returns the cost of the cheapest path found so far; infinite before the first path.
   [[nodiscard]] virtual double cost() const = 0;
 
   /// Returns the segments of the cheapest path, driven from the start to the goal.

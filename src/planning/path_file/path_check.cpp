@@ -105,8 +105,8 @@ std::pair<PathDemand, PathFaultKind> DemandOf(const PathPiece& piece, const Path
 }
 
 /// Returns the largest slope |d delta/ds| of the steering angle on a piece [rad/m]. On tight bends,
-/// the slope varies within a piece, so it is taken wherever the steering has turned by about 0.02
-/// rad.
+/// the slope varies within a piece. The function therefore samples the slope each time the steering
+/// has turned by about 0.02 rad.
 double SteepestSlope(const Path& path, const PathPiece& piece, const VehicleParams& vehicle) {
   constexpr double kTurn = 0.02;  // [rad]
   constexpr double kMaxParts = 100.0;

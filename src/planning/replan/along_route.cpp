@@ -343,7 +343,7 @@ class AlongRoute {
   // Points of the last motion and of the braking after the motion.
   std::vector<TrajectoryPoint> points_;
   bool passes_ = false;  // Whether the last motion passes an obstacle.
-  std::string why_;      // Reason why the car does not pass its leader, if there is one.
+  std::string why_;      // Reason why the car does not pass its leader; empty without a leader.
 };
 
 }  // namespace
