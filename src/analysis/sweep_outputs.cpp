@@ -7,6 +7,18 @@
 #include "trackbed/analysis/sweep.h"
 
 namespace trackbed {
+namespace {
+
+/// Adds the properties of a planned path that the path has.
+void AddPlanOutputs(const PlannedPath& path, Outputs& outputs) {
+  for (const PathProperty& property : PathProperties()) {
+    if (const std::optional<double> value = property.measure(path)) {
+      outputs[fmt::format("plan.{}", property.name)] = ToText(*value);
+    }
+  }
+}
+
+}  // namespace
 
 Outputs CollectOutputs(const RunResult& result) {
   Outputs outputs;
@@ -33,13 +45,8 @@ Outputs CollectOutputs(const RunResult& result) {
   if (result.scenario.plan) {
     outputs["plan.status"] = ToString(result.plan->status);
     outputs["timing.planning_s"] = ToText(result.planning_time);
-    for (const PathProperty& property : PathProperties()) {
-      const std::optional<double> value =
-          result.plan.ok() ? property.measure({result.plan, result.scenario.world, result.vehicle})
-                           : std::nullopt;
-      if (value) {
-        outputs[fmt::format("plan.{}", property.name)] = ToText(*value);
-      }
+    if (result.plan.ok()) {
+      AddPlanOutputs({result.plan, result.scenario.world, result.vehicle}, outputs);
     }
   }
   return outputs;
@@ -54,8 +61,14 @@ std::vector<std::string> PossibleOutputs(const Scenario& scenario) {
     }
     all.metrics.push_back(AllMetrics(scenario, plant));
   }
+  Outputs outputs = CollectOutputs(all);
+  if (scenario.plan) {
+    Plan plan;
+    plan.waypoints = scenario.mission.waypoints;
+    AddPlanOutputs({plan, scenario.world, all.vehicle}, outputs);
+  }
   std::vector<std::string> paths;
-  for (const auto& output : CollectOutputs(all)) {
+  for (const auto& output : outputs) {
     paths.push_back(output.first);
   }
   return paths;

@@ -123,13 +123,15 @@ void AddInnerKnots(const Stretch& stretch, double in_squared, double out_squared
 }
 
 /// Returns the constant deceleration at which a car slows down if it starts faster than the profile
-/// [m/s^2]. This is the deceleration of the first stretch, or more if the car would otherwise be
-/// too fast at the start of a strict cap, at the start of a section of less grip, or at the end of
-/// the path. `squared` are the largest squared speeds at the ends of the stretches.
+/// [m/s^2]. This is the deceleration of the first stretch, or `deceleration` without stretches, or
+/// more if the car would otherwise be too fast at the start of a strict cap, at the start of a
+/// section of less grip, or at the end of the path. `squared` are the largest squared speeds at the
+/// ends of the stretches.
 double BrakingFromStart(double length, double start_squared, double deceleration,
                         const std::vector<SpeedCap>& caps, const std::vector<Stretch>& stretches,
                         const std::vector<double>& squared) {
-  double braking = std::max(stretches.front().deceleration, start_squared / (2.0 * length));
+  double braking = std::max(stretches.empty() ? deceleration : stretches.front().deceleration,
+                            start_squared / (2.0 * length));
   for (const SpeedCap& cap : caps) {
     if (cap.strict && cap.from > kNegligible && cap.from < length - kNegligible &&
         cap.to > cap.from) {

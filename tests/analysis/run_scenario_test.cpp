@@ -130,7 +130,7 @@ TEST(FollowingNote, SaysHowLongAndWhy) {
 }
 
 TEST(FollowingNote, IsAbsentWhereTheCarPassesAtOnce) {
-  EXPECT_TRUE(RunBehind(0.5, "{left: 6, right: 6}").verdict.notes.empty());
+  EXPECT_TRUE(RunBehind(2.0, "{left: 6, right: 6}").verdict.notes.empty());
 }
 
 }  // namespace

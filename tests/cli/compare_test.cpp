@@ -121,7 +121,7 @@ TEST(Test, RunsManyAtOnceInTheOrderOfTheFiles) {
     const Outcome outcome =
         Trackbed(folder, std::string("test s --jobs ") + jobs + options + " 2>errors");
     EXPECT_EQ(outcome.code, 2);  // invalid input outranks a failed expectation
-    EXPECT_EQ(WithoutDurations(outcome.output), lines);
+    EXPECT_EQ(Verdicts(outcome.output), lines);
     EXPECT_THAT(ReadFile(folder.path() / "errors"),
                 HasSubstr("s/b.yaml:3:11: mission.sped: unknown key 'sped'"));
   }
@@ -172,7 +172,7 @@ TEST(Test, GoesThroughFoldersAndTakesEveryScenarioOnce) {
   const std::string options = "test --jobs 1 --plant kinematic --set 'expect={}' --junit j.xml -- ";
   const Outcome outcome = Trackbed(folder, options + "empty ./s/b.yaml s s/a/../b.yaml 2>errors");
   EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(WithoutDurations(outcome.output),
+  EXPECT_EQ(Verdicts(outcome.output),
             "pass ./s/b.yaml: all expectations met\npass s/a/deep/c.yml: all expectations met\n"
             "3 scenarios: 2 passed, 1 with wrong input\n");
   EXPECT_EQ(ReadFile(folder.path() / "errors"),
@@ -194,7 +194,7 @@ TEST(Test, CtrlCSkipsTheRest) {
                "test s --jobs 1 --junit j.xml >lines & n=0; until [ -s lines ] || [ "
                "$n -gt 600 ]; do n=$((n + 1)); sleep 0.1; done; kill -INT $!; wait $!");
   EXPECT_EQ(outcome.code, 130) << outcome.output;
-  EXPECT_EQ(WithoutDurations(ReadFile(folder.path() / "lines")),
+  EXPECT_EQ(Verdicts(ReadFile(folder.path() / "lines")),
             "pass s/a.yaml: all expectations met\n2 scenarios: 1 passed, 1 not finished\n");
   EXPECT_THAT(ReadFile(folder.path() / "j.xml"), HasSubstr("<skipped message=\"interrupted\"/>"));
 }

@@ -33,6 +33,13 @@ inline std::string WithoutDurations(const std::string& output) {
   return std::regex_replace(output, duration, "");
 }
 
+/// Output of `test` without durations and without the notes on waypoints that a fillet misses.
+inline std::string Verdicts(const std::string& output) {
+  static const std::regex note(
+      "; plan: waypoint [0-9]+ at [^;\n]*; plan\\.max_waypoint_miss [^;\n]*");
+  return std::regex_replace(WithoutDurations(output), note, "");
+}
+
 /// Whether the program was built with video.
 inline bool HasVideo(const TempFolder& folder) {
   return Trackbed(folder, "--version").output.find("\nvideo off\n") == std::string::npos;

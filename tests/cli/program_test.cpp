@@ -305,7 +305,7 @@ TEST(Program, TestsScenariosOneLineEach) {
       Trackbed(folder, "test --plant kinematic --set 'expect={reach_goal: 0.5}' -- " +
                            ScenarioFile("winding") + " " + ScenarioFile("three_turns"));
   EXPECT_EQ(outcome.code, 0);
-  EXPECT_EQ(WithoutDurations(outcome.output),
+  EXPECT_EQ(Verdicts(outcome.output),
             "pass " + ScenarioFile("winding") + ": all expectations met\npass " +
                 ScenarioFile("three_turns") + ": all expectations met\n2 scenarios: 2 passed\n");
   const Outcome failed =

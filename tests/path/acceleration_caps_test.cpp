@@ -145,6 +145,12 @@ TEST(AccelerationCaps, GiveTheFastestProfileWithinThem) {
   EXPECT_GT(compared, 200);
 }
 
+TEST(AccelerationCaps, HoldOnPathsOfAnyLength) {
+  // Shorter than the shortest stretch of a profile.
+  EXPECT_EQ(StopAtEnd(1e-10, 0.0, kLimits, {}, {{0.0, 1.0, 1.0, 1.0}}).SpeedAt(1e-10), 0.0);
+  EXPECT_EQ(StopAtEnd(1e-10, 0.0, kLimits).SpeedAt(1e-10), 0.0);
+}
+
 TEST(AccelerationCaps, MustBePositive) {
   EXPECT_THROW(StopAtEnd(10.0, 0.0, kLimits, {}, {{0.0, 5.0, 0.0, 1.0}}), PreconditionError);
   EXPECT_THROW(StopAtEnd(10.0, 0.0, kLimits, {}, {{0.0, 5.0, 1.0, -1.0}}), PreconditionError);

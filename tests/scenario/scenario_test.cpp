@@ -134,7 +134,7 @@ test.yaml:7:41: mission.waypoints[3]: expected a point [x, y], found 'here'
 test.yaml:8:3: mission.sped: unknown key 'sped'; did you mean 'speed'?
 test.yaml:9:32: plan.radius: 0 is out of range; must be above 0 and at most 100000
 test.yaml:9:47: plan.constraint: unknown 'halfleg'; did you mean 'half_leg'?
-test.yaml:9:56: plan.curvature: unknown key 'curvature'; allowed: method, radius, constraint, neutral_steering, max_radius, without_room, min_speed, objective, search, resimulate_each_turn, reference, weights, infeasible
+test.yaml:9:56: plan.curvature: unknown key 'curvature'; allowed: method, radius, constraint, neutral_steering, max_radius, without_room, min_speed, objective, search, resimulate_each_turn, reference, weights, infeasible, max_waypoint_miss
 test.yaml:10:19: control.method: unknown 'previw'; did you mean 'preview'?
 test.yaml:11:29: drive.plants[1]: 'kinematic' is listed twice
 test.yaml:11:40: drive.plants[2]: unknown 'mujocco'; did you mean 'mujoco'?
