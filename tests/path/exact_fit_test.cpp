@@ -169,8 +169,8 @@ TEST(FitPath, KeepsTheEndsOfRandomPoints) {
   EXPECT_GE(fits, 15);
 }
 
-/// The log of a car that drives on a circle of 20 m, stops twice and drives on, with noise of the
-/// standard deviation `noise` [m]. The points are up to `step` [m] apart.
+/// The log of a car that drives along a circle with a radius of 20 m and stops twice, with noise of
+/// the standard deviation `noise` [m]. The points are up to `step` [m] apart.
 PathPoints Recording(double noise, Dice& dice, double step = 0.1) {
   PathPoints given;
   double s = 0.0;

@@ -63,7 +63,7 @@ std::optional<double> StraightFrom(const Path& path, double from, double length)
   return straight > 0.0 ? std::optional(std::max(from, left)) : std::nullopt;
 }
 
-/// Returns the speed cap at a joint between two path pieces, computed as in CapsOfSteps.
+/// Returns the speed cap at a joint between two path pieces, computed as in PlanSteps.
 std::vector<SpeedCap> CapOfJoint(const VehicleParams& vehicle, const Path& path, double s,
                                  double speed) {
   const double before = path.At(s - kPathCheckSpacing).curvature;

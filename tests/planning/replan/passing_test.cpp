@@ -135,9 +135,9 @@ TEST_P(Passing, DoesNotPullOutWhereTheRouteEndsFirst) {
 }
 
 TEST_P(Passing, WaitsForOncomingTraffic) {
-  // At 8 m/s the car needs at least 8 s to get past a leader at 4 m/s: 9 m behind it, 2 m long, 4.5
-  // m of its own, more than 3 m/s slower at first. A car that comes at 8 m/s from 80 m ahead meets
-  // the car within 6 s on its left.
+  // At 8 m/s the car needs at least 8 s to pass a leader at 4 m/s: it starts 9 m behind the leader
+  // and more than 3 m/s below its desired speed, the leader is 2 m long, and the car is 4.5 m long.
+  // An oncoming car at 8 m/s from 80 m ahead meets the car within 6 s on its left.
   Road road(4.0, 4.0, 9.0);
   road.OpenOnTheLeft();
   EXPECT_EQ(road.Go(GetParam().defaults).kind, ManeuverType::kProceed);
