@@ -27,8 +27,6 @@ set(installed trackbed_version trackbed_library)
 get_property(modules GLOBAL PROPERTY TRACKBED_MODULES)
 foreach(module IN LISTS modules)
   string(REPLACE "/" "_" name ${module})
-  get_filename_component(folder trackbed/${module} DIRECTORY)
-  install(DIRECTORY include/trackbed/${module} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/${folder})
   if(module STREQUAL "testing")
     install(TARGETS trackbed_testing EXPORT trackbedTestingTargets)
     install(EXPORT trackbedTestingTargets NAMESPACE trackbed:: DESTINATION ${package_folder})
@@ -37,7 +35,42 @@ foreach(module IN LISTS modules)
     target_link_libraries(trackbed_library INTERFACE trackbed_${name})
   endif()
 endforeach()
-install(FILES include/trackbed/trackbed.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/trackbed)
+
+# Headers that programs may include (docs/how-to/embed.md). These headers and all headers that they
+# include are installed. All other headers are internal.
+set(public_headers
+    trackbed.h
+    analysis/compare_runs.h
+    analysis/metric_registry.h
+    analysis/run_folder.h
+    analysis/statistics.h
+    analysis/suite.h
+    core/version.h
+    falsify/falsify.h
+    falsify/verify.h
+    identify/identify.h
+    path_files/path_file.h
+    recording/import_log.h
+    render/film.h
+    report/report.h
+    requirement/formula.h
+    road_network/lane_route.h
+    road_network/open_drive.h
+    track/track_file.h
+    planning/curves/dubins.h
+    planning/curves/reeds_shepp.h
+    testing/falsify_testing.h
+    testing/scenario_testing.h
+    watch/watch.h)
+if(NOT TARGET trackbed_testing)
+  list(FILTER public_headers EXCLUDE REGEX "^testing/")
+endif()
+# The includes are followed when installing: they may have changed since the configuration.
+install(
+  CODE "set(include_folder \"${PROJECT_SOURCE_DIR}/include\")
+set(destination \"${CMAKE_INSTALL_INCLUDEDIR}\")
+set(public_headers \"${public_headers}\")")
+install(SCRIPT cmake/InstallHeaders.cmake)
 set_target_properties(trackbed_version PROPERTIES EXPORT_NAME version)
 set_target_properties(trackbed_library PROPERTIES EXPORT_NAME trackbed)
 set_target_properties(trackbed_cli PROPERTIES EXPORT_NAME cli_library)

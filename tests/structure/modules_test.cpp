@@ -294,6 +294,29 @@ TEST(Modules, AreComponentsThatLinkWhatTheirPageSays) {
   EXPECT_GT(rows, 20U);
 }
 
+// Install.cmake names the headers that programs include; embed.md lists them.
+TEST(Headers, ThatAreInstalledAreThoseOfThePage) {
+  std::vector<std::string> installed;
+  std::ifstream build(kRoot / "cmake/Install.cmake");
+  const std::regex header(R"(^    (?:list\(APPEND public_headers )?([\w/]+\.h)\b.*)");
+  for (std::string line; std::getline(build, line);) {
+    if (std::smatch match; std::regex_match(line, match, header)) {
+      installed.push_back(match[1]);
+    }
+  }
+  std::vector<std::string> listed;
+  std::ifstream page(kRoot / "docs/how-to/embed.md");
+  const std::regex row(R"(^\| \[`trackbed/([\w/]+\.h)`\].*)");
+  for (std::string line; std::getline(page, line);) {
+    if (std::smatch match; std::regex_match(line, match, row)) {
+      listed.push_back(match[1]);
+      EXPECT_TRUE(fs::exists(kRoot / "include/trackbed" / listed.back())) << listed.back();
+    }
+  }
+  EXPECT_GT(installed.size(), 10U);  // the scan found the list
+  EXPECT_THAT(listed, testing::UnorderedElementsAreArray(installed));
+}
+
 // The examples on the pages equal those that the tests build (tests/package).
 TEST(Pages, ShowTheirExamplesAsTheyAreBuilt) {
   struct Shown {
