@@ -3,7 +3,7 @@
 # or to the program, so the installation can be moved.
 #
 #   trackbed::trackbed   the library: all modules but testing
-#   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_fillet
+#   trackbed::MODULE     one module, such as trackbed::drive or trackbed::planning_search
 #   trackbed::testing    matchers for tests, with find_package(trackbed COMPONENTS testing): only
 #                        this component needs GoogleTest
 #   trackbed::cli        the program; its module is trackbed::cli_library

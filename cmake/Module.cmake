@@ -1,17 +1,20 @@
-# trackbed_module(PATH [STATIC] [SOURCE_DIR DIR] [KIND NUMERICS|LIGHT] [MODULES module...]
-#                 [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
+# trackbed_module(PATH [STATIC] [SOURCE_DIR DIR] [KIND NUMERICS|LIGHT] [FOLDERS folder...]
+#                 [MODULES module...] [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
 #
 # Adds one library for a module; the library is static or shared (Shared.cmake), but always static
-# with the option STATIC. Public headers are in include/trackbed/PATH, sources are in src/PATH (or
-# DIR). PATH is a name such as `core`, or a path such as `planning/fillet` for a part of a larger
-# module. The target of `planning/fillet` is trackbed_planning_fillet, exported as
-# trackbed::planning_fillet. The modules in MODULES must be declared before this module, so that the
-# calls are in the order of the modules, from the bottom up.
+# with the option STATIC. A module consists of one or more folders: the public headers of a folder are
+# in include/trackbed/FOLDER, its sources are in src/FOLDER (or DIR). FOLDERS is PATH by default.
+# PATH is a name such as `core`, or a path such as `planning/search` for a part of a larger module.
+# The target of `planning/search` is trackbed_planning_search, exported as trackbed::planning_search.
+# The modules in MODULES must be declared before this module, so that the calls are in the order of
+# the modules, from the bottom up.
 #
 # A target sees only headers of the modules that it links: in the build tree, each module has a
-# separate include directory with a link to its headers.
+# separate include directory with links to its headers.
 # PrecompiledHeaders.cmake explains the argument KIND; default: NUMERICS. The target header_checks,
 # which is not part of `all`, compiles each public header alone.
+#
+# The global property TRACKBED_MODULES lists the modules, TRACKBED_FOLDERS_<path> the folders of one.
 set_property(GLOBAL PROPERTY TRACKBED_MODULES "")
 add_custom_target(header_checks)
 
@@ -22,10 +25,20 @@ function(trackbed_link_folder dir link source)
   file(CREATE_LINK ${source} ${dir}/${link} SYMBOLIC)
 endfunction()
 
+# Lets a unity build compile the sources of a folder in groups of eight.
+function(trackbed_group folder)
+  set(count 0)
+  foreach(source IN LISTS ARGN)
+    math(EXPR group "${count} / 8")
+    set_source_files_properties(${source} PROPERTIES UNITY_GROUP ${folder}_${group})
+    math(EXPR count "${count} + 1")
+  endforeach()
+endfunction()
+
 function(trackbed_module path)
-  cmake_parse_arguments(ARG "STATIC" "SOURCE_DIR;KIND" "MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
-  if(NOT ARG_SOURCE_DIR)
-    set(ARG_SOURCE_DIR src/${path})
+  cmake_parse_arguments(ARG "STATIC" "SOURCE_DIR;KIND" "FOLDERS;MODULES;LIBRARIES;PRIVATE_LIBRARIES" ${ARGN})
+  if(NOT ARG_FOLDERS)
+    set(ARG_FOLDERS ${path})
   endif()
   get_property(below GLOBAL PROPERTY TRACKBED_MODULES)
   foreach(module IN LISTS ARG_MODULES)
@@ -34,16 +47,29 @@ function(trackbed_module path)
     endif()
   endforeach()
   set_property(GLOBAL APPEND PROPERTY TRACKBED_MODULES ${path})
+  set_property(GLOBAL PROPERTY TRACKBED_FOLDERS_${path} ${ARG_FOLDERS})
   string(REPLACE "/" "_" name ${path})
   list(TRANSFORM ARG_MODULES REPLACE "/" "_")
   list(TRANSFORM ARG_MODULES PREPEND trackbed_)
 
   set(public ${PROJECT_BINARY_DIR}/modules/${name}/public)
   set(private ${PROJECT_BINARY_DIR}/modules/${name}/private)
-  trackbed_link_folder(${public} trackbed/${path} ${PROJECT_SOURCE_DIR}/include/trackbed/${path})
-  trackbed_link_folder(${private} ${ARG_SOURCE_DIR} ${PROJECT_SOURCE_DIR}/${ARG_SOURCE_DIR})
-
-  file(GLOB sources CONFIGURE_DEPENDS ${ARG_SOURCE_DIR}/*.cpp)
+  set(sources "")
+  set(headers "")
+  foreach(folder IN LISTS ARG_FOLDERS)
+    set(source_dir src/${folder})
+    if(ARG_SOURCE_DIR)
+      set(source_dir ${ARG_SOURCE_DIR})
+    endif()
+    trackbed_link_folder(${public} trackbed/${folder} ${PROJECT_SOURCE_DIR}/include/trackbed/${folder})
+    trackbed_link_folder(${private} ${source_dir} ${PROJECT_SOURCE_DIR}/${source_dir})
+    file(GLOB of_folder CONFIGURE_DEPENDS ${source_dir}/*.cpp)
+    trackbed_group(${folder} ${of_folder})
+    list(APPEND sources ${of_folder})
+    file(GLOB of_folder CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include
+         ${PROJECT_SOURCE_DIR}/include/trackbed/${folder}/*.h)
+    list(APPEND headers ${of_folder})
+  endforeach()
   if(ARG_STATIC)
     add_library(trackbed_${name} STATIC ${sources})
     if(BUILD_SHARED_LIBS) # as for the precompiled headers that the target shares
@@ -60,7 +86,7 @@ function(trackbed_module path)
     PRIVATE ${private})
   target_compile_features(trackbed_${name} PUBLIC cxx_std_20)
   set_target_properties(trackbed_${name} PROPERTIES EXPORT_NAME ${name}
-                        UNITY_BUILD ${TRACKBED_UNITY_BUILD} UNITY_BUILD_BATCH_SIZE 8)
+                        UNITY_BUILD ${TRACKBED_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
   target_link_libraries(
     trackbed_${name}
     PUBLIC ${ARG_MODULES} ${ARG_LIBRARIES}
@@ -71,8 +97,6 @@ function(trackbed_module path)
   endif()
   trackbed_precompile(trackbed_${name} ${ARG_KIND})
 
-  file(GLOB headers CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR}/include
-       ${PROJECT_SOURCE_DIR}/include/trackbed/${path}/*.h)
   set(header_checks "")
   foreach(header IN LISTS headers)
     set(file ${PROJECT_BINARY_DIR}/headers/${header}.cpp)

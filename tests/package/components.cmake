@@ -11,7 +11,7 @@ execute_process(COMMAND ${CMAKE_COMMAND} --build ${folder} COMMAND_ERROR_IS_FATA
 execute_process(COMMAND ${folder}/pose COMMAND_ERROR_IS_FATAL ANY)
 execute_process(COMMAND ldd ${folder}/pose OUTPUT_VARIABLE loaded COMMAND_ERROR_IS_FATAL ANY)
 if(loaded MATCHES "mujoco")
-  message(FATAL_ERROR "a program of trackbed::geometry loads\n${loaded}")
+  message(FATAL_ERROR "a program of trackbed::core loads\n${loaded}")
 endif()
 # Libraries that draw and encode are loaded on first use; otherwise every verb would wait for them.
 execute_process(COMMAND ldd ${WORK}/installed/${BINDIR}/trackbed OUTPUT_VARIABLE loaded

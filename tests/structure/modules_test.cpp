@@ -22,21 +22,44 @@ std::string ReadText(const fs::path& file) {
 }
 
 struct Module {
-  std::string path;               // "planning/fillet"
-  std::vector<std::string> uses;  // modules, as such paths
-  std::vector<std::string> libraries;
-  std::vector<std::string> private_libraries;
+  std::string path;                  // "planning/search"
+  std::vector<std::string> parts{};  // its folders, such as "planning/grid"; `path` if empty
+  std::vector<std::string> uses{};   // paths of modules
+  std::vector<std::string> libraries{};
+  std::vector<std::string> private_libraries{};
 
-  /// Its target without the prefix: "planning_fillet".
+  /// Its target without the prefix: "planning_search".
   [[nodiscard]] std::string name() const {
     std::string name = path;
     std::replace(name.begin(), name.end(), '/', '_');
     return name;
   }
 
-  [[nodiscard]] std::vector<fs::path> folders() const {
-    return {kRoot / "include" / "trackbed" / path,
-            path == "render" ? kRoot / "render" : kRoot / "src" / path};
+  struct Folder {
+    fs::path headers;
+    fs::path sources;
+  };
+
+  [[nodiscard]] std::vector<Folder> folders() const {
+    std::vector<Folder> folders;
+    for (const std::string& part : parts.empty() ? std::vector{path} : parts) {
+      folders.push_back({.headers = kRoot / "include" / "trackbed" / part,
+                         .sources = part == "render" ? kRoot / "render" : kRoot / "src" / part});
+    }
+    return folders;
+  }
+
+  /// All existing folders with headers or sources.
+  [[nodiscard]] std::vector<fs::path> places() const {
+    std::vector<fs::path> places;
+    for (const Folder& folder : folders()) {
+      for (const fs::path& place : {folder.headers, folder.sources}) {
+        if (fs::exists(place)) {
+          places.push_back(place);
+        }
+      }
+    }
+    return places;
   }
 };
 
@@ -53,6 +76,8 @@ std::vector<Module> Modules() {
     for (std::string word; words >> word;) {
       if (std::regex_match(word, std::regex("[A-Z_]+"))) {
         keyword = word;
+      } else if (keyword == "FOLDERS") {
+        module.parts.push_back(word);
       } else if (keyword == "MODULES") {
         module.uses.push_back(word);
       } else if (keyword == "LIBRARIES") {
@@ -74,11 +99,8 @@ struct Include {
 std::vector<Include> FindIncludes(const Module& module) {
   std::vector<Include> includes;
   const std::regex line_pattern(R"re(^\s*#include\s+[<"]([^>"]+)[>"])re");
-  for (const fs::path& folder : module.folders()) {
-    if (!fs::exists(folder)) {
-      continue;
-    }
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+  for (const fs::path& place : module.places()) {
+    for (const auto& entry : fs::recursive_directory_iterator(place)) {
       if (entry.path().extension() != ".h" && entry.path().extension() != ".cpp") {
         continue;
       }
@@ -144,14 +166,20 @@ TEST(Modules, KnowPlannersByTheirEntriesAlone) {
 }
 
 TEST(Modules, EveryPublicHeaderHasASourceOfTheSameName) {
+  std::vector<Module::Folder> folders;
   for (const Module& module : Modules()) {
-    const auto folders = module.folders();
-    if (!fs::exists(folders[0])) {
+    for (const Module::Folder& folder : module.folders()) {
+      folders.push_back(folder);
+    }
+  }
+  EXPECT_GT(folders.size(), 20U);  // the scan found the folders
+  for (const Module::Folder& folder : folders) {
+    if (!fs::exists(folder.headers)) {
       continue;
     }
-    for (const auto& entry : fs::directory_iterator(folders[0])) {
-      // Folders are separate modules. Headers with only templates or plain values need no source
-      // file, and the build writes the version.
+    for (const auto& entry : fs::directory_iterator(folder.headers)) {
+      // Headers with only templates or plain values need no source file, and the build writes the
+      // version.
       static const std::vector<std::string> kNoCode{"state",       "version",     "registry",
                                                     "planner",     "plan",        "metric_value",
                                                     "diagnostics", "method_rules"};
@@ -160,7 +188,7 @@ TEST(Modules, EveryPublicHeaderHasASourceOfTheSameName) {
           std::find(kNoCode.begin(), kNoCode.end(), name) != kNoCode.end()) {
         continue;
       }
-      EXPECT_TRUE(fs::exists(folders[1] / (name + ".cpp"))) << entry.path();
+      EXPECT_TRUE(fs::exists(folder.sources / (name + ".cpp"))) << entry.path();
     }
   }
 }
@@ -203,13 +231,13 @@ TEST(RunFolder, ItsFilesAreNamedInOnePlaceAlone) {
     }
   }
   EXPECT_THAT(names, testing::IsSupersetOf({"\"plan.csv\"", "\"run.mcap\"", "\".state.csv\""}));
-  const std::vector<std::string> can_see{"analysis", "report", "watch", "testing", "render", "cli"};
+  const std::vector<std::string> can_see{"analysis", "report", "testing", "render", "cli"};
   for (const Module& module : Modules()) {
     if (std::find(can_see.begin(), can_see.end(), module.path) == can_see.end()) {
       continue;
     }
-    for (const fs::path& folder : module.folders()) {
-      for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    for (const fs::path& place : module.places()) {
+      for (const auto& entry : fs::recursive_directory_iterator(place)) {
         const fs::path extension = entry.path().extension();
         if ((extension != ".h" && extension != ".cpp") ||
             std::find(owners.begin(), owners.end(), entry.path()) != owners.end()) {
@@ -291,7 +319,7 @@ TEST(Modules, AreComponentsThatLinkWhatTheirPageSays) {
     EXPECT_NE(page.find("\n" + row + "\n"), std::string::npos) << "there is no row\n" << row;
     ++rows;
   }
-  EXPECT_GT(rows, 20U);
+  EXPECT_GE(rows, 20U);
 }
 
 // Install.cmake names the headers that programs include; embed.md lists them.
