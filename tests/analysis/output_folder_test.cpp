@@ -9,10 +9,10 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/analysis/written_names.h"
-#include "trackbed/core/error.h"
 
 namespace trackbed {
 namespace {
@@ -24,15 +24,6 @@ using testing::UnorderedElementsAre;
 
 /// A page as Trackbed writes it.
 const std::string kPage = "<html><head>" + std::string(kPageMark);
-
-std::string Refusal(const auto& call) {
-  try {
-    call();
-  } catch (const std::exception& error) {
-    return error.what();
-  }
-  return "";
-}
 
 /// Writes a result whose files all hold `content`.
 void Write(const fs::path& folder, const std::string& result, const std::vector<std::string>& names,
@@ -85,9 +76,9 @@ TEST(ResultWriter, TellsBeforeItCommitsWhatIsInItsWay) {
   fs::create_symlink("/dev/null", folder.path() / "plan.csv");
   ResultWriter writer(OutputFolder(folder.path(), std::vector<std::string>()));
   const std::string rest = "; move it away, or choose another place (-o)";
-  EXPECT_EQ(Refusal([&] { writer.Add("model.xml", "new"); }),
+  EXPECT_EQ(ErrorText<std::exception>([&] { writer.Add("model.xml", "new"); }),
             "cannot write " + (folder.path() / "model.xml").string() + ": it is a folder" + rest);
-  EXPECT_EQ(Refusal([&] { writer.Add("plan.csv", "new"); }),
+  EXPECT_EQ(ErrorText<std::exception>([&] { writer.Add("plan.csv", "new"); }),
             "cannot write " + (folder.path() / "plan.csv").string() + ": it is a link" + rest);
 }
 
@@ -108,15 +99,17 @@ TEST(OutputFolder, IsOfOneProcessAtATime) {
                               std::to_string(::getpid()) + ")";
   {
     const OutputFolder one(folder.path());
-    EXPECT_EQ(Refusal([&] { const OutputFolder other(folder.path()); }), refused);
-    EXPECT_EQ(Refusal([&] { LockFolderOf(folder.path() / "video.mp4", folder.path()); }), refused);
+    EXPECT_EQ(ErrorText<std::exception>([&] { const OutputFolder other(folder.path()); }), refused);
+    EXPECT_EQ(ErrorText<std::exception>(
+                  [&] { LockFolderOf(folder.path() / "video.mp4", folder.path()); }),
+              refused);
     // Folders that are only read, or lie elsewhere, need no lock.
     EXPECT_EQ(LockFolderOf(folder.path() / "video.mp4", folder.path() / "r"), std::nullopt);
   }
   const auto film = LockFolderOf(folder.path() / "video.mp4", folder.path());
   const auto page = LockFolderOf(folder.path() / "report.html", folder.path());
   EXPECT_TRUE(film && page);
-  EXPECT_EQ(Refusal([&] { const OutputFolder other(folder.path()); }), refused);
+  EXPECT_EQ(ErrorText<std::exception>([&] { const OutputFolder other(folder.path()); }), refused);
   EXPECT_THAT(folder.Names(), IsEmpty());  // the lock leaves no file
 }
 
@@ -163,7 +156,7 @@ TEST(OutputFolder, MovesIntoPlaceWhatAKilledWriterHadCompleted) {
       fs::rename(complete / name, run / name);
     }
     // Until recovery, readers reject the folder.
-    EXPECT_THAT(Refusal([&] { run_folder::RequireFile(run / "metrics.json"); }),
+    EXPECT_THAT(ErrorText<std::exception>([&] { run_folder::RequireFile(run / "metrics.json"); }),
                 HasSubstr("between two results"));
     const OutputFolder next(run, OutputFolder::For::kAddition);
     std::vector<std::string> left;
@@ -201,17 +194,17 @@ TEST(OutputFolder, IsNotWrittenThroughLinks) {
   Write(run, "run", {"metrics.json"}, "a");
   fs::create_symlink(notes, run / "report.html");
   ASSERT_EQ(::mkfifo((run / "video.mp4").c_str(), 0600), 0);
-  EXPECT_EQ(Refusal([&] { LockFolderOf(run / "report.html", run); }),
+  EXPECT_EQ(ErrorText<std::exception>([&] { LockFolderOf(run / "report.html", run); }),
             "cannot write " + (run / "report.html").string() +
                 ": it is a link; remove it, or give another place");
-  EXPECT_EQ(Refusal([&] { const OutputFolder next(run); }),
+  EXPECT_EQ(ErrorText<std::exception>([&] { const OutputFolder next(run); }),
             run.string() +
                 " has files that Trackbed has not written, according to its "
                 "manifest.json: report.html, video.mp4; move them away, or choose "
                 "another folder (-o)");
-  EXPECT_THAT(Refusal([&] { LockFolderOf(run / "video.mp4", run); }),
+  EXPECT_THAT(ErrorText<std::exception>([&] { LockFolderOf(run / "video.mp4", run); }),
               HasSubstr(": it is not a regular file"));
-  EXPECT_EQ(Refusal([&] { LockFolderOf(run / "picture.png", run); }), "");
+  EXPECT_EQ(ErrorText<std::exception>([&] { LockFolderOf(run / "picture.png", run); }), "");
 }
 
 TEST(OutputFolder, OfSomebodyElsesFilesIsRefused) {
@@ -225,9 +218,10 @@ TEST(OutputFolder, OfSomebodyElsesFilesIsRefused) {
   const std::string begin = folder.path().string() +
                             " has files that Trackbed has not written, according to its "
                             "manifest.json: ";
-  EXPECT_EQ(Refusal([&] { const OutputFolder next(folder.path()); }),
+  EXPECT_EQ(ErrorText<std::exception>([&] { const OutputFolder next(folder.path()); }),
             begin + "plan.csv, metrics.json" + rest);
-  EXPECT_EQ(Refusal([&] { const OutputFolder next(folder.path(), FileNamesOfVerb("verify")); }),
+  EXPECT_EQ(ErrorText<std::exception>(
+                [&] { const OutputFolder next(folder.path(), FileNamesOfVerb("verify")); }),
             begin + "sweep.csv" + rest);
   { const OutputFolder page(folder.path(), OutputFolder::For::kAddition); }
 }
@@ -243,12 +237,13 @@ TEST(OutputFolder, OfAResultKeepsFilesOfOthers) {
     const TempFolder folder;
     Write(folder.path(), "run", own, "old");
     folder.Write(name, "mine");
-    EXPECT_THAT(Refusal([&] { const OutputFolder next(folder.path()); }), HasSubstr(": " + name))
+    EXPECT_THAT(ErrorText<std::exception>([&] { const OutputFolder next(folder.path()); }),
+                HasSubstr(": " + name))
         << name;
     // Without that check the writer still refuses the name, and removes nothing.
     const OutputFolder unasked(folder.path(), std::vector<std::string>());
     ResultWriter writer(unasked);
-    EXPECT_THAT(Refusal([&] { writer.Add(name, "new"); }),
+    EXPECT_THAT(ErrorText<std::exception>([&] { writer.Add(name, "new"); }),
                 HasSubstr("Trackbed has not written the file of that name"));
     writer.Add("model.xml", "new");
     writer.Commit("run", run_folder::AllNames());
@@ -275,7 +270,7 @@ TEST(OutputFolder, LeavesFilesOfOthersInItsHiddenFolders) {
     Write(folder.path(), "run", {"metrics.json"}, "old");
     const fs::path notes = folder.Write(std::string(hidden) + "/notes.txt", "mine");
     const fs::path plan = folder.Write(std::string(hidden) + "/plan.csv", "mine");
-    EXPECT_EQ(Refusal([&] { const OutputFolder next(folder.path()); }),
+    EXPECT_EQ(ErrorText<std::exception>([&] { const OutputFolder next(folder.path()); }),
               (folder.path() / hidden).string() +
                   " has files that Trackbed has not written: notes.txt, plan.csv; move them away");
     EXPECT_EQ(ReadFile(notes) + ReadFile(plan), "minemine");
@@ -304,7 +299,7 @@ TEST(OutputFolder, MovesNoResultOverAFileOfAnother) {
   Write(folder.path() / "r", "run", {"metrics.json"}, "old");
   fs::rename(folder.path() / "new", folder.path() / "r" / run_folder::kComplete);
   const fs::path mine = folder.Write("r/plan.csv", "mine");
-  EXPECT_THAT(Refusal([&] { const OutputFolder next(folder.path() / "r"); }),
+  EXPECT_THAT(ErrorText<std::exception>([&] { const OutputFolder next(folder.path() / "r"); }),
               HasSubstr("Trackbed has not written the file of that name"));
   EXPECT_EQ(ReadFile(mine), "mine");
   fs::remove(mine);
@@ -318,7 +313,7 @@ TEST(OutputFolder, RefusesLinksForItsHiddenFolders) {
     const fs::path notes = folder.Write("mine/metrics.json", "mine");
     fs::create_directory(folder.path() / "r");
     fs::create_symlink(folder.path() / "mine", folder.path() / "r" / hidden);
-    EXPECT_THAT(Refusal([&] { const OutputFolder next(folder.path() / "r"); }),
+    EXPECT_THAT(ErrorText<std::exception>([&] { const OutputFolder next(folder.path() / "r"); }),
                 HasSubstr(std::string(hidden) + ": it is a link, not a folder"));
     EXPECT_EQ(ReadFile(notes), "mine");
     EXPECT_TRUE(fs::is_symlink(folder.path() / "r" / hidden));
@@ -338,11 +333,11 @@ TEST(FolderBelow, IsNoLink) {
   // The output folder itself is the user's choice.
   EXPECT_EQ(FolderBelow(folder.path() / "linked", "3"), folder.path() / "linked/3");
   for (const char* below : {"rows/3", "rows/4", "rows/3/deep"}) {
-    EXPECT_THAT(Refusal([&] { FolderBelow(folder.path() / "s", below); }),
+    EXPECT_THAT(ErrorText<std::exception>([&] { FolderBelow(folder.path() / "s", below); }),
                 HasSubstr(": it is a link, not a folder"))
         << below;
   }
-  EXPECT_THAT(Refusal([&] { FolderBelow(folder.path() / "s", "rows/5"); }),
+  EXPECT_THAT(ErrorText<std::exception>([&] { FolderBelow(folder.path() / "s", "rows/5"); }),
               HasSubstr(": it is a file, not a folder"));
 }
 
@@ -382,7 +377,8 @@ TEST(RemoveResults, GoesThroughNoLink) {
   const TempFolder folder;
   Write(folder.path() / "mine", "run", {"metrics.json"}, "a");
   fs::create_symlink("mine", folder.path() / "r");
-  EXPECT_THAT(Refusal([&] { RemoveResults(folder.path() / "r"); }), HasSubstr("is a link"));
+  EXPECT_THAT(ErrorText<std::exception>([&] { RemoveResults(folder.path() / "r"); }),
+              HasSubstr("is a link"));
   EXPECT_EQ(ReadFile(folder.path() / "mine/metrics.json"), "a");
 }
 
@@ -397,7 +393,8 @@ TEST(ResultWriter, TakesPlainFileNamesOnly) {
         std::string("a\nb.xml"), std::string("a\0b.xml", 7), std::string("\xff.xml"),
         std::string("a b.xml"), std::string(256, 'a'), std::string(".written"),
         std::string("caf\xc3\xa9.xml")}) {
-    EXPECT_THAT(Refusal([&] { writer.Add(name, "new"); }), HasSubstr("not a plain file name"))
+    EXPECT_THAT(ErrorText<std::exception>([&] { writer.Add(name, "new"); }),
+                HasSubstr("not a plain file name"))
         << name;
   }
   EXPECT_EQ(ReadFile(folder.path() / "victim.xml"), "mine");
@@ -408,7 +405,7 @@ TEST(ResultWriter, WritesOnlyNamesThatAreDeclared) {
   const TempFolder folder;
   ResultWriter writer(folder.path());
   writer.Add("notes.txt", "new");
-  EXPECT_THAT(Refusal([&] { writer.EndResult("run", {}); }),
+  EXPECT_THAT(ErrorText<std::exception>([&] { writer.EndResult("run", {}); }),
               HasSubstr("AllResultNames lists no file notes.txt of the result run"));
 }
 
@@ -435,7 +432,7 @@ TEST(ResultWriter, CommitsSeveralResultsAtOnce) {
 TEST(Manifest, RefusesFilesOfAnotherRun) {
   const TempFolder folder;
   const auto refusal = [&](const std::string& name) {
-    return Refusal([&] { run_folder::RequireFile(folder.path() / name); });
+    return ErrorText<std::exception>([&] { run_folder::RequireFile(folder.path() / name); });
   };
   folder.Write("metrics.json", "of an older version");
   EXPECT_EQ(refusal("metrics.json"), "");  // no manifest
@@ -468,7 +465,8 @@ TEST(Manifest, OfAnotherProgramIsRefused) {
         R"({"results": {}, "others": [1]})", "", "mine"}) {
     const TempFolder folder;
     folder.Write("manifest.json", text);
-    EXPECT_THAT(Refusal([&] { const OutputFolder out(folder.path()); }), HasSubstr("manifest.json"))
+    EXPECT_THAT(ErrorText<std::exception>([&] { const OutputFolder out(folder.path()); }),
+                HasSubstr("manifest.json"))
         << text;
     EXPECT_EQ(ReadFile(folder.path() / "manifest.json"), text);
   }
@@ -479,15 +477,18 @@ TEST(Manifest, IsNotWaitedFor) {
   folder.Write("metrics.json", "{}");
   ASSERT_EQ(::mkfifo((folder.path() / "manifest.json").c_str(), 0600), 0);
   const std::string refused = (folder.path() / "manifest.json").string() + ": is no regular file";
-  EXPECT_EQ(Refusal([&] { run_folder::RequireFile(folder.path() / "metrics.json"); }), refused);
-  EXPECT_EQ(Refusal([&] { const OutputFolder out(folder.path()); }), refused);
+  EXPECT_EQ(
+      ErrorText<std::exception>([&] { run_folder::RequireFile(folder.path() / "metrics.json"); }),
+      refused);
+  EXPECT_EQ(ErrorText<std::exception>([&] { const OutputFolder out(folder.path()); }), refused);
 }
 
 TEST(Manifest, KnowsARunByThePlanThatItWasDrivenOn) {
   const TempFolder folder;
   Write(folder.path(), "run", {"metrics.json", "plan.csv", "tree.csv"}, "a");
   const auto refusal = [&] {
-    return Refusal([&] { run_folder::RequireFile(folder.path() / "metrics.json"); });
+    return ErrorText<std::exception>(
+        [&] { run_folder::RequireFile(folder.path() / "metrics.json"); });
   };
   Write(folder.path(), "plan", {"plan.csv", "tree.csv"}, "a");  // the same one again
   EXPECT_EQ(refusal(), "");
@@ -503,7 +504,7 @@ TEST(Reading, TellsThatAResultWasReplacedMeanwhile) {
   Write(folder.path(), "run", {"metrics.json"}, "a");  // the same one again
   reading.RequireUnchanged();
   Write(folder.path(), "run", {"metrics.json"}, "b");
-  EXPECT_EQ(Refusal([&] { reading.RequireUnchanged(); }),
+  EXPECT_EQ(ErrorText<std::exception>([&] { reading.RequireUnchanged(); }),
             folder.path().string() + ": its result was replaced while it was read; try again");
 }
 

@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/analysis/compare_runs.h"
 #include "trackbed/analysis/run.h"
@@ -55,18 +56,9 @@ TEST(RunFolder, NamesItsFilesAsDocumented) {
   EXPECT_STREQ(run_folder::kSweepJson, "sweep.json");
 }
 
-std::string MessageOf(const auto& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
-}
-
 TEST(RunFolder, IsNotLeftThroughNamesOrLinks) {
   for (const char* plant : {"../../secret", "/etc/passwd", "", ".hidden", "a/b"}) {
-    EXPECT_EQ(MessageOf([&] { run_folder::LogCsv(plant); }),
+    EXPECT_EQ(ErrorText([&] { run_folder::LogCsv(plant); }),
               fmt::format("'{}' is no name of a plant", plant));
   }
   const TempFolder folder;
@@ -74,12 +66,12 @@ TEST(RunFolder, IsNotLeftThroughNamesOrLinks) {
   const fs::path own = folder.Write("run/own.csv", "t_s\n0\n");
   const fs::path link = folder.path() / "run/mujoco.csv";
   fs::create_symlink(secret, link);
-  EXPECT_EQ(MessageOf([&] { run_folder::RequireFile(link); }),
+  EXPECT_EQ(ErrorText([&] { run_folder::RequireFile(link); }),
             link.string() + ": is a link out of the run folder");
-  EXPECT_EQ(MessageOf([&] { run_folder::RequireFile(own); }), "");
+  EXPECT_EQ(ErrorText([&] { run_folder::RequireFile(own); }), "");
   // The folder itself may be reached through a link.
   fs::create_symlink(folder.path() / "run", folder.path() / "latest");
-  EXPECT_EQ(MessageOf([&] { run_folder::RequireFile(folder.path() / "latest/own.csv"); }), "");
+  EXPECT_EQ(ErrorText([&] { run_folder::RequireFile(folder.path() / "latest/own.csv"); }), "");
 }
 
 TEST(RunFolder, RepeatsAPlaybackFromItsOwnRecording) {

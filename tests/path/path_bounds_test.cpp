@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/error_text.h"
 #include "trackbed/core/angle.h"
-#include "trackbed/core/error.h"
 #include "trackbed/path/fit_path.h"
 
 namespace trackbed {
@@ -19,12 +19,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::string ErrorOf(const PathPoints& given, const PathFitOptions& options = {}) {
-  try {
-    static_cast<void>(FitPath(given, options));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorText([&] { static_cast<void>(FitPath(given, options)); });
 }
 
 double PolylineLength(const std::vector<Vec2>& points) {

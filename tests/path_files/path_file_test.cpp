@@ -7,6 +7,7 @@
 #include <cmath>
 #include <string>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
@@ -26,12 +27,7 @@ PathPoints Read(const std::string& name, const std::string& text, const PathMap&
 }
 
 std::string Error(const std::string& name, const std::string& text, const PathMap& map = {}) {
-  try {
-    Read(name, text, map);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return ErrorText([&] { Read(name, text, map); });
 }
 
 /// The only problem of the speeds in a CSV file whose path is valid, as "line: key: message".

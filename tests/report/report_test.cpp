@@ -12,6 +12,7 @@
 #include <regex>
 
 #include "tests/report/run_folders.h"
+#include "tests/support/error_text.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -49,16 +50,6 @@ std::string Markup(std::string page) {
     }
   }
   return page;
-}
-
-template <typename Call>
-std::string ErrorMessage(const Call& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(ReportData, HoldsTheLogsOfTheRun) {
@@ -246,7 +237,7 @@ TEST(ReportData, SaysWhatIsWrong) {
   const TempFolder folder;
   const fs::path run = DriveCorner(folder, "run", "drive: {plants: [kinematic]}\n");
   const auto error = [&](const std::vector<fs::path>& paths) {
-    return ErrorMessage([&] { ReportData(paths); });
+    return ErrorText([&] { ReportData(paths); });
   };
   EXPECT_THAT(error({folder.path() / "gone"}), EndsWith("gone: no such folder"));
   EXPECT_THAT(error({folder.path()}),
@@ -293,7 +284,7 @@ TEST(ReportData, RefusesWhatThePageCouldNotShow) {
     ordered_json odd = metrics;
     odd.at(ordered_json::json_pointer(pointer)) = {{"a", 1}};
     WriteFileAtomically(run / "metrics.json", odd.dump());
-    EXPECT_THAT(ErrorMessage([&] { ReportData({run}); }), HasSubstr("metrics.json: ")) << pointer;
+    EXPECT_THAT(ErrorText([&] { ReportData({run}); }), HasSubstr("metrics.json: ")) << pointer;
   }
 }
 
@@ -327,9 +318,8 @@ TEST(ReportData, HoldsTheTableOfAStudy) {
   EXPECT_EQ(ReportData({folder.path() / "study"})["study"]["name"], "fast");
   EXPECT_EQ(ReportData({folder.path() / "study"})["study"]["complete"], false);
   folder.Write("study/sweep.json", "{}");
-  EXPECT_THAT(ErrorMessage([&] { ReportData({folder.path() / "study"}); }),
-              HasSubstr("sweep.json: "));
-  EXPECT_THAT(ErrorMessage([&] { ReportData({folder.Write("other.csv", "a,b\n1,2\n")}); }),
+  EXPECT_THAT(ErrorText([&] { ReportData({folder.path() / "study"}); }), HasSubstr("sweep.json: "));
+  EXPECT_THAT(ErrorText([&] { ReportData({folder.Write("other.csv", "a,b\n1,2\n")}); }),
               HasSubstr("other.csv:1: no column 'status'"));
 }
 
@@ -441,7 +431,7 @@ TEST(StudyDifference, NeedsTheSameKeysAndDistinctRows) {
   const TempFolder folder;
   const auto refusal = [&](const std::string& before, const std::string& after) {
     const std::vector<fs::path> files{folder.Write("a.csv", before), folder.Write("b.csv", after)};
-    const std::string message = ErrorMessage([&] { ReportData(files); });
+    const std::string message = ErrorText([&] { ReportData(files); });
     return std::regex_replace(message, std::regex(folder.path().string() + "/"), "");
   };
   const std::string one = "x,status\n1,passed\n";

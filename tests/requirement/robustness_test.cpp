@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/error_text.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 #include "trackbed/requirement/formula.h"
@@ -37,12 +38,7 @@ std::vector<double> OverTime(const std::string& text, const Table& log) {
 }
 
 std::string ErrorOf(const std::string& text, const Table& log) {
-  try {
-    static_cast<void>(ResultOf(text, log));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorText([&] { static_cast<void>(ResultOf(text, log)); });
 }
 
 TEST(Robustness, IsTheDistanceOfAComparisonFromItsBound) {

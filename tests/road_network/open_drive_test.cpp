@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/road_network/documents.h"
+#include "tests/support/error_text.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -17,12 +18,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 std::string WhyNot(const std::string& xml) {
-  try {
-    static_cast<void>(ParseOpenDrive(xml, "test.xodr"));
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorText([&] { static_cast<void>(ParseOpenDrive(xml, "test.xodr")); });
 }
 
 std::string RoadError(const RoadText& road) {

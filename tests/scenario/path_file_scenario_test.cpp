@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
@@ -42,12 +43,7 @@ Scenario Parse(const TempFolder& folder, const std::string& plan,
 }
 
 std::string Error(const TempFolder& folder, const std::string& plan) {
-  try {
-    Parse(folder, plan);
-    return "";
-  } catch (const InputError& error) {
-    return error.what();
-  }
+  return ErrorText([&] { Parse(folder, plan); });
 }
 
 TEST(PathFileScenario, StartsOnThePath) {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "tests/support/error_text.h"
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/log_columns.h"
 #include "trackbed/scenario/scenario.h"
@@ -26,12 +27,7 @@ Scenario ReadWith(const std::string& expect, const std::vector<Override>& overri
 
 std::string RejectionMessage(const std::string& expect,
                              const std::vector<Override>& overrides = {}) {
-  try {
-    ReadWith(expect, overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorText([&] { ReadWith(expect, overrides); });
 }
 
 TEST(ExpectedRequirements, AreReadForAllPlantsAndForOneAndWrittenAgain) {

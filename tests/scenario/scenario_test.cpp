@@ -5,6 +5,7 @@
 
 #include <locale>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/control/controllers.h"
@@ -31,12 +32,7 @@ Scenario Parse(const std::string& yaml, const std::vector<Override>& overrides =
 }
 
 std::string ErrorMessages(const std::string& yaml, const std::vector<Override>& overrides = {}) {
-  try {
-    Parse(yaml, overrides);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return ErrorText([&] { Parse(yaml, overrides); });
 }
 
 TEST(ReadScenario, FillsInDefaults) {

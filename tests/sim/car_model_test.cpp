@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
@@ -164,12 +165,7 @@ TEST(CarModel, RollingSpeedsAreRigidBodyMotion) {
 }
 
 std::string ErrorMessage(const std::string& xml) {
-  try {
-    const CarModel car({.xml = xml, .assets = {}}, "car.xml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return ErrorText([&] { const CarModel car({.xml = xml, .assets = {}}, "car.xml"); });
 }
 
 /// The Prius with one piece of text replaced.

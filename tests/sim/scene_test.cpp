@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -18,12 +19,7 @@ using testing::HasSubstr;
 using testing::Not;
 
 std::string ErrorMessage(const std::filesystem::path& file) {
-  try {
-    ComposeScene(file, {});
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return ErrorText([&] { ComposeScene(file, {}); });
 }
 
 /// A binary STL file: a header, the triangle count, and one triangle whose points coincide.

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/error_text.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
@@ -248,12 +249,8 @@ TEST(ModelElements, HaveBounds) {
 }
 
 std::string CompileError(const std::string& xml, const std::vector<SceneAsset>& assets = {}) {
-  try {
-    CompileScene(Scene{.xml = xml, .assets = assets}, "car.xml", Looks::kKept);
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "";
+  return ErrorText(
+      [&] { CompileScene(Scene{.xml = xml, .assets = assets}, "car.xml", Looks::kKept); });
 }
 
 TEST(CompileScene, OutlivesCrashesOfMujocosReaders) {

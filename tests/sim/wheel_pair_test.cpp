@@ -3,11 +3,10 @@
 #include <mujoco/mujoco.h>
 
 #include <cmath>
-#include <functional>
 
 #include "tests/sim/cars.h"
+#include "tests/support/error_text.h"
 #include "tests/tolerance.h"
-#include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/sim/payload.h"
 
@@ -92,12 +91,7 @@ TEST(DiffDrive, PosesOnTheScenesGround) {
 }
 
 std::string WheelPairError(const std::string& xml) {
-  try {
-    const CarModel car({.xml = xml, .assets = {}}, "diff_drive.xml");
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
+  return ErrorText([&] { const CarModel car({.xml = xml, .assets = {}}, "diff_drive.xml"); });
 }
 
 /// The model file with one piece of text replaced.
@@ -165,34 +159,25 @@ TEST(WheelPair, RefusesWheelsThatAreNotAboutTheOrigin) {
                   "wheels; they are 0.1 m ahead of it"));
 }
 
-std::string MessageFrom(const std::function<void()>& call) {
-  try {
-    call();
-  } catch (const InputError& error) {
-    return error.what();
-  }
-  return "no error";
-}
-
 TEST(WheelPair, SaysWhatItLacksForWhatIsACars) {
   const std::string needs = " needs steered front wheels";
   const std::string diff_drive = "diff_drive: diff_drive has differential drive; ";
-  EXPECT_EQ(MessageFrom([] {
+  EXPECT_EQ(ErrorText([] {
               MakePlant("single_track", {.car = DiffDrive(), .world = Calm(), .start = {}});
             }),
             diff_drive + "the plant single_track" + needs);
-  EXPECT_EQ(MessageFrom([] {
+  EXPECT_EQ(ErrorText([] {
               MakePlant("mujoco:magic_formula", {.car = DiffDrive(), .world = Calm(), .start = {}});
             }),
             diff_drive + "tyre: magic_formula" + needs);
-  EXPECT_EQ(MessageFrom([] {
+  EXPECT_EQ(ErrorText([] {
               MakePlant("mujoco", {.car = DiffDrive(),
                                    .world = Calm(),
                                    .start = {},
                                    .steering = SteeringInput::kPrescribed});
             }),
             diff_drive + "drive.steering: prescribed on the plant mujoco" + needs);
-  EXPECT_EQ(MessageFrom([] { WithPayload(DiffDrive(), {.mass = 10.0}); }),
+  EXPECT_EQ(ErrorText([] { WithPayload(DiffDrive(), {.mass = 10.0}); }),
             diff_drive + "disturb.payload" + needs);
 }
 
