@@ -14,8 +14,10 @@ namespace {
 /// return to 0 after each lap.
 class LapCounter {
  public:
-  LapCounter(const Track& track, const Vec2& start) : track_(track) {
-    station_ = track.Locate(start).s;
+  LapCounter(const Track& track, const Pose2& start) : track_(track) {
+    // Where the track crosses itself, the heading decides on which part the car is.
+    const std::optional<FrenetState> along = track.ToFrenet({.pose = start});
+    station_ = along ? along->s : track.Locate(start.position()).s;
     if (station_ > 0.5 * track.length()) {
       station_ -= track.length();
     }
@@ -77,7 +79,7 @@ struct Margin {
 
 std::vector<Margin> Margins(const MetricInput& input) {
   const Track& track = *input.plan.laps.track;
-  LapCounter counter(track, input.log.rows.front().state.pose.position());
+  LapCounter counter(track, input.log.rows.front().state.pose);
   std::vector<Margin> margins;
   for (const LogRow& row : input.log.rows) {
     const OrientedBox footprint = FootprintAt(input.vehicle, row.state.pose);
@@ -114,7 +116,7 @@ std::vector<LapMetrics> MeasureLaps(const RunLog& log, const Plan& plan) {
   }
   const Track& track = *plan.laps.track;
   const std::vector<LogRow>& rows = log.rows;
-  LapCounter counter(track, rows.front().state.pose.position());
+  LapCounter counter(track, rows.front().state.pose);
   std::optional<double> begin;
   if (counter.station() > -1e-6) {
     begin = rows.front().state.time;

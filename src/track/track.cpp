@@ -242,9 +242,37 @@ TrackPlace Track::PlaceOf(const Projection& found) const {
   return {Wrapped(found.s - extra_, length_), found.cross_track};
 }
 
+std::optional<Stations> Track::StretchAlong(const Pose2& pose) const {
+  const double count =
+      std::max(4.0 * static_cast<double>(points_.size()), std::ceil(length_ / kEdgeSpacing));
+  const double spacing = length_ / count;
+  std::optional<Stations> nearest;
+  double distance = std::numeric_limits<double>::infinity();
+  std::optional<Stations> stretch;
+  for (double k = 0.0; k <= count; k += 1.0) {
+    const double s = extra_ + k * spacing;
+    const bool along = std::cos(path_.At(s).pose.yaw - pose.yaw) > 0.0;
+    if (along) {
+      stretch = Stations{.from = stretch ? stretch->from : std::max(extra_, s - spacing),
+                         .to = std::min(extra_ + length_, s + spacing)};
+    }
+    if (stretch && (!along || k == count)) {
+      const Vec2 foot = path_.At(path_.Project(pose, *stretch).s).pose.position();
+      const double away = (foot - pose.position()).norm();
+      if (away < distance) {
+        distance = away;
+        nearest = stretch;
+      }
+      stretch.reset();
+    }
+  }
+  return nearest;
+}
+
 std::optional<FrenetState> Track::ToFrenet(const MotionState& motion) const {
+  const std::optional<Stations> stretch = StretchAlong(motion.pose);
   std::optional<FrenetState> state =
-      trackbed::ToFrenet(path_, motion, {.from = extra_, .to = extra_ + length_});
+      stretch ? trackbed::ToFrenet(path_, motion, *stretch) : std::nullopt;
   if (state) {
     state->s = Wrapped(state->s - extra_, length_);
   }

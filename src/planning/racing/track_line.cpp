@@ -128,18 +128,22 @@ struct Start {
   std::string refused;  // reason why the car cannot start at its pose
 };
 
+bool IsWithin(const TrackEdges& edges, double offset) {
+  return offset <= edges.left && offset >= edges.right;
+}
+
 Start FindStart(const Track& track, const PlanRequest& request) {
   const double curvature = CurvatureForSteering(request.vehicle, request.start_steering);
   Start start{.at = track.ToFrenet({.pose = request.start, .curvature = curvature, .speed = 1.0}),
               .refused = {}};
   const TrackPlace place = track.Locate(request.start.position());
   const TrackEdges edges = track.EdgesAt(place.s);
-  if (place.offset > edges.left || place.offset < edges.right) {
+  if (!IsWithin(edges, place.offset)) {
     start.refused = fmt::format(
         "the car starts off the track: {:.3g} m {} of the center line, whose edge is {:.3g} m away",
         std::abs(place.offset), place.offset > 0.0 ? "left" : "right",
         place.offset > 0.0 ? edges.left : -edges.right);
-  } else if (!start.at) {
+  } else if (!start.at || !IsWithin(track.EdgesAt(start.at->s), start.at->d)) {
     start.refused = "the car does not look along the track where it starts";
   } else if (start.at->s > 0.5 * track.length()) {
     start.at->s -= track.length();

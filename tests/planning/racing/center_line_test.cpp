@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "tests/tolerance.h"
 #include "tests/track/rings.h"
@@ -180,6 +181,35 @@ TEST(CenterLine, IsSlowedDownForWhatTheTyresHold) {
   ASSERT_FALSE(plan.notes.empty());
   EXPECT_THAT(plan.notes.front(), HasSubstr("lateral acceleration"));
   EXPECT_TRUE(FindExcesses(plan, request).empty());
+}
+
+TEST(CenterLine, StartsWhereTheTrackCrossesItself) {
+  // The figure eight (a cos t, a sin t cos t) crosses itself at the origin, at t = pi/2 and
+  // 3 pi/2, in the directions (-a, -a) and (a, -a). The start line is at t = 0.
+  constexpr double kSize = 100.0;  // a [m]
+  constexpr int kPoints = 240;
+  std::vector<TrackPoint> eight;
+  for (int i = 0; i < kPoints; ++i) {
+    const double t = 2.0 * kPi * i / kPoints;
+    eight.push_back({{kSize * std::cos(t), kSize * std::sin(t) * std::cos(t)}, 4.0, 4.0});
+  }
+  PlanRequest request = Laps(eight, 1);
+  request.start_steering = 0.0;
+  const double lap = request.on_track.track->length();
+  for (const auto& [yaw, share] : {std::pair(-0.75 * kPi, 0.25), std::pair(-0.25 * kPi, 0.75)}) {
+    request.start = {0.0, 0.0, yaw};
+    const Plan plan = MakePlan(request, CenterLineOptions{});
+    ASSERT_TRUE(plan.ok()) << yaw << ": " << plan.reason;
+    // By symmetry, the crossing is at a quarter and at three quarters of the lap. The car passes
+    // the start line for the last time after the rest of the lap, and possibly a further lap. The
+    // points are 3 m apart; the station of the crossing is certain to a small share of this
+    // distance.
+    const double last = plan.laps.lines.back();
+    EXPECT_NEAR(std::remainder(last + share * lap, lap), 0.0, 0.3) << yaw;
+  }
+  request.start = {0.0, 0.0, kPi / 2.0};  // 135 degrees from both directions
+  EXPECT_THAT(MakePlan(request, CenterLineOptions{}).reason,
+              HasSubstr("does not look along the track"));
 }
 
 TEST(CenterLine, RefusesWithAReason) {
