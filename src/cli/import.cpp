@@ -26,6 +26,7 @@ struct ImportOptions {
   std::string out;
   std::string vehicle = VehicleSpec{}.model;
   std::vector<std::string> asset_folders;
+  bool align = false;
   bool report = false;
   bool mcap = false;
   bool quiet = false;
@@ -42,8 +43,9 @@ void PrintImport(const RunResult& result, const fs::path& out) {
 }
 
 int Import(const ImportOptions& options) {
-  auto drive =
-      std::make_shared<const RecordedDrive>(ImportLog(options.log, ReadLogMap(options.map)));
+  LogMap map = ReadLogMap(options.map);
+  map.align = map.align || options.align;
+  auto drive = std::make_shared<const RecordedDrive>(ImportLog(options.log, map));
   Scenario scenario = RecordScenario(std::move(drive), options.vehicle);
   scenario.asset_folders = Paths(options.asset_folders);
   CheckScenario(scenario);
@@ -80,6 +82,9 @@ void AddImport(const Command& command) {
       .ShowDefault()
       .TypeName("MODEL");
   AddAllowAssets(command, options->asset_folders);
+  command.AddFlag("--align", options->align,
+                  "Shift the measured speed, yaw rate and accelerations by their delay behind the "
+                  "motion of the pose");
   command.AddFlag("--report", options->report, "Also write report.html in the run folder");
   command.AddFlag("--mcap", options->mcap, "Also write run.mcap (Foxglove) in the run folder");
   command.AddFlag("-q,--quiet", options->quiet, "Print errors only");

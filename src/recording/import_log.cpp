@@ -7,6 +7,8 @@
 #include <optional>
 #include <utility>
 
+#include "src/recording/clocks.h"
+#include "src/recording/fitted_series.h"
 #include "src/recording/local_polynomial.h"
 #include "src/recording/log_check.h"
 #include "src/recording/log_rows.h"
@@ -18,8 +20,9 @@
 // grid with a constant period by fitting local polynomials (local_polynomial.h: Cleveland 1979).
 // Velocity and acceleration are the derivatives of the fitted polynomials. If the log contains a
 // measured speed, yaw rate or acceleration, the measured value replaces the derivative of the
-// polynomial. Inputs of the car, such as the steering angle, are interpolated linearly. Gaps in the
-// log are filled by linear interpolation, and the samples within a gap are marked invalid.
+// polynomial; delays between the two are noted, and removed on request (clocks.h). Inputs of
+// the car, such as the steering angle, are interpolated linearly. Gaps in the log are filled by
+// linear interpolation, and the samples within a gap are marked invalid.
 namespace trackbed {
 namespace {
 
@@ -69,30 +72,6 @@ Signal Linear(const LogSeries& series, const std::optional<double>& period) {
   return signal;
 }
 
-/// Local polynomial fit of a signal that has its own timestamps; the fit can be evaluated at any
-/// time. Before the first and after the last timestamp, the fitted value is constant.
-class FittedSeries {
- public:
-  FittedSeries(const LogSeries& series, const LogMap& map)
-      : time_(series.time),
-        values_(Eigen::Map<const Eigen::VectorXd>(series.value.data(),
-                                                  static_cast<Eigen::Index>(series.value.size()))),
-        all_{0, series.time.size()},
-        fits_(time_, values_, map.resample.half_width, map.resample.degree) {}
-  FittedSeries(const FittedSeries&) = delete;
-  FittedSeries& operator=(const FittedSeries&) = delete;
-
-  [[nodiscard]] LocalFit At(double at) const {
-    return fits_.At(std::clamp(at, time_.front(), time_.back()), all_);
-  }
-
- private:
-  const std::vector<double>& time_;
-  Eigen::MatrixXd values_;
-  LogStretch all_;
-  LocalPolynomial fits_;
-};
-
 class Importer {
  public:
   Importer(const fs::path& log, const LogMap& map)
@@ -109,6 +88,9 @@ class Importer {
     Check();
     BuildTimeGrid();
     FitPoses();
+    for (std::string& note : CompareClocks(rows_, map_, drive_, start_)) {
+      drive_.notes.push_back(std::move(note));
+    }
     FitSignals();
     FillGaps();
     TakeInputs();

@@ -191,6 +191,11 @@ void Visit(KeyVisitor& keys, LogMap& map) {
               "refuse columns that contradict each other, such as degrees that are read as "
               "radians; false: only say so"},
              map.check, Need::kOptional);
+  keys.Field(
+      {"align", "",
+       "shift speed, yaw rate and accelerations by their delay behind the motion of the pose "
+       "(--align); false: only say how large it is"},
+      map.align, Need::kOptional);
 }
 
 std::vector<std::pair<std::string, std::string>> LogMapProblems(const LogMap& map) {

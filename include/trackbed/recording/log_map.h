@@ -149,6 +149,9 @@ struct LogMap {
   std::optional<double> to{};
   double trim = 0.0;  ///< Time that is removed at both ends of the recorded drive [s].
   bool check = true;  ///< Whether to reject a log whose columns contradict each other.
+  /// Whether to shift the measured speed, yaw rate and accelerations by their delay behind the
+  /// motion of the pose.
+  bool align = false;
 };
 
 void Visit(KeyVisitor& keys, LogMap& map);
