@@ -85,9 +85,7 @@ inline void Visit(KeyVisitor& a, MissionSpec& mission) {
            "the initial speed"},
           speed, Range{.min = 0.1, .max = 100.0});
   mission.speed = speed.value_or(0.0);
-  a.Field({"waypoints", "m",
-           "route; at least three points for fillet, at least two for the other planners"},
-          mission.waypoints, Need::kOptional);
+  a.Field({"waypoints", "m", "route; at least two points"}, mission.waypoints, Need::kOptional);
   a.Field({"headings", "rad",
            "heading of the car at each waypoint; default: along the last leg at the goal, from the "
            "previous to the next stop at stops in between"},

@@ -181,7 +181,7 @@ TEST(ReadScenario, RefusesWhatIsNoScenario) {
 
 TEST(ReadScenario, RefusesKeysThatDoNotGoTogether) {
   EXPECT_EQ(ErrorMessages("schema: 1\nname: x\nmission: {speed: 3}\nplan: {method: fillet}\n"),
-            "test.yaml:3:10: mission.waypoints: none given; the planner fillet needs at least 3");
+            "test.yaml:3:10: mission.waypoints: none given; the planner fillet needs at least 2");
   EXPECT_EQ(ErrorMessages("schema: 1\nname: x\nmission: {speed: 3}\n"),
             "test.yaml:1:1: plan: missing; the controller preview needs a plan\ntest.yaml:3:10: "
             "mission.duration: missing; required without a plan");

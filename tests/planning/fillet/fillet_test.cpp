@@ -692,10 +692,28 @@ void ExpectRefused(const FilletPlan& plan, PlanStatus status, int waypoint,
   EXPECT_THAT(plan.reason, HasSubstr(reason));
 }
 
-TEST(PlanFillets, RefusesFewerThanThreeWaypoints) {
-  const std::vector<Vec2> route{{0, 0}, {40, 0}};
-  ExpectRefused(PlanWith(route, RadiusConstraint::kSteeringRoom), PlanStatus::kTooFewWaypoints, 1,
-                "2 waypoints; must be at least 3");
+TEST(PlanFillets, DrivesStraightBetweenTwoWaypoints) {
+  const Vec2 from{1.0, -2.0};
+  const Vec2 to{31.0, 38.0};
+  for (const RadiusObjective objective : {RadiusObjective::kLargest, RadiusObjective::kLiteral,
+                                          RadiusObjective::kTurnLocal, RadiusObjective::kDriven}) {
+    FilletOptions options;
+    options.objective = objective;
+    const FilletPlan plan = PlanFillets(ReferenceCar(), {from, to}, 3.0, options);
+    ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
+    EXPECT_TRUE(plan.turns.empty());
+    ASSERT_EQ(plan.path.segments().size(), 1U);
+    EXPECT_EQ(plan.path.segments()[0].curvature, 0.0);
+    // The leg is the hypotenuse of 30 m and 40 m; rounding of coordinates of 40 m is below 1e-14 m.
+    EXPECT_NEAR(plan.path.length(), 50.0, Tolerance(1e-12));
+    EXPECT_NEAR((plan.path.At(50.0).pose.position() - to).norm(), 0.0, Tolerance(1e-12));
+    EXPECT_EQ(plan.stop_distance, plan.path.length());
+  }
+}
+
+TEST(PlanFillets, RefusesFewerThanTwoWaypoints) {
+  ExpectRefused(PlanWith({{0, 0}}, RadiusConstraint::kSteeringRoom), PlanStatus::kTooFewWaypoints,
+                0, "1 waypoints; must be at least 2");
   ExpectRefused(PlanWith({}, RadiusConstraint::kSteeringRoom), PlanStatus::kTooFewWaypoints, -1,
                 "0 waypoints");
 }

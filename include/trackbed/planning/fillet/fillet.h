@@ -222,9 +222,9 @@ std::optional<double> SteeringRoomSpeed(const VehicleParams& vehicle, double int
 std::optional<RadiusInterval> HalfLegRadii(double interior_angle, double shorter_leg,
                                            RadiusInterval bounds);
 
-inline constexpr std::size_t kMinFilletWaypoints = 3;
+inline constexpr std::size_t kMinFilletWaypoints = 2;
 
-/// Plans a path along a route of N >= 3 waypoints. The car drives at `speed` [m/s], and more slowly
+/// Plans a path along a route of N >= 2 waypoints. The car drives at `speed` [m/s], and more slowly
 /// in turns that require a lower speed. A waypoint at which the route continues straight is no
 /// turn. The argument `seed` initializes the random numbers of the search.
 ///
