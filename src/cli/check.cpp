@@ -3,12 +3,11 @@
 #include <memory>
 
 #include "src/cli/scenario_options.h"
+#include "src/cli/scenario_runs.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
-#include "trackbed/drive/drive.h"
-#include "trackbed/drive/start_overlap.h"
 #include "trackbed/falsify/falsify.h"
 #include "trackbed/identify/identify.h"
 
@@ -43,11 +42,7 @@ void AddCheck(const Command& command) {
             static_cast<void>(CheckSearch(std::move(study)));
           }
         } else {
-          const Scenario scenario = options->scenario.Read(file);
-          if (std::string why = StartOverlap(scenario, LoadCar(scenario).params()); !why.empty()) {
-            throw InputError(
-                Problem{.file = file.string(), .key = "mission.start", .message = std::move(why)});
-          }
+          RefuseOverlapAtStart(file.string(), options->scenario.Read(file));
         }
         if (!options->scenario.quiet) {
           Print("{}: ok\n", file.string());

@@ -128,7 +128,9 @@ int Drive(const CheckPathOptions& options, const Scenario& scenario) {
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
   const auto [folder, result, finishing] = DriveScenario({scenario, out}, options.scenario.quiet);
   WriteRunFolder(result, folder);
-  if (!options.scenario.quiet && !options.json) {
+  if (options.scenario.quiet) {
+    PrintFailures(result);
+  } else if (!options.json) {
     PrintSummary(result, out);
   }
   if (options.video && !result.interrupted && result.plan.ok()) {

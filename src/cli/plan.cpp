@@ -9,6 +9,7 @@
 
 #include "src/cli/diagnostics_text.h"
 #include "src/cli/scenario_options.h"
+#include "src/cli/scenario_runs.h"
 #include "src/cli/terminal.h"
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run.h"
@@ -32,6 +33,7 @@ int RunPlanVerb(const PlanOptions& options) {
   if (!scenario.plan) {
     throw InputError(Problem{options.file, 0, 0, "plan", "missing; 'trackbed plan' needs one"});
   }
+  RefuseOverlapAtStart(options.file, scenario);
   const fs::path out =
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
   const CarModel car = LoadCar(scenario);

@@ -62,7 +62,9 @@ int RunOne(const ScenarioRun& run, const RunOptions& options) {
   const fs::path& out = run.folder;
   const auto [folder, result, finishing] = DriveScenario(run, options.scenario.quiet);
   WriteRunFolder(result, folder, {.mcap = options.mcap});
-  if (!options.scenario.quiet) {
+  if (options.scenario.quiet) {
+    PrintFailures(result);
+  } else {
     PrintSummary(result, out);
   }
   if (options.video && !result.interrupted && result.plan.ok()) {

@@ -112,6 +112,12 @@ void PrintSummary(const RunResult& result, const std::filesystem::path& folder) 
   std::fflush(stdout);  // flush now, because the following work takes time and may fail
 }
 
+void PrintFailures(const RunResult& result) {
+  for (const std::string& failure : result.verdict.failures) {
+    PrintTo(stderr, "{}: {}\n", result.scenario.name, failure);
+  }
+}
+
 ExitCode ExitCodeOf(const RunResult& result) {
   const bool failed = result.verdict.judged && !result.verdict.passed;
   return result.interrupted ? kInterrupted : failed ? kFailedExpectations : kOk;

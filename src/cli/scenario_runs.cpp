@@ -11,6 +11,8 @@
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/run_folder.h"
 #include "trackbed/core/error.h"
+#include "trackbed/drive/drive.h"
+#include "trackbed/drive/start_overlap.h"
 
 namespace trackbed::cli {
 
@@ -22,6 +24,7 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
   std::vector<ScenarioRun> runs;
   for (const std::string& file : files) {
     Scenario scenario = options.Read(file);
+    RefuseOverlapAtStart(file, scenario);
     const fs::path folder = out.empty()        ? parent / scenario.name
                             : files.size() > 1 ? fs::path(out) / scenario.name
                                                : fs::path(out);
@@ -36,6 +39,12 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
     runs.push_back({std::move(scenario), folder});
   }
   return runs;
+}
+
+void RefuseOverlapAtStart(const std::string& file, const Scenario& scenario) {
+  if (std::string why = StartOverlap(scenario, LoadCar(scenario).params()); !why.empty()) {
+    throw InputError(Problem{.file = file, .key = "mission.start", .message = std::move(why)});
+  }
 }
 
 int ForEachRun(const std::vector<ScenarioRun>& runs,

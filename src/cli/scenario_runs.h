@@ -22,11 +22,14 @@ struct ScenarioRun {
 /// Reads all scenario files before the first run, so that an error in the last file is found early.
 /// If there is a single file and `out` is given, the output folder is `out`. For several files, the
 /// output folder of each run is `<out>/<scenario>`. If `out` is empty, the output folder is
-/// `<parent>/<scenario>`. Throws the same errors as ReadScenario. Throws InputError if two runs
-/// would have the same output folder.
+/// `<parent>/<scenario>`. Throws the same errors as ReadScenario and RefuseOverlapAtStart. Throws
+/// InputError if two runs would have the same output folder.
 std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
                                           const ScenarioOptions& options, const std::string& out,
                                           const std::filesystem::path& parent);
+
+/// Throws InputError if an obstacle overlaps the car at the start of the run.
+void RefuseOverlapAtStart(const std::string& file, const Scenario& scenario);
 
 /// Calls `work` for each run, but starts no further run after Ctrl-C. After Ctrl-C, ForEachRun
 /// prints the number of skipped runs to stderr. ForEachRun returns the largest exit code that

@@ -77,7 +77,9 @@ int Watch(const WatchVerbOptions& options) {
   const CarModel car = LoadCar(run.scenario);
   const OutputFolder folder(run.folder);
   hooks.finished = [&](const RunResult& result) {
-    if (!options.scenario.quiet) {
+    if (options.scenario.quiet) {
+      PrintFailures(result);
+    } else {
       PrintSummary(result, run.folder);
     }
   };

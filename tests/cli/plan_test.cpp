@@ -43,6 +43,42 @@ TEST(Plan, PrintsTheStretchesAroundObstacles) {
   EXPECT_THAT(text, HasSubstr("\n      note: rerouted around an obstacle here\n"));
 }
 
+TEST(Verbs, RefuseAStartInsideAnObstacleAlike) {
+  const TempFolder folder;
+  folder.Write("inside.yaml",
+               "schema: 1\nname: inside\nmission: {speed: 3, waypoints: [[0, 0], [40, 0]]}\n"
+               "world: {obstacles: [{box: {x: 1, y: 0, length: 1, width: 1}}]}\n"
+               "plan: {method: dubins}\n");
+  const Outcome check = Trackbed(folder, "check inside.yaml");
+  EXPECT_EQ(check.code, 2);
+  EXPECT_THAT(check.output, HasSubstr("world.obstacles[0] at (1, 0) overlaps the car"));
+  for (const char* verb : {"check -q", "run", "run -q", "plan", "plan -q", "watch"}) {
+    const Outcome outcome = Trackbed(folder, std::string(verb) + " inside.yaml");
+    EXPECT_EQ(outcome.code, check.code) << verb;
+    EXPECT_EQ(outcome.output, check.output) << verb;
+  }
+  EXPECT_EQ(folder.Names(), std::vector<std::string>{"inside.yaml"});  // nothing is written
+}
+
+TEST(Verbs, PrintFailuresEvenIfQuiet) {
+  const TempFolder folder;
+  folder.Write("beyond.yaml",
+               "schema: 1\nname: beyond\nmission: {speed: 3, waypoints: [[0, 0], [40, 0]]}\n"
+               "world: {obstacles: [{box: {x: 40, y: 0, length: 1, width: 1}}]}\n"
+               "plan: {method: dubins}\n");
+  for (const char* verb : {"run -q", "plan -q"}) {
+    const Outcome outcome = Trackbed(folder, std::string(verb) + " beyond.yaml");
+    EXPECT_EQ(outcome.code, 3) << verb;
+    EXPECT_THAT(outcome.output, testing::StartsWith("beyond: no plan (goal_blocked): waypoint 1 is "
+                                                    "blocked: the obstacle at (40, 0) overlaps"))
+        << verb;
+  }
+  const Outcome late =
+      Trackbed(folder, "run -q " + ScenarioFile("winding") + " -o r --set drive.time_limit=0.2");
+  EXPECT_EQ(late.code, 3);
+  EXPECT_THAT(late.output, testing::StartsWith("winding: kinematic: did not reach the goal"));
+}
+
 TEST(Plan, PrintsWhatSearchesFound) {
   const std::string text = PrintedPlan(ScenarioFile("windy_field"));
   EXPECT_THAT(text, HasSubstr("\n  legs\n"));
