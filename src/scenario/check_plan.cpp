@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -6,6 +8,7 @@
 #include "src/scenario/start_state.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/steering_controller.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/path/fit_path.h"
 #include "trackbed/planning/common/planner.h"
 #include "trackbed/planning/registry/planners.h"
@@ -187,14 +190,64 @@ void CheckLaps(Diagnostics& c) {
   }
 }
 
+/// Returns the names of all planners that meet the headings at the waypoints, separated by commas.
+std::string PlannersWithHeadings() {
+  std::vector<std::string> names;
+  for (const PlannerEntry& planner : Planners()) {
+    if (planner.has_headings) {
+      names.emplace_back(planner.name);
+    }
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Explains why the leg to waypoint `i` from the same point is not valid; returns an empty text if
+/// the car turns there from one heading to another.
+std::string WhyNotInPlace(const Scenario& scenario, std::size_t i) {
+  const MissionSpec& mission = scenario.mission;
+  const char* what = "same point as the previous waypoint";
+  if (scenario.plan && !PlannerFor(scenario.plan->global).has_headings) {
+    return fmt::format(
+        "{}; remove it, or use a planner that turns there from one of "
+        "mission.headings to the next: {}",
+        what, PlannersWithHeadings());
+  }
+  if (!scenario.plan || mission.headings.size() != mission.waypoints.size()) {
+    return fmt::format("{}; remove it, or give mission.headings for a turn there", what);
+  }
+  const double before =
+      i == 1 ? mission.start.yaw.value_or(mission.headings[0]) : mission.headings[i - 1];
+  if (AngleDifference(mission.headings[i], before) == 0.0) {
+    return fmt::format(
+        "{}, and same heading, {:.6g} rad: nothing to drive; remove it, or give it "
+        "another heading",
+        what, mission.headings[i]);
+  }
+  return "";
+}
+
+/// Reports waypoints at the same point as the previous one, unless the car turns there. The car
+/// need not start at the first waypoint.
+void CheckEqualWaypoints(Diagnostics& c) {
+  const MissionSpec& mission = c.scenario.mission;
+  if (!c.CouldReadPlan({"method"}) || !c.CouldRead({"mission.headings", "mission.start.yaw"})) {
+    return;
+  }
+  for (std::size_t i = 1; i < mission.waypoints.size(); ++i) {
+    const bool starts_elsewhere = i == 1 && (mission.start.x || mission.start.y);
+    if (mission.waypoints[i] != mission.waypoints[i - 1] || starts_elsewhere) {
+      continue;
+    }
+    if (std::string why = WhyNotInPlace(c.scenario, i); !why.empty()) {
+      c.AddError(fmt::format("mission.waypoints[{}]", i), std::move(why));
+    }
+  }
+}
+
 void CheckWaypoints(Diagnostics& c) {
   const std::vector<Vec2>& waypoints = c.scenario.mission.waypoints;
   CheckRouteLength(c);
-  for (std::size_t i = 1; i < waypoints.size(); ++i) {
-    if (waypoints[i] == waypoints[i - 1]) {
-      c.AddError(fmt::format("mission.waypoints[{}]", i), "same point as the previous waypoint");
-    }
-  }
+  CheckEqualWaypoints(c);
   if (c.scenario.plan && PlannerFor(c.scenario.plan->global).min_waypoints == 0 &&
       !waypoints.empty() && c.CouldReadPlan({"method"})) {
     c.AddError("mission.waypoints",

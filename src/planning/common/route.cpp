@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/course_schedule.h"
 #include "trackbed/planning/common/curvature_steps.h"
@@ -48,14 +49,37 @@ Plan CheckRoute(const PlanRequest& request) {
         PlanStatus::kTooFewWaypoints,
         fmt::format("{} waypoints; must be at least a start and a goal", request.waypoints.size()));
   }
-  for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
+  if (request.waypoints[1] == request.start.position()) {
+    return Refused(PlanStatus::kDuplicateWaypoints, "the car starts at waypoint 1");
+  }
+  for (std::size_t i = 2; i < request.waypoints.size(); ++i) {
     if (request.waypoints[i] == request.waypoints[i - 1]) {
       return Refused(PlanStatus::kDuplicateWaypoints,
                      fmt::format("waypoint {} equals the previous one", i));
     }
   }
-  if (request.waypoints[1] == request.start.position()) {
-    return Refused(PlanStatus::kDuplicateWaypoints, "the car starts at waypoint 1");
+  return {};
+}
+
+Plan CheckPoses(const PlanRequest& request) {
+  if (request.headings.empty() || request.waypoints.size() < 2) {
+    return CheckRoute(request);
+  }
+  // Rounding of a pose, in turning radii and radians, below which curves have no pieces.
+  constexpr double kSame = 1e-12;
+  const std::vector<Pose2> stops = PlannedStops(request);
+  for (std::size_t i = 1; i < stops.size(); ++i) {
+    const double moved = (stops[i].position() - stops[i - 1].position()).norm();
+    const double turned = AngleDifference(stops[i].yaw, stops[i - 1].yaw);
+    if (moved <= kSame * request.vehicle.min_turning_radius() && std::abs(turned) <= kSame) {
+      return Refused(
+          PlanStatus::kDuplicateWaypoints,
+          fmt::format("nothing to drive to waypoint {}: {} is there already, at ({:.10g}, "
+                      "{:.10g}) with the heading {:.6g} rad; remove the waypoint, or "
+                      "give it another heading",
+                      i, i == 1 ? "the car" : fmt::format("waypoint {}", i - 1), stops[i].x,
+                      stops[i].y, stops[i].yaw));
+    }
   }
   return {};
 }

@@ -14,8 +14,8 @@
 namespace trackbed {
 namespace {
 
+using route::CheckPoses;
 using route::CheckRadius;
-using route::CheckRoute;
 using route::CheckStops;
 using route::IsFree;
 using route::LeadInForCurves;
@@ -123,7 +123,7 @@ std::optional<FoundCurve> FirstRolling(const PlanRequest& request, const Collisi
 /// `words`.
 template <typename Options, typename Words>
 Plan PlanCurves(const Options& options, const PlanRequest& request, const Words& words) {
-  for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius)}) {
+  for (Plan refused : {CheckPoses(request), CheckRadius(request.vehicle, options.radius)}) {
     if (!refused.ok()) {
       return refused;
     }

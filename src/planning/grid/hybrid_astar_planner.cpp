@@ -12,8 +12,8 @@
 namespace trackbed {
 namespace {
 
+using route::CheckPoses;
 using route::CheckRadius;
-using route::CheckRoute;
 using route::IsFree;
 using route::LeadInForCurves;
 using route::RadiusFor;
@@ -106,7 +106,7 @@ HybridAStarResult FirstRollingLeg(const Route& route) {
 }
 
 Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
-  for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius)}) {
+  for (Plan refused : {CheckPoses(request), CheckRadius(request.vehicle, options.radius)}) {
     if (!refused.ok()) {
       return refused;
     }

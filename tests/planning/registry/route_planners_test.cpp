@@ -10,6 +10,7 @@
 #include "tests/planning/print_planner.h"
 #include "tests/tolerance.h"
 #include "tests/vehicle/reference_car.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/common/planner.h"
@@ -356,6 +357,67 @@ TEST(CurvePlanners, TakeAnotherWordWhereTheShortestIsBlocked) {
   EXPECT_GT(DiagnosticsJson(other)["curves"][0]["shorter_ones_blocked"], 0);
   EXPECT_GT(other.reference.path.length(), open.reference.path.length());
   ExpectClear(request, other);
+}
+
+/// Planners that meet the headings at the waypoints.
+std::vector<PlannerEntry> WithHeadings() {
+  std::vector<PlannerEntry> entries = Planning();
+  std::erase_if(entries, [](const PlannerEntry& entry) { return !entry.has_headings; });
+  return entries;
+}
+
+TEST(PlannersWithHeadings, TurnInPlace) {
+  for (const PlannerEntry& entry : WithHeadings()) {
+    for (const double turn : {kPi, -kPi, 0.5 * kPi, -2.0, 1.0, 0.1, 1e-3, 1e-6}) {
+      for (const double start_speed : {0.0, 1.0}) {
+        // There and back, far from the origin, where coordinates have rounding errors of 1e-10 m.
+        PlanRequest request = Between({4e5, -3e5, 0.7}, {4e5, -3e5, 0.7 + turn}, {});
+        request.waypoints.push_back(request.waypoints[0]);
+        request.headings.push_back(0.7);
+        request.start_speed = start_speed;
+        const Plan plan = MakePlan(request, entry.defaults);
+        ASSERT_TRUE(plan.ok()) << entry.name << ", " << turn << ": " << plan.reason;
+        const Path& path = plan.reference.path;
+        // A car cannot turn faster than on its smallest radius.
+        EXPECT_GT(path.length(), 2.0 * std::abs(turn) * ReferenceCar().min_turning_radius());
+        const Pose2 end = path.At(path.length()).pose;
+        // The tolerance for a path of 100 m is ten roundings of its positions.
+        EXPECT_NEAR((end.position() - request.waypoints[0]).norm(), 0.0, Tolerance(1e-8));
+        EXPECT_NEAR(AngleDifference(end.yaw, 0.7), 0.0, Tolerance(1e-8));
+      }
+    }
+  }
+}
+
+TEST(CurvePlanners, TurnAroundInPlaceOnTheShortestCurve) {
+  // Three circles of radius r that touch lead back to the start. Dubins: 60 degrees on the outer
+  // circles and 300 degrees on the middle one. Reeds-Shepp: 60 degrees on each.
+  constexpr double kRadius = 7.0;
+  const PlanRequest request = Between({0.0, 0.0, 0.0}, {0.0, 0.0, kPi}, {});
+  const Plan loop = MakePlan(request, DubinsOptions{.radius = kRadius});
+  ASSERT_TRUE(loop.ok()) << loop.reason;
+  EXPECT_NEAR(loop.reference.path.length(), kRadius * 7.0 / 3.0 * kPi, Tolerance(1e-9));
+  const Plan star = MakePlan(request, ReedsSheppOptions{.radius = kRadius});
+  ASSERT_TRUE(star.ok()) << star.reason;
+  EXPECT_NEAR(star.reference.path.length(), kRadius * kPi, Tolerance(1e-9));
+}
+
+TEST(PlannersWithHeadings, RefuseAPoseTwice) {
+  for (const PlannerEntry& entry : WithHeadings()) {
+    // Adding a whole turn to a heading changes nothing.
+    PlanRequest request = Between({0.0, 0.0, 0.3}, {0.0, 0.0, 0.3 + 2.0 * kPi}, {});
+    const Plan at_once = MakePlan(request, entry.defaults);
+    EXPECT_EQ(at_once.status, PlanStatus::kDuplicateWaypoints) << entry.name;
+    EXPECT_EQ(
+        at_once.reason,
+        "nothing to drive to waypoint 1: the car is there already, at (0, 0) with the heading "
+        "6.58319 rad; remove the waypoint, or give it another heading");
+    request.waypoints = {{0.0, 0.0}, {20.0, 0.0}, {20.0, 0.0}};
+    request.headings = {0.3, 0.1, 0.1};
+    EXPECT_EQ(MakePlan(request, entry.defaults)->status, PlanStatus::kDuplicateWaypoints);
+    request.headings = {};
+    EXPECT_EQ(MakePlan(request, entry.defaults)->status, PlanStatus::kDuplicateWaypoints);
+  }
 }
 
 TEST(CurvePlanners, RefuseRadiiThatTheCarCannotTurnOn) {

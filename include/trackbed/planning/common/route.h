@@ -24,8 +24,14 @@ namespace route {
 /// Makes a rejected plan that states the reason.
 Plan Refused(PlanStatus status, std::string reason);
 
-/// Returns a rejected plan if the route of the request is not valid, else a plan without a path.
+/// Returns a rejected plan if the route of the request is not valid, else a plan without a path. A
+/// route is not valid if it has fewer than two waypoints, or a leg without length.
 Plan CheckRoute(const PlanRequest& request);
+
+/// Same as CheckRoute, for a planner that meets the headings at the waypoints. If the request has
+/// headings, a leg needs no length: between two headings at one point, the car turns in place. The
+/// leg is not valid only if its two poses are equal, except for rounding.
+Plan CheckPoses(const PlanRequest& request);
 
 /// Returns a rejected plan if the requested turning radius is too small for the car.
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
