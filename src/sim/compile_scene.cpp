@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -151,24 +152,44 @@ CompileError ParseMujocoError(const std::string& message) {
   return error;
 }
 
+/// Whether the bodies of two models have the same masses, inertias and centers of mass.
+bool HaveSameMasses(const mjModel& a, const mjModel& b) {
+  const auto same = [&](const mjtNum* of_a, const mjtNum* of_b, int numbers) {
+    return std::equal(of_a, of_a + std::ptrdiff_t{numbers} * a.nbody, of_b);
+  };
+  return a.nbody == b.nbody && same(a.body_mass, b.body_mass, 1) &&
+         same(a.body_inertia, b.body_inertia, 3) && same(a.body_ipos, b.body_ipos, 3) &&
+         same(a.body_iquat, b.body_iquat, 4);
+}
+
 }  // namespace
 
 MujocoModel CompileScene(const Scene& scene, const std::string& name, Looks looks) {
   // checks that MuJoCo's library and headers have the same version
   static_cast<void>(PhysicsVersion());
-  const std::string xml = looks == Looks::kDiscarded ? DiscardLooks(scene.xml) : scene.xml;
   // Only one thread compiles at a time: a process that is forked while another thread compiles
   // would wait forever for MuJoCo's lock.
   static std::mutex compiling;
   const std::lock_guard lock(compiling);
   const MujocoErrorScope errors;
-  Compiled compiled =
-      scene.trusted ? CompileInProcess(xml, scene.assets) : CompileInSubProcess(xml, scene.assets);
+  const auto compile = [&](const std::string& xml) {
+    return scene.trusted ? CompileInProcess(xml, scene.assets)
+                         : CompileInSubProcess(xml, scene.assets);
+  };
+  const bool discard = looks == Looks::kDiscarded;
+  const bool is_mass_given = discard && GivesAllMasses(scene.xml);
+  Compiled compiled = compile(is_mass_given ? DiscardLooks(scene.xml) : scene.xml);
   if (compiled.model == nullptr) {
     const CompileError error = ParseMujocoError(compiled.error);
     throw InputError(Problem{.file = name,
                              .line = LineInCarFile(scene, error.line),
                              .message = "does not compile: " + error.text});
+  }
+  if (discard && !is_mass_given) {
+    Compiled bare = compile(DiscardLooks(scene.xml));
+    if (bare.model != nullptr && HaveSameMasses(*compiled.model, *bare.model)) {
+      compiled = std::move(bare);
+    }
   }
   mj::SetCommonOptions(*compiled.model);
   return std::move(compiled.model);

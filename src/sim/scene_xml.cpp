@@ -40,6 +40,47 @@ XMLElement* FindInWorld(XMLElement& parent, std::string_view kind, std::string_v
   return nullptr;
 }
 
+namespace {
+
+/// Whether the elements in `parent` (a body, a frame or the world) contain only bodies with an
+/// <inertial> element, and no element that makes further bodies.
+bool ContainsOnlyGivenMasses(const XMLElement& parent) {
+  for (const XMLElement* child = parent.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    const std::string_view kind = child->Name();
+    if (kind == "body" && child->FirstChildElement("inertial") == nullptr) {
+      return false;
+    }
+    if ((kind == "body" || kind == "frame" || kind == "replicate") &&
+        !ContainsOnlyGivenMasses(*child)) {
+      return false;
+    }
+    if (kind == "composite" || kind == "flexcomp" || kind == "attach") {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+bool GivesAllMasses(const std::string& xml) {
+  tinyxml2::XMLDocument document;
+  ParseComposed(xml, document);
+  for (const XMLElement* child = document.RootElement()->FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    const std::string_view kind = child->Name();
+    // The attribute inertiafromgeom may tell MuJoCo to ignore <inertial> elements.
+    if (kind == "compiler" && child->Attribute("inertiafromgeom") != nullptr) {
+      return false;
+    }
+    if (kind == "worldbody" && !ContainsOnlyGivenMasses(*child)) {
+      return false;
+    }
+  }
+  return true;
+}
+
 std::string DiscardLooks(const std::string& xml) {
   tinyxml2::XMLDocument document;
   ParseComposed(xml, document);

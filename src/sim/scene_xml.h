@@ -26,6 +26,13 @@ tinyxml2::XMLElement* FindInWorld(tinyxml2::XMLElement& parent, std::string_view
 /// Returns the composed model with the compiler option that makes MuJoCo discard visual geoms. The
 /// option discardvisual discards geoms that collide with nothing and that no other element refers
 /// to. The line numbers of the model do not change.
+/// Versions of MuJoCo before 3.16 also discard the masses of these geoms, unless the body has an
+/// <inertial> element.
 std::string DiscardLooks(const std::string& xml);
+
+/// Whether the composed model states the mass and inertia of each body in an <inertial> element.
+/// If GivesAllMasses returns true, no mass depends on a geom. GivesAllMasses also returns false if
+/// the model contains elements from which MuJoCo makes bodies itself, such as <composite>.
+bool GivesAllMasses(const std::string& xml);
 
 }  // namespace trackbed
