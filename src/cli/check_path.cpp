@@ -134,13 +134,7 @@ int Drive(const CheckPathOptions& options, const Scenario& scenario) {
     PrintSummary(result, out);
   }
   if (options.video && !result.interrupted && result.plan.ok()) {
-    const RenderSpec& render = scenario.render;
-    FilmRun(out, out / run_folder::kVideo,
-            {.width = render.width,
-             .height = render.height,
-             .fps = render.fps,
-             .camera = render.camera,
-             .gl = options.gl},
+    FilmRun(out, out / run_folder::kVideo, FilmOptionsOf(scenario.render, options.gl),
             options.scenario.quiet);
   }
   return ExitCodeOf(result);

@@ -80,16 +80,10 @@ void ShowCounterexample(const RunResult& run, const FalsifyResult& result,
                         const CheckedSearch& search, const fs::path& out,
                         const FalsifyVerbOptions& options) {
   if (options.video && run.plan.ok()) {
-    const RenderSpec& render = run.scenario.render;
-    FilmRun(out, out / run_folder::kVideo,
-            {.width = render.width,
-             .height = render.height,
-             .fps = render.fps,
-             .camera = render.camera,
-             .gl = options.gl,
-             .title = search.study.name + ": " + run_folder::kCounterexample,
-             .note = result.counterexample->reason},
-            options.scenario.quiet);
+    FilmOptions film = FilmOptionsOf(run.scenario.render, options.gl);
+    film.title = search.study.name + ": " + run_folder::kCounterexample;
+    film.note = result.counterexample->reason;
+    FilmRun(out, out / run_folder::kVideo, film, options.scenario.quiet);
   }
   if (options.report) {
     WriteReport({out}, out / run_folder::kReport);

@@ -5,6 +5,7 @@
 
 #include "src/cli/command.h"
 #include "trackbed/render/film.h"
+#include "trackbed/scenario/scenario.h"
 
 namespace trackbed::cli {
 
@@ -15,5 +16,8 @@ void AddGlOption(const Command& command, std::string& gl);
 /// rendering ends without writing a file.
 void FilmRun(const std::filesystem::path& folder, const std::filesystem::path& output,
              const FilmOptions& options, bool quiet);
+
+/// Returns the options of the film that a scenario's section `render` describes.
+FilmOptions FilmOptionsOf(const RenderSpec& render, const std::string& gl);
 
 }  // namespace trackbed::cli

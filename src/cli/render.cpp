@@ -125,6 +125,14 @@ void FilmRun(const fs::path& folder, const fs::path& output, const FilmOptions& 
   });
 }
 
+FilmOptions FilmOptionsOf(const RenderSpec& render, const std::string& gl) {
+  return {.width = render.width,
+          .height = render.height,
+          .fps = render.fps,
+          .camera = render.camera,
+          .gl = gl};
+}
+
 void AddRender(const Command& command) {
   const auto options = std::make_shared<RenderOptions>();
   command.AddPositional("run", options->folder, "Folder of a finished run")
