@@ -22,13 +22,7 @@ class GateLines : public Overlay {
     }
   }
 
-  [[nodiscard]] std::size_t max_shapes() const override {
-    std::size_t sum = 0;
-    for (const std::vector<Point>& line : lines_) {
-      sum += line.size();
-    }
-    return sum;
-  }
+  [[nodiscard]] std::size_t max_shapes() const override { return PointCount(lines_); }
 
   void AddShapes(SceneContext& context) override {
     for (const std::vector<Point>& line : lines_) {

@@ -1,6 +1,7 @@
 #include "render/ground_line.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace trackbed::render {
 namespace {
@@ -29,6 +30,12 @@ std::vector<Point> Thinned(const std::vector<Point>& line) {
     points.push_back(line[i]);
   }
   return points;
+}
+
+std::size_t PointCount(const std::vector<std::vector<Point>>& lines) {
+  return std::accumulate(
+      lines.begin(), lines.end(), std::size_t{0},
+      [](std::size_t sum, const std::vector<Point>& line) { return sum + line.size(); });
 }
 
 std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners) {

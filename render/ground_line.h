@@ -16,6 +16,10 @@ std::vector<std::size_t> KeptPoints(const std::vector<Point>& line);
 /// Returns the points of a line that remain after thinning by KeptPoints.
 std::vector<Point> Thinned(const std::vector<Point>& line);
 
+/// Returns the number of points of all lines, which bounds the number of shapes that AddLine adds
+/// for these lines.
+std::size_t PointCount(const std::vector<std::vector<Point>>& lines);
+
 /// Returns the outline of a rectangle on the ground, as a closed line.
 std::vector<Point> Outline(const Recording& recording, const std::array<Vec2, 4>& corners);
 

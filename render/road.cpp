@@ -153,12 +153,7 @@ class RoadRibbons : public Overlay {
   }
 
   [[nodiscard]] std::size_t max_shapes() const override {
-    std::size_t count = asphalt_.size() + posts_.size();
-    for (const auto* lines : {&edges_, &verges_}) {
-      for (const std::vector<Point>& line : *lines) {
-        count += line.size();
-      }
-    }
+    std::size_t count = asphalt_.size() + posts_.size() + PointCount(edges_) + PointCount(verges_);
     for (const NetworkLine& line : network_lines_) {
       count += line.points.size();
     }
