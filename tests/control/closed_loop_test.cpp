@@ -12,6 +12,7 @@
 
 #include "tests/control/loop.h"
 #include "tests/geometry/random.h"
+#include "tests/support/allocations.h"
 #include "tests/tolerance.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/mpc.h"
@@ -19,28 +20,6 @@
 #include "trackbed/control/preview_integral.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
-
-namespace {
-
-long allocations = 0;  // NOLINT: global, because it is counted in malloc
-
-}  // namespace
-
-// The linker redirects malloc, which Eigen calls, and operator new to these functions (--wrap).
-// That covers all of this project's code, but not allocations inside shared libraries such as
-// NLopt.
-extern "C" {
-void* __real_malloc(std::size_t size);   // NOLINT: the linker's names
-void* __wrap_malloc(std::size_t size) {  // NOLINT
-  ++allocations;
-  return __real_malloc(size);
-}
-void* __real__Znwm(std::size_t size);   // NOLINT
-void* __wrap__Znwm(std::size_t size) {  // NOLINT
-  ++allocations;
-  return __real__Znwm(size);
-}
-}
 
 namespace trackbed {
 

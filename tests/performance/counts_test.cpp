@@ -1,4 +1,4 @@
-// Work that is counted and not timed: the same on every machine but for rounding.
+// Counts work instead of timing it: the counts are the same on every machine, except for rounding.
 #include <gtest/gtest.h>
 #include <mujoco/mujoco.h>
 
@@ -9,31 +9,11 @@
 
 #include "src/sim/mujoco_compat.h"
 #include "tests/planning/frenet_scenes.h"
+#include "tests/support/allocations.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/frenet/lattice.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/plant.h"
-
-namespace {
-
-long allocations = 0;  // NOLINT: counted behind everyone's back
-
-}  // namespace
-
-// The linker lets malloc, which Eigen calls, and operator new end here (--wrap) for all of our own
-// code, not for what shared libraries take for themselves.
-extern "C" {
-void* __real_malloc(std::size_t size);   // NOLINT: the linker's names
-void* __wrap_malloc(std::size_t size) {  // NOLINT
-  ++allocations;
-  return __real_malloc(size);
-}
-void* __real__Znwm(std::size_t size);   // NOLINT
-void* __wrap__Znwm(std::size_t size) {  // NOLINT
-  ++allocations;
-  return __real__Znwm(size);
-}
-}
 
 namespace trackbed {
 namespace {
