@@ -26,7 +26,7 @@ std::vector<OrientedBox> RandomBoxes(Random& random, int count) {
   return boxes;
 }
 
-/// Numbers of boxes below and above the limit for a linear search.
+/// Numbers of boxes. BoxIndex uses a linear search up to 16 boxes, and a tree for more boxes.
 constexpr std::array kCounts{0, 1, 16, 17, 400};
 
 TEST(BoxIndex, TellsTheSameDistanceAsLookingAtAllBoxes) {

@@ -22,7 +22,8 @@ namespace bg = boost::geometry;
 using Point = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Point, false>;
 
-// Rounding: a few operations on coordinates below 20 m, here and in Boost.Geometry.
+// Rounding error [m] of a few operations on coordinates below 20 m, by Trackbed and by
+// Boost.Geometry.
 constexpr double kRounding = 1e-13;
 
 Polygon Outline(const OrientedBox& box) {
@@ -34,7 +35,7 @@ Polygon Outline(const OrientedBox& box) {
   return polygon;
 }
 
-/// Boost.Geometry's distance; 0 if the boxes touch or overlap.
+/// Returns Boost.Geometry's distance between two boxes, which is 0 if the boxes touch or overlap.
 double ByBoost(const OrientedBox& a, const OrientedBox& b) {
   return bg::distance(Outline(a), Outline(b));
 }
@@ -92,7 +93,7 @@ TEST(Distance, IsThatOfTheNearestSidesOrCorners) {
   const OrientedBox a{{0.0, 0.0, 0.0}, 2.0, 2.0};
   EXPECT_NEAR(Distance(a, {{5.0, 0.0, 0.0}, 2.0, 2.0}), 3.0, Tolerance(1e-12));
   EXPECT_NEAR(Distance(a, {{4.0, 5.0, 0.0}, 2.0, 2.0}), std::hypot(2.0, 3.0), Tolerance(1e-12));
-  // A diamond whose corner points at the side: 5 - 1 - sqrt(2).
+  // A diamond whose corner points at the side of box `a`. The distance is 5 m - 1 m - sqrt(2) m.
   EXPECT_NEAR(Distance(a, {{5.0, 0.0, std::acos(-1.0) / 4.0}, 2.0, 2.0}), 4.0 - std::sqrt(2.0),
               Tolerance(1e-12));
 }
@@ -102,12 +103,13 @@ TEST(Distance, IsZeroForOverlapTouchAndContainment) {
   EXPECT_EQ(Distance(a, {{1.0, 0.5, 1.0}, 4.0, 2.0}), 0.0);
   EXPECT_EQ(Distance(a, {{0.0, 0.0, 0.0}, 0.1, 0.1}), 0.0);
   EXPECT_EQ(Distance({{0.0, 0.0, 0.0}, 0.1, 0.1}, a), 0.0);
-  // Crossing boxes: no corner of one lies in the other.
+  // The boxes cross each other, but no box contains a corner of the other box.
   EXPECT_EQ(Distance({{0.0, 0.0, 0.0}, 10.0, 0.1}, {{0.0, 0.0, 1.5}, 10.0, 0.1}), 0.0);
   EXPECT_EQ(Distance({{0.0, 0.0, 0.0}, 2.0, 2.0}, {{2.0, 0.0, 0.0}, 2.0, 2.0}), 0.0);
 }
 
-/// Distance by sampling both outlines.
+/// Returns the distance between two boxes outside each other, as the smallest distance from sampled
+/// points on the outline of `a` to the outline of `b`.
 double BySampling(const OrientedBox& a, const OrientedBox& b) {
   constexpr int kSamples = 200;
   double nearest = std::numeric_limits<double>::infinity();
@@ -136,11 +138,12 @@ TEST(Distance, AgreesWithSampledOutlines) {
         random.Uniform(0.5, 5.0),
         random.Uniform(0.5, 5.0)};
     const double exact = Distance(a, b);
-    // Symmetric, to rounding of coordinates of tens of meters.
+    // Rounding of coordinates of about 10 m may change the distance if the boxes are exchanged.
     EXPECT_NEAR(exact, Distance(b, a), Tolerance(1e-13));
     if (exact > 0.0) {
       ++apart;
-      // Sampling can only overestimate, by at most half a step of the longer side: 4/200/2.
+      // Sampling can only overestimate the distance, by at most half the spacing of the samples. On
+      // the longer side of 4 m with 200 samples, this is 4/200/2 = 0.01 m.
       EXPECT_NEAR(BySampling(a, b), exact, Tolerance(0.01));
     }
   }
@@ -166,11 +169,13 @@ TEST(Separation, OfBoxesApartIsBoostsDistance) {
 }
 
 TEST(Separation, IsNegativeForContainmentAndCrossing) {
-  // A box of 1 m in the center of one of 4 by 3 m leaves over the longer side: 1.5 + 0.5.
+  // The room is 4 m x 3 m, and the box in its center is a square of 1 m. The shortest shift that
+  // moves the box out of the room crosses a long side: 1.5 m + 0.5 m = 2 m.
   const OrientedBox room{{2.0, 1.0, 0.7}, 4.0, 3.0};
   EXPECT_NEAR(Separation(room, {{2.0, 1.0, 0.7}, 1.0, 1.0}), -2.0, Tolerance(kRounding));
   EXPECT_NEAR(Separation({{2.0, 1.0, 0.7}, 1.0, 1.0}, room), -2.0, Tolerance(kRounding));
-  // A cross of 10 by 0.2: one bar must leave past the other's end, (10 + 0.2)/2.
+  // The boxes form a cross; each bar is 10 m x 0.2 m. To separate the bars, one bar must move along
+  // the other bar to its end, by (10 + 0.2)/2 = 5.1 m.
   EXPECT_NEAR(Separation({{0.0, 0.0, 0.2}, 10.0, 0.2}, {{0.0, 0.0, 0.2 + std::acos(0.0)}, 10, 0.2}),
               -5.1, Tolerance(kRounding));
   EXPECT_NEAR(Separation({{0.0, 0.0, 0.0}, 2.0, 2.0}, {{1.5, 0.5, 0.0}, 2.0, 2.0}), -0.5,
@@ -193,8 +198,8 @@ TEST(Separation, OfOverlappingBoxesIsTheShortestWayOut) {
     ++overlapping;
     contained += Holds(a, b) || Holds(b, a) ? 1 : 0;
     EXPECT_EQ(ByBoost(a, b), 0.0);
-    // A shift of 1.001 times the depth along one of the boxes' axes separates them. A shift of 0.99
-    // times does not in any direction.
+    // A shift of 1.001 times the depth along an axis of one box separates the boxes. A shift of
+    // 0.99 times the depth separates the boxes in no direction.
     bool freed = false;
     for (const double yaw : {a.center.yaw, b.center.yaw}) {
       const Vec2 along = Direction(yaw);
@@ -213,7 +218,8 @@ TEST(Separation, OfOverlappingBoxesIsTheShortestWayOut) {
 }
 
 TEST(Separation, ShrinksByWhatBoxesMoveTogether) {
-  // Along the gap between two parallel sides, through the contact and beyond.
+  // Box `b` moves toward box `a` across the gap between two parallel sides, until the boxes
+  // overlap.
   const OrientedBox a{{1.0, -2.0, 0.4}, 4.0, 2.0};
   for (double gap = 1.0; gap > -2.0; gap -= 0.125) {
     const OrientedBox b = Moved(a, (2.0 + gap) * LeftNormal(Direction(0.4)));
@@ -233,7 +239,7 @@ TEST(DistanceOfALine, IsBoosts) {
     EXPECT_NEAR(distance, ByBoost(from, to, box), Tolerance(kRounding));
     EXPECT_NEAR(distance, Distance(to, from, box), Tolerance(kRounding));
     apart += distance > 0.0 ? 1 : 0;
-    // Through the box, with both ends outside.
+    // The line crosses the box, and both ends of the line are outside the box.
     across +=
         distance == 0.0 && Distance(from, from, box) > 0.0 && Distance(to, to, box) > 0.0 ? 1 : 0;
   }
@@ -242,7 +248,7 @@ TEST(DistanceOfALine, IsBoosts) {
 }
 
 TEST(DistanceOfALine, OfAPointIsThatOfThePoint) {
-  const OrientedBox box{{1.0, 2.0, std::acos(0.0)}, 4.0, 2.0};  // [0, 2] x [0, 4]
+  const OrientedBox box{{1.0, 2.0, std::acos(0.0)}, 4.0, 2.0};  // The box [0, 2] x [0, 4].
   const auto of_point = [&](const Vec2& p) { return Distance(p, p, box); };
   EXPECT_NEAR(of_point({5.0, 1.0}), 3.0, Tolerance(kRounding));
   EXPECT_NEAR(of_point({5.0, 8.0}), 5.0, Tolerance(kRounding));
@@ -265,7 +271,8 @@ TEST(DistanceOfALine, IsZeroWithinAcrossAndAtTheTouch) {
   EXPECT_EQ(Distance({0.0, 0.0}, {9.0, 9.0}, box), 0.0);   // one end inside
   EXPECT_EQ(Distance({2.0, -5.0}, {2.0, 5.0}, box), 0.0);  // along a side
   EXPECT_EQ(Distance({1.0, 2.0}, {3.0, 0.0}, box), 0.0);   // through a corner
-  // Past the corner (2, 1), within both bounding intervals: 1/sqrt(2) from x + y = 4.
+  // The line passes the corner (2, 1), although it overlaps the box's intervals in x and in y. The
+  // distance from the corner to the line x + y = 4 is 1/sqrt(2).
   EXPECT_NEAR(Distance({1.0, 3.0}, {3.0, 1.0}, box), std::sqrt(0.5), Tolerance(kRounding));
 }
 

@@ -12,7 +12,8 @@
 namespace trackbed {
 namespace pose_test {
 
-// Rounding: a few operations on coordinates below 100 m, 100 * 2^-52 each.
+// Rounding error of a few operations on coordinates below 100 m; each operation has an error of 100
+// x 2^-52.
 constexpr double kRounding = 1e-13;
 
 Pose2 RandomPose(Random& random) {
@@ -40,7 +41,7 @@ TEST(Cross, IsPositiveToTheLeft) {
 }
 
 TEST(ToWorld, TurnsAndShifts) {
-  // One meter ahead and two to the left of a frame at (10, 20) that faces +y.
+  // The frame is at (10, 20) and faces +y. The point is 1 m ahead of the frame and 2 m to the left.
   const Vec2 p = ToWorld({10.0, 20.0, kPi / 2.0}, {1.0, 2.0});
   EXPECT_NEAR(p.x(), 8.0, Tolerance(kRounding));
   EXPECT_NEAR(p.y(), 21.0, Tolerance(kRounding));
@@ -87,7 +88,8 @@ TEST(MoveOnArc, OfAQuarterTurnIsAQuarterCircle) {
   const double r = 7.0;
   ExpectPose(MoveOnArc({}, r * kPi / 2.0, kPi / 2.0), {r, r, kPi / 2.0}, kRounding);
   ExpectPose(MoveOnArc({}, r * kPi / 2.0, -kPi / 2.0), {r, -r, -kPi / 2.0}, kRounding);
-  // In reverse with the wheels to the left: the rear moves left, the heading turns right.
+  // In reverse with the wheels turned left, the car moves backward to the left, and its heading
+  // turns right.
   ExpectPose(MoveOnArc({}, -r * kPi / 2.0, -kPi / 2.0), {-r, r, -kPi / 2.0}, kRounding);
 }
 
@@ -97,13 +99,13 @@ TEST(MoveOnArc, FullCircleComesBack) {
 }
 
 TEST(MoveOnArc, SlipTurnsTheDirectionOfMotion) {
-  // With a slip of a right angle the frame keeps its heading and moves sideways.
+  // With a slip angle of 90 degrees, the frame keeps its heading and moves sideways.
   ExpectPose(MoveOnArc({}, 5.0, 0.0, kPi / 2.0), {0.0, 5.0, 0.0}, kRounding);
   Random random(33);
   for (int i = 0; i < 100; ++i) {
     const double W = random.Uniform(0.01, 1.0);
     const double beta = random.Uniform(-0.5, 0.5);
-    // For v = 1 and t = 6.
+    // The speed is v = 1 m/s, and the duration is t = 6 s.
     ExpectPose(MoveOnArc({}, 6.0, W * 6.0, beta),
                {(std::sin(W * 6.0 + beta) - std::sin(beta)) / W,
                 -(std::cos(W * 6.0 + beta) - std::cos(beta)) / W, W * 6.0},
@@ -128,7 +130,8 @@ TEST(MoveOnArc, DoesNotDependOnTheSteps) {
 }
 
 TEST(MoveOnArc, SmallTurnsAreAsExactAsLargeOnes) {
-  // Turns on both sides of the series' limit of 2e-4, compared with long double.
+  // MoveOnArc uses a power series for turns below 2e-4 rad. The test compares turns below and above
+  // this limit with results in long double.
   for (double turn = 1e-12; turn < 1.0; turn *= 1.7) {
     SCOPED_TRACE(turn);
     const long double t = turn;

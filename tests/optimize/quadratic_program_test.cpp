@@ -12,7 +12,8 @@
 namespace trackbed {
 namespace {
 
-/// Two variables: minimize (x - a)^2/2 + (y - b)^2/2 subject to x + y <= sum.
+/// Returns a program with two variables: minimize (x - a)^2/2 + (y - b)^2/2 subject to x + y <=
+/// sum.
 QuadraticProgram Plane(double a, double b, double sum) {
   QuadraticProgram program;
   program.hessian.setIdentity(2, 2);
@@ -34,7 +35,8 @@ TEST(QuadraticProgram, WithoutAConstraintInTheWayIsTheSystemsSolution) {
 }
 
 TEST(QuadraticProgram, OnAConstraintIsTheProjection) {
-  // Projects (1, 2) onto x + y = 1: half of the excess 2 off each.
+  // The solution is the projection of (1, 2) onto x + y = 1. The sum 3 exceeds 1 by 2, so each
+  // variable decreases by 1.
   const QuadraticSolution solution = Solve(Plane(1.0, 2.0, 1.0));
   EXPECT_TRUE(solution.ok);
   EXPECT_NEAR(solution.x[0], 0.0, Tolerance(1e-9));
@@ -42,10 +44,10 @@ TEST(QuadraticProgram, OnAConstraintIsTheProjection) {
 }
 
 TEST(QuadraticProgram, RandomOnesKeepTheKarushKuhnTuckerConditions) {
-  // Optimality conditions of a convex program: the gradient H x + f is a combination of the active
-  // rows with multipliers <= 0, found here by least squares. The constraints hold to 1e-9. For a
-  // row a with |a| of at most 10, the gradient is therefore known to some 1e-7 of the largest
-  // eigenvalue.
+  // In the minimum of a convex program, the gradient H x + f is a linear combination of the active
+  // constraint rows with factors <= 0. The test computes these factors by least squares. The solver
+  // meets the constraints to 1e-9. The rows have a norm of at most 10, so the error of the gradient
+  // is about 1e-7 of the largest eigenvalue of H.
   std::mt19937 random(71);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const auto fill = [&](auto&& matrix) {
@@ -64,7 +66,7 @@ TEST(QuadraticProgram, RandomOnesKeepTheKarushKuhnTuckerConditions) {
     program.hessian.diagonal().array() += 0.1;
     program.linear.resize(n);
     fill(program.linear);
-    // The box abs(x) <= 0.3 and n half spaces that contain the origin.
+    // The constraints are the box abs(x) <= 0.3 and n half spaces that contain the origin.
     program.constraints.setZero(3 * n, n);
     program.constraints.topRows(n).setIdentity();
     program.constraints.middleRows(n, n) = -program.constraints.topRows(n);
@@ -111,7 +113,8 @@ TEST(QuadraticProgram, SaysWhenConstraintsContradictEachOther) {
   program.bounds << -1.0, -1.0;  // x + y <= -1 and x + y >= 1
   const QuadraticSolution solution = Solve(program);
   EXPECT_FALSE(solution.ok);
-  EXPECT_GE(solution.violation, 1.0 - 1e-6);  // the best compromise is halfway between both
+  EXPECT_GE(solution.violation, 1.0 - 1e-6);  // The point with the smallest violation is halfway
+                                              // between the two bounds.
   EXPECT_TRUE(solution.x.allFinite());
 }
 

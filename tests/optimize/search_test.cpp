@@ -33,7 +33,8 @@ SearchOptions With(SearchMethod method) {
   return options;
 }
 
-/// A bowl around (2, -1) within [-4, 5] x [-6, 3], started off its axis.
+/// Returns a quadratic objective with the minimum 7 at (2, -1), within the bounds [-4, 5] x [-6,
+/// 3]. The start is on neither axis of the quadratic.
 SearchProblem Bowl() {
   return {.lower = {-4.0, -6.0},
           .upper = {5.0, 3.0},
@@ -45,8 +46,9 @@ SearchProblem Bowl() {
           .constraints = {}};
 }
 
-/// The bowl outside the disc of radius 1 around its minimum: not convex. The bowl is flattest along
-/// x, so the minima are (1, -1) and (3, -1) with value 8.
+/// Returns the problem of Bowl with a constraint that excludes the disc of radius 1 around the
+/// minimum. The feasible region is not convex. The objective rises least along x, so the minima are
+/// at (1, -1) and (3, -1), with the value 8.
 SearchProblem BowlWithHole() {
   SearchProblem problem = Bowl();
   problem.constraint_count = 1;
@@ -56,10 +58,11 @@ SearchProblem BowlWithHole() {
   return problem;
 }
 
-/// How far above the true minimum each search may end with its default budget. Evolution strategies
-/// stop when the budget is used. esch steps by Cauchy draws over the whole range, so after n
-/// evaluations in two dimensions its mean distance from the best is sqrt(area/n)/2 = 0.05, or 0.01
-/// in value. isres contracts to 1e-4. The others stop at 1e-9 of a range of 9.
+/// Returns the largest excess over the true minimum that the test allows for a search with its
+/// default budget. The evolution strategies esch and isres stop when the budget is used. Method
+/// esch draws random steps over the whole range: after n evaluations in two dimensions, the mean
+/// distance from the minimum is sqrt(area/n)/2 = 0.05, which is an excess of 0.01. Method isres
+/// converges to 1e-4. The other methods stop when x changes by less than 1e-9 of the range of 9.
 double Excess(SearchMethod method) {
   return method == SearchMethod::kEsch ? 0.05 : method == SearchMethod::kIsres ? 1e-4 : 1e-6;
 }
@@ -86,8 +89,8 @@ TEST_P(EverySearch, KeepsAConstraintThatIsNotConvex) {
   std::vector<double> constraint(1);
   BowlWithHole().constraints(result.x, constraint);
   EXPECT_LE(constraint[0], SearchOptions{}.feasible);
-  // Descent methods may stop anywhere on the rim, whose value is between 8 and 10. So may a simplex
-  // that ranks only values on the rim.
+  // Descent methods may stop anywhere on the rim of the disc, where the value is between 8 and 10.
+  // Method nelder_mead does not support constraints, so it may also stop anywhere on the rim.
   EXPECT_GE(result.value, 8.0 - 1e-6);
   const bool global = GetParam().global;
   EXPECT_LE(result.value, global ? 8.0 + 100.0 * Excess(GetParam().method) : 10.0 + 1e-6);
@@ -132,7 +135,7 @@ TEST_P(EverySearch, GoesRoundWhereThereIsNoNumber) {
 TEST_P(EverySearch, GivesTheSameInAnyThread) {
   const SearchOptions options = With(GetParam().method);
   const SearchResult here = Search(BowlWithHole(), options, 42);
-  static_cast<void>(Search(Bowl(), options, 7));  // a search must not affect later ones
+  static_cast<void>(Search(Bowl(), options, 7));  // A search must not affect later searches.
   SearchResult there;
   std::thread([&] { there = Search(BowlWithHole(), options, 42); }).join();
   EXPECT_EQ(here.x, there.x);
@@ -211,8 +214,8 @@ INSTANTIATE_TEST_SUITE_P(Table, EverySearch, ::testing::ValuesIn(Searches()),
                          [](const auto& test) { return std::string(test.param.name); });
 
 TEST(Search, FollowsACurvedValley) {
-  // Rosenbrock's function: minimum 0 at (1, 1). Gradient methods reach it within a few hundred
-  // evaluations, Powell's linear models only slowly.
+  // Rosenbrock's function has the minimum 0 at (1, 1). Gradient methods converge within a few
+  // hundred evaluations. Powell's method COBYLA, which uses linear models, converges slowly.
   const SearchProblem valley{.lower = {-2.0, -1.0},
                              .upper = {2.0, 3.0},
                              .start = {-1.2, 1.0},
@@ -225,8 +228,8 @@ TEST(Search, FollowsACurvedValley) {
                              .constraints = {}};
   const SearchResult result = Search(valley, With(SearchMethod::kSlsqp), 1);
   ASSERT_TRUE(result.ok());
-  // Central differences with a step of 2.4e-5 give the slope to 1e-9, and x to 1e-4 in the flat
-  // valley.
+  // Central differences with a step of 2.4e-5 have an error of 1e-9 in the slope. In the flat
+  // valley, this error moves x by up to 1e-4.
   EXPECT_NEAR(result.x[0], 1.0, Tolerance(1e-4));
   EXPECT_NEAR(result.x[1], 1.0, Tolerance(2e-4));
   EXPECT_LT(result.evaluations, 1000);

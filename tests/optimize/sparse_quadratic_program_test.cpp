@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-/// |x - c|^2/2 within a box: the variables are independent.
+/// Returns a program that minimizes |x - c|^2/2 within a box. The variables are independent.
 SparseQuadraticProgram Nearest(const Eigen::VectorXd& c, double lower, double upper) {
   const Eigen::Index n = c.size();
   SparseQuadraticProgram program;
@@ -36,15 +36,16 @@ TEST(SparseQuadraticProgram, CutsToABox) {
   ASSERT_TRUE(solution.ok);
   EXPECT_GT(solution.iterations, 0);
   for (Eigen::Index i = 0; i < c.size(); ++i) {
-    // IPOPT's tolerance is 1e-9 of the complementarity. Near a bound, where the multiplier is
-    // small, x errs by the square root of that.
+    // IPOPT stops at a complementarity (slack times multiplier) of 1e-9. If the multiplier at a
+    // bound is near 0, the error of x is the square root of 1e-9, 3e-5.
     EXPECT_NEAR(solution.x[i], std::clamp(c[i], -3.0, 4.0), Tolerance(1e-4)) << c[i];
   }
   EXPECT_LE(solution.violation, 1e-7);
 }
 
 TEST(SparseQuadraticProgram, HasMultipliersAndMayPredictItsSteps) {
-  // x - c + lambda = 0: lambda is c minus the bound at an active bound, and 0 elsewhere.
+  // The optimality condition is x - c + lambda = 0. The multiplier lambda is c minus the bound at
+  // an active bound, and 0 at an inactive bound.
   const Eigen::VectorXd c = Eigen::VectorXd::LinSpaced(201, -10.0, 10.0);
   for (const InteriorSteps steps :
        {InteriorSteps::kLineSearch, InteriorSteps::kPredictorCorrector}) {
@@ -52,7 +53,7 @@ TEST(SparseQuadraticProgram, HasMultipliersAndMayPredictItsSteps) {
         Solve(Nearest(c, -3.0, 4.0), Eigen::VectorXd::Zero(c.size()), steps);
     ASSERT_TRUE(solution.ok);
     for (Eigen::Index i = 0; i < c.size(); ++i) {
-      // Tolerance as in CutsToABox.
+      // The tolerance is derived in CutsToABox.
       const double expected = std::clamp(c[i], -3.0, 4.0);
       EXPECT_NEAR(solution.x[i], expected, Tolerance(1e-4)) << c[i];
       EXPECT_NEAR(solution.multipliers[i], c[i] - expected, Tolerance(1e-4)) << c[i];
@@ -94,16 +95,16 @@ TEST(SparseQuadraticProgram, EqualsTheDenseSolver) {
     const auto value = [&](const Eigen::VectorXd& x) {
       return 0.5 * x.dot(hessian * x) + linear.dot(x);
     };
-    // Both values are within 1e-8 of the minimum (complementarity of 1e-9 for each of 40 bounds,
-    // and 1e-9 of violation times multipliers of about 10). H is at least the identity, so x is
-    // within sqrt(2 x 1e-7).
+    // Both objective values are within 1e-7 of the minimum: the complementarity is 1e-9 for each of
+    // 40 bounds, and a violation of 1e-9 times multipliers of about 10 adds 1e-8. All eigenvalues
+    // of the Hessian are at least 1, so x is within sqrt(2 x 1e-7) = 4.5e-4 of the minimum point.
     EXPECT_NEAR(value(solution.x), value(expected.x), Tolerance(1e-7));
     EXPECT_LT((solution.x - expected.x).norm(), Tolerance(5e-4));
   }
 }
 
 TEST(SparseQuadraticProgram, TakesAHessianThatIsSingular) {
-  // Only the sum of both variables has a cost: (x + y - 3)^2/2.
+  // The objective (x + y - 3)^2/2 depends only on the sum of the two variables.
   SparseQuadraticProgram program = Nearest(Eigen::Vector2d(3.0, 3.0), 0.0, 10.0);
   Eigen::Matrix2d ones = Eigen::Matrix2d::Ones();
   program.hessian = ones.sparseView();
@@ -113,7 +114,7 @@ TEST(SparseQuadraticProgram, TakesAHessianThatIsSingular) {
 }
 
 TEST(SparseQuadraticProgram, SaysThatBoundsCannotBeMet) {
-  // Infeasible: x must be below 1 and above 2.
+  // The constraints are infeasible: x must be at most 1 and at least 2.
   SparseQuadraticProgram program = Nearest(Eigen::VectorXd::Zero(1), 2.0, 3.0);
   Eigen::MatrixXd rows = Eigen::MatrixXd::Ones(2, 1);
   program.constraints = rows.sparseView();
@@ -131,7 +132,8 @@ TEST(SparseQuadraticProgram, IsAFunctionOfItsArguments) {
 }
 
 TEST(SparseQuadraticProgram, TakesNoOptionsFromTheCurrentFolder) {
-  // IPOPT by default reads ipopt.opt. With zero iterations the solution would be the start.
+  // By default, IPOPT reads options from ipopt.opt in the current folder. If Solve read this file,
+  // IPOPT would do no iterations and return the start.
   namespace fs = std::filesystem;
   const fs::path before = fs::current_path();
   const fs::path folder = fs::path(testing::TempDir()) / "ipopt_options";

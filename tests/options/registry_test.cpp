@@ -71,7 +71,7 @@ TEST(MethodOptions, VisitTheKeysOfTheirStruct) {
   MethodOptions<Entry> options = Walk{.speed = 2.5};
   const auto visit = [&](KeyVisitor& keys) { Visit(keys, options); };
   EXPECT_EQ(FindNumber("speed", visit), 2.5);
-  EXPECT_EQ(FindNumber("steps", visit), std::nullopt);  // an integer is no double
+  EXPECT_EQ(FindNumber("steps", visit), std::nullopt);  // `steps` is an integer, not a double.
   EXPECT_EQ(FindNumber("depth", visit), std::nullopt);
 }
 

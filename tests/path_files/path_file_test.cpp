@@ -13,8 +13,8 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
-// Tests the readers of path files (CSV, nav_msgs/Path, CommonRoad, GeoJSON): units, columns, errors
-// with their lines, limits, and arbitrary bytes.
+// Tests the readers of path files (CSV, nav_msgs/Path, CommonRoad, GeoJSON): units, columns, error
+// messages with line numbers, limits, and files of arbitrary bytes.
 namespace trackbed {
 namespace {
 
@@ -30,7 +30,8 @@ std::string Error(const std::string& name, const std::string& text, const PathMa
   return ErrorText([&] { Read(name, text, map); });
 }
 
-/// The only problem of the speeds in a CSV file whose path is valid, as "line: key: message".
+/// Returns the only problem with the speeds in a CSV file whose path is valid, as "line: key:
+/// message".
 std::string SpeedProblem(const std::string& csv) {
   const TempFolder folder;
   const PathFile found = ReadPathFile(folder.Write("p.csv", csv));
@@ -90,7 +91,7 @@ TEST(PathCsv, ReadsRacingLinesOfTum) {
   EXPECT_EQ(file.points.points[1], Vec2(1.0, 7.0));
   EXPECT_EQ(file.points.curvature, (std::vector<double>{0.01, 0.02}));
   EXPECT_EQ(file.points.speed, (std::vector<double>{20.0, 21.0}));
-  // Headings are measured from north, and the line points north.
+  // The file gives headings from north, and the path points north.
   EXPECT_NEAR(file.points.yaw[0], 0.5 * kPi, Tolerance(1e-15));
   EXPECT_THAT(file.notes.back(), HasSubstr("from north"));
   EXPECT_EQ(Read("track.csv", "# x_m,y_m,w_tr_right_m,w_tr_left_m\n0,0,5,5\n5,0,5,5\n").points[1],
@@ -157,7 +158,8 @@ TEST(PathCsv, ReadsThePathBesideInvalidSpeeds) {
   EXPECT_THAT(found.notes, ::testing::Contains(HasSubstr("column kappa is ignored: line 2")));
 }
 
-// A stop of the recorded car: at its ends the path may stand, and between them it cannot wait.
+// The recorded car stands still at some points. A path may have zero speed at its ends, but the car
+// cannot wait between them.
 TEST(PathCsv, RefusesToWaitOnTheWay) {
   EXPECT_THAT(
       SpeedProblem("t,x,y,v\n0,0,0,3\n1,3,0,0\n2,3,0,0\n4,3,0,0\n5,6,0,3\n"),
@@ -166,7 +168,8 @@ TEST(PathCsv, RefusesToWaitOnTheWay) {
   EXPECT_EQ(ends.speed, (std::vector<double>{0.0, 3.0, 3.0, 0.0, 0.0}));
 }
 
-/// A CSV file of an arc with the heading in the unit and direction of `number`.
+/// Returns the text of a CSV file with an arc of radius 40 m. The function `number` converts the
+/// heading to the file's unit and direction.
 std::string ArcWithHeadings(double (*number)(double yaw)) {
   std::string text = "x,y,yaw\n";
   for (int i = 0; i < 60; ++i) {
@@ -333,10 +336,10 @@ std::string Line(const std::string& coordinates, const std::string& more = "") {
          coordinates + "}}]}";
 }
 
-// The formulas for the ellipsoid WGS 84 (a = 6378137 m, e^2 = 0.00669437999). At latitude phi, a
-// degree of latitude is pi/180 a (1 - e^2)/(1 - e^2 sin^2 phi)^1.5 and a degree of longitude is
-// pi/180 a cos phi/(1 - e^2 sin^2 phi)^0.5. Over 0.001 degrees the curvature contributes less than
-// 1 mm.
+// The formulas for the ellipsoid WGS 84, with the semi-major axis a = 6378137 m and e^2 =
+// 0.00669437999. At latitude phi, a degree of latitude is pi/180 a (1 - e^2)/(1 - e^2 sin^2
+// phi)^1.5 long. A degree of longitude is pi/180 a cos phi/(1 - e^2 sin^2 phi)^0.5 long. Over 0.001
+// degrees, the curvature of the meridian and of the parallel changes the result by less than 1 mm.
 TEST(GeoJson, ProjectsDegrees) {
   const double phi = 48.1 * kPi / 180.0;
   const double w = 1.0 - 0.00669437999 * std::sin(phi) * std::sin(phi);
@@ -394,7 +397,8 @@ TEST(GeoJson, SaysWhatIsWrong) {
 }
 
 TEST(PathFile, ReadsAnyFormatFromAnyBytes) {
-  // Texts truncated, and with each byte replaced: reading gives an error message or a path.
+  // The test truncates each text, and replaces each byte of the text. Reading must return a path or
+  // throw an InputError with a message.
   const std::vector<std::pair<PathFormat, std::string>> texts{
       {PathFormat::kCsv, "x_m,y_m,speed_mps\n1,2,3\n4,5,6\n"},
       {PathFormat::kNavPath,

@@ -20,7 +20,7 @@ constexpr const char* kGeoJson =
     R"({"type": "LineString", "coordinates": [[0, 0], [3, 4]],
         "crs": {"type": "name", "properties": {"name": "EPSG:25832"}}})";
 
-/// The last point of the path, or the message.
+/// Returns the last point of the path as text, or the message of the first problem.
 std::string LastPoint(const std::string& name, const std::string& text, PathFormat format) {
   const TempFolder folder;
   PathMap map;

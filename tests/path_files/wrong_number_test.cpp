@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Reads and fits a path, which ends within two seconds with a path or with a named problem.
+/// Reads a path file and fits the path. Expects that this ends within two seconds, either with a
+/// path or with an error message.
 void ExpectBounded(const fs::path& file, PathFit fit) {
   const auto begun = std::chrono::steady_clock::now();
   try {
@@ -46,7 +47,8 @@ TEST(PathWithAWrongNumber, EndsInTime) {
   }
 }
 
-/// Error of fitting a CSV file.
+/// Returns the line and message of the problem that fitting a CSV file reports; empty if the fit
+/// succeeds.
 std::string FitError(const std::string& csv) {
   const TempFolder folder;
   try {

@@ -18,7 +18,7 @@ inline RoadNetwork ParseNetwork(const std::string& content) {
   return ParseOpenDrive(Document(content), "test.xodr");
 }
 
-/// A lane section with one driving lane of 3.5 m on each side.
+/// A lane section with one driving lane on each side, each 3.5 m wide.
 inline const std::string kTwoLanes =
     "<laneSection s=\"0\">"
     "<left><lane id=\"1\" type=\"driving\"><width sOffset=\"0\" a=\"3.5\" b=\"0\" c=\"0\" d=\"0\"/>"
@@ -28,7 +28,7 @@ inline const std::string kTwoLanes =
     "d=\"0\"/>"
     "</lane></right></laneSection>";
 
-/// The elements of a road; each can be replaced.
+/// The text of the elements of a road. A test can replace each element.
 struct RoadText {
   std::string id = "1";
   std::string length = "100";

@@ -21,7 +21,8 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-// Quadrature errors of lengths and headings between points 0.25 m apart, over some 300 m of road.
+// Tolerance [m, rad] for the error of integrating the lane centers numerically, over 300 m of road
+// with points 0.25 m apart.
 constexpr double kOnCenter = 1e-6;
 
 RoadNetwork Crossing() {
@@ -36,15 +37,16 @@ std::vector<std::string> RoadsOf(const LaneRoute& route) {
   return roads;
 }
 
-/// Expects that the path passes through the center of every stretch in its direction, and is not
-/// longer than the stretches.
+/// Expects that the path follows the center of each stretch in the driving direction of the
+/// stretch, and ends with the last stretch.
 void ExpectAlongCenters(const RoadNetwork& network, const LaneRoute& route) {
   ASSERT_TRUE(route.ok()) << route.failure;
   double passed = 0.0;
   for (const LaneStretch& stretch : route.stretches) {
     const Road& road = network.roads.at(stretch.road);
     const double direction = stretch.to > stretch.from ? 0.0 : kPi;
-    // The sections of a road meet at its stations, so the test samples just inside.
+    // Two sections of the road meet at the ends of a stretch, so the test samples the path just
+    // inside the stretch.
     for (const double share : {1e-6, 0.2, 0.5, 0.8, 1.0 - 1e-6}) {
       const double s = std::lerp(stretch.from, stretch.to, share);
       const RoadPosition center = LanePositionAt(road, stretch.lane, s);
@@ -65,7 +67,8 @@ TEST(LaneRoute, LeadsThroughTheJunctionAndBackAgainstTheRoad) {
   const LaneRoute route =
       FindLaneRoute(network, {{"1", -1, 10.0}, {"2", -1, 90.0}, {"1", 1, 20.0}});
   ExpectAlongCenters(network, route);
-  // West to east, around the loop, and from the north to the west.
+  // The route leads from west to east through the junction, around the loop, and from north to
+  // west.
   ASSERT_EQ(route.stretches.size(), 6U);
   const std::vector<std::string> roads = RoadsOf(route);
   EXPECT_EQ(roads[0], "1");
@@ -86,7 +89,8 @@ TEST(LaneRoute, StartsAndEndsAtItsPlaces) {
   const LaneRoute route = FindLaneRoute(network, {from, to});
   ASSERT_TRUE(route.ok()) << route.failure;
   const Pose2 start = PoseAt(network, from);
-  // The file rounds the heading of -pi/2 to 5e-13 rad, over 40 m.
+  // The file rounds the heading -pi/2 with an error of 5e-13 rad, which moves a point 40 m along
+  // the road by 2e-11 m.
   EXPECT_NEAR(start.x, 1.75, Tolerance(2e-11));
   EXPECT_NEAR(start.y, -60.0, Tolerance(2e-11));
   EXPECT_NEAR(start.yaw, kPi / 2.0, Tolerance(1e-12));
@@ -98,7 +102,8 @@ TEST(LaneRoute, StartsAndEndsAtItsPlaces) {
 }
 
 TEST(LaneRoute, TellsTheEndsOfARoadApartThatIsTwiceAtAJunction) {
-  // From the loop's end to its start: a left turn, not straight on and not to the right.
+  // The route from the loop's end to its start turns left at the junction. It neither goes straight
+  // nor turns right.
   const RoadNetwork network = Crossing();
   const LaneRoute route = FindLaneRoute(network, {{"2", -1, 170.0}, {"2", -1, 5.0}});
   ExpectAlongCenters(network, route);
@@ -108,8 +113,8 @@ TEST(LaneRoute, TellsTheEndsOfARoadApartThatIsTwiceAtAJunction) {
 
 TEST(LaneRoute, TakesTheShortestOfTwoWays) {
   const RoadNetwork network = Crossing();
-  // From the west to the loop's left lane, whose direction is from north to east: an immediate left
-  // turn.
+  // The route leads from the west to the loop's left lane, whose direction is from north to east.
+  // The shortest route turns left at once.
   const LaneRoute route = FindLaneRoute(network, {{"1", -1, 60.0}, {"2", 1, 100.0}});
   ASSERT_TRUE(route.ok()) << route.failure;
   EXPECT_EQ(network.roads.at(RoadsOf(route)[1]).name, "W to N");
@@ -151,7 +156,8 @@ TEST(LaneRoute, ChangesLanesByAQuintic) {
     const RoadPosition at = PositionAt(network.roads.at("1"), s, t);
     EXPECT_NEAR(route.path.Project({at.x, at.y, 0.0}).cross_track, 0.0, Tolerance(kOnCenter)) << s;
   }
-  // Heading is continuous everywhere, and curvature is continuous where the lane change begins.
+  // The heading is continuous everywhere. The curvature is continuous at the station where the lane
+  // change begins.
   const auto& segments = route.path.segments();
   double station = 0.0;
   for (std::size_t i = 0; i + 1 < segments.size() && station < 40.0; ++i) {
@@ -172,7 +178,8 @@ TEST(LaneRoute, ChangesToNeighboringLanesAheadAlone) {
               HasSubstr("no linked lanes lead"));
 }
 
-/// Two roads; at their joint the second is turned by `heading` and shifted by `y`.
+/// Returns the text of two roads. At the joint, the second road is rotated by `heading` [rad] and
+/// shifted by `y` [m].
 std::string TwoRoads(double heading, double y) {
   const std::string lane_links = kTwoLanes;
   RoadText first;
@@ -185,7 +192,7 @@ std::string TwoRoads(double heading, double y) {
   second.id = "2";
   second.geometry =
       fmt::format("<geometry s='0' x='{}' y='{}' hdg='{}' length='100'><line/></geometry>",
-                  // The lane centers coincide at the joint.
+                  // The centers of the two lanes meet at the joint.
                   100.0 - 1.75 * std::sin(heading), y - 1.75 + 1.75 * std::cos(heading), heading);
   return first.Xml() + second.Xml();
 }
@@ -194,9 +201,10 @@ TEST(LaneRoute, RoundsSmallKinksAndSaysHowFarThatLeadsOff) {
   const RoadNetwork network = ParseNetwork(TwoRoads(0.02, 0.0));
   const LaneRoute route = FindLaneRoute(network, {{"1", -1, 10.0}, {"2", -1, 90.0}});
   ASSERT_TRUE(route.ok()) << route.failure;
-  // A turn of a within L = 1 m whose curvature is quadratic and 0 at both ends. With q = d/L the
-  // heading is a (3 q^2 - 2 q^3). At the corner, q = 1/2, the path deviates by 3/32 a L, with an
-  // error of a^2 of that.
+  // The path turns by the angle a = 0.02 rad within the length L = 1 m. The curvature is quadratic
+  // in the station and 0 at both ends of the turn. With q = d/L, where d is the distance from the
+  // start of the turn, the heading is a (3 q^2 - 2 q^3). At the corner, q = 1/2, the path deviates
+  // by 3/32 a L. The relative error of this formula is a^2.
   EXPECT_NEAR(route.deviation, 3.0 / 32.0 * 0.02, Tolerance(1e-6));
   const Pose2 end = route.path.At(route.path.length()).pose;
   EXPECT_NEAR(end.yaw, 0.02, Tolerance(1e-9));
@@ -226,7 +234,7 @@ TEST(LaneRoute, RefusesALaneBeyondTheCenterOfCurvature) {
 }
 
 TEST(LaneRoute, EndsWhereLinksGoInCircles) {
-  // Each road is its own successor, and neither leads to the other.
+  // Each road is its own successor, and no road leads to the other road.
   RoadText ring;
   ring.length = "62.83185307179586";
   ring.geometry =
@@ -244,7 +252,9 @@ TEST(LaneRoute, EndsWhereLinksGoInCircles) {
   const RoadNetwork network = ParseNetwork(ring.Xml() + other.Xml());
   EXPECT_THAT(FindLaneRoute(network, {{"1", -1, 10.0}, {"2", -1, 10.0}}).failure,
               HasSubstr("no linked lanes lead"));
-  // One lap, up to 1 m behind the start: 2 pi (10 + 1.75) m less 1 m along the road.
+  // The route is one lap that ends 1 m before its start. Its lane center has a radius of 11.75 m
+  // and a circumference of 2 pi 11.75 m. A distance of 1 m along the road, whose radius is 10 m, is
+  // 1.175 m along the lane center.
   const LaneRoute around = FindLaneRoute(network, {{"1", -1, 10.0}, {"1", -1, 9.0}});
   ASSERT_TRUE(around.ok()) << around.failure;
   EXPECT_NEAR(around.path.length(), 2.0 * kPi * 11.75 - 1.175, Tolerance(kOnCenter));

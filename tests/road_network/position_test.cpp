@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace {
 
-// Rounding: some operations on coordinates below 100 m.
+// Rounding error [m] of a few operations on coordinates below 100 m.
 constexpr double kRoundingOfPositions = 1e-12;
 
 Road ReadOne(const RoadText& road) {
@@ -64,7 +64,8 @@ TEST(Position, RollsAboutTheTangentInSpace) {
       "<elevationProfile><elevation s='0' a='0' b='0.75' c='0' d='0'/></elevationProfile>"
       "<lateralProfile><superelevation s='0' a='0.3' b='0' c='0' d='0'/></lateralProfile>";
   const RoadPosition at = PositionAt(ReadOne(text), 40.0, 2.0);
-  // The tangent is (0.8, 0, 0.6), so the roll turns the left normal to cos y + sin (-0.6, 0, 0.8).
+  // The tangent of the road is (0.8, 0, 0.6). The roll by 0.3 rad turns the left normal (0, 1, 0)
+  // to cos(0.3) (0, 1, 0) + sin(0.3) (-0.6, 0, 0.8).
   EXPECT_NEAR(at.x, 40.0 - 2.0 * 0.6 * std::sin(0.3), Tolerance(kRoundingOfPositions));
   EXPECT_NEAR(at.y, 2.0 * std::cos(0.3), Tolerance(kRoundingOfPositions));
   EXPECT_NEAR(at.z, 30.0 + 2.0 * 0.8 * std::sin(0.3), Tolerance(kRoundingOfPositions));
@@ -135,7 +136,8 @@ TEST(Position, KnowsWhetherARoadIsLevel) {
       IsLevel(with("<lateralProfile><shape s='0' t='0' a='0' b='0'" + rest + "</lateralProfile>")));
 }
 
-/// Compares with libOpenDRIVE's positions of random places (tests/data/road_network/README.md).
+/// Compares positions at random places with those that libOpenDRIVE computed
+/// (tests/data/road_network/README.md).
 void ExpectAsInTable(const std::string& network_file, const std::string& table_file) {
   const std::string source = TRACKBED_SOURCE_DIR;
   const RoadNetwork network = ReadOpenDrive(source + network_file);
@@ -150,8 +152,8 @@ void ExpectAsInTable(const std::string& network_file, const std::string& table_f
     worst = std::max(worst,
                      std::hypot(at.x - number("x_m"), at.y - number("y_m"), at.z - number("z_m")));
   }
-  // The table is rounded to 1e-9 m in each of three coordinates, and both libraries compute to 1e-9
-  // m.
+  // The table rounds each of three coordinates to 1e-9 m, and the positions of both libraries are
+  // accurate to 1e-9 m.
   EXPECT_LE(worst, Tolerance(2e-9));
 }
 

@@ -12,9 +12,9 @@
 namespace trackbed {
 namespace {
 
-// Rounding: some operations on coordinates below 100 m.
+// Rounding error of a few operations on coordinates below 100 m.
 constexpr double kRoundingOfLines = 1e-12;
-// ParametricCubic is accurate to 1e-9 of a curve's length, here below 100 m.
+// ParametricCubic has a relative accuracy of 1e-9 of the curve's length, which is below 100 m here.
 constexpr double kCurveAccuracy = 1e-7;
 
 ReferenceLine Clothoid(const Pose2& start, double length, double from, double to) {
@@ -35,7 +35,7 @@ TEST(PiecewiseCubic, IsThePolynomialOfThePieceInForce) {
   EXPECT_EQ(at.slope, 0.5 + 0.5 + 0.375);
   EXPECT_EQ(at.second, 0.5 + 0.75);
   EXPECT_EQ(function.At(4.0).value, 7.0);
-  // Just before the joint the first polynomial applies: d = 2.
+  // Just before the joint at 4, the first polynomial applies, at d = 2 from its start.
   EXPECT_EQ(function.At(4.0, 3.9).value, 1.0 + 1.0 + 1.0 + 1.0);
   EXPECT_EQ(PiecewiseCubic().At(3.0).value, 0.0);
 }
@@ -59,11 +59,12 @@ TEST(ReferenceLine, OfAnArcLiesOnItsCircle) {
   }
 }
 
-/// Fresnel's integrals by their power series, for a clothoid whose heading is c s^2: x = sum (-1)^n
-/// c^2n s^(4n+1)/((2n)! (4n+1)), y = sum (-1)^n c^(2n+1) s^(4n+3)/((2n+1)! (4n+3)).
+/// Computes the point at the distance s along a clothoid whose heading is c s^2, from the power
+/// series of Fresnel's integrals: x = sum (-1)^n c^2n s^(4n+1)/((2n)! (4n+1)), y = sum (-1)^n
+/// c^(2n+1) s^(4n+3)/((2n+1)! (4n+3)).
 Vec2 ClothoidBySeries(double c, double s) {
   Vec2 sum(0.0, 0.0);
-  double term = s;  // c^m s^(2m+1)/m!, without the sign
+  double term = s;  // The value of c^m s^(2m+1)/m!, without the sign.
   for (int m = 0; m < 40; ++m) {
     const double sign = m % 4 < 2 ? 1.0 : -1.0;
     (m % 2 == 0 ? sum.x() : sum.y()) += sign * term / (2 * m + 1);
@@ -79,14 +80,14 @@ TEST(ReferenceLine, OfASpiralIsFresnelsIntegral) {
   for (const double s : {5.0, 20.0, 35.0, 50.0}) {
     const ReferenceLinePoint at = line.At(s);
     const Vec2 expected = ClothoidBySeries(0.5 * curvature / length, s);
-    // The accuracy that the header states for pieces other than lines and arcs.
+    // The header states this accuracy for curves other than lines and arcs.
     EXPECT_NEAR((at.pose.position() - expected).norm(), 0.0, Tolerance(1e-9)) << s;
     EXPECT_NEAR(at.pose.yaw, 0.5 * curvature / length * s * s, Tolerance(kRoundingOfLines));
     EXPECT_NEAR(at.curvature, curvature * s / length, Tolerance(kRoundingOfLines));
   }
 }
 
-/// Arc length of v = a u^2 from 0 to u.
+/// Returns the arc length of the parabola v = a u^2 from 0 to u.
 double ParabolaLength(double a, double u) {
   const double slope = 2.0 * a * u;
   return 0.5 * u * std::hypot(1.0, slope) + std::asinh(slope) / (4.0 * a);
@@ -99,7 +100,8 @@ void ExpectOnParabola(const ParametricCubic& curve, double a, double distance, d
   EXPECT_NEAR(at.position.x(), u, Tolerance(kCurveAccuracy));
   EXPECT_NEAR(at.position.y(), a * u * u, Tolerance(kCurveAccuracy));
   EXPECT_NEAR(at.heading, std::atan(slope), Tolerance(kCurveAccuracy));
-  // kappa = 2a/(1 + 4a^2u^2)^(3/2); the sharpness is its derivative by u over the speed.
+  // The curvature is kappa = 2a/(1 + 4a^2u^2)^(3/2). The sharpness is the derivative of kappa with
+  // respect to u, divided by `speed`.
   EXPECT_NEAR(at.curvature, 2.0 * a / std::pow(speed, 3), Tolerance(kCurveAccuracy));
   EXPECT_NEAR(at.sharpness, -24.0 * a * a * a * u / std::pow(speed, 6), Tolerance(kCurveAccuracy));
 }
@@ -134,8 +136,9 @@ TEST(ParametricCubic, InvertsArcLengthOfAnyCurve) {
     const std::array<double, 4> v{0.0, 0.0, random.Uniform(-9, 9), random.Uniform(-9, 9)};
     const ParametricCubic unit(u, v, 1.0, 1.0);
     const ParametricCubic curve(u, v, 1.0, unit.arc_length());
-    // Each chord of step h is shorter than the arc by kappa^2 h^3/24. With kappa below 0.1 and 4000
-    // steps over some 40 m that is 4000 0.01 1e-6/24 = 2e-6.
+    // A chord over a step of length h is shorter than the arc by kappa^2 h^3/24. With kappa below
+    // 0.1 1/m and 4000 steps of h = 0.01 m, the sum of the differences is below 4000 x 0.01 x
+    // 1e-6/24 = 2e-6 m.
     double chords = 0.0;
     constexpr int kSteps = 4000;
     Vec2 before = curve.At(0.0).position;

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-// Rounding: some operations on coordinates below 100 m.
+// Rounding error [m] of a few operations on coordinates below 100 m.
 constexpr double kRoundingOfPaint = 1e-12;
 
 RoadText Marked(const std::string& center_mark) {
@@ -52,7 +52,8 @@ TEST(RoadPaint, CutsBrokenLinesIntoDashes) {
                                      "<roadMark sOffset='20' type='broken' color='yellow'/>")
                                   .Xml()),
                  1.0);
-  // From 20 to 100 m there are nine dashes, every 9 m, the last from 92 m, and the solid line.
+  // From 20 m to 100 m the center has nine dashes. A dash begins every 9 m, and the last dash
+  // begins at 92 m. The tenth line is the solid line.
   ASSERT_EQ(paint.lines.size(), 10U);
   double painted = 0.0;
   for (const PaintedLine& line : paint.lines) {
@@ -77,7 +78,8 @@ TEST(RoadPaint, DrawsDoubleLinesAsTwo) {
     if (line.yellow) {
       const bool is_long = (line.points.back() - line.points.front()).norm() > 50.0;
       solid += is_long ? 1 : 0;
-      // Two lines of 0.1 m width and 0.1 m apart; the left one is solid.
+      // Each of the two lines is 0.1 m wide. The gap between them is 0.1 m wide, and the left line
+      // is solid.
       EXPECT_NEAR(line.points.front().y(), is_long ? 0.1 : -0.1, Tolerance(kRoundingOfPaint));
     }
   }

@@ -8,8 +8,9 @@
 
 namespace trackbed {
 
-/// A counterclockwise elliptic track around the origin with half axes `a` along x and `b`. Its
-/// points are at equal steps of the parameter; its start line is at (a, 0).
+/// Returns the points of a counterclockwise elliptic track around the origin. The half axes are `a`
+/// along x and `b` along y [m]. The points are evenly spaced in the parameter of the ellipse,
+/// beginning at (a, 0).
 inline std::vector<TrackPoint> EllipsePoints(double a, double b, int count, double right,
                                              double left) {
   std::vector<TrackPoint> points;

@@ -18,7 +18,8 @@ using testing::StartsWith;
 
 const std::string kHeader = "# x_m,y_m,w_tr_right_m,w_tr_left_m\n";
 
-/// A ring of radius 20 m as a file, with the row on `line` replaced by `row`.
+/// Returns the text of a track file: a ring of radius 20 m. Replaces the row on line `line` by
+/// `row`.
 std::string RingFile(int line = 0, const std::string& row = "") {
   std::string text = TrackCsv(RingPoints(20.0, 24, 4.0, 3.0));
   std::size_t begin = 0;
@@ -74,7 +75,7 @@ TEST(ReadTrack, TakesColumnsInAnyOrder) {
   const Track track = ReadTrack(folder.Write("t.csv", text));
   EXPECT_EQ(track.points()[3].width_left, 3.0);
   EXPECT_EQ(track.points()[3].width_right, 4.0);
-  // The text has six digits.
+  // The file has coordinates with six decimals.
   EXPECT_NEAR(track.points()[6].position.y(), 20.0, Tolerance(5e-7));
 }
 
@@ -130,20 +131,20 @@ TEST(ReadTrack, RefusesLargeFilesBeforeItReadsThem) {
 }
 
 TEST(ReadTrack, NamesTheBendThatIsTighterThanTheTrackIsWide) {
-  // The ellipse's radius is 30 m at its start and halfway around.
+  // The ellipse's radius of curvature is 30 m at its start and at the opposite end.
   EXPECT_THAT(
       ErrorMessages(TrackCsv(EllipsePoints(120.0, 60.0, 114, 5.0, 31.0))),
       testing::AllOf(StartsWith("t.csv:"), HasSubstr("the center line bends on a radius of"),
                      HasSubstr("the inner edge is 31 m from it")));
 }
 
-// Without this check the smoothed line would have cusps.
+// Without this error message, the smoothed center line would have cusps.
 TEST(ReadTrack, NamesThePointsAtWhichTheLineTurnsBack) {
   std::vector<TrackPoint> points = EllipsePoints(120.0, 60.0, 114, 5.0, 5.0);
   std::swap(points[50], points[52]);
   const std::string text = ErrorMessages(TrackCsv(points));
-  // The points are in rows 51 and 53, after the header. The ellipse bends by only some degrees
-  // there.
+  // The swapped points 50 and 52 are on lines 52 and 54, after the header line. The ellipse itself
+  // turns by only a few degrees from point to point.
   EXPECT_THAT(text, StartsWith("t.csv:52: the center line turns back here, by 17"));
   EXPECT_THAT(text, HasSubstr(" degrees; must be at most 150 from point to point"));
   EXPECT_THAT(text, HasSubstr("t.csv:54: the center line turns back here"));
@@ -152,7 +153,8 @@ TEST(ReadTrack, NamesThePointsAtWhichTheLineTurnsBack) {
 TEST(ReadTrack, RefusesLapsThatAreTooLong) {
   std::vector<TrackPoint> points = EllipsePoints(4e4, 4e4, 100, 5.0, 5.0);
   points.erase(points.begin() + 2);
-  // Rows 3 and 4 are 3.6 and 10.8 degrees from the start.
+  // The points on lines 3 and 4 of the file are 3.6 and 10.8 degrees around the circle from the
+  // start.
   EXPECT_EQ(ErrorMessages(TrackCsv(points)),
             "t.csv:4: a lap is 251.3 km long; must be at most 200: the gap between rows 3 and 4 is "
             "5023.242 m");
@@ -170,7 +172,8 @@ TEST(ReadTrack, ReadsTracksOfTum) {
                              Known{"Spielberg", 864, 4318.0}, Known{"Silverstone", 1178, 5891.0}}) {
     const Track track = ReadTrack(folder / (std::string(known.name) + ".csv"));
     EXPECT_EQ(track.points().size(), known.points) << known.name;
-    // Half a percent, because the track operators measure along different lines.
+    // The tolerance is 0.5 % of the length, because each track operator measures along another
+    // line.
     EXPECT_NEAR(track.length(), known.length, Tolerance(0.005 * known.length)) << known.name;
     EXPECT_LT(track.deviation_max(), 0.5) << known.name;
     EXPECT_LT(track.deviation_rms(), 0.05) << known.name;

@@ -16,22 +16,23 @@ namespace {
 
 constexpr double kRadius = 50.0;
 
-/// A ring of 63 points, 5 m apart.
+/// Returns a circular track of radius 50 m with 63 points, 5 m apart.
 Track Ring(std::optional<double> smoothing = {}) {
   return Track(RingPoints(kRadius, 63, 4.0, 3.0), smoothing);
 }
 
-/// Fraction of a wave that smoothing keeps (closed_spline.h); for a circle, of its radius.
+/// Returns the factor by which smoothing with the cutoff wavelength `length` multiplies a wave of
+/// `wavelength`, as stated in closed_spline.h. Smoothing multiplies the radius of a circle by the
+/// factor for a wavelength equal to the circumference.
 double Left(double wavelength, double length) {
   return 1.0 / (1.0 + std::pow(wavelength / length, 6.0));
 }
 
 TEST(Track, OfARingIsARing) {
   const Track track = Ring();
-  // Chords in place of arcs shorten the parameter by (5/50)^2/24. The penalty on differences equals
-  // the penalty on derivatives up to (h/r)^2/4 with h = 2.5 m. Both are far below 1e-3 of the 1e-6
-  // that smoothing takes off the radius. The remaining error is the spline's interpolation, (h/r)^6
-  // r/30.
+  // Smoothing with a cutoff of 20 m reduces the radius by the fraction (20/314)^6 = 7e-8, which is
+  // 3e-6 m. Interpolation by the spline, with points h = 5 m apart on the radius r = 50 m, adds an
+  // error of (h/r)^6 r/30 = 2e-6 m. The tolerances exceed both.
   EXPECT_NEAR(track.smoothing(), 20.0, Tolerance(0.1));
   for (double s = 0.0; s < track.length(); s += 1.3) {
     const PathPoint at = track.At(s);
@@ -42,13 +43,15 @@ TEST(Track, OfARingIsARing) {
 }
 
 TEST(Track, SmoothsByTheWavelength) {
-  // A circle keeps half of its radius if its circumference is the cutoff wavelength.
+  // If the circumference of a circle equals the cutoff wavelength, smoothing halves the radius.
   for (const double factor : {0.3, 0.5, 0.7}) {
     const double length = 2.0 * kPi * kRadius;
     const Track track = Ring(factor * length);
     const double expected = kRadius * Left(factor, 1.0);
-    // Differences in place of derivatives: three factors sin(x)/x with x = pi/126, squared, are
-    // 6.2e-4 of the reduction. Chords in place of arcs: 6 x 4.1e-4 of it.
+    // The relative error of the reduction has two parts. The fit uses third differences in place of
+    // third derivatives, which changes the penalty by the fraction (pi/126)^2 = 6.2e-4. The fit
+    // measures chords in place of arcs, which are shorter by (5/50)^2/24 = 4.2e-4; the sixth power
+    // in the penalty makes this 2.5e-3. The sum is 3.1e-3.
     const double taken = kRadius - expected;
     EXPECT_NEAR(track.At(0.25 * track.length()).pose.position().norm(), expected,
                 Tolerance(3.1e-3 * taken + 1e-4))
@@ -74,18 +77,20 @@ TEST(Track, TakesNoiseOutOfTheCurvature) {
     }
     return largest;
   };
-  // Noise of 0.1 m at a wavelength of 10 m has a curvature of 0.04/m; smoothing keeps 1/65 of it.
+  // Noise of 0.1 m at a wavelength of 10 m has a curvature of 0.04 1/m. Smoothing reduces this
+  // curvature to 1/65.
   EXPECT_GT(worst(rough), 0.02);
   EXPECT_LT(worst(smooth), 0.006);
   EXPECT_LT(smooth.deviation_max(), 0.1 * std::sqrt(2.0) + 0.02);
 }
 
 TEST(Track, KeepsItsEdgesWhereThePointsHaveThem) {
-  // Strong smoothing moves the center line by meters, but not the edges.
+  // Strong smoothing moves the center line by more than 0.7 m. The edges must stay in place.
   const Track track = Ring(0.5 * 2.0 * kPi * kRadius);
   ASSERT_GT(track.deviation_max(), 0.7);
   for (const Vec2& point : track.left_edge()) {
-    // Edges are linear between points 5 m apart: within 5^2/(8 x 47) of a circle.
+    // The tolerance is the height of an arc over a chord of 5 m, for the left edge's radius of 47
+    // m: 5^2/(8 x 47) = 0.066 m.
     EXPECT_NEAR(point.norm(), kRadius - 3.0, Tolerance(0.07));
   }
   for (const Vec2& point : track.right_edge()) {
@@ -97,13 +102,13 @@ TEST(Track, ClosesSmoothly) {
   const Track track(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0));
   const PathPoint first = track.At(0.0);
   const PathPoint last = track.At(track.length() - 1e-9);
-  // 1e-4 of the spacing of 5 m.
+  // Track guarantees a gap of at most 1e-4 times the distance between the points, which is 5 m.
   EXPECT_NEAR((first.pose.position() - last.pose.position()).norm(), 0.0, Tolerance(5e-4));
   EXPECT_NEAR(std::remainder(first.pose.yaw - last.pose.yaw, 2.0 * kPi), 0.0, Tolerance(1e-6));
   EXPECT_NEAR(first.curvature, last.curvature, Tolerance(1e-6));
   EXPECT_EQ(track.At(track.length()).pose, first.pose);
   EXPECT_EQ(track.At(3.0 * track.length()).pose, first.pose);
-  // The ellipse's end on its long axis, where the radius of curvature is b^2/a.
+  // The start is the end of the ellipse's long axis, where the radius of curvature is b^2/a = 30 m.
   EXPECT_NEAR((first.pose.position() - Vec2(120.0, 0.0)).norm(), 0.0, Tolerance(0.02));
   EXPECT_NEAR(1.0 / first.curvature, 30.0, Tolerance(0.3));
 }
@@ -118,7 +123,7 @@ TEST(Track, LocatesPointsAndComesBack) {
     const double d = offset(random);
     const Vec2 point = ToWorld(track.At(s).pose, {0.0, d});
     const TrackPlace place = track.Locate(point);
-    // Path::Project is exact to 1e-9 m along the path.
+    // Path::Project is accurate to 1e-9 m along the path.
     EXPECT_NEAR(std::remainder(place.s - s, track.length()), 0.0, Tolerance(1e-6));
     EXPECT_NEAR(place.offset, d, Tolerance(1e-6));
     const TrackPlace near = track.Locate(point, s + 7.0 * track.length() + 10.0);
@@ -129,9 +134,11 @@ TEST(Track, LocatesPointsAndComesBack) {
 TEST(Track, HasLinearWidthsBetweenItsPoints) {
   std::vector<TrackPoint> points = RingPoints(kRadius, 63, 4.0, 3.0);
   points[10].width_left = 6.0;
-  const Track track(points, 1.0);  // no smoothing: the center line passes through the points
+  const Track track(points, 1.0);  // The wavelength of 1 m is too short to smooth: the center line
+                                   // passes through the points.
   const double middle = 0.5 * (track.StationOf(10) + track.StationOf(11));
-  // Halfway in station, up to the unevenness of stations along the spline.
+  // Halfway between the points, the left width is the mean of 6 m and 3 m. The tolerance allows for
+  // the spline's uneven stations.
   EXPECT_NEAR(track.EdgesAt(middle).left, 4.5, Tolerance(1e-3));
   EXPECT_NEAR(track.EdgesAt(track.StationOf(10)).left, 6.0, Tolerance(1e-3));
   EXPECT_NEAR(track.EdgesAt(track.StationOf(10)).right, -4.0, Tolerance(1e-3));
@@ -141,7 +148,8 @@ TEST(Track, HasLinearWidthsBetweenItsPoints) {
 
 TEST(Track, FindsBendsTighterThanItsWidth) {
   EXPECT_FALSE(FindFold(Ring()));
-  // The ellipse's tightest bends, of radius 30 m, are at its start line and opposite to it.
+  // The ellipse's smallest radius of curvature, 30 m, occurs at the start line and at the opposite
+  // end.
   EXPECT_FALSE(FindFold(Track(EllipsePoints(120.0, 60.0, 114, 35.0, 27.0))));
   const auto fold = FindFold(Track(EllipsePoints(120.0, 60.0, 114, 5.0, 29.9)));
   ASSERT_TRUE(fold);

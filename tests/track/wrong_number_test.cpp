@@ -17,7 +17,8 @@
 namespace trackbed {
 namespace {
 
-/// Reads a track, which ends within two seconds with a track or with problems in named lines.
+/// Reads a track file. Expects that reading ends within two seconds, either with a track or with
+/// problems that name their line.
 void ExpectBounded(const std::filesystem::path& file) {
   const auto begun = std::chrono::steady_clock::now();
   try {
@@ -55,7 +56,8 @@ TEST(TrackWithAWrongNumber, OfTum) {
   }
 }
 
-/// Twenty-four points, one of which lost a digit: the line bends on 0.4 mm there.
+/// A ring of 24 points in which one coordinate lost a digit: the line bends with a radius of 0.4 mm
+/// at that point.
 TEST(TrackWithAWrongNumber, IsRefusedBeforeTheTrackIsMade) {
   std::vector<TrackPoint> points = RingPoints(20.0, 24, 4.0, 3.0);
   points[18].position.y() = -2.0;
@@ -66,13 +68,14 @@ TEST(TrackWithAWrongNumber, IsRefusedBeforeTheTrackIsMade) {
   ExpectBounded(folder.Write("t.csv", TrackCsv(points)));
 }
 
-/// Points 4 cm apart: their places on the line are looked for near their stations.
+/// The points are 4 cm apart. Reading must search for each point only near its own station.
 TEST(DenseTrack, IsReadInTimeInProportionToItsPoints) {
   const TempFolder folder;
   ExpectBounded(folder.Write("t.csv", TrackCsv(RingPoints(120.0, 20'000, 4.0, 3.0))));
 }
 
-/// The nearest place on the line is near a point's station: a look 30 m around finds the same one.
+/// ReadTrack searches for each point only close to the point's station. A search within 30 m of the
+/// station must find the same place.
 TEST(TrackOfTum, HasItsEdgesWhereAFartherLookFindsThem) {
   for (const char* name : {"Norisring", "Hockenheim", "Spielberg", "Silverstone"}) {
     const Track track = ReadTrack(std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/tracks" /
@@ -85,9 +88,11 @@ TEST(TrackOfTum, HasItsEdgesWhereAFartherLookFindsThem) {
   }
 }
 
-/// Points farther apart than the path leads on beyond the start line.
+/// The distance between neighboring points exceeds the length by which the internal path continues
+/// past the start line.
 TEST(SparseTrack, IsMade) {
-  // Half of the distance between the points; waves of 16 points stay.
+  // The cutoff wavelength is half of the distance between the points, so a wave over all 16 points
+  // is not smoothed out.
   constexpr double kSmoothing = 4e3;
   const Track track(EllipsePoints(20e3, 20e3, 16, 4.0, 3.0), kSmoothing);
   EXPECT_NEAR(track.length(), 2.0 * kPi * 20e3, 0.01 * track.length());

@@ -21,15 +21,15 @@ ClosestApproach Between(const World& world, const Pose2& from, const Pose2& to, 
 }
 
 TEST(ApproachBetween, FindsAThinWallThatTheCarJumpsOver) {
-  // Half a second at 30 m/s covers 15 m, past a wall of 0.2 m that is clear of the car at both
-  // ends.
+  // In 0.5 s at 30 m/s the car moves by 15 m and passes a wall that is 0.2 m thick. The wall
+  // touches the car neither at the start nor at the end of this motion.
   const VehicleParams car = ReferenceCar();
   const double front = car.length - car.rear_overhang;
   const World world{.obstacles = {{.footprint = {{front + 5.0, 0.0, 0.0}, 0.2, 3.0}}}};
   const ClosestApproach hit = Between(world, {}, {15.0, 0.0, 0.0}, 0.5);
   EXPECT_EQ(hit.clearance, 0.0);
-  // The reported time may be any moment of the overlap, which begins when the front reaches the
-  // wall.
+  // ApproachBetween may return any time at which the car overlaps the wall. The overlap begins when
+  // the car's front reaches the wall.
   EXPECT_GE(hit.time, 4.9 / 30.0 - 1e-12);
   EXPECT_LE(hit.time, (5.1 + car.length) / 30.0);
 }
@@ -42,8 +42,9 @@ TEST(ApproachBetween, FindsAThinBoxThatJumpsOverTheCar) {
 }
 
 TEST(ApproachBetween, IsTheSmallestOfManySamples) {
-  // Compared with a thousand samples in between, up to 1 cm of motion apart. The true minimum may
-  // lie 5 mm below that of the samples, and the result 5 mm or 1 % above the true one.
+  // Compares ApproachBetween with the minimum clearance of 1001 sampled poses, where the motion
+  // between consecutive samples is at most 1 cm. The true minimum may be 5 mm below the minimum of
+  // the samples. The result may be 5 mm or 1 % above the true minimum.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   int hits = 0;
@@ -71,7 +72,7 @@ TEST(ApproachBetween, IsTheSmallestOfManySamples) {
     EXPECT_GE(found, least - 5e-3) << i;
     hits += least == 0.0 ? 1 : 0;
   }
-  EXPECT_GT(hits, 10);  // hits and misses both occur
+  EXPECT_GT(hits, 10);  // The random motions contain hits and misses.
   EXPECT_LT(hits, 190);
 }
 

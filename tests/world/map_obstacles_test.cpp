@@ -16,10 +16,11 @@
 namespace trackbed {
 namespace {
 
-// Rounding: a few operations on coordinates below 100 m.
+// Rounding error [m] of a few operations on coordinates below 100 m.
 constexpr double kMapRounding = 1e-12;
 
-/// A map from a picture, its first row at the top: '#' is occupied, '?' is unknown.
+/// Returns a map drawn as rows of characters, with the top row first: '#' is an occupied cell, '?'
+/// an unknown cell, and any other character a free cell.
 GridMap Picture(const std::vector<std::string>& rows) {
   GridMap map{.X_WM = {},
               .cell = 1.0,
@@ -36,7 +37,8 @@ GridMap Picture(const std::vector<std::string>& rows) {
   return map;
 }
 
-/// Random cells, correlated with their neighbors.
+/// Returns a map with random size, pose and cells. The state changes from cell to cell with a
+/// random probability, so occupied cells form groups.
 GridMap RandomMap(Random& random) {
   GridMap map{
       .X_WM = {random.Uniform(-20.0, 20.0), random.Uniform(-20.0, 20.0), random.Uniform(-3.0, 3.0)},
@@ -84,7 +86,7 @@ TEST(MergeCells, MakesFewRectangles) {
   EXPECT_TRUE(MergeCells(Picture({"...", ".?."}), UnknownCells::kFree).empty());
   EXPECT_EQ(MergeCells(Picture({".##.", ".##.", ".??."}), UnknownCells::kOccupied),
             (std::vector<CellRectangle>{{1, 0, 2, 3}}));
-  // Each L is split so that its long stroke is one rectangle.
+  // MergeCells splits each L shape so that the longer stroke of the L is one rectangle.
   EXPECT_EQ(MergeCells(Picture({"#...", "#...", "####"}), UnknownCells::kFree),
             (std::vector<CellRectangle>{{0, 0, 4, 1}, {0, 1, 1, 2}}));
   EXPECT_EQ(MergeCells(Picture({"#..", "#..", "#..", "##."}), UnknownCells::kFree),
@@ -97,7 +99,8 @@ TEST(MapObstacles, StandWhereTheCellsAre) {
   map.X_WM = {10.0, 20.0, 0.5 * std::acos(-1.0)};
   const MapObstacles obstacles(map, UnknownCells::kFree);
   ASSERT_EQ(obstacles.boxes().size(), 1U);
-  // The cell's middle is at (0.25, 0.75) of the map, whose x axis points north.
+  // In map coordinates, the center of the occupied cell is (0.25, 0.75) m. The map's x axis points
+  // north.
   EXPECT_NEAR(obstacles.boxes()[0].center.x, 10.0 - 0.75, Tolerance(kMapRounding));
   EXPECT_NEAR(obstacles.boxes()[0].center.y, 20.0 + 0.25, Tolerance(kMapRounding));
   EXPECT_EQ(obstacles.boxes()[0].length, 0.5);

@@ -13,14 +13,15 @@
 namespace trackbed {
 namespace {
 
-// A few operations on numbers below 100.
+// Rounding error of a few operations on numbers below 100.
 constexpr double kRounding = 1e-13;
 
 const Bump kBump{.area = {{10.0, 0.0, 0.0}, 4.0, 6.0}, .height = 0.1, .edge = 0.5};
 const Superelevation kStretch{
     .area = {{0.0, 0.0, 0.0}, 60.0, 8.0}, .slope = 0.05, .transition_length = 10.0};
 
-/// Ground with one element of each kind, rotated and not.
+/// Returns ground with a grade, two bumps and two side slopes. One bump and one side slope are
+/// rotated.
 Ground Hilly() {
   Ground ground;
   ground.grade = {0.03, -0.02};
@@ -37,16 +38,16 @@ TEST(RoadFactor, IsThatOfTheLastPatchOnThePoint) {
   world.friction_patches = {{{{0.0, 0.0, 0.0}, 20.0, 4.0}, 0.5},
                             {{{5.0, 0.0, 0.0}, 4.0, 8.0}, 0.1}};
   EXPECT_EQ(RoadFactor(world, {-9.0, 1.9}), 0.5);
-  EXPECT_EQ(RoadFactor(world, {5.0, 0.0}), 0.1);   // in both
-  EXPECT_EQ(RoadFactor(world, {5.0, 3.9}), 0.1);   // in the second alone
-  EXPECT_EQ(RoadFactor(world, {-9.0, 2.1}), 0.9);  // in neither
-  EXPECT_EQ(RoadFactor(world, {10.0, 2.0}), 0.5);  // a patch includes its border
+  EXPECT_EQ(RoadFactor(world, {5.0, 0.0}), 0.1);   // The point is in both patches.
+  EXPECT_EQ(RoadFactor(world, {5.0, 3.9}), 0.1);   // The point is only in the second patch.
+  EXPECT_EQ(RoadFactor(world, {-9.0, 2.1}), 0.9);  // The point is in neither patch.
+  EXPECT_EQ(RoadFactor(world, {10.0, 2.0}), 0.5);  // A patch includes its border.
   std::swap(world.friction_patches[0], world.friction_patches[1]);
   EXPECT_EQ(RoadFactor(world, {5.0, 0.0}), 0.5);
 }
 
 TEST(RoadFactor, PatchesLieAlongTheirYaw) {
-  // Split friction on a road to the north: slippery on its left side.
+  // A road to the north with split friction: its left half is slippery.
   const World world{.friction_patches = {{{{-1.0, 50.0, kPi / 2.0}, 100.0, 2.0}, 0.2}}};
   EXPECT_EQ(RoadFactor(world, {-0.1, 99.0}), 0.2);
   EXPECT_EQ(RoadFactor(world, {-1.9, 1.0}), 0.2);
@@ -70,12 +71,13 @@ TEST(GroundHeight, OfABumpIsACosineSquaredAlongTheWay) {
   const Ground ground{.bumps = {kBump}};
   for (int i = 0; i <= 40; ++i) {
     const double x = 8.0 + 0.1 * i;
-    // cos^2(pi u/L) = (1 + cos(2 pi u/L))/2
+    // The bump's profile is cos^2(pi u/L) = (1 + cos(2 pi u/L))/2, where u is the distance from the
+    // middle of the bump and L is its length.
     const double expected = 0.1 * 0.5 * (1.0 + std::cos(2.0 * kPi * (x - 10.0) / 4.0));
     for (const double y : {-2.5, 0.0, 2.4}) {
       EXPECT_NEAR(GroundHeight(ground, {x, y}), expected, Tolerance(kRounding)) << x << ", " << y;
     }
-    // Halfway down the side, the height is half.
+    // Halfway down the side of the bump, the height is half of the bump's height.
     EXPECT_NEAR(GroundHeight(ground, {x, 2.75}), 0.5 * expected, Tolerance(kRounding)) << x;
     EXPECT_EQ(GroundHeight(ground, {x, -3.0}), 0.0);
   }
@@ -94,10 +96,17 @@ TEST(GroundHeight, OfASideSlopeRisesFromItsLowerEdgeAndComesDownBehindTheOther) 
     EXPECT_NEAR(height(0.0, -4.0), 0.0, Tolerance(kRounding));
     EXPECT_NEAR(height(0.0, -1.0), 0.05 * 3.0, Tolerance(kRounding));
     EXPECT_NEAR(height(19.0, 4.0), 0.05 * 8.0, Tolerance(kRounding));
-    EXPECT_NEAR(height(0.0, 8.0), 0.5 * 0.05 * 8.0, Tolerance(kRounding));  // half the slope
+    EXPECT_NEAR(height(0.0, 8.0), 0.5 * 0.05 * 8.0, Tolerance(kRounding));  // Halfway down the
+                                                                            // falling side, the
+                                                                            // height is half of the
+                                                                            // full height 0.05 x 8
+                                                                            // m.
     EXPECT_EQ(height(0.0, 12.0), 0.0);
     EXPECT_EQ(height(0.0, -4.1), 0.0);
-    EXPECT_NEAR(height(25.0, 0.0), 0.5 * 0.05 * 4.0, Tolerance(kRounding));  // half the transition
+    EXPECT_NEAR(height(25.0, 0.0), 0.5 * 0.05 * 4.0, Tolerance(kRounding));  // Halfway through the
+                                                                             // transition, the
+                                                                             // slope is half of the
+                                                                             // full slope.
     EXPECT_EQ(height(-30.0, 0.0), 0.0);
   }
 }
@@ -138,9 +147,9 @@ TEST(GroundSlope, IsThatOfFiniteDifferences) {
   const Ground ground = Hilly();
   Random random(2);
   const double step = 1e-5;
-  // The third derivative on the bump's sides, h (pi/2)^3 / (2 e)^3 * 8, is below 10 /m^2.
-  // Central differences err by 10 step^2/6 = 2e-10, and rounding of heights below 10 m adds
-  // 1e-15/step = 1e-10.
+  // The third derivative of the height on the sides of the bumps is below 10 1/m^2, so central
+  // differences have an error below 10 step^2/6 = 2e-10. Rounding of heights below 10 m adds an
+  // error of 1e-15/step = 1e-10. The tolerance of 1e-9 exceeds the sum of both.
   const double tolerance = Tolerance(1e-9);
   int on_features = 0;
   for (int i = 0; i < 4000; ++i) {

@@ -14,7 +14,7 @@
 namespace trackbed {
 namespace {
 
-// A few hundred operations on numbers below 100.
+// Rounding error of a few hundred operations on numbers below 100.
 constexpr double kTerrainRounding = 1e-11;
 
 Terrain::Size FourByThree() {
@@ -31,8 +31,8 @@ std::vector<double> CoarseHeights(const Terrain::Size& size) {
   return heights;
 }
 
-/// A terrain with height differences over two blocks; they and their slope are 0 on the blocks'
-/// border.
+/// Returns a terrain with a hump that covers parts of two blocks. The hump's height and slope are 0
+/// at the outer borders of these blocks.
 Terrain WithHump() {
   const Terrain::Size size = FourByThree();
   Terrain terrain(size, CoarseHeights(size));
@@ -42,7 +42,7 @@ Terrain WithHump() {
   };
   terrain.Refine(1, 1, hump);
   terrain.Refine(2, 1, hump);
-  terrain.Refine(0, 0, hump);  // zero everywhere
+  terrain.Refine(0, 0, hump);  // The hump is zero in this block.
   return terrain;
 }
 
@@ -54,7 +54,8 @@ TEST(Terrain, IsLevelAroundItsRectangle) {
     EXPECT_EQ(terrain.At(p).height, 2.0);
     EXPECT_EQ(terrain.At(p).slope, Vec2(0.0, 0.0));
   }
-  // The terrain continues with that height and zero slope.
+  // At the border of the rectangle, the height and the slope match those of the level ground
+  // outside.
   EXPECT_NEAR(terrain.At({-64.0, 60.0}).height, 2.0, Tolerance(kTerrainRounding));
   EXPECT_NEAR(terrain.At({64.0, 60.0}).slope.norm(), 0.0, Tolerance(kTerrainRounding));
   EXPECT_TRUE(terrain.IsRefined(1, 1) && terrain.IsRefined(2, 1));
@@ -66,7 +67,7 @@ TEST(Terrain, HasNoStepsAndNoKinksAtTheBordersOfBlocksAndCells) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> along(-64.0, 64.0);
   for (int i = 0; i < 2000; ++i) {
-    // On the border of a block, of a coarse cell, or of a fine one.
+    // The points lie on both sides of the border of a block, of a coarse cell or of a fine cell.
     const double cell = i % 3 == 0 ? 32.0 : i % 3 == 1 ? 8.0 : 0.5;
     const double line = cell * std::round(along(random) / cell);
     const double other = along(random);
@@ -76,7 +77,9 @@ TEST(Terrain, HasNoStepsAndNoKinksAtTheBordersOfBlocksAndCells) {
           std::pair(Vec2(other, 96.0 + line - kSide), Vec2(other, 96.0 + line + kSide))}) {
       const Terrain::Point one = terrain.At(a);
       const Terrain::Point two = terrain.At(b);
-      // Slopes stay below 2, second derivatives below 2 1/m.
+      // The points of a pair are 2 kSide apart. The slope is below 2, so the heights differ by less
+      // than 4 kSide. The second derivatives are below 2 1/m, so the slopes differ by less than 4
+      // kSide.
       EXPECT_NEAR(one.height, two.height, Tolerance(4.0 * kSide + kTerrainRounding));
       EXPECT_NEAR((one.slope - two.slope).norm(), 0.0, Tolerance(4.0 * kSide + kTerrainRounding));
     }
@@ -94,8 +97,8 @@ TEST(Terrain, HasTheSlopeOfItsHeight) {
     const Vec2 slope(
         (terrain.At(p + Vec2(kStep, 0)).height - terrain.At(p - Vec2(kStep, 0)).height),
         (terrain.At(p + Vec2(0, kStep)).height - terrain.At(p - Vec2(0, kStep)).height));
-    // Second derivatives change by at most 5 1/m where two cells meet: half of that over a step is
-    // 2.5e-5.
+    // At the border between two cells, the second derivative jumps by at most 5 1/m. Half of this
+    // jump times kStep is an error of 2.5e-5 in the slope.
     EXPECT_NEAR((terrain.At(p).slope - slope / (2.0 * kStep)).norm(), 0.0, Tolerance(5e-5));
   }
 }

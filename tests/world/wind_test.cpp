@@ -49,8 +49,9 @@ TEST(WindAt, OfAGustIntegratesToHalfItsPeakTimesItsDuration) {
   for (int i = 0; i < steps; ++i) {
     sum += step * WindAt(wind, {}, (i + 0.5) * step);
   }
-  // The integral of V/2 (1 - cos(2 pi t/T)) over T is V T/2. The midpoint rule is exact up to
-  // rounding, because the gust spans a whole number of steps.
+  // The integral of the gust's wind speed V/2 (1 - cos(2 pi t/T)) over the gust's duration T is V
+  // T/2. The midpoint rule is exact up to rounding, because the gust's duration is a whole number
+  // of steps.
   EXPECT_NEAR(sum.y(), 0.5 * 12.0 * 3.0, Tolerance(1e-12));
   EXPECT_EQ(sum.x(), 0.0);
 }
@@ -62,7 +63,7 @@ TEST(WindAt, GustsAddToTheWindAndToEachOther) {
 }
 
 TEST(WindAt, AGustWithAnAreaBlowsOnlyThere) {
-  // 20 m of a road to the north, 6 m wide.
+  // The gust's area is a stretch of a road to the north, 20 m long and 6 m wide.
   const Wind wind{.gusts = {{.velocity = {8.0, 0.0},
                              .shape = GustShape::kStep,
                              .area = OrientedBox{{0.0, 50.0, kPi / 2.0}, 20.0, 6.0}}}};

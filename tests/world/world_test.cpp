@@ -25,9 +25,10 @@ TEST(Clearance, IsMeasuredFromTheFootprintToTheNearestObstacle) {
   EXPECT_FALSE(Clearance(world, car, {}, 0.0).has_value());
   world.obstacles.push_back({{{30.0, 0.0, 0.0}, 2.0, 2.0}, 1.0});
   world.obstacles.push_back({{{0.0, 4.0, 0.0}, 2.0, 2.0}, 1.0});
-  // To the left: 4 - 1 - half the car's width.
+  // The second obstacle is on the left: its near side is at y = 4 m - 1 m = 3 m, and half the car's
+  // width is 0.8625 m.
   EXPECT_NEAR(*Clearance(world, car, {}, 0.0), 3.0 - 0.8625, Tolerance(1e-12));
-  // Rotated to face the second obstacle, with its near side 2.7 m ahead.
+  // The car faces the second obstacle, whose near side is 2.7 m in front of the car.
   EXPECT_NEAR(*Clearance(world, car, {0.0, -3.325, std::acos(-1.0) / 2.0}, 0.0),
               3.0 + 3.325 - (4.45 - car.rear_overhang), Tolerance(1e-12));
   EXPECT_EQ(*Clearance(world, car, {28.0, 0.0, 0.0}, 0.0), 0.0);
@@ -50,7 +51,7 @@ TEST(Obstacles, AreSeenWhereTheyAreByThen) {
   const VehicleParams car = ReferenceCar();
   const Obstacle obstacle{
       .footprint = {{40.0, 0.0, 0.0}, 4.0, 2.0}, .known_from_range = 10.0, .velocity = {-5.0, 0.0}};
-  // From the front bumper to the obstacle's near side: 38 - front - 5 t.
+  // At time t the distance from the front bumper to the obstacle's near side is 38 - front - 5 t.
   const double front = car.length - car.rear_overhang;
   const double seen = (38.0 - front - 10.0) / 5.0;
   EXPECT_FALSE(IsKnown(obstacle, seen - 1e-6, FootprintAt(car, {})));
