@@ -11,8 +11,8 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
-// Tests speed profiles on roads with sections of less grip: closed forms, and random profiles
-// against a profile computed on a fine grid.
+// Tests speed profiles on roads with sections of reduced grip, against closed forms and against
+// profiles computed on a fine grid for random roads.
 namespace trackbed {
 namespace acceleration_caps_test {
 
@@ -20,7 +20,9 @@ constexpr double kRounding = 1e-12;
 constexpr SpeedLimits kLimits{.speed = 10.0, .acceleration = 1.0, .deceleration = 1.5};
 
 TEST(AccelerationCaps, MakeTheCarBrakeBeforeIce) {
-  // The last 30 m are ice: v^2 = 2 * 0.49 * 30 at its edge, and the car brakes at 1.5 m/s^2 before.
+  // The last 30 m of the road are ice with a maximum deceleration of 0.49 m/s^2. The largest speed
+  // at the edge of the ice is v with v^2 = 2 x 0.49 x 30. Before the ice, the car brakes at 1.5
+  // m/s^2.
   const SpeedProfile profile =
       StopAtEnd(150.0, 10.0, kLimits, {}, {{.from = 120.0, .to = 150.0, .deceleration = 0.49}});
   const double edge_squared = 2.0 * 0.49 * 30.0;
@@ -36,12 +38,13 @@ TEST(AccelerationCaps, LimitTheAccelerationWhereTheyApply) {
   const SpeedProfile profile =
       StopAtEnd(200.0, 0.0, kLimits, {}, {{.from = 10.0, .to = 20.0, .acceleration = 0.25}});
   EXPECT_NEAR(profile.SpeedAt(10.0), std::sqrt(20.0), Tolerance(kRounding));
-  EXPECT_NEAR(profile.SpeedAt(20.0), 5.0, Tolerance(kRounding));  // 20 + 2 * 0.25 * 10 = 25
+  EXPECT_NEAR(profile.SpeedAt(20.0), 5.0, Tolerance(kRounding));  // v^2 = 20 + 2 x 0.25 x 10 = 25.
   EXPECT_NEAR(profile.AccelerationAt(21.0), 1.0, Tolerance(kRounding));
 }
 
 TEST(AccelerationCaps, OfACarThatStartsTooFastHoldOnTheIceBehind) {
-  // The car needs more than 1.5 m/s^2 for the ice ahead: it brakes harder on the dry road alone.
+  // Braking at 1.5 m/s^2 before the ice is not sufficient. The car therefore brakes harder on the
+  // dry road, but not on the ice.
   const SpeedProfile profile =
       StopAtEnd(50.0, 10.0, kLimits, {}, {{.from = 20.0, .to = 50.0, .deceleration = 0.5}});
   EXPECT_NEAR(profile.AccelerationAt(10.0), -(100.0 - 30.0) / 40.0, Tolerance(kRounding));
@@ -86,7 +89,8 @@ struct Road {
   }
 };
 
-/// Stations are multiples of 0.5 m, which are points of the grid.
+/// Returns a random road. All its stations are multiples of 0.5 m, so the points of the grid
+/// include them.
 Road RandomRoad(Random& random) {
   const auto station = [&](double most) {
     return 0.5 * random.Below(static_cast<int>(2.0 * most));
@@ -104,7 +108,8 @@ Road RandomRoad(Random& random) {
   return road;
 }
 
-/// The squares of the largest speeds on a grid of 0.05 m, from one pass in each direction.
+/// Returns the squares of the largest possible speeds at grid points 0.05 m apart, computed by one
+/// pass in each direction.
 std::vector<double> SquaresOnGrid(const Road& road, double start_speed) {
   constexpr double kStep = 0.05;
   const auto count = static_cast<std::size_t>(std::lround(road.length / kStep));
@@ -130,14 +135,14 @@ TEST(AccelerationCaps, GiveTheFastestProfileWithinThem) {
     const double start = random.Below(2) == 0 ? 0.0 : random.Uniform(0.0, 3.0);
     const std::vector<double> squares = SquaresOnGrid(road, start);
     if (squares[0] < start * start) {
-      continue;  // starts too fast
+      continue;  // The start speed is too high for the limits.
     }
     SCOPED_TRACE(fmt::format("road {}, {} m, from {} m/s", i, road.length, start));
     const SpeedProfile profile = StopAtEnd(road.length, start, kLimits, road.caps, road.sections);
     for (std::size_t k = 0; k < squares.size(); ++k) {
       const double speed = profile.SpeedAt(0.05 * static_cast<double>(k));
-      // The limits are constant between points of the grid, so only rounding remains: a few
-      // thousand sums of squares below 100 m^2/s^2.
+      // The limits are constant between the points of the grid. Only rounding errors remain, from a
+      // few thousand sums of squares below 100 m^2/s^2.
       ASSERT_NEAR(speed * speed, squares[k], Tolerance(1e-9)) << "point " << k;
     }
     ++compared;
@@ -146,7 +151,7 @@ TEST(AccelerationCaps, GiveTheFastestProfileWithinThem) {
 }
 
 TEST(AccelerationCaps, HoldOnPathsOfAnyLength) {
-  // Shorter than the shortest stretch of a profile.
+  // This path is shorter than the shortest interval of a speed profile.
   EXPECT_EQ(StopAtEnd(1e-10, 0.0, kLimits, {}, {{0.0, 1.0, 1.0, 1.0}}).SpeedAt(1e-10), 0.0);
   EXPECT_EQ(StopAtEnd(1e-10, 0.0, kLimits).SpeedAt(1e-10), 0.0);
 }

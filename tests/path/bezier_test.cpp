@@ -12,15 +12,16 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
-// Tests Bezier curves against closed forms (parabola, quarter circle), Bernstein sums and finite
-// differences, and their conversion to points and path segments.
+// Tests Bezier curves against closed forms (parabola, quarter circle), against the sum of Bernstein
+// polynomials, and against finite differences. Tests their conversion to points and path segments.
 namespace trackbed {
 namespace {
 
-// Rounding: tens of operations on coordinates below 30 m.
+// Rounding error [m] of some tens of operations on coordinates below 30 m.
 constexpr double kRounding = 1e-13;
 
-/// A car's lane change within 30 m, from (0, 0) heading east to a lane 8 m to the left.
+/// Returns the control points of a lane change within 30 m. The curve starts at (0, 0) with heading
+/// east, and ends in a lane 8 m to the left.
 std::vector<Vec2> LaneChange() {
   return {{0, 0}, {5, 0}, {10, 0}, {14, 0.5}, {16, 7.5}, {20, 8}, {25, 8}, {30, 8}};
 }
@@ -33,7 +34,7 @@ std::vector<Vec2> RandomPoints(Random& random, std::size_t count) {
   return points;
 }
 
-/// Control points without loops: each one is ahead of the previous one.
+/// Returns random control points of a curve without loops: each point is ahead of the previous one.
 std::vector<Vec2> RandomRun(Random& random, std::size_t count) {
   std::vector<Vec2> points;
   for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +63,8 @@ TEST(Bezier, OfTwoPointsIsTheLineBetween) {
 }
 
 TEST(Bezier, OfThreePointsIsAParabola) {
-  // y = x^2 over [-1, 1]: kappa = 2/(1 + 4x^2)^(3/2), dkappa/ds = -24 x/(1 + 4x^2)^3.
+  // The parabola y = x^2 over [-1, 1] has the curvature kappa = 2/(1 + 4x^2)^(3/2) and the
+  // curvature rate dkappa/ds = -24 x/(1 + 4x^2)^3.
   const BezierCurve parabola({{-1.0, 1.0}, {0.0, -1.0}, {1.0, 1.0}});
   for (double x = -1.0; x <= 1.0; x += 0.125) {
     const double u = 0.5 * (x + 1.0);
@@ -71,7 +73,7 @@ TEST(Bezier, OfThreePointsIsAParabola) {
     EXPECT_NEAR(parabola.Curvature(u), 2.0 * std::pow(square, -1.5), Tolerance(kRounding));
     EXPECT_NEAR(parabola.Sharpness(u), -24.0 * x * std::pow(square, -3.0), Tolerance(kRounding));
   }
-  // Arc length of the parabola: (2x sqrt(1 + 4x^2) + asinh 2x)/4 from -1 to 1.
+  // The arc length of the parabola is (2x sqrt(1 + 4x^2) + asinh 2x)/4, evaluated from -1 to 1.
   const double length = std::sqrt(5.0) + 0.5 * std::asinh(2.0);
   EXPECT_NEAR(parabola.Length(), length, Tolerance(1e-10 * length));
 }
@@ -112,10 +114,11 @@ TEST(Bezier, DerivativesAreThoseOfItsPoints) {
     const BezierCurve curve(RandomPoints(random, 8));
     constexpr double kStep = 1e-4;
     const double u = random.Uniform(kStep, 1.0 - kStep);
-    // A derivative of order m is at most 7!/(7 - m)! times the largest m-th difference of control
-    // points, 2^m 10 sqrt(2). Central differences err by h^2/6 times the derivative two orders
-    // higher: 3360 m 14.1 8 h^2/6 for the first derivative, and 12 and 36 times that for the next
-    // two.
+    // The derivative of order m is at most 7!/(7 - m)! times the largest m-th difference of the
+    // control points, which is at most 2^m 10 sqrt(2) m. The error of a central difference is h^2/6
+    // times the derivative two orders higher. For the first derivative, the error is below 210 x 8
+    // x 14.2 h^2/6 m. The bound for the second derivative is 8 times larger, and that for the third
+    // derivative is again 6 times larger.
     double most = 210.0 * 8.0 * 14.2 * kStep * kStep / 6.0;
     for (std::size_t order = 1; order <= 3; ++order) {
       const Vec2 difference =
@@ -143,7 +146,7 @@ TEST(Bezier, MovesTurnsAndGrowsWithItsPoints) {
     for (const double u : {0.0, 0.3, 0.8, 1.0}) {
       EXPECT_NEAR((other.At(u) - ToWorld(moved, scale * curve.At(u))).norm(), 0.0,
                   Tolerance(kRounding));
-      // Speeds exceed 10 m, so the quotients keep twelve digits.
+      // The parameter speed |P'| exceeds 10 m, so division by powers of |P'| keeps twelve digits.
       EXPECT_NEAR(other.Curvature(u), curve.Curvature(u) / scale, Tolerance(1e-12));
       EXPECT_NEAR(other.Sharpness(u), curve.Sharpness(u) / (scale * scale), Tolerance(1e-12));
     }
@@ -177,7 +180,8 @@ TEST(Bezier, RunTheOtherWayTurnsTheOtherWay) {
     for (const double u : {0.0, 0.2, 0.5, 0.9, 1.0}) {
       EXPECT_NEAR((back.At(1.0 - u) - curve.At(u)).norm(), 0.0, Tolerance(kRounding));
       EXPECT_NEAR(back.Curvature(1.0 - u), -curve.Curvature(u), Tolerance(1e-12));
-      // In reverse, the curvature and the direction in which it grows both change sign.
+      // On the reversed curve, both the curvature and the direction of increasing station change
+      // their sign, so the sharpness keeps its sign.
       EXPECT_NEAR(back.Sharpness(1.0 - u), curve.Sharpness(u), Tolerance(1e-12));
     }
     EXPECT_NEAR(back.Length(), curve.Length(), Tolerance(1e-12));
@@ -188,8 +192,9 @@ TEST(Bezier, RunTheOtherWayTurnsTheOtherWay) {
 // --------------------------------------------------------------------------------------------
 
 TEST(Bezier, NearAQuarterCircleCurvesLikeIt) {
-  // The cubic with sides of r 4/3 (sqrt(2) - 1): within 2.8e-4 r of the circle, its curvature
-  // within 3 % (0.6 % at the ends and in the middle).
+  // The cubic curve with control polygon sides of r 4/3 (sqrt(2) - 1) at both ends approximates a
+  // quarter circle of radius r to 2.8e-4 r. Its curvature differs from 1/r by at most 3 % (0.6 % at
+  // the ends and in the middle).
   constexpr double kRadius = 10.0;
   const double side = kRadius * 4.0 / 3.0 * (std::sqrt(2.0) - 1.0);
   const BezierCurve left({{kRadius, 0.0}, {kRadius, side}, {side, kRadius}, {0.0, kRadius}});
@@ -199,7 +204,8 @@ TEST(Bezier, NearAQuarterCircleCurvesLikeIt) {
     EXPECT_NEAR(left.Curvature(u), 1.0 / kRadius, 0.03 / kRadius);
     EXPECT_NEAR(right.Curvature(u), -1.0 / kRadius, 0.03 / kRadius);
   }
-  // The end curvature is exactly 2/3 |cross(side, next)|/side^3.
+  // The curvature at the end is exactly 2/3 |cross(side, next)|/side^3, where `side` is the first
+  // and `next` the second side of the control polygon.
   const Vec2 next{side - kRadius, kRadius - side};
   EXPECT_NEAR(left.Curvature(0.0), 2.0 / 3.0 * (kRadius - side) / (side * side),
               Tolerance(kRounding));
@@ -212,8 +218,9 @@ TEST(Bezier, SharpnessIsTheCurvaturesGrowthAlongTheCurve) {
   for (double u = 0.05; u < 1.0; u += 0.05) {
     const double growth = (curve.Curvature(u + kStep) - curve.Curvature(u - kStep)) /
                           curve.Length(u - kStep, u + kStep);
-    // h^2/6 times the third derivatives of curvature (below 2e3) and length, over a speed above 15
-    // m. Rounding adds 1e-15/h.
+    // The error of the quotient is h^2/6 times the third derivatives of the curvature (below 2e3
+    // 1/m) and of the length, divided by the parameter speed |P'| (above 15 m). Rounding adds
+    // 1e-15/h.
     EXPECT_NEAR(growth, curve.Sharpness(u), Tolerance(1e-6));
   }
 }
@@ -226,8 +233,8 @@ TEST(Bezier, LengthIsThatOfAFinePolyline) {
   }
   for (const std::vector<Vec2>& points : cases) {
     const BezierCurve curve(points);
-    // Each chord is too short by ds^3 kappa^2/24, so halving the chords removes three quarters of
-    // the error. The error of the extrapolation is of fourth order.
+    // A chord is shorter than its arc ds by ds^3 kappa^2/24, so halving the chords reduces the
+    // error to a quarter. Extrapolation from both polylines leaves an error of fourth order.
     const auto polyline = [&](int pieces) {
       double length = 0.0;
       for (int i = 0; i < pieces; ++i) {
@@ -247,7 +254,8 @@ TEST(Bezier, LengthIsThatOfAFinePolyline) {
 }
 
 TEST(Bezier, LengthOfALineIsExactHoweverItIsRunAlong) {
-  // Along a single direction |P'| = 7 (0.5 + 6.5 ...) is a polynomial of degree 6.
+  // The control points lie on a straight line, so |P'| is a polynomial of degree 6, which the
+  // quadrature integrates exactly.
   std::vector<Vec2> points;
   for (const double t : {0.0, 0.5, 2.0, 2.5, 4.0, 7.0, 9.0, 10.0}) {
     points.emplace_back(1.0 + 3.0 * t, -2.0 + 4.0 * t);
@@ -280,7 +288,7 @@ TEST(BezierPoints, KeepTheSpacingAndBothEnds) {
 }
 
 TEST(BezierPoints, HeadingsGoOnThroughMoreThanAFullTurn) {
-  // A loop that turns by 2 pi + 0.93 rad, with two full turns in its initial heading.
+  // The loop turns by 2 pi + 0.93 rad. The initial heading already includes two full turns.
   const BezierCurve loop({{0, 0}, {40, 0}, {40, 40}, {-40, 40}, {-40, -30}, {50, -30}, {53, -26}});
   const std::vector<CurvePoint> points = loop.Points(0.1, 4.0 * kPi);
   double turned = 0.0;
@@ -291,7 +299,8 @@ TEST(BezierPoints, HeadingsGoOnThroughMoreThanAFullTurn) {
   }
   EXPECT_EQ(points.front().yaw, 4.0 * kPi);
   EXPECT_NEAR(points.back().yaw, 6.0 * kPi + std::atan2(4.0, 3.0), Tolerance(1e-12));
-  // The heading change equals the integral of the curvature, here by trapezoids 0.1 m wide.
+  // The heading change equals the integral of the curvature, which the test computes by the
+  // trapezoidal rule with steps of 0.1 m.
   EXPECT_NEAR(points.back().yaw - points.front().yaw, turned, Tolerance(1e-3));
 }
 
@@ -299,7 +308,8 @@ TEST(BezierPoints, NeedADirection) {
   const BezierCurve point({{1.0, 1.0}, {1.0, 1.0}, {1.0, 1.0}});
   EXPECT_THROW((void)point.Points(0.1, 0.0), InternalError);
   EXPECT_FALSE(std::isfinite(point.Curvature(0.5)));
-  const BezierCurve still({{0.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}});  // P'(0) = 0
+  const BezierCurve still({{0.0, 0.0}, {0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}});  // The derivative
+                                                                              // P'(0) is 0.
   EXPECT_THROW((void)still.Points(0.1, 0.0), InternalError);
   EXPECT_THROW((void)BezierCurve(LaneChange()).Points(0.0, 0.0), InternalError);
 }
@@ -316,7 +326,8 @@ TEST(BezierPoints, MakeSegmentsThatFollowTheCurve) {
     const double yaw = std::atan2(velocity.y(), velocity.x());
     const Pose2 start{curve.At(0.0).x(), curve.At(0.0).y(), yaw};
     const Path path(start, SegmentsThrough(curve.Points(0.1, yaw)));
-    // SegmentsThrough promises "about 1e-7 m over the bends of a car".
+    // The documentation of SegmentsThrough states an error of about 1e-7 m over the bends of a
+    // car's path.
     EXPECT_NEAR((path.At(path.length()).pose.position() - curve.At(1.0)).norm(), 0.0,
                 Tolerance(1e-6));
     for (const double u : {0.25, 0.5, 0.75}) {

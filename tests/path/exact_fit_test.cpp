@@ -13,8 +13,9 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path/fit_path.h"
 
-// Tests that a spline through points of a line, an arc or a clothoid is that curve, that paths
-// begin and end at the ends of their points, and that noise of a recorder is not a reversal.
+// Tests that a spline fitted to points of a line, an arc or a clothoid equals that curve. Tests
+// that a fitted path begins and ends at its first and last point, and that measurement noise is not
+// taken for a change of direction.
 namespace trackbed {
 namespace {
 
@@ -45,7 +46,8 @@ PathPoints PointsOf(const Path& path, int count, double unevenness, Dice& dice) 
   return given;
 }
 
-/// A line, an arc or a clothoid of at most a full turn.
+/// Returns a random line (kind 0), arc (kind 1) or clothoid (kind 2) that turns by less than a full
+/// turn.
 Segment Primitive(int kind, Dice& dice) {
   const double curvature = dice.Magnitude(1e-3, 0.2);
   Segment segment{.length = std::min(dice.Between(5.0, 100.0), 6.0 / curvature)};
@@ -59,8 +61,9 @@ Segment Primitive(int kind, Dice& dice) {
   return segment;
 }
 
-/// Rounding of a path at coordinates of `offset` [m]: each of its up to 1000 segments of 0.1 m adds
-/// the rounding of two coordinates, and these errors add like those of a random walk.
+/// Returns the rounding error of a path at coordinates of `offset` [m]. Each of up to 1000
+/// segments, 0.1 m long, adds the rounding errors of two coordinates. The sum of these errors grows
+/// with the square root of the number of segments, as in a random walk.
 double Rounding(double offset) {
   return 10.0 * std::sqrt(1000.0) * 2.3e-16 * offset;
 }
@@ -83,13 +86,14 @@ TEST(FitPath, IsExactOnLinesArcsAndClothoids) {
       const Pose2 own = fitted.path.At(share * fitted.path.length()).pose;
       const Pose2 exact = path.At(share * path.length()).pose;
       ASSERT_LE((own.position() - exact.position()).norm(), tolerance) << share;
-      // A heading errs by the position error over the spacing of the points, at least 5 mm.
+      // The error of a heading is the position error divided by the distance between the points,
+      // which is at least 5 mm.
       ASSERT_NEAR(AngleDifference(own.yaw, exact.yaw), 0.0, tolerance / 5e-3) << share;
     }
   }
 }
 
-// The straights of issue reports: 51 and 501 points on 50 m.
+// These straight lines come from issue reports: 51 and 501 points on 50 m.
 TEST(FitPath, IsExactOnALongStraight) {
   for (const int count : {51, 501}) {
     for (const double deviation : {1e-6, 0.05, 0.5, 10.0}) {
@@ -125,7 +129,7 @@ TEST(FitPath, KeepsTheEndsOfARoad) {
     }
     const FittedPath fitted = FitPath(given, {.max_deviation = deviation});
     if (!fitted.reversals.empty()) {
-      continue;  // noise as large as the spacing
+      continue;  // The noise is as large as the distance between the points.
     }
     EXPECT_LE(fitted.deviation, deviation);
     const Vec2 begin = fitted.path.At(0.0).pose.position();
@@ -163,14 +167,15 @@ TEST(FitPath, KeepsTheEndsOfRandomPoints) {
       EXPECT_LE((begin - given.points.front()).norm(), Tolerance(1e-9));
       EXPECT_LE((end - given.points.back()).norm(), Tolerance(1e-9));
     } catch (const InputError&) {
-      continue;  // no spline keeps the deviation
+      continue;  // No spline stays within max_deviation of the points.
     }
   }
   EXPECT_GE(fits, 15);
 }
 
-/// The log of a car that drives along a circle with a radius of 20 m and stops twice, with noise of
-/// the standard deviation `noise` [m]. The points are up to `step` [m] apart.
+/// Returns the recorded positions of a car that drives along a circle of radius 20 m and stops
+/// twice. The noise has the standard deviation `noise` [m]. Neighboring points are up to `step` [m]
+/// apart.
 PathPoints Recording(double noise, Dice& dice, double step = 0.1) {
   PathPoints given;
   double s = 0.0;
@@ -194,17 +199,18 @@ TEST(FitPath, TakesTheJitterOfARecorder) {
       EXPECT_GT(fitted.merged, 0U);
       EXPECT_LE(fitted.deviation, 0.06);
       EXPECT_TRUE(std::is_sorted(fitted.stations.begin(), fitted.stations.end()));
-      // Drives 26.7 m. The ends are off by some standard deviations.
+      // The car drives 26.7 m. The noise moves the ends of the path by a few standard deviations.
       EXPECT_NEAR(fitted.path.length(), 26.7, Tolerance(0.1));
       for (const PathPoint& point : fitted.path.Sample(0.1)) {
-        // The true curvature is 0.05.
+        // The circle's curvature is 0.05 1/m.
         EXPECT_LE(std::abs(point.curvature), 0.3) << point.s;
       }
     }
   }
 }
 
-// The message of a spline that cannot keep the noise names a deviation that can.
+// If no spline can stay within max_deviation of the noisy points, the message must name a
+// sufficient max_deviation.
 TEST(FitPath, SaysHowMuchDeviationTheNoiseNeeds) {
   Dice dice(52);
   int messages = 0;

@@ -12,8 +12,9 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
-// Tests the fit of a path to points by quintic splines: curvature against circles, a lemniscate and
-// clothoids with the expected order of convergence, and the deviation on random points.
+// Tests the fit of a path to points by quintic splines. Compares the curvature with that of
+// circles, a lemniscate and clothoids, checks the order of convergence, and checks the deviation
+// from random points.
 namespace trackbed {
 namespace {
 
@@ -44,7 +45,7 @@ double LargestDistance(const FittedPath& fitted) {
   return largest;
 }
 
-/// The path's largest curvature error at the points, ends included.
+/// Returns the largest curvature error of the path at the given points, including the ends.
 double CurvatureError(const FittedPath& fitted, const std::function<double(double)>& curvature) {
   double largest = 0.0;
   const std::size_t count = fitted.stations.size();
@@ -58,11 +59,11 @@ double CurvatureError(const FittedPath& fitted, const std::function<double(doubl
 
 constexpr PathFitOptions kInterpolate{.max_deviation = 1e-7};
 
-// The second derivative of a quintic interpolant with spacing h errs by the order of h^4 |P^(6)|. A
-// circle of radius R has |P^(6)| = 1/R^5, and its curvature errs by the same. The natural end
-// conditions (P''' = 0 and higher derivatives) do not hold for a circle, whose |P'''| is 1/R^2.
-// They distort the curvature near the ends, over some h, by the order of h |P'''|, here at most 0.2
-// of it.
+// The second derivative of a quintic interpolant with spacing h has an error of the order h^4
+// |P^(6)|. A circle of radius R has |P^(6)| = 1/R^5, so the curvature error is of the order
+// h^4/R^5. The spline's natural end conditions (P''' and higher derivatives are 0) do not hold for
+// a circle, whose |P'''| is 1/R^2. Near the ends, over a few h, they change the curvature by at
+// most 0.2 h |P'''|.
 TEST(FitPath, FindsTheCurvatureOfACircle) {
   for (const double radius : {5.0, 20.0}) {
     for (const int count : {41, 81}) {
@@ -70,7 +71,8 @@ TEST(FitPath, FindsTheCurvatureOfACircle) {
       const FittedPath fitted = FitPath(Arc(radius, 2.0, count), kInterpolate);
       EXPECT_LE(CurvatureError(fitted, [&](double) { return 1.0 / radius; }),
                 Tolerance(0.2 * h / (radius * radius)));
-      // Excludes ten points at each end; the influence of the ends falls to 0.43 per point.
+      // Skips ten points at each end, because the error caused by the end conditions decreases by
+      // the factor 0.43 from point to point.
       double inner = 0.0;
       for (std::size_t i = 10; i + 10 < fitted.stations.size(); ++i) {
         inner =
@@ -102,7 +104,7 @@ TEST(FitPath, ClosesACircle) {
     }
     const PathPoint start = path.At(0.0);
     const PathPoint end = path.At(path.length());
-    // The segments follow the spline to h^4 k/720 of their length, far below the deviation.
+    // The error of approximating the spline by path segments is far below max_deviation.
     EXPECT_NEAR((end.pose.position() - start.pose.position()).norm(), 0.0, Tolerance(1e-6));
     EXPECT_NEAR(AngleDifference(end.pose.yaw, start.pose.yaw), 0.0, Tolerance(1e-9));
     EXPECT_NEAR(fitted.stations.back(), repeats_start ? path.length() : path.length() - h,
@@ -110,8 +112,8 @@ TEST(FitPath, ClosesACircle) {
   }
 }
 
-// x = a cos t/(1 + sin^2 t), y = x sin t has the curvature 3 cos t/(a sqrt(1 + sin^2 t)), up to its
-// sign, and intersects itself.
+// The lemniscate x = a cos t/(1 + sin^2 t), y = x sin t has the curvature 3 cos t/(a sqrt(1 + sin^2
+// t)), up to the sign. The lemniscate crosses itself.
 TEST(FitPath, FindsTheCurvatureOfALemniscate) {
   constexpr double kA = 20.0;
   const auto curve = [](double t) {
@@ -127,18 +129,22 @@ TEST(FitPath, FindsTheCurvatureOfALemniscate) {
     for (int i = 0; i < count; ++i) {
       given.points.push_back(curve(2.0 * kPi * i / count));
     }
-    // With a larger deviation, the smoothing changes the curvature by more than the interpolation.
+    // With a larger max_deviation, smoothing would change the curvature by more than interpolation
+    // does.
     const FittedPath fitted = FitPath(given, {.max_deviation = 1e-8, .closed = true});
     double largest = 0.0;
     for (int i = 0; i < count; ++i) {
       const double own = fitted.path.At(fitted.stations[static_cast<std::size_t>(i)]).curvature;
       largest = std::max(largest, std::abs(own - curvature(2.0 * kPi * i / count)));
     }
-    // h^4 |P^(6)|; for the lemniscate |P^(6)| is at most some 100 (3/a)^5.
+    // The error is at most h^4 |P^(6)|, where |P^(6)| of the lemniscate is at most about 100
+    // (3/a)^5.
     const double h = fitted.path.length() / count;
     EXPECT_LE(largest, Tolerance(100.0 * std::pow(h, 4) * std::pow(3.0 / kA, 5)));
     if (before > 0.0) {
-      EXPECT_LE(largest, before / 8.0);  // order 4 with a margin of factor 2
+      EXPECT_LE(largest, before / 8.0);  // The order of convergence is 4: halving the spacing
+                                         // divides the error by 16. The factor 8 leaves a margin of
+                                         // 2.
     }
     before = largest;
   }
@@ -153,7 +159,8 @@ TEST(FitPath, FindsTheCurvatureRateOfAClothoid) {
   const FittedPath fitted = FitPath(given, kInterpolate);
   for (double s = 10.0; s <= 50.0; s += 0.25) {
     const PathPoint point = fitted.path.At(s);
-    // Third derivatives err by h^3 |P^(6)|, and |P^(6)| < 10 kappa^3 sharpness < 0.02 * 0.1^3.
+    // The error of the third derivative is at most h^3 |P^(6)|, with |P^(6)| < 10 kappa^3 sharpness
+    // < 0.02 x 0.1^3 1/m^5.
     EXPECT_NEAR(point.sharpness, 0.002, Tolerance(1e-5));
     EXPECT_NEAR(point.curvature, 0.002 * s, Tolerance(1e-6));
   }
@@ -180,14 +187,15 @@ TEST(FitPath, KeepsItsDeviationOnRandomPoints) {
       } catch (const InputError& error) {
         ASSERT_TRUE(run % 3 == 0) << error.what();
         EXPECT_THAT(error.what(), HasSubstr("from point 60 at"));
-        continue;  // skip paths whose last point is far from the first
+        continue;  // The last point is far from the first point.
       }
       if (run % 3 == 0 && !fitted.reversals.empty()) {
-        continue;  // skip paths that close only by turning back
+        continue;  // The path can close only by turning back.
       }
       ASSERT_TRUE(fitted.reversals.empty());
       EXPECT_LE(fitted.deviation, allowed);
-      // The nearest point of the path is not farther than the point at the same station.
+      // The distance from a point to the nearest point of the path is at most the distance to the
+      // path's point at the same station.
       EXPECT_LE(LargestDistance(fitted), fitted.deviation + Tolerance(1e-9));
       const Vec2 at = fitted.path.At(fitted.stations[fitted.deviation_point]).pose.position();
       EXPECT_NEAR((at - given.points[fitted.deviation_point]).norm(), fitted.deviation,
@@ -213,8 +221,8 @@ TEST(FitPath, SmoothsNoiseWithinItsDeviation) {
     }
     return largest;
   };
-  // The noise bends the points by some 0.03/0.23^2 = 0.6. With smoothing by the noise's own size
-  // almost nothing of that remains.
+  // Noise of 0.03 m on points 0.23 m apart adds a curvature of about 0.03/0.23^2 = 0.6 1/m. If
+  // max_deviation exceeds the noise, smoothing removes almost all of this curvature.
   EXPECT_GT(largest_curvature(0.001), 0.5);
   EXPECT_LT(largest_curvature(0.05), 0.05);
 }
@@ -229,7 +237,8 @@ TEST(FitPath, PolylineLeadsThroughItsPoints) {
   EXPECT_EQ(fitted.jumps[1].point, 2U);
   EXPECT_NEAR(fitted.jumps[0].angle, 0.5 * kPi, Tolerance(1e-12));
   EXPECT_NEAR(fitted.jumps[1].angle, -0.25 * kPi, Tolerance(1e-12));
-  // The corner is replaced by tangents of 1 mm and an arc of radius 1 mm/tan(angle/2).
+  // FitPath replaces each corner by tangents of 1 mm and an arc of radius 1 mm/tan(angle/2). For
+  // the angle of 90 degrees, the corner is 1 mm (sqrt(2) - 1) from the arc.
   EXPECT_NEAR(fitted.deviation, 1e-3 * (std::sqrt(2.0) - 1.0), Tolerance(1e-9));
   EXPECT_NEAR(fitted.path.At(fitted.path.length()).pose.x, 17.0, Tolerance(1e-9));
   EXPECT_NEAR(fitted.path.At(fitted.path.length()).pose.y, 12.0, Tolerance(1e-9));
@@ -246,13 +255,14 @@ TEST(FitPath, ResamplesWithinItsDeviation) {
   EXPECT_LE(LargestDistance(fitted), 0.01);
   EXPECT_EQ(fitted.stations.size(), 2001U);
   const FittedPath lines = FitPath(given, {.fit = PathFit::kPolyline, .resample = 2.0});
-  // The sagitta of a chord of 2 m of a circle of 20 m. The points need not include the circle's
-  // ends.
+  // The deviation is the height of an arc of radius 20 m over a chord of 2 m. The resampled points
+  // need not include the ends of the arc.
   EXPECT_NEAR(lines.deviation, 2.0 * 2.0 / (8.0 * 20.0), Tolerance(2e-3));
   EXPECT_EQ(lines.jumps.size(), 19U);
 }
 
-// Resampled points stay on the lines between the corners, 5 m apart, of a spline through them.
+// The given points are 5 m apart. A spline through the given points bulges near the corner. A
+// spline through resampled points stays near the straight lines.
 TEST(FitPath, KeepsToTheLinesIfResampled) {
   PathPoints given;
   given.points = {{0.0, 0.0}, {5.0, 0.0}, {10.0, 0.0}, {10.0, 5.0}, {10.0, 10.0}};
@@ -267,7 +277,8 @@ TEST(FitPath, KeepsToTheLinesIfResampled) {
     return largest;
   };
   EXPECT_GT(bulge({.max_deviation = 0.05}), 0.3);
-  // 0.05 m at the fitted points, and only slightly more between them.
+  // At the fitted points, the path is within 0.05 m of the lines. Between them, the distance may be
+  // slightly larger.
   EXPECT_LE(bulge({.max_deviation = 0.05, .resample = 0.25}), 0.075);
 }
 
@@ -298,8 +309,9 @@ TEST(FitPath, RefusesReverseTravel) {
   }
 }
 
-// The center of gravity of a car, a ahead of the rear axle, moves on a circle of radius R. Then the
-// rear axle moves on a circle of radius sqrt(R^2 - a^2).
+// The recorded point is the center of gravity, at the distance a ahead of the rear axle. If the
+// center of gravity moves on a circle of radius R, the rear axle moves on a circle of radius
+// sqrt(R^2 - a^2).
 TEST(AtRearAxle, FollowsItsPointRoundACircle) {
   constexpr double kAhead = 1.4;
   for (const bool has_yaw : {false, true}) {
@@ -310,8 +322,9 @@ TEST(AtRearAxle, FollowsItsPointRoundACircle) {
       }
     }
     for (const Vec2& point : AtRearAxle(given, kAhead).points) {
-      // Chords of 0.15 m deviate from the circle by 0.15^2/160 m, over a length of 1.4 m by twice
-      // that.
+      // Without given headings, the error is that of chords of 0.15 m, which deviate from the
+      // circle by up to 0.15^2/160 = 1.4e-4 m. Over the distance of 1.4 m between both points, the
+      // error is at most twice that.
       EXPECT_NEAR((point - Vec2(0.0, 20.0)).norm(), std::sqrt(400.0 - kAhead * kAhead),
                   Tolerance(has_yaw ? 1e-12 : 3e-4));
     }
@@ -345,8 +358,8 @@ TEST(FitPath, TakesPointsCentimetersAndMetersApart) {
   const FittedPath fitted = FitPath(given, {.max_deviation = 0.005});
   EXPECT_LE(fitted.deviation, 0.005);
   for (const PathPoint& point : fitted.path.Sample(0.1)) {
-    // Twice the curvature of the curve, 3 * 0.05^2. Without smoothing, 0.5 mm of noise over 2 cm
-    // would give a curvature of about 5.
+    // The bound is twice the largest curvature of the curve, 3 x 0.05^2 1/m. Without smoothing,
+    // noise of 0.5 mm on points 2 cm apart would cause a curvature of about 5 1/m.
     EXPECT_LE(std::abs(point.curvature), 2.0 * 3.0 * 0.05 * 0.05);
   }
 }

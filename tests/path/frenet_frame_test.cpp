@@ -11,10 +11,12 @@
 namespace trackbed {
 namespace {
 
-// The projection finds stations to 1e-10 m, which rates of a few units multiply.
+// Tolerance of a conversion to the Frenet frame and back. The projection has an error of 1e-10 m in
+// the station. Derivatives with respect to the station, of a few units, multiply this error.
 constexpr double kRoundTrip = 1e-9;
 
-/// A line, clothoids and arcs to both sides, with continuous curvature up to 0.1/m.
+/// Returns a line, followed by clothoids and arcs to both sides. The curvature is continuous and at
+/// most 0.1 1/m.
 Path Bends() {
   return Path({3.0, -2.0, 0.4}, {{20.0, 0.0, 1, 0.0},
                                  {10.0, 0.0, 1, 0.01},
@@ -26,7 +28,8 @@ Path Bends() {
 
 TEST(FrenetFrame, OfALineIsTheLinesOwn) {
   const Path line({0.0, 0.0, kPi / 2.0}, {{100.0, 0.0, 1}});
-  // Position north along the line and 2 m to its left; speeds 4 and 3 give 5 m/s.
+  // The car is 10 m north along the line and 2 m to the left. It moves at 4 m/s along the line and
+  // at 3 m/s across, so its speed is 5 m/s.
   const auto motion = FromFrenet(line, {10.0, 4.0, 0.0, 2.0, 0.75, 0.0});
   ASSERT_TRUE(motion);
   EXPECT_NEAR(motion->pose.x, -2.0, Tolerance(1e-12));
@@ -38,7 +41,8 @@ TEST(FrenetFrame, OfALineIsTheLinesOwn) {
 }
 
 TEST(FrenetFrame, BesideACircleIsACircle) {
-  // 5 m inside a circle of 20 m the radius is 15 m, and the speed 3/4 of the station's rate.
+  // The car's offset is 5 m to the inside of a circle of radius 20 m. The radius of its own path is
+  // 15 m, and its speed is 3/4 of the rate of the station.
   const Path circle({0.0, 0.0, 0.0}, {{100.0, 1.0 / 20.0, 1}});
   const auto motion = FromFrenet(circle, {20.0, 4.0, 1.0, 5.0, 0.0, 0.0});
   ASSERT_TRUE(motion);
@@ -66,7 +70,7 @@ TEST(FrenetFrame, IsLeftAsItWasEntered) {
     EXPECT_NEAR(back->d_slope, state.d_slope, Tolerance(kRoundTrip));
     EXPECT_NEAR(back->d_bend, state.d_bend, Tolerance(kRoundTrip));
     EXPECT_NEAR(back->s_rate, state.s_rate, Tolerance(kRoundTrip * 20.0));
-    // v^2 = 400 times the frame's error.
+    // The error of the acceleration is v^2 = 400 m^2/s^2 times the error of the frame.
     EXPECT_NEAR(back->s_acceleration, state.s_acceleration, Tolerance(kRoundTrip * 400.0));
     const auto again = FromFrenet(path, *back);
     ASSERT_TRUE(again);
@@ -80,7 +84,8 @@ TEST(FrenetFrame, IsLeftAsItWasEntered) {
 }
 
 TEST(FrenetFrame, KnowsACarAtRest) {
-  // No division by the speed: slope and curvature of the offset follow from heading and steering.
+  // The conversion must not divide by the speed. The slope and the second derivative of the offset
+  // follow from the heading and the curvature.
   const Path path = Bends();
   const MotionState rest{{20.0, 8.0, 1.0}, 0.05, 0.0, 0.0};
   const auto state = ToFrenet(path, rest);
@@ -93,9 +98,9 @@ TEST(FrenetFrame, KnowsACarAtRest) {
 }
 
 TEST(FrenetFrame, HasTheDerivativesOfTheMotionItself) {
-  // d(s) and s(t) of degree 5. Speed, heading, curvature and acceleration come from central
-  // differences of positions over h. The errors are h^2/6 times third derivatives (below 50), plus
-  // rounding of 1e-15/h.
+  // The station s(t) is a cubic polynomial, and the offset d(s) is a quadratic polynomial. The test
+  // computes speed, heading, curvature and acceleration from central differences over the step h.
+  // The errors are h^2/6 times the third derivatives (below 50), and 1e-15/h from rounding.
   const Path path = Bends();
   const auto state_at = [](double t) {
     const double s = 12.0 + 8.0 * t + 0.5 * t * t - 0.1 * t * t * t;

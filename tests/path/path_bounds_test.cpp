@@ -48,7 +48,7 @@ double LargestBulge(const FittedPath& fitted) {
   return largest;
 }
 
-/// Seven points of a winding path, 10 m apart.
+/// Returns seven points of a winding path, 10 m apart along x.
 PathPoints SevenPoints() {
   PathPoints given;
   for (int i = 0; i < 7; ++i) {
@@ -71,10 +71,13 @@ TEST(PathWithAnOutlier, IsRefusedOrStaysNearItsPoints) {
       if (!fitted.reversals.empty()) {
         continue;
       }
-      // A half circle is pi/2 times as long as its chord.
+      // The path may turn by half a circle between two points. A half circle is pi/2 times as long
+      // as its chord.
       EXPECT_LE(fitted.path.length(), 0.5 * kPi * PolylineLength(given.points) + 1.0);
-      // Sixteen points of a bump miss its top by (1/32)^2 of its width: a hundredth of the height
-      // for a bump of a fifth of the chord. A line nearby may be nearer than the chord.
+      // FitPath measures a bulge at sixteen points, which miss the top of the bulge. For a bulge of
+      // a fifth of the chord, the measured height is up to a hundredth too small. LargestBulge
+      // measures the distance to the nearest line, which may be less than the distance to the
+      // chord.
       EXPECT_GE(fitted.bulge, 0.97 * LargestBulge(fitted) - 0.05);
     }
   }
@@ -90,14 +93,14 @@ TEST(PathWithAnOutlier, NamesThePoint) {
     given.lines.push_back(line);
   }
   EXPECT_THAT(ErrorOf(given), HasSubstr("Is row 2 at (740, 740) wrong?"));
-  // The remedies that the message names.
+  // The message names two remedies. Both must succeed.
   EXPECT_EQ(ErrorOf(given, {.fit = PathFit::kPolyline}), "");
   EXPECT_EQ(ErrorOf(given, {.max_deviation = 0.5, .resample = 1.0}), "");
 }
 
 TEST(PathWithSparsePoints, HasItsBulge) {
-  // A circle through the corners of a square bulges by (sqrt(2) - 1)/2 of its side. The closed
-  // spline comes near it.
+  // A circle through the corners of a square bulges beyond each side by (sqrt(2) - 1)/2 of the
+  // side. The closed spline is close to this circle.
   PathPoints square;
   square.points = {{0.0, 0.0}, {40.0, 0.0}, {40.0, 40.0}, {0.0, 40.0}};
   const FittedPath fitted = FitPath(square, {.closed = true});

@@ -13,12 +13,12 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
-// Tests Path: evaluation against closed forms of lines, arcs and clothoids, projection against
-// brute force, sampling, cutting, and SegmentsThrough on a curve with known curvature.
+// Tests Path: evaluation against closed forms of lines, arcs and clothoids, projection against a
+// search over many points, sampling, cutting, and SegmentsThrough on a curve with known curvature.
 namespace trackbed {
 namespace path_test {
 
-// Rounding: a few operations per segment on coordinates below 100 m.
+// Rounding error [m] of a few operations per segment on coordinates below 100 m.
 constexpr double kRounding = 1e-12;
 
 void ExpectPose(const Pose2& actual, const Pose2& expected, double tolerance = kRounding) {
@@ -27,7 +27,8 @@ void ExpectPose(const Pose2& actual, const Pose2& expected, double tolerance = k
   EXPECT_NEAR(actual.yaw, expected.yaw, Tolerance(tolerance));
 }
 
-/// 10 m east, a quarter circle of 10 m to the left, 10 m north.
+/// Returns a path of 10 m to the east, a quarter circle of radius 10 m to the left, and 10 m to the
+/// north.
 Path Corner() {
   return {{}, {{10.0, 0.0, 1}, {5.0 * kPi, 0.1, 1}, {10.0, 0.0, 1}}};
 }
@@ -64,7 +65,7 @@ TEST(Path, JointBelongsToTheSegmentThatBegins) {
   EXPECT_EQ(path.At(std::nextafter(10.0, 0.0)).curvature, 0.0);
   EXPECT_EQ(path.At(10.0 + 5.0 * kPi).curvature, 0.0);
   const Path arc{{}, {{5.0, 0.1, 1}}};
-  EXPECT_EQ(arc.At(5.0).curvature, 0.1);  // the end belongs to the last segment
+  EXPECT_EQ(arc.At(5.0).curvature, 0.1);  // The end of the path belongs to the last segment.
 }
 
 TEST(Path, GoesOnAlongItsEndTangents) {
@@ -79,8 +80,8 @@ TEST(Path, GoesOnAlongItsEndTangents) {
 }
 
 TEST(Path, ReverseSegmentsRunAgainstTheHeading) {
-  // 5 m forward, then in reverse along a left quarter circle of radius 4 m, and straight in
-  // reverse.
+  // The car drives 5 m forward. Then the car reverses along a quarter circle of radius 4 m with its
+  // wheels turned left, and 3 m straight.
   const Path path{{}, {{5.0, 0.0, 1}, {2.0 * kPi, 0.25, -1}, {3.0, 0.0, -1}}};
   ExpectPose(path.At(5.0 + 2.0 * kPi).pose, {1.0, 4.0, -kPi / 2.0});
   ExpectPose(path.At(path.length()).pose, {1.0, 7.0, -kPi / 2.0});
@@ -105,7 +106,8 @@ TEST(Path, BendsAsItsPointsDo) {
 }
 
 TEST(Path, ClosesAfterTenKilometers) {
-  // 140 laps around a square with rounded corners, 10 km. Path promises "below 1e-9 m over 10 km".
+  // The path leads 140 times around a square with rounded corners, over 10 km in total. The
+  // documentation of Path states an error below 1e-9 m over 10 km.
   std::vector<Segment> segments;
   for (int i = 0; i < 4 * 140; ++i) {
     segments.push_back({10.0, 0.0, 1});
@@ -127,7 +129,8 @@ TEST(Path, ChecksItsSegments) {
   EXPECT_THROW(Path({}, {{1.0, 0.0, 2}}), InternalError);
   EXPECT_THROW(Path({0.0, std::nan(""), 0.0}, {}), PreconditionError);
   EXPECT_THROW(Path({0.0, 0.0, HUGE_VAL}, {{1.0, 0.0, 1}}), PreconditionError);
-  // The quadrature would take years for a heading change of 10^20 rad; an arc needs none.
+  // Numerical integration of a clothoid whose heading changes by 10^20 rad would take years, so
+  // Path rejects such a segment. An arc has a closed form.
   EXPECT_THROW(Path({}, {{1e10, 0.0, 1, 1.0}}), PreconditionError);
   EXPECT_THROW(Path({}, {{1e254, 0.0, 1, 1e-300}}), PreconditionError);
   EXPECT_NO_THROW(Path({}, {{1e10, 1e10, 1}}));
@@ -145,7 +148,8 @@ TEST(Project, LeftOfThePathIsPositive) {
 }
 
 TEST(Project, OnAnArcIsRadial) {
-  // 2 m inside a left arc about (10, 10), at 30 deg: left of the arc.
+  // The car is 2 m inside of the left arc around (10, 10), at 30 degrees along the arc. The inside
+  // is the left side.
   const Vec2 p = Vec2{10.0, 10.0} + 8.0 * Vec2{std::sin(kPi / 6.0), -std::cos(kPi / 6.0)};
   const Projection inside = Corner().Project({p.x(), p.y(), 0.0});
   EXPECT_NEAR(inside.s, 10.0 + 10.0 * kPi / 6.0, Tolerance(kRounding));
@@ -176,20 +180,22 @@ TEST(Project, OnReverseSegmentsKeepsTheCarsLeft) {
 }
 
 TEST(Project, WindowKeepsTheCarOnItsOwnSideOfACrossing) {
-  // East through the origin, three quarters of a circle to the left, south through the origin
-  // again.
+  // The path leads east through the origin, along three quarters of a circle to the left, and south
+  // through the origin.
   const Path path{{-20.0, 0.0, 0.0}, {{30.0, 0.0, 1}, {15.0 * kPi, 0.1, 1}, {40.0, 0.0, 1}}};
-  const double second = 30.0 + 15.0 * kPi + 10.0;  // station of the second crossing
+  const double second = 30.0 + 15.0 * kPi + 10.0;  // Station of the second passage through the
+                                                   // origin.
   ExpectPose(path.At(second).pose, {0.0, 0.0, 1.5 * kPi});
-  const Pose2 car{0.05, 0.1, 0.0};  // nearer to the second branch
+  const Pose2 car{0.05, 0.1, 0.0};  // The car is nearer to the second branch of the path.
   EXPECT_NEAR(path.Project(car).s, second - 0.1, Tolerance(kRounding));
   EXPECT_NEAR(path.Project(car, {18.0, 23.0}).s, 20.05, Tolerance(kRounding));
   EXPECT_NEAR(path.Project(car, {18.0, 23.0}).cross_track, 0.1, Tolerance(kRounding));
 }
 
 TEST(Project, FigureEightIsFollowedAllTheWay) {
-  // Two full circles through the origin. A car that stays within 0.3 m of the path, searched within
-  // 2 m of its last station, must not be projected onto the other circle.
+  // The path consists of two full circles through the origin. A car stays within 0.3 m of the path,
+  // and the search covers 2 m around its last station. Project must not return a point on the other
+  // circle.
   const Path path{{}, {{20.0 * kPi, 0.1, 1}, {20.0 * kPi, -0.1, 1}}};
   double last = 0.0;
   for (double s = 0.0; s < path.length(); s += 0.5) {
@@ -202,9 +208,10 @@ TEST(Project, FigureEightIsFollowedAllTheWay) {
 }
 
 TEST(Project, TiesGoToTheSmallestStation) {
-  const Path path{{}, {{10.0, 0.0, 1}, {10.0, 0.0, -1}}};  // forward and back over the same points
+  const Path path{{}, {{10.0, 0.0, 1}, {10.0, 0.0, -1}}};  // The path leads forward and back over
+                                                           // the same points.
   EXPECT_NEAR(path.Project({4.0, 1.0, 0.0}).s, 4.0, Tolerance(kRounding));
-  const Path laps{{}, {{60.0 * kPi, 0.1, 1}}};  // three laps
+  const Path laps{{}, {{60.0 * kPi, 0.1, 1}}};  // Three laps of a circle.
   EXPECT_NEAR(laps.Project({9.0, 10.0, 0.0}).s, 5.0 * kPi, Tolerance(kRounding));
   EXPECT_NEAR(laps.Project({9.0, 10.0, 0.0}, {40.0, 100.0}).s, 25.0 * kPi, Tolerance(kRounding));
 }
@@ -221,12 +228,12 @@ TEST(Project, EndsOfTheWindowAreStations) {
 }
 
 TEST(Project, IsTheNearestOfAllPoints) {
-  // Brute force: no point of a dense sampling may be nearer than the projection.
+  // No point of a dense sampling may be nearer than the projection.
   Random random(41);
   for (int i = 0; i < 300; ++i) {
     std::vector<Segment> segments;
     std::string text;
-    const int count = random.Below(6);  // also none
+    const int count = random.Below(6);  // A path may have no segments.
     for (int k = 0; k < count; ++k) {
       const double curvature = random.Below(3) == 0 ? 0.0 : random.Uniform(-0.3, 0.3);
       // Some arcs cover more than a full circle.
@@ -260,8 +267,9 @@ TEST(Project, IsTheNearestOfAllPoints) {
         ASSERT_GE((path.At(s).pose.position() - car.position()).norm(), nearest - 1e-11)
             << "s = " << s << ", found " << projection.s;
       }
-      // The cross-track error is the offset along the left normal of the path's point. Unless the
-      // foot is at an end, it equals the distance.
+      // The cross-track error is the offset along the left normal at the projected point. Its
+      // absolute value is the distance, unless the projected point is an end of the search interval
+      // or a cusp.
       EXPECT_NEAR(projection.cross_track,
                   LeftNormal(Direction(foot.pose.yaw)).dot(car.position() - foot.pose.position()),
                   Tolerance(kRounding));
@@ -317,7 +325,7 @@ TEST(Sample, IsEvenAndHasBothEnds) {
 // --- Segments of changing curvature
 // ------------------------------------------------------------------------------------------
 
-/// Simpson's rule over [0, length] in `intervals` (even) steps.
+/// Integrates `f` over [0, length] by Simpson's rule with an even number of intervals.
 template <typename Function>
 double Simpson(const Function& f, double length, int intervals) {
   const double h = length / intervals;
@@ -328,12 +336,12 @@ double Simpson(const Function& f, double length, int intervals) {
   return sum * h / 3.0;
 }
 
-/// The end of the clothoid with kappa(d) = sharpness d from the origin, by the power series of the
-/// Fresnel integrals: the sums of i^n (sharpness/2)^n length^(2n+1) / (n! (2n+1)).
+/// Returns the end of the clothoid with curvature kappa(d) = sharpness d that starts at the origin.
+/// Sums the power series of the Fresnel integrals, i^n (sharpness/2)^n length^(2n+1)/(n! (2n+1)).
 Vec2 FresnelEnd(double sharpness, double length) {
   const double turned = 0.5 * sharpness * length * length;
   Vec2 end{0.0, 0.0};
-  double power = length;  // length * turned^n/n!
+  double power = length;  // The value of length x turned^n/n!.
   for (int n = 0; n < 60; ++n) {
     end[n % 2] += (n % 4 < 2 ? 1.0 : -1.0) * power / (2 * n + 1);
     power *= turned / (n + 1);
@@ -347,24 +355,26 @@ TEST(Clothoid, EndsWhereTheFresnelIntegralsDo) {
       SCOPED_TRACE(fmt::format("sharpness {}, length {}", sharpness, length));
       const double turned = 0.5 * sharpness * length * length;
       const Vec2 end = FresnelEnd(sharpness, length);
-      // The largest term of the series is below length e^turned: rounding of at most 15 e^6 1e-16
-      // m.
+      // The terms of the series are below length e^turned, so their rounding error is at most 15
+      // e^6 1e-16 m = 6e-13 m.
       const Path forward{{}, {{length, 0.0, 1, sharpness}}};
       ExpectPose(forward.At(length).pose, {end.x(), end.y(), turned}, kRounding);
-      // In reverse the same curvature turns the car the other way: the mirror image.
+      // In reverse, the same curvature turns the car to the other side, so the end is the mirror
+      // image.
       const Path back{{}, {{length, 0.0, -1, sharpness}}};
       ExpectPose(back.At(length).pose, {-end.x(), end.y(), -turned}, kRounding);
     }
   }
 }
 
-/// Curvatures within a car's limits at both ends, every other time with a bulge in between.
+/// Returns a random segment whose curvature at both ends is within a car's limits. In half of the
+/// segments, the curvature has a bulge between the ends.
 Segment RandomSegment(Random& random) {
   const double length = random.Uniform(0.5, 20.0);
   const double from = random.Uniform(-0.2, 0.2);
   const double to = random.Uniform(-0.2, 0.2);
   const double bulge = random.Below(2) == 0 ? 0.0 : random.Uniform(-0.1, 0.1);
-  // kappa = from + (to - from) t + 4 bulge t (1 - t) with t = d/length.
+  // The curvature is from + (to - from) t + 4 bulge t (1 - t) with t = d/length.
   return {length, from, random.Below(3) == 0 ? -1 : 1, (to - from + 4.0 * bulge) / length,
           -8.0 * bulge / (length * length)};
 }
@@ -380,8 +390,9 @@ TEST(QuadraticSegment, EndsWhereItsHeadingLeads) {
              segment.direction * (segment.curvature * d + segment.sharpness * d * d / 2 +
                                   segment.sharpness_rate * d * d * d / 6);
     };
-    // With t = d/length the fourth derivatives of cosine and sine of the heading are below 4000:
-    // Simpson's error is below 20 m 4000/180/4000^4 = 2e-12 m.
+    // With respect to t = d/length, the fourth derivatives of the cosine and the sine of the
+    // heading are below 4000. With 4000 intervals, the error of Simpson's rule is below 20 m x
+    // 4000/180/4000^4 = 2e-12 m.
     const auto x = [&](double d) { return std::cos(yaw(d)); };
     const auto y = [&](double d) { return std::sin(yaw(d)); };
     const Path path(start, {segment});
@@ -416,13 +427,14 @@ TEST(QuadraticSegment, DerivativesAreThoseOfItsPoints) {
     const PathPoint before = path.At(s - kStep);
     const PathPoint at = path.At(s);
     const PathPoint after = path.At(s + kStep);
-    // Central differences err by h^2/6 times the third derivative. For the shortest segments that
-    // is (0.3^2 + 1.6)/m^2 of the position and 3.2/m^3 of the heading. Rounding adds 1e-15/h.
+    // The error of a central difference is h^2/6 times the third derivative. For the shortest
+    // segments, the third derivative is (0.3^2 + 1.6) 1/m^2 for the position and 3.2 1/m^3 for the
+    // heading. Rounding adds 1e-15/h.
     const Vec2 tangent = (after.pose.position() - before.pose.position()) / (2.0 * kStep);
     EXPECT_NEAR((at.direction * tangent - Direction(at.pose.yaw)).norm(), 0.0, Tolerance(3e-9));
     EXPECT_NEAR(at.direction * (after.pose.yaw - before.pose.yaw) / (2.0 * kStep), at.curvature,
                 Tolerance(6e-9));
-    // Central differences are exact for a quadratic.
+    // Central differences of a quadratic function are exact.
     EXPECT_NEAR((after.curvature - before.curvature) / (2.0 * kStep), at.sharpness,
                 Tolerance(1e-11));
     EXPECT_EQ(at.curvature, segment.CurvatureAt(s));
@@ -451,7 +463,8 @@ TEST(QuadraticSegment, MeetsItsNeighbors) {
     constexpr double kStep = 1e-9;
     const PathPoint before = path.At(joint - kStep);
     const PathPoint after = path.At(std::min(joint + kStep, path.length()));
-    // Twice the step at unit speed, with at most 0.3/m and 1.6/m^2.
+    // The points are 2e-9 m apart. Over this distance, a curvature of 0.3 1/m changes the heading
+    // by 6e-10 rad, and a sharpness of 1.6 1/m^2 changes the curvature by 3.2e-9 1/m.
     EXPECT_NEAR((after.pose.position() - before.pose.position()).norm(), 0.0, Tolerance(2.1e-9));
     EXPECT_NEAR(after.pose.yaw, before.pose.yaw, Tolerance(1e-9));
     EXPECT_NEAR(after.curvature, before.curvature, Tolerance(4e-9));
@@ -466,7 +479,8 @@ TEST(QuadraticSegment, IsCheckedLikeAnyOther) {
 }
 
 TEST(QuadraticSegment, ProjectFindsTheNearestOfAllPoints) {
-  // None of these poses is so near a center of curvature that another point of the path is nearest.
+  // Project may miss the nearest point if the car is close to a center of curvature. No random pose
+  // of this test is that close.
   Random random(55);
   for (int i = 0; i < 100; ++i) {
     std::vector<Segment> segments;
@@ -504,7 +518,7 @@ TEST(QuadraticSegment, ProjectFindsTheNearestOfAllPoints) {
 }
 
 TEST(QuadraticSegment, ProjectOfACarBesideItIsItsStation) {
-  // The projection is unique while the car is nearer to the path than its center of curvature,
+  // The projection is unique while the car's offset is less than the smallest radius of curvature,
   // 1/0.3 m.
   Random random(56);
   for (int i = 0; i < 300; ++i) {
@@ -514,7 +528,7 @@ TEST(QuadraticSegment, ProjectOfACarBesideItIsItsStation) {
     const Projection projection =
         path.Project(Compose(path.At(s).pose, {0.0, offset, 0.2}), {s - 3.0, s + 3.0});
     EXPECT_NEAR(projection.s, s, Tolerance(1e-9));
-    // The error across the path is the square of the error along it.
+    // An error e of the station changes the cross-track error only by the order of e^2.
     EXPECT_NEAR(projection.cross_track, offset, Tolerance(kRounding));
     EXPECT_NEAR(projection.heading_error, 0.2, Tolerance(1e-9));
   }
@@ -529,7 +543,7 @@ TEST(Cut, LeadsAlongTheSamePath) {
     std::vector<Segment> segments;
     for (int k = 0; k < 5; ++k) {
       Segment segment = RandomSegment(random);
-      if (random.Below(2) == 0) {  // an arc or a line
+      if (random.Below(2) == 0) {  // The segment becomes an arc or a line.
         segment.sharpness = 0.0;
         segment.sharpness_rate = 0.0;
         segment.curvature = random.Below(2) == 0 ? 0.0 : segment.curvature;
@@ -575,15 +589,16 @@ TEST(Cut, OfNothingIsEmpty) {
 // --- SegmentsThrough
 // ------------------------------------------------------------------------------------------
 
-/// A curve of oscillating curvature: kappa(s) = a sin(w s), with a third derivative of at most a
-/// w^3.
+/// A curve whose curvature oscillates: kappa(s) = a sin(w s). The third derivative of the curvature
+/// is at most a w^3.
 struct Sway {
   double a = 0.15;
   double w = 0.5;
 
   [[nodiscard]] double Yaw(double s) const { return a / w * (1.0 - std::cos(w * s)); }
   [[nodiscard]] Vec2 End(double s) const {
-    // Simpson's error: fourth derivatives below 0.1/m^4 times 20 m (20 m/20000)^4/180.
+    // The error of Simpson's rule is below 0.1 1/m^4 x 20 m x (20 m/20000)^4/180 = 1e-14 m, because
+    // the fourth derivatives are below 0.1 1/m^4.
     return {Simpson([&](double d) { return std::cos(Yaw(d)); }, s, 20000),
             Simpson([&](double d) { return std::sin(Yaw(d)); }, s, 20000)};
   }
@@ -615,7 +630,8 @@ TEST(SegmentsThrough, KeepTheirBoundsWhichShrinkWithTheFourthPower) {
     EXPECT_LE(yaw_error, bound / 384.0 + kRounding);
     EXPECT_LE(end_error, bound / 720.0 * kLength + kRounding);
     if (last_yaw_error > 0.0) {
-      // But for the next order, which is (w h)^2 relative at the coarser spacing.
+      // Halving the spacing divides the error by 16, except for terms of the next order. Their
+      // relative size is (w h)^2, where h is the coarser spacing.
       const double next_order = std::pow(2.0 * sway.w * spacing, 2);
       EXPECT_NEAR(last_yaw_error / yaw_error, 16.0, Tolerance(16.0 * next_order));
       EXPECT_NEAR(last_end_error / end_error, 16.0, Tolerance(16.0 * next_order));
@@ -635,8 +651,8 @@ TEST(SegmentsThrough, HaveTheCurvesHeadingAndCurvatureAtEveryPoint) {
 }
 
 TEST(SegmentsThrough, OfAClothoidAreIt) {
-  // kappa = 0.02 s at uneven distances. The tolerance is the rounding of headings over the cube of
-  // the shortest distance.
+  // The curvature is 0.02 s, and the points are unevenly spaced. The tolerance is the rounding
+  // error of the headings, divided by the cube of the shortest distance between the points.
   std::vector<CurvePoint> points;
   for (const double s : {0.0, 0.5, 2.0, 3.5, 8.0}) {
     points.push_back({s, 0.01 * s * s, 0.02 * s});

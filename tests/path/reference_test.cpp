@@ -12,12 +12,12 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
-// Tests speed profiles: constant acceleration between knots, trapezoids with caps against
-// hand-computed knots, and random profiles against their limits.
+// Tests speed profiles: constant acceleration between knots, trapezoidal profiles with caps against
+// knots computed by hand, and random profiles against their limits.
 namespace trackbed {
 namespace reference_test {
 
-// Rounding: a few operations on numbers below 1000.
+// Rounding error of a few operations on numbers below 1000.
 constexpr double kRounding = 1e-12;
 constexpr SpeedLimits kLimits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
 
@@ -32,7 +32,8 @@ void ExpectKnots(const SpeedProfile& profile, const std::vector<SpeedProfile::Kn
 TEST(SpeedProfile, SquareOfTheSpeedIsLinear) {
   const SpeedProfile profile({{2.0, 1.0}, {6.0, 3.0}, {10.0, 3.0}});
   EXPECT_NEAR(profile.SpeedAt(4.0), std::sqrt(5.0), Tolerance(kRounding));
-  EXPECT_NEAR(profile.AccelerationAt(4.0), 1.0, Tolerance(kRounding));  // (9 - 1)/(2 * 4)
+  EXPECT_NEAR(profile.AccelerationAt(4.0), 1.0, Tolerance(kRounding));  // The acceleration is (3^2
+                                                                        // - 1^2)/(2 x 4) m/s^2.
   EXPECT_EQ(profile.SpeedAt(8.0), 3.0);
   EXPECT_EQ(profile.AccelerationAt(8.0), 0.0);
   EXPECT_EQ(profile.SpeedAt(0.0), 1.0);
@@ -53,7 +54,10 @@ TEST(SpeedProfile, TimeIsDistanceOverMeanSpeed) {
   EXPECT_EQ(profile.TimeAt(2.0), 0.0);
   EXPECT_EQ(profile.TimeAt(0.0), 0.0);
   EXPECT_NEAR(profile.TimeAt(6.0), 2.0, Tolerance(kRounding));
-  EXPECT_NEAR(profile.TimeAt(4.0), std::sqrt(5.0) - 1.0, Tolerance(kRounding));  // dv = a t
+  EXPECT_NEAR(profile.TimeAt(4.0), std::sqrt(5.0) - 1.0, Tolerance(kRounding));  // The speed rises
+                                                                                 // from 1 to
+                                                                                 // sqrt(5) m/s at 1
+                                                                                 // m/s^2.
   EXPECT_NEAR(profile.TimeAt(12.0), 4.0, Tolerance(kRounding));
   EXPECT_NEAR(profile.TimeAt(15.0), 5.0, Tolerance(kRounding));
 }
@@ -64,7 +68,9 @@ TEST(SpeedProfile, StationIsTheInverseOfTime) {
     EXPECT_NEAR(profile.StationAt(profile.TimeAt(s)), s, Tolerance(kRounding));
   }
   EXPECT_EQ(profile.StationAt(0.0), 2.0);
-  EXPECT_NEAR(profile.StationAt(1.0), 2.0 + 1.5, Tolerance(kRounding));  // t + t^2/2
+  EXPECT_NEAR(profile.StationAt(1.0), 2.0 + 1.5, Tolerance(kRounding));  // The distance is v t + a
+                                                                         // t^2/2 with v = 1 m/s, a
+                                                                         // = 1 m/s^2 and t = 1 s.
   EXPECT_EQ(profile.StationAt(100.0), 15.0);
   EXPECT_NEAR(SpeedProfile({{1.0, 2.0}}).StationAt(3.0), 7.0, Tolerance(kRounding));
   EXPECT_EQ(SpeedProfile({{0.0, 0.0}, {3.0, 0.0}}).StationAt(9.0), 0.0);
@@ -101,9 +107,9 @@ TEST(SpeedProfile, ChecksItsKnots) {
 }
 
 TEST(StopAtEnd, IsATrapezoid) {
-  // Accelerating to the limit takes 3^2/(2 * 1) = 4.5 m, stopping 3^2/(2 * 1.5) = 3 m.
+  // Accelerating to the limit takes 3^2/(2 x 1) = 4.5 m, and stopping takes 3^2/(2 x 1.5) = 3 m.
   ExpectKnots(StopAtEnd(100.0, 0.0, kLimits), {{0, 0}, {4.5, 3}, {97, 3}, {100, 0}});
-  // 3 s, 92.5/3 s, 2 s.
+  // Accelerating takes 3 s, driving at the limit 92.5/3 s, and braking 2 s.
   EXPECT_NEAR(StopAtEnd(100.0, 0.0, kLimits).TimeAt(100.0), 5.0 + 92.5 / 3.0, Tolerance(kRounding));
 }
 
@@ -113,14 +119,15 @@ TEST(StopAtEnd, LeavesAtTheStartSpeed) {
 }
 
 TEST(StopAtEnd, SlowsDownToTheLimit) {
-  // Braking from 4 to 3 m/s takes (16 - 9)/(2 * 1.5) = 7/3 m.
+  // Braking from 4 to 3 m/s takes (4^2 - 3^2)/(2 x 1.5) = 7/3 m.
   ExpectKnots(StopAtEnd(100.0, 4.0, kLimits), {{0, 4}, {7.0 / 3.0, 3}, {97, 3}, {100, 0}});
 }
 
 TEST(StopAtEnd, PeaksBelowTheLimitWhereThereIsNoRoom) {
-  // v^2/2 + v^2/3 = 5 m: v^2 = 6, the peak at 3 m.
+  // The peak speed v satisfies v^2/2 + v^2/3 = 5 m^2/s^2, so v^2 = 6 m^2/s^2. The peak is at 3 m.
   ExpectKnots(StopAtEnd(5.0, 0.0, kLimits), {{0, 0}, {3, std::sqrt(6.0)}, {5, 0}});
-  // From 1 m/s: (v^2 - 1)/2 + v^2/3 = 4.5: v^2 = 6, the peak at 2.5 m.
+  // From 1 m/s, the peak speed v satisfies (v^2 - 1)/2 + v^2/3 = 4.5, so v^2 = 6. The peak is at
+  // 2.5 m.
   ExpectKnots(StopAtEnd(4.5, 1.0, kLimits), {{0, 1}, {2.5, std::sqrt(6.0)}, {4.5, 0}});
 }
 
@@ -134,7 +141,8 @@ TEST(StopAtEnd, BrakesHarderWhereItMust) {
 // --- Caps ---------------------------------------------------------------------------------------
 
 TEST(StopAtEnd, SlowsDownForACapAndSpeedsUpAfterIt) {
-  // From 3 to 2 m/s at 1.5 m/s^2 takes 5/3 m, back at 1 m/s^2 takes 2.5 m, and to rest takes 3 m.
+  // Braking from 3 to 2 m/s at 1.5 m/s^2 takes 5/3 m. Accelerating back at 1 m/s^2 takes 2.5 m, and
+  // stopping takes 3 m.
   const SpeedProfile profile = StopAtEnd(40.0, 3.0, {3.0, 1.0, 1.5}, {{10.0, 15.0, 2.0}});
   const std::vector<SpeedProfile::Knot>& knots = profile.knots();
   const std::vector<double> stations{0.0, 10.0 - 5.0 / 3.0, 10.0, 15.0, 17.5, 37.0, 40.0};
@@ -147,8 +155,8 @@ TEST(StopAtEnd, SlowsDownForACapAndSpeedsUpAfterIt) {
 }
 
 TEST(StopAtEnd, PeaksBetweenCapsThatAreClose) {
-  // Between 1 m/s at 10 m and at 13 m: accelerating at 1 and braking at 1.5 m/s^2, the peak is 1.8
-  // m after the first station, at v^2 = 1 + 3.6.
+  // Between the caps of 1 m/s, from 10 m to 13 m, the car accelerates at 1 m/s^2 and brakes at 1.5
+  // m/s^2. The peak is 1.8 m after the first cap, with v^2 = 1 + 2 x 1.8 = 4.6.
   const SpeedProfile profile =
       StopAtEnd(40.0, 1.0, {3.0, 1.0, 1.5}, {{0.0, 10.0, 1.0}, {13.0, 20.0, 1.0}});
   EXPECT_NEAR(profile.SpeedAt(11.8), std::sqrt(4.6), Tolerance(1e-12));
@@ -156,7 +164,8 @@ TEST(StopAtEnd, PeaksBetweenCapsThatAreClose) {
 }
 
 TEST(StopAtEnd, BrakesHarderBeforeANearCap) {
-  // 9 - 1 = 2 d 2: braking needs 2 m/s^2 instead of 1.5.
+  // Braking from 3 to 1 m/s within 2 m needs (3^2 - 1^2)/(2 x 2) = 2 m/s^2, more than the limit of
+  // 1.5 m/s^2.
   const SpeedProfile profile = StopAtEnd(40.0, 3.0, {3.0, 1.0, 1.5}, {{2.0, 5.0, 1.0}});
   EXPECT_NEAR(profile.AccelerationAt(1.0), -2.0, Tolerance(1e-12));
   EXPECT_NEAR(profile.SpeedAt(3.0), 1.0, Tolerance(1e-12));
@@ -197,10 +206,11 @@ TEST(StopAtEnd, KeepsRandomCaps) {
   }
 }
 
-// The general limit is no cap: it is in force from the start, however the caps divide the path.
+// The general speed limit is not a cap. The car brakes to it from the start, however the caps
+// divide the path.
 TEST(StopAtEnd, SlowsDownToTheLimitAcrossTheEndsOfCaps) {
   const std::vector<SpeedCap> caps{{1.0, 2.0, 6.9}, {2.0, 3.0, 6.8}};
-  // (4^2 - 3^2)/(2 * 1.5 m/s^2) = 7/3 m, as without caps.
+  // Braking takes (4^2 - 3^2)/(2 x 1.5) = 7/3 m, as without caps.
   const SpeedProfile profile = StopAtEnd(100.0, 4.0, kLimits, caps);
   EXPECT_NEAR(profile.AccelerationAt(0.5), -1.5, Tolerance(1e-12));
   EXPECT_NEAR(profile.AccelerationAt(2.2), -1.5, Tolerance(1e-12));
@@ -208,8 +218,9 @@ TEST(StopAtEnd, SlowsDownToTheLimitAcrossTheEndsOfCaps) {
   EXPECT_NEAR(profile.SpeedAt(50.0), 3.0, Tolerance(1e-12));
 }
 
-// The oracle at each station: the car brakes at most at the maximum deceleration, and is nowhere
-// faster than its limit or than a car that has braked at the maximum deceleration from the start.
+// The car must not brake harder than the maximum deceleration. At each station, its speed must not
+// exceed the larger of two speeds: its limit, and the speed of a car that brakes at the maximum
+// deceleration from the start.
 TEST(StopAtEnd, SlowsDownGentlyToCapsThatAreNotStrict) {
   Random random(23);
   for (int i = 0; i < 2000; ++i) {
@@ -231,7 +242,8 @@ TEST(StopAtEnd, SlowsDownGentlyToCapsThatAreNotStrict) {
     for (std::size_t k = 1; k < profile.knots().size(); ++k) {
       const auto& [from, v_from] = profile.knots()[k - 1];
       const auto& [until, v_to] = profile.knots()[k];
-      // v^2 is up to 144 over an interval of at least 1e-9 m; its rounding is 1e-14 of it.
+      // The rounding error of v^2 is 1e-14 of its largest value 144 m^2/s^2. Divided by the length
+      // of the interval, at least 1e-9 m, it becomes an error of the acceleration.
       const double rounding = 1e-6 + 2e-12 / (until - from);
       EXPECT_GE((v_to * v_to - v_from * v_from) / (2.0 * (until - from)),
                 -limits.deceleration - rounding);
@@ -270,17 +282,19 @@ TEST(StopAtEnd, KeepsItsLimitsOnRandomMissions) {
     EXPECT_EQ(knots.front().speed, start);
     EXPECT_EQ(knots.back().s, length);
     EXPECT_EQ(knots.back().speed, 0.0);
-    const double stop = start * start / (2.0 * length);  // needed to stop in time
+    const double stop = start * start / (2.0 * length);  // The deceleration that is needed to stop
+                                                         // at the end of the path.
     double time = 0.0;
     for (std::size_t k = 0; k + 1 < knots.size(); ++k) {
       const double middle = 0.5 * (knots[k].s + knots[k + 1].s);
       const double a = profile.AccelerationAt(middle);
-      // v^2 is up to 100 over an interval that may be short: the rounding of v^2 over its length.
+      // The rounding error of v^2, which is up to 100 m^2/s^2, is divided by the length of the
+      // interval, which may be short.
       const double tolerance = Tolerance(1e-12 / std::min(1.0, knots[k + 1].s - knots[k].s));
       EXPECT_LE(a, limits.acceleration + tolerance);
       EXPECT_GE(a, -std::max(limits.deceleration, stop) - tolerance);
       EXPECT_LE(profile.SpeedAt(middle), std::max(start, limits.speed) + Tolerance(kRounding));
-      // Time over an interval of constant acceleration.
+      // Adds the time over an interval of constant acceleration.
       time += a == 0.0 ? (knots[k + 1].s - knots[k].s) / knots[k].speed
                        : (knots[k + 1].speed - knots[k].speed) / a;
     }
@@ -318,7 +332,8 @@ TEST(StopAtCusps, KeepsTheKindOfItsCaps) {
 }
 
 TEST(Excerpt, HoldsNothingOfTheLegBefore) {
-  // Stations that do not add up exactly, such as multiples of 0.1.
+  // The lengths of the segments have no exact binary representation, so their sums have rounding
+  // errors. These errors must not add a piece of the previous leg.
   const SpeedLimits limits{.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
   std::vector<Segment> segments;
   for (int i = 0; i < 40; ++i) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kWindow = 4.0;  // [m]
 
-/// A line, a quarter of a circle of 10 m to the left, a line.
+/// Returns a path of a line, a quarter circle of radius 10 m to the left, and a line.
 Path Turn() {
   return Path({1.0, 2.0, 0.5}, {{20.0, 0.0, 1}, {5.0 * kPi, 0.1, 1}, {20.0, 0.0, 1}});
 }
@@ -26,8 +26,8 @@ TEST(SmoothCurvature, HasNoJumpsOfCurvature) {
     EXPECT_NEAR(segments[i - 1].CurvatureAt(segments[i - 1].length), segments[i].curvature,
                 Tolerance(1e-12));
   }
-  // The curvature rises from 0 to the arc's over the window, in steps of 0.1 m, a fortieth of it.
-  // The factor 1.6 covers the averaging window, whose length differs by some tenths.
+  // Over the window, the curvature rises linearly from 0 to the arc's 0.1 1/m. The factor 1.6 is a
+  // margin, because the window is averaged in steps of 0.1 m.
   double steepest = 0.0;
   for (double s = 0.0; s < rounded.length(); s += 0.01) {
     steepest = std::max(steepest, std::abs(rounded.At(s).sharpness));
@@ -42,13 +42,14 @@ TEST(SmoothCurvature, StaysWithinItsBound) {
   double most = 0.0;
   for (double s = 0.0; s <= rounded.length(); s += 0.1) {
     const Projection projection = turn.Project(rounded.At(s).pose, {s - 5.0, s + 5.0});
-    // Errors of Simpson's rule and of quadratic curvature over 0.1 m at the four kinks of the
-    // curvature.
+    // The tolerance allows for errors near the four kinks of the curvature. Simpson's rule and the
+    // quadratic curvature over 0.1 m cause these errors.
     EXPECT_GT(projection.cross_track, -Tolerance(1e-4));
     most = std::max(most, projection.cross_track);
   }
   EXPECT_LT(most, bound + Tolerance(1e-4));
-  // The full offset is reached in the middle of the arc: R (1 - sin(w/2R)/(w/2R)).
+  // The offset is largest in the middle of the arc: R (1 - sin(w/2R)/(w/2R)), with the radius R =
+  // 10 m and the window w = 4 m.
   EXPECT_NEAR(most, 10.0 * (1.0 - std::sin(0.2) / 0.2), Tolerance(1e-4));
   EXPECT_NEAR(rounded.At(rounded.length()).pose.yaw, turn.At(turn.length()).pose.yaw,
               Tolerance(1e-12));
