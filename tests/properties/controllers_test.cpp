@@ -23,10 +23,10 @@ class EveryController : public testing::TestWithParam<ControllerEntry> {};
 INSTANTIATE_TEST_SUITE_P(Registry, EveryController, testing::ValuesIn(Controllers()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// Input of a controller.
+/// The inputs of a controller.
 struct Situation {
   VehicleParams vehicle;
-  Pose2 start;  // of the path
+  Pose2 start;  // Start pose of the path.
   std::vector<Segment> segments;
   VehicleState state;
   double station = 0.0;
@@ -47,7 +47,7 @@ double SteeringIn(const ControllerEntry& entry, const Situation& now) {
                .period = now.period});
 }
 
-/// A car near its path.
+/// Returns a random car near its path.
 Situation UsualSituation() {
   Situation now{.vehicle = ScaledCar(1.0)};
   const int direction = OnceIn(4) ? -1 : 1;
@@ -69,7 +69,7 @@ Situation UsualSituation() {
   return now;
 }
 
-/// A car anywhere, on a path of any kind.
+/// Returns a random car at any pose, on a random path that may have no segments.
 Situation WildSituation() {
   const double scale = *PowerOfTen(-6, 3);
   Situation now{.vehicle = ScaledCar(OnceIn(2) ? scale : 1.0)};
@@ -118,7 +118,8 @@ TEST_P(EveryController, AnswersWithAnAngleWhereverTheCarIs) {
   });
 }
 
-// Searches stop within 1e-6 of their bounds of 0.5 rad, quadratic programs within 1e-9.
+// Tolerance [rad] of steering angles. Searches stop within 1e-6 of the steering range of 0.5 rad,
+// and quadratic programs within 1e-9.
 constexpr double kSearch = 1e-6;
 
 TEST_P(EveryController, SteersTheOtherWayInAMirroredWorld) {

@@ -11,8 +11,9 @@
 /// Calls of public functions, for entries_test.cpp.
 namespace properties {
 
-/// A call of a public function with one chosen number and otherwise valid arguments. Its result
-/// must be finite exactly if the call reports success.
+/// A call of a public function that uses `number` for one argument and valid values for all other
+/// arguments. The returned number must be finite if the call succeeds, and not finite if the call
+/// reports failure.
 struct Entry {
   std::string name;
   std::function<double(double number)> call;
@@ -30,7 +31,7 @@ inline double SumOf(const trackbed::Vec2& point) {
   return point.x() + point.y();
 }
 
-/// A straight, a clothoid and an arc.
+/// Returns a path of a straight line, a clothoid and an arc.
 const trackbed::Path& Bend();
 
 std::vector<Entry> OfGeometry();

@@ -1,4 +1,4 @@
-// Entries of the geometry and of paths.
+// Calls of the public functions of geometry and paths.
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// Entries of planning, control and the optimizers.
+// Calls of the public functions of planning, control and the optimizers.
 
 #include <span>
 

@@ -1,4 +1,4 @@
-// Entries of vehicles and the world.
+// Calls of the public functions of vehicles and the world.
 
 #include <algorithm>
 

@@ -1,5 +1,6 @@
-// NaN at the public functions must give an error, or a result that is NaN or reports failure. Other
-// absurd numbers, such as infinities, may be accepted, but must not crash.
+// If an argument of a public function is NaN, the function must throw an error, return NaN, or
+// report failure. For other invalid numbers, such as infinity, the function may return a result,
+// but must not crash.
 
 #include "tests/properties/entries.h"
 
@@ -46,7 +47,7 @@ TEST_P(Entries, SurviveEveryNumber) {
   }
 }
 
-/// All numbers of a planning request.
+/// Returns references to the numbers in a planning request, with their names.
 std::vector<std::pair<std::string, std::function<double&(PlanRequest&)>>> NumbersOf() {
   std::vector<std::pair<std::string, std::function<double&(PlanRequest&)>>> numbers{
       {"start.x", [](PlanRequest& r) -> double& { return r.start.x; }},

@@ -53,7 +53,8 @@ class Measurement {
   }
 
  private:
-  /// Stations of the segment joints, with a few stations between; at most some thousand.
+  /// Returns the stations of the joints between segments, and stations between them. On a path with
+  /// more than 500 segments, uses only every n-th segment.
   [[nodiscard]] std::vector<double> Stations() const {
     const std::vector<Segment>& segments = path_.segments();
     const std::size_t stride = 1 + segments.size() / 500;
@@ -73,7 +74,8 @@ class Measurement {
 
   [[nodiscard]] std::string FlawInSpeeds() const {
     const std::vector<SpeedProfile::Knot>& knots = plan_.reference.speed.knots();
-    constexpr double kNegligible = 2e-9;  // [m]; a profile omits shorter stretches
+    constexpr double kNegligible = 2e-9;  // A speed profile omits intervals shorter than this
+                                          // length [m].
     if (knots.empty() || knots.back().speed != 0.0 || knots.front().s != 0.0 ||
         !(std::abs(knots.back().s - path_.length()) <= kNegligible)) {
       return "the speeds do not end at rest at the end of the path";
@@ -95,7 +97,7 @@ class Measurement {
     const Pose2 first = path_.At(0.0).pose;
     const double away = (first.position() - request_.start.position()).norm();
     const double turned = std::abs(AngleDifference(first.yaw, request_.start.yaw));
-    // Tolerance for equal positions, for a car of some meters: see feasibility.h.
+    // Tolerance for equal positions [m]; see feasibility.h.
     const double same = 1e-3 * std::min(1.0, request_.vehicle.wheelbase);
     if (!(away <= same + rounding_) || !(turned <= 1e-3 * (1.0 + 1e-6))) {
       return fmt::format("begins {} m and {} rad from the car", away, turned);
@@ -105,8 +107,9 @@ class Measurement {
     }
     const Pose2 last = path_.At(path_.length()).pose;
     const double missed = (last.position() - request_.waypoints.back()).norm();
-    // Planners end at their goals to 1e-9 m, small cars to 1e-9 of their size. Where planners treat
-    // corners below 1e-9 rad as straight, the end of a leg deviates by that fraction of its length.
+    // Planners reach their goal to 1e-9 m, or to 1e-9 of the wheelbase of a small car. Some
+    // planners treat corners below 1e-9 rad as straight; the end of a leg then deviates by 1e-9 of
+    // its length.
     const double small = std::min(1.0, request_.vehicle.wheelbase) + path_.length();
     if (!(missed <= 1e-9 * small + 16.0 * rounding_)) {
       return fmt::format("ends {} m from the last waypoint", missed);
@@ -119,7 +122,7 @@ class Measurement {
     return "";
   }
 
-  /// Checks two chords beginning at a station.
+  /// Checks two consecutive chords from the station `from`.
   [[nodiscard]] std::string FlawAt(double from) const {
     if (from < 0.0 || from + 2.0 * step_ > path_.length()) {
       return "";
@@ -143,8 +146,9 @@ class Measurement {
     }
     const double first = Heading(a, b);
     const double second = Heading(b, c);
-    // If the path turns by at most K h over each chord, the chords' directions differ by at most K
-    // h, except for the difference between chord and arc, K^3 h^3/24 = 4e-8.
+    // If the path turns by at most K h over each chord of length h, where K is the largest
+    // curvature, the directions of the chords differ by at most K h. The difference between chord
+    // and arc adds K^3 h^3/24 = 4e-8 rad.
     if (!(std::abs(AngleDifference(second, first)) <= sharpest_ * step_ + noise + 1e-7)) {
       return fmt::format("turns by {} rad over {} m at s = {}, full lock is {}",
                          AngleDifference(second, first), step_, b.s, sharpest_ * step_);
@@ -168,8 +172,8 @@ class Measurement {
     });
   }
 
-  /// Checks the footprint along the path against every box; skips paths longer than some thousand
-  /// car lengths.
+  /// Checks the distance between the car's footprint and every obstacle along the path. Skips paths
+  /// longer than 200 car lengths.
   [[nodiscard]] std::string FlawInClearance() const {
     const VehicleParams& car = request_.vehicle;
     const double spacing = 0.1 * car.length;
@@ -197,9 +201,9 @@ class Measurement {
   const PlanRequest& request_;
   const PlannerEntry& entry_;
   const Path& path_;
-  double sharpest_;        // curvature [1/m]
-  double step_;            // [m]
-  double rounding_ = 0.0;  // of positions [m]
+  double sharpest_;        // Largest curvature [1/m].
+  double step_;            // Length of a chord [m].
+  double rounding_ = 0.0;  // Rounding error of positions [m].
 };
 
 }  // namespace

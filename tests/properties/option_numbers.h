@@ -7,7 +7,8 @@
 
 namespace properties {
 
-/// Calls a function for every number among the keys that `visit` declares, to read or set it.
+/// Calls the function `call` for every number among the keys that `visit` declares. The function
+/// may read or set the number.
 void ForEachNumber(
     const trackbed::KeyVisitor::Inside& visit,
     const std::function<void(const std::string& key, double& value, trackbed::Range range)>& call);

@@ -21,7 +21,8 @@ using namespace trackbed;
 
 class EveryPlanner : public testing::TestWithParam<PlannerEntry> {};
 
-/// All planners except those that follow a track or lanes: these problems are on open ground.
+/// Returns all planners that use waypoints. Omits planners that follow a track or lanes, because
+/// the test problems have neither.
 std::vector<PlannerEntry> PlannersOfWaypoints() {
   std::vector<PlannerEntry> planners = Planners();
   std::erase_if(planners, [](const PlannerEntry& entry) {
@@ -33,7 +34,8 @@ std::vector<PlannerEntry> PlannersOfWaypoints() {
 INSTANTIATE_TEST_SUITE_P(Registry, EveryPlanner, testing::ValuesIn(PlannersOfWaypoints()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// A successful plan reaches its goal; any other has a reason and no path.
+/// Expects that a successful plan reaches its goal, and that any other plan has a reason and an
+/// empty path.
 void CheckPlan(const Plan& plan, const Problem& problem, const PlannerEntry& entry) {
   RC_LOG() << ToText(problem) << "\n" << ToString(plan.status) << ": " << plan.reason << "\n";
   RC_TAG(std::string(ToString(plan.status)));
@@ -75,7 +77,7 @@ TEST_P(EveryPlanner, LeadsTheCarOfAUsualProblem) {
   });
 }
 
-/// Expects the same path, seen from another frame.
+/// Expects that `path` is the path `expected` after the transformation `seen`.
 void CheckSamePath(const Path& expected, const Path& path, double tolerance,
                    const std::function<Pose2(const Pose2&)>& seen) {
   RC_ASSERT(std::abs(path.length() - expected.length()) <= tolerance);
@@ -91,10 +93,10 @@ void CheckSamePath(const Path& expected, const Path& path, double tolerance,
   }
 }
 
-/// Planners that do not distinguish paths of equal cost, or draw random numbers in world axes, only
-/// have to find a path again. The others must find the same path, except for the rounding of
-/// coordinates of some 1000 m (2e-13 m) propagated through a search that stops within 1e-9 of its
-/// bounds.
+/// Expects that a planner solves a mirrored or moved problem equally. Some planners do not
+/// distinguish between paths of equal cost, or draw random numbers in world axes: such a planner
+/// must only find a path. All other planners must find the same path up to rounding. Rounding of
+/// coordinates of about 1000 m (2e-13 m) grows in a search that stops within 1e-9 of its bounds.
 void CheckSeenFromElsewhere(const PlannerEntry& entry, const Problem& problem, const Problem& other,
                             const std::function<Pose2(const Pose2&)>& seen) {
   const Plan plan = MakePlan(problem.request, problem.options);
@@ -112,11 +114,12 @@ void CheckSeenFromElsewhere(const PlannerEntry& entry, const Problem& problem, c
     return;
   }
   RC_ASSERT(plan.status == same.status);
-  // A grid search around boxes uses other cells and ends with another path.
+  // Around boxes, a grid search in the moved problem uses other cells and finds another path.
   if (!plan.ok() || entry.has_ties || (entry.searches && !problem.request.obstacles.empty())) {
     return;
   }
-  // A box straight ahead leaves curves of equal length to the left and to the right.
+  // Around a box straight ahead, the curves to the left and to the right have equal length, and a
+  // planner may choose either.
   if (entry.keeps_clear && !problem.request.obstacles.empty()) {
     RC_ASSERT(std::abs(plan.reference.path.length() - same.reference.path.length()) <=
               Tolerance(1e-5));

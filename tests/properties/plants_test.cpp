@@ -61,10 +61,10 @@ bool IsFinite(const VehicleState& state) {
   return std::all_of(numbers.begin(), numbers.end(), [](double x) { return std::isfinite(x); });
 }
 
-/// A command for a number of steps.
+/// A command that applies for a number of steps.
 struct Phase {
   Command command;
-  double push = 0.0;  // [N]
+  double push = 0.0;  // Lateral force on the car [N].
   int steps = 0;
 };
 
@@ -73,7 +73,7 @@ struct Drive {
   std::vector<Phase> phases;
 };
 
-/// A run as of a careful driver.
+/// Returns a random run with the commands of a careful driver.
 Drive UsualDrive() {
   Drive drive{.start = {.pose = {}, .speed = *Between(0.0, 15.0), .steering = *Within(0.3)}};
   const int count = Pick(1, 3);
@@ -91,7 +91,7 @@ double AnyMagnitude() {
   return *Within(1.0) * *PowerOfTen(-300, 300);
 }
 
-/// A run with arbitrary commands from an arbitrary state.
+/// Returns a random run with arbitrary commands from an arbitrary state.
 Drive WildDrive() {
   Drive drive{.start = {.pose = {*Within(1.0) * *PowerOfTen(0, 6), *Within(1e3), *Within(1e3)},
                         .speed = *Within(1.0) * *PowerOfTen(-3, 2),
@@ -119,7 +119,7 @@ Drive MirrorOf(Drive drive) {
   return drive;
 }
 
-/// The state after the run; sets `diverged` if the plant diverged.
+/// Returns the state after a run. Sets `diverged` if the plant diverged.
 VehicleState After(const std::string& name, const Drive& drive, bool& diverged) {
   const auto plant = PlantAt(name, drive.start);
   for (const Phase& phase : drive.phases) {
@@ -132,8 +132,9 @@ VehicleState After(const std::string& name, const Drive& drive, bool& diverged) 
   return plant->Observe();
 }
 
-// The model is symmetric to rounding. The contact solver stops at 1e-10 of the energy scale m g per
-// step: see MirrorsWithTheSteering in tests/sim/plant_test.cpp.
+// Tolerance of symmetry [m, rad]. The model is symmetric up to rounding. In each step, the contact
+// solver stops at 1e-10 of the energy scale m g; see MirrorsWithTheSteering in
+// tests/sim/plant_test.cpp.
 constexpr double kSolver = 1e-5;
 
 void CheckSame(const Pose2& a, const Pose2& b) {
@@ -197,7 +198,7 @@ TEST_P(EveryPlant, RefusesWhatIsNoNumber) {
     EXPECT_THROW(plant->Step({.acceleration = bad}), PreconditionError);
     EXPECT_THROW(plant->ApplyLateralOffset(bad), PreconditionError);
     EXPECT_THROW(plant->ApplyLateralForce(bad), PreconditionError);
-    // The plant keeps its valid state.
+    // After an exception, the plant must keep its valid state.
     plant->Step({});
     EXPECT_TRUE(IsFinite(plant->Observe()));
     EXPECT_FALSE(plant->diverged());

@@ -1,8 +1,9 @@
 // Random planning problems for the property tests.
 //
-// A problem combines a car and a scene of some power of ten in size, a route (on a lattice with
-// degenerate legs, or easily drivable), start and goal headings, obstacles and planner options.
-// Mirrored() and Moved() transform a problem without changing its solution's shape.
+// A problem consists of a car, a route, start and goal headings, obstacles and planner options. The
+// size of the car and of the scene is a power of ten. A route is easily drivable, or lies on a
+// lattice and contains degenerate legs. Mirrored() and Moved() transform a problem without changing
+// the shape of its solution.
 
 #include "tests/properties/problems.h"
 
@@ -30,7 +31,8 @@ namespace {
 
 using namespace trackbed;
 
-/// A multiple of an eighth of a turn, exactly or nearly, or any direction.
+/// Returns a random heading [rad]: a multiple of an eighth of a turn, a heading very close to such
+/// a multiple, or any heading.
 double AnyHeading() {
   const double eighths = 0.25 * kPi * Pick(0, 7);
   switch (Pick(0, 3)) {
@@ -45,7 +47,8 @@ double AnyHeading() {
   }
 }
 
-/// Points of a lattice, so that many coincide, are collinear or turn back; some are slightly off.
+/// Returns random points of a lattice. Many of them coincide, lie on one line or turn back. Some
+/// points lie slightly off the lattice.
 std::vector<Vec2> LatticeRoute(std::size_t count, double scale) {
   std::vector<Vec2> route;
   for (std::size_t i = 0; i < count; ++i) {
@@ -58,7 +61,7 @@ std::vector<Vec2> LatticeRoute(std::size_t count, double scale) {
   return route;
 }
 
-/// Legs that turn by less than a right angle.
+/// Returns a route whose legs turn by less than a right angle.
 std::vector<Vec2> EasyRoute(std::size_t count, double scale) {
   std::vector<Vec2> route{scale * Vec2(*Within(30.0), *Within(30.0))};
   double heading = *Within(kPi);
@@ -69,7 +72,8 @@ std::vector<Vec2> EasyRoute(std::size_t count, double scale) {
   return route;
 }
 
-/// Distances that suit the car, and budgets that keep a case below a tenth of a second.
+/// Sets distances that suit the size of the car, and budgets that limit the time of a test case to
+/// 0.1 s.
 void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
   ForEachNumber([&](KeyVisitor& keys) { Visit(keys, options); },
                 [&](const std::string& key, double& value, Range) {
@@ -111,7 +115,7 @@ void SetOptions(PlannerOptions& options, double scale, bool adversarial) {
   }
 }
 
-/// Transforms the path of the planner path_file.
+/// Applies `transform` to the path in the options of the planner path_file.
 template <typename Transform>
 void TransformPath(PlannerOptions& options, const Transform& transform) {
   auto* own = options.As<PathFileOptions>();
@@ -168,7 +172,8 @@ Problem AnyProblem(const PlannerEntry& entry, const Wildness& wildness) {
   const double scale = adversarial ? *PowerOfTen(wildness.smallest, wildness.largest) : 1.0;
   Problem problem{.request = {}, .options = entry.defaults};
   PlanRequest& request = problem.request;
-  // A scene of any size with a full-size car, or with a car that suits the scene.
+  // In half of the adversarial problems, the car has full size in a scene of any size. Otherwise,
+  // the size of the car suits the scene.
   const double car = adversarial && OnceIn(2) ? scale : 1.0;
   request.vehicle = ScaledCar(car);
   const double speed = car * *Between(0.5, 10.0);

@@ -9,28 +9,29 @@
 
 namespace properties {
 
-/// A planning problem: request and options.
+/// A planning problem: a request and the planner's options.
 struct Problem {
   trackbed::PlanRequest request;
   trackbed::PlannerOptions options;
 };
 
-/// Range of the random problems.
+/// The range of the random problems.
 struct Wildness {
-  /// Coincident points, reversing and nearly parallel legs, obstacles on start and goal, and a
-  /// start unrelated to the route; otherwise mostly drivable problems.
+  /// Whether problems may have coincident points, reversing or nearly parallel legs, obstacles on
+  /// the start and the goal, or a start unrelated to the route. If false, most problems are
+  /// drivable.
   bool adversarial = true;
-  int smallest = -6;  ///< scale of the scene, a power of ten [m]
+  int smallest = -6;  ///< Exponent of the smallest scale of a scene, as a power of ten [m].
   int largest = 2;
 };
 
-/// The reference car with all lengths multiplied by `scale`.
+/// Returns the reference car with all its lengths multiplied by `scale`.
 trackbed::VehicleParams ScaledCar(double scale);
 
-/// A random problem for a planner; to be called within a property.
+/// Returns a random problem for a planner. Must be called within a property.
 Problem AnyProblem(const trackbed::PlannerEntry& entry, const Wildness& wildness);
 
-/// The problem mirrored at the x axis, or moved by a pose.
+/// Return the problem mirrored at the x axis, and the problem moved by a pose.
 Problem Mirrored(const Problem& problem);
 Problem Moved(const Problem& problem, const trackbed::Pose2& by);
 

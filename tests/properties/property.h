@@ -13,16 +13,15 @@
 
 #include "trackbed/core/error.h"
 
-/// Properties that hold for every input of a kind, checked with RapidCheck on random ones.
-///
-/// The environment variable RC_PARAMS sets the number of cases and the seed, as in RapidCheck's
-/// guide: RC_PARAMS="max_success=10000 seed=7". Properties with expensive cases use a fraction of
-/// that number. Without the variable the seed is fixed.
+/// Checks of properties that hold for every input of a kind. RapidCheck generates random inputs.
+/// The environment variable RC_PARAMS sets the number of test cases and the seed, as described in
+/// RapidCheck's guide: RC_PARAMS="max_success=10000 seed=7". Properties with expensive test cases
+/// use a fraction of this number. Without the variable, the seed is fixed.
 namespace properties {
 
-/// Checks `property`, a function that draws its input with `*generator` and asserts with RC_ASSERT,
-/// on `share` times the configured number of cases. A failure prints the smallest input found and
-/// how to repeat it.
+/// Checks a property. The function `property` draws its input with `*generator` and asserts with
+/// RC_ASSERT. The number of test cases is `share` times the configured number. If the property
+/// fails, Check prints the smallest failing input and how to repeat the test.
 template <typename Property>
 void Check(double share, Property&& property) {
   using namespace rc::detail;
@@ -50,38 +49,39 @@ void Check(double share, Property&& property) {
   }
 }
 
-/// A real number from a range; shrinks toward the lower end.
+/// Generates a real number between `low` and `high`. Shrinks failing inputs toward `low`.
 inline rc::Gen<double> Between(double low, double high) {
   constexpr int kSteps = 1 << 20;
   return rc::gen::map(rc::gen::resize(kSteps, rc::gen::inRange(0, kSteps + 1)),
                       [=](int i) { return low + (high - low) * i / kSteps; });
 }
 
-/// A real number from -reach to reach; shrinks toward 0.
+/// Generates a real number between -`reach` and `reach`. Shrinks failing inputs toward 0.
 inline rc::Gen<double> Within(double reach) {
   constexpr int kSteps = 1 << 20;
   return rc::gen::map(rc::gen::resize(kSteps, rc::gen::inRange(-kSteps, kSteps + 1)),
                       [=](int i) { return reach * i / kSteps; });
 }
 
-/// An integer power of ten; shrinks toward 1.
+/// Generates a power of ten with an integer exponent between `low` and `high`. Shrinks failing
+/// inputs toward 1.
 inline rc::Gen<double> PowerOfTen(int low, int high) {
   return rc::gen::map(rc::gen::resize(1000, rc::gen::inRange(low, high + 1)),
                       [](int power) { return std::pow(10.0, power); });
 }
 
-/// An integer from a range; shrinks toward the lower end.
+/// Returns a random integer between `low` and `high`. Shrinks failing inputs toward `low`.
 inline int Pick(int low, int high) {
   return *rc::gen::resize(1000, rc::gen::inRange(low, high + 1));
 }
 
-/// True with a probability of 1 in `times`; shrinks toward false.
+/// Returns true with a probability of 1/`times`. Shrinks failing inputs toward false.
 inline bool OnceIn(int times) {
   return Pick(0, times - 1) == times - 1;
 }
 
-/// Name of the error of error.h that the call throws; empty if it returns. Any other exception
-/// propagates and fails the property.
+/// Returns the name of the error of error.h that the call throws; empty if the call throws nothing.
+/// Any other exception propagates and fails the property.
 template <typename Call>
 std::string Refusal(const Call& call) {
   try {
