@@ -14,13 +14,14 @@
 #include "tests/tolerance.h"
 #include "trackbed/planning/common/plan.h"
 
-// Tests the Bezier avoidance of obstacles in turns: clearance by an independent library,
-// continuity, steering limits, mirror symmetry, and random turns with obstacles.
+// Tests how the planner avoids obstacles in turns with Bezier curves: clearance computed by
+// Boost.Geometry, continuity, steering limits, mirror symmetry, and random turns with obstacles.
 namespace trackbed {
 namespace {
 
-/// The largest steering rate of an ideal run along the path, from angle differences over intervals
-/// of 0.1 m. Such a mean rate cannot exceed the largest rate within the interval.
+/// Returns the largest steering rate of a car that drives along the path without error [rad/s]. The
+/// function computes mean rates over intervals of 0.1 m; a mean rate cannot exceed the largest rate
+/// within the interval.
 double MaxSteeringRate(const Plan& plan, const VehicleParams& car, Stations within) {
   const Path& path = plan.reference.path;
   double fastest = 0.0;
@@ -45,10 +46,11 @@ void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<Oriented
     const Stations curve{stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>()};
     EXPECT_GE(PathClearance(path, obstacles, car, curve),
               options.safe_distance - Tolerance(kBetweenSamples));
-    // Position, heading and curvature are continuous where the curve joins the plan.
+    // The position, heading and curvature must be continuous where the curve joins the plan.
     for (const double s : {curve.from, curve.to}) {
       if (s > 0.0 && s < path.length()) {
-        constexpr double kAside = 1e-7;  // [m]; within it the curvature may change by 0.02 x 1e-7
+        constexpr double kAside = 1e-7;  // The offset of a sample from the joint [m]. Over this
+                                         // length, the curvature may change by 0.02 x 1e-7 1/m.
         const PathPoint left = path.At(s - kAside);
         const PathPoint right = path.At(s + kAside);
         EXPECT_NEAR(left.curvature, right.curvature, Tolerance(1e-7)) << "at s = " << s;
@@ -63,7 +65,8 @@ void ExpectSafe(const Plan& plan, const Plan& global, const std::vector<Oriented
     }
     EXPECT_LE(MaxSteeringRate(plan, car, curve), car.steering_rate);
   }
-  // The remaining path shifts by the error of the curve's path segments: see SegmentsThrough.
+  // The path after the curve is displaced by the error of approximating the curve by path segments;
+  // see SegmentsThrough.
   const Vec2 end = path.At(path.length()).pose.position();
   const Vec2 goal = global.reference.path.At(global.reference.path.length()).pose.position();
   EXPECT_LE((end - goal).norm(), Tolerance(1e-6));
@@ -79,7 +82,8 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
   const Plan global = course.Global();
   ASSERT_TRUE(global.ok()) << global.reason;
   const Pose2 at = course.OnArc(c.sixth / 6.0);
-  const OrientedBox obstacle{{at.x, at.y, 0.0}, 2.0, 2.0};  // axis-aligned, as in the listing
+  const OrientedBox obstacle{{at.x, at.y, 0.0}, 2.0, 2.0};  // The obstacle is aligned with the
+                                                            // axes, as in the listing.
   BezierAvoidanceOptions options;
   options.passing_side = c.passing_side;
 
@@ -88,8 +92,8 @@ TEST_P(ObstacleInTurn, IsPassedSafelyOnTheSideAskedFor) {
   ExpectSafe(plan, global, {obstacle}, options);
   EXPECT_TRUE(plan.caps.empty()) << "there is room to pass at full speed";
 
-  // Next to the obstacle, the path passes nearer to the turn's center than the obstacle, or farther
-  // from it, according to the side.
+  // On the inner side, the path must pass between the obstacle and the turn's center. On the outer
+  // side, the path must pass farther from the center than the obstacle.
   const Vec2 center{course.before, c.side * course.radius};
   const Path& path = plan.reference.path;
   double beside = 0.0;
@@ -112,8 +116,8 @@ TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
   const Plan plan = Around(left.Global(), {{{at.x, at.y, 0.3}, 3.0, 1.5}});
   const Plan mirrored = Around(right.Global(), {{{at.x, -at.y, -0.3}, 3.0, 1.5}});
   ASSERT_EQ(plan.blocked, "");
-  // Tree and curve are computed for the mirrored problem, so the numbers are the same on the other
-  // side.
+  // For a right turn, the planner computes the tree and the curve of the mirrored problem, so the
+  // results are mirror images.
   ASSERT_NEAR(plan.reference.path.length(), mirrored.reference.path.length(), Tolerance(1e-9));
   for (double s = 0.0; s < plan.reference.path.length(); s += 1.0) {
     const Pose2 a = plan.reference.path.At(s).pose;
@@ -123,7 +127,8 @@ TEST(PlanAround, AMirroredRouteGetsTheMirroredPlan) {
   }
 }
 
-/// A wall of boxes 1 m apart from the obstacle outward, without a passable gap.
+/// Returns a row of boxes from the obstacle outward. The gaps of 1 m between the boxes are too
+/// narrow for the car.
 std::vector<OrientedBox> WithWall(const Course& course, double share, double toward_center) {
   const Pose2 at = course.OnArc(share);
   std::vector<OrientedBox> boxes;
@@ -137,7 +142,7 @@ std::vector<OrientedBox> WithWall(const Course& course, double share, double tow
 TEST(PlanAround, TakesTheOnlyRingThatIsFree) {
   const Course course;
   const Plan global = course.Global();
-  // The turn's center is on the left.
+  // The turn's center is on the left side of the path.
   const Plan outer = Around(global, WithWall(course, 0.5, 1.0));
   ASSERT_EQ(outer.blocked, "");
   EXPECT_EQ(DiagnosticsJson(outer)["avoid"][0]["passing_side"], "outer");
@@ -185,7 +190,8 @@ TEST(PlanAround, StartsAtTheCarsPoseAndSteering) {
   const VehicleParams vehicle = ReferenceCar();
   const Pose2 at = course.OnArc(0.6);
   const std::vector<OrientedBox> obstacles{{{at.x, at.y, 0.0}, 2.0, 2.0}};
-  // 10 m into the arc's approach, slightly beside the path, the wheels slightly to the right.
+  // The car is on the straight 12.7 m before the arc. It is 0.08 m beside the path, and its wheels
+  // point slightly to the right.
   const AvoidanceRequest::Car car{{30.0, 0.08, 0.01}, -0.02};
   const Plan plan = PlanAround({.vehicle = vehicle,
                                 .plan = global,
@@ -224,7 +230,7 @@ TEST(PlanAround, AnObstacleFarAheadOfTheCarLeavesItsPathUntilThen) {
 }
 
 TEST(PlanAround, SlowsDownWhereTheWheelsWouldTurnTooSlowly) {
-  // The turn begins 8 m from the start; a wide obstacle stands 4 m into it.
+  // The turn begins 8 m from the start. The obstacle is wide and 4 m behind the start of the turn.
   const Course course{.radius = 15.0, .before = 8.0, .turn = 1.2, .after = 40.0};
   const Plan global = course.Global();
   const Pose2 at = course.OnArc(4.0 / (15.0 * 1.2));
@@ -240,8 +246,8 @@ TEST(PlanAround, SlowsDownWhereTheWheelsWouldTurnTooSlowly) {
   }
 }
 
-/// 500 random turns in ten batches: each gives a safe plan or a reason, never an unsafe plan
-/// reported as ok.
+/// The tests plan 500 random turns in ten batches. Each plan must be safe or give a reason; a plan
+/// that is not safe must not be reported as ok.
 class RandomObstacles : public testing::TestWithParam<int> {};
 
 INSTANTIATE_TEST_SUITE_P(Batches, RandomObstacles, testing::Range(0, 10));
@@ -287,7 +293,7 @@ TEST_P(RandomObstacles, ArePassedSafelyOrStoppedBefore) {
     ++passed;
     ExpectSafe(plan, global, {obstacle}, options);
   }
-  // Most turns have room: only a few obstacles are too close to the start or the end.
+  // Most turns have enough room. Only a few obstacles are too close to the start or the end.
   EXPECT_GE(passed, 40);
 }
 

@@ -9,7 +9,7 @@
 #include "trackbed/path/bezier.h"
 #include "trackbed/planning/common/plan.h"
 
-/// The guarantees of every local planner.
+/// Tests the guarantees that every local planner must give.
 namespace trackbed {
 
 void PrintTo(const AvoiderEntry& entry, std::ostream* out) {
@@ -32,7 +32,7 @@ TEST(LocalPlanners, AreNamedOnceAndHaveOptionsOfTheirOwn) {
   }
 }
 
-/// A box of 2 by 2 m in the middle of the turn.
+/// Returns a box of 2 m x 2 m in the middle of the turn.
 OrientedBox InTheMiddle(const Course& course) {
   const Pose2 at = course.OnArc(0.5);
   return {{at.x, at.y, 0.0}, 2.0, 2.0};
@@ -40,8 +40,8 @@ OrientedBox InTheMiddle(const Course& course) {
 
 TEST_P(EveryAvoider, LeavesAPlanThatNothingStandsInTheWayOf) {
   const Plan global = Course{}.Global();
-  // The car is 1.725 m wide, so a box whose side is 2.3625 m from the path is 1.5 m from the car's
-  // side.
+  // The car is 1.725 m wide. A box whose side is 2.3625 m from the path is therefore 1.5 m from the
+  // side of the car.
   const OrientedBox beside{{20.0, 3.3626, 0.0}, 2.0, 2.0};
   const Plan plan = Around(global, {beside}, GetParam().defaults);
   EXPECT_EQ(plan.reference.path.segments(), global.reference.path.segments());
@@ -58,10 +58,10 @@ TEST_P(EveryAvoider, LeavesTheWayToTheCurveAsItWas) {
   const Plan plan = Around(global, {InTheMiddle(course)}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
   const double leave = DiagnosticsJson(plan)["avoid"][0]["leave_s_m"].get<double>();
-  // The curve begins S = r + v t_d before the arc, which begins at 42.7 m.
+  // The curve begins at the distance S = r + v t_d = 22.7 m before the arc, which begins at 42.7 m.
   EXPECT_NEAR(leave, 42.7 - 22.7, Tolerance(0.1));
-  constexpr double kStep = 1e-6;  // [m]; where the steering jumps, the curve may begin this much
-                                  // earlier
+  constexpr double kStep = 1e-6;  // If the steering jumps, the curve may begin this much earlier
+                                  // [m].
   for (double s = 0.0; s < leave - kStep; s += 0.5) {
     EXPECT_EQ(plan.reference.path.At(s).pose, global.reference.path.At(s).pose);
     EXPECT_EQ(plan.schedule.At(s), global.schedule.At(s));
@@ -73,7 +73,8 @@ TEST_P(EveryAvoider, ComesBackToThePlan) {
   const Plan global = course.Global();
   const Plan plan = Around(global, {InTheMiddle(course)}, GetParam().defaults);
   ASSERT_EQ(plan.blocked, "");
-  // The remaining path shifts by the error of the curve's path segments: see SegmentsThrough.
+  // The path after the curve is displaced by the error of approximating the curve by path segments;
+  // see SegmentsThrough.
   const Pose2 end = plan.reference.path.At(plan.reference.path.length()).pose;
   const Pose2 goal = global.reference.path.At(global.reference.path.length()).pose;
   EXPECT_LE((end.position() - goal.position()).norm(), Tolerance(1e-6));
@@ -108,7 +109,7 @@ TEST_P(EveryAvoider, TellsHowNearItsCurveComes) {
   ASSERT_EQ(plan.blocked, "");
   const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
   const Stations curve{stretch["leave_s_m"].get<double>(), stretch["return_s_m"].get<double>()};
-  // The planner samples every 0.05 m, this test every 0.02 m.
+  // The planner samples the clearance every 0.05 m, and this test every 0.02 m.
   EXPECT_NEAR(stretch["clearance_m"].get<double>(),
               PathClearance(plan.reference.path, {box}, ReferenceCar(), curve),
               Tolerance(kBetweenSamples));
@@ -127,16 +128,17 @@ TEST_P(EveryAvoider, TheScheduleDrivesTheCurveOpenLoop) {
   const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
   const double leave = stretch["leave_s_m"].get<double>();
   const double back = stretch["return_s_m"].get<double>();
-  // The schedule has the curve's own angle every 0.1 m or less, and is linear in between.
+  // The schedule has a knot at least every 0.1 m with the exact steering angle of the curve, and is
+  // linear between knots.
   for (double s = leave; s < back; s += 0.37) {
     EXPECT_NEAR(plan.schedule.At(s), SteeringForCurvature(ReferenceCar(), path.At(s).curvature),
                 Tolerance(1e-4));
   }
   const KinematicState end = RollOut(ReferenceCar(), {.pose = path.At(0.0).pose, .speed = kSpeed},
                                      plan.schedule, back, 0.05);
-  // Between two knots the wheels turn at their full rate and then rest. They precede the schedule
-  // by at most the knot distance of 0.1 m, which moves the path by no more than 0.1 m times the
-  // heading change, 0.16 m. Opposite turns cancel most of that.
+  // Between two knots, the wheels turn at their full rate and then rest. They are ahead of the
+  // schedule by at most the distance between the knots, 0.1 m. This displaces the path by at most
+  // 0.1 m times the heading change. Turns in opposite directions cancel most of this error.
   EXPECT_NEAR((end.pose.position() - path.At(back).pose.position()).norm(), 0.0, Tolerance(0.05));
   EXPECT_LE(stretch["open_loop"]["end_distance_m"].get<double>(), 0.05);
 }

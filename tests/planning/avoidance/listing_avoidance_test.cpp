@@ -18,8 +18,8 @@
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
 
-/// The local planner `listing`: it treats each turn of the plan as the listing's problem and
-/// replaces it by the listing's curve.
+/// Tests the local planner `listing`, which states each turn of the plan as the problem of the
+/// published code listing, and replaces the turn by the curve of the listing.
 namespace trackbed {
 namespace {
 
@@ -56,7 +56,7 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
   const Plan plan = Around(course.Global(), {box}, options);
   ASSERT_EQ(plan.blocked, "");
 
-  TurnManeuver problem;  // the defaults match Course
+  TurnManeuver problem;  // The default values match Course.
   problem.reduction = c.reduction;
   problem.side = c.side > 0.0 ? TurnSide::kLeft : TurnSide::kRight;
   problem.obstacle_sixth = c.sixth;
@@ -72,8 +72,8 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
   const std::vector<Vec2> points = ReadControlPoints(stretch);
   ASSERT_EQ(points.size(), 8U);
   for (std::size_t k = 0; k < 8; ++k) {
-    // M begins S = 22.7 m before the arc, 20 m from the start. Rounding of sums of lengths up to
-    // 100 m.
+    // The maneuver's frame is 20 m from the start, at the distance S = 22.7 m before the arc. The
+    // tolerance allows for rounding of sums of lengths up to 100 m.
     EXPECT_NEAR(points[k].x(), 20.0 + expected[k].x(), Tolerance(1e-9)) << k;
     EXPECT_NEAR(points[k].y(), expected[k].y(), Tolerance(1e-9)) << k;
   }
@@ -88,7 +88,8 @@ TEST_P(ListedObstacle, IsPassedOnTheCurveOfTheListing) {
 }
 
 TEST(Listing, PassesOnThePrintedPoints) {
-  // Section 5.10, with the height of P_3 that this seed's tree yields. P_0 is at (20, 0).
+  // The expected points are printed in section 5.10, relative to P_0, which is at (20, 0). The
+  // height of P_3 depends on the random tree.
   const Course course{.turn = 75.0 * kPi / 180.0};
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
   const nlohmann::json stretch = DiagnosticsJson(plan)["avoid"][0];
@@ -105,8 +106,8 @@ TEST(Listing, PassesOnThePrintedPoints) {
 }
 
 TEST(Listing, IsDrivenHoweverNearItComes) {
-  // Section 5.10, with a safe distance of 1.5 m: 0.6 to 1.5 m on the outside, 4 m and more on the
-  // inside.
+  // Section 5.10 uses a safe distance of 1.5 m. Its curves have a clearance of 0.6 to 1.5 m on the
+  // outside, and of 4 m or more on the inside.
   const Course course{.turn = 75.0 * kPi / 180.0};
   const OrientedBox box = BoxAt(course.OnArc(0.5));
   const Plan outer = Around(course.Global(), {box}, OptionsFor(PassingSideChoice::kOuter));
@@ -151,14 +152,15 @@ TEST(Listing, TakesTheNearestSixth) {
     return DiagnosticsJson(plan)["avoid"][0]["obstacle_sixth"].get<int>();
   };
   EXPECT_EQ(sixth_at(0.01), 1);
-  EXPECT_EQ(sixth_at(0.24), 1);  // 1.44 sixths
-  EXPECT_EQ(sixth_at(0.26), 2);  // 1.56 sixths
+  EXPECT_EQ(sixth_at(0.24), 1);  // 0.24 of the arc is 1.44 sixths.
+  EXPECT_EQ(sixth_at(0.26), 2);  // 0.26 of the arc is 1.56 sixths.
   EXPECT_EQ(sixth_at(0.99), 5);
 }
 
 TEST(Listing, SteersStraightAgainBehindACurveThatEndsBent) {
-  // P_5 of a right turn lies beside the tangent that contains P_6 and P_7. The curve therefore ends
-  // with a curvature of (6/7) h/(S/2)^2, where h = cos(1.2) sin(1.2) is the lateral offset.
+  // In a right turn, P_5 is not on the tangent through P_6 and P_7. The curve therefore ends with
+  // the curvature (6/7) h/(S/2)^2, where h = cos(1.2) sin(1.2) is the distance of P_5 from the
+  // tangent.
   const Course course{.turn = -1.2};
   const Plan plan = Around(course.Global(), {BoxAt(course.OnArc(0.5))}, ListingAvoidanceOptions{});
   const double back = DiagnosticsJson(plan)["avoid"][0]["return_s_m"].get<double>();
@@ -177,18 +179,19 @@ TEST(Listing, MendedTurnsMirrorEachOther) {
     return ReadControlPoints(
         DiagnosticsJson(Around(course.Global(), {BoxAt(course.OnArc(0.5))}, options))["avoid"][0]);
   };
-  // L9: P_5 of the right turn is shifted along x by the cosine of the turn's angle.
+  // Defect L9 of the listing shifts P_5 of a right turn along x by the cosine of the turn's angle.
   EXPECT_NEAR(points_of(right)[5].x() - points_of(left)[5].x(), std::cos(1.2), Tolerance(1e-9));
   options.literal = {};
   for (std::size_t k = 0; k < 8; ++k) {
-    if (k != 3) {  // rounding down to whole meters is not mirror symmetric
+    if (k != 3) {  // The height of P_3 is rounded down to whole meters, which is not mirror
+                   // symmetric.
       EXPECT_NEAR(points_of(right)[k].x(), points_of(left)[k].x(), Tolerance(1e-9)) << k;
       EXPECT_NEAR(points_of(right)[k].y(), -points_of(left)[k].y(), Tolerance(1e-9)) << k;
     }
   }
 }
 
-/// Why the listing has no curve for this obstacle.
+/// Returns the reason why the listing has no curve for an obstacle.
 std::string BlockedMessage(const Course& course, const OrientedBox& box,
                            const ListingAvoidanceOptions& options = {}) {
   const Plan plan = Around(course.Global(), {box}, options);
@@ -224,7 +227,7 @@ TEST(Listing, NeedsStraightsBeforeAndAfterTheTurn) {
 }
 
 TEST(Listing, TurnsWithItsRoute) {
-  // The same problem, moved and turned, gives the same curve in the frame of the maneuver.
+  // If the problem is moved and rotated, the curve must be the same in the frame of the maneuver.
   const Course course;
   const OrientedBox box = BoxAt(course.OnArc(0.6));
   const Pose2 X_WN{-30.0, 12.0, 2.1};

@@ -4,11 +4,12 @@
 #include "tests/vehicle/reference_car.h"
 #include "trackbed/planning/common/route.h"
 
-// Tests the refusal of routes whose stops are too close to an obstacle.
+// Tests that routes are rejected if a stop is too close to an obstacle.
 namespace trackbed {
 namespace {
 
-/// A route of 40 m along x; boxes are 2 m long and wide.
+/// Returns a request for a route of 40 m along x, with obstacles at `boxes`. Each obstacle is 2 m x
+/// 2 m.
 PlanRequest RouteWith(const std::vector<Vec2>& boxes) {
   PlanRequest request{.vehicle = ReferenceCar()};
   request.waypoints = {{0.0, 0.0}, {40.0, 0.0}};
@@ -25,7 +26,7 @@ Plan Check(const PlanRequest& request, double safe_distance) {
 TEST(CheckStops, NamesTheNearestObstacleItsDistanceAndTheRequiredOne) {
   const VehicleParams car = ReferenceCar();
   const double front = car.length - car.rear_overhang;
-  // The rear side of the second box is 0.25 m ahead of the car's front.
+  // The near side of the second box is 0.25 m ahead of the car's front.
   const Plan plan = Check(RouteWith({{0.0, 9.0}, {front + 1.25, 0.0}}), 0.5);
   EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
   EXPECT_EQ(plan.reason, fmt::format("the start is blocked: the obstacle at ({:.4g}, 0) is 0.25 m "

@@ -38,7 +38,8 @@ TEST(CollisionChecker, TellsTheRoomOfEveryPose) {
 }
 
 TEST(CollisionChecker, TellsTheRoomOfASmallCarAmongManyWalls) {
-  // Long walls next to small blocks, as in maps; a car of 0.45 m resolves gaps of 0.45 m.
+  // The boxes are long walls and small blocks, as in maps. The small car, 0.45 m long, must find
+  // gaps of 0.45 m.
   Random random(3);
   VehicleParams car = ReferenceCar();
   for (double* length : {&car.wheelbase, &car.length, &car.width, &car.rear_overhang}) {
@@ -77,7 +78,8 @@ TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
                                                {.length = 10.0}});
     const std::optional<double> blocked = clear.FirstBlocked(path);
     blocked_ones += blocked ? 1 : 0;
-    // Half a step of 2 cm times the motion of the farthest corner per meter: 1 + 0.2 3.7 = 1.75.
+    // FirstBlocked checks the path every 2 cm. In half a step, the farthest corner of the car moves
+    // by 0.01 m x (1 + 0.2 x 3.7) = 0.01 m x 1.75.
     const double missed = 0.01 * 1.75;
     const double end = blocked ? *blocked - 0.02 : path.length();
     for (double s = 0.0; s < end; s += 0.005) {
@@ -94,8 +96,8 @@ TEST(CollisionChecker, FindsTheFirstPlaceThatIsTooNear) {
 }
 
 TEST(CollisionChecker, SkipsOnlyLooksThatChangeNothing) {
-  // With few boxes the checker skips tests on long stretches. With many copies of the same boxes it
-  // skips none, and must return exactly the same station.
+  // With few boxes, the checker skips tests on long stretches. With many copies of the same boxes,
+  // the checker skips no test. Both must return exactly the same station.
   Random random(4);
   int blocked_ones = 0;
   for (int i = 0; i < 200; ++i) {
@@ -109,7 +111,7 @@ TEST(CollisionChecker, SkipsOnlyLooksThatChangeNothing) {
     const Vec2 to = few.front().center.position();
     const Pose2 from = RandomPose(random, 500.0);
     const Vec2 way = to - from.position();
-    // Straight toward one of the boxes, or along an arc near it.
+    // The path leads straight toward one of the boxes, or along an arc near the box.
     const Segment segment{.length = way.norm(), .curvature = random.Uniform(-1e-4, 1e-4)};
     const Pose2 start{from.x, from.y, std::atan2(way.y(), way.x())};
     const std::optional<double> blocked = skips.FirstBlocked(Path(start, {segment}));
@@ -121,7 +123,7 @@ TEST(CollisionChecker, SkipsOnlyLooksThatChangeNothing) {
 }
 
 TEST(CollisionChecker, TakesBoxesThousandsOfKilometersApart) {
-  // Bins of 4 m over the whole area would number 10^11.
+  // A grid of bins of 4 m over the whole area would have 10^11 bins.
   const std::vector<OrientedBox> boxes{{{0.0, 0.0, 0.0}, 2.0, 2.0}, {{1e6, 1e6, 0.5}, 2.0, 2.0}};
   const CollisionChecker clear(ReferenceCar(), boxes, 0.5);
   for (const OrientedBox& box : boxes) {
@@ -151,7 +153,7 @@ TEST(CollisionChecker, FindsABoxInTheWayOfACarOfAMillimeter) {
   for (double* length : {&car.wheelbase, &car.length, &car.width, &car.rear_overhang}) {
     *length *= 1e-4;
   }
-  // Less than 2 cm of path, with the box halfway.
+  // The path is shorter than 2 cm, and the box is in its middle.
   const CollisionChecker clear(car, {{{5e-3, 0.0, 0.0}, 1e-3, 1e-3}}, 3e-5);
   EXPECT_TRUE(clear.FirstBlocked(Path({}, {{.length = 1e-2}})).has_value());
   EXPECT_FALSE(clear.IsFree(Pose2{}, Segment{.length = 1e-2}));

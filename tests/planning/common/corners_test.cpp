@@ -21,7 +21,8 @@ CollisionChecker NothingInTheWay() {
   return {ReferenceCar(), {}, 0.0};
 }
 
-/// Expects continuous curvature whose rate the wheels can follow at the profile's speed.
+/// Expects that the curvature is continuous, and that the wheels can follow its change at the speed
+/// of the profile.
 void ExpectDrivable(const RoundedCorners& rounded) {
   const auto& segments = rounded.path.segments();
   double curvature = 0.0;
@@ -37,7 +38,8 @@ void ExpectDrivable(const RoundedCorners& rounded) {
     }
     for (const double d : {0.0, 0.5 * segment.length, segment.length}) {
       const double kappa = segment.CurvatureAt(d);
-      // The steering rate d delta/dt for delta = atan(L kappa).
+      // The steering rate is d delta/dt for the steering angle delta = atan(L kappa), with the
+      // wheelbase L = 2.7 m and the curvature kappa.
       const double rate = speed * 2.7 * segment.sharpness / (1.0 + 2.7 * 2.7 * kappa * kappa);
       EXPECT_LE(std::abs(rate), ReferenceCar().steering_rate * (1.0 + Tolerance(1e-9)));
     }
@@ -50,13 +52,15 @@ TEST(CornerAt, TurnsByTheHeadingChangeBetweenTangentPoints) {
   for (const double h : {0.05, 0.25 * kPi, 0.5 * kPi, -0.5 * kPi, 2.5}) {
     for (const double speed : {0.5, 1.5, 3.0}) {
       const RoundCorner corner = CornerAt(ReferenceCar(), h, speed, kLimits.max_curvature);
-      // Ramp, arc, ramp: kappa^2/sigma plus kappa times the arc length gives h.
+      // A corner consists of a ramp of the curvature, an arc and a second ramp. Its heading change
+      // h is kappa^2/sigma plus kappa times the length of the arc, with the sharpness sigma.
       const double ramp = corner.curvature / corner.sharpness;
       EXPECT_LE(corner.curvature * ramp, std::abs(h) * (1.0 + Tolerance(1e-12)));
       EXPECT_LE(corner.curvature, kLimits.max_curvature);
       EXPECT_TRUE(corner.curvature == kLimits.max_curvature ||
                   std::abs(corner.curvature * ramp - std::abs(h)) < Tolerance(1e-12));
-      // Longer than the arc alone, which needs tan(|h|/2)/kappa_max.
+      // The corner needs more of its legs than the arc without ramps, which needs
+      // tan(|h|/2)/kappa_max.
       EXPECT_GT(corner.tangent_length, std::tan(0.5 * std::abs(h)) / kLimits.max_curvature);
     }
   }
@@ -79,13 +83,14 @@ TEST(RoundCorners, LeadsFromTheFirstPointToTheLast) {
     ExpectDrivable(rounded);
     const Path& path = rounded.path;
     const Vec2 last = route.back() - route[route.size() - 2];
-    // Tangent lengths come from the same quadrature as the path: rounding over 150 m.
+    // The tangent lengths and the path use the same quadrature, so only rounding over 150 m
+    // remains.
     EXPECT_NEAR((path.At(0.0).pose.position() - route.front()).norm(), 0.0, Tolerance(1e-12));
     EXPECT_NEAR((path.At(path.length()).pose.position() - route.back()).norm(), 0.0,
                 Tolerance(1e-9));
     EXPECT_NEAR(AngleDifference(path.At(path.length()).pose.yaw, std::atan2(last.y(), last.x())),
                 0.0, Tolerance(1e-9));
-    EXPECT_TRUE(rounded.caps.empty());  // legs of 36 m leave room at 3 m/s
+    EXPECT_TRUE(rounded.caps.empty());  // Legs of 36 m or more leave room for corners at 3 m/s.
   }
 }
 
@@ -96,7 +101,8 @@ TEST(RoundCorners, SlowsDownWhereLegsAreShort) {
   ExpectDrivable(rounded);
   ASSERT_EQ(rounded.caps.size(), 2U);
   EXPECT_LT(rounded.caps[0].speed, 3.0);
-  EXPECT_NEAR(rounded.corners[0].tangent_length, 7.0, Tolerance(1e-5));  // half of the middle leg
+  EXPECT_NEAR(rounded.corners[0].tangent_length, 7.0, Tolerance(1e-5));  // The tangent length is
+                                                                         // half of the middle leg.
   const Vec2 end = rounded.path.At(rounded.path.length()).pose.position();
   EXPECT_NEAR((end - route.back()).norm(), 0.0, Tolerance(1e-9));
 }
@@ -125,13 +131,13 @@ TEST(RoundCorners, KeepsClearByGoingSlowerOrRefuses) {
     }
     return rounded;
   };
-  // A box inside the curve: it blocks the corner at 3 m/s, but not when the corner is driven more
-  // slowly.
+  // The box is inside the curve. It blocks the corner at 3 m/s, but not at a lower speed, at which
+  // the curve stays closer to the corner.
   const RoundedCorners slower = with_box(26.2, 3.8);
   ASSERT_EQ(slower.status, PlanStatus::kOk) << slower.reason;
   ASSERT_EQ(slower.caps.size(), 1U);
   EXPECT_LT(slower.caps[0].speed, 3.0);
-  // Driving slowly does not help against a box on the leg itself.
+  // A lower speed cannot avoid a box on the leg itself.
   EXPECT_EQ(with_box(10.0, 0.5).status, PlanStatus::kCollides);
   EXPECT_THAT(with_box(10.0, 0.5).reason, HasSubstr("obstacle"));
 }

@@ -16,10 +16,11 @@ namespace trackbed {
 namespace {
 
 TEST(StepSpeed, LeadsOffByTheDeviation) {
-  // The offset where the ramp ends, half of S = 4.9 m after the step. The formula assumes linear
-  // curvature on the ramp. Because tan(delta) is convex, the ramp turns by (-ln cos delta)/(delta
-  // tan delta) = 0.494 of kappa S instead of a half: 0.003 rad less, 0.007 m over S/2. The rest is
-  // cosines of 0.12 rad, below 1 %.
+  // The test compares the offset at the end of the steering ramp, S/2 = 2.45 m after the step, with
+  // the formula, which assumes that the curvature is linear on the ramp. Because tan(delta) is
+  // convex, the ramp turns the car by (-ln cos delta)/(delta tan delta) = 0.494 of kappa S, not by
+  // half of it. The difference is 0.003 rad, or 0.007 m over S/2. The cosines of angles up to 0.12
+  // rad add less than 1 %.
   const double curvature = 0.1;
   const double speed = StepSpeed(ReferenceCar(), 0.0, curvature);
   const std::vector<Segment> segments{{.length = 20.0}, {.length = 10.0, .curvature = curvature}};
@@ -53,8 +54,9 @@ TEST(PlanSteps, CapsLieAboutTheStepsAndNotAtCusps) {
 }
 
 TEST(PlanSteps, KeepRampsApartAndStopWhereTheyWouldOverlap) {
-  // Two steps half a meter apart: the wheels finish the first before the second is due at 0.5 m
-  // omega/atan(0.27) = 0.285 m/s.
+  // The two steps are 0.5 m apart. The wheels must complete the first step before the second step
+  // begins, which is possible up to the speed 0.5 m x omega/atan(0.27) = 0.285 m/s, where omega is
+  // the steering rate.
   const std::vector<Segment> segments{
       {.length = 20.0}, {.length = 0.5, .curvature = 0.1}, {.length = 20.0}};
   const double room = 0.5 * ReferenceCar().steering_rate / std::atan(0.27);
@@ -68,8 +70,9 @@ TEST(PlanSteps, KeepRampsApartAndStopWhereTheyWouldOverlap) {
 }
 
 TEST(RampsOfSteps, AskForTheSteeringRateAndNoMore) {
-  // Random arcs and straights. On every ramp, the wheels turn at their rate at the reported speed.
-  // Ramps are ordered, disjoint, and within half of the adjacent pieces.
+  // The segments are random arcs and straights. On every ramp, the wheels must turn at their full
+  // rate at the reported speed. The ramps must be ordered, disjoint, and within half of the
+  // adjacent segments.
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 200; ++i) {

@@ -17,7 +17,7 @@ using nlohmann::json;
 
 struct Leg {
   double cost = 0.0;
-  double start = 0.0;  ///< station [m]
+  double start = 0.0;  ///< Station of the leg's start [m].
 };
 
 void Visit(DiagnosticsVisitor& out, const Leg& leg) {

@@ -20,7 +20,7 @@
 namespace trackbed {
 namespace {
 
-/// The car with the limits of tyres of friction 0.9.
+/// Returns a car whose tyres have a friction coefficient of 0.9.
 VehicleParams Car() {
   VehicleParams car = ReferenceCar();
   car.friction_lateral = 0.9;
@@ -40,7 +40,7 @@ PlanRequest Request(double speed, const std::vector<Vec2>& waypoints) {
           .speed = {.speed = speed, .acceleration = 1.0, .deceleration = 1.5}};
 }
 
-/// The plan of a course made of `pieces`.
+/// Returns the plan of a course with the given pieces.
 Plan Course(const PlanRequest& request, const std::vector<CoursePiece>& pieces) {
   return MakePlan(request, CourseOptions{.segments = pieces});
 }
@@ -54,9 +54,10 @@ std::vector<std::string> Kinds(const Plan& plan, const PlanRequest& request) {
 }
 
 TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {
-  // The car brakes with 1.5 m/s^2 on the ramp before the arc, where the curvature is nearly that of
-  // the arc. The friction circle leaves v^2/r = sqrt((mu g)^2 - 1.5^2) for the bend: 13.19 m/s with
-  // mu g = 0.9 * 9.81 m/s^2 and r = 20 m. The ramp is long enough for the wheels at any speed.
+  // The car brakes at 1.5 m/s^2 on the ramp before the arc, where the curvature is nearly that of
+  // the arc. The friction circle leaves a lateral acceleration of v^2/r = sqrt((mu g)^2 - 1.5^2)
+  // for the bend. With mu g = 0.9 x 9.81 m/s^2 and r = 20 m, the speed is 13.19 m/s. The ramp is so
+  // long that the steering rate does not limit the speed.
   PlanRequest request = Request(18.0, {{0.0, 0.0}});
   const std::vector<CoursePiece> pieces{{.length = 200.0, .curvature = 0.0},
                                         {.length = 60.0, .curvature_to = 0.05},
@@ -77,7 +78,8 @@ TEST(Feasibility, SlowsACurveDownToWhatTheTyresHold) {
 }
 
 TEST(Feasibility, DrivesABendAtTheLimitIfItNeverBrakesInIt) {
-  // The arc begins at once and the car enters it at its limit: v^2/r = mu g.
+  // The path begins with the arc. The car enters the arc at the speed limit of the tyres, v^2/r =
+  // mu g.
   PlanRequest request = Request(std::sqrt(0.9 * 9.81 * 20.0), {{0.0, 0.0}});
   request.start_steering = SteeringForCurvature(request.vehicle, 0.05);
   const Plan plan = Course(request, {{.length = 30.0, .curvature = 0.05},
@@ -88,7 +90,8 @@ TEST(Feasibility, DrivesABendAtTheLimitIfItNeverBrakesInIt) {
   EXPECT_EQ(plan.reference.speed.SpeedAt(29.0), request.speed.speed);
 }
 
-/// Largest share of the friction ellipse over a plan, from finite differences of its speed.
+/// Returns the largest used fraction of the friction ellipse over a plan, computed from finite
+/// differences of the speed.
 double LargestShare(const Plan& plan, double grip_along, double grip_across) {
   constexpr double kSpacing = 0.05;  // [m]
   double largest = 0.0;
@@ -102,8 +105,8 @@ double LargestShare(const Plan& plan, double grip_along, double grip_across) {
 }
 
 TEST(Feasibility, KeepsBrakingInABendWithinTheFrictionEllipse) {
-  // An arc of 50 m tightens to 20 m, so that the car brakes within the bend. Longitudinal and
-  // lateral friction differ.
+  // An arc of radius 50 m tightens to 20 m, so the car brakes within the bend. The longitudinal and
+  // lateral friction coefficients differ.
   for (const double friction : {1.0, 0.5, 0.3}) {
     PlanRequest request = Request(18.0, {{0.0, 0.0}});
     request.vehicle.friction_longitudinal = 0.6;
@@ -117,11 +120,13 @@ TEST(Feasibility, KeepsBrakingInABendWithinTheFrictionEllipse) {
                                        {.length = 200.0, .curvature = 0.0}});
     ASSERT_TRUE(plan.ok()) << plan.reason;
     EXPECT_TRUE(FindExcesses(plan, request).empty());
-    // The check of a piece takes its largest curvature and speed, so nothing is beyond the ellipse.
+    // The planner checks a piece with its largest curvature and speed, so no point of the piece
+    // exceeds the ellipse.
     EXPECT_LE(LargestShare(plan, 0.6 * 9.81 * friction, 0.9 * 9.81 * friction),
               1.0 + Tolerance(1e-6))
         << friction;
-    // The car is not needlessly slow: with 0.7 of the grip for braking, sqrt(1 - 0.49) remain.
+    // The speed must not be needlessly low. If braking uses 0.7 of the grip, sqrt(1 - 0.49) = 0.71
+    // remains for the bend.
     EXPECT_GE(LargestShare(plan, 0.6 * 9.81 * friction, 0.9 * 9.81 * friction), 0.71) << friction;
   }
 }
@@ -134,7 +139,7 @@ TEST(Feasibility, RefusesOrAllowsAsTheScenarioSays) {
   request.infeasible = InfeasiblePolicy::kRefuse;
   const Plan refused = Course(request, pieces);
   EXPECT_EQ(refused.status, PlanStatus::kInfeasible);
-  // 18^2/20 = 16.2 m/s^2 exceeds 0.9 * 9.81 = 8.83 m/s^2.
+  // The lateral acceleration 18^2/20 = 16.2 m/s^2 exceeds the limit 0.9 x 9.81 = 8.83 m/s^2.
   EXPECT_NE(refused.reason.find("lateral acceleration 16.2 m/s^2"), std::string::npos)
       << refused.reason;
   EXPECT_NE(refused.reason.find(" exceeds 8.83 m/s^2 at "), std::string::npos) << refused.reason;
@@ -147,8 +152,9 @@ TEST(Feasibility, RefusesOrAllowsAsTheScenarioSays) {
 }
 
 TEST(Feasibility, SlowsDownWhereTheWheelsTurnTooSlowly) {
-  // The wheels turn by atan(2.7 * 0.1) = 0.2637 rad within 2 m. With the mean slope the speed is
-  // 0.1506/(0.2637/2) = 1.14 m/s; the slope of atan varies by less than 3 %.
+  // Within 2 m, the wheels turn by atan(2.7 x 0.1) = 0.2637 rad. If the angle were linear in the
+  // station, the speed limit would be 0.1506/(0.2637/2) = 1.14 m/s. The slope of atan varies by
+  // less than 3 %.
   const PlanRequest request = Request(4.0, {{0.0, 0.0}});
   const Plan plan = Course(request, {{.length = 20.0, .curvature = 0.0},
                                      {.length = 2.0, .curvature_to = 0.1},
@@ -160,7 +166,8 @@ TEST(Feasibility, SlowsDownWhereTheWheelsTurnTooSlowly) {
 }
 
 TEST(Feasibility, RefusesAPathThatBeginsCarLengthsFromASmallCar) {
-  // A car of 2.7 um wheelbase and a path that begins 45 um beside it: all within a millimeter.
+  // The car has a wheelbase of 2.7 um, and the path begins 45 um beside the car. Both are far below
+  // the tolerance of 1 mm for a full-size car.
   PlanRequest request = Request(0.0, {{0.0, 0.0}, {1e-3, 0.0}, {2e-3, 0.0}});
   request.vehicle.wheelbase *= 1e-6;
   request.speed.speed = 1e-5;
@@ -176,14 +183,15 @@ TEST(Feasibility, RefusesAStartOnABendForACarThatRolls) {
   PlanRequest request = Request(3.0, {{0.0, 0.0}});
   const std::vector<CoursePiece> bend{{.length = 20.0, .curvature = 0.1}};
   EXPECT_EQ(Course(request, bend).status, PlanStatus::kInfeasible);
-  request.start_steering = std::atan(0.27);  // its wheels match the path's curvature
+  request.start_steering = std::atan(0.27);  // The start steering angle matches the curvature of
+                                             // the path.
   EXPECT_TRUE(Course(request, bend).ok());
   request.start_steering = 0.0;
-  request.start_speed = 0.0;  // a car at rest turns its wheels before it starts
+  request.start_speed = 0.0;  // A car at rest turns its wheels before it starts to move.
   EXPECT_TRUE(Course(request, bend).ok());
 }
 
-/// Number that follows the last `words` in a text.
+/// Returns the number after the last occurrence of `words` in a text.
 double NumberAfter(const std::string& text, const std::string& words) {
   const std::size_t at = text.rfind(words);
   return at == std::string::npos ? NAN : std::stod(text.substr(at + words.size()));
@@ -197,12 +205,12 @@ TEST(Feasibility, GivesTheStartSteeringThatFits) {
     const Plan refused = Course(request, bend);
     EXPECT_EQ(refused.status, PlanStatus::kInfeasible);
     const double fitting = NumberAfter(refused.reason, "set mission.start.steering: ");
-    // Four significant digits.
+    // The message has four significant digits.
     EXPECT_NEAR(fitting, std::atan(2.7 * curvature), 5e-5) << refused.reason;
     request.start_steering = fitting;
     EXPECT_TRUE(Course(request, bend).ok());
   }
-  // A bend that the car cannot steer at all is the cause itself.
+  // If the car cannot steer the bend at all, the reported excess must be the steering angle.
   PlanRequest request = Request(3.0, {{0.0, 0.0}});
   request.vehicle.steering_limit = 0.2;
   Plan plan;
@@ -212,8 +220,9 @@ TEST(Feasibility, GivesTheStartSteeringThatFits) {
   EXPECT_THAT(Kinds(plan, request), testing::ElementsAre("steering angle"));
 }
 
-// The tyres hold v^2 kappa <= 0.9 * 9.81 m/s^2 at a constant speed. While the car brakes with up to
-// 1.5 m/s^2 or speeds up, the friction circle leaves sqrt((0.9 * 9.81)^2 - 1.5^2) m/s^2.
+// At a constant speed, the tyres hold a lateral acceleration of v^2 kappa <= 0.9 x 9.81 m/s^2.
+// While the car brakes or accelerates with up to 1.5 m/s^2, the friction circle leaves sqrt((0.9 x
+// 9.81)^2 - 1.5^2) m/s^2.
 TEST(Feasibility, GivesTheStartSpeedForABend) {
   for (const double curvature : {0.1, 0.05, -0.02}) {
     const double highest = std::sqrt(0.9 * 9.81 / std::abs(curvature));
@@ -229,7 +238,8 @@ TEST(Feasibility, GivesTheStartSpeedForABend) {
     EXPECT_THAT(refused.reason, testing::HasSubstr("lateral acceleration 14.9 m/s^2 exceeds 8.83"));
     EXPECT_THAT(refused.reason, testing::Not(testing::HasSubstr("deceleration")));
     const double given = NumberAfter(refused.reason, "set mission.start.speed to at most ");
-    // The bisection ends within 0.4 % of the start speed, and the message rounds down three digits.
+    // The bisection stops within 0.4 % of the start speed, and the message rounds down to three
+    // digits.
     EXPECT_LE(given, highest) << refused.reason;
     EXPECT_GE(given, gentle - 0.004 * request.start_speed - 0.01 * highest) << refused.reason;
     request.start_speed = given;
@@ -238,7 +248,8 @@ TEST(Feasibility, GivesTheStartSpeedForABend) {
 }
 
 TEST(Feasibility, GivesTheStartSpeedForAShortPath) {
-  // The speed control brakes with up to 2 * 1.5 m/s^2: sqrt(2 * 3 m/s^2 * 10 m) = 7.75 m/s.
+  // The speed control brakes with up to 2 x 1.5 m/s^2. The start speed is then at most sqrt(2 x 3
+  // m/s^2 x 10 m) = 7.75 m/s.
   PlanRequest request = Request(8.0, {{0.0, 0.0}});
   const Plan refused = Course(request, {{.length = 10.0, .curvature = 0.0}});
   EXPECT_NEAR(NumberAfter(refused.reason, "set mission.start.speed to at most "), std::sqrt(60.0),
@@ -255,7 +266,7 @@ TEST(Feasibility, RefusesAPathThatBeginsElsewhere) {
 }
 
 TEST(Feasibility, RefusesToBrakeHarderThanTheSpeedControlDoes) {
-  // From 8 m/s to rest within 10 m takes 3.2 m/s^2; the speed control is limited to 2 * 1.5 m/s^2.
+  // Stopping from 8 m/s within 10 m needs 3.2 m/s^2. The speed control is limited to 2 x 1.5 m/s^2.
   PlanRequest request = Request(8.0, {{0.0, 0.0}});
   const Plan plan = Course(request, {{.length = 10.0, .curvature = 0.0}});
   EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
@@ -265,7 +276,7 @@ TEST(Feasibility, RefusesToBrakeHarderThanTheSpeedControlDoes) {
 
 TEST(Feasibility, BrakesGentlyOnIce) {
   PlanRequest request = Request(5.0, {{0.0, 0.0}});
-  request.friction = 0.1;  // 0.883 m/s^2
+  request.friction = 0.1;  // The tyres hold 0.883 m/s^2.
   const Plan plan = Course(request, {{.length = 60.0, .curvature = 0.0}});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const auto& knots = plan.reference.speed.knots();
@@ -282,8 +293,8 @@ FrictionPatch IceAcross(double from, double length) {
 }
 
 TEST(Feasibility, BrakesBeforeIceAtTheEnd) {
-  // On the last 30 m, the tyres hold 0.999 * 0.9 * 0.05 * 9.81 = 0.441 m/s^2. Both axles count: the
-  // front axle is 2.7 m ahead.
+  // On the last 30 m, the tyres hold 0.999 x 0.9 x 0.05 x 9.81 = 0.441 m/s^2. The grip under both
+  // axles counts; the front axle is 2.7 m ahead of the rear axle.
   PlanRequest request = Request(10.0, {{0.0, 0.0}});
   request.friction_patches = {IceAcross(120.0, 40.0)};
   const Plan plan = Course(request, {{.length = 150.0, .curvature = 0.0}});
@@ -295,20 +306,22 @@ TEST(Feasibility, BrakesBeforeIceAtTheEnd) {
 }
 
 TEST(Feasibility, NamesTheIceWhereTheCarIsTooFast) {
-  // Even at twice the deceleration of the speed control, the car is too fast for the ice.
+  // The car is too fast for the ice, even if it brakes at twice the deceleration of the speed
+  // control.
   PlanRequest request = Request(10.0, {{0.0, 0.0}});
   request.friction_patches = {IceAcross(12.0, 60.0)};
   request.infeasible = InfeasiblePolicy::kRefuse;
   const Plan plan = Course(request, {{.length = 60.0, .curvature = 0.0}});
   EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
-  // The front axle meets the ice at s = 12 - 2.7 m, and the check looks at least every 0.1 m.
+  // The front axle reaches the ice at s = 12 - 2.7 = 9.3 m. The planner checks the path at least
+  // every 0.1 m.
   const double station = std::stod(plan.reason.substr(plan.reason.rfind("s = ") + 4));
   EXPECT_GE(station, 9.3);
   EXPECT_LE(station, 60.0);
 }
 
-/// The smaller friction factor under the two axles of a car on the x axis. The last patch in the
-/// list lies on top.
+/// Returns the smaller of the friction factors under the two axles of a car on the x axis. If
+/// patches overlap, the last patch in the list applies.
 double FrictionAt(const PlanRequest& request, double s) {
   double smallest = 1.0;
   for (const double axle : {s, s + request.vehicle.wheelbase}) {
@@ -327,7 +340,7 @@ TEST(Feasibility, BrakesWithinTheGripOfRandomRoadsWithIce) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int i = 0; i < 200; ++i) {
     PlanRequest request = Request(2.0 + 8.0 * unit(random), {{0.0, 0.0}});
-    request.start_speed = 0.0;  // from rest, the car can be slow enough for any ice
+    request.start_speed = 0.0;  // A car that starts from rest can drive slowly enough for any ice.
     for (int k = 0; k < 3; ++k) {
       FrictionPatch patch = IceAcross(200.0 * unit(random), 1.0 + 40.0 * unit(random));
       patch.friction = 0.04 + 0.4 * unit(random);
@@ -341,23 +354,22 @@ TEST(Feasibility, BrakesWithinTheGripOfRandomRoadsWithIce) {
       const double load = 1.0 / std::hypot(1.0, grade);
       const double grip = 0.9 * 9.81 * FrictionAt(request, s) * load;
       const double change = plan.reference.speed.AccelerationAt(s);
-      // Gravity takes from the grip downhill when braking, and uphill when accelerating.
+      // Gravity reduces the available grip when the car brakes downhill or accelerates uphill.
       const double pull = 9.81 * load * std::max(0.0, change < 0.0 ? -grade : grade);
       ASSERT_LE(std::abs(change), grip - pull + Tolerance(1e-9)) << i << " at " << s;
     }
   }
 }
 
-/// Random missions for every waypoint planner: a successful plan starts at the car's pose, speed
-/// and steering, whatever these are.
-// Only MakeFeasible makes one, and it does not change afterwards.
+// Only MakeFeasible can make a FeasiblePlan, and a FeasiblePlan is constant.
 static_assert(!std::is_constructible_v<FeasiblePlan, Plan>);
 static_assert(!std::is_convertible_v<Plan, FeasiblePlan>);
 static_assert(std::is_same_v<decltype(*std::declval<FeasiblePlan&>()), const Plan&>);
 
 TEST(Feasibility, TakesTheSlopeOffWhatTheRoadHolds) {
-  // mu g = 0.9 * 0.15 * 9.81 = 1.32 m/s^2; braking at 1.5 is limited to that, less g sin(theta)
-  // downhill: 1.32 * 0.9988 - 9.81 * 0.0499 = 0.833.
+  // The grip is mu g = 0.9 x 0.15 x 9.81 = 1.32 m/s^2, less than the mission's 1.5 m/s^2. Downhill,
+  // the slope reduces the load and g sin(theta) is subtracted: 1.32 x 0.9988 - 9.81 x 0.0499 =
+  // 0.833 m/s^2.
   PlanRequest request = Request(3.0, {{0.0, 0.0}});
   request.friction = 0.15;
   const std::vector<CoursePiece> straight{{.length = 60.0, .curvature = 0.0}};
@@ -369,18 +381,19 @@ TEST(Feasibility, TakesTheSlopeOffWhatTheRoadHolds) {
   };
   EXPECT_NEAR(hardest(0.0), 0.999 * 1.3244, Tolerance(1e-3));
   EXPECT_NEAR(hardest(-0.05), 0.999 * 0.8333, Tolerance(1e-3));
-  // Uphill, gravity helps: that is not counted, but the load is less.
+  // Uphill, gravity helps to brake. The planner does not use this help, but reduces the grip by the
+  // smaller load.
   EXPECT_NEAR(hardest(0.05), 0.999 * 1.3227, Tolerance(1e-3));
 }
 
 TEST(Feasibility, RefusesASlopeThatTheRoadDoesNotHold) {
   PlanRequest request = Request(3.0, {{0.0, 0.0}});
-  request.friction = 0.1;               // 0.88 m/s^2
-  request.ground.grade = {-0.15, 0.0};  // 1.46 m/s^2
+  request.friction = 0.1;               // The tyres hold 0.88 m/s^2.
+  request.ground.grade = {-0.15, 0.0};  // The pull of gravity is 1.46 m/s^2.
   const Plan plan = Course(request, {{.length = 60.0, .curvature = 0.0}});
   EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
   EXPECT_NE(plan.reason.find("pull of gravity 1.46 m/s^2"), std::string::npos) << plan.reason;
-  request.ground.grade = {0.0, 0.15};  // across
+  request.ground.grade = {0.0, 0.15};  // The road slopes across the driving direction.
   EXPECT_EQ(Course(request, {{.length = 60.0, .curvature = 0.0}}).status, PlanStatus::kInfeasible);
 }
 
@@ -388,22 +401,27 @@ TEST(Feasibility, SlowsDownMoreWhereTheRoadFallsToTheOutside) {
   PlanRequest request = Request(18.0, {{0.0, 0.0}});
   const std::vector<CoursePiece> bend{{.length = 200.0, .curvature = 0.0},
                                       {.length = 60.0, .curvature_to = 0.05},
-                                      {.length = 90.0, .curvature = 0.05}};  // not braking yet
+                                      {.length = 90.0, .curvature = 0.05}};  // The car does not
+                                                                             // brake yet at the end
+                                                                             // of this piece.
   const auto slowest = [&](double grade) {
     request.ground.grade = {grade, 0.0};
     const Plan plan = Course(request, bend);
     EXPECT_TRUE(plan.ok()) << plan.reason;
     return plan.reference.speed.SpeedAt(260.5);
   };
-  // In the arc of the left bend the car heads along y. A fall along x is one to its right, outside:
-  // Before the arc the car brakes with 1.5 m/s^2, and the fall along its heading of 1.5 rad pulls
-  // with 9.81 * 0.0995 cos(1.5) = 0.07 m/s^2: v^2 = 20 m (sqrt((8.83 * 0.995)^2 - 1.57^2) - 0.974)
-  // m/s^2. On the flat road v^2 = 20 m sqrt(8.83^2 - 1.5^2) m/s^2.
+  // In the arc of the left bend, the car heads along y, so a road that falls along x falls to the
+  // outside of the bend. Before the arc, the car brakes with 1.5 m/s^2, and the fall along its
+  // heading of 1.5 rad pulls with 9.81 x 0.0995 x cos(1.5) = 0.07 m/s^2. The speed is therefore v^2
+  // = 20 m (sqrt((8.83 x 0.995)^2 - 1.57^2) - 0.974) m/s^2. On the flat road, v^2 = 20 m x
+  // sqrt(8.83^2 - 1.5^2) m/s^2.
   EXPECT_NEAR(slowest(-0.1), 12.386, 0.01);
   EXPECT_NEAR(slowest(0.0), 13.191, 0.01);
-  EXPECT_NEAR(slowest(0.1), slowest(0.0), 0.05);  // a bank that helps does not count
+  EXPECT_NEAR(slowest(0.1), slowest(0.0), 0.05);  // The planner does not use a bank that helps.
 }
 
+// In random missions for every waypoint planner, a successful plan must start at the pose, the speed
+// and the steering angle of the car.
 TEST(Feasibility, EveryPlanThatIsOkBeginsAsTheCarDoes) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -440,7 +458,7 @@ TEST(Feasibility, EveryPlanThatIsOkBeginsAsTheCarDoes) {
       EXPECT_TRUE(Kinds(plan, request).empty()) << Kinds(plan, request).front();
     }
   }
-  EXPECT_GT(planned, 60);  // and not all are rejected
+  EXPECT_GT(planned, 60);  // The planners do not reject all missions.
 }
 
 }  // namespace
