@@ -20,14 +20,15 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/world/world.h"
 
-// Tests the avoidance maneuver in a turn against the listing and the printed numbers of
+// Tests the avoidance maneuver in a turn against the code listing and the printed numbers of
 // Skackauskas, dissertation, sections 5.1 to 5.10: layout, safe point, control points, Bezier
-// curve, run and search. Labels such as L9 are the listing's known defects, explained in
-// docs/published-experiments.md.
+// curve, run and search. Labels such as L9 refer to known defects of the listing, which
+// docs/published-experiments.md explains.
 namespace trackbed {
 namespace {
 
-// Coordinates up to 300 m pass through some ten operations, each rounding by 300 * 2^-53 = 3e-14.
+// Rounding error [m] of some ten operations on coordinates up to 300 m. Each operation has an error
+// of 300 x 2^-53 = 3e-14 m.
 constexpr double kRounding = 1e-12;
 
 using Points = std::array<Vec2, 8>;
@@ -58,8 +59,8 @@ BezierCurve CurveThrough(const Points& points) {
   return BezierCurve({points.begin(), points.end()});
 }
 
-/// A car with equal overhang behind and ahead of its rear axle: the center of its footprint moves
-/// along the curve, as in the listing.
+/// Returns a car whose rear axle is in the middle of its footprint. The center of the footprint
+/// then moves along the curve, as in the listing.
 VehicleParams CenteredCar() {
   VehicleParams car = ReferenceCar();
   car.rear_overhang = 0.5 * car.length;
@@ -78,8 +79,8 @@ void ExpectPoint(const Vec2& actual, const Vec2& expected, double tolerance) {
   EXPECT_NEAR(actual.y(), expected.y(), Tolerance(tolerance));
 }
 
-/// A random problem with a valid layout, covering every branch. The listing's arc counts from pi/2,
-/// so the turn's own angle is kept.
+/// Returns a random problem with a valid layout. The problems cover every branch of the listing.
+/// The angle of the turn keeps its default, because the arc of the listing starts from pi/2.
 TurnManeuver RandomLiteral(Random& random) {
   const TurnSide side = random.Below(2) == 0 ? TurnSide::kLeft : TurnSide::kRight;
   const PassingSide passing_side = random.Below(2) == 0 ? PassingSide::kInner : PassingSide::kOuter;
@@ -146,7 +147,7 @@ TEST(LayOutTurn, ArcRunsFromEndToEnd) {
       EXPECT_NEAR((layout.arc[k].position - center).norm(), maneuver.radius, Tolerance(kRounding));
       EXPECT_LE(layout.arc[k].angle - layout.arc[k - 1].angle, 0.01 + Tolerance(kRounding));
     }
-    // The obstacle is n sixths along the arc, and the safe point is at the same angle.
+    // The obstacle is at n sixths of the arc, and the safe point is at the same angle.
     const double angle = maneuver.obstacle_sixth / 6.0 * layout.arc.back().angle;
     EXPECT_NEAR(layout.safe_angle, angle, Tolerance(kRounding));
     const Vec2 out{std::sin(angle), -sign * std::cos(angle)};
@@ -160,7 +161,7 @@ TEST(LayOutTurn, LiteralGridHasThePrintedPoints) {
   const TurnLayout layout = LayOut(Literal(TurnSide::kLeft, PassingSide::kInner));
   EXPECT_EQ(layout.arc.size(), 131U);
   ExpectPoint(layout.arc.front().position, {22.8799, 0.0008}, Printed(4));
-  // The other end of the arc is exact: 90 - 15 = 75 degrees.
+  // The other end of the arc is exactly at 90 - 15 = 75 degrees.
   EXPECT_NEAR(layout.arc.back().angle, 75.0 * kPi / 180.0, Tolerance(kRounding));
   EXPECT_EQ(LayOut(Literal(TurnSide::kLeft, PassingSide::kInner, 0.0)).arc.size(), 158U);
 }
@@ -187,7 +188,8 @@ TEST(LayOutTurn, LiteralAnglesMissByLessThanAStep) {
     const TurnManeuver maneuver = RandomLiteral(random);
     SCOPED_TRACE(Describe(maneuver));
     const TurnLayout layout = LayOut(maneuver);
-    // The remainder of the range that the grid's steps leave, at most one step.
+    // The range of angles is not a whole number of the grid's steps. The remainder is at most one
+    // step of 0.01 rad.
     const double late = layout.arc.front().angle;
     EXPECT_GE(late, -Tolerance(kRounding));
     EXPECT_LE(late, 0.01 + Tolerance(kRounding));
@@ -225,9 +227,9 @@ TEST(LayOutTurn, SafePointIsAsPrinted) {
   }
 }
 
-/// The listing's branches, with corrected parentheses. The last branch has theta_m + 3 pi/2 - dec.
-/// With -theta_m instead, the point would be at sigma = theta_m + dec, which is not the mirror
-/// image of the left turn's point.
+/// Computes the safe point by the branches of the listing, with corrected parentheses. The last
+/// branch has theta_m + 3 pi/2 - dec. With -theta_m instead, as printed, the safe point of a right
+/// turn would not be the mirror image of the left turn's safe point.
 Vec2 SafePointByBranches(const TurnManeuver& m, double r_k, double theta_m) {
   const bool inner = m.inner_width >= m.outer_width;
   const double dec = m.reduction;
@@ -287,7 +289,9 @@ TEST(LayOutTurn, OneFormulaIsAllEightBranches) {
 }
 
 TEST(LayOutTurn, RefusesATurnTooTightToPassInside) {
-  // The limit of the radius is 2 SD + 2 IS_k + 2 w_a + 1 = 3 + 2 sqrt(2) + 3.45 + 1 = 10.2784... m.
+  // Passing on the inside needs a radius of at least 2 SD + 2 IS_k + 2 w_a + 1 = 3 + 2 sqrt(2) +
+  // 3.45 + 1 = 10.2784 m, where SD is the safe distance, IS_k is half the obstacle's diagonal and
+  // w_a is the car's width.
   const double limit = 7.45 + std::sqrt(8.0);
   TurnManeuver maneuver;
   maneuver.radius = limit * (1.0 + 1e-12);
@@ -312,7 +316,8 @@ TEST(LayOutTurn, RefusesAReductionThatLeavesNoTurn) {
   const TurnLayout layout = LayOutTurn(maneuver, ReferenceCar());
   EXPECT_EQ(layout.status, TurnStatus::kNoTurn);
   EXPECT_EQ(layout.reason, "a turn of 1.5708 rad less 1.5708 rad leaves no arc");
-  // One sixth of the literal grid's two points rounds to zero points.
+  // The grid of the listing has only two points here. One sixth of two points rounds to zero
+  // points.
   maneuver.literal.grid = true;
   maneuver.obstacle_sixth = 1;
   maneuver.reduction = maneuver.turn_angle - 0.015;
@@ -326,7 +331,8 @@ TEST(LayOutTurn, NumbersOutOfRangeAreBugs) {
     change(maneuver);
     EXPECT_THROW(LayOutTurn(maneuver, ReferenceCar()), InternalError);
   };
-  // The listing's abs(r_1) suggests a negative radius for right turns, but S would then be wrong.
+  // The listing uses abs(r_1), which suggests a negative radius for right turns. The length S would
+  // then be wrong.
   refused([](TurnManeuver& m) { m.radius = -20.0; });
   refused([](TurnManeuver& m) { m.speed = 0.0; });
   refused([](TurnManeuver& m) { m.delay = -0.1; });
@@ -343,7 +349,7 @@ TEST(LayOutTurn, NumbersOutOfRangeAreBugs) {
 
 // --- Control points ----------------------------------------------------------------------------
 
-/// The control points by the listing's branches.
+/// Computes the control points by the branches of the listing.
 Points PointsByBranches(const TurnManeuver& m, const TurnLayout& layout, double final_y) {
   const bool left = m.side == TurnSide::kLeft;
   const bool inner = m.inner_width >= m.outer_width;
@@ -452,7 +458,7 @@ TEST(ControlPoints, DefaultOnesAreAsPrinted) {
 }
 
 TEST(ControlPoints, LiteralRightTurnIsNoMirror) {
-  // L9: only P_5 differs, by cos 75 degrees.
+  // Defect L9: only P_5 is not mirrored. Its x differs by cos 75 degrees = 0.2588 m.
   const Points left = ControlPointsFor(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
   const Points right = ControlPointsFor(Literal(TurnSide::kRight, PassingSide::kInner), -3.0);
   for (std::size_t k = 0; k < 8; ++k) {
@@ -500,7 +506,8 @@ TEST(TurnManeuver, RightTurnMirrorsTheLeftToTheLastBit) {
 }
 
 TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
-  // A reduction of 1e-9 rotates the exit, whose far end lies r_1 + S < 43 m from the arc's center.
+  // A reduction of 1e-9 rad rotates the exit straight about the arc's center. The far end of the
+  // exit is less than r_1 + S < 43 m from the center.
   constexpr double kSmall = 1e-9;
   for (const PassingSide passing_side : {PassingSide::kInner, PassingSide::kOuter}) {
     TurnManeuver none = Literal(TurnSide::kLeft, passing_side, 0.0);
@@ -511,8 +518,9 @@ TEST(ControlPoints, NothingJumpsWhenTheReductionVanishes) {
     for (std::size_t k = 0; k < 8; ++k) {
       ExpectPoint(a[k], b[k], 43.0 * kSmall + kRounding);
     }
-    // L18: the listing's P_5 to P_7 jump from the arc's end to beside the safe point, 7 m down on
-    // the inside. All other points agree.
+    // Defect L18: if the reduction vanishes, P_5 to P_7 of the listing jump. They move from the end
+    // of the arc to a place beside the safe point, 7 m lower for a pass on the inside. All other
+    // points agree.
     none.literal = small.literal = {.right_angle_rule = true};
     const Points c = ControlPointsFor(none, 3.0);
     const Points d = ControlPointsFor(small, 3.0);
@@ -561,8 +569,8 @@ TEST(TurnManeuver, CurveIsTheListingsOwnCheck) {
 TEST(TurnManeuver, DerivativesAreThoseOfTheCurve) {
   const Points p = ControlPointsFor(Literal(TurnSide::kRight, PassingSide::kOuter), 3.0);
   const BezierCurve curve = CurveThrough(p);
-  // A central difference errs by h^2/6 times the third derivative. The third derivatives of the
-  // curve's first and second derivatives are at most 210 * 8 and 840 * 16 times the largest
+  // The error of a central difference is h^2/6 times the third derivative. The third derivatives of
+  // the curve's first and second derivatives are at most 210 x 8 and 840 x 16 times the largest
   // coordinate, 51 m. Rounding adds 1e-13/h.
   constexpr double kStep = 1e-5;
   for (double u = 0.02; u < 0.99; u += 0.02) {
@@ -588,7 +596,8 @@ TEST(SimulateManeuver, DefaultDetailsAreAsPrinted) {
 
 // --- The run ---------------------------------------------------------------------------------
 
-/// The largest steering rate between neighboring samples, computed as for the printed numbers.
+/// Returns the largest steering rate between neighboring samples [rad/s], computed in the same way
+/// as the printed rates.
 double LargestQuotient(const ManeuverRun& drive) {
   double largest = 0.0;
   for (std::size_t i = 1; i < drive.samples.size(); ++i) {
@@ -620,8 +629,9 @@ TEST(SimulateManeuver, TableIsAsPrinted) {
   constexpr PassingSide kInner = PassingSide::kInner;
   constexpr PassingSide kOuter = PassingSide::kOuter;
   constexpr double kDec = kPi / 12.0;
-  // The clearance of V_L_1 is printed as 4.59, from every second sample (4.586). All samples, and
-  // four times as many, give 4.5847. Durations that are not printed are a third of the length.
+  // The listing prints a clearance of 4.59 m for V_L_1, from every second sample (4.586 m). All
+  // samples, and four times as many, give 4.5847 m. Where the duration is not printed, the expected
+  // duration is a third of the length.
   const auto third = [](double length) { return Value{length / 3.0, 4}; };
   // clang-format off
   const std::vector<Row> rows{
@@ -663,15 +673,17 @@ TEST(SimulateManeuver, TableIsAsPrinted) {
     expect(LargestQuotient(drive), row.rate);
     expect(drive.test_distance, row.test_distance);
     expect(drive.clearance, {row.clearance, 2});
-    // The rate at a sample differs from the mean rate between samples. Most of the change occurs at
-    // the curve's ends, where half of the first interval lies between the two: 2 % of the rate.
+    // The steering rate at a sample differs from the mean rate between two samples. The difference
+    // is largest at the ends of the curve: over half of the first interval, the rate changes by 2
+    // %.
     EXPECT_GE(drive.steering_rate_max, LargestQuotient(drive) * (1.0 - 1e-4));
     EXPECT_LE(drive.steering_rate_max, LargestQuotient(drive) * 1.025);
-    // With the car's rear axle on the path instead, the clearance differs by up to 0.08 m.
+    // If the rear axle instead of the center follows the path, the clearance differs by up to 0.08
+    // m.
     EXPECT_NEAR(Drive(row.maneuver, row.final_y, ReferenceCar()).clearance, drive.clearance,
                 Tolerance(0.08 + Printed(2)));
-    // The point test passes in all rows, also on the outer side where the footprint comes too
-    // close.
+    // The test point of the listing passes in all rows, although on the outer side the footprint
+    // comes too close to the obstacle.
     EXPECT_TRUE(drive.test_passed);
     EXPECT_TRUE(drive.steerable);
     EXPECT_EQ(drive.keeps_clear, row.maneuver.passing_side() == kInner);
@@ -684,9 +696,9 @@ TEST(SimulateManeuver, OuterRingComesAsCloseAsPrinted) {
   EXPECT_NEAR(Drive(maneuver, 0.0).clearance, 0.60, Tolerance(Printed(2)));
   EXPECT_NEAR(Drive(maneuver, -2.0).clearance, 0.94, Tolerance(Printed(2)));
   EXPECT_NEAR(Drive(maneuver, -5.0).clearance, 1.41, Tolerance(Printed(2)));
-  // Printed as 0.78, from every fourth sample (0.7755). An independent script that uses the
-  // footprints' sides instead of separating axes finds 0.77413, 0.77400 and 0.77390 with 101, 501
-  // and 4001 samples.
+  // The listing prints 0.78 m, from every fourth sample (0.7755 m). An independent script that
+  // computes the distance between the sides of the footprints finds 0.77413, 0.77400 and 0.77390 m
+  // with 101, 501 and 4001 samples.
   EXPECT_NEAR(Drive(maneuver, -1.0).clearance, 0.77400, Tolerance(Printed(5)));
 }
 
@@ -708,7 +720,7 @@ TEST(SimulateManeuver, HeightFromTheSearchShortensTheInnerWay) {
 }
 
 TEST(SimulateManeuver, ListingsSteeringIsTooSmallByTheFactorPrinted) {
-  // L1: the listing has atan(L)/R in place of atan(L/R).
+  // Defect L1: the listing computes atan(L)/R in place of atan(L/R).
   EXPECT_NEAR(std::atan(2.7), 1.2161, Tolerance(Printed(4)));
   EXPECT_NEAR(std::atan(2.7) / 2.7, 0.450, Tolerance(Printed(3)));
   const ManeuverRun drive = Drive(Literal(TurnSide::kLeft, PassingSide::kInner), 3.0);
@@ -716,7 +728,8 @@ TEST(SimulateManeuver, ListingsSteeringIsTooSmallByTheFactorPrinted) {
   for (const ManeuverSample& sample : drive.samples) {
     const double listing = std::atan(2.7) * sample.curvature;
     largest = std::max(largest, std::abs(listing));
-    // atan x = x (1 - x^2/3 + ...) with x <= 0.0863, so the factor is accurate to 0.25 %.
+    // The series atan x = x (1 - x^2/3 + ...) with x <= 0.0863 shows that the factor is accurate to
+    // 0.25 %.
     EXPECT_NEAR(listing, std::atan(2.7) / 2.7 * sample.steering,
                 std::abs(listing) * 0.0025 + Tolerance(kRounding));
     EXPECT_NEAR(std::tan(sample.steering), 2.7 * sample.curvature, Tolerance(kRounding));
@@ -741,8 +754,8 @@ TEST(SimulateManeuver, SamplesCountChordsAtConstantSpeed) {
   }
   EXPECT_EQ(drive.length, drive.samples.back().s);
   EXPECT_EQ(drive.duration, drive.length / 2.0);
-  // Chords of 0.2 m on radii above 20 m are too short by at most (0.2/20)^2/24 = 4e-6 of the
-  // length.
+  // The samples are 0.2 m apart, and the radius of curvature is above 20 m. The chords are
+  // therefore shorter than the curve by at most (0.2/20)^2/24 = 4e-6 of its length.
   EXPECT_LT(drive.length, curve.Length());
   EXPECT_NEAR(drive.length, curve.Length(), Tolerance(4e-6 * drive.length));
 }
@@ -750,8 +763,8 @@ TEST(SimulateManeuver, SamplesCountChordsAtConstantSpeed) {
 TEST(SimulateManeuver, TestPointIsTwoSamplesBeforeTheStation) {
   for (int n = 1; n <= 5; ++n) {
     const ManeuverRun drive = Drive(Literal(TurnSide::kLeft, PassingSide::kInner, 0.2, n), 3.0);
-    // The listing's indices count from 1: B_sum(m) is s of sample m + 1, the test point is P(m -
-    // 1).
+    // The indices of the listing count from 1. B_sum(m) of the listing is the s of sample m + 1,
+    // and the test point is P(m - 1).
     std::size_t m = 1;
     while (drive.samples[m].s < n / 6.0 * drive.length - 2.0) {
       ++m;
@@ -774,7 +787,8 @@ TEST(SimulateManeuver, TestCornerIsTheListings) {
 }
 
 TEST(SimulateManeuver, AcceptsFromTheSafeDistanceOn) {
-  // SD + w_a/2 = 2.3625 for the point, SD for the footprint: both exactly at their limits.
+  // The limit of the test point's distance is SD + w_a/2, with w_a/2 = 0.8625 m, and the limit of
+  // the footprint's clearance is SD. The test checks values just below and above both limits.
   const TurnManeuver base = Literal(TurnSide::kLeft, PassingSide::kOuter);
   const TurnLayout layout = LayOut(base);
   const BezierCurve curve = CurveThrough(ControlPoints(base, layout, ReferenceCar(), -3.0));
@@ -805,7 +819,7 @@ TEST(SimulateManeuver, KnowsTheLimitsOfTheSteering) {
   EXPECT_TRUE(steerable(drive.steering_max, drive.steering_rate_max));
   EXPECT_FALSE(steerable(0.999 * drive.steering_max, drive.steering_rate_max));
   EXPECT_FALSE(steerable(drive.steering_max, 0.999 * drive.steering_rate_max));
-  // The curve has no direction at its start.
+  // The first two control points coincide, so the curve has no direction at its start.
   const BezierCurve stuck({{0.0, 0.0}, {0.0, 0.0}, {10.0, 1.0}, {20.0, 0.0}});
   EXPECT_FALSE(SimulateManeuver(maneuver, layout, ReferenceCar(), stuck).steerable);
 }
@@ -841,14 +855,15 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
     TurnSide side;
     PassingSide passing_side;
     double median;
-    double low;   // 5 %
-    double high;  // 95 %
+    double low;   // The 5 % quantile.
+    double high;  // The 95 % quantile.
     double nearest;
   };
   const std::vector<Row> rows{{TurnSide::kLeft, PassingSide::kInner, 1.05, 0.38, 1.98, 20.7},
                               {TurnSide::kLeft, PassingSide::kOuter, -1.72, -2.67, -1.00, 41.9},
-                              // With mirrored roles. The nearest distance is not printed, because
-                              // rounding down shifts the inner safe point of a right turn further.
+                              // A right turn exchanges the roles of inside and outside. The nearest
+                              // distance is not printed: in a right turn, rounding down moves the
+                              // inner safe point farther.
                               {TurnSide::kRight, PassingSide::kInner, -1.72, -2.67, -1.00, 0.0},
                               {TurnSide::kRight, PassingSide::kOuter, 1.05, 0.38, 1.98, 0.0}};
   constexpr int kSeeds = 2000;
@@ -862,8 +877,9 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
       heights.push_back(tree.final_y);
       nearest = std::min(nearest, tree.goal_distance);
     }
-    // A printed quantile p of 2000 other draws has a rank in our draws with a standard deviation of
-    // sqrt(2 n p (1 - p)). Four of these on either side, for a value known to half a unit.
+    // The listing prints quantiles of 2000 other random draws. Among our n draws, the rank of a
+    // printed quantile p has a standard deviation of sqrt(2 n p (1 - p)). The test allows four
+    // standard deviations, and half a unit in the last printed digit.
     const auto expect_quantile = [&](double p, double printed) {
       const double spread = Tolerance(4.0 * std::sqrt(2.0 * kSeeds * p * (1.0 - p)));
       const double half = Printed(2);
@@ -877,9 +893,10 @@ TEST(LiteralRrtStar, SpreadIsAsPrinted) {
     expect_quantile(0.5, row.median);
     expect_quantile(0.05, row.low);
     expect_quantile(0.95, row.high);
-    // The smallest of 2000 draws; 200 000 draws reach 20.55 and 41.83.
+    // The printed distance is the smallest of 2000 draws. With 200 000 draws, the distance falls to
+    // 20.55 m and 41.83 m.
     EXPECT_GE(nearest, row.nearest - Tolerance(Printed(1)));
-    // Eleven steps of one meter cannot reach any of them.
+    // Eleven steps of 1 m cannot reach a safe point.
     EXPECT_GE(nearest, layout.safe_point.norm() - 11.0 - Tolerance(kRounding));
   }
 }
@@ -901,7 +918,7 @@ TEST(LiteralRrtStar, GrowsByStepsFromTheNearestNode) {
         (maneuver.side == TurnSide::kLeft) == (maneuver.passing_side() == PassingSide::kInner);
     for (std::size_t k = 1; k < tree.nodes.size(); ++k) {
       const TreeNode& node = tree.nodes[k];
-      // All samples, and therefore the tree, lie on one side of the start.
+      // All samples, and therefore the whole tree, lie on one side of the start.
       EXPECT_GE(up ? node.position.y() : -node.position.y(), -Tolerance(kRounding));
       double nearest = std::numeric_limits<double>::infinity();
       double cheapest = std::numeric_limits<double>::infinity();
@@ -914,8 +931,8 @@ TEST(LiteralRrtStar, GrowsByStepsFromTheNearestNode) {
         }
       }
       EXPECT_LE(nearest, 1.0 + Tolerance(kRounding));
-      // The parent of a node is the node nearest to it: the node nearest to the sample is also
-      // nearest to all points on the way to the sample. Nodes may coincide.
+      // The parent of a node is the nearest node: the node nearest to the sample is also nearest to
+      // all points on the line to the sample. Nodes may coincide.
       bool by_nearest = false;
       for (std::size_t j = 0; j < k; ++j) {
         const double length = (tree.nodes[j].position - node.position).norm();
@@ -953,13 +970,14 @@ TEST(LiteralRrtStar, CrossesNoSideOfTheObstacle) {
     }
     return nodes;
   };
-  // A wall within reach, and a tiny obstacle in the same place: only the wall blocks samples.
+  // A wall within reach of the tree blocks samples. A tiny obstacle at the same place blocks none.
   EXPECT_EQ(grow({{12.0, 6.5, 0.0}, 0.01, 0.01}), 200U * 12U);
   EXPECT_LT(grow({{12.0, 6.5, 0.3}, 18.0, 3.0}), 200U * 10U);
 }
 
 TEST(LiteralRrtStar, CountsALineWithinTheObstacleAsFree) {
-  // L13: every sample is inside this obstacle.
+  // Defect L13: all samples are inside this obstacle, and the listing treats a line inside an
+  // obstacle as free.
   const TurnManeuver maneuver;
   TurnLayout layout = LayOut(maneuver);
   layout.obstacle.length = layout.obstacle.width = 200.0;
