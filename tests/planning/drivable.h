@@ -16,9 +16,9 @@
 
 namespace trackbed {
 
-/// Checks a plan independently every 5 ms: positions from s and d only, headings, curvatures and
-/// rates by finite differences, clearances by Boost.Geometry, the road by projecting the
-/// footprint's corners.
+/// Checks a plan every 5 ms, independently of the planner's code. Computes positions from s and d;
+/// headings, curvatures and rates from finite differences; clearances with Boost.Geometry; and
+/// distances to the road edges by projecting the corners of the footprint.
 inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
                            const FrenetLimits& limits, const FrenetPlan& plan,
                            double until = std::numeric_limits<double>::infinity()) {
@@ -36,7 +36,8 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
   const VehicleParams& car = request.vehicle;
   const double tightest = std::tan(car.steering_limit) / car.wheelbase;
   const double fastest = request.speed.speed * (1.0 + limits.speed_tolerance);
-  // Between samples the front corner, 3.7 m ahead, moves forward and swings out.
+  // The largest motion of the front corner between two samples. The corner is 3.7 m ahead of the
+  // rear axle, moves forward and swings out.
   const double moves = limits.spacing * (1.0 + 3.7 * tightest);
   constexpr double kStep = 5e-3;
   constexpr double kDifference = 1e-3;
@@ -62,20 +63,20 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
     const Now now = now_at(t);
     const Now after = now_at(t + kDifference);
     SCOPED_TRACE("at " + std::to_string(t) + " s");
-    // 1 %: the change of the limited quantities between samples.
+    // The limited quantities may change by 1 % between two samples.
     EXPECT_LE(now.speed, 1.01 * fastest);
     const double acceleration = (after.speed - before.speed) / (2.0 * kDifference);
     EXPECT_LE(acceleration, 1.03 * request.speed.acceleration);
     EXPECT_GE(acceleration, -1.03 * request.speed.deceleration);
     if (now.speed < 0.1) {
-      steered.clear();  // too slow for headings by differences
+      steered.clear();  // Differences give no heading at this speed.
       continue;
     }
     const double curvature =
         AngleDifference(after.yaw, before.yaw) / (2.0 * kDifference * now.speed);
     EXPECT_LE(std::abs(curvature), 1.01 * tightest);
     EXPECT_LE(now.speed * now.speed * std::abs(curvature), 1.01 * limits.max_lateral_acceleration);
-    // Where the path's sharpness jumps, the curvature changes slightly between samples.
+    // If the sharpness of the path jumps, the curvature changes slightly between samples.
     steered.push_back(std::atan(car.wheelbase * curvature));
     const double step = std::min(limits.time_step, limits.spacing / now.speed);
     const auto window = static_cast<std::size_t>(std::ceil(step / kStep));
@@ -96,7 +97,8 @@ inline void ExpectDrivable(const Path& path, const FrenetRequest& request,
     const double s = plan.motion.At(t).s;
     for (const Vec2& corner : footprint.Corners()) {
       const double d = path.Project({corner.x(), corner.y(), 0.0}, {s - 6.0, s + 6.0}).cross_track;
-      // The path is not exactly a circle over the car's length: sharpness 0.002 times 3.7^3/6.
+      // The path is not exactly a circle over the length of the car. A sharpness of 0.002 1/m^2
+      // adds an offset of up to 0.002 x 3.7^3/6 = 0.017 m.
       EXPECT_LE(d, request.road.left + 0.02 + 0.5 * moves);
       EXPECT_GE(d, -request.road.right - 0.02 - 0.5 * moves);
     }

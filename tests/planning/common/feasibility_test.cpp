@@ -399,11 +399,10 @@ TEST(Feasibility, RefusesASlopeThatTheRoadDoesNotHold) {
 
 TEST(Feasibility, SlowsDownMoreWhereTheRoadFallsToTheOutside) {
   PlanRequest request = Request(18.0, {{0.0, 0.0}});
+  // At the end of the arc, the car does not brake yet.
   const std::vector<CoursePiece> bend{{.length = 200.0, .curvature = 0.0},
                                       {.length = 60.0, .curvature_to = 0.05},
-                                      {.length = 90.0, .curvature = 0.05}};  // The car does not
-                                                                             // brake yet at the end
-                                                                             // of this piece.
+                                      {.length = 90.0, .curvature = 0.05}};
   const auto slowest = [&](double grade) {
     request.ground.grade = {grade, 0.0};
     const Plan plan = Course(request, bend);

@@ -20,18 +20,18 @@
 namespace trackbed {
 namespace limit_profile_test {
 
-constexpr double kGrip = 0.8;  // mu
-// The squared speed is bisected to 2^-24 relative in each interval; the errors of some hundred
-// intervals add up.
+constexpr double kGrip = 0.8;  // Friction coefficient mu.
+// Relative tolerance. In each interval, bisection finds the squared speed with a relative error of
+// 2^-24. The errors of a few hundred intervals add up.
 constexpr double kSearched = 1e-5;
 
-/// A point mass limited only by friction.
+/// Returns the diagram of a point mass that is limited only by friction.
 GgvDiagram FrictionCircle(LongitudinalForces forces = {.mass = 1000.0, .rolling_mass = 1000.0}) {
   const double grip = kGrip * kGravity;
   return GgvDiagram(forces, {EllipticSection(grip, grip, grip)});
 }
 
-/// Stations h apart with equal properties.
+/// Returns stations with equal properties, `h` [m] apart over `length` [m].
 std::vector<LimitStation> Alike(double length, double h, LimitStation station) {
   std::vector<LimitStation> stations;
   const auto count = std::lround(length / h);
@@ -69,7 +69,8 @@ TEST(LimitProfile, KeepsOnACircleWhatFrictionAllows) {
 }
 
 TEST(LimitProfile, SpeedsUpAndBrakesOnAStraightAsFrictionAllows) {
-  // v^2 = 2 mu g s from rest, and mirrored to rest: the peak is at the station in the middle.
+  // From rest, v^2 = 2 mu g s. Braking to rest is the mirror image, so the speed peaks at the
+  // middle station.
   const auto stations = Alike(100.0, 0.5, {});
   const LimitSpeeds result =
       LimitSpeedsAlong(stations, FrictionCircle(), {.speed = 90.0}, 0.0, 0.0);
@@ -82,9 +83,9 @@ TEST(LimitProfile, SpeedsUpAndBrakesOnAStraightAsFrictionAllows) {
 }
 
 TEST(LimitProfile, IsLimitedByPower) {
-  // M v dv/ds = P: v^3 = v0^3 + 3 P s/M. Each interval uses the force at its faster end. If v
-  // changes by dv over the interval, that costs about dv/v of the interval's gain, and half of it
-  // on average.
+  // With the constant power P, M v dv/ds = P, so v^3 = v0^3 + 3 P s/M. Each interval uses the force
+  // at its faster end. If the speed changes by dv over the interval, the gain in speed is too small
+  // by the fraction dv/v at most, and by half of that on average.
   const double power = 80e3;
   const double mass = 1200.0;
   const GgvDiagram car =
@@ -100,34 +101,38 @@ TEST(LimitProfile, IsLimitedByPower) {
       EXPECT_LE(result.speeds[i], v * (1.0 + kSearched));
       worst = std::max(worst, v - result.speeds[i]);
     }
-    // dv of the first interval is P h/(M v0^2) = 0.6 m/s at h = 2 m; the error is below half of it.
+    // In the first interval, dv is P h/(M v0^2) = 0.6 m/s for h = 2 m. The error is below half of
+    // dv.
     EXPECT_LT(worst, Tolerance(0.5 * power * h / (mass * start * start)));
     if (before > 0.0) {
-      EXPECT_NEAR(worst / before, 0.5, Tolerance(0.05));  // first order
+      EXPECT_NEAR(worst / before, 0.5, Tolerance(0.05));  // The error is of first order in h.
     }
     before = worst;
   }
 }
 
 TEST(LimitProfile, EndsItsAccelerationWhereDragIsAsStrongAsTheMotor) {
-  // The drag F = c v^2 limits the speed to 40 m/s.
+  // The drag c v^2 equals the drive force at 40 m/s.
   const GgvDiagram car =
       FrictionCircle({.mass = 1000.0, .rolling_mass = 1000.0, .drive_force = 640.0, .drag = 0.4});
   const LimitSpeeds result =
       LimitSpeedsAlong(Alike(20e3, 5.0, {}), car, {.speed = 90.0}, 10.0, 90.0);
-  // v^2 approaches the limit with exp(-2 c s/m), 1e-7 at the end.
+  // The difference between v^2 and its limit falls with exp(-2 c s/m), which is 1e-7 at the end.
   EXPECT_NEAR(result.speeds.back(), 40.0, Tolerance(1e-4));
-  // From a higher speed the car slows down by drag alone: v = v0 exp(-c s/m).
+  // From a higher speed v0, drag alone slows the car down: v = v0 exp(-c s/m).
   const GgvDiagram coasting =
       FrictionCircle({.mass = 1000.0, .rolling_mass = 1000.0, .drive_force = 1e-9, .drag = 0.4});
   const LimitSpeeds slower =
       LimitSpeedsAlong(Alike(1000.0, 0.5, {}), coasting, {.speed = 90.0}, 50.0, 90.0);
-  // Each interval uses the drag at one of its ends: 2 c h/m of it, half of that on average.
+  // Each interval uses the drag at one of its ends. Over an interval, the drag changes by the
+  // fraction 2 c h/m, and the mean error is half of that.
   EXPECT_NEAR(slower.speeds.back(), 50.0 * std::exp(-0.4), Tolerance(50.0 * 0.4 * 4e-4));
 }
 
 TEST(LimitProfile, BrakesAsASlopeAllows) {
-  // Along the slope mu g cos - g sin, in plan view times cos; v^2/2 is that times s.
+  // With tan(theta) = slope, the deceleration along the slope is g (mu cos(theta) + sin(theta)). In
+  // plan view, it is multiplied by cos(theta). The speed follows from v^2/2 = deceleration x
+  // distance.
   const double slope = -0.2;
   const double cosine = 1.0 / std::hypot(1.0, slope);
   const auto stations = Alike(60.0, 0.5, {.grade = slope});
@@ -141,7 +146,8 @@ TEST(LimitProfile, BrakesAsASlopeAllows) {
 }
 
 TEST(LimitProfile, IsFasterOnABankThatHelps) {
-  // v^2 = R g (mu + tan)/(1 - mu tan) for a left bend whose bank rises to the right.
+  // In a left bend whose road rises to the right with the slope t = -bank, v^2 = R g (mu + t)/(1 -
+  // mu t).
   for (const double bank : {-0.2, 0.0, 0.3}) {
     const double radius = 30.0;
     const auto stations = Alike(50.0, 1.0, {.curvature = 1.0 / radius, .bank = bank});
@@ -153,7 +159,8 @@ TEST(LimitProfile, IsFasterOnABankThatHelps) {
 }
 
 TEST(LimitProfile, KeepsTheWheelsOnACrest) {
-  // The crest may reduce the load g + v^2 z_ss to a twentieth.
+  // The crest reduces the load g + v^2 z_ss, where z_ss is the second derivative of the height. The
+  // profile permits a reduction to a twentieth of g.
   const auto stations = Alike(5.0, 1.0, {.crest = -0.02});
   const double v = std::sqrt(0.95 * kGravity / 0.02);
   const LimitSpeeds result = LimitSpeedsAlong(stations, FrictionCircle(), {.speed = 60.0}, v, 60.0);
@@ -161,7 +168,8 @@ TEST(LimitProfile, KeepsTheWheelsOnACrest) {
 }
 
 TEST(LimitProfile, BrakesBeforeIce) {
-  // From 30 m on, a bend of radius 40 m with a quarter of the grip; before it a straight.
+  // From 30 m on, the road is a bend of radius 40 m with a quarter of the grip. Before the bend,
+  // the road is straight and has full grip.
   auto stations = Alike(60.0, 0.5, {});
   for (LimitStation& at : stations) {
     if (at.s >= 30.0) {
@@ -173,7 +181,7 @@ TEST(LimitProfile, BrakesBeforeIce) {
   const LimitSpeeds result =
       LimitSpeedsAlong(stations, FrictionCircle(), {.speed = 60.0}, 23.2704, 60.0);
   for (std::size_t i = 0; i < stations.size(); ++i) {
-    // The interval before the ice ends in the bend, where no grip is left for braking.
+    // The last interval before the ice ends in the bend, where no grip is left for braking.
     const double left = std::max(0.0, 29.5 - stations[i].s);
     const double v = std::sqrt(on_ice + 2.0 * kGrip * kGravity * left);
     EXPECT_NEAR(result.speeds[i], v, Tolerance(kSearched * v)) << stations[i].s;
@@ -183,7 +191,7 @@ TEST(LimitProfile, BrakesBeforeIce) {
   }
 }
 
-/// A winding path with random grade, bank and friction.
+/// Returns the stations of a winding path with random grade, bank and friction.
 std::vector<LimitStation> Winding(double length, double h, Random& random) {
   std::vector<LimitStation> stations = Alike(length, h, {});
   for (int bends = 0; bends < 8; ++bends) {
@@ -214,8 +222,8 @@ GgvDiagram SmallCar() {
                     {EllipticSection(6.0, 9.0, 8.5)});
 }
 
-/// By how much the accelerations between stations exceed the diagram at either end [m/s^2], by the
-/// formulas for a level road with small slopes.
+/// The largest amounts by which accelerations between stations exceed the diagram [m/s^2]. Each
+/// acceleration is compared with the diagram at both ends of its interval.
 struct Beyond {
   double driving = 0.0;
   double braking = 0.0;
@@ -231,7 +239,7 @@ Beyond FindBeyond(const std::vector<LimitStation>& stations, const std::vector<d
                      (2.0 * (stations[i + 1].s - stations[i].s));
     for (const std::size_t k : {i, i + 1}) {
       const LimitStation& at = stations[k];
-      // The specific force in a frame rotated by the ground's slopes, by matrices.
+      // The specific force in a frame that is rotated by the slopes of the ground.
       const Eigen::Vector3d ahead = Eigen::Vector3d(1.0, 0.0, at.grade).normalized();
       const Eigen::Vector3d up = Eigen::Vector3d(-at.grade, -at.bank, 1.0).normalized();
       const double v2 = speeds[k] * speeds[k];
@@ -262,9 +270,9 @@ TEST(LimitProfile, KeepsWithinTheDiagram) {
     const LimitSpeeds result = LimitSpeedsAlong(stations, SmallCar(), {.share = share}, 0.0, 0.0);
     ASSERT_FALSE(result.excess);
     const Beyond beyond = FindBeyond(stations, result.speeds, share);
-    // The squared speed is known to 2^-24. Over an interval of 1 m, a square of 3000 gives 2e-4
-    // m/s^2 of acceleration. Near the largest f_y, the remaining f_x is a square root, so its error
-    // is 1e-3.
+    // The squared speed has a relative error of 2^-24. For a square of 3000 m^2/s^2 and an interval
+    // of 1 m, this is an error of 2e-4 m/s^2 in the acceleration. Near the largest lateral force,
+    // the available longitudinal force is a square root, which increases the error to 1e-3 m/s^2.
     EXPECT_LT(beyond.driving, Tolerance(2e-3)) << run;
     EXPECT_LT(beyond.braking, Tolerance(2e-3)) << run;
   }
@@ -278,8 +286,8 @@ TEST(LimitProfile, CannotBeRaisedAnywhere) {
     std::vector<double> raised = result.speeds;
     raised[i] += 0.05;
     const Beyond beyond = FindBeyond(stations, raised, 1.0);
-    // Raising a speed by 0.05 m/s changes a = d(v^2)/2h by 0.05 v. At the top speed no acceleration
-    // limit is active.
+    // Raising a speed v by 0.05 m/s changes the acceleration d(v^2)/(2 h) by 0.05 v/h, with h = 1
+    // m. At the top speed, no limit of the acceleration is active.
     EXPECT_TRUE(raised[i] > 55.0 || std::max(beyond.driving, beyond.braking) > 0.02)
         << stations[i].s;
   }
@@ -298,13 +306,14 @@ TEST(LimitProfile, LimitsTheJerk) {
     for (std::size_t i = 1; i + 1 < stations.size(); ++i) {
       const double before = std::pow(smooth.speeds[i], 2) - std::pow(smooth.speeds[i - 1], 2);
       const double after = std::pow(smooth.speeds[i + 1], 2) - std::pow(smooth.speeds[i], 2);
-      // da/dt = v da/ds; rounding of squares below 3000 that were raised by G below 1e7.
+      // The jerk is da/dt = v da/ds. The tolerance allows for rounding: the jerk limit adds a
+      // function of up to 1e7 m^2/s^2 to squared speeds below 3000 m^2/s^2.
       EXPECT_LE(0.5 * std::abs(after - before) * smooth.speeds[i], jerk * (1.0 + Tolerance(1e-5)))
           << run << ", " << stations[i].s;
     }
     const Beyond beyond = FindBeyond(stations, smooth.speeds, 1.0);
-    // The jerk limit does not lower a squared speed further once the change is below 1e-4 of it.
-    // Over an interval of 1 m, for squares below 2000, that is 0.1 m/s^2.
+    // The jerk limit stops when a squared speed changes by less than 1e-4 of its value. For squares
+    // below 2000 m^2/s^2 and an interval of 1 m, this is 0.1 m/s^2.
     EXPECT_LT(beyond.driving, Tolerance(0.1)) << run;
     EXPECT_LT(beyond.braking, Tolerance(0.1)) << run;
   }
@@ -315,7 +324,8 @@ TEST(LimitProfile, OfALapDoesNotDependOnItsBegin) {
   const double length = 900.0;
   auto stations = Winding(length, 1.0, random);
   stations.pop_back();
-  for (LimitStation& at : stations) {  // closed: the profile fades out toward both ends
+  for (LimitStation& at : stations) {  // The factor `fade` is 0 at both ends, so the stations form
+                                       // a closed lap.
     const double fade = std::pow(std::sin(std::acos(-1.0) * at.s / length), 2);
     at.curvature *= fade;
     at.grade *= fade;
@@ -340,9 +350,9 @@ TEST(LimitProfile, OfALapDoesNotDependOnItsBegin) {
 }
 
 TEST(LimitProfile, IsThatOfAnotherProgramWithinAPercent) {
-  // tests/data/limit_profile/README.md lists the input. The reference uses the force at the start
-  // of an interval when it accelerates and one correction step when it brakes. Both are first order
-  // in intervals of 1 m.
+  // tests/data/limit_profile/README.md lists the input of the reference program. This program uses
+  // the force at the start of an interval to accelerate, and one correction step to brake. Both
+  // cause errors of first order in the intervals of 1 m.
   const Table lap = ReadCsv(TRACKBED_SOURCE_DIR "/tests/data/limit_profile/lap.csv");
   std::vector<LimitStation> stations;
   for (std::size_t i = 0; i < lap.rows(); ++i) {
@@ -366,7 +376,7 @@ TEST(LimitProfile, IsThatOfAnotherProgramWithinAPercent) {
 }
 
 TEST(LimitProfile, SaysWhereTheCarComesTooFast) {
-  // 30 m/s, 20 m before a bend of radius 30 m that allows 15.3 m/s.
+  // The car drives at 30 m/s, 20 m before a bend of radius 30 m that permits 15.3 m/s.
   auto stations = Alike(60.0, 0.5, {});
   for (LimitStation& at : stations) {
     at.curvature = at.s >= 20.0 ? 1.0 / 30.0 : 0.0;
@@ -378,7 +388,7 @@ TEST(LimitProfile, SaysWhereTheCarComesTooFast) {
   EXPECT_NEAR(result.excess->speed, std::sqrt(900.0 - 2.0 * kGrip * kGravity * 20.0),
               Tolerance(1e-9));
   EXPECT_NEAR(result.excess->allowed, std::sqrt(kGrip * kGravity * 30.0), Tolerance(1e-4));
-  // A start above the wanted speed is no error: the car slows down.
+  // A start speed above the wanted speed is not an error: the car slows down.
   const LimitSpeeds slower =
       LimitSpeedsAlong(Alike(60.0, 0.5, {}), FrictionCircle(), {.speed = 10.0}, 20.0, 10.0);
   EXPECT_FALSE(slower.excess);

@@ -36,7 +36,7 @@ TEST(OccupancyGrid, HasACellInTheMiddleOfItsFrame) {
   const OccupancyGrid grid = Rasterize(frame, {{-3.3, -1.2}, {4.1, 2.6}}, 0.5, {}, 0.0);
   const int cell = grid.CellAt(frame.position());
   ASSERT_GE(cell, 0);
-  // Rounding of coordinates of a few meters.
+  // The tolerance allows for rounding of coordinates of a few meters.
   EXPECT_NEAR((grid.CellCenter(static_cast<std::size_t>(cell)) - frame.position()).norm(), 0.0,
               Tolerance(1e-14));
   EXPECT_EQ(grid.columns, 7 + 9 + 1);

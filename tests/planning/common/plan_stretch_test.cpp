@@ -10,7 +10,8 @@
 namespace trackbed {
 namespace {
 
-/// A plan of 100 m straight on at 20 m/s, with 15 m/s in the middle, that begins and ends at rest.
+/// Returns a plan along a straight of 100 m that begins and ends at rest. The speed is 20 m/s at 20
+/// m and 80 m, and 15 m/s at 50 m.
 Plan AtTheLimit() {
   Plan plan;
   plan.reference = {
@@ -37,7 +38,8 @@ TEST(RemainingPlans, KeepSpeedsAtTheLimit) {
 }
 
 TEST(RemainingPlans, GainSpeedUpToTheLimits) {
-  // v^2 = 5^2 + 2 * 2 s: slower than the plan at 50 and 80 m, up to the point where the plan stops.
+  // The car accelerates at 2 m/s^2, so v^2 = 5^2 + 2 x 2 s. It is slower than the plan, until it
+  // brakes for the stop at the end of the plan.
   const Plan rest = RemainingPlan(AtTheLimit(), 30.0, 5.0, {40.0, 2.0, 1.0});
   for (const double s : {0.0, 10.0, 20.0, 35.0, 50.0}) {
     EXPECT_NEAR(rest.reference.speed.SpeedAt(s), std::sqrt(25.0 + 4.0 * s), Tolerance(1e-12));
@@ -58,7 +60,7 @@ TEST(Caps, OfAPlanAtTheLimitAreItsSpeeds) {
   Plan plan = AtTheLimit();
   const std::vector<SpeedCap> caps = CapsOf(plan);
   ASSERT_EQ(caps.size(), 4U);
-  EXPECT_DOUBLE_EQ(caps[0].speed, 20.0);  // not the 0 of the plan's start
+  EXPECT_DOUBLE_EQ(caps[0].speed, 20.0);  // The cap is not the start speed of 0.
   EXPECT_DOUBLE_EQ(caps[1].from, 20.0);
   EXPECT_DOUBLE_EQ(caps[1].to, 50.0);
   plan.diagnostics.speed_profile.reset();

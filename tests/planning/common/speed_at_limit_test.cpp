@@ -31,7 +31,7 @@ PlanRequest Request() {
   return request;
 }
 
-/// A plan along a path from the origin, with the speed profile of SetSpeeds.
+/// Returns a plan along a path from the origin, with the speed profile that SetSpeeds computes.
 Plan PlanAlong(std::vector<Segment> segments, const PlanRequest& request) {
   Plan plan;
   plan.reference.path = Path({}, std::move(segments));
@@ -39,7 +39,8 @@ Plan PlanAlong(std::vector<Segment> segments, const PlanRequest& request) {
   return plan;
 }
 
-/// 60 m straight, 30 m of clothoid to 1/40, 60 m of arc, and back.
+/// Returns a straight of 60 m, a clothoid of 30 m, an arc of radius 40 m and length 60 m, a second
+/// clothoid of 30 m, and a straight of 60 m.
 std::vector<Segment> Bend() {
   return {{.length = 60.0},
           {.length = 30.0, .sharpness = 1.0 / 1200.0},
@@ -56,7 +57,7 @@ TEST(SpeedAtLimit, IsThatOfFrictionInABend) {
   EXPECT_EQ(speed.SpeedAt(0.0), 0.0);
   EXPECT_EQ(speed.SpeedAt(240.0), 0.0);
   EXPECT_NEAR(speed.SpeedAt(120.0), std::sqrt(kGrip * 40.0), Tolerance(1e-4));
-  // From rest at full grip, until the bend limits the speed.
+  // From rest, the car accelerates with full grip until the bend limits its speed.
   EXPECT_NEAR(speed.SpeedAt(10.0), std::sqrt(2.0 * kGrip * 10.0), Tolerance(1e-3));
   ASSERT_TRUE(plan.diagnostics.speed_profile);
   EXPECT_NEAR(plan.diagnostics.speed_profile->predicted_time, speed.TimeAt(240.0), Tolerance(1e-9));
@@ -65,8 +66,9 @@ TEST(SpeedAtLimit, IsThatOfFrictionInABend) {
 }
 
 TEST(SpeedAtLimit, KeepsTheSteeringRate) {
-  // On the clothoid dkappa/ds = 1/1200: v L kappa'/(1 + (L kappa)^2) <= omega, which is slowest at
-  // the clothoid's start.
+  // On the clothoid, the curvature rate kappa' is 1/1200 1/m^2. The steering rate requires v L
+  // kappa'/(1 + (L kappa)^2) <= omega. This limit is lowest at the start of the clothoid, where
+  // kappa = 0.
   PlanRequest request = Request();
   request.vehicle.steering_rate = 0.02;
   const Plan plan = MakeFeasible(PlanAlong(Bend(), request), request);
@@ -94,7 +96,8 @@ TEST(SpeedAtLimit, StopsAtCuspsAndStops) {
 }
 
 TEST(SpeedAtLimit, DrivesPartsThatAreShorterThanTheSpacing) {
-  // From rest to rest over 0.2 m takes 2 sqrt(d/a).
+  // From rest to rest over the distance d = 0.2 m, the car needs the time 2 sqrt(d/a) at the
+  // acceleration a.
   const PlanRequest request = Request();
   Plan plan = PlanAlong({{.length = 0.2}, {.length = 0.2, .direction = -1}}, request);
   plan = MakeFeasible(plan, request);
@@ -124,11 +127,13 @@ TEST(SpeedAtLimit, KnowsRoadAndSlopes) {
   EXPECT_EQ(stations.front().s, 0.0);
   EXPECT_EQ(stations.back().s, 60.0);
   for (const LimitStation& at : stations) {
-    // Rounding of heights of some meters, differences over 1.25 m.
+    // The tolerances allow for rounding of heights of some meters, whose differences over 1.25 m
+    // give the slopes.
     EXPECT_NEAR(at.grade, 0.1, Tolerance(1e-14));
     EXPECT_NEAR(at.bank, -0.05, Tolerance(1e-15));
     EXPECT_NEAR(at.crest, 0.0, Tolerance(1e-14));
-    // Ice from 20 to 40 m, under at least one axle.
+    // The ice reaches from 20 to 40 m, and the wheelbase is 2.5 m. From 17.5 to 40 m, at least one
+    // axle is on the ice.
     const bool on_ice = at.s >= 17.5 && at.s <= 40.0;
     EXPECT_EQ(at.road, on_ice ? 0.25 : 1.0) << at.s;
   }
@@ -150,7 +155,8 @@ TEST(SpeedAtLimit, RefusesAStartThatIsTooFast) {
   EXPECT_EQ(kept.notes.size(), 2U);
 }
 
-// On ice of friction 0.25 the tyres hold 2 m/s^2 of the 4.4 m/s^2 that a slope of 1 in 2 requires.
+// On ice with the friction factor 0.25, the tyres hold 2 m/s^2. A slope of 1 in 2 requires 4.4
+// m/s^2.
 TEST(SpeedAtLimit, RefusesASlopeThatTheCarCannotHold) {
   PlanRequest request = Request();
   request.friction = 0.25;

@@ -30,10 +30,11 @@ const CollisionChecker& NothingAround() {
   return clear;
 }
 
-/// Half of the distance between samples [m], by which SampledDistance is at most too large.
+/// Half of the distance between samples [m]. SampledDistance exceeds the true distance by at most
+/// this value.
 constexpr double kHalfSample = 0.05;
 
-/// Smallest distance of samples of the path from a point.
+/// Returns the smallest distance [m] from a point to the samples of a path.
 double SampledDistance(const Path& path, const Vec2& point) {
   double nearest = 1e9;
   for (const PathPoint& sample : path.Sample(2.0 * kHalfSample)) {
@@ -64,8 +65,9 @@ TEST(RoundCorners, SlowsDownToPassNearAWaypoint) {
   };
   const RoundedCorners free = rounded(100.0);
   EXPECT_EQ(free.corners[0].speed, 3.0);
-  // Half of the possible gaps: the bisection of the speed to 1e-6 m/s keeps the bound, and comes
-  // close to it, as the gap grows by less than 10 m per m/s.
+  // The bound `gap` is the mean of the gaps at 3 m/s and at 0.5 m/s. Bisection finds the speed to
+  // 1e-6 m/s. The gap grows by less than 10 m per m/s, so the gap of the corner is at most 1e-5 m
+  // below the bound.
   const double gap =
       0.5 * (free.corners[0].gap + CornerAt(ReferenceCar(), 0.5 * kPi, 0.5, 1.0 / 5.1).gap);
   const RoundedCorners near = rounded(gap);
@@ -88,12 +90,12 @@ TEST(RoundCorners, NamesTheWaypointThatItMisses) {
 TEST(RoundCornersOrTurnBehind, PassesEveryWaypointOfSharpRoutes) {
   Random random(1);
   for (int i = 0; i < 60; ++i) {
-    // Legs of at least 60 m have room for turns behind both of their ends, as a turn needs less
-    // than 30 m of each.
+    // A turn behind a waypoint needs less than 30 m of a leg. Legs of at least 60 m therefore have
+    // room for turns at both ends.
     std::vector<Vec2> route = RandomRoute(random, 5, 60.0, 120.0, kPi);
     if (i % 4 == 0) {
       route.resize(3);
-      route[2] = route[0];  // back to the start, along the same line
+      route[2] = route[0];  // The route returns to its start along the same line.
     }
     const double max_gap = random.Uniform(0.0, 5.0);
     const RoundedCorners rounded =
@@ -102,7 +104,7 @@ TEST(RoundCornersOrTurnBehind, PassesEveryWaypointOfSharpRoutes) {
     for (std::size_t k = 1; k < route.size(); ++k) {
       EXPECT_LE(SampledDistance(rounded.path, route[k]), max_gap + Tolerance(kHalfSample)) << i;
     }
-    // Rounding over some hundred meters.
+    // The tolerance allows for rounding over some hundred meters.
     const Vec2 end = rounded.path.At(rounded.path.length()).pose.position();
     EXPECT_NEAR((end - route.back()).norm(), 0.0, Tolerance(1e-8));
   }

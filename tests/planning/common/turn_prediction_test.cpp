@@ -57,21 +57,22 @@ TEST(PredictTurn, IsWhatTheRateLimitedCarDoes) {
                               {turn.from, turn.middle}, 0.02);
   const TurnError driven = ErrorInTurn(plan.reference.path, turn, states[0].pose, states[1].pose);
   const TurnError predicted = PredictTurn(ReferenceCar(), plan.reference.path, turn, 0.0);
-  // The tolerance is the roll-out's fourth-order error for steps of 0.02 m.
+  // The tolerance is the error of the roll-out, which is a method of fourth order with steps of
+  // 0.02 m.
   EXPECT_NEAR(driven.heading_deficit, predicted.heading_deficit, Tolerance(1e-10));
   EXPECT_NEAR(driven.lateral_offset, predicted.lateral_offset, Tolerance(1e-9));
 }
 
 TEST(PredictTurn, OffsetIsThatOfACenterdRampOnGentleTurns) {
-  // The offset is kappa S^2/24 to the inside, for angles so small that the ramp's heading is
-  // quadratic.
+  // If the heading on the ramp is quadratic in the station, as for small angles, the offset is
+  // kappa S^2/24 to the inside of the turn, where S is the length of the ramp.
   const double radius = 60.0;
   const std::vector<Vec2> route{{0, 0}, {80, 0}, {150, 40}};
   const Plan plan = MakeFilletPlan(route, radius);
   ASSERT_EQ(plan.turns.size(), 1U);
   const double ramp = SteeringDistance(ReferenceCar(), std::atan(2.7 / radius), kSpeed);
-  // The largest offset is at the end of the ramp; farther on the heading deficit moves the car back
-  // outward.
+  // The offset is largest at the end of the ramp. After the ramp, the heading deficit moves the car
+  // outward again.
   IsolatedTurn turn = plan.turns[0];
   turn.middle = turn.from + ramp;
   const TurnError error = PredictTurn(ReferenceCar(), plan.reference.path, turn, 0.0);

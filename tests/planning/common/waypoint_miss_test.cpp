@@ -12,7 +12,7 @@
 namespace trackbed {
 namespace {
 
-/// 10 m straight on, then a quarter turn to the left around (10, 10).
+/// Returns a path of 10 m straight, followed by a quarter circle to the left around (10, 10).
 Path LineAndArc() {
   return {{}, {{.length = 10.0}, {.length = 5.0 * std::numbers::pi, .curvature = 0.1}}};
 }
@@ -22,7 +22,8 @@ TEST(LargestWaypointMiss, IsTheDistanceFromALineOrAnArc) {
   ASSERT_TRUE(miss.has_value());
   EXPECT_EQ(miss->waypoint, 2U);
   EXPECT_EQ(miss->at, Vec2(20, 0));
-  // (20, 0) lies on the diagonal from the arc's center. Rounding of a few operations.
+  // The point (20, 0) lies on a diagonal through the center of the arc. The tolerance allows for
+  // rounding of a few operations.
   EXPECT_NEAR(miss->distance, 10.0 * (std::numbers::sqrt2 - 1.0), Tolerance(1e-12));
   EXPECT_NEAR(miss->station, 10.0 + 2.5 * std::numbers::pi, Tolerance(1e-12));
 }
@@ -55,7 +56,7 @@ TEST(LargestWaypointMiss, IsThatOfADenseSampleOfClothoids) {
     for (const PathPoint& point : path.Sample(0.01)) {
       nearest = std::min(nearest, (point.pose.position() - waypoint).norm());
     }
-    // The nearest sample is at most half of the spacing from the nearest point.
+    // The nearest sample is at most half of the spacing away from the nearest point of the path.
     EXPECT_NEAR(LargestWaypointMiss(path, {{0, 0}, waypoint})->distance, nearest, Tolerance(0.005));
   }
 }

@@ -16,11 +16,12 @@
 namespace trackbed {
 namespace {
 
-// A path is accurate to 1e-9 m over 10 km.
+// The accuracy of a path of 10 km [m], as stated by Path.
 constexpr double kRounding = 1e-9;
 
 TEST(Course, ArcsAndStraightsEndWhereGeometrySays) {
-  // 10 m east, a quarter turn to the left with radius 20 m, 5 m north: (30, 25).
+  // The course leads 10 m to the east, along a quarter circle of radius 20 m to the left, and 5 m
+  // to the north. It ends at (30, 25).
   const Path path({}, CourseSegments({.segments = {{.length = 10.0, .curvature = 0.0},
                                                    {.length = 10.0 * kPi, .curvature = 0.05},
                                                    {.length = 5.0, .curvature = 0.0}}}));
@@ -59,11 +60,12 @@ TEST(Course, PiecesAreEitherConstantOrRamps) {
 }
 
 TEST(CourseSchedule, LeadsTheKinematicCarAlong) {
-  // The wheels can follow these ramps: 0.05 1/m is 0.135 rad in 5 m, 1.67 s at 3 m/s, 0.081 rad/s.
-  // The remaining error: atan(L kappa) is taken as linear between knots, wrong by less than 1e-5
-  // rad. That is 1e-5/L of curvature, and over the 27 m 27^2/2 * 4e-6 = 1.4 mm at the end. Within
-  // each step of 1 mm the car reaches its angle early: 0.05 1/m times 0.5 mm of heading, 0.6 mm at
-  // the end.
+  // The wheels can follow these ramps: at 3 m/s, the steering angle changes by 0.135 rad within 5
+  // m, that is within 1.67 s, at 0.081 rad/s. Two errors remain. First, the schedule interpolates
+  // atan(L kappa) linearly between knots, with an error below 1e-5 rad. The curvature error of
+  // 1e-5/L = 4e-6 1/m moves the end by 27^2/2 x 4e-6 = 1.4 mm over 27 m. Second, the car reaches
+  // its steering angle early within each step of 1 mm. The heading error of 0.05 1/m times 0.5 mm
+  // moves the end by 0.6 mm.
   const std::vector<Segment> segments =
       CourseSegments({.segments = {{.length = 5.0, .curvature = 0.0},
                                    {.length = 5.0, .curvature_to = 0.05},
@@ -91,8 +93,9 @@ TEST(CourseSchedule, DrivesAStepAsARampAboutIt) {
 }
 
 TEST(CourseSchedule, TakesRoundingOfTheCurvatureForNoRamp) {
-  // A spiral in pieces of 0.25 m, whose curvatures are rounded to 1e-15 1/m. The knots of a ramp
-  // for a step of 1e-15 rad would be closer than two doubles at 44 m.
+  // The path is a spiral in pieces of 0.25 m, whose curvatures are rounded to 1e-15 1/m. A ramp for
+  // a step of 1e-15 rad would have knots that are closer than two neighboring double values at 44
+  // m.
   constexpr double kSharpness = 0.005;
   std::vector<Segment> segments{{.length = 40.0}};
   Random random(3);
@@ -106,7 +109,7 @@ TEST(CourseSchedule, TakesRoundingOfTheCurvatureForNoRamp) {
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const double slope =
         (knots[i].steering - knots[i - 1].steering) / (knots[i].distance - knots[i - 1].distance);
-    // d atan(L kappa)/ds <= L dkappa/ds
+    // The slope of the schedule is d atan(L kappa)/ds, which is at most L dkappa/ds.
     EXPECT_LE(std::abs(slope), ReferenceCar().wheelbase * kSharpness * (1.0 + Tolerance(1e-9)));
   }
 }
@@ -117,7 +120,7 @@ TEST(CourseSchedule, RisesHoweverShortThePiecesAre) {
                                    {.length = 0.2, .curvature = -0.1},
                                    {.length = 0.1, .curvature = 0.1},
                                    {.length = 30.0, .curvature = 0.0}}});
-  // Through() would reject knots that the wheels cannot follow.
+  // SteeringSchedule::Through would reject knots that the wheels cannot follow.
   EXPECT_NEAR(CourseSchedule(ReferenceCar(), segments, 20.0).At(40.0), 0.0, Tolerance(1e-15));
 }
 

@@ -29,11 +29,12 @@ VehicleParams Car() {
 TEST(LaneChangeGates, AreThoseOfPart1) {
   const auto gates = LaneChangeGates(LaneChangeStandard::kIso3888_1, Side::kLeft, 1.6, {});
   ASSERT_EQ(gates.size(), 3U);
-  // Section widths: 1.1, 1.2 and 1.3 times 1.6 m, plus 0.25 m.
+  // The width of a section is 1.1, 1.2 or 1.3 times the car's width of 1.6 m, plus 0.25 m.
   const std::vector<double> widths{2.01, 2.17, 2.33};
   const std::vector<double> begins{0.0, 45.0, 95.0};
   const std::vector<double> lengths{15.0, 25.0, 30.0};
-  const std::vector<double> right_edges{0.0, 3.5, 0.0};  // relative to that of section 1
+  const std::vector<double> right_edges{0.0, 3.5, 0.0};  // The distance from the right edge of
+                                                         // section 1 [m].
   for (std::size_t i = 0; i < 3; ++i) {
     const OrientedBox& lane = gates[i].lane;
     EXPECT_EQ(gates[i].section, static_cast<int>(2 * i + 1));
@@ -58,8 +59,8 @@ TEST(LaneChangeGates, AreThoseOfPart2Mirrored) {
     EXPECT_NEAR(lane.width, widths[i], Tolerance(kRounding));
     EXPECT_NEAR(lane.length, lengths[i], Tolerance(kRounding));
     EXPECT_NEAR(middle.x() - 0.5 * lane.length, begins[i], Tolerance(kRounding));
-    // The right edge of section 3 is a meter right of section 1's right edge. Sections 1 and 5
-    // share their left edge.
+    // The left edge of section 3 is 1 m to the right of the right edge of section 1. Sections 1 and
+    // 5 share their left edge.
     const double left = middle.y() + 0.5 * lane.width;
     EXPECT_NEAR(left, i == 1 ? -0.5 * 2.01 - 1.0 : 0.5 * 2.01, Tolerance(kRounding));
   }
@@ -69,7 +70,7 @@ TEST(LaneChangeGates, HaveConesOutsideTheirEdges) {
   const Gate gate{3, {{10.0, 2.0, 0.5 * kPi}, 12.0, 3.0}};
   const std::vector<Vec2> cones = GateCones(gate);
   ASSERT_EQ(cones.size(), 10U);
-  // Cones along y from -4 to 8: 1.5 m and half a cone to either side.
+  // The cones stand from y = -4 to y = 8, at 1.5 m plus half the width of a cone to either side.
   EXPECT_NEAR(cones[0].x(), 10.0 - 1.65, Tolerance(kRounding));
   EXPECT_NEAR(cones[0].y(), -4.0, Tolerance(kRounding));
   EXPECT_NEAR(cones[9].x(), 10.0 + 1.65, Tolerance(kRounding));
@@ -103,7 +104,7 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
         EXPECT_GT(at.s, last);
         last = at.s;
       }
-      // The first lane change is 30 + 3 m or 13.5 + 3 m long.
+      // The first lane change is 30 + 3 m long in part 1, and 13.5 + 3 m long in part 2.
       const bool part_1 = standard == LaneChangeStandard::kIso3888_1;
       const double length = part_1 ? 33.0 : 16.5;
       const double offset = std::abs(ToLocal(start, plan.gates[1].lane.center.position()).y());
@@ -113,9 +114,11 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
       }
       const double bound = 10.0 / std::sqrt(3.0) * offset / (length * length);
       EXPECT_LE(most, bound);
-      EXPECT_GE(most, 0.6 * bound);  // below the graph's second derivative where it is steep
-      // Arcs of at most 0.1 m; dkappa/ds is at most 60 h/length^3, at the ends. The second lane
-      // change is the shorter one, with no larger offset.
+      EXPECT_GE(most, 0.6 * bound);  // Where the curve y(x) is steep, its curvature is below its
+                                     // second derivative.
+      // The segments are arcs of at most 0.1 m, so the curvature steps by at most 0.1 m times
+      // dkappa/ds. This rate is at most 60 offset/length^3, at the ends of a lane change. The
+      // second lane change is shorter than the first, and its offset is not larger.
       const double steepest = 60.0 * offset / std::pow(part_1 ? 28.0 : 15.5, 3);
       double curvature = 0.0;
       for (const Segment& segment : path.segments()) {
@@ -123,7 +126,7 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
         EXPECT_TRUE(segment.curvature == 0.0 || segment.length < 0.1) << segment.length;
         curvature = segment.curvature;
       }
-      // Braking from 12 m/s at 1.5 m/s^2.
+      // Braking from 12 m/s at 1.5 m/s^2 takes 48 m.
       EXPECT_NEAR(plan.reference.speed.SpeedAt(path.length() - 48.0), 12.0, Tolerance(1e-6));
       EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
       EXPECT_EQ(DiagnosticsJson(plan)["gates"].size(), 3U);
@@ -133,12 +136,12 @@ TEST(LaneChangePlan, LeadsThroughTheMiddlesOnACurveWithoutJumps) {
 
 TEST(GateMargins, SeeConesThatStandBetweenPoses) {
   const std::vector<Gate> gates{{1, {{0.0, 0.0, 0.0}, 0.5, 3.0}}};
-  // A gate shorter than the distance between two poses. The car drifts to the left by 0.1 m per
-  // meter.
+  // The gate is shorter than the distance between two poses. The car drifts to the left by 0.1 m
+  // per meter.
   const std::vector<Pose2> poses{
       {-6.0, 0.0, 0.0}, {-3.0, 0.3, 0.0}, {0.0, 0.6, 0.0}, {3.0, 0.9, 0.0}};
-  // The rear left corner, 1 m behind, is the last to leave: at x = 0.25 the car is at 1.25 m, 0.725
-  // m left.
+  // The rear left corner, 1 m behind the rear axle, leaves the gate last. At this time, the rear
+  // axle is at x = 1.25 m and y = 0.725 m.
   EXPECT_NEAR(GateMargins(gates, Car(), poses)[0], 1.5 - 0.8 - 0.725, Tolerance(kRounding));
   EXPECT_TRUE(std::isinf(GateMargins(gates, Car(), {{20.0, 0.0, 0.0}})[0]));
 }

@@ -12,7 +12,8 @@
 namespace trackbed {
 namespace {
 
-// Positions are sums and products of a few numbers below 1e3: 1e-12 is ten times their rounding.
+// Ten times the rounding error [m] of positions, which are sums and products of a few numbers below
+// 1e3.
 constexpr double kLineRounding = 1e-12;
 
 PlanRequest StraightRequest() {
@@ -48,7 +49,8 @@ TEST(Straight, LeadsAlongTheHeadingOfTheStart) {
 }
 
 TEST(Straight, HasATrapezoidalSpeedProfile) {
-  // v^2 = v_0^2 + 2 a s at the start, v^2 = 2 b (L - s) at the end, at most the mission's speed.
+  // At the start v^2 = v_0^2 + 2 a s, and at the end v^2 = 2 b (L - s), with the acceleration a,
+  // the deceleration b and the length L. The mission's speed limits both.
   for (const double start_speed : {0.0, 4.0, 10.0}) {
     PlanRequest request = StraightRequest();
     request.start_speed = start_speed;
@@ -57,14 +59,15 @@ TEST(Straight, HasATrapezoidalSpeedProfile) {
     for (double s = 0.0; s <= length; s += 0.5) {
       const double speed = std::min({std::sqrt(start_speed * start_speed + 2.0 * 2.0 * s), 10.0,
                                      std::sqrt(2.0 * 4.0 * (length - s))});
-      // The square root turns a rounding error of 1e-14 in v^2 into one of 1e-7 near v = 0.
+      // Near v = 0, the square root turns a rounding error of 1e-14 in v^2 into an error of 1e-7 in
+      // v.
       EXPECT_NEAR(plan.reference.speed.SpeedAt(s), speed, Tolerance(1e-6)) << s;
     }
   }
 }
 
 TEST(Straight, PeaksBelowTheMissionsSpeedIfItIsShort) {
-  // The ramps meet where 2 a s = 2 b (L - s): at s = L b/(a + b) = 2 m, v^2 = 8 m^2/s^2.
+  // The car starts to brake at s = L b/(a + b) = 2 m, where 2 a s = 2 b (L - s) = v^2 = 8 m^2/s^2.
   const Plan plan = PlanStraight(StraightRequest(), 3.0);
   EXPECT_NEAR(plan.reference.speed.SpeedAt(2.0), std::sqrt(8.0), Tolerance(1e-12));
   EXPECT_LT(plan.reference.speed.SpeedAt(1.9), std::sqrt(8.0));

@@ -29,7 +29,7 @@ Pose2 End(const Pose2& from, const std::vector<Segment>& pieces) {
   return path.At(path.length()).pose;
 }
 
-/// The lowest speed at a step of curvature, 0 with a stop.
+/// Returns the lowest speed at a step of curvature; 0 if the car must stop at a step.
 double SlowestStep(const std::vector<Segment>& pieces, const CurveDrive& drive) {
   const StepSpeeds steps = PlanSteps(ReferenceCar(), pieces, drive.min_speed);
   double slowest = steps.stops.empty() ? drive.speed : 0.0;
@@ -41,7 +41,7 @@ double SlowestStep(const std::vector<Segment>& pieces, const CurveDrive& drive) 
 
 TEST(DrivablePieces, TurnOnArcsFourTimesAsLongAsTheirRamps) {
   const double speed = 3.0;
-  // Turns of the left and of the right side, to those that only stem from rounding.
+  // The turns lead to the left or to the right. The smallest turns are only rounding errors.
   for (const double phi : {3e-12, 1e-9, 1e-6, -1e-3, 0.05}) {
     SCOPED_TRACE(phi);
     const Pose2 goal{40.0, 0.0, phi};
@@ -49,8 +49,8 @@ TEST(DrivablePieces, TurnOnArcsFourTimesAsLongAsTheirRamps) {
     const std::vector<Segment> pieces = Pieces({}, goal, Dubins({}, goal, drive.radius), drive);
     EXPECT_LE(Apart(End({}, pieces), goal), Tolerance(1e-9));
     EXPECT_EQ(SlowestStep(pieces, drive), speed);
-    // kappa = sqrt(omega phi/(4 L v)), for the whole turn but for what the wider arc adds, below a
-    // tenth of it; the sign is that of the last turn.
+    // For a turn by phi, the curvature is kappa = sqrt(omega phi/(4 L v)). The wider arc adds less
+    // than a tenth to this turn. The sign of the curvature is that of the last turn.
     const double sharpest = (pieces.end() - 2)->curvature;
     const double expected = std::copysign(
         std::sqrt(ReferenceCar().steering_rate * std::abs(phi) / (4.0 * 2.7 * speed)), phi);
@@ -86,7 +86,8 @@ TEST(DrivablePieces, MeetTheirEndAndAreNeverSlower) {
     for (const ShortestCurve& word : ReedsSheppWords(from, goal, drive.radius)) {
       const std::vector<Segment> pieces = Pieces(from, goal, word, drive);
       const std::vector<Segment> shortest = ToSegments(word);
-      // Sums of a few dozen meters in segments that turn by up to 2 pi.
+      // The tolerance allows for rounding in sums of a few dozen meters, with segments that turn by
+      // up to 2 pi.
       ASSERT_LE(Apart(End(from, pieces), goal), Tolerance(1e-9));
       if (pieces != shortest) {
         ASSERT_GE(SlowestStep(pieces, drive), SlowestStep(shortest, drive) - Tolerance(1e-9));
@@ -98,7 +99,8 @@ TEST(DrivablePieces, MeetTheirEndAndAreNeverSlower) {
 }
 
 TEST(DrivablePieces, LeaveRoomForTheStepBesideThem) {
-  // The next leg begins on a sharp arc: a straight with room for its ramp is before it.
+  // The next leg begins with a sharp arc. The curve must end with a straight that has room for the
+  // steering ramp of this arc.
   const Pose2 goal{30.0, 0.0, 1e-7};
   CurveDrive drive = Drive(3.0);
   drive.after = {1.0 / drive.radius, 1};
@@ -111,7 +113,8 @@ TEST(DrivablePieces, LeaveRoomForTheStepBesideThem) {
 }
 
 TEST(DrivablePieces, KeepTheWordWhereNothingElseFits) {
-  // 0.2 rad over 1 m: even at 0.3 m/s an arc has to be 1 m long.
+  // The curve must turn by 0.2 rad within about 1 m. Even at 0.3 m/s, a gentler arc would have to
+  // be 1 m long.
   const Pose2 goal{1.12, 0.112, 0.2};
   const CurveDrive drive = Drive(3.0);
   const ShortestCurve word = Dubins({}, goal, drive.radius);

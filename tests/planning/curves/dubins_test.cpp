@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// The end accuracy that the header guarantees.
+/// The accuracy of the end pose that the header guarantees [m, rad].
 constexpr double kEnd = 1e-9;
 
 TEST(Dubins, ReachesEveryPoseByEveryWord) {
@@ -39,7 +39,7 @@ TEST(Dubins, ReachesPosesWhereTangentsTouch) {
     const ShortestCurve curve = Dubins({}, to, 1.0);
     ASSERT_LE(Apart(EndPose({}, curve), to), Tolerance(kEnd))
         << CurveWord(curve) << " to " << to.x << ", " << to.y << ", " << to.yaw;
-    // Not shorter than the straight line, and never longer than it by more than two full circles.
+    // The curve is at least as long as the straight line, and at most two full circles longer.
     EXPECT_GE(curve.length, to.position().norm() - Tolerance(1e-12));
     EXPECT_LE(curve.length, to.position().norm() + 4.0 * kPi);
   }
@@ -51,10 +51,11 @@ TEST(Dubins, FindsWhatIsPlain) {
   const double rounding = Tolerance(1e-12);
   EXPECT_NEAR(length({}), 0.0, rounding);
   EXPECT_NEAR(length({7.0, 0.0, 0.0}), 7.0, rounding);
-  EXPECT_NEAR(length({2.0, 2.0, 0.5 * pi}), pi, rounding);   // a quarter to the left
-  EXPECT_NEAR(length({0.0, -4.0, pi}), 2.0 * pi, rounding);  // half a turn to the right
-  EXPECT_NEAR(length({-1e-3, 0.0, 0.0}), 4.0 * pi, 1e-2);    // slightly behind: a full circle
-  // Turning around in place: pi/3, 5 pi/3 and pi/3 on three circles that touch.
+  EXPECT_NEAR(length({2.0, 2.0, 0.5 * pi}), pi, rounding);   // A quarter circle to the left.
+  EXPECT_NEAR(length({0.0, -4.0, pi}), 2.0 * pi, rounding);  // Half a circle to the right.
+  EXPECT_NEAR(length({-1e-3, 0.0, 0.0}), 4.0 * pi, 1e-2);    // Slightly behind: a full circle.
+  // To turn around in place, the car drives arcs of pi/3, 5 pi/3 and pi/3 on three circles that
+  // touch each other.
   EXPECT_NEAR(length({0.0, 0.0, pi}), 2.0 * pi * 7.0 / 3.0, rounding);
   EXPECT_EQ(CurveWord(Dubins({}, {0.0, 0.0, pi}, 2.0)).size(), 6U);
 }
@@ -65,7 +66,7 @@ TEST(Dubins, MirrorsAndRunsBackwards) {
     const Pose2 from = RandomPose(random, 8.0);
     const Pose2 to = RandomPose(random, 8.0);
     const ShortestCurve curve = Dubins(from, to, 1.5);
-    // Sums of at most 40 m, rounded in another order.
+    // The tolerance allows for sums of at most 40 m that are rounded in another order.
     const double rounding = Tolerance(1e-11);
     const ShortestCurve mirrored = Dubins(Mirror(from), Mirror(to), 1.5);
     EXPECT_NEAR(mirrored.length, curve.length, rounding);

@@ -15,7 +15,7 @@
 namespace trackbed {
 namespace reeds_shepp_test {
 
-/// The end accuracy that the header guarantees.
+/// The accuracy of the end pose that the header guarantees [m, rad].
 constexpr double kEnd = 1e-9;
 
 TEST(ReedsShepp, ReachesEveryPoseByEveryWord) {
@@ -40,8 +40,7 @@ TEST(ReedsShepp, ReachesEveryPoseByEveryWord) {
       ASSERT_NEAR(sum, word.length, Tolerance(1e-9));
     }
   }
-  // Each of the 48 words of Reeds and Shepp (1990) is the shortest for some pose; the last two are
-  // the rarest.
+  // Each of the 48 words of Reeds and Shepp (1990) is the shortest for some pose.
   EXPECT_EQ(shortest.size(), 48U);
 }
 
@@ -54,8 +53,8 @@ TEST(ReedsShepp, ReachesPosesWhereTangentsTouch) {
 }
 
 TEST(ReedsShepp, IsADistanceBetweenPoses) {
-  // The length is symmetric and satisfies the triangle inequality. Degenerate poses, at which
-  // pieces of a word vanish, would expose a missing word.
+  // The length must be symmetric and satisfy the triangle inequality. At degenerate poses, pieces
+  // of a word vanish, so a missing word would violate the inequality.
   Random random(3);
   for (const Pose2& to : DegeneratePoses()) {
     const double direct = ReedsSheppLength({}, to, 1.0);
@@ -87,7 +86,8 @@ TEST(ReedsShepp, FindsWhatIsPlain) {
   EXPECT_NEAR(length({-2.0, 2.0, -0.5 * kPi}), kPi, rounding);  // a quarter circle backward
   EXPECT_NEAR(length({0.0, 0.0, kPi}), 2.0 * kPi, rounding);    // three arcs of pi/3
   EXPECT_EQ(CurveWord(ReedsShepp({}, {0.0, 0.0, kPi}, 2.0)).size(), 6U);
-  // Sideways into a gap: four arcs whose sweeps follow from the offset, y = 4 r (1 - cos u).
+  // The car moves sideways into a gap on four arcs. The sweep u of each arc follows from the offset
+  // y = 4 r (1 - cos u).
   const double u = std::acos(1.0 - 0.5 / (4.0 * 2.0));
   EXPECT_LE(length({0.0, 0.5, 0.0}), 2.0 * 4.0 * u);
 }

@@ -38,7 +38,7 @@ TEST(ShortestCurve, IsSpelledWithItsDirections) {
 TEST(ShortestCurve, IsAPathOfTheSameLengthAndEnd) {
   const Pose2 start{3.0, -2.0, 0.4};
   const Path path(start, ToSegments(Parking()));
-  // Rounding of sums of a few tens of meters.
+  // The tolerance allows for rounding in sums of a few tens of meters.
   EXPECT_NEAR(path.length(), Parking().length, Tolerance(1e-12));
   EXPECT_NEAR(Apart(path.At(path.length()).pose, EndPose(start, Parking())), 0.0, Tolerance(1e-12));
   ASSERT_EQ(path.segments().size(), 3U);

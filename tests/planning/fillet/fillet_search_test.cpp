@@ -14,7 +14,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/fillet/fillet.h"
 
-// The radius searches of the global planner (Skackauskas, dissertation, listing F.1).
+// Tests the radius searches of the global planner (Skackauskas, dissertation, listing F.1).
 namespace trackbed {
 namespace {
 
@@ -31,7 +31,7 @@ FilletOptions Options(RadiusObjective objective, SearchMethod method = SearchMet
   return options;
 }
 
-/// The accuracy required of a search.
+/// Returns the accuracy that a search must reach for a radius [m].
 double Accepted(double radius) {
   return std::max(0.01, 1e-3 * radius);
 }
@@ -43,7 +43,8 @@ struct FreeRadiusCase {
   std::vector<Vec2> route;
   RadiusObjective objective;
   ReferencePoint reference;
-  std::vector<double> radii;  // [m]; 0 if the car does not turn in its window
+  std::vector<double> radii;  // Expected radii [m]; 0 if the car does not turn within the window of
+                              // the search.
   int decimals;
 };
 
@@ -85,7 +86,9 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(FreeRadius, IsWhereTheObjectiveVanishes) {
-  // Specification 4.7's closed form: sqrt((v t/|dpsi|)^2 - l_g^2).
+  // Section 4.7 of the specification gives the closed form sqrt((v t/|dpsi|)^2 - l_g^2), with the
+  // duration t and the heading change dpsi of the window, and the distance l_g = 1.4 m from the
+  // rear axle to the center of gravity.
   FilletOptions options = Options(kTurnLocal);
   options.reference = kCg;
   const FilletPlan plan = PlanFillets(ReferenceCar(), RouteB(), kSpeed, options);
@@ -108,7 +111,7 @@ struct EndCase {
   RadiusConstraint constraint;
   RadiusObjective objective;
   ReferencePoint reference;
-  double error;  // [m]
+  double error;  // Distance from the goal [m].
   int decimals;
 };
 
@@ -125,7 +128,7 @@ TEST_P(SecondPass, MissesTheGoalAsPrinted) {
   options.reference = c.reference;
   const FilletPlan plan = PlanFillets(ReferenceCar(), c.route, kSpeed, options);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
-  // The verification's step of 0.5 m on ramps errs by a micrometer.
+  // The verification integrates ramps with steps of 0.5 m, which causes an error of 1e-6 m.
   EXPECT_NEAR(plan.verification.goal_distance, c.error, Tolerance(Printed(c.decimals) + 1e-6));
 }
 
@@ -149,7 +152,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return std::string(test.param.name); });
 
 TEST(SecondPass, LiteralOptimumOfAFirstTurnIsNeverInterior) {
-  // 1500 random routes of two legs, 12-80 m, heading changes of 10-150 deg.
+  // The test plans 1500 random routes of two legs of 12 to 80 m, with heading changes of 10 to 150
+  // degrees.
   Random random(1500);
   int planned = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -170,9 +174,10 @@ TEST(SecondPass, LiteralOptimumOfAFirstTurnIsNeverInterior) {
 }
 
 TEST(SecondPass, LiteralOptimumOfALaterTurnMayBeInterior) {
-  // A counterexample: legs of 40 m, +100 deg and then +20 deg. The window of the second turn
-  // contains the return ramp of the first. An independent computation gave 44.57 m with a sampled
-  // window: 4 ms of its 11.6 s explain the 0.015 m between it and the converged value.
+  // The route has legs of 40 m and turns by +100 degrees and then by +20 degrees. The window of the
+  // second turn contains the return ramp of the first turn. An independent computation with a
+  // sampled window found a radius of 44.57 m. Its sampling error of 4 ms in 11.6 s explains the
+  // difference of 0.015 m from the converged radius.
   const Vec2 second = Vec2{40, 0} + 40.0 * Direction(Radians(100.0));
   const std::vector<Vec2> route{{0, 0}, {40, 0}, second, second + 40.0 * Direction(Radians(120.0))};
   FilletOptions options = Options(kLiteral);
@@ -196,8 +201,8 @@ TEST(SecondPass, TurnLocalOptimumIsOftenInterior) {
 }
 
 TEST(SecondPass, SimulatesAgainWhenAskedTo) {
-  // On route A, simulating again leaves the first turn's window unchanged. The literal window of
-  // the second turn changes, because the first turn then ends on its new radius.
+  // A second simulation leaves the window of the first turn unchanged. The literal window of the
+  // second turn changes, because the first turn then ends on its new radius.
   FilletOptions once = Options(kLiteral);
   FilletOptions again = once;
   again.resimulate_each_turn = true;
@@ -207,7 +212,8 @@ TEST(SecondPass, SimulatesAgainWhenAskedTo) {
   ASSERT_EQ(b.status, PlanStatus::kOk) << b.reason;
   EXPECT_EQ(a.turns[0].search->time, b.turns[0].search->time);
   EXPECT_NE(a.turns[1].search->time, b.turns[1].search->time);
-  // The turn-local window covers one turn, regardless of the others, so it stays the same.
+  // The turn-local window covers only one turn and does not depend on the other turns, so its
+  // result stays the same.
   once.objective = again.objective = kTurnLocal;
   const FilletPlan c = PlanFillets(ReferenceCar(), RouteB(), kSpeed, once);
   const FilletPlan d = PlanFillets(ReferenceCar(), RouteB(), kSpeed, again);
@@ -229,7 +235,8 @@ void PrintTo(const SearchCase& c, std::ostream* out) {
 
 class SearchedRadius : public ::testing::TestWithParam<SearchCase> {};
 
-/// The best radius by a scan: 0.02 m apart within the bounds, then 0.0001 m apart around the best.
+/// Returns the best radius of a scan with steps of 0.02 m within the bounds, and then of 0.0001 m
+/// around the best radius found.
 std::optional<double> Scanned(const FilletTurn& turn, double free_radius, RadiusConstraint c) {
   const auto kept = [&](double r) {
     const double ramp = c == kRoom ? kSpeed * 17.6 / 2.65 * std::atan(2.7 / r) : 0.0;
@@ -267,8 +274,7 @@ TEST_P(SearchedRadius, IsTheClosedFormsOnRandomTurns) {
     options.without_room = InfeasibleTurnPolicy::kRefuse;
     const FilletPlan plan =
         PlanFillets(ReferenceCar(), route, kSpeed, options, static_cast<std::uint64_t>(i));
-    // The same turn without a search has the same geometry and shows whether any radius is
-    // feasible.
+    // The plan without a search has the same geometry, and shows whether any radius is feasible.
     FilletOptions closed = options;
     closed.objective = RadiusObjective::kLargest;
     const FilletPlan largest = PlanFillets(ReferenceCar(), route, kSpeed, closed);
@@ -290,7 +296,7 @@ TEST_P(SearchedRadius, IsTheClosedFormsOnRandomTurns) {
     }
     ++(found.active == ActiveConstraint::kNone ? interior : on_constraint);
   }
-  // All three kinds occur.
+  // The random turns include all three kinds of results.
   EXPECT_GT(interior, 200);
   EXPECT_GT(on_constraint, 100);
   EXPECT_GT(empty, 50);
@@ -354,8 +360,8 @@ TEST(Driven, WeighsWhatItIsTold) {
 }
 
 TEST(Driven, IsNoWorseThanWhereItStarted) {
-  // Legs of 28 m at right angles: at 3 m/s C.40 has no feasible radius, so the turns are slowed
-  // down.
+  // Some legs are so short that constraint C.40 has no feasible radius at 3 m/s. The planner
+  // reduces the speed in such turns.
   Random random(31);
   for (int i = 0; i < 10; ++i) {
     const std::vector<Vec2> route = RandomRoute(random, 4, 25.0, 60.0, Radians(100.0));
@@ -432,7 +438,7 @@ TEST(SearchedPlans, AreContinuousAndKeepWhatTheyClaimOrSayWhyNot) {
       const double ramps = turn.note.find("half of the ramp") == std::string::npos ? 1.0 : 0.5;
       const double need = turn.tangent_length + (room ? ramps * turn.ramp_distance : 0.0);
       EXPECT_LE(need, turn.shorter_leg / 2.0 + Tolerance(2e-9));
-      // The path passes through the computed arc ends.
+      // The path must pass through the computed ends of the arc.
       EXPECT_NEAR((plan.path.At(turn.arc_start_s).pose.position() - turn.arc_start).norm(), 0.0,
                   Tolerance(1e-9));
       EXPECT_NEAR(

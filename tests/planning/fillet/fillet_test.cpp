@@ -29,7 +29,8 @@ using ::testing::HasSubstr;
 
 constexpr double kSpeed = 3.0;
 
-// Coordinates up to 100 m pass through some ten operations, each rounding by 100 * 2^-53 = 1.1e-14.
+// Rounding error [m] of some ten operations on coordinates up to 100 m. Each operation has an error
+// of 100 x 2^-53 = 1.1e-14 m.
 constexpr double kRounding = 1e-12;
 
 // The accuracy that PlanFillets guarantees for its path [m].
@@ -49,7 +50,7 @@ FilletPlan PlanGiven(const std::vector<Vec2>& route, double radius,
   return PlanFillets(ReferenceCar(), route, kSpeed, options);
 }
 
-/// Plans with arcs that pass each waypoint at a distance of at most `max_miss` [m].
+/// Returns a plan whose arcs pass each waypoint at a distance of at most `max_miss` [m].
 FilletPlan PlanNear(const std::vector<Vec2>& route, double max_miss,
                     std::optional<double> radius = std::nullopt) {
   FilletOptions options;
@@ -71,7 +72,8 @@ void ExpectPoint(const Vec2& actual, const Vec2& expected, double tolerance) {
   EXPECT_NEAR(actual.y(), expected.y(), Tolerance(tolerance));
 }
 
-/// The distances D_1, D_2, ... of all turns.
+/// Returns the stations D_1, D_2, ... [m] at which the wheels begin to turn into and out of each
+/// turn.
 std::vector<double> Events(const FilletPlan& plan) {
   std::vector<double> events;
   for (const FilletTurn& turn : plan.turns) {
@@ -109,7 +111,8 @@ TEST(PlanFillets, RouteAPassOneHasPrintedGeometry) {
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   ASSERT_EQ(plan.turns.size(), 3U);
-  // All of these are closed forms: at right angles K = r, so each point is a waypoint +- 5.1 m.
+  // The expected values are closed forms. At right angles, the tangent length K equals the radius
+  // r, so each point is 5.1 m from a waypoint along x or y.
   const std::vector<Vec2> starts{{34.9, 0}, {40, 34.9}, {74.9, 40}};
   const std::vector<Vec2> ends{{40, 5.1}, {45.1, 40}, {80, 45.1}};
   const std::vector<Vec2> centers{{34.9, 5.1}, {45.1, 34.9}, {74.9, 45.1}};
@@ -129,7 +132,7 @@ TEST(PlanFillets, RouteAPassOneHasPrintedGeometry) {
     EXPECT_NEAR(turn.steering, signs[k] * std::atan(2.7 / 5.1), Tolerance(kRounding));
     EXPECT_NEAR(turn.ramp_time, 3.2337, Tolerance(Printed(4)));
     EXPECT_NEAR(turn.ramp_distance, 9.7012, Tolerance(Printed(4)));
-    EXPECT_TRUE(turn.ramp_truncated);  // a ramp of 9.70 m does not fit into an arc of 8.01 m
+    EXPECT_TRUE(turn.ramp_truncated);  // A ramp of 9.70 m does not fit into an arc of 8.01 m.
   }
 }
 
@@ -138,7 +141,8 @@ TEST(PlanFillets, RouteAPassOneHasPrintedDistances) {
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   ExpectEvents(plan, {30.0494, 38.0604, 67.8604, 75.8715, 105.6715, 113.6826});
   EXPECT_NEAR(plan.path.length(), 153.4332, Tolerance(Printed(4)));
-  // Four legs of 40 m; each corner is shortened from 2 r to r pi/2.
+  // The four legs are 40 m long. At each of the three corners, an arc of length r pi/2 replaces 2 r
+  // of the legs.
   EXPECT_NEAR(plan.path.length(), 160.0 - 3.0 * 5.1 * (2.0 - kPi / 2.0), Tolerance(kRounding));
 }
 
@@ -194,7 +198,8 @@ TEST(PlanFillets, RouteAUnderHalfLegHasPrintedTurns) {
   }
   ExpectEvents(plan, {18.6632, 50.0791, 50.0791, 81.4950, 81.4950, 112.9110});
   EXPECT_NEAR(plan.path.length(), 134.2478, Tolerance(Printed(4)));
-  // Touching arcs leave no straight between them: line, three arcs, line.
+  // The arcs touch each other without a straight between them. The path consists of a line, three
+  // arcs and a line.
   EXPECT_EQ(plan.path.segments().size(), 5U);
 }
 
@@ -218,7 +223,8 @@ TEST(PlanFillets, RouteBUnderHalfLegHasPrintedTurns) {
     ExpectPoint(turn.arc_start, starts[k], Printed(4));
     ExpectPoint(turn.arc_end, ends[k], Printed(4));
   }
-  // The corrected distances. The literal D_3 would be 46.6160, computed with the ramp of turn 1.
+  // The expected distances are the corrected ones. The listing itself gives D_3 = 46.6160 m,
+  // because it uses the ramp of turn 1.
   ExpectEvents(plan, {14.4576, 43.5882, 46.3616, 79.4671, 81.4069, 117.2350});
   EXPECT_NEAR(plan.path.length(), 142.7856, Tolerance(Printed(4)));
 }
@@ -275,9 +281,10 @@ TEST(SteeringRoomRadii, HasPrintedIntervals) {
         SteeringRoomRadii(ReferenceCar(), kSpeed, Radians(c.angle), c.leg, {5.1, 154.0});
     ASSERT_EQ(radii.has_value(), c.radii.has_value());
     if (radii) {
-      // Angles printed to 1e-4 or 1e-5 deg move the interval's end by dr/dphi * 1e-4 deg/2. dr/dphi
-      // is about r/sin(phi), 82 m/rad at 146 deg, so the error is 82 * 0.87e-6 = 7.2e-5 m. Right
-      // angles are exact.
+      // The printed angles are rounded to 1e-4 or 1e-5 degrees. Rounding by up to 0.5e-4 degrees =
+      // 0.87e-6 rad moves the end of the interval by this angle times dr/dphi. The derivative
+      // dr/dphi is about r/sin(phi) = 82 m/rad at 146 degrees, so the error is 82 x 0.87e-6 =
+      // 7.2e-5 m. Right angles are exact.
       const double tolerance = c.angle == 90.0   ? Printed(6)
                                : c.angle > 146.0 ? Printed(6) + 7.2e-5
                                                  : Printed(6) + 1e-5;
@@ -288,7 +295,8 @@ TEST(SteeringRoomRadii, HasPrintedIntervals) {
 }
 
 TEST(SteeringRoomRadii, RoutesBAnglesGiveThePrintedRadii) {
-  // The same rows with unrounded angles: arcs of atan(2/3), atan(3/2) and atan(2).
+  // The angles are those of the previous test, but not rounded: the turns are atan(2/3), atan(3/2)
+  // and atan(2).
   const VehicleParams car = ReferenceCar();
   const RadiusInterval bounds{5.1, 154.0};
   const auto first = SteeringRoomRadii(car, kSpeed, kPi - std::atan2(2.0, 3.0), 30.0, bounds);
@@ -298,7 +306,7 @@ TEST(SteeringRoomRadii, RoutesBAnglesGiveThePrintedRadii) {
   ASSERT_TRUE(first && second && third);
   EXPECT_NEAR(first->high, 45.654381, Tolerance(Printed(6)));
   EXPECT_NEAR(second->high, 30.385732, Tolerance(Printed(6)));
-  EXPECT_NEAR(third->high, 29.409195, Tolerance(1.5e-6));  // 63.43495 deg may be a rounded atan(2)
+  EXPECT_NEAR(third->high, 29.409195, Tolerance(1.5e-6));  // The source may round atan(2).
 }
 
 TEST(SteeringRoomRadii, AgreesWithADenseScan) {
@@ -312,7 +320,8 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
     SCOPED_TRACE(fmt::format("case {}: phi = {}, q = {}, v = {}", i, angle, leg, speed));
     const VehicleParams car = ReferenceCar();
     const RadiusInterval bounds{5.1, 154.0};
-    // C.40 as printed: K + S_delta - q/2.
+    // The printed constraint C.40 is g = K + S_delta - q/2 <= 0, with the tangent length K, the
+    // length S_delta of the steering ramp and the shorter leg q.
     const auto g = [&](double r) {
       return r / std::tan(angle / 2.0) + speed * std::atan(2.7 / r) * 17.6 / 2.65 - leg / 2.0;
     };
@@ -321,7 +330,8 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
     for (int j = 0; j <= kPoints; ++j) {
       const double r = bounds.low * std::pow(bounds.high / bounds.low, j / double{kPoints});
       const bool inside = radii && r >= radii->low && r <= radii->high;
-      // Both sides of g are below 1000 m: within 1e-11 of zero the sign is subject to rounding.
+      // The terms of g are below 1000 m. If |g| is below 1e-11 m, rounding may change the sign of
+      // g.
       if (inside) {
         ASSERT_LE(g(r), 1e-11) << "r = " << r;
       } else {
@@ -331,8 +341,8 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
     if (radii) {
       ++intervals;
       interior_lows += radii->low > bounds.low ? 1 : 0;
-      // The slope of g at its roots is below 1/tan(10 deg) + K0 L/(L^2 + r^2) < 10. The root's last
-      // few bits are 154 * 2^-50.
+      // The slope of g at its roots is below 1/tan(10 deg) + K0 L/(L^2 + r^2) < 10. A root has a
+      // rounding error of 154 x 2^-50 m.
       for (const double end : {radii->low, radii->high}) {
         if (end != bounds.low && end != bounds.high) {
           EXPECT_NEAR(g(end), 0.0, Tolerance(1e-11));
@@ -340,14 +350,15 @@ TEST(SteeringRoomRadii, AgreesWithADenseScan) {
       }
     }
   }
-  // All three kinds occur: no interval, one that begins at the bound, one inside the bounds.
+  // The cases include empty intervals, intervals that begin at the bound, and intervals inside the
+  // bounds.
   EXPECT_GT(intervals, 100);
   EXPECT_LT(intervals, 500);
   EXPECT_GT(interior_lows, 5);
 }
 
 TEST(HalfLegRadii, HasPrintedShortestLegs) {
-  // The shortest leg that allows r = 5.1 m: 2 * 5.1/tan(phi/2).
+  // The shortest leg that allows a radius of 5.1 m is 2 x 5.1/tan(phi/2) long.
   const std::vector<std::pair<double, double>> table{
       {30.0, 2.733}, {60.0, 5.889}, {90.0, 10.2}, {120.0, 17.667}, {150.0, 38.067}};
   for (const auto& [change, leg] : table) {
@@ -357,7 +368,8 @@ TEST(HalfLegRadii, HasPrintedShortestLegs) {
     const auto radii = HalfLegRadii(angle, leg + Tolerance(Printed(3)), {5.1, 154.0});
     ASSERT_TRUE(radii);
     EXPECT_EQ(radii->low, 5.1);
-    // Too long by at most one unit in the last place, times tan(phi/2) <= 3.74.
+    // The leg exceeds the shortest leg by at most one unit in the last printed digit. The radius
+    // then exceeds 5.1 m by at most half of this unit times tan(phi/2) <= 3.74.
     EXPECT_NEAR(radii->high, 5.1, Tolerance(0.5 * 2.0 * Printed(3) * 3.74));
   }
 }
@@ -371,7 +383,7 @@ TEST(HalfLegRadii, EndsAtTheUpperBound) {
 // --- Laws ---------------------------------------------------------------------------------------
 
 TEST(PlanFillets, ShiftedStartChangesNoDistance) {
-  // Listing F.1 uses y(1) in place of x(1), which matters only off the diagonal.
+  // Listing F.1 uses y(1) in place of x(1). This defect has an effect only if x(1) and y(1) differ.
   const std::vector<Vec2> offsets{{13.25, 0.0}, {0.0, -7.5}, {13.25, -7.5}, {-100.0, 250.0}};
   for (const auto& route : {RouteA(), RouteB()}) {
     const FilletPlan plan = PlanWith(route, RadiusConstraint::kHalfLeg);
@@ -400,7 +412,7 @@ TEST(PlanFillets, ShiftedStartChangesNoDistance) {
   }
 }
 
-/// Random routes; about half of them can be planned under C.40.
+/// Returns a random route. About half of these routes can be planned under constraint C.40.
 std::vector<Vec2> PlannableRoute(Random& random, int count) {
   return RandomRoute(random, count, 25.0, 120.0, Radians(80.0));
 }
@@ -467,8 +479,8 @@ TEST(PlanFillets, MovedRouteGivesMovedPlan) {
     ++planned;
     ASSERT_EQ(a.turns.size(), b.turns.size());
     for (std::size_t k = 0; k < a.turns.size(); ++k) {
-      // Waypoints up to 700 m away round by 1e-13 m, headings between legs of 25 m by 1e-14 rad.
-      // Where g is flat, the radius amplifies that by up to some thousand.
+      // Rounding errors are 1e-13 m for waypoints up to 700 m away, and 1e-14 rad for headings of
+      // legs of 25 m. Where g is flat, the radius amplifies these errors by up to some thousand.
       EXPECT_NEAR(b.turns[k].steering, a.turns[k].steering, Tolerance(1e-9));
       EXPECT_NEAR(b.turns[k].steer_start, a.turns[k].steer_start, Tolerance(1e-9));
       ExpectPoint(b.turns[k].center, ToWorld(X_WA, a.turns[k].center), 1e-9);
@@ -481,8 +493,8 @@ TEST(PlanFillets, MovedRouteGivesMovedPlan) {
   EXPECT_GT(planned, 40);
 }
 
-/// Checks what every plan satisfies regardless of how its radii were chosen: C.14-C.19 and the
-/// path.
+/// Checks the identities C.14 to C.19 and the path. Every plan must satisfy them, however its radii
+/// were chosen.
 void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& plan) {
   double legs = 0.0;
   for (std::size_t i = 0; i + 1 < route.size(); ++i) {
@@ -494,7 +506,8 @@ void ExpectFilletIdentities(const std::vector<Vec2>& route, const FilletPlan& pl
     const auto i = static_cast<std::size_t>(turn.waypoint);
     const Vec2 in = (route[i] - route[i - 1]).normalized();
     const Vec2 out = (route[i + 1] - route[i]).normalized();
-    // C.9 as printed; the arc cosine loses half the digits near a straight line.
+    // The printed formula C.9 uses the arc cosine, which loses half of the digits near a straight
+    // line.
     EXPECT_NEAR(turn.interior_angle, std::acos(std::clamp(-in.dot(out), -1.0, 1.0)),
                 Tolerance(1e-7));
     EXPECT_EQ(turn.heading_change > 0.0, Cross(in, out) > 0.0);
@@ -542,8 +555,9 @@ void ExpectContinuous(const Path& path) {
   double s = 0.0;
   for (std::size_t i = 0; i + 1 < path.segments().size(); ++i) {
     s += path.segments()[i].length;
-    // 1e-7 m before the joint the car is 1e-7 m away and, at r >= 5.1 m, turned by 2e-8 rad.
-    // Straight extrapolation over that distance errs by (1e-7)^2/(2 * 5.1) = 1e-15 m.
+    // The samples are 1e-7 m before and after the joint. Over this distance, the heading changes by
+    // at most 2e-8 rad, as r >= 5.1 m. Straight extrapolation has an error of (1e-7)^2/(2 x 5.1) =
+    // 1e-15 m.
     constexpr double kNear = 1e-7;
     const PathPoint before = path.At(s - kNear);
     const PathPoint after = path.At(s + kNear);
@@ -625,7 +639,7 @@ TEST(PlanFillets, RandomRoutesKeepTheIdentitiesOrSayWhy) {
 }
 
 TEST(PlanFillets, EndsAtGoalAfterALongFirstLeg) {
-  // The last straight is shorter than a billionth of the first leg, but longer than kPromised.
+  // The last straight is shorter than 1e-9 times the first leg, but longer than kPromised.
   const double rest = 5e-7;
   const std::vector<Vec2> route{{0, 0}, {1000, 0}, {1000, 10.0 + rest}};
   const FilletPlan plan = PlanGiven(route, 10.0);
@@ -654,7 +668,8 @@ TEST(PlanFillets, CollinearWaypointsMakeNoTurn) {
 }
 
 TEST(PlanFillets, CollinearWaypointsNeedNoExactNumbers) {
-  // Thirds of a slanted line are not exact in floating point; the heading change is only rounding.
+  // The thirds of a slanted line are not exact in floating point, so the heading changes are
+  // rounding errors.
   const Vec2 end{31.7, 17.3};
   const FilletPlan plan =
       PlanWith({{0, 0}, end / 3.0, end * (2.0 / 3.0), end}, RadiusConstraint::kSteeringRoom);
@@ -664,7 +679,8 @@ TEST(PlanFillets, CollinearWaypointsNeedNoExactNumbers) {
 }
 
 TEST(PlanFillets, GivenRadiusOnTheConstraintIsAccepted) {
-  // Every turn satisfies the constraint up to rounding: 20 m is the printed radius of route A.
+  // At the printed radius of route A, 20 m, every turn satisfies the constraint with equality, up
+  // to rounding.
   const FilletPlan half = PlanGiven(RouteA(), 20.0, RadiusConstraint::kHalfLeg);
   EXPECT_EQ(half.status, PlanStatus::kOk) << half.reason;
 }
@@ -679,7 +695,7 @@ TEST(PlanFillets, ChosenRadiusCanBeGivenBack) {
 }
 
 TEST(PlanFillets, SmallestRadiusOfTheCarIsAccepted) {
-  // Rounding: 2.7/tan(atan(2.7/5.1)) is not exactly 5.1.
+  // Because of rounding, 2.7/tan(atan(2.7/5.1)) is not exactly 5.1.
   EXPECT_EQ(PlanGiven({{0, 0}, {40, 0}, {40, 40}}, 5.1).status, PlanStatus::kOk);
 }
 
@@ -732,7 +748,8 @@ TEST(PlanFillets, RefusesUTurn) {
 TEST(PlanFillets, RefusesTurnThatIsTooTight) {
   for (const RadiusConstraint constraint :
        {RadiusConstraint::kHalfLeg, RadiusConstraint::kSteeringRoom}) {
-    // At a right angle 5.1 m needs 5.1 m of each leg; half of 10 m is 5 m.
+    // At a right angle, a radius of 5.1 m needs 5.1 m of each leg. Half of the shorter leg of 10 m
+    // is 5 m.
     ExpectRefused(PlanWith({{0, 0}, {60, 0}, {60, 60}, {50, 60}}, constraint),
                   PlanStatus::kTurnTooTight, 2,
                   "turn of 90 deg at waypoint 2: radius 5.1 m needs 5.1 m of each leg; half of the "
@@ -761,7 +778,8 @@ TEST(PlanFillets, RefusesRightTurnWithItsSign) {
 }
 
 TEST(PlanFillets, RefusesLegsWithoutSteeringRoom) {
-  // For 90 deg and 28 m the interval of radii is empty; for the leg of 60 m before it is not.
+  // For a turn of 90 degrees and a leg of 28 m, no radius is feasible. For the legs of 60 m of the
+  // previous turn, some radii are feasible.
   FilletOptions options;
   options.without_room = InfeasibleTurnPolicy::kRefuse;
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}, {88, 60}};
@@ -782,12 +800,14 @@ TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
   const FilletTurn& slow = plan.turns[1];
   EXPECT_THAT(slow.note, HasSubstr("at 3 m/s no radius from 5.1 to 154 m"));
   EXPECT_THAT(slow.note, HasSubstr(fmt::format("speed reduced to {:.4g} m/s", slow.speed)));
-  // At the fastest feasible speed the minimum of g is zero. For a right angle its radius solves r =
-  // sqrt(K0 L - L^2) and r + K0 atan(L/r) = 14 m.
+  // At the highest feasible speed v, the minimum of g is zero. For a right angle, the minimum is at
+  // the radius r = sqrt(K0 L - L^2), with K0 = v x 17.6/2.65. There, r + K0 atan(L/r) equals half
+  // of the leg, 14 m.
   const double per_radian = slow.speed * 17.6 / 2.65;
   EXPECT_NEAR(slow.radius, std::sqrt(per_radian * 2.7 - 2.7 * 2.7), Tolerance(1e-5));
   EXPECT_NEAR(slow.radius + per_radian * std::atan(2.7 / slow.radius), 14.0, Tolerance(1e-9));
-  // Slightly faster there is no feasible radius; slightly slower there is an interval of radii.
+  // At a slightly higher speed no radius is feasible. At a slightly lower speed an interval of
+  // radii is feasible.
   const RadiusInterval bounds{5.1, 154.0};
   const double phi = kPi / 2.0;
   EXPECT_FALSE(SteeringRoomRadii(ReferenceCar(), slow.speed * (1.0 + 1e-9), phi, 28.0, bounds));
@@ -798,9 +818,10 @@ TEST(PlanFillets, SlowsDownForATurnWithoutRoomAndNoOther) {
 }
 
 TEST(PlanFillets, TakesNoTurnFasterBecauseItsLegIsShorter) {
-  // A right angle at full lock needs K = 5.1 m and S = 3.234 s v. The speed decreases with the leg,
-  // to 0.5 m/s at 13.434 m, where half the leg is 5.1 + 1.617 m. With half a ramp on the leg this
-  // speed is possible down to 2 (5.1 + 0.8085) = 11.817 m; shorter legs have no plan.
+  // At full lock, a right angle needs K = 5.1 m and a ramp of S = 3.234 s x v. The speed decreases
+  // with the leg and reaches 0.5 m/s at a leg of 13.434 m, half of which is 5.1 + 1.617 m. With
+  // only half of the ramp on the leg, 0.5 m/s is possible down to a leg of 2 (5.1 + 0.8085) =
+  // 11.817 m. Shorter legs have no plan.
   const auto plan = [](double leg) {
     return PlanFillets(ReferenceCar(), {{0, 0}, {60, 0}, {60, leg}}, kSpeed, {});
   };
@@ -829,8 +850,8 @@ TEST(PlanFillets, KeepsItsSpeedUnderHalfLegWhenAskedTo) {
 }
 
 TEST(PlanFillets, TurnsTheWheelsNearThePath) {
-  // A sharp corner with long legs. C.40 alone would allow 4.68 m/s at full lock, with a ramp of
-  // 15.1 m for an arc of 12.6 m.
+  // The route has a sharp corner with long legs. Under constraint C.40 alone, the car could drive
+  // 4.68 m/s at full lock, with a ramp of 15.1 m although the arc is only 12.6 m long.
   const std::vector<Vec2> route{{0, 0}, {59.37, 0}, {-1.5, 48.6}, {117.75, 40}};
   const FilletPlan plan = PlanFillets(ReferenceCar(), route, 7.19, {});
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
@@ -839,8 +860,9 @@ TEST(PlanFillets, TurnsTheWheelsNearThePath) {
     EXPECT_LT(turn.speed, 7.19);
     EXPECT_FALSE(turn.ramp_truncated);
     EXPECT_THAT(turn.note, HasSubstr("the wheels turn too slowly for a radius of"));
-    // The highest allowed speed: the ramp deviates from the path by a quarter of the car's width,
-    // at the largest radius that C.40 allows for this speed. Both are roots, found to 52 bits.
+    // The planner chooses the highest speed at which the ramp deviates from the path by at most a
+    // quarter of the car's width. The radius is the largest that C.40 allows for this speed. The
+    // planner finds both as roots, to 52 bits.
     const double S = turn.ramp_distance;
     EXPECT_NEAR(S * S / (24.0 * turn.radius), 0.25 * ReferenceCar().width, Tolerance(1e-9));
     EXPECT_NEAR(turn.tangent_length + S, 0.5 * turn.shorter_leg, Tolerance(1e-9));
@@ -859,13 +881,14 @@ TEST(PlanFillets, SlowerCarFindsSteeringRoom) {
 
 // --- The listing's own distances -----------------------------------------------------------------
 
-/// The distances of listing F.1, including its defect: every event after the first turn uses the
-/// first turn's ramp.
+/// The distances of listing F.1, with its defect: after the first turn, the listing still uses the
+/// ramp of the first turn.
 struct LiteralEvents {
-  std::vector<double> start;         ///< D_{2k-1} [m]
-  std::vector<double> end;           ///< D_2k [m]
-  std::vector<double> return_until;  ///< end of the window of the return [m]
-  double route_end = 0.0;            ///< D_0 [m], half the first turn's ramp before the goal
+  std::vector<double> start;         ///< Stations D_{2k-1} at the start of a turn [m].
+  std::vector<double> end;           ///< Stations D_2k at the return of the steering [m].
+  std::vector<double> return_until;  ///< Ends of the windows of the returns [m].
+  double route_end = 0.0;            ///< Station D_0 [m]: half of the first turn's ramp before the
+                                     ///< goal.
 };
 
 LiteralEvents FindLiteralEvents(const FilletPlan& plan) {
@@ -881,7 +904,8 @@ LiteralEvents FindLiteralEvents(const FilletPlan& plan) {
 }
 
 TEST(LiteralEvents, AreAsPrinted) {
-  // D_1 to D_6 and D_0_1 from running listing F.1 in Octave, all with the ramp of turn 1.
+  // The expected distances D_1 to D_6 and D_0_1 come from a run of listing F.1 in Octave. All of
+  // them use the ramp of turn 1.
   struct Case {
     FilletPlan plan;
     std::vector<double> events;
@@ -918,7 +942,8 @@ TEST(LiteralEvents, AreAsPrinted) {
 }
 
 TEST(PlanFillets, RefusesArcsThatNeedMoreThanTheirLeg) {
-  // K = 25 m at right angles: 2 K exceeds the leg of 40 m by 10 m.
+  // At right angles, a radius of 25 m has the tangent length K = 25 m. Two tangents exceed the leg
+  // of 40 m by 10 m.
   ExpectRefused(PlanGiven(RouteA(), 25.0), PlanStatus::kTurnsOverlap, 2,
                 "the arcs before waypoint 2 exceed their leg by 10 m");
   ExpectRefused(PlanGiven({{0, 0}, {20, 0}, {20, 60}}, 25.0), PlanStatus::kTurnsOverlap, 1,
@@ -928,8 +953,10 @@ TEST(PlanFillets, RefusesArcsThatNeedMoreThanTheirLeg) {
 }
 
 TEST(PlanFillets, RefusesTurnThatWouldSteerBeforeTheOneBeforeIt) {
-  // A gentle turn of 0.01 rad (r = 154 m, S = 0.35 m), 5.9 m before a turn of 60 deg (r = 5.109 m,
-  // S = 9.69 m). Their tangent points are 0.77 + 2.95 m apart; half the ramps differ by 4.67 m.
+  // A gentle turn of 0.01 rad (r = 154 m, S = 0.35 m) is 5.9 m before a turn of 60 degrees (r =
+  // 5.109 m, S = 9.69 m). The starts of the two arcs are 0.77 + 2.95 m apart. Half of the second
+  // ramp is longer than half of the first ramp by 4.67 m, so the second ramp would begin before the
+  // first ramp.
   const Vec2 b = Vec2{40, 0} + 5.9 * Direction(0.01);
   const Vec2 c = b + 40.0 * Direction(0.01 + kPi / 3.0);
   ExpectRefused(PlanWith({{0, 0}, {40, 0}, b, c}, RadiusConstraint::kHalfLeg),
@@ -937,7 +964,7 @@ TEST(PlanFillets, RefusesTurnThatWouldSteerBeforeTheOneBeforeIt) {
 }
 
 TEST(PlanFillets, RefusesToSteerBeforeTheStart) {
-  // H lies at 8 - 5.1 = 2.9 m and half the ramp is 9.7012/2 = 4.8506 m.
+  // The arc begins at 8 - 5.1 = 2.9 m, and half of the ramp is 9.7012/2 = 4.8506 m long.
   ExpectRefused(
       PlanGiven({{0, 0}, {8, 0}, {8, 60}}, 5.1), PlanStatus::kSteersBeforeStart, 1,
       "the steering for the turn at waypoint 1 would have to start 1.951 m before the route");
@@ -958,7 +985,8 @@ TEST(PlanFillets, ChecksItsCaller) {
 
 // --- Open-loop runs of the plans ---------------------------------------------------------------
 
-/// Rolls out `distance` of a plan; the reference point starts at its first waypoint.
+/// Rolls out a plan over `distance` [m]. The reference point of the car starts at the first
+/// waypoint.
 KinematicState Drive(const std::vector<Vec2>& route, const FilletPlan& plan, double distance,
                      ReferencePoint reference, double step) {
   const Vec2 leg = route[1] - route[0];
@@ -972,7 +1000,8 @@ constexpr ReferencePoint kCg = ReferencePoint::kCenterOfGravity;
 constexpr double kStep = 0.1;  // [m]
 
 TEST(OpenLoop, PassOneStopsShortOfFullLock) {
-  // Over 8.0111 m at omega/v the angle reaches 0.4021 rad, not 0.4869.
+  // On the arc of 8.0111 m, at the slope omega/v, the steering angle reaches 0.4021 rad, less than
+  // the angle of full lock, 0.4869 rad.
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   double peak = 0.0;
@@ -984,15 +1013,15 @@ TEST(OpenLoop, PassOneStopsShortOfFullLock) {
 }
 
 TEST(OpenLoop, PassOneYawIsTheClosedFormOfATruncatedTurn) {
-  // Heading over both ramps to delta_p: 2 (v/(L omega)) (-ln cos delta_p) per turn, half at the
-  // return.
+  // On two ramps up to the steering angle delta_p, the heading changes by 2 (v/(L omega)) (-ln cos
+  // delta_p). Half of this change is complete when the return begins.
   const FilletPlan plan = PlanGiven(RouteA(), 5.1);
   const double peak = 5.1 * kPi / 2.0 * (2.65 / 17.6) / kSpeed;
   const double ramp = kSpeed * 17.6 / (2.7 * 2.65) * -std::log(std::cos(peak));
   const auto at_return = Drive(RouteA(), plan, plan.turns[0].steer_return, kRear, kStep);
   const auto at_end = Drive(RouteA(), plan, plan.path.length(), kRear, kStep);
-  // A fourth-order method with steps of 0.1 m: the yaw error per ramp is h^4 |psi'''''| S/2880 <
-  // 1e-9 rad.
+  // The roll-out is a method of fourth order with steps of 0.1 m. Its heading error per ramp is h^4
+  // |psi'''''| S/2880 < 1e-9 rad.
   EXPECT_NEAR(at_return.pose.yaw, ramp, Tolerance(1e-9));
   EXPECT_NEAR(at_end.pose.yaw, 2.0 * ramp, Tolerance(3e-9));
 }
@@ -1082,7 +1111,8 @@ TEST_P(OpenLoopEnd, MissesTheGoalAsPrinted) {
   };
   RecordProperty("error_m", fmt::format("{:.10f}", error(0.25 * kStep)));
   EXPECT_NEAR(error(kStep), c.error, Tolerance(Printed(c.decimals)));
-  // Converged: the discretization error is a thousandth of the smallest tolerance above.
+  // The result has converged: halving the step changes the error by less than a thousandth of the
+  // smallest tolerance above.
   EXPECT_NEAR(error(kStep), error(0.5 * kStep), Tolerance(5e-8));
 }
 
@@ -1109,7 +1139,7 @@ TEST(WaypointMiss, LimitsTheRadius) {
   ASSERT_EQ(near.status, PlanStatus::kOk) << near.reason;
   EXPECT_NEAR(near.turns[0].radius, 3.0 / unit, Tolerance(kRounding));
   EXPECT_EQ(near.turns[0].active, ActiveConstraint::kWaypointMiss);
-  // Far away, another constraint decides, as without a bound.
+  // With a large bound, another constraint determines the radius, as without a bound.
   const FilletPlan far = PlanNear(route, 1000.0);
   EXPECT_EQ(far.turns[0].radius, PlanWith(route, RadiusConstraint::kSteeringRoom).turns[0].radius);
   EXPECT_NE(far.turns[0].active, ActiveConstraint::kWaypointMiss);
@@ -1117,7 +1147,8 @@ TEST(WaypointMiss, LimitsTheRadius) {
 
 TEST(WaypointMiss, RefusesRadiiThatAreTooLarge) {
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {60, 60}};
-  // The car's smallest radius of 5.1 m misses by 2.112 m, a radius of 10 m by 4.142 m.
+  // An arc with the car's smallest radius, 5.1 m, misses the waypoint by 2.112 m, and an arc with a
+  // radius of 10 m misses it by 4.142 m.
   const FilletPlan smallest = PlanNear(route, 2.0);
   EXPECT_EQ(smallest.status, PlanStatus::kWaypointMissed);
   EXPECT_EQ(smallest.waypoint, 1);
@@ -1139,7 +1170,8 @@ TEST(OpenLoop, MirroredPlanDrivesMirrored) {
     const FilletPlan b = PlanWith(mirrored, RadiusConstraint::kSteeringRoom);
     const Pose2 left = Drive(RouteB(), a, a.path.length(), reference, kStep).pose;
     const Pose2 right = Drive(mirrored, b, b.path.length(), reference, kStep).pose;
-    // Rounding of 1500 steps at coordinates of 100 m: 1.4e-14 each.
+    // The tolerance allows for rounding in 1500 steps at coordinates of 100 m, by 1.4e-14 m in each
+    // step.
     EXPECT_NEAR(right.x, left.x, Tolerance(1e-10));
     EXPECT_NEAR(right.y, -left.y, Tolerance(1e-10));
     EXPECT_NEAR(right.yaw, -left.yaw, Tolerance(1e-10));

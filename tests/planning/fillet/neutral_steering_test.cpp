@@ -15,7 +15,7 @@
 #include "trackbed/planning/fillet/fillet.h"
 #include "trackbed/planning/registry/planners.h"
 
-// Fillet plans of a car whose wheels are at the neutral steering angle d_0 between its turns.
+// Tests fillet plans of a car whose wheels are at the neutral steering angle d_0 between its turns.
 namespace trackbed {
 namespace neutral_steering_test {
 
@@ -25,7 +25,8 @@ constexpr double kSpeed = 3.0;
 constexpr double kRate = 2.65 / 17.6;  // [rad/s]
 constexpr double kWheelbase = 2.7;     // [m]
 
-// Distances up to 200 m pass through some ten operations, each rounding by 200 * 2^-53 = 2.2e-14.
+// Rounding error [m] of some ten operations on distances up to 200 m. Each operation has an error
+// of 200 x 2^-53 = 2.2e-14 m.
 constexpr double kRounding = 1e-12;
 
 FilletOptions Neutral(double steering) {
@@ -55,7 +56,8 @@ TEST(NeutralSteering, RampsTakeTheTravelFromItAndBack) {
       const double time = std::abs(steering - neutral) / kRate;
       EXPECT_NEAR(turn.steering, steering, Tolerance(kRounding));
       EXPECT_NEAR(turn.ramp_time, time, Tolerance(kRounding));
-      // The ramp is centered on the tangent point: equally long before and after it.
+      // The ramp is centered on the tangent point: half of the ramp lies before this point, and
+      // half behind it.
       EXPECT_NEAR(turn.steer_start, turn.arc_start_s - 0.5 * kSpeed * time, Tolerance(kRounding));
       EXPECT_NEAR(plan.schedule.At(turn.steer_start), neutral, Tolerance(kRounding));
       EXPECT_NEAR(plan.schedule.At(turn.arc_start_s), 0.5 * (steering + neutral),
@@ -68,21 +70,24 @@ TEST(NeutralSteering, RampsTakeTheTravelFromItAndBack) {
 }
 
 TEST(NeutralSteering, LeavesTheRoomThatItsOwnRampsNeed) {
-  // Legs of 40 m; all turns differ only in their side. C.40 with |delta - d_0|: 20 m = K + S.
+  // The legs are 40 m long, and the turns differ only in their side. Constraint C.40 with ramps of
+  // |delta - d_0| requires K + S = 20 m.
   const FilletPlan plan = PlanFillets(ReferenceCar(), RouteA(), kSpeed, Neutral(0.02));
   ASSERT_EQ(plan.status, PlanStatus::kOk) << plan.reason;
   for (const FilletTurn& turn : plan.turns) {
     EXPECT_EQ(turn.active, ActiveConstraint::kSteeringRoom);
     EXPECT_NEAR(turn.tangent_length + turn.ramp_distance, 20.0, Tolerance(kRounding));
   }
-  // A turn away from the neutral angle has the longer ramp, and therefore the smaller radius.
+  // A turn to the side opposite to the neutral angle has a longer ramp, and therefore a smaller
+  // radius.
   EXPECT_LT(plan.turns[1].radius, plan.turns[0].radius);
 }
 
 TEST(NeutralSteering, RadiiAgreeWithADenseScan) {
   Random random(20240607);
   int intervals = 0;
-  int beyond = 0;  // intervals that contain radii beyond the circle of d_0
+  int beyond = 0;  // The number of intervals with radii larger than that of the circle driven at
+                   // d_0.
   for (int i = 0; i < 400; ++i) {
     const double angle = Radians(random.Uniform(20.0, 178.0));
     const double leg = random.Uniform(3.0, 60.0);
@@ -99,7 +104,8 @@ TEST(NeutralSteering, RadiiAgreeWithADenseScan) {
     constexpr int kPoints = 4000;
     for (int j = 0; j <= kPoints; ++j) {
       const double r = bounds.low * std::pow(bounds.high / bounds.low, j / double{kPoints});
-      // Both sides of g are below 1000 m: within 1e-11 of zero the sign is subject to rounding.
+      // The terms of g are below 1000 m. If |g| is below 1e-11 m, rounding may change the sign of
+      // g.
       if (radii && r >= radii->low && r <= radii->high) {
         ASSERT_LE(g(r), 1e-11) << "r = " << r;
       } else {
@@ -140,15 +146,15 @@ TEST(NeutralSteering, PredictionOfAStraightRouteIsTheCircleThatTheWheelsDrive) {
   const double curvature = std::tan(0.05) / kWheelbase;
   const double yaw = 40.0 * curvature;
   const Vec2 end(std::sin(yaw) / curvature, (1.0 - std::cos(yaw)) / curvature);
-  // On constant steering the roll-out is Simpson's rule in steps of 0.5 m. The position error is
-  // (0.5 kappa)^4/2880 of the 40 m: 1e-10 m.
+  // With constant steering, the roll-out is Simpson's rule with steps of 0.5 m. Its position error
+  // over 40 m is (0.5 kappa)^4/2880 x 40 m = 1e-10 m.
   EXPECT_NEAR(plan.verification.goal_distance, (end - straight.back()).norm(), Tolerance(1e-9));
   EXPECT_NEAR(plan.verification.goal_heading, yaw, Tolerance(kRounding));
 }
 
 TEST(NeutralSteering, PredictedHeadingIsTheIntegralOverRampsAndHolds) {
-  // psi = int tan(delta)/L ds: kappa_0 outside the turn, (ln cos d_0 - ln cos delta)/(L m) on a
-  // ramp of slope m, the arc's curvature on the hold.
+  // The heading is psi = int tan(delta)/L ds. Outside the turn the curvature is kappa_0, and on the
+  // hold it is that of the arc. A ramp with the slope m turns by (ln cos d_0 - ln cos delta)/(L m).
   const std::vector<Vec2> route{{0, 0}, {40, 0}, {40, 40}};
   for (const double neutral : {0.01, -0.03}) {
     const FilletPlan plan = PlanFillets(ReferenceCar(), route, kSpeed, Neutral(neutral));
@@ -161,7 +167,8 @@ TEST(NeutralSteering, PredictedHeadingIsTheIntegralOverRampsAndHolds) {
     const double arc = plan.turns[0].radius * kPi / 2.0;
     const double yaw = 2.0 * on_ramp + (arc - ramp) / plan.turns[0].radius +
                        (plan.path.length() - arc - ramp) * std::tan(neutral) / kWheelbase;
-    // Fourth order: h^4 |psi'''''| S/2880 < 1e-6 rad for h = 0.5 m.
+    // The roll-out is a method of fourth order, with an error of h^4 |psi'''''| S/2880 < 1e-6 rad
+    // for h = 0.5 m.
     EXPECT_NEAR(plan.verification.goal_heading, yaw - kPi / 2.0, Tolerance(1e-6)) << neutral;
   }
 }
@@ -172,9 +179,11 @@ TEST(NeutralSteering, FindingsTellIt) {
   EXPECT_EQ(DiagnosticsJson(plan).at("neutral_steering_rad"), 0.02);
   EXPECT_EQ(DiagnosticsJson(plan).at("neutral_curvature_radpm"),
             CurvatureForSteering(ReferenceCar(), 0.02));
-  // 0.02 rad over the 17 m before the first turn already give 0.12 rad and more than a meter.
+  // A steering angle of 0.02 rad over the 17 m before the first turn already causes a heading error
+  // of 0.12 rad and an offset of more than 1 m.
   EXPECT_GT(DiagnosticsJson(plan).at("open_loop").at("deviation_max_m"), 1.0);
-  // Predictions per turn assume straight wheels, so there are none with a neutral angle.
+  // Predictions for single turns assume straight wheels. A plan with a neutral steering angle
+  // therefore has no such predictions.
   EXPECT_TRUE(plan.turns.empty());
   EXPECT_FALSE(DiagnosticsJson(plan).at("turns").at(0).contains("predicted"));
 

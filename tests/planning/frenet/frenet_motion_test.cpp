@@ -13,7 +13,8 @@
 namespace trackbed {
 namespace {
 
-/// From 1 m left to 1.5 m right while accelerating, in 5 s, then straight on.
+/// Returns a motion from 1 m left to 1.5 m right of the path within 5 s, during which the car
+/// accelerates. For 2 s more, the car drives parallel to the path.
 FrenetMotion Swerve() {
   FrenetPiece first{5.0, QuarticBetween({4.0, 5.0, 0.0}, {0.0, 7.0, 0.0}, 5.0),
                     QuinticBetween({1.0, 0.0, 0.0}, {-1.5, 0.0, 0.0}, 5.0)};
@@ -22,7 +23,7 @@ FrenetMotion Swerve() {
   return {{first, second}};
 }
 
-/// From rest at one offset to rest at another, 20 m farther.
+/// Returns a motion from rest at one offset to rest at another offset, 20 m farther along the path.
 FrenetMotion FromRestToRest() {
   return {{{10.0, QuinticBetween({5.0, 0.0, 0.0}, {25.0, 0.0, 0.0}, 10.0),
             QuinticBetween({0.5, 0.0, 0.0}, {-0.5, 0.0, 0.0}, 20.0), true}}};
@@ -31,7 +32,8 @@ FrenetMotion FromRestToRest() {
 TEST(FrenetPiece, IsTheSameOverTimeAndOverStationAtConstantSpeed) {
   const Polynomial s{{3.0, 4.0}};
   const FrenetPiece over_time{5.0, s, QuinticBetween({1.0, 0.4, 0.2}, {-1.0, 0.0, 0.0}, 5.0)};
-  // d' = d_t/v, d'' = d_tt/v^2 over 20 m.
+  // At the constant speed v = 4 m/s, the motion covers 20 m. The derivatives are d' = d_t/v and d''
+  // = d_tt/v^2.
   const FrenetPiece over_station{5.0, s, QuinticBetween({1.0, 0.1, 0.0125}, {-1.0, 0.0, 0.0}, 20.0),
                                  true};
   for (double t = 0.0; t <= 5.0; t += 0.5) {
@@ -61,7 +63,7 @@ TEST(Trajectory, HasPointsAsCloseAsAskedFor) {
   EXPECT_NEAR(points->back().t, 7.0, Tolerance(1e-12));
   for (std::size_t i = 1; i < points->size(); ++i) {
     EXPECT_GT((*points)[i].t, (*points)[i - 1].t);
-    // The samples may miss the fastest moment.
+    // The samples may miss the time of the largest speed.
     EXPECT_LE((*points)[i].distance - (*points)[i - 1].distance, 0.101);
   }
   const auto few = SampleMotion(BentRoad(), Swerve(), 0.25, 100.0);
@@ -79,13 +81,15 @@ TEST(Trajectory, MeasuresTheDistanceDriven) {
       distance += boost::math::quadrature::gauss_kronrod<double, 15>::integrate(
           [&](double t) { return FromFrenet(path, motion.At(t))->speed; }, (*points)[i - 1].t,
           (*points)[i].t, 0);
-      // h^2/12 = 3e-5 times the jump of the acceleration at joints of the path, 0.1 m/s^2.
+      // The error is h^2/12 = 3e-5 s^2 times the jump of the acceleration at joints of the path,
+      // 0.1 m/s^2.
       EXPECT_NEAR((*points)[i].distance, distance, Tolerance(1e-5));
     }
   }
 }
 
-/// Expects that a reference's path stays on the motion that it was made of, also between points.
+/// Expects that the path of a reference stays on the motion from which the reference was computed,
+/// at the points and between them.
 void ExpectFollows(const Path& road, const FrenetMotion& motion) {
   const auto points = SampleMotion(road, motion, 0.2, 0.1);
   ASSERT_TRUE(points);
@@ -121,7 +125,8 @@ TEST(Reference, IsAsFastAsTheMotion) {
   const Reference reference = ToReference(*points);
   for (const TrajectoryPoint& point : *points) {
     EXPECT_NEAR(reference.speed.SpeedAt(point.distance), point.motion.speed, Tolerance(1e-9));
-    // Acceleration is constant between points: h^2/12 times its changes, summed.
+    // The reference assumes a constant acceleration between points. The error is the sum of h^2/12
+    // times the changes of the acceleration.
     EXPECT_NEAR(reference.speed.TimeAt(point.distance), point.t, Tolerance(1e-4));
   }
 }
@@ -141,7 +146,7 @@ TEST(Trajectory, NeedsAFrameAllAlong) {
   const Path tight({0.0, 0.0, 0.0}, {{50.0, 0.2, 1}});
   const FrenetMotion beyond{{{3.0, Polynomial{{5.0, 3.0}}, Polynomial{{4.0, 0.0, 0.2}}}}};
   EXPECT_FALSE(SampleMotion(tight, beyond, 0.2, 0.1));
-  // d(t) does not define the heading of a car at rest.
+  // The offset d(t) cannot define the heading of a car at rest.
   const FrenetMotion stands{{{3.0, Polynomial{{5.0}}, Polynomial{{1.0, 0.1}}}}};
   EXPECT_FALSE(SampleMotion(StraightRoad(), stands, 0.2, 0.1));
 }

@@ -14,20 +14,21 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
-// Tests the Frenet planner: its cost against known optima of polynomials, its candidates, and plans
-// among standing and moving boxes, each checked by ExpectDrivable.
+// Tests the Frenet planner: its cost against known optima of polynomials, its candidates, and its
+// plans among standing and moving boxes. ExpectDrivable checks each plan.
 namespace trackbed {
 namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Argmin of a function. The function is flat there, so half of the digits are lost.
+/// Returns the argument at the minimum of a function. At the minimum the function is flat, so only
+/// half of the digits are accurate.
 template <typename Function>
 double Minimum(const Function& function, double from, double to) {
   return boost::math::tools::brent_find_minima(function, from, to, 26).first;
 }
 
-/// The cost C of a lateral shift between two offsets at 5 m/s.
+/// Returns the cost of a lateral shift between two offsets at 5 m/s.
 FrenetCost CostOfShift(double from, double to, double duration, const FrenetWeights& weights) {
   const FrenetPiece piece{duration, Polynomial{{0.0, 5.0}},
                           QuinticBetween({from, 0.0, 0.0}, {to, 0.0, 0.0}, duration)};
@@ -38,7 +39,8 @@ FrenetCost CostOfShift(double from, double to, double duration, const FrenetWeig
 // --------------------------------------------------------------------------------------------
 
 TEST(FrenetCost, IsLeastAtTheKnownTimes) {
-  // T* = (3600 K_dj D^2/K_dt)^(1/6) for jerk, ((360/7) K_dj D^2/K_dt)^(1/4) for acceleration.
+  // The cost of a shift by D is least for the duration T* = (3600 K_dj D^2/K_dt)^(1/6) if the cost
+  // integrates the jerk, and for ((360/7) K_dj D^2/K_dt)^(1/4) if it integrates the acceleration.
   for (const auto& [shift, by_jerk, by_acceleration] :
        {std::tuple{1.0, 3.91487, 2.67794}, std::tuple{3.5, 5.94392, 5.00997}}) {
     for (const int order : {3, 2}) {
@@ -52,7 +54,7 @@ TEST(FrenetCost, IsLeastAtTheKnownTimes) {
 }
 
 TEST(FrenetCost, IsLeastAtTheKnownEndOffset) {
-  // d_1 = d_0 A/(A + K_d) with A = 720 K_dj/T^5.
+  // The best end offset is d_1 = d_0 A/(A + K_d) with A = 720 K_dj/T^5.
   FrenetWeights weights;
   weights.k_d = 0.3;
   for (const double duration : {2.0, 4.0}) {
@@ -64,11 +66,11 @@ TEST(FrenetCost, IsLeastAtTheKnownEndOffset) {
 }
 
 TEST(FrenetCost, IsTheSumOfItsTerms) {
-  // A shift of 2 m in 4 s while accelerating by 1.5 m/s, with a different value for every weight.
+  // The car shifts by 2 m within 4 s and accelerates by 1.5 m/s. Each weight has a different value.
   FrenetWeights weights{0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.1, 3};
   const FrenetPiece piece{4.0, QuarticBetween({10.0, 3.0, 0.0}, {0.0, 4.5, 0.0}, 4.0),
                           QuinticBetween({1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, 4.0)};
-  // The end is at 10 + 4 (3 + 4.5)/2 = 25 m.
+  // The station at the end is 10 + 4 (3 + 4.5)/2 = 25 m.
   const FrenetTarget target{27.0, 5.5};
   FrenetCost cost = PieceCost(piece, target, weights);
   const double lateral = 0.2 * 720.0 * 4.0 / 1024.0 + 0.3 * 1.0 + 0.4 * 4.0;
@@ -76,7 +78,7 @@ TEST(FrenetCost, IsTheSumOfItsTerms) {
   EXPECT_NEAR(cost.lateral, lateral, Tolerance(1e-12));
   EXPECT_NEAR(cost.longitudinal, longitudinal, Tolerance(1e-12));
   EXPECT_NEAR(cost.total, 0.9 * lateral + 1.1 * longitudinal, Tolerance(1e-12));
-  // The published cost uses accelerations.
+  // With the derivative order 2, the cost integrates accelerations, as in the publication.
   weights.derivative_order = 2;
   cost = PieceCost(piece, target, weights);
   EXPECT_NEAR(cost.lateral, lateral + 0.2 * (120.0 / 7.0 * 4.0 / 64.0 - 720.0 * 4.0 / 1024.0),
@@ -166,7 +168,7 @@ TEST(Frenet, KeepsStraightOnWhereNothingIsInTheWay) {
   EXPECT_EQ(plan.reason, "");
   EXPECT_EQ(plan.candidates, 525);
   EXPECT_EQ(plan.checked, 1);
-  // Only the shortest duration costs something: (K_dt + K_st) 2 s.
+  // Only the duration has a cost. For the shortest duration, the cost is (K_dt + K_st) x 2 s.
   EXPECT_NEAR(plan.cost, 0.4, Tolerance(1e-12));
   for (const TrajectoryPoint& point : plan.points) {
     EXPECT_EQ(point.frenet.d, 0.0);
@@ -183,8 +185,9 @@ TEST(Frenet, PassesABoxOnTheRoomierSide) {
     options.end_times = {4.0, 5.0, 6.0, 7.0};
     const FrenetPlan plan = PlanFrenet(StraightRoad(), request, options);
     ASSERT_TRUE(plan.ok()) << plan.reason;
-    // Inner edge at 0.05 m, safe distance 0.5 m, half the car 0.8625 m: 1.3125 m, rounded up to the
-    // grid.
+    // The inner edge of the box is at 0.05 m. The safe distance of 0.5 m and half of the car's
+    // width, 0.8625 m, require an offset of 1.3125 m from the middle. The next offset in the grid
+    // is 1.5 m.
     EXPECT_NEAR(plan.motion.At(plan.motion.duration()).d, -side * 1.5, Tolerance(1e-9));
     ExpectDrivable(StraightRoad(), request, options.limits, plan);
   }
@@ -227,14 +230,15 @@ TEST(Frenet, PlansOnlyWhatCanBeDriven) {
 }
 
 TEST(Frenet, ForeseesWhereAMovingBoxWillBe) {
-  // The box crosses the road and is in its middle when a car at constant speed gets there.
+  // The box crosses the road, and is in the middle of the road when a car at constant speed
+  // arrives.
   FrenetRequest request = OnPath(5.0);
   request.obstacles = {BoxAt(StraightRoad(), 20.0, -7.0)};
   FrenetOptions options;
   options.end_times = {4.0, 5.0};
   const FrenetPlan waits = PlanFrenet(StraightRoad(), request, options);
   ASSERT_TRUE(waits.ok());
-  EXPECT_EQ(waits.checked, 1);  // while the box is beside the road
+  EXPECT_EQ(waits.checked, 1);  // The box stands beside the road.
   request.obstacles[0].velocity = {0.0, 1.8};
   const FrenetPlan plan = PlanFrenet(StraightRoad(), request, options);
   ASSERT_TRUE(plan.ok()) << plan.reason;
@@ -243,8 +247,8 @@ TEST(Frenet, ForeseesWhereAMovingBoxWillBe) {
 }
 
 TEST(Frenet, LooksBeyondTheEndOfItsMotion) {
-  // At 3 m/s a shift of 1.5 m takes 5.4 s. The cheapest motion takes 2 s and ends 9 m before the
-  // box.
+  // At 3 m/s, a shift by 1.5 m takes 5.4 s. Without a horizon, the cheapest motion takes 2 s, ends
+  // 9 m before the box, and ignores the box.
   FrenetRequest request = OnPath(3.0);
   request.obstacles = {BoxAt(StraightRoad(), 20.0, 0.8)};
   FrenetOptions options;
@@ -257,7 +261,7 @@ TEST(Frenet, LooksBeyondTheEndOfItsMotion) {
   const FrenetPlan plan = PlanFrenet(StraightRoad(), request, options);
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_GT(plan.rejected.Of(Rejection::kCollision), 0);
-  // The car is clear of the box after 8 s if it continues from the end of its motion.
+  // If the car continues from the end of its motion, it must be clear of the box after 8 s.
   const FrenetState end = plan.motion.At(plan.motion.duration());
   const double later = end.s + end.s_rate * (8.0 - plan.motion.duration());
   EXPECT_TRUE(end.d < -1.3 || later + 3.625 < 20.0 - 1.0 - 0.5) << end.d << ", " << later;
@@ -313,7 +317,7 @@ TEST(Frenet, StaysWhereItStands) {
   EXPECT_EQ(plan.motion.At(1.0).d, 1.0);
 }
 
-/// The rejection counts when only one end state is tried and rejected.
+/// Returns the counts of rejections if the planner tries only one end state and rejects it.
 RejectionCounts CountRejected(const Path& path, const FrenetRequest& request,
                               FrenetOptions options) {
   options.end_offsets.resize(1);
@@ -334,27 +338,29 @@ TEST(Frenet, SaysWhyItRejects) {
     FrenetRequest request = OnPath(3.0);
     request.goal = KeepSpeed{4.0};
     EXPECT_EQ(CountRejected(road, request, options).Of(Rejection::kSpeed), 1);
-    request.speed = {5.0, 0.2, 3.0};  // 1 m/s in 4 s takes up to 0.375 m/s^2
+    request.speed = {5.0, 0.2, 3.0};  // Gaining 1 m/s in 4 s needs 0.375 m/s^2.
     EXPECT_EQ(CountRejected(road, request, options).Of(Rejection::kAcceleration), 1);
   }
   {
     FrenetOptions aside = options;
     aside.end_offsets = {3.0};
-    aside.limits.max_lateral_acceleration = 0.5;  // the motion needs up to 5.77 times 3/16 m/s^2
+    aside.limits.max_lateral_acceleration = 0.5;  // The motion needs 5.77 x 3/16 m/s^2.
     EXPECT_EQ(CountRejected(road, OnPath(8.0), aside).Of(Rejection::kAcceleration), 1);
-    // 60 L D/(T^3 v^2) = 0.84 rad/s.
+    // The motion needs a steering rate of 60 L D/(T^3 v^2) = 0.84 rad/s, with the wheelbase L, the
+    // shift D, the duration T and the speed v.
     aside.limits.max_lateral_acceleration = 3.0;
     EXPECT_EQ(CountRejected(road, OnPath(3.0), aside).Of(Rejection::kSteeringRate), 1);
     aside.end_times = {8.0};
     FrenetRequest narrow = OnPath(5.0);
     narrow.road.left = 3.9;
     EXPECT_EQ(CountRejected(road, narrow, aside).Of(Rejection::kRoad), 1);
-    // Room for 3 m, half a car, and 0.09 m that the front swings out before the rear gets there.
+    // The car needs 3 m, half of its width, and 0.09 m by which its front swings out before the
+    // rear axle reaches the offset.
     narrow.road.left = 4.0;
     EXPECT_TRUE(PlanFrenet(road, narrow, aside).ok());
   }
   {
-    // 2 m aside within 4 m: a slope change of 5.77 times 2/16 per meter.
+    // A shift of 2 m within 4 m changes the slope by up to 5.77 x 2/16 per meter.
     FrenetOptions tight = options;
     tight.end_offsets = {2.0};
     tight.limits.time_step = 1.0;
@@ -421,8 +427,8 @@ TEST(Frenet, DoesNotStartInAnObstacleOrWithoutAFrame) {
 }
 
 TEST(Frenet, LeavesASpotThatIsTooCloseAlready) {
-  // One box is 0.2 m beside the car, another in its way. The car proceeds without coming closer to
-  // the first.
+  // One box is 0.2 m beside the car, closer than the safe distance. Another box blocks the way of
+  // the car. The car must drive on without coming closer to the first box.
   FrenetRequest request = OnPath(5.0);
   request.obstacles = {BoxAt(StraightRoad(), 1.0, 0.2 + 0.8625 + 0.75),
                        BoxAt(StraightRoad(), 30.0, 1.0)};
@@ -449,7 +455,7 @@ TEST(Frenet, IsMirroredWithItsWorld) {
       box.box.center.y *= -1.0;
       box.velocity.y() *= -1.0;
     }
-    // The start is beside the path, so no two candidates cost the same.
+    // The car starts beside the path, so no two candidates have equal cost.
     const FrenetPlan a = PlanAmongBoxes(StraightRoad(), boxes, 0.2);
     const FrenetPlan b = PlanAmongBoxes(StraightRoad(), mirrored, -0.2);
     ASSERT_EQ(a.ok(), b.ok());
@@ -481,7 +487,8 @@ TEST(Frenet, MovesWithItsWorld) {
     ASSERT_EQ(a.points.size(), b.points.size());
     for (std::size_t k = 0; k < a.points.size(); ++k) {
       const Pose2 expected = Compose(X_WM, a.points[k].motion.pose);
-      // Rounding at 150 m, accumulated over the path's quadratures.
+      // The tolerance allows for rounding at coordinates of 150 m, accumulated over the quadratures
+      // of the path.
       EXPECT_NEAR((b.points[k].motion.pose.position() - expected.position()).norm(), 0.0,
                   Tolerance(1e-10));
     }
