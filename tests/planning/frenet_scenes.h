@@ -8,12 +8,12 @@
 
 namespace trackbed {
 
-/// A straight road of 200 m along x.
+/// Returns a straight road of 200 m along x.
 inline Path StraightRoad() {
   return Path({0.0, 0.0, 0.0}, {{200.0, 0.0, 1}});
 }
 
-/// Bends to both sides with continuous curvature up to 0.03/m.
+/// Returns a road with bends to both sides. The curvature is continuous and at most 0.03 1/m.
 inline Path BentRoad() {
   return Path({2.0, 1.0, 0.3}, {{15.0, 0.0, 1, 0.002},
                                 {20.0, 0.03, 1, 0.0},
@@ -23,7 +23,7 @@ inline Path BentRoad() {
                                 {60.0, 0.0, 1, 0.0}});
 }
 
-/// A car on the path that drives at its planned speed.
+/// Returns a request for a car on the path that drives at its planned speed.
 inline FrenetRequest OnPath(double speed) {
   FrenetRequest request;
   request.vehicle = ReferenceCar();
@@ -33,7 +33,8 @@ inline FrenetRequest OnPath(double speed) {
   return request;
 }
 
-/// A box beside a path, aligned with it.
+/// Returns a standing box at the station `s` and the lateral offset `d` of a path, aligned with the
+/// path.
 inline MovingBox BoxAt(const Path& path, double s, double d, double length = 2.0,
                        double width = 1.5) {
   const Pose2 at = path.At(s).pose;
@@ -41,7 +42,7 @@ inline MovingBox BoxAt(const Path& path, double s, double d, double length = 2.0
   return {{{center.x(), center.y(), at.yaw}, length, width}, {0.0, 0.0}};
 }
 
-/// A few boxes ahead, some of them moving.
+/// Returns a few random boxes ahead of the car. Some of the boxes move.
 inline std::vector<MovingBox> RandomBoxes(Random& random, const Path& path) {
   std::vector<MovingBox> boxes;
   for (int i = random.Below(4); i >= 0; --i) {

@@ -14,13 +14,13 @@ struct Map {
   RrtStarProblem problem;
 };
 
-/// An axis-aligned box between two corners.
+/// Returns the axis-aligned box between the corners (left, low) and (right, high).
 inline OrientedBox Block(double left, double low, double right, double high) {
   return {{std::midpoint(left, right), std::midpoint(low, high), 0.0}, right - left, high - low};
 }
 
-/// Five maps for a car 1.725 m wide: the path keeps half the width from all obstacles. Walls are
-/// 0.5 m thick; where they bound the sampled area they extend beyond it.
+/// Returns five maps for a car that is 1.725 m wide. A path must keep half of this width from all
+/// obstacles. Walls are 0.5 m thick. Walls at the border of the sampled area extend beyond it.
 inline std::vector<Map> Maps() {
   constexpr double kInflation = 0.5 * 1.725;
   const auto problem = [](const Vec2& start, const Vec2& goal, std::vector<OrientedBox> obstacles) {
@@ -47,8 +47,9 @@ inline std::vector<Map> Maps() {
                            {{31.5, 15.0, -1.1}, 2.0, 3.0},
                            {{31.0, 25.0, 0.6}, 2.0, 2.0},
                            {{35.0, 10.0, 0.0}, 2.0, 2.0}})},
-      // 2.5 m between the walls leave 0.775 m for the car's center. The map is smaller than the
-      // others, because the planner needs samples inside the gap, whose share falls with the area.
+      // The gap of 2.5 m between the walls leaves 0.775 m for the car's center. The map is smaller
+      // than the others, because the planner needs samples inside the gap, and the fraction of such
+      // samples decreases with the area.
       {"passage",
        {{4.0, 4.0},
         {24.0, 14.0},

@@ -19,11 +19,11 @@
 namespace trackbed {
 
 inline constexpr double kSpeed = 3.0;     // [m/s]
-inline constexpr double kDistance = 1.5;  // SD [m]
+inline constexpr double kDistance = 1.5;  // Safe distance SD [m].
 inline const SpeedLimits kLimits{kSpeed, 1.0, 1.0};
 
-/// Clearance by Boost.Geometry, independent of the planner's code: the distance of two corner
-/// rings.
+/// Returns the clearance between two boxes, computed by Boost.Geometry independently of the
+/// planner's code.
 inline double ByBoost(const OrientedBox& a, const OrientedBox& b) {
   using Point = boost::geometry::model::d2::point_xy<double>;
   using Polygon = boost::geometry::model::polygon<Point, false, true>;
@@ -38,7 +38,8 @@ inline double ByBoost(const OrientedBox& a, const OrientedBox& b) {
   return boost::geometry::distance(polygon_of(a), polygon_of(b));
 }
 
-/// The footprint of a car on the path at station `s`, computed here from the car's dimensions.
+/// Returns the footprint of a car whose rear axle is at the station `s` of the path, computed from
+/// the dimensions of the car.
 inline OrientedBox FootprintOn(const Path& path, double s, const VehicleParams& car) {
   const Pose2 rear = path.At(s).pose;
   const double ahead = 0.5 * car.length - car.rear_overhang;
@@ -58,18 +59,19 @@ inline double PathClearance(const Path& path, const std::vector<OrientedBox>& ob
   return clearance;
 }
 
-/// The planner samples the footprint 0.05 m apart. Between two samples a corner 3.7 m from the rear
-/// axle moves 0.025 m x 3.7/5.1 sideways as the heading turns at full lock. The distance falls by
-/// that times the angle between the corner's motion and the obstacle's side. Near a minimum this
-/// angle is zero, so the loss is quadratic: 0.025^2 x (1/5.1 + 1/3.7)/2.
+/// Largest error of a sampled clearance [m]. The planner samples the footprint every 0.05 m, so a
+/// minimum of the distance is at most 0.025 m from a sample. Near a minimum, the distance is
+/// quadratic in the station. At full lock (turning radius 5.1 m), a corner 3.7 m from the rear axle
+/// comes closer by at most 0.025^2 x (1/5.1 + 1/3.7)/2 = 1.5e-4 m.
 inline constexpr double kBetweenSamples = 2e-4;  // [m]
-/// The planner accepts its own curves if they miss SD by up to half a millimeter.
+/// Tolerance of the clearance [m]. The planner accepts its own curves if they miss the safe
+/// distance by up to 0.5 mm.
 inline constexpr double kClearanceTolerance = 5e-4 + kBetweenSamples;
 
-/// One turn of radius r between two straights, with an obstacle.
+/// A route with one turn of the radius `radius` [m] between two straights.
 struct Course {
   double radius = 20.0;
-  double before = 42.7;  ///< length of the straight from the start to the arc [m]
+  double before = 42.7;  ///< Length of the straight from the start to the arc [m].
   double turn = 0.5 * kPi;
   double after = 42.7;
 
@@ -91,7 +93,7 @@ struct Course {
                     options);
   }
 
-  /// Pose on the arc at a fraction `share` of it.
+  /// Returns the pose on the arc at the fraction `share` of its length.
   [[nodiscard]] Pose2 OnArc(double share) const {
     return Global().reference.path.At(before + share * radius * std::abs(turn)).pose;
   }

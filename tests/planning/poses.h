@@ -13,8 +13,9 @@ inline Pose2 RandomPose(Random& random, double reach) {
           random.Uniform(-2.0 * kPi, 2.0 * kPi)};
 }
 
-/// Poses at which tangents touch, circles coincide and arcs vanish: whole multiples of a radius of
-/// 1, headings of an eighth of a turn.
+/// Returns poses at which tangents touch, circles coincide and arcs vanish. For curves with a
+/// radius of 1 m, the coordinates are whole meters, and the headings are multiples of an eighth of
+/// a turn.
 inline std::vector<Pose2> DegeneratePoses() {
   std::vector<Pose2> poses;
   for (int x = -5; x <= 5; ++x) {
@@ -31,12 +32,12 @@ inline Pose2 Mirror(const Pose2& pose) {
   return {pose.x, -pose.y, -pose.yaw};
 }
 
-/// The pose rotated by half a turn in place.
+/// Returns the pose rotated by half a turn in place.
 inline Pose2 TurnedRound(const Pose2& pose) {
   return {pose.x, pose.y, pose.yaw + kPi};
 }
 
-/// Distance of two poses, where a radian counts as a meter.
+/// Returns the distance between two poses, in which a heading difference of 1 rad counts as 1 m.
 inline double Apart(const Pose2& a, const Pose2& b) {
   return (a.position() - b.position()).norm() + std::abs(AngleDifference(a.yaw, b.yaw));
 }

@@ -15,9 +15,9 @@ inline double Degrees(double radians) {
   return radians * 180.0 / kPi;
 }
 
-/// Half a unit in the last of `decimals` printed places: the accuracy of a number taken from a
-/// page. The extra millionth covers our own rounding of a value exactly between two printed
-/// numbers.
+/// Returns half a unit in the last of `decimals` printed digits, which is the accuracy of a printed
+/// number. The factor 1 + 1e-6 covers our own rounding of a value that is exactly between two
+/// printed numbers.
 inline double Printed(int decimals) {
   double half = 0.5;
   for (int i = 0; i < decimals; ++i) {
@@ -26,7 +26,7 @@ inline double Printed(int decimals) {
   return half * (1.0 + 1e-6);
 }
 
-/// The two routes of the global planner's tests.
+/// Return the two routes of the global planner's tests.
 inline std::vector<Vec2> RouteA() {
   return {{0, 0}, {40, 0}, {40, 40}, {80, 40}, {80, 80}};
 }
@@ -34,7 +34,8 @@ inline std::vector<Vec2> RouteB() {
   return {{0, 0}, {30, 0}, {60, 20}, {60, 60}, {100, 80}};
 }
 
-/// `count` waypoints from a random start, with legs and heading changes from the given ranges.
+/// Returns `count` waypoints from a random start. The legs are `shortest` to `longest` [m] long,
+/// and the heading changes by at most `sharpest` [rad] between two legs.
 inline std::vector<Vec2> RandomRoute(Random& random, int count, double shortest, double longest,
                                      double sharpest) {
   std::vector<Vec2> route{{random.Uniform(-50.0, 50.0), random.Uniform(-50.0, 50.0)}};

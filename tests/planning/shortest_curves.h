@@ -5,7 +5,8 @@
 
 namespace trackbed {
 
-/// End pose of a curve from `start`, composed of its pieces' arcs.
+/// Returns the end pose of a curve from `start`, computed by driving the arcs of its pieces one
+/// after the other.
 inline Pose2 EndPose(const Pose2& start, const ShortestCurve& curve) {
   Pose2 pose = start;
   for (int i = 0; i < curve.count; ++i) {

@@ -11,13 +11,14 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
-// Tests the Frenet lattice: a lattice of one layer equals the single-edge planner, and an
-// enumeration of all paths confirms the cheapest one.
+// Tests the Frenet lattice. With one layer, the lattice must equal the Frenet planner. An
+// enumeration of all paths must confirm the cheapest path.
 namespace trackbed {
 namespace {
 
-/// Walls 36 m apart, alternately from either side of a road of 4 m to each side. A car passes on
-/// the right, the left and the right, 1.86 m from the middle.
+/// Returns three walls, 36 m apart, that extend alternately from the left and the right side into a
+/// road. The road reaches 4 m to each side of its middle. A car passes the walls on the right, on
+/// the left and on the right, 1.86 m from the middle.
 std::vector<MovingBox> SlalomBoxes(const Path& path) {
   return {BoxAt(path, 24.0, 1.65, 1.0, 4.7), BoxAt(path, 60.0, -1.65, 1.0, 4.7),
           BoxAt(path, 96.0, 1.65, 1.0, 4.7)};
@@ -50,8 +51,8 @@ TEST(Lattice, OfOneLayerIsFrenet) {
     lattice.layers = 1;
     lattice.spacing = 35.0;
     const FrenetPlan plan = PlanLattice(path, request, lattice);
-    // The lattice has the same end states: each speed reaches its end in the time given by the mean
-    // speed.
+    // The Frenet planner gets the same end states as the lattice. The duration to each end state
+    // follows from the mean speed.
     double best = std::numeric_limits<double>::infinity();
     FrenetMotion motion;
     int candidates = 0;
@@ -75,7 +76,7 @@ TEST(Lattice, OfOneLayerIsFrenet) {
       continue;
     }
     ++found;
-    // The durations agree to rounding.
+    // The durations are equal up to rounding.
     EXPECT_NEAR(plan.cost, best, Tolerance(1e-9));
     EXPECT_NEAR(plan.motion.duration(), motion.duration(), Tolerance(1e-12));
     EXPECT_NEAR(plan.motion.At(3.0).d, motion.At(3.0).d, Tolerance(1e-9));
@@ -166,7 +167,8 @@ TEST(Lattice, PlansOnlyWhatCanBeDriven) {
 }
 
 TEST(Lattice, LooksCloselyAtWhatItTakes) {
-  // With checks only every 20 s, collisions between the nodes go unnoticed.
+  // If motions are checked only every 20 s, the search does not notice collisions between the
+  // nodes.
   FrenetRequest request = OnPath(3.0);
   request.obstacles = SlalomBoxes(StraightRoad());
   LatticeOptions options;
@@ -180,8 +182,8 @@ TEST(Lattice, LooksCloselyAtWhatItTakes) {
 }
 
 TEST(Lattice, IsTheCheapestOfAllWays) {
-  // Two layers, three offsets, one speed: all paths enumerated here, each edge as a separate
-  // lattice.
+  // The lattice has two layers, three offsets and one speed. The test enumerates all paths, and
+  // plans each edge as a separate lattice.
   const Path path = StraightRoad();
   FrenetRequest request = OnPath(3.0);
   request.obstacles = {BoxAt(path, 34.0, 0.75)};
@@ -223,7 +225,7 @@ TEST(Lattice, StopsAtTheStation) {
   EXPECT_NEAR(end.s, 30.0, Tolerance(1e-9));
   EXPECT_NEAR(end.s_rate, 0.0, Tolerance(1e-9));
   ExpectDrivable(StraightRoad(), request, {}, plan);
-  // A stop beyond the lattice has no effect yet.
+  // A stop beyond the end of the lattice must not change the motion yet.
   request.goal = StopAt{100.0};
   const FrenetPlan far = PlanLattice(StraightRoad(), request, {});
   ASSERT_TRUE(far.ok()) << far.reason;
@@ -242,8 +244,8 @@ TEST(Lattice, FollowsItsLeader) {
   const double duration = plan.motion.duration();
   const FrenetState end = plan.motion.At(duration);
   const FrenetTarget target = TargetAt(request.goal, request.vehicle, duration);
-  // The speeds allow 1.5 m: a layer takes 6 s at 2 m/s, and speeds half a step faster or slower
-  // miss the station by that much.
+  // The lattice has only three speeds. A layer takes 6 s at 2 m/s. A speed that is wrong by half a
+  // step misses the target station by up to 1.5 m.
   EXPECT_NEAR(end.s, target.station.value(), 2.0);
 }
 
@@ -267,8 +269,8 @@ TEST(Lattice, MeasuresEachEdgeByWhereTheLeaderIsThen) {
 }
 
 TEST(Lattice, IsCalledAgainFromWhereItsMotionIs) {
-  // Replans every second from the state that the car has reached. Without new obstacles the plan
-  // stays the same.
+  // The test plans again every second, from the state that the car has reached. Without new
+  // obstacles, the plan stays the same.
   const Path path = StraightRoad();
   FrenetRequest request = OnPath(3.0);
   request.road = {4.0, 4.0};

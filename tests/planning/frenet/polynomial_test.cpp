@@ -11,12 +11,12 @@
 namespace trackbed {
 namespace {
 
-/// A motion with random position, speed and acceleration of a few units.
+/// Returns a motion with random position, speed and acceleration of a few units.
 LineMotion AnyMotion(Random& random) {
   return {random.Uniform(-5.0, 5.0), random.Uniform(-5.0, 5.0), random.Uniform(-2.0, 2.0)};
 }
 
-/// Rounding, relative to the largest terms of the sums: c_i t^i of some hundred units.
+/// Rounding error of sums whose largest terms c_i t^i are some hundred units.
 constexpr double kRounding = 1e-11;
 
 TEST(Polynomial, AndItsDerivativesAreTheSums) {
@@ -31,7 +31,8 @@ TEST(Polynomial, AndItsDerivativesAreTheSums) {
 }
 
 TEST(Polynomial, IntegratesItsJerkInClosedForm) {
-  // 36 a3^2 T + 144 a3 a4 T^2 + (192 a4^2 + 240 a3 a5) T^3 + 720 a4 a5 T^4 + 720 a5^2 T^5.
+  // The integral of the squared jerk over [0, T] is 36 a3^2 T + 144 a3 a4 T^2 + (192 a4^2 + 240 a3
+  // a5) T^3 + 720 a4 a5 T^4 + 720 a5^2 T^5.
   Random random(3);
   for (int i = 0; i < 100; ++i) {
     const double a3 = random.Uniform(-1.0, 1.0);
@@ -42,7 +43,7 @@ TEST(Polynomial, IntegratesItsJerkInClosedForm) {
     const double expected = 36 * a3 * a3 * t + 144 * a3 * a4 * t * t +
                             (192 * a4 * a4 + 240 * a3 * a5) * t * t * t +
                             720 * a4 * a5 * std::pow(t, 4) + 720 * a5 * a5 * std::pow(t, 5);
-    // The terms reach 720 4^5.
+    // The terms of the sum reach 720 x 4^5 = 7e5.
     EXPECT_NEAR(p.IntegralOfSquare(3, t), expected, Tolerance(1e-15 * 1e6 * 10));
   }
 }
@@ -77,7 +78,8 @@ TEST(Quintic, JoinsBothMotions) {
 }
 
 TEST(Quintic, FromRestToRestCostsWhatIsKnown) {
-  // int jerk^2 = 720 D^2/T^5, int acceleration^2 = (120/7) D^2/T^3.
+  // For a shift by D in the time T, the integral of jerk^2 is 720 D^2/T^5, and that of
+  // acceleration^2 is (120/7) D^2/T^3.
   for (const double shift : {1.0, -3.5}) {
     for (const double t : {2.0, 5.0}) {
       const Polynomial p = QuinticBetween({0.4, 0.0, 0.0}, {0.4 + shift, 0.0, 0.0}, t);
@@ -90,8 +92,9 @@ TEST(Quintic, FromRestToRestCostsWhatIsKnown) {
 }
 
 TEST(Quartic, ChangesSpeedAtTheKnownCost) {
-  // Without acceleration at either end int jerk^2 = 12 dv^2/T^3 and int acceleration^2 = 1.2
-  // dv^2/T. The distance is that at the mean speed.
+  // If the acceleration is 0 at both ends, the integral of jerk^2 is 12 dv^2/T^3, and that of
+  // acceleration^2 is 1.2 dv^2/T, where dv is the change of the speed. The distance is T times the
+  // mean speed.
   for (const double change : {2.0, -3.0}) {
     for (const double t : {1.5, 6.0}) {
       const Polynomial p = QuarticBetween({7.0, 4.0, 0.0}, {0.0, 4.0 + change, 0.0}, t);
@@ -119,7 +122,8 @@ TEST(Quartic, JoinsBothMotionsWhereverItEnds) {
 }
 
 TEST(Quartic, EndsWhereTheJerkCostsLeast) {
-  // The quintic to any other end costs more: this polynomial is the optimum with a free end.
+  // The quartic polynomial is the optimum with a free end position, so a quintic to any other end
+  // has a larger cost.
   const LineMotion from{0.0, 3.0, 0.5};
   const LineMotion to{0.0, 5.0, 0.0};
   const Polynomial quartic = QuarticBetween(from, to, 4.0);

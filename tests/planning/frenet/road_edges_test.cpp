@@ -28,12 +28,12 @@ Track Ring(double right, double left) {
   return Track(RingPoints(kRing, 126, right, left));
 }
 
-/// A lap on a circle around the origin.
+/// Returns a path of one lap on a circle around the origin.
 Path CircleOf(double radius) {
   return Path({radius, 0.0, 0.5 * kPi}, {{2.0 * kPi * radius, 1.0 / radius, 1}});
 }
 
-/// A lap along the center line of a track.
+/// Returns a path of one lap along the center line of a track.
 Path CenterOf(const Track& track) {
   std::vector<CurvePoint> points;
   for (double s = 0.0; s < track.length(); s += 0.5) {
@@ -58,7 +58,7 @@ double DistanceFrom(const TrackEdgeLine& edge, const Vec2& point) {
   return nearest;
 }
 
-/// Points along the sides of a footprint.
+/// Returns points along the sides of a footprint.
 std::vector<Vec2> Sides(const OrientedBox& box) {
   std::vector<Vec2> points;
   for (const double side : {-0.5, 0.5}) {
@@ -87,9 +87,9 @@ TEST(RoadEdges, OfARingAreAsFarAsItsRadiiSay) {
   for (const double radius : {kRing, 48.0, 52.0}) {
     const RoadEdges edges = EdgesBeside(CircleOf(radius), track, ReferenceCar(), 0.5);
     for (double s = 0.0; s < 2.0 * kPi * radius; s += 0.3) {
-      // Edges are polylines whose points are half a meter of the center line apart, at most 0.54 m
-      // on the outer edge: 0.54^2/(8 * 54) = 0.0007 m inside the circle. The center line's closing
-      // error is 1e-4.
+      // The edges are polylines. Their points are 0.5 m apart along the center line, and at most
+      // 0.54 m apart on the outer edge. A polyline is therefore at most 0.54^2/(8 x 54) = 0.0007 m
+      // inside its circle. The closing error of the center line is 1e-4 m.
       EXPECT_NEAR(edges.At(s).left, radius - (kRing - 6.0) - 0.5, Tolerance(1e-3));
       EXPECT_NEAR(edges.At(s).right, kRing + 4.0 - radius - 0.5, Tolerance(1e-3));
     }
@@ -97,8 +97,8 @@ TEST(RoadEdges, OfARingAreAsFarAsItsRadiiSay) {
 }
 
 TEST(RoadEdges, TellTheFootprintsReachOnARing) {
-  // The largest and the smallest distance of the sides from the origin, computed from the
-  // footprint.
+  // The expected value follows from the largest and the smallest distance between the sides of the
+  // footprint and the origin.
   const Track track = Ring(4.0, 6.0);
   const VehicleParams car = ReferenceCar();
   const Path path = CircleOf(kRing);
@@ -114,9 +114,9 @@ TEST(RoadEdges, TellTheFootprintsReachOnARing) {
     for (const Vec2& point : Sides(FootprintAt(car, motion->pose))) {
       beyond = std::max({beyond, point.norm() - (kRing + 4.0), kRing - 6.0 - point.norm()});
     }
-    // Exact on a circle but for the polylines (above) and for sampling the sides at five points 1.1
-    // m apart. Where a side is nearest to the center between two points, the error is 0.55^2/(2*44)
-    // = 0.0035 m.
+    // On a circle, ReachBeyond has two errors: that of the polylines (see above), and that of
+    // sampling each side at five points, 1.1 m apart. If a side is nearest to the center between
+    // two of these points, the error is 0.55^2/(2 x 44) = 0.0035 m.
     EXPECT_NEAR(ReachBeyond(edges, car, path.At(state.s), state), beyond, Tolerance(0.005));
   }
 }
@@ -142,21 +142,22 @@ TEST(RoadEdges, KeepFootprintsAtTheirDistanceFromATrack) {
     }
     const double beyond = ReachBeyond(edges, car, path.At(state.s), state);
     if (beyond > 0.3) {
-      continue;  // a point beyond an edge would appear to be inside
+      continue;  // Beyond an edge, `nearest` has the wrong sign.
     }
     within += beyond <= 0.0 ? 1 : 0;
-    // Distances are measured along the normal of the path, not of the edge, which is turned by up
-    // to 0.05: 0.05^2/2 of at most 4 m is 0.005 m. The path is taken as a circle although its
-    // sharpness is up to 0.001/m^2, 3.7 m ahead of the axle: 0.0085 m. Edges of curvature 1/30
-    // between points 1.1 m apart add 0.005 m.
+    // Three errors add up. First, distances are measured along the normal of the path, which
+    // differs from that of the edge by up to 0.05 rad: 0.05^2/2 of at most 4 m is 0.005 m. Second,
+    // the path is treated as a circle, although its sharpness is up to 0.001 1/m^2: 0.0085 m at 3.7
+    // m ahead of the axle. Third, edges with a curvature of 1/30 1/m between points 1.1 m apart add
+    // 0.005 m.
     EXPECT_NEAR(-beyond, nearest - kDistance, Tolerance(0.019)) << state.s << ' ' << state.d;
   }
   EXPECT_GT(within, 100);
 }
 
 TEST(RoadEdges, AdmitAnyCarThatIsOnThePath) {
-  // The wanted distance of 50 m is never available, so the limits are the car's outline on the
-  // path.
+  // The wanted distance of 50 m is never available. The limits then equal the outline of a car that
+  // is on the path.
   const Track track = Kidney();
   const VehicleParams car = ReferenceCar();
   const Path path = CenterOf(track);
@@ -187,7 +188,7 @@ void ExpectWithin(const RingScene& scene, const FrenetPlan& plan) {
   double aside = 0.0;
   for (const TrajectoryPoint& point : plan.points) {
     for (const Vec2& corner : FootprintAt(scene.request.vehicle, point.motion.pose).Corners()) {
-      // Tolerance of the polylines, as above.
+      // The tolerance is that of the polylines and the sampled sides, as above.
       EXPECT_LE(std::abs(corner.norm() - kRing), 4.5 - 0.3 + Tolerance(0.005));
     }
     aside = std::max(aside, std::abs(point.frenet.d));
@@ -204,7 +205,8 @@ TEST(FrenetPlans, KeepWithinTheEdges) {
 }
 
 TEST(FrenetPlans, TakeTheSideThatTheEdgesLeave) {
-  // Room for 1 + 0.75 + 0.5 + 1.8 m (the box, twice the distance, the car) on one side only.
+  // To pass the box, the car needs half of the box's width, its own width, and the distances to the
+  // box and to the edge, 3.3 m in total. Only one side of the road has this room.
   const RingScene left(1.5, 4.5);
   const FrenetPlan to_left = PlanFrenet(left.path, left.request, {});
   ASSERT_TRUE(to_left.ok());
@@ -230,7 +232,7 @@ TEST(FrenetPlans, AreNoneWhereTheEdgesLeaveNoRoom) {
 TEST(FrenetPlans, LeadACarBackThatIsBeyondAnEdge) {
   RingScene scene(3.0, 3.0);
   scene.request.obstacles.clear();
-  scene.request.start.d = 2.6;  // half a meter beyond the edge, with half of its width and 0.3 m
+  scene.request.start.d = 2.6;  // The car's left side is 0.46 m beyond the edge.
   const FrenetPlan plan = PlanFrenet(scene.path, scene.request, {});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const auto beyond = [&](const TrajectoryPoint& point) {

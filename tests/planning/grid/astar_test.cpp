@@ -26,7 +26,7 @@ OccupancyGrid Clutter(Random& random, int columns, int rows, double share) {
   return grid;
 }
 
-/// A map from a picture, the first line at the top; # is occupied.
+/// Returns a map drawn as lines of characters, with the top line first; '#' is an occupied cell.
 OccupancyGrid Drawn(const std::vector<std::string>& lines) {
   OccupancyGrid grid;
   grid.columns = static_cast<int>(lines[0].size());
@@ -39,7 +39,8 @@ OccupancyGrid Drawn(const std::vector<std::string>& lines) {
   return grid;
 }
 
-/// Costs by relaxing every edge until nothing changes, without a queue or a heuristic.
+/// Returns the costs from `start` to all cells. Relaxes every edge until no cost changes, without a
+/// queue or a heuristic.
 std::vector<double> BruteForce(const OccupancyGrid& grid, std::size_t start) {
   std::vector<double> cost(grid.size(), kInfinity);
   cost[start] = 0.0;
@@ -89,7 +90,8 @@ TEST(AStar, CostsWhatBruteForceFinds) {
       ASSERT_EQ(path.ok(), cost[goal] < kInfinity);
       if (path.ok()) {
         ++found;
-        // Sums of at most 1600 steps in another order; the reference relaxes to 1e-9.
+        // The tolerance allows for sums of at most 1600 steps in another order. BruteForce stops
+        // relaxing at changes of 1e-9.
         ASSERT_NEAR(path.cost, cost[goal], Tolerance(2e-9));
         ASSERT_NEAR(DistancesTo(grid, goal)[start], cost[goal], Tolerance(2e-9));
       }
@@ -147,7 +149,7 @@ TEST(AStar, WalksFromCellToNeighborAndCutsNoCorner) {
 }
 
 TEST(AStar, HasAnAdmissibleAndConsistentHeuristic) {
-  // On an empty grid the heuristic equals the cost; obstacles can only increase the cost.
+  // On an empty grid, the heuristic equals the cost. Obstacles can only increase the cost.
   OccupancyGrid grid;
   grid.columns = 41;
   grid.rows = 31;
@@ -170,8 +172,8 @@ TEST(AStar, LooksAtNoMoreThanItMust) {
   grid.columns = 200;
   grid.rows = 200;
   grid.occupied.assign(200 * 200, 0);
-  // On a straight line across an empty map the heuristic is exact, so only cells of the path are
-  // expanded.
+  // On a straight line across an empty map, the heuristic is exact, so the search expands only the
+  // cells of the path.
   const GridPath path = SearchGrid(grid, 0, grid.size() - 1);
   EXPECT_NEAR(path.cost, 199.0 * std::numbers::sqrt2, Tolerance(1e-9));
   EXPECT_LE(path.expansions, 200);
@@ -210,7 +212,8 @@ TEST(AStar, JumpsInHeadingByAnEighthOfATurn) {
     const Vec2 in = point(k - 1) - point(k - 2);
     const Vec2 out = point(k) - point(k - 1);
     const double turn = std::abs(std::atan2(Cross(in, out), in.dot(out)));
-    // Turns are 0 or 45 degrees at a single point: no finite curvature suffices.
+    // The path turns by 0 or 45 degrees at a single point. No finite curvature can follow such a
+    // turn.
     EXPECT_TRUE(turn < 1e-12 || std::abs(turn - 0.25 * kPi) < 1e-12) << turn;
     sharpest = std::max(sharpest, turn);
   }
@@ -218,8 +221,8 @@ TEST(AStar, JumpsInHeadingByAnEighthOfATurn) {
 }
 
 TEST(AStar, GoesRoundTheOtherSideForASmallShift) {
-  // A box 5 m long on the straight line: the path passes it on the side where it extends less. A
-  // shift of half a cell flips the side.
+  // A box 5 m long stands on the straight line. The path passes the box on the side where the box
+  // extends less far. A small shift of the box or the start changes the side.
   const auto side = [](double box_y, double start_y) {
     const OccupancyGrid grid = Rasterize({0.0, 0.0, 0.0}, {{-2.0, -10.0}, {32.0, 10.0}}, 0.5,
                                          {{{15.0, box_y, 0.0}, 5.0, 5.0}}, 1.0);
@@ -234,9 +237,9 @@ TEST(AStar, GoesRoundTheOtherSideForASmallShift) {
     return 0;
   };
   EXPECT_EQ(side(-0.3, 0.0), 1);
-  EXPECT_EQ(side(0.3, 0.0), -1);  // shifted box: 0.6 m to the left
+  EXPECT_EQ(side(0.3, 0.0), -1);  // The box is shifted 0.6 m to the left.
   EXPECT_EQ(side(0.0, 0.5), 1);
-  EXPECT_EQ(side(0.0, -0.5), -1);  // shifted start: 1 m to the right
+  EXPECT_EQ(side(0.0, -0.5), -1);  // The start is shifted 1 m to the right.
 }
 
 }  // namespace

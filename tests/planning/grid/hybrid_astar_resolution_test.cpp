@@ -17,7 +17,8 @@
 #include "trackbed/planning/common/collision_checker.h"
 #include "trackbed/planning/grid/hybrid_astar.h"
 
-// Random parking lots, which hybrid A* must solve at every resolution or at none.
+// Tests hybrid A* on random parking lots: the planner must solve a lot at every resolution or at
+// none.
 namespace trackbed {
 namespace {
 
@@ -33,8 +34,8 @@ double Half() {
   return 0.5 * ReferenceCar().width;
 }
 
-/// A start between two parked cars beside a wall, with 0.1 to 1.2 m of play to either end, and a
-/// goal on the lane.
+/// Returns a random lot. The start is between two parked cars beside a wall, with 0.1 to 1.2 m of
+/// free space at either end, in addition to the safe distance. The goal is on the lane.
 HybridAStarProblem PullOut(Random& random) {
   const double ahead = Front() + kSafe + random.Uniform(0.1, 1.2);
   const double behind = -Rear() - kSafe - random.Uniform(0.1, 1.2);
@@ -59,8 +60,9 @@ HybridAStarProblem ParallelParking(Random& random) {
   return Reversed(PullOut(random));
 }
 
-/// A goal in a bay, nose in or nose out, with 0.1 to 0.8 m of play to either side, and a start on
-/// the lane along the bays.
+/// Returns a random lot. The goal is in a bay that the car enters forward or backward, with 0.1 to
+/// 0.8 m of free space on either side, in addition to the safe distance. The start is on the lane
+/// along the bays.
 HybridAStarProblem IntoABay(Random& random) {
   const double side = Half() + kSafe + random.Uniform(0.1, 0.8);
   const double lane = random.Uniform(4.5, 8.0);
@@ -81,7 +83,8 @@ HybridAStarProblem OutOfABay(Random& random) {
   return Reversed(IntoABay(random));
 }
 
-/// A gap in a wall, with 0.03 to 0.6 m of play to either side, in a closed yard.
+/// Returns a closed yard with a gap in a wall. The gap has 0.03 to 0.6 m of free space on either
+/// side, in addition to the safe distance.
 HybridAStarProblem Gap(Random& random) {
   const double side = Half() + kSafe + random.Uniform(0.03, 0.6);
   const double wall = random.Uniform(6.0, 10.0);
@@ -95,7 +98,7 @@ HybridAStarProblem Gap(Random& random) {
                     Block(-8.0, -15.5, behind + 14.0, -15.0), Block(-8.5, -15.0, -8.0, 15.0)}};
 }
 
-/// Up to 14 cars, parked in a closed yard at random.
+/// Returns a closed yard with up to 14 cars that are parked at random.
 HybridAStarProblem Crowd(Random& random) {
   HybridAStarProblem problem{
       .start = {0.0, 0.0, random.Uniform(-kPi, kPi)},
@@ -133,8 +136,9 @@ const std::array<Kind, 6> kKinds{{{"PullOut", PullOut},
                                   {"Gap", Gap},
                                   {"Crowd", Crowd}}};
 
-/// The environment variable TRACKBED_PARKING_LOTS sets the number of lots of all kinds together,
-/// and makes the test use all resolutions; 200 lots take about 15 minutes.
+/// Returns the value of the environment variable TRACKBED_PARKING_LOTS; null if it is not set. The
+/// variable sets the total number of lots of all kinds, and makes the test use all resolutions. The
+/// test of 200 lots takes about 15 minutes.
 const char* RequestedLots() {
   return std::getenv("TRACKBED_PARKING_LOTS");
 }
@@ -144,7 +148,7 @@ int LotsPerKind() {
   return RequestedLots() == nullptr ? 2 : (std::atoi(RequestedLots()) + kinds - 1) / kinds;
 }
 
-/// Returns side lengths of cells [m] with numbers of headings.
+/// Returns pairs of the side length of a cell [m] and the number of headings.
 std::vector<std::pair<double, int>> Resolutions() {
   if (RequestedLots() == nullptr) {
     return {{1.0, 36}, {0.5, 72}, {0.5, 144}, {0.125, 36}};
@@ -184,7 +188,8 @@ TEST_P(ParkingLots, AreSolvedAtEveryResolutionOrAtNone) {
   EXPECT_GT(solved, 0);
 }
 
-/// Driving a path backwards leads from its end to its start.
+/// A path that is driven backward leads from its end to its start, so it solves the reversed
+/// problem.
 TEST_P(ParkingLots, AreSolvedInBothDirectionsOrInNone) {
   for (int lot = 0; lot < LotsPerKind(); ++lot) {
     Random random(static_cast<std::uint64_t>(lot));
@@ -198,10 +203,10 @@ TEST_P(ParkingLots, AreSolvedInBothDirectionsOrInNone) {
 INSTANTIATE_TEST_SUITE_P(Kinds, ParkingLots, ::testing::ValuesIn(kKinds),
                          [](const auto& kind) { return kind.param.name; });
 
-/// Play of the car in the gap of TightGap to either end [m].
+/// Free space at either end of the gap of TightGap, in addition to the safe distance [m].
 constexpr double kPlay = 0.8;
 
-/// Returns a goal between two parked cars.
+/// Returns a problem whose goal is between two parked cars.
 HybridAStarProblem TightGap() {
   const double ahead = Front() + kSafe + kPlay;
   const double behind = -Rear() - kSafe - kPlay;
@@ -221,15 +226,15 @@ TEST(HybridAStarResolutions, EnterAGapFromInside) {
     problem.drive = how;
     const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, {});
     ExpectGood(problem, {}, result);
-    // From the start, the search would expand the whole lane before it knew that the goal is in a
-    // gap. The gap has few poses.
+    // A search from the start would expand the whole lane before it detects that the goal is in a
+    // gap. A search from the goal expands only the few poses in the gap.
     EXPECT_LT(result.expansions, 20000);
   }
 }
 
 TEST(HybridAStarResolutions, LetARollingCarBeginForwards) {
   HybridAStarProblem problem = TightGap();
-  problem.start = {12.0, 3.2, 0.0};  // the car would back in directly
+  problem.start = {12.0, 3.2, 0.0};  // The car can back in directly.
   for (const bool rolls : {false, true}) {
     problem.rolls = rolls;
     const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, {});
@@ -240,8 +245,8 @@ TEST(HybridAStarResolutions, LetARollingCarBeginForwards) {
 }
 
 TEST(HybridAStarResolutions, ProveThatThereIsNoPath) {
-  // The car has 1 cm of play to either end, less than the shortest step: only the poses in the gap
-  // are expanded, from the start as well as from the goal.
+  // The car has 1 cm of free space at either end, less than the shortest step. The search therefore
+  // expands only the poses in the gap, whether the gap is the goal or the start.
   HybridAStarProblem problem = TightGap();
   problem.obstacles[0].center.x -= kPlay - 0.01;
   problem.obstacles[1].center.x += kPlay - 0.01;

@@ -19,7 +19,8 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A row of parked cars beside a lane, with one gap that contains the goal.
+/// Returns a problem with a row of parked cars beside a lane. The goal is in the only gap of the
+/// row.
 HybridAStarProblem ParkingRow() {
   HybridAStarProblem problem{
       .start = {0.0, 0.0, 0.0}, .goal = {20.0, -6.2, 0.5 * kPi}, .obstacles = {}};
@@ -97,7 +98,7 @@ TEST(HybridAStar, GoesThroughMaps) {
 }
 
 TEST(HybridAStar, IsNoCheaperThanWhatIsLeftSays) {
-  // Both heuristics, the curve without obstacles and the path on the grid, are below the cost
+  // The heuristic, the length of the shortest curve without obstacles, must not exceed the cost
   // found.
   const HybridAStarProblem problem = ParkingRow();
   const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, {});
@@ -122,7 +123,7 @@ TEST(HybridAStar, EndsWithAStatus) {
   EXPECT_EQ(status(free, away, 0), PlanStatus::kBudgetUsedUp);
   EXPECT_EQ(status(free, {{1.0, 0.0, 0.0}, 1.0, 1.0}, 1000), PlanStatus::kStartBlocked);
   EXPECT_EQ(status(free, {{20.0, 6.0, 0.0}, 1.0, 1.0}, 1000), PlanStatus::kGoalBlocked);
-  // The goal is walled in: the grid search detects that before any pose is checked.
+  // Walls surround the goal. The grid search detects this before the planner checks any pose.
   HybridAStarProblem walled = free;
   for (const auto& [x, y, length, width] :
        {std::tuple{20.0, -3.0, 24.0, 1.0}, {20.0, 17.0, 24.0, 1.0}, {9.0, 7.0, 1.0, 20.0}}) {

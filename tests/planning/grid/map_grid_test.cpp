@@ -23,7 +23,7 @@ TEST(MapGrid, HasTheCellsOfTheMapWhereTheyAre) {
       const Vec2 middle = ToWorld(map.X_WM, 0.5 * Vec2{column + 0.5, row + 0.5});
       const int cell = row * map.columns + column;
       EXPECT_EQ(grid.CellAt(middle), cell);
-      // Rounding: a few operations on coordinates below 10 m.
+      // Tolerance for rounding in a few operations on coordinates below 10 m.
       EXPECT_NEAR((grid.CellCenter(static_cast<std::size_t>(cell)) - middle).norm(), 0.0,
                   Tolerance(1e-14));
     }

@@ -31,7 +31,8 @@ std::shared_ptr<const RoadNetwork> CrossingRoads() {
   return Shared(ReadOpenDrive(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/roads/crossing.xodr"));
 }
 
-/// From the west around the loop and back, for a car that starts at the beginning.
+/// Returns a request that leads from the west around the loop and back. The car stands at the
+/// beginning of the route.
 PlanRequest AroundTheLoop() {
   PlanRequest request;
   request.vehicle = ReferenceCar();
@@ -108,8 +109,8 @@ TEST(LaneRoutePlanner, RefusesLanesThatTheCarCannotSteerThrough) {
   ExpectRefused(request, PlanStatus::kTurnTooTight, "exceeds the limit of 0.050 rad");
 }
 
-/// A reference line of a straight, a spiral, an arc, a spiral and a straight, as road designers
-/// draw bends. The pieces are rounded to micrometers, as in files.
+/// The reference line of a road with a bend, as road designers draw it: a straight, a spiral, an
+/// arc, a spiral and a straight. The pieces are rounded to micrometers, as in files.
 class SpiralBend {
  public:
   SpiralBend(double curvature, double spiral, double arc) {
@@ -158,17 +159,18 @@ TEST(LaneRoutePlanner, SlowsDownForSpirals) {
     request.lanes = {Shared(ParseNetwork(bend.Xml())),
                      {{"1", -1, 1.0}, {"1", -1, bend.length() - 1.0}}};
     request.start = PoseAt(*request.lanes.network, request.lanes.route.front());
-    // From rest, the car can slow down for everything.
+    // A car that starts from rest can slow down for every bend.
     request.speed = {.speed = random.Uniform(3.0, 20.0), .acceleration = 1.0, .deceleration = 1.5};
     const Plan plan = PlanOf(request);
     ASSERT_TRUE(plan.ok()) << i << ": radius " << radius << ", " << plan.reason;
     EXPECT_TRUE(plan.stops.empty()) << i;
-    // The turn of the wheels over the distance, seen in steps of 0.5 m.
+    // The slope of the steering angle over the distance, in steps of 0.5 m.
     for (double s = 0.0; s + 0.5 < plan.reference.path.length(); s += 0.5) {
       const double slope = std::abs(plan.schedule.At(s + 0.5) - plan.schedule.At(s)) / 0.5;
       const double speed =
           std::min(plan.reference.speed.SpeedAt(s), plan.reference.speed.SpeedAt(s + 0.5));
-      // The smaller speed times the mean slope is at most the largest product within the step.
+      // The product of the smaller speed and the mean slope is at most the largest steering rate
+      // within the step.
       EXPECT_LE(speed * slope, 1.0001 * request.vehicle.steering_rate) << i << " at " << s;
     }
   }

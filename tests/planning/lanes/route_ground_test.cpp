@@ -14,8 +14,8 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/angle.h"
 
-// Tests the ground along a lane route against closed forms of planes and parabolas and against the
-// lanes' own heights, and its behavior beside lanes, at road ends and at joints.
+// Tests the ground along a lane route: against closed forms of planes and parabolas, against the
+// heights of the lanes, beside the lanes, at the ends of roads and at joints.
 namespace trackbed {
 namespace {
 
@@ -34,14 +34,14 @@ std::string Roll(double a) {
 
 const std::vector<LanePlace> kAlong{{"1", -1, 10.0}, {"1", -1, 90.0}};
 
-/// The ground of one straight road to the east with these heights.
+/// Returns the ground of one straight road to the east with the given heights.
 RouteGround OnStraight(const std::string& heights) {
   RoadText road;
   road.heights = heights;
   return MakeRouteGround(ParseNetwork(road.Xml()), kAlong);
 }
 
-/// The largest distance of points on a road's drivable lanes from the ground [m].
+/// Returns the largest distance [m] between points on a road's drivable lanes and the ground.
 double LargestDistance(const Road& road, double from, double to, const Terrain& terrain) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> station(from, to);
@@ -72,16 +72,18 @@ TEST(RouteGround, HasConstantGradeAndBank) {
   std::uniform_real_distribution<double> x(10.0, 90.0);
   std::uniform_real_distribution<double> y(-3.3, 3.3);
   for (int i = 0; i < 1000; ++i) {
-    // A plane: 6 % along the x axis, tilted across it by the roll about a rising line. The roll
-    // moves a point back by y tan(roll) sin(grade) as it lifts it.
+    // The ground is a plane with a grade of 6 % along x, tilted by the roll about the rising
+    // reference line. The roll lifts a point and moves it back along x, so the slope across the
+    // road is tan(roll) sqrt(1 + 0.06^2).
     const Vec2 p(x(random), y(random));
     const double grade = 0.06;
     const double across = std::tan(roll) * std::sqrt(1.0 + grade * grade);
     const Terrain::Point at = ground.terrain->At(p);
-    // Points beside the lanes are means with neighboring strips, which level out beyond their ends.
-    // At a lateral distance of 1 m, a strip that ends 5 m away has the weight 1/700 and is off by
-    // 0.06 (5 - 10 (1 - e^-0.5)) m = 64 mm. Cubic convolution passes 1/16 of the resulting 0.1 mm
-    // to the border from two neighbors, and 1/16 per cell of 0.5 m to the slope there.
+    // Beside the lanes, the height is a weighted mean over neighboring strips of the road, which
+    // become level beyond their ends. At a lateral distance of 1 m, a strip that ends 5 m away has
+    // the weight 1/700. Its error is 0.06 (5 - 10 (1 - e^-0.5)) m = 64 mm, so the mean has an error
+    // of 0.1 mm. Cubic convolution passes 1/16 of this error from two neighbors to the border of
+    // the lane, and 1/16 per cell of 0.5 m to the slope at the border.
     EXPECT_NEAR(at.height, 5.0 + grade * p.x() + across * p.y(), Tolerance(2e-5));
     EXPECT_NEAR(at.slope.x(), grade, Tolerance(2e-4));
     EXPECT_NEAR(at.slope.y(), across, Tolerance(2e-4));
@@ -93,7 +95,7 @@ TEST(RouteGround, HasTheParabolaOfAHill) {
   ASSERT_TRUE(ground.ok()) << ground.failure;
   for (double x = 10.0; x < 90.0; x += 0.37) {
     const Terrain::Point at = ground.terrain->At({x, -1.75});
-    EXPECT_NEAR(at.height, 0.08 * x - 0.0008 * x * x, Tolerance(5e-6));  // tolerance as above
+    EXPECT_NEAR(at.height, 0.08 * x - 0.0008 * x * x, Tolerance(5e-6));  // See the tolerance above.
     EXPECT_NEAR(at.slope.x(), 0.08 - 0.0016 * x, Tolerance(1e-4));
   }
 }
@@ -117,7 +119,7 @@ TEST(RouteGround, GoesOnSmoothlyBesideTheLanes) {
     double last = terrain.At({x, -150.0}).height;
     for (double y = -150.0; y < 150.0; y += 0.05) {
       const double height = terrain.At({x, y}).height;
-      // The slope is below 45 degrees everywhere.
+      // The slope must be below 45 degrees everywhere.
       EXPECT_LE(std::abs(height - last), 0.05) << x << " " << y;
       last = height;
     }
@@ -137,7 +139,8 @@ TEST(RouteGround, GoesOnStraightWhereTheRoadEnds) {
   }
 }
 
-/// Road 1 to the east and road 2 behind it, at `height` and with `slope` where they meet.
+/// Returns the ground of road 1 to the east and road 2 behind it. At the joint, road 2 has the
+/// given height [m] and slope.
 RouteGround OnTwoRoads(double height, double slope) {
   RoadText first;
   first.heights = Elevation(0.0, 0.05, 0.0);
@@ -160,7 +163,7 @@ TEST(RouteGround, HasNoStepWhereRoadsMeet) {
   for (double x = 97.0; x < 103.0; x += 0.01) {
     EXPECT_NEAR(ground.terrain->At({x, -1.0}).height, 0.05 * x, Tolerance(5e-6));
   }
-  // A step of 5 mm is blended within one cell on either side.
+  // A step of 5 mm is blended within one cell on either side of the joint.
   const RouteGround mended = OnTwoRoads(5.005, 0.05);
   ASSERT_TRUE(mended.ok()) << mended.failure;
   EXPECT_NEAR(mended.terrain->At({99.0, -1.0}).height, 4.95, Tolerance(5e-6));
@@ -173,8 +176,8 @@ TEST(RouteGround, RefusesSteps) {
   EXPECT_THAT(OnTwoRoads(5.2, 0.05).failure, HasSubstr("must be at most 0.01 m"));
 }
 
-/// A loop to the left across itself: road 1 to the east, road 2 around by 270 degrees, road 3 to
-/// the south over or under road 1.
+/// Returns the ground of a route that crosses itself. Road 1 leads east, road 2 turns left by 270
+/// degrees, and road 3 leads south over or under road 1.
 RouteGround OnLoop(double grade, bool with_third) {
   constexpr double kRadius = 40.0;
   const double length = 1.5 * kPi * kRadius;
@@ -192,7 +195,7 @@ RouteGround OnLoop(double grade, bool with_third) {
   second.geometry = fmt::format(
       "<geometry s='0' x='100' y='0' hdg='0' length='{}'><arc curvature='{}'/></geometry>", length,
       1.0 / kRadius);
-  // From level to `grade`, with continuous slope at its start.
+  // The slope is continuous at the start of road 2, and rises from 0 to `grade`.
   second.heights = Elevation(0.0, 0.0, 0.5 * grade / length);
   second.link =
       "<predecessor elementType='road' elementId='1' contactPoint='end'/>"

@@ -39,7 +39,8 @@ VehicleParams CarWithLimits() {
   return car;
 }
 
-// Limits on a circle: v^2/R = mu g (friction) and v^2/R = a_r (roll-over).
+// On a circle of radius R, friction limits the speed v to v^2/R = mu g, and roll-over limits it to
+// v^2/R = a_r.
 TEST(CheckPath, FindsTheSpeedOfACircle) {
   const VehicleParams car = CarWithLimits();
   constexpr double kRadius = 30.0;
@@ -51,7 +52,8 @@ TEST(CheckPath, FindsTheSpeedOfACircle) {
   const FittedPath fitted = Fit(points, closed);
   const PathCheck grip = CheckPath(fitted, car, {.speed = 8.0});
   EXPECT_TRUE(grip.drivable());
-  // The spline stays within 1e-5 m of points 1 m apart, so its curvature errs by some 1e-5 of 1/30.
+  // The spline stays within 1e-5 m of points 1 m apart, so the error of its curvature is small
+  // compared with 1/30 1/m.
   EXPECT_NEAR(grip.max_speed, std::sqrt(0.8 * 9.81 * kRadius), Tolerance(0.02));
   EXPECT_EQ(grip.max_speed_limit, PathFaultKind::kFriction);
   const PathCheck tips = CheckPath(fitted, car, {.speed = 8.0, .rollover_acceleration = 5.0});
@@ -62,14 +64,14 @@ TEST(CheckPath, FindsTheSpeedOfACircle) {
   EXPECT_EQ(ice.faults[0].kind, PathFaultKind::kFriction);
   EXPECT_NEAR(ice.faults[0].required, 64.0 / kRadius, Tolerance(0.01));
   EXPECT_NEAR(ice.faults[0].limit, 0.25 * 0.8 * 9.81, Tolerance(1e-12));
-  // The whole circle is one stretch.
+  // The whole circle is one stretch with a fault.
   EXPECT_EQ(ice.faults.size(), 1U);
   EXPECT_NEAR(ice.faults[0].stations.to, fitted.path.length(), Tolerance(1e-9));
 }
 
-// A bend with kappa(s) = A (1 - cos(2 pi s/l))/2, made of segments of 0.1 m whose quadratic kappa
-// errs by less than 1e-5 of A. The expected rate is the maximum of d delta/ds = L kappa'/(1 + (L
-// kappa)^2).
+// The bend has the curvature kappa(s) = A (1 - cos(2 pi s/l))/2. Its segments of 0.1 m, with
+// quadratic curvature, have an error below 1e-5 A. The expected rate is the maximum of d delta/ds =
+// L kappa'/(1 + (L kappa)^2).
 TEST(CheckPath, FindsTheSteeringRateOfABend) {
   constexpr double kMaxCurvature = 0.1;
   constexpr double kLength = 60.0;
@@ -94,20 +96,21 @@ TEST(CheckPath, FindsTheSteeringRateOfABend) {
   const FittedPath fitted = Fit(PointsOf(path, 0.5), kClose);
   const double expected = car.steering_rate / slope(steepest);
   const PathCheck check = CheckPath(fitted, car, {.speed = 1.05 * expected});
-  // One fault at the entry of the bend and one at its exit.
+  // The bend has one fault at its entry and one at its exit.
   ASSERT_EQ(check.faults.size(), 2U);
   for (const PathFault& fault : check.faults) {
     EXPECT_EQ(fault.kind, PathFaultKind::kSteeringRate);
     EXPECT_EQ(fault.limit, car.steering_rate);
-    // The spline deviates by at most 1e-5 m from points 0.5 m apart. That changes its curvature by
-    // 4e-5 1/m, and the curvature's rate by 1e-4 of 0.0052 1/m^2: 2 %. The error in the bend's own
-    // curvature is smaller.
+    // The spline deviates by at most 1e-5 m from points 0.5 m apart. This changes the curvature by
+    // 4e-5 1/m, and the curvature rate by 1e-4 1/m^2. That is 2 % of the bend's rate of 0.0052
+    // 1/m^2. The error of the bend's own curvature is smaller.
     EXPECT_NEAR(fault.required, 1.05 * car.steering_rate, Tolerance(0.02 * car.steering_rate));
     EXPECT_LT((fault.position - path.At(fault.s).pose.position()).norm(), 1e-3);
     EXPECT_GT(slope(fault.stations.from + 0.3), 0.97 / 1.05 * slope(steepest));
     EXPECT_GT(slope(fault.stations.to - 0.3), 0.97 / 1.05 * slope(steepest));
   }
-  // The rate is within 2 % of its maximum over 1.4 m on either side.
+  // The steering rate is within 2 % of its maximum up to 1.4 m before and behind the steepest
+  // station.
   EXPECT_NEAR(check.faults[0].s, steepest, Tolerance(1.5));
   EXPECT_NEAR(check.faults[1].s, kLength - steepest, Tolerance(1.5));
   EXPECT_NEAR(check.max_speed, expected, Tolerance(2e-2 * expected));
@@ -125,7 +128,8 @@ TEST(CheckPath, FindsSteeringBeyondTheCarsAngle) {
   EXPECT_EQ(check.faults[0].kind, PathFaultKind::kSteeringAngle);
   EXPECT_NEAR(check.faults[0].s, 26.0, Tolerance(0.3));
   EXPECT_NEAR(check.faults[0].limit, car.steering_limit, Tolerance(1e-12));
-  // kappa > 1/5.1 from 6 (1 - 0.196/0.25) = 1.294 m before the peak to 1.294 m after it.
+  // The curvature exceeds 1/5.1 1/m from 6 (1 - 0.196/0.25) = 1.294 m before the peak to 1.294 m
+  // after it.
   EXPECT_NEAR(check.faults[0].stations.from, 26.0 - 1.294, Tolerance(0.15));
   EXPECT_NEAR(check.faults[0].stations.to, 26.0 + 1.294, Tolerance(0.15));
   EXPECT_EQ(check.max_speed, 0.0);

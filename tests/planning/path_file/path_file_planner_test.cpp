@@ -56,7 +56,8 @@ TEST(PathFilePlanner, FollowsThePathAsItIs) {
   const nlohmann::json json = DiagnosticsJson(plan);
   EXPECT_EQ(json.at("points"), 81);
   EXPECT_LE(json.at("deviation_m").get<double>(), 0.05);
-  // A kinematic car steered by the schedule stays on the path (RK4 over knots 0.1 m apart).
+  // A kinematic car that is steered by the schedule must stay on the path. The simulation uses the
+  // method RK4, and the knots of the schedule are 0.1 m apart.
   EXPECT_LE(json.at("open_loop").at("deviation_max_m").get<double>(), 1e-3);
 }
 
@@ -81,7 +82,8 @@ TEST(PathFilePlanner, KeepsTheSpeedsOfTheFile) {
   }
 }
 
-// Eleven of twelve points on a circle. The speeds also apply between the last point and the first.
+// The file has eleven of twelve points on a circle. The speeds also apply between the last point
+// and the first point.
 TEST(PathFilePlanner, KeepsTheSpeedsOfTheFileAllAround) {
   PathPoints given;
   for (int i = 0; i < 11; ++i) {
@@ -102,8 +104,8 @@ TEST(PathFilePlanner, KeepsTheSpeedsOfTheFileAllAround) {
   }
 }
 
-// Random speeds of points 0.1 to 3 m apart, and any start speed: braking at the mission's
-// deceleration is always enough, because the path is long enough to stop.
+// The file has points 0.1 to 3 m apart with random speeds, and the car has any start speed. Braking
+// at the mission's deceleration is always sufficient, because the path is long enough to stop.
 TEST(PathFilePlanner, SlowsDownToTheSpeedsOfTheFileFromAnyStart) {
   Random random(5);
   for (int i = 0; i < 300; ++i) {
@@ -171,7 +173,7 @@ TEST(PathFilePlanner, SaysWhyThereIsNoPath) {
   const Plan plan = MakePlan(RequestAlong(back), back);
   EXPECT_EQ(plan.status, PlanStatus::kUTurn);
   EXPECT_THAT(plan.reason, HasSubstr("(5, 0)"));
-  // A step back of 4 m of 9 m is no noise.
+  // A step back of 4 m on a path of 9 m is too large to be noise.
   EXPECT_THAT(plan.reason, testing::Not(HasSubstr("noise")));
 }
 

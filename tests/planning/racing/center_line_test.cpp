@@ -25,7 +25,7 @@ using testing::HasSubstr;
 
 constexpr double kRadius = 50.0;  // [m]
 
-/// Laps on a track from a start on its center line, by default at the start line.
+/// Returns a request for laps on a track. The car starts on the center line at the start line.
 PlanRequest Laps(std::vector<TrackPoint> points, int laps) {
   PlanRequest request;
   request.vehicle = ReferenceCar();
@@ -47,14 +47,15 @@ TEST(CenterLine, GoesRoundAsOftenAsAsked) {
     ASSERT_TRUE(plan.ok()) << plan.reason;
     const double lap = request.on_track.track->length();
     const Path& path = plan.reference.path;
-    // Braking after the line takes v^2/(2 b) = 16 m. The path's length is integrated to rounding.
+    // Braking after the finish line takes v^2/(2 b) = 16 m. The length of the path is integrated to
+    // rounding.
     EXPECT_NEAR(path.length(), laps * lap + 16.0, Tolerance(1e-6));
     ASSERT_EQ(plan.laps.lines.size(), static_cast<std::size_t>(laps) + 1);
     for (int i = 0; i <= laps; ++i) {
       EXPECT_NEAR(plan.laps.lines[static_cast<std::size_t>(i)], i * lap, Tolerance(1e-6));
     }
-    // The path follows the track's center line to the last lap: SegmentsThrough is accurate to 1e-7
-    // m for a bend.
+    // The path follows the track's center line until the end of the last lap. SegmentsThrough is
+    // accurate to 1e-7 m for a bend.
     for (double s = 0.0; s < path.length(); s += 5.0) {
       const PathPoint at = path.At(s);
       const PathPoint expected = request.on_track.track->At(s);
@@ -92,14 +93,14 @@ TEST(CenterLine, MayStartBeforeTheLineAndBesideIt) {
   EXPECT_EQ(path.At(0.0).pose.position(), request.start.position());
   EXPECT_NEAR(path.At(0.0).pose.yaw, request.start.yaw, Tolerance(1e-9));
   ASSERT_EQ(plan.laps.lines.size(), 3U);
-  // 30 m to the line, plus or minus the effect of starting 1.5 m inside a circle of 50 m at an
-  // angle.
+  // The start line is 30 m ahead. The car starts 1.5 m inside of a circle of radius 50 m, at an
+  // angle to it, which changes the distance by less than 1 m.
   EXPECT_NEAR(plan.laps.lines[0], 30.0, 1.0);
   for (const double line : plan.laps.lines) {
     const TrackPlace place = track.Locate(path.At(line).pose.position());
     EXPECT_NEAR(std::remainder(place.s, track.length()), 0.0, Tolerance(1e-4));
   }
-  // Within 24 m, three seconds at 8 m/s, the path reaches the center line.
+  // The path reaches the center line within 24 m, which is 3 s at 8 m/s.
   EXPECT_NEAR(track.Locate(path.At(26.0).pose.position()).offset, 0.0, Tolerance(1e-4));
   // The path begins with straight wheels.
   EXPECT_NEAR(path.At(0.0).curvature, 0.0, Tolerance(1e-9));
@@ -122,13 +123,14 @@ TEST(CenterLine, MayStartFlying) {
   const Plan plan = MakePlan(request, CenterLineOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.reference.speed.SpeedAt(0.0), 8.0);
-  // The initial curvature matches the wheels, to rounding.
+  // The initial curvature matches the steering angle up to rounding.
   EXPECT_NEAR(plan.reference.path.At(0.0).curvature, std::tan(request.start_steering) / 2.7,
               Tolerance(1e-12));
 }
 
-// A flying start beside the line: on the usual 25 m, ten times the offset, the wheels would have to
-// turn at about v L 60 d/25^3 = 0.21 rad/s, faster than the car's 0.15 rad/s.
+// The car starts beside the center line at full speed. The usual length for joining the line is 25
+// m, ten times the offset d. On this length, the wheels would have to turn at about v L 60 d/25^3 =
+// 0.21 rad/s, faster than the car's 0.15 rad/s.
 TEST(CenterLine, LeadsARollingCarOntoTheLineAsFastAsItCanSteer) {
   for (const double offset : {2.5, -2.5}) {
     PlanRequest request = RingLaps(1);
@@ -146,7 +148,8 @@ TEST(CenterLine, LeadsARollingCarOntoTheLineAsFastAsItCanSteer) {
     EXPECT_GT(join, 25.0);
     request.start_speed = 0.0;
     const Plan at_rest = MakePlan(request, CenterLineOptions{});
-    // Ten times the offset, which the projection onto the center line finds to 1e-10 m.
+    // From rest, the length is ten times the offset. The projection onto the center line finds the
+    // offset to 1e-10 m.
     EXPECT_NEAR(DiagnosticsJson(at_rest).at("join_m").get<double>(), 25.0, Tolerance(1e-8));
   }
   EXPECT_FALSE(StartCurvatureOnTrack(CenterLineOptions{}, {}));
@@ -175,7 +178,7 @@ TEST(CenterLine, IsMovedAndTurnedWithItsTrack) {
 TEST(CenterLine, IsSlowedDownForWhatTheTyresHold) {
   PlanRequest request = Laps(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0), 1);
   request.vehicle.friction_lateral = 0.9;
-  request.speed.speed = 25.0;  // 25^2/30 is 21 m/s^2
+  request.speed.speed = 25.0;  // 25^2/30 is 21 m/s^2.
   const Plan plan = MakePlan(request, CenterLineOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   ASSERT_FALSE(plan.notes.empty());
@@ -232,7 +235,7 @@ TEST(CenterLine, RefusesWithAReason) {
   EXPECT_THAT(plan.reason, HasSubstr("does not look along the track"));
 
   request = RingLaps(1);
-  request.vehicle.steering_limit = 0.03;  // a radius of 90 m
+  request.vehicle.steering_limit = 0.03;  // The turning radius is 90 m.
   plan = MakePlan(request, CenterLineOptions{});
   EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
   EXPECT_THAT(plan.reason, HasSubstr("steering"));
@@ -242,11 +245,12 @@ TEST(CenterLine, RefusesWithAReason) {
 TEST(MeasureLine, OfACircleIsInClosedForm) {
   const Track track(RingPoints(kRadius, 63, 4.0, 3.0));
   const LineFindings center = MeasureLine(track, TrackLine());
-  // The integral of 1/r^2 over 2 pi r.
+  // The expected value is the integral of 1/r^2 over the circumference 2 pi r.
   EXPECT_NEAR(center.length, 2.0 * kPi * kRadius, Tolerance(1e-3));
   EXPECT_NEAR(center.curvature_square, 2.0 * kPi / kRadius, Tolerance(1e-6));
   EXPECT_NEAR(center.radius_min, kRadius, Tolerance(1e-3));
-  // A closed spline with constant coefficients is constant: a circle 2 m farther out.
+  // A closed spline with constant coefficients is a constant function. The line is then a circle 2
+  // m farther out.
   const ClosedSplineBasis basis(track.length(), 40);
   const LineFindings outside =
       MeasureLine(track, TrackLine(basis, Eigen::MatrixXd::Constant(40, 1, -2.0)));

@@ -24,20 +24,22 @@ namespace {
 using testing::HasSubstr;
 
 TEST(MinimumCurvature, OfARingIsItsOuterCircle) {
-  // Among closed curves that go around once, the integral of kappa^2 is at least 2 pi times 2
-  // pi/length. The optimum is the longest circle within the margin.
+  // For a closed curve that goes around once, the integral of kappa^2 is at least (2 pi)^2/length.
+  // The optimum is therefore the longest circle within the margin.
   const Track track(RingPoints(50.0, 63, 4.0, 3.0));
   const MinimumCurvatureLine found = FindMinimumCurvature(track, 1.5);
   ASSERT_EQ(found.refused, "");
   const LineFindings line = MeasureLine(track, found.line);
-  // The edges are circles to 2e-4 m between the track's points; IPOPT's bounds hold to 1e-7.
+  // Between the points of the track, the edges deviate from circles by up to 2e-4 m. IPOPT meets
+  // its bounds to 1e-7 m.
   EXPECT_NEAR(line.curvature_square, 2.0 * kPi / 52.5, Tolerance(2.0 * kPi / 52.5 * 1e-5));
   for (double s = 0.0; s < track.length(); s += 1.0) {
     EXPECT_NEAR(found.line.At(s).d, -2.5, Tolerance(2e-3));
   }
 }
 
-/// A track on which a racing line pays off: an ellipse with a radius of 30 m at its ends.
+/// Returns an elliptic track with a radius of curvature of 30 m at its ends. On this track, a
+/// racing line has clearly less curvature than the center line.
 Track Ellipse() {
   return Track(EllipsePoints(120.0, 60.0, 114, 5.0, 5.0));
 }
@@ -50,8 +52,8 @@ TEST(MinimumCurvature, KeepsItsBounds) {
   for (double s = 0.0; s < track.length(); s += 0.5) {
     const double d = found.line.At(s).d;
     const TrackEdges edges = track.EdgesAt(s);
-    // Enforced at points 2.5 m apart. Between them the line deviates by at most d'' 2.5^2/8, with a
-    // bend of less than 1/30 m.
+    // The optimizer enforces the bounds at points 2.5 m apart. Between these points, the line
+    // deviates by at most d'' 2.5^2/8 = 0.026 m, because d'' is below 1/30 1/m.
     EXPECT_LE(d, edges.left - 1.2 + Tolerance(0.03));
     EXPECT_GE(d, edges.right + 1.2 - Tolerance(0.03));
     largest = std::max(largest, std::abs(d));
@@ -66,8 +68,8 @@ TEST(MinimumCurvature, CannotBeBetteredNearby) {
   ASSERT_EQ(found.refused, "");
   const double best = MeasureLine(track, found.line).curvature_square;
   EXPECT_LT(best, 0.9 * MeasureLine(track, TrackLine()).curvature_square);
-  // Perturbed splines: bumps of random width and position, added and clipped to the bounds at the
-  // knots.
+  // The test adds bumps of random width and position to the line, and clips the sum to the bounds
+  // at the knots of a spline.
   std::mt19937 random(13);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int trial = 0; trial < 50; ++trial) {
@@ -88,7 +90,8 @@ TEST(MinimumCurvature, CannotBeBetteredNearby) {
     }
     const ClosedSplineBasis basis(track.length(), static_cast<std::size_t>(count));
     const TrackLine other(basis, FitClosedSpline(basis, samples, 5.0));
-    // The optimizer stops at steps below 1e-6 of the integral, and its spline is coarser.
+    // The optimizer stops when a step changes the integral by less than 1e-6 of it. Its spline is
+    // coarser than that of the test.
     EXPECT_GT(MeasureLine(track, other).curvature_square, (1.0 - 1e-3) * best) << trial;
   }
 }
@@ -112,9 +115,9 @@ TEST(MinimumCurvature, IsPlannedAndFeasible) {
   ASSERT_NE(own, nullptr);
   EXPECT_LT(own->plan.lap.curvature_square, 0.9 * own->center_curvature_square);
   EXPECT_GT(own->plan.lap.radius_min, 32.0);
-  // The second lap follows the racing line, and so does the first except for its start. There the
-  // path moves from the center line to the racing line, 3.6 m outside, within three seconds (24 m).
-  // On the outside a bend of radius 30 m is longer by at most 24 x 3.6/30 m.
+  // The second lap follows the racing line. The first lap follows it except at the start. At the
+  // start, the path moves from the center line to the racing line, 3.6 m outside, within 3 s (24
+  // m). On the outside, a bend of radius 30 m is longer by at most 24 x 3.6/30 = 2.9 m.
   ASSERT_EQ(plan.laps.lines.size(), 3U);
   EXPECT_NEAR(plan.laps.lines[2] - plan.laps.lines[1], own->plan.lap.length, Tolerance(1e-3));
   EXPECT_NEAR(plan.laps.lines[1] - plan.laps.lines[0], own->plan.lap.length, 24.0 * 3.6 / 30.0);
@@ -124,8 +127,8 @@ TEST(MinimumCurvature, IsPlannedAndFeasible) {
   EXPECT_EQ(wide.status, PlanStatus::kNoPath);
 }
 
-/// The integral of the squared curvature of a closed line through points, evaluated as a track's
-/// center line with little smoothing.
+/// Returns the integral of the squared curvature of a closed line through points. The line is
+/// evaluated as the center line of a track with little smoothing.
 double CurvatureSquare(const std::vector<Vec2>& line) {
   std::vector<TrackPoint> points;
   for (const Vec2& point : line) {
@@ -139,9 +142,10 @@ INSTANTIATE_TEST_SUITE_P(Racing, TumTracks,
                          testing::Values("Norisring", "Hockenheim", "Spielberg", "Silverstone"),
                          [](const auto& test) { return std::string(test.param); });
 
-// Comparison with the racing lines of TUM's database, which also minimize curvature. At the
-// tightest places of all tracks (1 to 10 % of their points) their distance from the edges is 0.72
-// to 0.77 m; here 0.75 m is used. Both lines are sampled 5 m apart and evaluated alike.
+// Compares our lines with the racing lines of TUM's database, which also minimize curvature. At the
+// tightest places of all tracks (1 to 10 % of their points), TUM's lines are 0.72 to 0.77 m from
+// the edges. This test therefore uses 0.75 m. Both lines are sampled 5 m apart and evaluated in the
+// same way.
 TEST_P(TumTracks, HaveNoMoreCurvatureThanTumsRacingLines) {
   const std::filesystem::path folder =
       std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests/data/tracks";

@@ -22,8 +22,8 @@
 #include "trackbed/planning/registry/planners.h"
 #include "trackbed/track/track_file.h"
 
-// Tests minimum-time racing lines: on a ring against the closed form, on hairpins against a family
-// of lines optimized by another search, and against random perturbations of the line.
+// Tests minimum-time racing lines: against the closed form on a ring, against a family of lines
+// optimized by another search on hairpins, and against random perturbations of the line.
 namespace trackbed {
 namespace {
 
@@ -33,7 +33,7 @@ using testing::HasSubstr;
 // time.
 constexpr double kConvergenceTolerance = 5e-4;
 
-/// A point mass with a friction circle of 8 m/s^2, without drag.
+/// Returns the limits of a point mass with a friction circle of 8 m/s^2, without drag.
 LapLimits CircleOfFriction() {
   return {
       .diagram = GgvDiagram({.mass = 1000.0, .rolling_mass = 1000.0}, {EllipticSection(8, 8, 8)}),
@@ -41,7 +41,8 @@ LapLimits CircleOfFriction() {
       .wheelbase = 2.7};
 }
 
-/// The car of tests/data/limit_profile: 7500 N, 270 kW, drag, a g-g ellipse of 9 and 8 m/s^2.
+/// Returns the limits of the car of tests/data/limit_profile: a drive force of 7500 N, a power of
+/// 270 kW, drag, and a g-g ellipse of 9 and 8 m/s^2.
 LapLimits RacingCar() {
   LapLimits limits = CircleOfFriction();
   limits.diagram = GgvDiagram({.mass = 1200.0,
@@ -54,7 +55,8 @@ LapLimits RacingCar() {
   return limits;
 }
 
-/// Two straights joined by half circles, counterclockwise, with equal widths on both sides.
+/// Returns a counterclockwise track of two straights joined by half circles, with equal widths on
+/// both sides.
 Track Hairpins(double straight, double radius, double width) {
   constexpr double kSpacing = 4.0;
   const double lap = 2.0 * straight + 2.0 * kPi * radius;
@@ -75,8 +77,8 @@ Track Hairpins(double straight, double radius, double width) {
 }
 
 TEST(MinimumTime, OfARingIsItsInnerCircle) {
-  // v^2 = a r, so a lap takes 2 pi sqrt(r/a): the smallest circle is the fastest. The search starts
-  // from the line of least curvature, which is the largest circle.
+  // On a circle, v^2 = a r, so a lap takes 2 pi sqrt(r/a), and the smallest circle is the fastest.
+  // The search starts from the line of least curvature, which is the largest circle.
   const Track track(RingPoints(50.0, 63, 4.0, 3.0));
   const MinimumTimeLine found = FindMinimumTime(track, 1.5, CircleOfFriction());
   ASSERT_EQ(found.refused, "");
@@ -85,19 +87,20 @@ TEST(MinimumTime, OfARingIsItsInnerCircle) {
   const double fastest = 2.0 * kPi * std::sqrt(48.5 / 8.0);
   EXPECT_NEAR(found.start_time, 2.0 * kPi * std::sqrt(52.5 / 8.0), Tolerance(1e-4 * fastest));
   EXPECT_NEAR(found.time, fastest, Tolerance(kConvergenceTolerance * fastest));
-  // The lap time grows with the square root of the radius, so 2 kConvergenceTolerance of the radius
-  // is 5 cm.
+  // The lap time grows with the square root of the radius. A relative error of
+  // kConvergenceTolerance in the time is therefore 2 kConvergenceTolerance in the radius, 5 cm.
   for (double s = 0.0; s < track.length(); s += 1.0) {
     EXPECT_NEAR(found.line.At(s).d, 1.5, Tolerance(2.0 * kConvergenceTolerance * 48.5));
   }
 }
 
-/// Lines through hairpins along the outer edge with a bump to the inner edge in each bend. The bump
-/// may have a dip in its middle, between two apexes.
+/// A family of lines through hairpins. A line follows the outer edge, with a bump to the inner edge
+/// in each bend. The bump may have a dip in its middle, between two apexes.
 class BumpLines {
  public:
-  /// Position of the bump behind the middle of the bend [m], its half widths before and after that
-  /// [m], its flatness and the depth of the dip [m].
+  /// Number of parameters of a line: the position of the bump behind the middle of the bend [m],
+  /// the half widths of the bump before and after this position [m], the flatness of the bump, and
+  /// the depth of the dip [m].
   static constexpr std::size_t kNumbers = 5;
 
   BumpLines(const Track& track, double middle, double offset)
@@ -151,7 +154,7 @@ TEST(MinimumTime, OfHairpinsIsFasterThanLateAndEarlyApexes) {
       }
     }
   }
-  // A descent from the best of these 70 lines.
+  // A simplex search improves the best of these 70 lines.
   const SearchResult family =
       Search({.lower = {-15.0, 8.0, 8.0, 1.5, 0.0},
               .upper = {15.0, 60.0, 60.0, 8.0, 3.0},
@@ -163,9 +166,10 @@ TEST(MinimumTime, OfHairpinsIsFasterThanLateAndEarlyApexes) {
   ASSERT_EQ(found.refused, "");
   EXPECT_EQ(found.end, MinimumTimeEnd::kConverged);
   EXPECT_LT(found.time, family.value * (1.0 + kConvergenceTolerance));
+  // The lower bound of the lap time considers only the motion in the direction of the straights.
   // From the apex of one bend to that of the other, the car covers the straight and both inner
-  // edges in the straight's direction. It starts and ends at rest in that direction, with at most 9
-  // m/s^2.
+  // edges in this direction. It starts and ends at rest in this direction, and accelerates with at
+  // most 9 m/s^2.
   EXPECT_GT(found.time, 4.0 * std::sqrt((kStraight + 2.0 * (kBend - kWidth + kBeside)) / 9.0));
 }
 
@@ -174,8 +178,8 @@ TEST(MinimumTime, CannotBeBetteredNearby) {
   const Track track = Hairpins(40.0, 15.0, 4.0);
   const MinimumTimeLine found = FindMinimumTime(track, kBeside, RacingCar());
   ASSERT_EQ(found.refused, "");
-  // Perturbed splines: bumps of random width and position, added and clipped to the bounds at the
-  // knots.
+  // The test adds bumps of random width and position to the line, and clips the sum to the bounds
+  // at the knots of a spline.
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (int trial = 0; trial < 60; ++trial) {
@@ -214,8 +218,8 @@ TEST(MinimumTime, KnowsTheSteeringRate) {
   ASSERT_EQ(found.refused + free.refused, "");
   EXPECT_TRUE(found.improved);
   EXPECT_LT(found.time, found.start_time);
-  // With limited steering rate the lap is slower than without, but faster than on the line that was
-  // optimized without the limit.
+  // With a limited steering rate, the lap takes longer than without the limit. It takes less time
+  // than a lap on the line that was optimized without the limit.
   EXPECT_GT(found.time, free.time);
   EXPECT_LT(found.time, 0.99 * LapTime(lap.track, free.line, lap.limits));
 }
@@ -224,12 +228,13 @@ TEST(MinimumTime, KeepsTheCarsSmallestRadius) {
   SteeredLap lap;
   const double radius =
       MeasureLine(lap.track, FindMinimumCurvature(lap.track, 1.2).line).radius_min;
-  // The minimum radius is half a meter larger than on the line of least curvature.
+  // The minimum radius is 0.5 m larger than that of the line of least curvature.
   lap.limits.curvature_max = 1.0 / (radius + 0.5);
   const MinimumTimeLine found = FindMinimumTime(lap.track, 1.2, lap.limits);
   ASSERT_EQ(found.refused, "");
-  // Enforced at stations 2 m apart; violated by at most 1e-3 at stations 1 m apart, or the line is
-  // rejected. Denser stations differ less.
+  // The optimizer enforces the radius at stations 2 m apart. FindMinimumTime rejects a line that
+  // violates the radius by more than 1e-3 at stations 1 m apart. At denser stations, the violation
+  // is hardly larger.
   EXPECT_GT(MeasureLine(lap.track, found.line).radius_min, (radius + 0.5) * (1.0 - 2e-3));
 
   // The largest circle on this ring has a radius of 52.5 m.
@@ -253,7 +258,7 @@ TEST(MinimumTime, RefusesATrackThatIsTooNarrow) {
               HasSubstr("the track is 2 m wide at s = 0 m; the car and its margins need 2.8 m"));
 }
 
-/// Laps of the reference car on hairpins, with a friction circle of 8 m/s^2.
+/// Returns a request for laps of the reference car on hairpins, with a friction circle of 8 m/s^2.
 PlanRequest LimitLaps(int laps) {
   PlanRequest request;
   request.vehicle = ReferenceCar();
@@ -275,9 +280,10 @@ TEST(MinimumTime, IsPlannedWithTheLapTimeThatItStates) {
   EXPECT_LT(own->lap_time, own->minimum_curvature_lap_time);
   ASSERT_FALSE(plan.notes.empty());
   EXPECT_THAT(plan.notes.front(), HasSubstr("less than on the line of least curvature"));
-  // The second lap is a flying lap. Path and speeds of the plan use clothoids and stations half a
-  // meter apart instead of 1 m. The profile is first order in that distance and takes the smaller
-  // acceleration of both ends: of 10 m/s^2, a change of 1 m/s^2 over 1 m.
+  // The second lap starts and ends at speed. The plan uses clothoids and stations 0.5 m apart, but
+  // the optimizer uses stations 1 m apart. The profile takes the smaller acceleration of both ends
+  // of an interval, so its error is of first order in this distance. The acceleration of up to 10
+  // m/s^2 changes by up to 1 m/s^2 over 1 m.
   ASSERT_EQ(plan.laps.lines.size(), 4U);
   const double second = plan.reference.speed.TimeAt(plan.laps.lines[2]) -
                         plan.reference.speed.TimeAt(plan.laps.lines[1]);
@@ -287,8 +293,8 @@ TEST(MinimumTime, IsPlannedWithTheLapTimeThatItStates) {
   for (double s = plan.laps.lines[1]; s < plan.laps.lines[2]; s += 1.0) {
     const TrackPlace place = track.Locate(plan.reference.path.At(s).pose.position());
     const TrackEdges edges = track.EdgesAt(place.s);
-    // Enforced at stations 2 m apart: between them the line deviates by at most d'' 2^2/8, with d''
-    // below 1/15 m.
+    // The optimizer enforces the margin at stations 2 m apart. Between these stations, the line
+    // deviates by at most d'' 2^2/8 = 0.034 m, because d'' is below 1/15 1/m.
     const double beside = 0.5 * request.vehicle.width + 0.5 - 0.034;
     EXPECT_LE(place.offset, edges.left - beside);
     EXPECT_GE(place.offset, edges.right + beside);
@@ -314,8 +320,8 @@ TEST(MinimumTime, NeedsSpeedsAtTheLimit) {
 struct RaceTrack {
   const char* name;
   const char* file;
-  int iterations;  // few, because each takes a second per kilometer
-  double gain;     // minimum gain in lap time with this many iterations
+  int iterations;  // Few: an iteration takes a second per kilometer.
+  double gain;     // Minimum gain in lap time with this number of iterations.
 };
 
 class RaceTracks : public testing::TestWithParam<RaceTrack> {};
@@ -338,7 +344,8 @@ TEST_P(RaceTracks, AreFasterThanTheLineOfLeastCurvature) {
   EXPECT_EQ(found.time, LapTime(track, found.line, RacingCar()));
   for (double s = 0.0; s < track.length(); s += 1.0) {
     const TrackEdges edges = track.EdgesAt(s);
-    // The deviation between stations, at most 2.6 m apart, is d'' 2.6^2/8, with d'' below 1/10 m.
+    // Between stations, at most 2.6 m apart, the line deviates by up to d'' 2.6^2/8 = 0.085 m,
+    // because d'' is below 1/10 1/m.
     EXPECT_LE(found.line.At(s).d, edges.left - 0.75 + Tolerance(0.085));
     EXPECT_GE(found.line.At(s).d, edges.right + 0.75 - Tolerance(0.085));
   }

@@ -7,7 +7,7 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
 
-/// Whether every planner supports speeds at the limit.
+/// Tests that every planner supports speeds at the limit.
 namespace trackbed {
 namespace {
 

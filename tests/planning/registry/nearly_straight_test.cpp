@@ -20,7 +20,8 @@
 #include "trackbed/planning/grid/hybrid_astar.h"
 #include "trackbed/planning/registry/planners.h"
 
-// Routes along a line whose waypoints and headings are rounded, as people write them.
+// Tests routes along a straight line whose waypoints and headings are rounded, as in files that
+// people write.
 namespace trackbed {
 namespace {
 
@@ -59,10 +60,11 @@ double Rounded(double value, double unit) {
   return unit * std::nearbyint(value / unit);
 }
 
-/// Two to five waypoints along a line, up to 40 m apart, here or a thousand kilometers away,
-/// rounded to between 1e-6 and 0.1 m, and their headings, if given, to between 1e-6 and 0.01 rad.
-/// Legs are `shortest` [m] long or more at up to 4 m/s; at higher speeds ramps are longer by the
-/// root of the speed.
+/// Returns a random route of two to five waypoints along a line, up to 40 m apart. The waypoints
+/// are near the origin or 1000 km away, and rounded to between 1e-6 and 0.1 m. Headings, if any,
+/// are rounded to between 1e-6 and 0.01 rad. The legs are at least `shortest` [m] long up to 4 m/s.
+/// At higher speeds, the legs are longer by the square root of the speed, because the steering
+/// ramps are, too.
 PlanRequest NearlyStraight(Random& random, double shortest) {
   const double position = std::pow(10.0, random.Uniform(-6.0, -1.0));
   const double heading = std::pow(10.0, random.Uniform(-6.0, -2.0));
@@ -84,14 +86,14 @@ PlanRequest NearlyStraight(Random& random, double shortest) {
     at += leg * Direction(yaw);
     length += left > 1 ? leg : 0.0;
   }
-  // It can brake from its start speed before the goal.
+  // The car can brake from this start speed before the goal.
   const double start_speed = std::min(speed, std::sqrt(2.0 * kDeceleration * 0.9 * length));
   return Route(std::move(waypoints), std::move(headings), speed,
                random.Below(2) == 0 ? start_speed : 0.0);
 }
 
-/// The path meets every stop: positions to a tenth of a millimeter, the goal's heading to the
-/// rounding of sums of a few dozen segments.
+/// Expects that the path meets every stop: positions to 0.1 mm, and the heading at the goal up to
+/// rounding in sums of a few dozen segments.
 void ExpectStopsMet(const PlanRequest& request, const Plan& plan) {
   const Path& path = plan.reference.path;
   const std::vector<Pose2> stops = PlannedStops(request);
@@ -110,15 +112,16 @@ void ExpectNoStop(const PlanRequest& request, const Plan& plan) {
   ExpectStopsMet(request, plan);
 }
 
-/// The plan takes no longer than one of the same length without a turn of the wheels, up to
-/// rounding: a millionth, as limits are checked to.
+/// Expects that the plan takes no longer than a plan of the same length without turns. The
+/// tolerance of 1e-6 is that of checks of the limits.
 void ExpectFullSpeed(const PlanRequest& request, const Plan& plan) {
   const double length = plan.reference.path.length();
   const double least = StopAtEnd(length, request.start_speed, request.speed).TimeAt(length);
   EXPECT_LE(plan.reference.speed.TimeAt(length), least * (1.0 + Tolerance(1e-6)));
 }
 
-/// TRACKBED_NEARLY_STRAIGHT sets how many routes are made.
+/// Returns the number of routes to test, which the environment variable TRACKBED_NEARLY_STRAIGHT
+/// sets.
 int Count() {
   const char* count = std::getenv("TRACKBED_NEARLY_STRAIGHT");
   return count == nullptr ? 300 : std::atoi(count);
@@ -134,8 +137,8 @@ std::string Described(const PlanRequest& request) {
 }
 
 TEST(NearlyStraightRoutes, AreDrivenAtTheirSpeed) {
-  // The wheels have room for each turn of at most 0.03 rad between waypoints 10 m apart: an arc of
-  // sqrt(L v phi/omega) = 1.5 m at 4 m/s, with as much of a straight on either side.
+  // The waypoints are 10 m apart or more, and each turn is at most 0.03 rad. At 4 m/s, the wheels
+  // have enough room for such a turn.
   Random random(47);
   for (int i = 0; i < Count() && !HasFailure(); ++i) {
     const PlanRequest request = NearlyStraight(random, 10.0);

@@ -21,7 +21,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::StartsWith;
 
-/// "key: message" of every problem between the options.
+/// Returns every problem between the options, as "key: message".
 std::vector<std::string> Problems(
     const PlannerOptions& options,
     const CouldReadKey& could_read = [](const std::string&) { return true; }) {
@@ -32,7 +32,7 @@ std::vector<std::string> Problems(
   return lines;
 }
 
-/// "key: message" of every problem of a planner of detours.
+/// Returns every problem of the options of a planner of detours, as "key: message".
 std::vector<std::string> DetourProblems(const PlannerOptions& options) {
   std::vector<std::string> lines;
   for (const OptionProblem& problem : PlannerFor(options).check_detour(options)) {

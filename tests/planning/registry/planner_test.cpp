@@ -26,7 +26,7 @@
 #include "trackbed/planning/path_file/path_file_planner.h"
 #include "trackbed/planning/registry/planners.h"
 
-// Tests the guarantees of every registered planner, then properties of the fillet planner.
+// Tests the guarantees of every registered planner, and properties of the fillet planner.
 namespace trackbed {
 namespace {
 
@@ -47,7 +47,7 @@ PlanRequest Request(std::vector<Vec2> waypoints) {
 
 // --- Guarantees of every registered planner ------------------------------------------------------
 
-/// A path of continuous curvature from `start`, as FitPath returns it.
+/// Returns a path of continuous curvature from `start`, in the form that FitPath returns.
 std::shared_ptr<const FittedPath> FittedFrom(const Pose2& start) {
   FittedPath fitted;
   fitted.path = Path(start, {{.length = 10.0},
@@ -61,7 +61,7 @@ std::shared_ptr<const FittedPath> FittedFrom(const Pose2& start) {
   return std::make_shared<const FittedPath>(std::move(fitted));
 }
 
-/// The defaults, plus a course or a path for the planners that require one.
+/// Returns the default options, with a course or a path for the planners that require one.
 PlannerOptions DefaultOptions(const PlannerEntry& entry, const PlanRequest& request) {
   PlannerOptions options = entry.defaults;
   if (auto* path = options.As<PathFileOptions>()) {
@@ -106,7 +106,7 @@ TEST_P(EveryPlanner, StartsWhereTheCarIsAndEndsAtGoal) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_EQ(plan.reason, "");
   const Path& path = plan.reference.path;
-  // The accuracy that planners guarantee is 1e-9 m.
+  // Planners guarantee an accuracy of 1e-9 m.
   EXPECT_NEAR((path.At(0.0).pose.position() - RouteA().front()).norm(), 0.0, Tolerance(1e-9));
   const Vec2 end = path.At(path.length()).pose.position();
   EXPECT_NEAR((end - plan.goal.position()).norm(), 0.0, Tolerance(1e-9));
@@ -167,12 +167,13 @@ TEST_P(EveryPlanner, IsAsLongAsItsSteps) {
       const PathPoint a = path.At(step * (i - 1));
       const PathPoint b = path.At(step * i);
       length += (b.pose.position() - a.pose.position()).norm();
-      // Each step moves along the heading, except at cusps.
+      // Over each step, the heading changes by at most the step divided by the smallest turning
+      // radius.
       const double turn = std::abs(AngleDifference(b.pose.yaw, a.pose.yaw));
       ASSERT_LE(turn, step / ReferenceCar().min_turning_radius() + Tolerance(1e-9)) << "at " << b.s;
     }
-    // The chord of an arc is shorter than the arc by kappa^2 step^3/24: 1.6e-7 of a length of 160 m
-    // or less. A cusp folds one step.
+    // A chord is shorter than its arc by the fraction kappa^2 step^2/24 = 1.6e-7, over a length of
+    // at most 160 m. At a cusp, the path folds back within one step.
     const double cusps = static_cast<double>(SplitIntoLegs(path).size() - 1);
     EXPECT_NEAR(length, path.length(), Tolerance(1.6e-7 * 160.0) + cusps * step);
   }
@@ -205,7 +206,7 @@ TEST_P(EveryPlanner, IsMovedWithItsMission) {
   const Plan there = PlanWithDefaults(moved, GetParam());
   ASSERT_TRUE(here.ok() && there.ok()) << there.reason;
   const Path& path = here.reference.path;
-  // Rounding of coordinates of some 250 m, propagated through a search.
+  // The tolerance allows for rounding of coordinates of about 250 m, which a search amplifies.
   ASSERT_NEAR(there.reference.path.length(), path.length(), Tolerance(1e-6));
   for (double s = 0.0; s < path.length(); s += 1.0) {
     const Vec2 expected = ToWorld(by, path.At(s).pose.position());

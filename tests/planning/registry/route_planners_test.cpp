@@ -23,7 +23,8 @@
 #include "trackbed/planning/sampling/rrt_star_planner.h"
 #include "trackbed/world/world.h"
 
-// Guarantees of every obstacle-avoiding planner, in addition to those in planner_test.cpp.
+// Tests the guarantees of every planner that avoids obstacles, in addition to those in
+// planner_test.cpp.
 namespace trackbed {
 namespace {
 
@@ -47,13 +48,14 @@ PlanRequest Between(const Pose2& start, const Pose2& goal, std::vector<OrientedB
   return request;
 }
 
-/// Boxes on both sides of the route.
+/// Returns a request with boxes on both sides of the route.
 PlanRequest Aisle() {
   return Between({0.0, 0.0, 0.0}, {40.0, 6.0, 0.3},
                  {{{20.0, 9.0, 0.2}, 4.0, 4.0}, {{22.0, -4.0, -0.4}, 5.0, 3.0}});
 }
 
-/// As Aisle(), with more room and a third box in the middle of the route, slightly to the right.
+/// Returns the request of Aisle() with both boxes farther from the route, and with a third box in
+/// the middle of the route, slightly to the right.
 PlanRequest Blocked() {
   PlanRequest request = Aisle();
   request.obstacles.push_back({{19.0, 1.5, 0.7}, 2.0, 2.0});
@@ -81,8 +83,8 @@ class EveryRoutePlanner : public ::testing::TestWithParam<PlannerEntry> {
   }
 };
 
-/// Checks every pose by exact box distances: one sample every 2 cm, over which the farthest corner
-/// moves by 1 + 3.7/5.1 times as much.
+/// Checks the exact distance between the footprint and the boxes every 2 cm. Within half a step,
+/// the farthest corner moves by (1 + 3.7/5.1) x 1 cm = 1.7 cm.
 void ExpectClear(const PlanRequest& request, const Plan& plan) {
   const Path& path = plan.reference.path;
   for (double s = 0.0; s <= path.length(); s += 0.02) {
@@ -234,14 +236,14 @@ TEST_P(EveryRoutePlanner, LeadsThroughEveryWaypoint) {
   ASSERT_TRUE(plan.ok()) << plan.reason;
   const Path& path = plan.reference.path;
   for (const Vec2& waypoint : request.waypoints) {
-    // A rounded corner passes the waypoint on the inside, by less than an arc does: T tan(h/4), 5.3
-    // m at 0.51 rad.
+    // A rounded corner passes its waypoint on the inside, closer than an arc with the same tangent
+    // length T. The arc passes at T tan(h/4) = 0.68 m, with T = 5.3 m and the turn h = 0.51 rad.
     const double away = std::abs(path.Project({waypoint.x(), waypoint.y(), 0.0}).cross_track);
     EXPECT_LE(away, GetParam().has_headings ? Tolerance(1e-6) : 0.68);
   }
 }
 
-/// The request, transformed by `by`.
+/// Returns the request transformed by `by`.
 PlanRequest Moved(const PlanRequest& request, const Pose2& by) {
   PlanRequest moved = request;
   for (std::size_t i = 0; i < moved.waypoints.size(); ++i) {
@@ -273,7 +275,8 @@ TEST_P(EveryRoutePlanner, MovesWithTheWorld) {
     const Path& path = here.reference.path;
     ASSERT_NEAR(there.reference.path.length(), path.length(), Tolerance(1e-6));
     for (double s = 0.0; s < path.length(); s += 1.0) {
-      // Rounding of coordinates of some 150 m, propagated through the search's arcs.
+      // The tolerance allows for rounding of coordinates of about 150 m, which the arcs of the
+      // search amplify.
       EXPECT_LE(Apart(Compose(by, path.At(s).pose), there.reference.path.At(s).pose),
                 Tolerance(1e-6));
     }
@@ -446,7 +449,7 @@ TEST(PlannedStops, TakesHeadingsFromTheLegsIfThereAreNone) {
 TEST(AStarPlanner, RefusesCornersWhenAsked) {
   const Plan plan = MakePlan(Blocked(), AStarOptions{.corners = Corners::kRefuse});
   EXPECT_EQ(plan.status, PlanStatus::kTurnTooTight);
-  // The path along the grid turns by steps of 45 degrees.
+  // The path on the grid turns in steps of 45 degrees.
   EXPECT_NE(plan.reason.find("jumps by"), std::string::npos) << plan.reason;
   EXPECT_NE(plan.reason.find("0.785"), std::string::npos) << plan.reason;
   const Plan straight =

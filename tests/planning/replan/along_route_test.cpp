@@ -34,7 +34,7 @@ Plan PlanOn(const Path& path, double speed) {
   return plan;
 }
 
-/// A car on a straight route of 200 m, 40 m after its start.
+/// A car on a straight route of 200 m, at a station of 40 m.
 struct Scene {
   RouteFrame frame =
       MakeRouteFrame(ReferenceCar(), PlanOn(StraightRoad(), 3.0), {3.0, 2.0, 3.0}, kExtension);
@@ -59,7 +59,8 @@ class EveryAlongMethod : public testing::TestWithParam<AlongEntry> {};
 INSTANTIATE_TEST_SUITE_P(Planning, EveryAlongMethod, testing::ValuesIn(AlongMethods()),
                          [](const auto& of) { return std::string(of.param.name); });
 
-/// Expects a plan that ends at rest, with increasing stations and times, within the limits.
+/// Expects that a plan ends at rest, that its stations and times increase, and that it keeps the
+/// limits.
 void ExpectEndsAtRest(const Scene& scene, const AlongPlan& plan) {
   ASSERT_FALSE(plan.points.empty());
   EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
@@ -68,8 +69,7 @@ void ExpectEndsAtRest(const Scene& scene, const AlongPlan& plan) {
     const TrajectoryPoint& point = plan.points[i];
     EXPECT_GT(point.t, plan.points[i - 1].t);
     EXPECT_GE(point.distance, plan.points[i - 1].distance);
-    // 5 % above the limit is the tolerance of the sampled motions; braking respects the limit
-    // exactly.
+    // Sampled motions may exceed the limits by 5 %.
     EXPECT_LE(point.motion.speed, 1.05 * scene.request.speed.speed + 1e-9);
     EXPECT_GE(point.motion.acceleration, -scene.request.speed.deceleration * 1.05);
   }
@@ -85,7 +85,7 @@ TEST_P(EveryAlongMethod, GoesOnAtItsSpeedWhereNothingIsInTheWay) {
   EXPECT_NEAR(end.s_rate, 3.0, Tolerance(1e-9));
   EXPECT_NEAR(end.d, 0.0, Tolerance(1e-9));
   ExpectEndsAtRest(scene, plan);
-  // The braking distance after the motion: v^2/(2 a) = 1.5 m.
+  // After the motion, braking takes v^2/(2 a) = 1.5 m.
   EXPECT_NEAR(plan.points.back().frenet.s - end.s, 1.5, Tolerance(1e-9));
 }
 
@@ -113,14 +113,14 @@ TEST_P(EveryAlongMethod, StopsItsGapBehindWhatStandsInANarrowRoad) {
   Scene scene;
   scene.settings.road = {1.5, 1.5};
   scene.settings.gap = 2.0;
-  // The car needs 12.5 m to stop: half the speed times 8 s.
+  // A motion of 8 s that brakes from 3 m/s to rest covers about 12 m.
   const double stop = scene.request.start.s + 12.5;
   scene.request.obstacles = {BoxAt(scene.frame.path, stop + Front() + 2.0 + 1.0, 0.0)};
   const AlongPlan plan =
       PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
   ASSERT_EQ(plan.kind, ManeuverType::kStop) << plan.found.reason;
   ExpectEndsAtRest(scene, plan);
-  // The plan ends at the station itself, or at one of the station offsets before it.
+  // The plan must end at the stop, or at one of the station offsets before the stop.
   EXPECT_LE(plan.points.back().frenet.s, stop + Tolerance(1e-6));
   EXPECT_GE(plan.points.back().frenet.s, stop - 4.0);
 }
@@ -130,8 +130,8 @@ TEST_P(EveryAlongMethod, ApproachesWhatStandsTooFarAwayToStopThere) {
   scene.settings.road = {1.5, 1.5};
   scene.request.wanted = 3.0;
   scene.request.obstacles = {BoxAt(scene.frame.path, 40.0 + 20.0 + Front(), 0.0)};
-  // Motions of 4 s or less cannot stop 16 m ahead, and lattice layers that end 8 m ahead cannot
-  // either. A slow motion is not available.
+  // Motions of up to 4 s, and lattice layers that end 8 m ahead, cannot reach a stop 16 m ahead.
+  // The options contain no slower motion.
   AlongOptions options = GetParam().defaults;
   if (auto* frenet = std::get_if<FrenetOptions>(&options)) {
     frenet->end_times = {2.0, 3.0, 4.0};
@@ -142,13 +142,14 @@ TEST_P(EveryAlongMethod, ApproachesWhatStandsTooFarAwayToStopThere) {
   const AlongPlan plan = PlanAlongRoute(scene.frame, scene.request, scene.settings, options);
   EXPECT_EQ(plan.kind, ManeuverType::kApproach) << plan.found.reason;
   ExpectEndsAtRest(scene, plan);
-  // The end of the motion must be clear even if it is the only motion found.
+  // The end of the motion must be clear of the box, even if this motion is the only one found.
   const double front = plan.points.back().frenet.s + Front();
   EXPECT_LT(front + scene.settings.safe_distance, 40.0 + 20.0 + Front() - 1.0);
 }
 
 TEST_P(EveryAlongMethod, NeverLeadsToWhereItCannotStop) {
-  // Fast toward a wall, from all distances: a plan, if found, ends at rest before the wall.
+  // The car drives fast toward a wall, from all distances. If a plan is found, it must end at rest
+  // before the wall.
   Scene scene;
   scene.settings.road = {1.5, 1.5};
   scene.request.speed = {15.0, 2.0, 3.0};
@@ -169,7 +170,8 @@ TEST_P(EveryAlongMethod, NeverLeadsToWhereItCannotStop) {
 }
 
 TEST_P(EveryAlongMethod, DoesNotLeadPastANearGoal) {
-  // From 3 m/s the car needs at least 3^2/(2*3) = 1.5 m to stop, so it cannot from nearer starts.
+  // From 3 m/s, stopping takes at least 3^2/(2 x 3) = 1.5 m. From a shorter distance, the planner
+  // must not find a plan.
   for (double left = 4.0; left >= -4.0; left -= 0.25) {
     for (const double offset : {0.0, 0.3, -1.0}) {
       Scene scene;
@@ -186,9 +188,9 @@ TEST_P(EveryAlongMethod, DoesNotLeadPastANearGoal) {
 }
 
 TEST_P(EveryAlongMethod, LeavesRoomToReturnToTheRouteBeforeTheGoal) {
-  // Two turns of the tightest radius r shift a car by d over the length sqrt(d (4 r - d)). At 12
-  // m/s and 2 m/s^2 braking takes 36 m, longer than the motions that stop at the goal. Motions that
-  // keep their speed must leave room for braking.
+  // Two arcs with the smallest turning radius r shift a car by d over the length sqrt(d (4 r - d)).
+  // At 12 m/s, braking at 2 m/s^2 takes 36 m, longer than the motions that stop at the goal. A
+  // motion at constant speed must therefore leave room for braking.
   const double radius = ReferenceCar().wheelbase / std::tan(ReferenceCar().steering_limit);
   int found = 0;
   for (double left = 80.0; left >= 0.0; left -= 4.0) {
@@ -215,9 +217,9 @@ TEST_P(EveryAlongMethod, LeavesRoomToReturnToTheRouteBeforeTheGoal) {
 }
 
 TEST_P(EveryAlongMethod, BrakesNoFasterThroughABendThanTheWheelsTurn) {
-  // At 5 m/s the wheels would have to turn at 2.7 m * 5 m/s * 0.025 /m^2 = 0.34 rad/s; their limit
-  // is 0.15 rad/s. From these starts some motions at 5 m/s end before the bend, and the braking
-  // that follows them is in the bend.
+  // At 5 m/s, the wheels would have to turn at 2.7 m x 5 m/s x 0.025 1/m^2 = 0.34 rad/s in the
+  // clothoid, faster than their limit of 0.15 rad/s. From some of these starts, a motion at 5 m/s
+  // ends before the bend, and the car would then brake in the bend.
   int found = 0;
   for (double start = 20.0; start <= 55.0; start += 2.5) {
     Scene scene;
@@ -262,7 +264,8 @@ TEST_P(EveryAlongMethod, FollowsWhatMovesSlowlyInANarrowRoad) {
   const FrenetState end = plan.found.motion.At(duration);
   if (std::holds_alternative<FrenetOptions>(GetParam().defaults)) {
     EXPECT_NEAR(end.s_rate, 1.5, Tolerance(1e-9));
-    // The car follows the leader's rear end by gap and time gap, or by one station offset more.
+    // The car follows the leader's rear end at the gap and the time gap, or up to one station
+    // offset farther behind.
     const double wanted = 51.0 + 1.5 * (duration - 1.0) - Front() - 2.0;
     EXPECT_LE(end.s, wanted + Tolerance(1e-9));
     EXPECT_GE(end.s, wanted - 4.0 - Tolerance(1e-9));
@@ -276,7 +279,7 @@ TEST_P(EveryAlongMethod, StopsAtTheEndOfTheRoute) {
       PlanAlongRoute(scene.frame, scene.request, scene.settings, GetParam().defaults);
   ASSERT_EQ(plan.kind, ManeuverType::kProceed) << plan.found.reason;
   EXPECT_TRUE(plan.to_goal);
-  // All station offsets end before the goal; none is cheaper than the goal itself.
+  // All station offsets end before the goal. None of them is cheaper than the goal itself.
   EXPECT_NEAR(plan.points.back().frenet.s, scene.frame.goal, Tolerance(1e-6));
   EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
 }
@@ -323,7 +326,7 @@ TEST(LeaderIn, IsTheNearestInTheLane) {
   request.start.s = 20.0;
   const AlongSettings settings{.safe_distance = 0.5};
   const double room = 0.5 * ReferenceCar().width + 0.5;
-  // An obstacle 1.5 m wide is outside the lane from a lateral distance of 0.75 + room on.
+  // An obstacle 1.5 m wide is outside the lane if its lateral distance exceeds 0.75 m + room.
   request.obstacles = {BoxAt(path, 60.0, 0.0), BoxAt(path, 40.0, 0.75 + room + 0.01),
                        BoxAt(path, 10.0, 0.0), BoxAt(path, 50.0, -(0.75 + room - 0.01))};
   request.obstacles[3].velocity = {2.0, 5.0};
@@ -334,7 +337,7 @@ TEST(LeaderIn, IsTheNearestInTheLane) {
   EXPECT_NEAR(leader->speed, 2.0, Tolerance(1e-12));
   EXPECT_NEAR(leader->left, -(room - 0.01), Tolerance(1e-12));
   EXPECT_NEAR(leader->right, -(room - 0.01) - 1.5, Tolerance(1e-12));
-  // The leader is beyond this look-ahead distance.
+  // The rear end of the leader, at the station 49 m, is beyond this limit.
   EXPECT_FALSE(LeaderIn(path, request, settings, 48.0));
 }
 
@@ -348,7 +351,8 @@ TEST(MakeRouteFrame, OfAStraightRouteIsTheRouteAndGoesOn) {
 }
 
 TEST(MakeRouteFrame, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
-  // A quarter turn of radius 12 m between straights: kappa 1/12, steering atan(2.7/12).
+  // The route has a quarter turn of radius 12 m between straights. The steering angle in the turn
+  // is atan(2.7/12).
   const double speed = 2.0;
   const Path path({0.0, 0.0, 0.0}, {{60.0, 0.0}, {6.0 * M_PI, 1.0 / 12.0}, {60.0, 0.0}});
   const SpeedLimits limits{speed, 2.0, 3.0};
@@ -358,13 +362,14 @@ TEST(MakeRouteFrame, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
   constexpr double kStep = 0.2;  // [m]; the joints of the frame's segments are 0.1 m apart
   for (double s = kStep; s < frame.goal; s += kStep) {
     const double now = SteeringForCurvature(ReferenceCar(), frame.path.At(s).curvature);
-    // The tolerance of 1/1000 covers the terms of (k w)^4 of the arc, which smoothing makes
-    // tighter: with k w = 0.25, 0.004 of the factor 1 + (k w)^2/24, squared over 2.
+    // Smoothing over the window w increases the curvature k of the arc by the factor 1 + (k
+    // w)^2/24, and by terms of the order (k w)^4. The tolerance of 1/1000 covers these terms.
     const double rate = (now - before) / kStep * speed;
     EXPECT_LE(std::abs(rate), 1.001 * ReferenceCar().steering_rate) << s;
     before = now;
   }
-  // Within window^2/24 of the largest curvature: 0.12 m.
+  // The smoothed path deviates by at most window^2/24 times the largest curvature. The factor 1.1
+  // is a margin.
   const double deviation = window * window / 24.0 / 12.0 * 1.1;
   for (double s = 0.0; s < frame.goal; s += 0.5) {
     EXPECT_LE(std::abs(path.Project(frame.path.At(s).pose).cross_track), deviation);
@@ -376,7 +381,8 @@ TEST(MakeRouteFrame, OfArcsAsksNoMoreOfTheWheelsThanTheyCan) {
 TEST(MakeRouteFrame, IsSharperWhereTheRouteIsSlow) {
   const Path path({0.0, 0.0, 0.0}, {{60.0, 0.0}, {8.0 * M_PI, 1.0 / 8.0}, {60.0, 0.0}});
   Plan plan = PlanOn(path, 6.0);
-  // The distance from a tenth to nine tenths of the bend's curvature is eight tenths of the window.
+  // The ramp is the distance over which the curvature rises from 10 % to 90 % of the bend's
+  // curvature. This distance is 80 % of the window.
   const auto ramp = [&] {
     const RouteFrame frame = MakeRouteFrame(ReferenceCar(), plan, {6.0, 2.0, 3.0}, kExtension);
     const auto reaches = [&](double curvature) {
@@ -390,18 +396,18 @@ TEST(MakeRouteFrame, IsSharperWhereTheRouteIsSlow) {
   };
   const double turning =
       SteeringForCurvature(ReferenceCar(), 1.0 / 8.0) / ReferenceCar().steering_rate;
-  // The smoothed arc's curvature is larger by (k w)^2/24 = 0.11 at 6 m/s and 0.11^2, so nine tenths
-  // are reached earlier.
+  // The curvature k of the smoothed arc is larger by the fraction (k w)^2/24, which is 0.11 at 6
+  // m/s. The path therefore reaches 90 % of the bend's curvature earlier.
   EXPECT_NEAR(ramp(), 0.8 * 6.0 * turning, Tolerance(0.1221 * 6.0 * turning));
   plan.caps = {{50.0, 95.0, 2.0}};
   EXPECT_NEAR(ramp(), 0.8 * 2.0 * turning, Tolerance(0.0123 * 2.0 * turning + 0.1));
 }
 
-/// A lap of a ring of radius 60 m at 8 m/s, 30 m after its start.
+/// A car at 8 m/s on a ring of radius 60 m, 30 m after the start of its lap.
 struct RingLap {
   RingLap(double left_at_first, double left) {
     std::vector<TrackPoint> points = RingPoints(kRadius, 150, 3.0, left);
-    for (std::size_t i = 0; i < 40; ++i) {  // of 2.5 m
+    for (std::size_t i = 0; i < 40; ++i) {  // The points are 2.5 m apart.
       points[i].width_left = left_at_first;
     }
     Plan plan =
@@ -437,9 +443,9 @@ TEST_P(EveryAlongMethod, KeepsWithinTheEdgesOfATrackUntilItStands) {
   EXPECT_NEAR(plan.points.back().motion.speed, 0.0, Tolerance(1e-9));
   for (const TrajectoryPoint& point : plan.points) {
     for (const Vec2& corner : FootprintAt(lap.request.vehicle, point.motion.pose).Corners()) {
-      // Edges are polylines with points half a meter apart: 0.5^2/(8*55) = 0.0006 m. The car's
-      // sides are checked at five points, and may touch an edge between two of them: 0.55^2/(2*55)
-      // = 0.003 m.
+      // The edges are polylines with points 0.5 m apart, which are up to 0.5^2/(8 x 55) = 0.0006 m
+      // inside their circles. The sides of the car are checked at five points, and may touch an
+      // edge between two of these points: 0.55^2/(2 x 55) = 0.003 m.
       EXPECT_LE(corner.norm(), RingLap::kRadius + 3.0 - RingLap::kDistance + Tolerance(0.004));
       EXPECT_GE(corner.norm(), RingLap::kRadius - 5.0 + RingLap::kDistance - Tolerance(0.004));
     }
@@ -447,8 +453,9 @@ TEST_P(EveryAlongMethod, KeepsWithinTheEdgesOfATrackUntilItStands) {
 }
 
 TEST(PlanAlongRoute, BrakesBackToTheLineWhereItsOffsetLeadsOffTheTrack) {
-  // The lane is wide only up to 100 m. The car can pass the box at 68 m on the left, but then lacks
-  // the 32 m that it needs to stop at 1 m/s^2, of which 4 m are ahead of its rear axle.
+  // The lane is wide only up to 100 m. The car can pass the box at 68 m on the left. The wide part
+  // is then too short to stop in: stopping at 1 m/s^2 takes 32 m, and the front of the car is 4 m
+  // ahead of its rear axle.
   RingLap lap(5.0, 2.0);
   lap.request.speed.deceleration = 1.0;
   const AlongPlan plan = PlanAlongRoute(lap.frame, lap.request, lap.settings, FrenetOptions{});

@@ -24,7 +24,8 @@ namespace {
 
 constexpr SpeedLimits kSpeed{3.0, 1.0, 2.0};
 
-/// 120 m along x at 3 m/s, the car at 20 m, a box of 4 m by 9 m across the path at 50 m.
+/// Returns a request for a route of 120 m along x at 3 m/s. The car is at 20 m. A box of 4 m x 9 m
+/// blocks the path at 50 m.
 DetourRequest Blocked() {
   DetourRequest request{.vehicle = ReferenceCar(), .speed = kSpeed};
   const Path path({0.0, 0.0, 0.0}, {{120.0, 0.0}});
@@ -47,16 +48,16 @@ PlannerOptions Forwards() {
 }
 
 TEST(BlockedStretches, AreWhereTheFootprintIsTooNear) {
-  // The front is 3.625 m ahead of the rear axle, the rear 0.825 m behind it.
+  // The front of the car is 3.625 m ahead of the rear axle, and the rear is 0.825 m behind it.
   const Path path({0.0, 0.0, 0.0}, {{120.0, 0.0}});
   const std::vector<OrientedBox> boxes{{{50.0, 0.0, 0.0}, 4.0, 1.0}, {{80.0, 1.9, 0.0}, 2.0, 1.0}};
   const auto stretches = BlockedStretches(ReferenceCar(), path, 10.0, boxes, 0.6);
   ASSERT_EQ(stretches.size(), 2U);
-  // Sampled every 0.1 m.
+  // BlockedStretches samples the path every 0.1 m.
   EXPECT_NEAR(stretches[0].from, 48.0 - 0.6 - 3.625, Tolerance(0.1));
   EXPECT_NEAR(stretches[0].to, 52.0 + 0.6 + 0.825, Tolerance(0.1));
-  // The other box is 1.4 - 0.8625 = 0.5375 m beside the path: its ends add sqrt(0.6^2 - 0.5375^2) =
-  // 0.267 m.
+  // The second box is 1.4 - 0.8625 = 0.5375 m beside the side of the car. Its corners are within
+  // 0.6 m over an additional length of sqrt(0.6^2 - 0.5375^2) = 0.267 m at both ends.
   EXPECT_NEAR(stretches[1].from, 79.0 - 0.267 - 3.625, Tolerance(0.1));
   EXPECT_NEAR(stretches[1].to, 81.0 + 0.267 + 0.825, Tolerance(0.1));
   EXPECT_EQ(BlockedStretches(ReferenceCar(), path, 60.0, boxes, 0.6).size(), 1U);
@@ -86,11 +87,12 @@ TEST_P(EveryDetour, LeadsRoundAndBack) {
   EXPECT_EQ(path.At(0.0).curvature, 0.0);
   EXPECT_EQ(plan.reference.speed.SpeedAt(0.0), 3.0);
   EXPECT_EQ(plan.goal, request.route.goal);
-  // Headings match to 1e-6 rad at the joints, over 100 m.
+  // At the joints, the headings match to 1e-6 rad, which moves the end by 1e-4 m over 100 m.
   EXPECT_NEAR(path.At(path.length()).pose.x, 120.0, Tolerance(1e-4));
   EXPECT_NEAR(path.At(path.length()).pose.y, 0.0, Tolerance(2e-4));
   EXPECT_EQ(plan.reference.speed.SpeedAt(path.length()), 0.0);
-  // The path keeps the planner's distance of 0.3 m, less 1 cm between its samples.
+  // The path keeps the planner's safe distance of 0.3 m, less 2 cm between the samples of the
+  // planner.
   for (double s = 0.0; s < path.length(); s += 0.02) {
     const PathPoint at = path.At(s);
     EXPECT_GE(Separation(FootprintAt(ReferenceCar(), at.pose), request.obstacles[0]), 0.28) << s;
@@ -104,7 +106,8 @@ TEST_P(EveryDetour, LeadsRoundAndBack) {
   for (const SpeedCap& cap : plan.caps) {
     EXPECT_LE(plan.reference.speed.SpeedAt(0.5 * (cap.from + cap.to)), cap.speed + 1e-9);
   }
-  // Every curvature step, also at the joints, is slow enough to cause less than 0.1 m of offset.
+  // At every step of the curvature, including the joints, the speed is so low that the offset is
+  // below 0.1 m.
   double joint = 0.0;
   for (std::size_t i = 1; i < path.segments().size(); ++i) {
     const Segment& before = path.segments()[i - 1];
@@ -131,7 +134,7 @@ TEST_P(EveryDetour, IsNotTakenWhereStayingScoresBetter) {
   const Detour detour =
       PlanDetour(Blocked(), GetParam(), {.comparator = {.collision_penalty = 0.0}});
   EXPECT_FALSE(detour.route);
-  // A detour exists, but it costs more than the current path.
+  // The planner finds a detour, but it costs more than the current path.
   EXPECT_GT(detour.best.total, detour.current.total);
   EXPECT_TRUE(std::isfinite(detour.best.total));
   EXPECT_NE(detour.why.find("scores"), std::string::npos) << detour.why;
@@ -139,7 +142,7 @@ TEST_P(EveryDetour, IsNotTakenWhereStayingScoresBetter) {
 
 TEST_P(EveryDetour, SaysWhyThereIsNone) {
   DetourRequest request = Blocked();
-  // A ring of walls around the goal.
+  // Walls surround the goal.
   for (const auto& [x, y, length, width] :
        {std::array{100.0, 0.0, 1.0, 61.0}, std::array{150.0, 0.0, 1.0, 61.0},
         std::array{125.0, 30.0, 51.0, 1.0}, std::array{125.0, -30.0, 51.0, 1.0}}) {
@@ -152,8 +155,8 @@ TEST_P(EveryDetour, SaysWhyThereIsNone) {
 }
 
 TEST(PlanDetour, GoesTheWayTheWindBlows) {
-  // A box in the middle: both ways around it are equally long, but the wind is stronger on the
-  // left.
+  // A box blocks the middle of the path. Both ways around the box are equally long, but the wind is
+  // stronger on the left.
   DetourRequest request = Blocked();
   request.obstacles = {{{50.0, 0.0, 0.0}, 4.0, 8.0}};
   const auto side_of = [&](double strength) {
@@ -193,7 +196,8 @@ TEST(PlanDetour, RefusesPlannersThatCannot) {
 }
 
 TEST(PlanDetour, NeedsAWayBetweenItsEnds) {
-  // Past the box, half a meter before the goal: the detour would leave and rejoin at the goal.
+  // The car is past the box and 0.5 m before the goal. A detour would leave the path at the goal
+  // and return to it at the goal.
   DetourRequest request = Blocked();
   request.obstacles = {{{108.0, 1.0, 0.0}, 4.0, 9.0}};
   request.station = 119.5;
@@ -204,7 +208,8 @@ TEST(PlanDetour, NeedsAWayBetweenItsEnds) {
 }
 
 TEST(PlanDetour, LeadsOnFromBehindTheStartOfThePlan) {
-  // An impact has thrown the car back: the plan is extended straight before its start.
+  // An impact has thrown the car back behind the start of its plan. The plan is extended straight
+  // before its start.
   DetourRequest request = Blocked();
   const Path rest({20.0, 0.0, 0.0}, {{100.0, 0.0}});
   request.driven.reference = {rest, StopAtEnd(100.0, 0.0, kSpeed)};
@@ -214,13 +219,13 @@ TEST(PlanDetour, LeadsOnFromBehindTheStartOfThePlan) {
   ASSERT_TRUE(detour.route) << detour.why;
   const Path& path = (*detour.route)->reference.path;
   EXPECT_NEAR(path.At(0.0).pose.x, 18.5, Tolerance(1e-9));
-  // The joined path ends at the goal; the planner's curves end there to 1e-6 m.
+  // The joined path ends at the goal. The end of the planner's curves has an error of up to 1e-6 m.
   const Pose2 end = path.At(path.length()).pose;
   EXPECT_NEAR(end.x, 120.0, Tolerance(1e-5));
   EXPECT_NEAR(end.y, 0.0, Tolerance(1e-5));
 }
 
-/// Walls of growing width across the path: the trees find a way around some of them only.
+/// Walls of growing width block the path. The trees find a way around only some of the walls.
 TEST(DetourOfRandomTrees, DrawsABoundedNumberOfSamples) {
   for (const char* name : {"rrt", "rrt_star"}) {
     const auto& entries = Planners();

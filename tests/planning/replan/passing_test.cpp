@@ -21,7 +21,8 @@ namespace {
 
 constexpr SpeedLimits kLimits{8.0, 1.5, 2.0};
 
-/// A car 40 m after the start of a straight route of 400 m, behind a leader 2 m long, 1.5 m wide.
+/// A car on a straight route of 400 m, at a station of 40 m. A leader that is 2 m long and 1.5 m
+/// wide drives ahead of it.
 struct Road {
   Path path{{0.0, 0.0, 0.0}, {{400.0, 0.0}}};
   RouteFrame frame;
@@ -50,7 +51,7 @@ struct Road {
 
   void OpenOnTheLeft() { settings.road = {5.0, 1.5}; }
 
-  /// Adds a car that comes toward the car on its left.
+  /// Adds an oncoming car on the left side of the car.
   void AddOncoming(double ahead, double speed) {
     request.obstacles.push_back(BoxAt(path, 40.0 + ahead, 3.0));
     request.obstacles.back().velocity = {-speed, 0.0};
@@ -62,9 +63,9 @@ INSTANTIATE_TEST_SUITE_P(Planning, Passing, testing::ValuesIn(AlongMethods()),
                          [](const auto& of) { return std::string(of.param.name); });
 
 TEST(ShiftLength, UsesTheTightestLimitOfTheQuintic) {
-  // A quintic d(s) over this length, sampled by its own derivatives, reaches exactly one of the
-  // limits: steering rate L d''' v, curvature d'', lateral acceleration v^2 d''. Its second
-  // derivative is largest at (3 - sqrt 3)/6 of the length, its third at the ends.
+  // A quintic d(s) of this length must reach exactly one of three limits: the steering rate L d'''
+  // v, the curvature d'', or the lateral acceleration v^2 d''. The second derivative of the quintic
+  // is largest at (3 - sqrt 3)/6 of the length, and the third derivative at the ends.
   const VehicleParams car = ReferenceCar();
   const FrenetLimits limits{.max_lateral_acceleration = 2.0, .max_steering_rate_fraction = 0.8};
   for (const double speed : {0.3, 1.0, 3.0, 8.0, 20.0, 40.0}) {
@@ -81,8 +82,8 @@ TEST(ShiftLength, UsesTheTightestLimitOfTheQuintic) {
 }
 
 TEST_P(Passing, PullsOutFromBehindALeaderOfAnySpeedOnAWideRoad) {
-  // The car follows at the distance at which it settles behind the leader, and at the leader's
-  // speed. The road is open on both sides, so nothing keeps the car from passing.
+  // The car follows the leader at the leader's speed and at the distance at which it settles behind
+  // the leader. The road is open on both sides, so nothing keeps the car from passing.
   for (const double lead : {0.5, 1.0, 2.0, 3.0, 4.0, 5.0}) {
     Road road(lead, lead, 0.0);
     const double gap = road.settings.gap + road.settings.time_gap * lead;
@@ -101,7 +102,8 @@ TEST_P(Passing, FollowsOnANarrowRoadAndSaysHowWideItWouldHaveToBe) {
   const AlongPlan plan = road.Go(GetParam().defaults);
   ASSERT_EQ(plan.kind, ManeuverType::kFollow);
   EXPECT_FALSE(plan.passes);
-  // Half the leader, the car, and the safe distance between them.
+  // The required width consists of half of the leader's width, the car's width, and the safe
+  // distance between both.
   const double needed = 0.75 + ReferenceCar().width + road.settings.safe_distance;
   EXPECT_EQ(plan.why, fmt::format("no room to pass: it would need a road of {:.3g} m to the left "
                                   "of the route or {:.3g} m to the right, and plan.replan.road "
@@ -122,8 +124,8 @@ TEST_P(Passing, FollowsALeaderThatIsNoSlower) {
 }
 
 TEST_P(Passing, DoesNotPullOutWhereTheRouteEndsFirst) {
-  // From the leader's 5 m/s at best, the car gains 3 m/s on it: 15 m take 5 s, that is 40 m, and
-  // then the car needs 16 m to stop. The route ends in 45 m.
+  // The leader drives at 5 m/s, and the car gains at most 3 m/s on it. Gaining 15 m takes 5 s,
+  // which is 40 m. The car then needs 16 m to stop, but the route ends in 45 m.
   Road road(5.0, 5.0, 10.5);
   road.request.start.s = road.frame.goal - 45.0;
   road.request.obstacles[0].box.center.x += road.request.start.s - 40.0;
@@ -135,9 +137,9 @@ TEST_P(Passing, DoesNotPullOutWhereTheRouteEndsFirst) {
 }
 
 TEST_P(Passing, WaitsForOncomingTraffic) {
-  // At 8 m/s the car needs at least 8 s to pass a leader at 4 m/s: it starts 9 m behind the leader
-  // and more than 3 m/s below its desired speed, the leader is 2 m long, and the car is 4.5 m long.
-  // An oncoming car at 8 m/s from 80 m ahead meets the car within 6 s on its left.
+  // At 8 m/s, the car needs at least 8 s to pass a leader that drives at 4 m/s. The car starts 9 m
+  // behind the leader and more than 3 m/s below its desired speed. The leader is 2 m long, and the
+  // car is 4.5 m long. An oncoming car at 8 m/s, 80 m ahead, meets the car within 6 s on its left.
   Road road(4.0, 4.0, 9.0);
   road.OpenOnTheLeft();
   EXPECT_EQ(road.Go(GetParam().defaults).kind, ManeuverType::kProceed);
@@ -145,14 +147,15 @@ TEST_P(Passing, WaitsForOncomingTraffic) {
   const AlongPlan plan = road.Go(GetParam().defaults);
   EXPECT_EQ(plan.kind, ManeuverType::kFollow);
   EXPECT_FALSE(plan.why.empty());
-  // Traffic that stays away does not matter.
+  // A car that drives away must not prevent passing.
   road.request.obstacles.back().velocity = {8.0, 0.0};
   EXPECT_EQ(road.Go(GetParam().defaults).kind, ManeuverType::kProceed);
 }
 
-/// Drives a car among its obstacles for at most `time` [s] and replans twice a second. If there is
-/// no motion, the car keeps its last one; before the first, it brakes. Returns the time at which
-/// the car is past the leader and back on its route; infinite if it never is.
+/// Drives a car among its obstacles for at most `time` [s], with a new plan twice a second. If no
+/// motion is found, the car continues its last motion; before its first motion, it brakes. Returns
+/// the time [s] at which the car has passed the leader and is back on its route; infinite if this
+/// never happens.
 double TimeToPass(Road road, const AlongOptions& options, double time, double& nearest) {
   constexpr double kPeriod = 0.5;
   constexpr double kStep = 0.05;
@@ -196,10 +199,10 @@ TEST_P(Passing, GetsPastFromManyStarts) {
       for (const double speed : {1.0, 2.0, 4.0}) {
         SCOPED_TRACE(fmt::format("lead {} m/s, gap {} m, start {} m/s", lead, gap, speed));
         double nearest = 1e9;
-        // The car closes the gap and passes 6.5 m at 5 m/s or more, and pulls out within 25 s even
-        // at 0.5 m/s (ShiftLength).
+        // The car closes the gap and passes over 6.5 m at 5 m/s or more. Pulling out takes at most
+        // 25 s, even at 0.5 m/s (ShiftLength).
         EXPECT_LT(TimeToPass(Road(speed, lead, gap), GetParam().defaults, 40.0, nearest), 40.0);
-        // Motions may come 1 cm closer between their samples.
+        // Between their samples, motions may come 1 cm closer than the safe distance.
         EXPECT_GE(nearest, AlongSettings{}.safe_distance - 0.01);
       }
     }
@@ -219,7 +222,8 @@ TEST_P(Passing, KeepsClearOfOncomingTraffic) {
           << ahead << " m, " << speed << " m/s";
     }
   }
-  // Cars at 10 m/s from up to 100 m ahead are past after 10 s, and leave 10 s for passing.
+  // Oncoming cars at 10 m/s from up to 100 m ahead have gone by after 10 s. This leaves 10 s for
+  // passing.
   EXPECT_GE(passed, 10);
 }
 

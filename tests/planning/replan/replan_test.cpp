@@ -20,7 +20,7 @@ namespace trackbed {
 namespace replan_test {
 
 constexpr SpeedLimits kSpeed{3.0, 1.0, 2.0};
-constexpr double kFront = 4.45 - 0.825;  // of the reference car, ahead of its rear axle [m]
+constexpr double kFront = 4.45 - 0.825;  // Front of the reference car, ahead of its rear axle [m].
 
 Plan StraightPlan(double length, double start_speed) {
   Plan plan;
@@ -30,7 +30,7 @@ Plan StraightPlan(double length, double start_speed) {
   return plan;
 }
 
-/// A car on a straight route of 150 m, 30 m after its start, at 3 m/s.
+/// A car at 3 m/s on a straight route of 150 m, at a station of 30 m.
 struct Scene {
   Driving driving;
   ReplanRequest request{.vehicle = ReferenceCar(), .speed = kSpeed};
@@ -47,7 +47,7 @@ struct Scene {
     options.settings.road = {5.0, 5.0};
   }
 
-  /// Places an obstacle across the route, `ahead` of the car's front.
+  /// Places an obstacle across the route, `ahead` [m] before the car's front.
   void Block(double ahead, double width = 2.0) {
     request.obstacles.push_back(
         BoxAt(driving.route.reference.path, 30.0 + kFront + ahead + 1.0, 0.0, 2.0, width));
@@ -76,7 +76,8 @@ TEST(PredictConflict, WithWhatStandsIsWhenTheFrontGetsNear) {
   const auto met = PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.5, 12.0);
   ASSERT_TRUE(met);
   EXPECT_EQ(met->obstacle, 1U);
-  // Sampled every 0.1 s, that is 0.3 m. A violation of one centimeter counts as a conflict.
+  // PredictConflict samples the motion every 0.1 s, which is every 0.3 m. A conflict begins 1 cm
+  // inside the safe distance.
   const double station = 59.0 - kFront - 0.5;
   EXPECT_GE(met->station, station);
   EXPECT_LE(met->station, station + 0.31);
@@ -86,11 +87,12 @@ TEST(PredictConflict, WithWhatStandsIsWhenTheFrontGetsNear) {
 
 TEST(PredictConflict, ReckonsWithWhatMoves) {
   const Reference reference{Path({0.0, 0.0, 0.0}, {{150.0, 0.0}}), SpeedProfile({{0.0, 3.0}})};
-  // A box that crosses from the right at 1 m/s, over the path 8 s from now, where the car then is.
+  // A box crosses the road from the right at 1 m/s. In 8 s, the box and the car are at the same
+  // place.
   std::vector<MovingBox> boxes{BoxAt(reference.path, 30.0 + 24.0, -8.0, 1.0, 1.0)};
   boxes[0].velocity = {0.0, 1.0};
   EXPECT_TRUE(PredictConflict(ReferenceCar(), reference, 30.0, boxes, 0.3, 12.0));
-  // Crossing 5 s earlier or later, it causes no conflict.
+  // A box that crosses 5 s earlier or later causes no conflict.
   for (const double shift : {-5.0, 5.0}) {
     std::vector<MovingBox> other = boxes;
     other[0].box.center.y += shift;
@@ -114,7 +116,7 @@ TEST(StandsInTurn, AsksForTheBendBesideIt) {
   EXPECT_FALSE(StandsInTurn(ReferenceCar(), path, 0.0, box(20.0), 1.0));
   EXPECT_TRUE(StandsInTurn(ReferenceCar(), path, 0.0, box(47.0), 1.0));
   EXPECT_FALSE(StandsInTurn(ReferenceCar(), path, 0.0, box(80.0), 1.0));
-  EXPECT_FALSE(StandsInTurn(ReferenceCar(), path, 60.0, box(47.0), 1.0));  // it is behind
+  EXPECT_FALSE(StandsInTurn(ReferenceCar(), path, 60.0, box(47.0), 1.0));  // The box is behind.
 }
 
 TEST(PredictConflict, ReckonsWithAnOffset) {
@@ -131,9 +133,9 @@ TEST(MightClear, CountsWhatIsOrComesInTheWay) {
   EXPECT_FALSE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));  // a standing box
   boxes[0].velocity = {0.0, 1.0};
   EXPECT_TRUE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));
-  boxes[0].box.center.y = 20.0;  // it has passed and moves away
+  boxes[0].box.center.y = 20.0;  // The box has passed and moves away.
   EXPECT_FALSE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));
-  boxes[0].velocity = {0.0, -1.0};  // it comes back across the path
+  boxes[0].velocity = {0.0, -1.0};  // The box comes back across the path.
   EXPECT_TRUE(MightClear(ReferenceCar(), path, 30.0, boxes, 0.5));
 }
 
@@ -157,7 +159,7 @@ TEST(Replan, LeadsPastAndBackOntoTheRoute) {
   bool back = false;
   double nearest = 1e9;
   for (int look = 0; look < 80 && !back; ++look) {
-    // Position, heading and curvature are continuous at the start.
+    // The position, heading and curvature must be continuous at the start of the plan.
     const PathPoint start = next.plan->reference.path.At(0.0);
     EXPECT_NEAR(start.pose.x, scene.request.car.pose.x, Tolerance(1e-6));
     EXPECT_NEAR(start.pose.y, scene.request.car.pose.y, Tolerance(1e-6));
@@ -205,9 +207,10 @@ TEST(Replan, BrakesAsHardAsItMustWhereNoMotionIsLeft) {
       << next.plan->blocked;
 }
 
-/// Distance from the front to the obstacle, less the required distance.
+/// Returns the distance within which the car must stop for an obstacle `ahead` [m] before its
+/// front.
 double RoomBefore(const Scene& scene, double ahead) {
-  // The car stops half a meter before the conflict, which is a centimeter inside the safe distance.
+  // The car stops 0.5 m before the conflict. A conflict begins 1 cm inside the safe distance.
   return ahead - scene.options.settings.safe_distance + 0.01 - 0.5;
 }
 
@@ -218,7 +221,7 @@ TEST(Replan, BrakesNoHarderThanTheObstacleNeeds) {
     scene.request.max_deceleration = 8.0;
     const Replanned next = scene.Go();
     ASSERT_EQ(next.kind, ReplanKind::kStop);
-    // The conflict is located to 0.1 ms, that is 0.3 mm.
+    // The time of the conflict is accurate to 0.1 ms, which is 0.3 mm.
     const double room = RoomBefore(scene, ahead);
     EXPECT_NEAR(next.plan->reference.path.length(), room, Tolerance(5e-4));
     EXPECT_NEAR(next.plan->reference.speed.AccelerationAt(0.0), -std::max(2.0, 4.5 / room),
@@ -233,7 +236,7 @@ TEST(Replan, BrakesAtTheCarsLimitWhereThatIsNotEnough) {
   const Replanned next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kStop);
   EXPECT_NEAR(next.plan->reference.path.length(), 4.5 / 8.0, Tolerance(1e-9));
-  // On ice the limit is below the usual comfortable deceleration.
+  // On ice, the car's limit is below the mission's deceleration.
   scene.request.max_deceleration = 1.0;
   const Replanned on_ice = scene.Go();
   EXPECT_NEAR(on_ice.plan->reference.path.length(), 4.5, Tolerance(1e-9));
@@ -244,8 +247,8 @@ TEST(Replan, BrakesForWhatComesAsHardAsThatTakes) {
   Scene scene;
   scene.request.max_deceleration = 8.0;
   scene.Block(2.0, 2.0);
-  // The box crosses from the right: it would meet the car at its present speed, but not if it
-  // stops.
+  // The box crosses from the right. The box would hit the car at the car's present speed, but not
+  // if the car stops.
   scene.request.obstacles[0].box.center.y = -4.0;
   scene.request.obstacles[0].velocity = {0.0, 3.0};
   scene.options.settings.road = {1.0, 1.0};
@@ -276,7 +279,8 @@ TEST(Replan, DoesNotBrakeForWhatComesFromBehind) {
 }
 
 TEST(Replan, AsksForNoMoreThanTheLimitBeyondThePlansEnd) {
-  // 0.4 m before the goal, pushed to 3 m/s: the remaining path is too short to stop on.
+  // The car is 0.4 m before the goal, and an impact has pushed it to 3 m/s. The remaining path is
+  // too short to stop on.
   Scene scene;
   scene.request.strayed = true;
   scene.driving.station = 149.6;
@@ -322,8 +326,8 @@ TEST(Replan, TakesADetourWhereNoMotionLeadsPast) {
   ASSERT_EQ(next.kind, ReplanKind::kRoute) << DiagnosticsJson(next.plan).dump();
   EXPECT_EQ(DiagnosticsJson(next.plan)["replan"]["kind"], "detour");
   EXPECT_TRUE(next.plan->blocked.empty());
-  // Without a penalty the detour is not worth its length: keep the motion that stops or proceeds
-  // for now.
+  // Without a penalty, the detour is not worth its length. The car then keeps the motion that stops
+  // or proceeds.
   scene.options.comparator = DetourChoice{.comparator = {.collision_penalty = 0.0}};
   EXPECT_EQ(scene.Go().kind, ReplanKind::kMotion);
 }
@@ -376,7 +380,8 @@ TEST(Replan, TriesAgainWhenItWasStuck) {
   EXPECT_GT(next.plan->reference.speed.SpeedAt(20.0), 2.9);
 }
 
-/// A car anywhere near its plan, also before its start and beyond its end, as impacts leave it.
+/// Returns a random scene. The car is near its plan, and may be before the start or beyond the end
+/// of the plan, as after an impact.
 Scene RandomScene(std::mt19937& random) {
   const auto between = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
@@ -429,7 +434,7 @@ TEST(Replan, AnswersWhereverTheCarIs) {
     const double hardest = std::max(scene.request.max_deceleration, kSpeed.deceleration);
     EXPECT_EQ(speed.knots().back().speed, 0.0);
     for (const SpeedProfile::Knot& knot : speed.knots()) {
-      // Rounding: a profile takes a few operations on numbers below 200.
+      // The tolerance allows for rounding in a few operations on numbers below 200.
       EXPECT_GE(speed.AccelerationAt(knot.s), -hardest - Tolerance(1e-9));
     }
     // Planning can continue from the end of the new plan.

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// Two legs from (0, 0) via (5, height) to (10, 0).
+/// Returns two legs from (0, 0) via (5, height) to (10, 0).
 std::vector<Vec2> Over(double height) {
   return {{0.0, 0.0}, {5.0, height}, {10.0, 0.0}};
 }
@@ -63,8 +63,8 @@ TEST(Comparator, UniformWindDoesNotMatter) {
 }
 
 TEST(Comparator, LayersOfWindTurnTheChoice) {
-  // Tailwind above, headwind below, both 1 m/s at V = 3 m/s: each changes the cost by a third of
-  // the length.
+  // The wind is a tailwind above the x axis and a headwind below it, both of 1 m/s. At V = 3 m/s,
+  // each changes the cost of a path by a third of its length.
   const OrientedBox above{{5.0, 5.0, 0.0}, 20.0, 10.0};
   const OrientedBox below{{5.0, -5.0, 0.0}, 20.0, 10.0};
   const auto layer = [](const OrientedBox& area, double speed) {

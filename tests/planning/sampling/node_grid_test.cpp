@@ -23,7 +23,7 @@ void PrintTo(const Box& box, std::ostream* out) {
   *out << box.name;
 }
 
-/// Random points in a box; results are compared with a linear search.
+/// A grid of random points in a box. The tests compare the results of queries with a linear search.
 class NodeGridIn : public ::testing::TestWithParam<Box> {
  protected:
   Vec2 RandomPoint() {
@@ -55,7 +55,7 @@ class NodeGridIn : public ::testing::TestWithParam<Box> {
       nearest = std::min(nearest, (point - p).squaredNorm());
     }
     EXPECT_EQ((points_[grid_.Nearest(p)] - p).squaredNorm(), nearest);
-    std::vector<NodeGrid::Near> near{{1.0, 2}};  // left over from an earlier query
+    std::vector<NodeGrid::Near> near{{1.0, 2}};  // A result of an earlier query.
     grid_.FindWithin(p, radius, near);
     std::vector<std::size_t> nodes;
     for (const NodeGrid::Near& found : near) {

@@ -11,7 +11,7 @@
 #include <ompl/base/spaces/ReedsSheppStateSpace.h>
 #endif
 
-// Compares the shortest curves with OMPL's, where OMPL is installed.
+// Compares the lengths of the shortest curves with those of OMPL, if OMPL is installed.
 namespace trackbed {
 namespace {
 
@@ -28,7 +28,7 @@ void Compare(double radius, const Length& length) {
   };
   Random random(5);
   for (int i = 0; i < 100000; ++i) {
-    // Near and far poses: only close ones need the words of many arcs.
+    // The poses are close to each other or far apart. Only close poses need words of many arcs.
     const double reach = i % 3 == 0 ? 30.0 : 3.0 * radius;
     const Pose2 from = RandomPose(random, reach);
     const Pose2 to = RandomPose(random, reach);

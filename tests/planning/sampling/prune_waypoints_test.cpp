@@ -12,7 +12,8 @@
 namespace trackbed {
 namespace {
 
-/// Tangent length of a corner, proportional to its turn; any increasing law works here.
+/// Returns the tangent length of a corner, proportional to its turn. Any increasing function would
+/// be suitable here.
 double Tangent(double turn) {
   return 3.0 * turn;
 }
@@ -38,8 +39,8 @@ struct Case {
   }
 };
 
-/// A path around boxes as a tree might return it. Some of its lines may touch boxes, which the
-/// pruning must tolerate.
+/// Returns a random path around boxes, as a tree might return it. Some lines of the path may touch
+/// boxes, which PruneWaypoints must tolerate.
 Case RandomCase(Random& random) {
   Case one;
   const int points = 3 + random.Below(6);
@@ -67,7 +68,7 @@ Case RandomCase(Random& random) {
   return one;
 }
 
-/// Sums up the cost of a path by the documented formula; a corner without room costs a million
+/// Returns the cost of a path by the documented formula. A corner without room costs a million
 /// meters.
 double PathCost(const Case& one, const std::vector<Vec2>& few) {
   double cost = -WindScore(InPieces(few), one.wind);
@@ -91,7 +92,7 @@ double PathCost(const Case& one, const std::vector<Vec2>& few) {
   return cost;
 }
 
-/// The lowest cost by enumerating all subsets of points.
+/// Returns the lowest cost, found by enumerating all subsets of the points.
 double LowestCost(const Case& one) {
   double cheapest = std::numeric_limits<double>::infinity();
   const std::size_t inner = one.way.size() - 2;
@@ -126,7 +127,7 @@ TEST(FewCorners, AreTheCheapestOfAllChoices) {
     const std::vector<Vec2> few = PruneWaypoints(one.way, one.problem());
     ASSERT_EQ(few.front(), one.way.front());
     ASSERT_EQ(few.back(), one.way.back());
-    // Rounding of sums of up to 1e7 m, in another order.
+    // The tolerance allows for rounding in sums of up to 1e7 m that are added in another order.
     ASSERT_NEAR(PathCost(one, few), LowestCost(one), Tolerance(1e-7)) << "case " << i;
     fewer += few.size() < one.way.size() ? 1 : 0;
   }

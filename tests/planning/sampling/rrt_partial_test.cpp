@@ -16,8 +16,8 @@
 #include "trackbed/planning/sampling/rrt_planner.h"
 #include "trackbed/world/world.h"
 
-// Partial RRT plans: they end as near to the goal as the trees came within their samples or their
-// time.
+// Tests partial RRT plans. A partial plan ends as near to the goal as the trees came within their
+// samples or their time.
 namespace trackbed {
 namespace {
 
@@ -33,7 +33,8 @@ PlanRequest To(std::vector<Vec2> waypoints, std::vector<OrientedBox> obstacles =
   return request;
 }
 
-/// A wall across the whole sampled area; its near side is at x = 29.5 m.
+/// Returns a request with a wall across the whole sampled area. The near side of the wall is at x =
+/// 29.5 m.
 PlanRequest BeforeAWall() {
   return To({{50.0, 0.0}}, {{{30.0, 0.0, 0.0}, 1.0, 200.0}});
 }
@@ -42,7 +43,8 @@ Vec2 EndPoint(const Plan& plan) {
   return plan.reference.path.At(plan.reference.path.length()).pose.position();
 }
 
-/// The node of a tree nearest to a point, among the nodes from `first` on.
+/// Returns the index of the node that is nearest to a point, among the nodes from the index `first`
+/// on.
 std::size_t NearestNode(const std::vector<TreeNode>& tree, const Vec2& point,
                         std::size_t first = 0) {
   std::size_t nearest = first;
@@ -54,7 +56,8 @@ std::size_t NearestNode(const std::vector<TreeNode>& tree, const Vec2& point,
   return nearest;
 }
 
-/// Number of steps from `node` toward the root to the node at `point`; empty if none is there.
+/// Returns the number of steps from `node` toward the root to the node at `point`; nullopt if no
+/// such node is on the way.
 std::optional<int> NodesBefore(const std::vector<TreeNode>& tree, std::size_t node,
                                const Vec2& point) {
   for (int before = 0;; ++before) {
@@ -68,8 +71,8 @@ std::optional<int> NodesBefore(const std::vector<TreeNode>& tree, std::size_t no
   }
 }
 
-/// Checks the exact distance of boxes every 2 cm, over which the footprint's farthest corner moves
-/// by 1 + 3.7/5.1 times as much.
+/// Checks the exact distance between the footprint and the boxes every 2 cm. Within half a step,
+/// the farthest corner moves by (1 + 3.7/5.1) x 1 cm = 1.7 cm.
 void ExpectClear(const PlanRequest& request, const Plan& plan) {
   const Path& path = plan.reference.path;
   for (double s = 0.0; s < path.length() + 0.02; s += 0.02) {
@@ -101,8 +104,7 @@ TEST(PartialPlan, EndsAtTheNodeNearestToTheGoal) {
     EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndPoint(plan) - goal).norm(), Tolerance(1e-9));
     EXPECT_EQ(plan.reference.speed.SpeedAt(plan.reference.path.length()), 0.0);
   }
-  // The plan stops before the nearest node where the branch has a corner that is too sharp for the
-  // car.
+  // If a branch has a corner that is too sharp for the car, the plan ends before the nearest node.
   EXPECT_GE(at_the_nearest, 20);
 }
 
@@ -123,7 +125,8 @@ TEST(PartialPlan, SaysHowFarItLeads) {
 }
 
 TEST(PartialPlan, KeepsClearOfWhatStoppedTheTree) {
-  // Nodes come to within 2.16 m of the wall. There the car's front, 3.625 m ahead, would be in it.
+  // Nodes come within 2.16 m of the wall. At such a node, the front of the car, 3.625 m ahead of
+  // the rear axle, would be in the wall.
   PlanRequest request = BeforeAWall();
   for (request.seed = 0; request.seed < 10; ++request.seed) {
     const Plan plan =
@@ -151,7 +154,7 @@ TEST(PartialPlan, IsOfTheTreeThatLeadsNearest) {
       EXPECT_LE(own, tree.value("left_m", own));
     }
     EXPECT_EQ(each.at(DiagnosticsJson(plan)["chosen"].get<std::size_t>())["left_m"], own);
-    // More trees contain the trees of a run with fewer.
+    // A run with more trees contains the trees of a run with fewer trees.
     EXPECT_LE(own, left);
     left = own;
     of_one = trees == 1 ? own : of_one;
@@ -176,8 +179,8 @@ TEST(PartialPlan, LeadsThroughTheWaypointsThatAreReached) {
   EXPECT_TRUE(NodesBefore(plan.tree, nearest, EndPoint(plan)));
   EXPECT_NEAR(DiagnosticsJson(plan)["left_m"], (EndPoint(plan) - request.waypoints[2]).norm(),
               Tolerance(1e-9));
-  // The corner at this node is rounded: the path misses the node by no more than the car's radius
-  // implies.
+  // The path rounds the corner at this node, and misses the node by no more than the turning radius
+  // of the car implies.
   EXPECT_LT(
       (plan.reference.path.At(plan.reference.path.Project({20.0, 8.0, 0.0}).s).pose.position() -
        Vec2(20.0, 8.0))
@@ -233,7 +236,7 @@ TEST(PartialPlan, OfSamplesAloneIsTheSameEveryTime) {
   EXPECT_EQ(DiagnosticsJson(first), DiagnosticsJson(second));
 }
 
-/// A clock that advances by `step` on every read.
+/// Returns a clock that advances by `step` [s] on every read.
 std::function<double()> Clock(double step) {
   return [time = 0.0, step]() mutable { return time += step; };
 }
@@ -244,12 +247,12 @@ TEST(TimeLimit, EndsTheTreeAndLeadsToItsNearestNode) {
   const Plan limited = MakePlan(request, RrtPlannerOptions{.time_limit = 64.0 / 1024.0});
   ASSERT_TRUE(limited.ok()) << limited.reason;
   EXPECT_THAT(limited.partial, HasSubstr("the nearest feasible path of 1 tree in 0.0625 s"));
-  // The planner reads the clock at the start and before every iteration. The time is over before
-  // the 64th.
+  // The planner reads the clock at the start and before every iteration. The time limit is reached
+  // before the 64th iteration.
   const auto leg = DiagnosticsJson(limited)["legs"].at(0);
   EXPECT_EQ(leg["status"], "stopped");
   EXPECT_EQ(leg["iterations"], 63);
-  // The same number of samples without a clock gives the same plan.
+  // A plan with the same number of samples and no clock must be equal.
   const Plan counted =
       MakePlan(request, RrtPlannerOptions{.trees = 1, .iterations = 63, .partial = true});
   EXPECT_EQ(limited.reference.path.segments(), counted.reference.path.segments());
@@ -259,7 +262,7 @@ TEST(TimeLimit, KeepsTheWayThatWasFoundBefore) {
   PlanRequest request = To({{50.0, 0.0}}, {{{25.0, 0.0, 0.0}, 6.0, 6.0}});
   const Plan one = MakePlan(request, RrtPlannerOptions{.trees = 1});
   ASSERT_TRUE(one.ok()) << one.reason;
-  // Enough time for the first tree, none for the second.
+  // The time is enough for the first tree, but not for the second tree.
   const double samples = DiagnosticsJson(one)["legs"].at(0)["iterations"];
   request.clock = Clock(1.0);
   const Plan limited = MakePlan(request, RrtPlannerOptions{.time_limit = samples + 2.0});
@@ -279,7 +282,7 @@ TEST(TimeLimit, WithoutPartialPlansIsAReasonToRefuse) {
 }
 
 TEST(TimeLimit, IsKeptByTheCallersClockAlone) {
-  // A limit below the time of any tree has no effect without a clock or with a stopped clock.
+  // A time limit below the time of any tree has no effect without a clock, or with a stopped clock.
   PlanRequest request = To({{50.0, 0.0}}, {{{25.0, 0.0, 0.0}, 6.0, 6.0}});
   const Plan without = MakePlan(request, RrtPlannerOptions{});
   const RrtPlannerOptions limited{.time_limit = 1e-9};

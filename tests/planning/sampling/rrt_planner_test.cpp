@@ -34,13 +34,13 @@ PlanRequest Across(std::vector<OrientedBox> obstacles) {
   return request;
 }
 
-/// A box centered on the route, equally wide to the left and to the right.
+/// Returns a request with a box that is centered on the route.
 PlanRequest BoxInTheMiddle() {
   return Across({{{25.0, 0.0, 0.0}, 6.0, 6.0}});
 }
 
-/// Wind of 9 m/s, tailwind on one side of the route and headwind on the other. At 3 m/s it changes
-/// the cost by three times the length.
+/// Returns wind of 9 m/s with a tailwind on one side of the route and a headwind on the other side.
+/// At 3 m/s, the wind changes the cost of a path by three times its length.
 Wind Layers(double left) {
   const auto layer = [](double y, double speed) {
     return Gust{.velocity = {speed, 0.0},
@@ -103,7 +103,7 @@ TEST(RrtPlanner, BeginsStraightOn) {
   const Plan plan = MakePlan(request, RrtPlannerOptions{});
   ASSERT_TRUE(plan.ok()) << plan.reason;
   EXPECT_NEAR(AngleDifference(plan.reference.path.At(0.0).pose.yaw, 0.4), 0.0, Tolerance(1e-9));
-  // Without a lead-in the path begins along its first leg, regardless of the car's heading.
+  // Without a lead-in, the path begins along its first leg, regardless of the car's heading.
   const Plan without = MakePlan(request, RrtPlannerOptions{.lead_in = 0.0});
   EXPECT_FALSE(without.ok());
   EXPECT_NE(without.reason.find("initial heading error"), std::string::npos) << without.reason;
@@ -117,14 +117,15 @@ TEST(RrtPlanner, BeginsStraightOn) {
 }
 
 TEST(RrtPlanner, BeginsAsFarStraightOnAsThereIsRoomFor) {
-  // With the default lead-in, the rolling car is too near its first corner. A lead-in that it can
-  // stop on ends 15.8 m from its rear axle, 4.6 m before a box. A shorter one fits.
+  // With the default lead-in, the rolling car is too close to its first corner. A lead-in that is
+  // long enough to stop ends 15.8 m ahead of the rear axle, 4.6 m before a box. A shorter lead-in
+  // is sufficient.
   PlanRequest request = Across({{{22.39, 0.0, 0.0}, 4.0, 4.0}, {{40.0, 5.0, 0.0}, 4.0, 4.0}});
   request.speed.speed = request.start_speed = 4.48;
   RrtPlannerOptions options{.trees = 3};
   const Plan plan = MakePlan(request, options);
   EXPECT_TRUE(plan.ok()) << plan.reason;
-  // A car at rest needs no longer lead-in.
+  // A car at rest does not need a longer lead-in.
   request.start_speed = 0.0;
   EXPECT_TRUE(MakePlan(request, options).ok());
 }
@@ -181,8 +182,8 @@ TEST(RrtPlanner, TellsHowFarItCame) {
 }
 
 TEST(RrtPlanner, TellsOfTheTreeThatCameNearest) {
-  // The goal behind the wall is unreachable. Runs with more trees contain the trees of runs with
-  // fewer.
+  // A wall makes the goal unreachable. A run with more trees contains the trees of a run with fewer
+  // trees.
   const PlanRequest request = Across({{{30.0, 0.0, 0.0}, 1.0, 200.0}});
   std::vector<double> left;
   for (int trees = 1; trees <= 8; ++trees) {
@@ -225,7 +226,8 @@ TEST(RrtPlanner, IsClearOrSaysWhyNotInRandomFields) {
       const PathPoint point = path.At(s);
       ASSERT_LE(std::abs(point.curvature), 1.0 / ReferenceCar().min_turning_radius() + 1e-12);
       for (const OrientedBox& box : request.obstacles) {
-        // Between the planner's own checks the footprint's farthest corner may come 1.8 cm nearer.
+        // Between the checks of the planner, the farthest corner of the footprint may come 1.8 cm
+        // closer.
         ASSERT_GE(Separation(FootprintAt(ReferenceCar(), point.pose), box), 0.3 - Tolerance(0.018));
       }
     }

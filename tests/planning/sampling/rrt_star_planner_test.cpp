@@ -13,14 +13,15 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/registry/planners.h"
 
-// Tests specific to the RRT* planner. rrt_star_test.cpp tests the trees, route_planners_test.cpp
-// the guarantees of every planner.
+// Tests specific to the RRT* planner. The file rrt_star_test.cpp tests the trees, and
+// route_planners_test.cpp tests the guarantees of every planner.
 namespace trackbed {
 namespace {
 
 using ::testing::HasSubstr;
 
-/// A wall that ends 5 m to the left of the line to the goal and extends far to its right.
+/// Returns a request with a wall that ends 5 m to the left of the line to the goal and extends far
+/// to the right.
 PlanRequest AroundAWall() {
   PlanRequest request;
   request.vehicle = ReferenceCar();
@@ -30,19 +31,21 @@ PlanRequest AroundAWall() {
   return request;
 }
 
-/// Length of the shortest path of a point from the end of the lead-in, at x = `lead`, around the
-/// wall's inflated end: two tangents to the circle around the end, and the arc between them.
+/// Returns the length of the shortest path of a point around the inflated end of the wall. The path
+/// starts at the end of the lead-in, x = `lead`. It consists of two tangents to the circle around
+/// the wall's end, and the arc between them.
 double ShortestAround(double lead, double inflation) {
   const double from = std::hypot(30.0 - lead, 5.0);
   const double to = std::hypot(30.0, 5.0);
   const double turn = std::acos(inflation / from) + std::acos(inflation / to);
-  // Angles at the wall's end, which lies 5 m above the line.
+  // The angle between the directions from the wall's end, 5 m to the left of the line, to the two
+  // ends of the path.
   const double between = std::atan2(30.0 - lead, 5.0) + std::atan2(30.0, 5.0);
   return std::sqrt(from * from - inflation * inflation) +
          std::sqrt(to * to - inflation * inflation) + inflation * (2.0 * M_PI - between - turn);
 }
 
-/// Length of the tree's path, whether the car can follow it or not.
+/// Returns the length of the tree's path, even if the car cannot follow this path.
 double TreeLength(const Plan& plan) {
   const nlohmann::json own = DiagnosticsJson(plan);
   double length = 0.0;
@@ -68,7 +71,7 @@ TEST(RrtStarPlanner, MoreSamplesNeverLengthenTheTreesPathAndComeNearTheShortest)
       EXPECT_GE(length, shortest - Tolerance(1e-9));
       before = length;
     }
-    // 20000 samples on other maps come within 3 % (rrt_star_test.cpp).
+    // On other maps, 20000 samples come within 3 % of the shortest path (rrt_star_test.cpp).
     EXPECT_LE(before, shortest * (1.0 + Tolerance(0.03)));
   }
 }
@@ -87,7 +90,7 @@ TEST(RrtStarPlanner, GivesItsTreeAndSaysHowEachOfThemEnded) {
   for (std::size_t i = 0; i < plan.tree.size(); ++i) {
     const TreeNode& node = plan.tree[i];
     const TreeNode& parent = plan.tree.at(node.parent);
-    // Rounding of sums of some tens of lengths up to 100 m.
+    // The tolerance allows for rounding in sums of some tens of lengths up to 100 m.
     EXPECT_NEAR(node.cost, parent.cost + (node.position - parent.position).norm(),
                 Tolerance(1e-11));
   }

@@ -20,8 +20,8 @@
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 
-// Tests RRT* on five maps: edges and costs by Boost.Geometry, and path lengths against the shortest
-// path, found by A* over a visibility graph.
+// Tests RRT* on five maps. Boost.Geometry checks the edges and the costs. The test compares path
+// lengths with the shortest path, which A* finds on a visibility graph.
 namespace trackbed {
 
 void PrintTo(const Map& map, std::ostream* out) {
@@ -34,7 +34,7 @@ namespace bg = boost::geometry;
 using Point = bg::model::d2::point_xy<double>;
 using Polygon = bg::model::polygon<Point, false>;
 
-/// The obstacles of a problem, checked with Boost.Geometry.
+/// The obstacles of a problem, with distances computed by Boost.Geometry.
 class Surroundings {
  public:
   explicit Surroundings(const RrtStarProblem& problem) : inflation_(problem.inflation) {
@@ -51,7 +51,7 @@ class Surroundings {
   [[nodiscard]] bool IsFree(const Vec2& from, const Vec2& to) const {
     return KeepsOff(bg::model::segment<Point>(Point(from.x(), from.y()), Point(to.x(), to.y())));
   }
-  /// Checks points at most 1 cm apart.
+  /// Returns whether points at most 1 cm apart on the line are free.
   [[nodiscard]] bool IsFreeBySamples(const Vec2& from, const Vec2& to) const {
     const double count = std::ceil((to - from).norm() / 0.01);
     for (double i = 0.0; i <= count; i += 1.0) {
@@ -65,7 +65,7 @@ class Surroundings {
  private:
   template <typename Geometry>
   [[nodiscard]] bool KeepsOff(const Geometry& geometry) const {
-    // Boost's rounding of a distance that is exactly at the limit.
+    // Boost.Geometry may round a distance that is exactly at the limit.
     constexpr double kRounding = 1e-12;
     return std::all_of(polygons_.begin(), polygons_.end(), [&](const Polygon& polygon) {
       return bg::distance(geometry, polygon) > inflation_ - kRounding;
@@ -76,10 +76,10 @@ class Surroundings {
   std::vector<Polygon> polygons_;
 };
 
-/// Length of the shortest path, at most 1e-4 too long. A* over the visibility graph of start, goal
-/// and points every 2 degrees around the inflated corners. The points are placed far enough out
-/// that the chords between them are free (1/cos 1 degree = 1 + 1.5e-4 on the bends, which are part
-/// of the path).
+/// Returns the length of the shortest path, at most 1e-4 too long. Runs A* on the visibility graph
+/// of the start, the goal and points every 2 degrees around the corners of the boxes. The points
+/// are on circles whose radius is the inflation divided by cos(1 degree), so that the chords
+/// between the points are free. This makes the bends longer by the fraction 1.5e-4.
 double ShortestWay(const RrtStarProblem& problem) {
   const Surroundings surroundings(problem);
   constexpr double kHalfStep = kPi / 180.0;
@@ -144,7 +144,7 @@ RrtStarOptions Budget(int iterations) {
   return options;
 }
 
-/// An empty area of 20 by 10 m.
+/// Returns a problem in an empty area of 20 m x 10 m.
 RrtStarProblem Nothing() {
   return {{2.0, 5.0}, {18.0, 5.0}, {0.0, 0.0}, {20.0, 10.0}, {}, 0.5};
 }
@@ -182,7 +182,7 @@ TEST_P(RrtStarIn, CostsAreLengthsOfWaysFromTheStart) {
   for (std::size_t i = 1; i < result.nodes.size(); ++i) {
     const TreeNode& node = result.nodes[i];
     const TreeNode& parent = result.nodes[node.parent];
-    // Rounding of one addition.
+    // The tolerance allows for the rounding error of one addition.
     ASSERT_NEAR(node.cost, parent.cost + (node.position - parent.position).norm(),
                 Tolerance(1e-13));
     std::size_t steps = 0;
@@ -243,7 +243,7 @@ TEST_P(RrtStarIn, CostComesNearTheShortestWay) {
   ASSERT_TRUE(std::isfinite(shortest));
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const double cost = PlanRrtStar(problem, Budget(20000), seed).cost;
-    // No path is shorter than the shortest one, which is computed up to 1e-4 too long.
+    // No path is shorter than the shortest path, whose computed length is at most 1e-4 too long.
     EXPECT_GE(cost, shortest * (1.0 - Tolerance(1e-4)));
     EXPECT_LE(cost, shortest * (1.0 + Tolerance(0.03)));
   }
@@ -274,7 +274,7 @@ TEST_P(RrtStarIn, InformedItComesAsNearTheShortestWay) {
     RrtStarOptions options = Budget(20000);
     options.informed = true;
     const double cost = PlanRrtStar(problem, options, seed).cost;
-    // Same bounds as in CostComesNearTheShortestWay.
+    // The bounds are those of CostComesNearTheShortestWay.
     EXPECT_GE(cost, shortest * (1.0 - Tolerance(1e-4)));
     EXPECT_LE(cost, shortest * (1.0 + Tolerance(0.03)));
   }
@@ -338,8 +338,9 @@ TEST(RrtStar, InformedItLeavesOutMostOfAnOpenField) {
     const RrtStarResult result = PlanRrtStar(Nothing(), options, seed);
     ASSERT_TRUE(result.ok());
     EXPECT_LE(result.cost, 16.0 * 1.01);
-    // The ellipse of a path of 16.16 m around foci 16 m apart has semi-axes of 8.08 and 1.13 m. It
-    // covers 29 m2 of 200 m2: 290 samples, plus those drawn before the path was that short.
+    // A path of 16.16 m between foci 16 m apart lies in an ellipse with semi-axes of 8.08 and 1.13
+    // m. The ellipse covers 29 m^2 of 200 m^2, so it contains 290 of 2000 samples. Further samples
+    // were added before the path was that short.
     EXPECT_LT(result.nodes.size(), 600U);
   }
 }
@@ -352,7 +353,7 @@ TEST(RrtStar, SamplesALineToo) {
   const RrtStarResult result = PlanRrtStar(problem, {.iterations = 300, .step = 2.0}, 1);
   ASSERT_TRUE(result.ok());
   EXPECT_NEAR(result.cost, 30.0, Tolerance(1e-9));
-  // An area that is a single point.
+  // The area is a single point.
   problem = {};
   EXPECT_EQ(PlanRrtStar(problem, {.iterations = 300}, 1).cost, 0.0);
 }
@@ -381,7 +382,7 @@ TEST(RrtStar, StartThatIsTheGoalIsAWayOfNoLength) {
 }
 
 TEST(RrtStar, StepBoundsTheFirstEdges) {
-  // As long as a node has no neighbors to choose from, every edge is an extension.
+  // While a node has no neighbors to choose from, its edge extends the tree by at most one step.
   RrtStarOptions options = Budget(2000);
   options.step = 0.5;
   const RrtStarResult result = PlanRrtStar(Nothing(), options, 1);
@@ -405,7 +406,7 @@ TEST(RrtStar, StopsWhenAsked) {
   const RrtStarResult stopped = PlanRrtStar(Nothing(), options, 1);
   EXPECT_EQ(stopped.iterations, 300);
   EXPECT_TRUE(SameTree(stopped, PlanRrtStar(Nothing(), Budget(300), 1)));
-  EXPECT_TRUE(stopped.ok());  // with the best path so far
+  EXPECT_TRUE(stopped.ok());  // The result is the best path so far.
 }
 
 TEST(RrtStar, ChecksItsProblemAndOptions) {

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// A field with a wall across it that leaves a gap at the top.
+/// Returns a field with a wall across it that leaves a gap at the top.
 RrtProblem Walled() {
   return {.start = {2.0, 5.0},
           .goal = {38.0, 5.0},
@@ -23,7 +23,8 @@ RrtProblem Walled() {
           .inflation = 1.0};
 }
 
-/// Whether points every centimeter on an edge are farther than the inflation from all obstacles.
+/// Returns whether points every centimeter on an edge are farther than the inflation from all
+/// obstacles.
 bool IsFreeDensely(const Vec2& from, const Vec2& to, const RrtProblem& problem) {
   const int steps = 1 + static_cast<int>((to - from).norm() / 0.01);
   for (int i = 0; i <= steps; ++i) {
@@ -99,7 +100,7 @@ TEST_P(RrtSeeds, GivesWhatItGotNearestWithWhenItsBudgetIsUsedUp) {
 }
 
 TEST(Rrt, ChecksTheLastEdgeToTheGoalToo) {
-  // A wall of 10 cm between a start and a goal that are less than one step apart.
+  // A wall 10 cm thick stands between a start and a goal that are less than one step apart.
   const RrtProblem problem{.start = {0.0, 0.0},
                            .goal = {1.0, 0.0},
                            .low = {-2.0, -2.0},

@@ -22,8 +22,8 @@ struct Asked {
   bool operator==(const Asked&) const = default;
 };
 
-/// A car rolling at 3 m/s that stops within 3 m. The longest lead-in is longer than the default by
-/// that distance and the smallest turning radius.
+/// Returns a request for a car that rolls at 3 m/s and can stop within 3 m. The longest lead-in
+/// exceeds the default lead-in by this distance and the smallest turning radius.
 PlanRequest Rolling(double first_leg) {
   PlanRequest request;
   request.vehicle = ReferenceCar();
@@ -56,8 +56,8 @@ TEST(PlanWithLeadIn, TriesTheLongestThenAHalfAndAQuarterOfItWithOneTree) {
 }
 
 TEST(PlanWithLeadIn, TriesNoStraightStartTwice) {
-  // Longer lead-ins are limited to half the distance to the waypoint. For the second request this
-  // limit does not exceed the default lead-in, so there is no longer one.
+  // A longer lead-in is limited to half of the distance to the waypoint. For the second request,
+  // this limit does not exceed the default lead-in, so no longer lead-in is possible.
   EXPECT_EQ(AskedWhenRefused(Rolling(10.0), PlanStatus::kTurnTooTight),
             (std::vector<Asked>{{4.0, 3}, {4.0 + Longer(), 3}}));
   EXPECT_EQ(AskedWhenRefused(Rolling(8.0), PlanStatus::kTurnTooTight),

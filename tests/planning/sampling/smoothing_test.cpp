@@ -45,8 +45,8 @@ TEST(Smoothing, SolvesItsLinearSystem) {
         SmoothPath(way, {}, 0.0, {}, {.data = data, .smoothness = smoothness, .tolerance = 1e-10});
     ASSERT_TRUE(result.converged);
     for (Eigen::Index i = 0; i < n; ++i) {
-      // Each sweep multiplies the error by at most 1 - alpha, so the remaining error is 1/alpha
-      // times the last change: 10 times 1e-10 m.
+      // Each sweep multiplies the error by at most 1 - alpha. The remaining error is therefore at
+      // most 1/alpha = 10 times the last change of 1e-10 m.
       EXPECT_NEAR((result.path[static_cast<std::size_t>(i)] - exact.row(i).transpose()).norm(), 0.0,
                   Tolerance(1e-9));
     }
@@ -74,7 +74,8 @@ TEST(Smoothing, StopsAtItsCap) {
 }
 
 TEST(Smoothing, KeepsAFreeWayFree) {
-  // A box inside the corner of the staircase that smoothing would cut through.
+  // The box is inside the corner of the staircase. Smoothing without obstacles would cut through
+  // the box.
   const std::vector<OrientedBox> boxes{{{0.55, 1.45, 0.0}, 0.4, 0.4}};
   constexpr double kInflation = 0.3;
   const SmoothingResult result =
@@ -93,8 +94,8 @@ TEST(Smoothing, KeepsAFreeWayFree) {
 }
 
 TEST(Smoothing, AnObstacleMayHoldOneCoordinateAlone) {
-  // The box under the corner reaches up to 1.15 m. The step back in x by 0.4 (0 + 5 - 8) m is free;
-  // the step down to 1.12 m in y is not.
+  // The box under the corner reaches up to y = 1.15 m. The step in x, by 0.4 (0 + 5 - 8) m, is
+  // free. The step in y, down to 1.12 m, is not free.
   const std::vector<Vec2> way{{0.0, 1.0}, {4.0, 1.6}, {5.0, 1.0}};
   const std::vector<OrientedBox> box{{{2.5, 0.65, 0.0}, 2.0, 1.0}};
   const SmoothingOptions once{.data = 0.1, .smoothness = 0.4, .sweeps = 1};
@@ -111,8 +112,8 @@ TEST(Smoothing, UniformWindChangesNothing) {
 }
 
 TEST(Smoothing, DoesNotGiveUpATailwind) {
-  // Wind along +x blows only above y = 1.5. Smoothing without wind would move the upper points down
-  // and out of it.
+  // Wind along +x blows only above y = 1.5 m. Smoothing without wind would move the upper points
+  // down, out of the wind.
   const WindScoring windy{.wind = {.gusts = {{.velocity = {5.0, 0.0},
                                               .shape = GustShape::kStep,
                                               .area = OrientedBox{{5.0, 6.5, 0.0}, 20.0, 10.0}}}},
@@ -140,7 +141,9 @@ TEST(Smoothing, RefusesWhatDoesNotConverge) {
 }
 
 TEST(WindScore, IsWhatTheAirSpeedGainsToFirstOrder) {
-  // V T = V |dx|/(V + w . t): for a wind of V/1000 this equals |dx| - W to a millionth of |dx|.
+  // The time T for a line dx at the air speed V satisfies V T = V |dx|/(V + w . t), with the wind w
+  // and the unit vector t along the line. For a wind of V/1000, this equals |dx| - W up to a
+  // millionth of |dx|, where W is the wind score.
   const WindScoring scoring{.wind = {.velocity = {0.01, 0.02}}, .speed = 20.0};
   const Vec2 from{3.0, 4.0};
   const Vec2 to{43.0, -10.0};
@@ -170,7 +173,7 @@ TEST(WindScore, SeesAGustOnlyWhereAndWhenItBlows) {
                                                 .from = 2.0,
                                                 .duration = 4.0,
                                                 .area = OrientedBox{{5.0, 0.0, 0.0}, 10.0, 2.0}}}},
-                            .time = 4.0,  // the time of its maximum
+                            .time = 4.0,  // The gust is strongest at this time.
                             .speed = 3.0};
   EXPECT_NEAR(WindScore({{0, 0}, {10, 0}}, scoring), 20.0, Tolerance(1e-12));
   EXPECT_EQ(WindScore({{0, 5}, {10, 5}}, scoring), 0.0);
