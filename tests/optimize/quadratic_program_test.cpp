@@ -44,7 +44,7 @@ TEST(QuadraticProgram, OnAConstraintIsTheProjection) {
 }
 
 TEST(QuadraticProgram, RandomOnesKeepTheKarushKuhnTuckerConditions) {
-  // In the minimum of a convex program, the gradient H x + f is a linear combination of the active
+  // At the minimum of a convex program, the gradient H x + f is a linear combination of the active
   // constraint rows with factors <= 0. The test computes these factors by least squares. The solver
   // meets the constraints to 1e-9. The rows have a norm of at most 10, so the error of the gradient
   // is about 1e-7 of the largest eigenvalue of H.

@@ -15,8 +15,8 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
-// Tests every search method on a bowl, on a bowl with a nonconvex constraint and on Rosenbrock's
-// function: accuracy, bounds, budget, seeds and error handling.
+// Tests every search method on a quadratic function without constraints and with a nonconvex
+// constraint, and on Rosenbrock's function: accuracy, bounds, budget, seeds and error handling.
 namespace trackbed {
 
 void PrintTo(const SearchEntry& entry, std::ostream* out) {
@@ -46,7 +46,7 @@ SearchProblem Bowl() {
           .constraints = {}};
 }
 
-/// Returns the problem of Bowl with a constraint that excludes the disc of radius 1 around the
+/// Returns the problem of Bowl() with a constraint that excludes the disc of radius 1 around the
 /// minimum. The feasible region is not convex. The objective rises least along x, so the minima are
 /// at (1, -1) and (3, -1), with the value 8.
 SearchProblem BowlWithHole() {

@@ -123,11 +123,12 @@ TEST(AnyPath, IsTheSameFromItsFrenetFrameAndBack) {
     motion.acceleration = *Within(3.0);
     const auto state = ToFrenet(path, motion, {s - 3.0, s + 3.0});
     if (!state) {
-      return;  // the Frenet frame is singular here
+      return;  // The Frenet frame is singular at this pose.
     }
     const auto back = FromFrenet(path, *state);
     RC_ASSERT(back.has_value());
-    // Projections are accurate to 1e-9 m, headings therefore to 1e-9 times curvatures below 1 /m.
+    // Projections are accurate to 1e-9 m. The error of a heading is this error times the curvature,
+    // which is below 1 1/m.
     const double tolerance = Tolerance(2e-8);
     RC_ASSERT((back->pose.position() - motion.pose.position()).norm() <= tolerance);
     RC_ASSERT(std::abs(AngleDifference(back->pose.yaw, motion.pose.yaw)) <= tolerance);

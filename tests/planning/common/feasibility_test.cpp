@@ -419,8 +419,8 @@ TEST(Feasibility, SlowsDownMoreWhereTheRoadFallsToTheOutside) {
   EXPECT_NEAR(slowest(0.1), slowest(0.0), 0.05);  // The planner does not use a bank that helps.
 }
 
-// In random missions for every waypoint planner, a successful plan must start at the pose, the speed
-// and the steering angle of the car.
+// In random missions for every waypoint planner, a successful plan must start at the pose, the
+// speed and the steering angle of the car.
 TEST(Feasibility, EveryPlanThatIsOkBeginsAsTheCarDoes) {
   std::mt19937 random(17);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);

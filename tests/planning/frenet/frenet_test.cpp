@@ -428,7 +428,7 @@ TEST(Frenet, DoesNotStartInAnObstacleOrWithoutAFrame) {
 
 TEST(Frenet, LeavesASpotThatIsTooCloseAlready) {
   // One box is 0.2 m beside the car, closer than the safe distance. Another box blocks the way of
-  // the car. The car must drive on without coming closer to the first box.
+  // the car. The car must continue without coming closer to the first box.
   FrenetRequest request = OnPath(5.0);
   request.obstacles = {BoxAt(StraightRoad(), 1.0, 0.2 + 0.8625 + 0.75),
                        BoxAt(StraightRoad(), 30.0, 1.0)};
