@@ -30,9 +30,10 @@ double Left(double wavelength, double length) {
 
 TEST(Track, OfARingIsARing) {
   const Track track = Ring();
-  // Smoothing with a cutoff of 20 m reduces the radius by the fraction (20/314)^6 = 7e-8, which is
-  // 3e-6 m. Interpolation by the spline, with points h = 5 m apart on the radius r = 50 m, adds an
-  // error of (h/r)^6 r/30 = 2e-6 m. The tolerances exceed both.
+  // Smoothing with a cutoff of 20 m reduces the radius of the circle, whose circumference is 314 m,
+  // by the fraction (20/314)^6 = 7e-8, which is 3e-6 m. Interpolation by the spline, with points h
+  // = 5 m apart on the radius r = 50 m, adds an error of (h/r)^6 r/30 = 2e-6 m. The tolerances
+  // exceed both.
   EXPECT_NEAR(track.smoothing(), 20.0, Tolerance(0.1));
   for (double s = 0.0; s < track.length(); s += 1.3) {
     const PathPoint at = track.At(s);

@@ -60,7 +60,7 @@ TEST(Caps, OfAPlanAtTheLimitAreItsSpeeds) {
   Plan plan = AtTheLimit();
   const std::vector<SpeedCap> caps = CapsOf(plan);
   ASSERT_EQ(caps.size(), 4U);
-  EXPECT_DOUBLE_EQ(caps[0].speed, 20.0);  // The cap is not the start speed of 0.
+  EXPECT_DOUBLE_EQ(caps[0].speed, 20.0);  // The cap is not the plan's start speed, 0 m/s.
   EXPECT_DOUBLE_EQ(caps[1].from, 20.0);
   EXPECT_DOUBLE_EQ(caps[1].to, 50.0);
   plan.diagnostics.speed_profile.reset();

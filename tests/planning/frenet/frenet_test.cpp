@@ -276,7 +276,8 @@ TEST(Frenet, KeepsItsDistanceFromALeader) {
   const double duration = plan.motion.duration();
   const FrenetState end = plan.motion.At(duration);
   EXPECT_NEAR(end.s_rate, 2.0, Tolerance(1e-9));
-  // The gap between the bumpers; the car's front is 4.45 - 0.825 m ahead of its rear axle.
+  // The gap is measured between the bumpers. The car's front is 4.45 - 0.825 m ahead of its rear
+  // axle.
   EXPECT_NEAR(leader.station + 2.0 * duration - (end.s + 3.625), 4.0 + 1.5 * 2.0, Tolerance(1e-9));
   ExpectDrivable(StraightRoad(), request, {}, plan);
 }

@@ -184,7 +184,7 @@ TEST(AStar, SaysWhyThereIsNoWay) {
                                       ".#...",  //
                                       "#...."});
   EXPECT_EQ(SearchGrid(walled, 1, 14).status, GridStatus::kFound);
-  EXPECT_EQ(SearchGrid(walled, 1, 10).status, GridStatus::kUnreachable);  // across corners
+  EXPECT_EQ(SearchGrid(walled, 1, 10).status, GridStatus::kUnreachable);  // The way cuts corners.
   EXPECT_EQ(SearchGrid(walled, 0, 14).status, GridStatus::kStartOccupied);
   EXPECT_EQ(SearchGrid(walled, 14, 0).status, GridStatus::kGoalOccupied);
   EXPECT_EQ(SearchGrid(walled, 1, 14, 0).status, GridStatus::kBudgetUsedUp);

@@ -56,7 +56,7 @@ TEST(HybridAStar, ParksInAGapBackwards) {
   const HybridAStarOptions options;
   const HybridAStarResult result = SearchHybridAStar(ReferenceCar(), problem, options);
   ExpectGood(problem, options, result);
-  // A car that faces the lane in its gap has entered in reverse.
+  // A car that faces the lane in its gap has entered the gap in reverse.
   EXPECT_EQ(result.segments.front().direction, 1);
   EXPECT_EQ(result.segments.back().direction, -1);
 }
@@ -74,7 +74,7 @@ TEST(HybridAStar, FindsNoWayBackwardsWhereItMayNot) {
 TEST(HybridAStar, GoesThroughMaps) {
   for (const Map& map : Maps()) {
     if (map.name == "passage" || map.name == "clutter") {
-      continue;  // these maps suit only a point that turns on the spot
+      continue;  // Only a point that turns on the spot fits.
     }
     SCOPED_TRACE(map.name);
     const HybridAStarProblem problem{.start = {map.problem.start.x(), map.problem.start.y(), 0.0},

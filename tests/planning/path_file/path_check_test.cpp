@@ -70,8 +70,8 @@ TEST(CheckPath, FindsTheSpeedOfACircle) {
 }
 
 // The bend has the curvature kappa(s) = A (1 - cos(2 pi s/l))/2. Its segments of 0.1 m, with
-// quadratic curvature, have an error below 1e-5 A. The expected rate is the maximum of d delta/ds =
-// L kappa'/(1 + (L kappa)^2).
+// quadratic curvature, have an error below 1e-5 A. The expected speed limit is the car's steering
+// rate divided by the maximum of d delta/ds = L kappa'/(1 + (L kappa)^2).
 TEST(CheckPath, FindsTheSteeringRateOfABend) {
   constexpr double kMaxCurvature = 0.1;
   constexpr double kLength = 60.0;

@@ -47,8 +47,8 @@ TEST(CenterLine, GoesRoundAsOftenAsAsked) {
     ASSERT_TRUE(plan.ok()) << plan.reason;
     const double lap = request.on_track.track->length();
     const Path& path = plan.reference.path;
-    // Braking after the finish line takes v^2/(2 b) = 16 m. The length of the path is integrated to
-    // rounding.
+    // Braking after the finish line takes v^2/(2 b) = 16 m. The length of the path is accurate up
+    // to rounding.
     EXPECT_NEAR(path.length(), laps * lap + 16.0, Tolerance(1e-6));
     ASSERT_EQ(plan.laps.lines.size(), static_cast<std::size_t>(laps) + 1);
     for (int i = 0; i <= laps; ++i) {

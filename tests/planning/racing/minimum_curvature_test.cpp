@@ -53,7 +53,8 @@ TEST(MinimumCurvature, KeepsItsBounds) {
     const double d = found.line.At(s).d;
     const TrackEdges edges = track.EdgesAt(s);
     // The optimizer enforces the bounds at points 2.5 m apart. Between these points, the line
-    // deviates by at most d'' 2.5^2/8 = 0.026 m, because d'' is below 1/30 1/m.
+    // deviates by at most d'' 2.5^2/8 = 0.026 m, because the second derivative d'' of its offset is
+    // below 1/30 1/m.
     EXPECT_LE(d, edges.left - 1.2 + Tolerance(0.03));
     EXPECT_GE(d, edges.right + 1.2 - Tolerance(0.03));
     largest = std::max(largest, std::abs(d));

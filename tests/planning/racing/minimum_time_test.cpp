@@ -280,10 +280,10 @@ TEST(MinimumTime, IsPlannedWithTheLapTimeThatItStates) {
   EXPECT_LT(own->lap_time, own->minimum_curvature_lap_time);
   ASSERT_FALSE(plan.notes.empty());
   EXPECT_THAT(plan.notes.front(), HasSubstr("less than on the line of least curvature"));
-  // The second lap starts and ends at speed. The plan uses clothoids and stations 0.5 m apart, but
-  // the optimizer uses stations 1 m apart. The profile takes the smaller acceleration of both ends
-  // of an interval, so its error is of first order in this distance. The acceleration of up to 10
-  // m/s^2 changes by up to 1 m/s^2 over 1 m.
+  // The second lap starts and ends at racing speed. The plan uses clothoids and stations 0.5 m
+  // apart, but the optimizer uses stations 1 m apart. The profile takes the smaller acceleration of
+  // both ends of an interval, so its error is of first order in this distance. The acceleration of
+  // up to 10 m/s^2 changes by up to 1 m/s^2 over 1 m.
   ASSERT_EQ(plan.laps.lines.size(), 4U);
   const double second = plan.reference.speed.TimeAt(plan.laps.lines[2]) -
                         plan.reference.speed.TimeAt(plan.laps.lines[1]);
@@ -294,7 +294,8 @@ TEST(MinimumTime, IsPlannedWithTheLapTimeThatItStates) {
     const TrackPlace place = track.Locate(plan.reference.path.At(s).pose.position());
     const TrackEdges edges = track.EdgesAt(place.s);
     // The optimizer enforces the margin at stations 2 m apart. Between these stations, the line
-    // deviates by at most d'' 2^2/8 = 0.034 m, because d'' is below 1/15 1/m.
+    // deviates by at most d'' 2^2/8 = 0.034 m, because the second derivative d'' of its offset is
+    // below 1/15 1/m.
     const double beside = 0.5 * request.vehicle.width + 0.5 - 0.034;
     EXPECT_LE(place.offset, edges.left - beside);
     EXPECT_GE(place.offset, edges.right + beside);
@@ -345,7 +346,7 @@ TEST_P(RaceTracks, AreFasterThanTheLineOfLeastCurvature) {
   for (double s = 0.0; s < track.length(); s += 1.0) {
     const TrackEdges edges = track.EdgesAt(s);
     // Between stations, at most 2.6 m apart, the line deviates by up to d'' 2.6^2/8 = 0.085 m,
-    // because d'' is below 1/10 1/m.
+    // because the second derivative d'' of its offset is below 1/10 1/m.
     EXPECT_LE(found.line.At(s).d, edges.left - 0.75 + Tolerance(0.085));
     EXPECT_GE(found.line.At(s).d, edges.right + 0.75 - Tolerance(0.085));
   }

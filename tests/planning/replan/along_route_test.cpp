@@ -113,7 +113,7 @@ TEST_P(EveryAlongMethod, StopsItsGapBehindWhatStandsInANarrowRoad) {
   Scene scene;
   scene.settings.road = {1.5, 1.5};
   scene.settings.gap = 2.0;
-  // A motion of 8 s that brakes from 3 m/s to rest covers about 12 m.
+  // The stop is 12.5 m ahead. A motion of 8 s that brakes from 3 m/s to rest covers about 12 m.
   const double stop = scene.request.start.s + 12.5;
   scene.request.obstacles = {BoxAt(scene.frame.path, stop + Front() + 2.0 + 1.0, 0.0)};
   const AlongPlan plan =

@@ -199,8 +199,8 @@ TEST_P(Passing, GetsPastFromManyStarts) {
       for (const double speed : {1.0, 2.0, 4.0}) {
         SCOPED_TRACE(fmt::format("lead {} m/s, gap {} m, start {} m/s", lead, gap, speed));
         double nearest = 1e9;
-        // The car closes the gap and passes over 6.5 m at 5 m/s or more. Pulling out takes at most
-        // 25 s, even at 0.5 m/s (ShiftLength).
+        // The car drives at 5 m/s or more while it closes the gap and passes the leader over 6.5 m.
+        // Pulling out takes at most 25 s, even at 0.5 m/s (ShiftLength).
         EXPECT_LT(TimeToPass(Road(speed, lead, gap), GetParam().defaults, 40.0, nearest), 40.0);
         // Between their samples, motions may come 1 cm closer than the safe distance.
         EXPECT_GE(nearest, AlongSettings{}.safe_distance - 0.01);

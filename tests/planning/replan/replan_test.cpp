@@ -199,7 +199,7 @@ TEST(Replan, StopsBehindWhatItCannotPass) {
 
 TEST(Replan, BrakesAsHardAsItMustWhereNoMotionIsLeft) {
   Scene scene;
-  scene.Block(2.0, 20.0);  // braking at the limit takes 9/4 m
+  scene.Block(2.0, 20.0);  // Braking at the limit takes 9/4 m.
   const Replanned next = scene.Go();
   ASSERT_EQ(next.kind, ReplanKind::kStop);
   EXPECT_NEAR(next.plan->reference.path.length(), 2.25, Tolerance(1e-9));

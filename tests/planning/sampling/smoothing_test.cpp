@@ -94,8 +94,8 @@ TEST(Smoothing, KeepsAFreeWayFree) {
 }
 
 TEST(Smoothing, AnObstacleMayHoldOneCoordinateAlone) {
-  // The box under the corner reaches up to y = 1.15 m. The step in x, by 0.4 (0 + 5 - 8) m, is
-  // free. The step in y, down to 1.12 m, is not free.
+  // The box under the corner reaches up to y = 1.15 m. With the smoothness 0.4, the step in x is
+  // 0.4 (0 + 5 - 2 x 4) = -1.2 m, which is free. The step in y, down to 1.12 m, is not free.
   const std::vector<Vec2> way{{0.0, 1.0}, {4.0, 1.6}, {5.0, 1.0}};
   const std::vector<OrientedBox> box{{{2.5, 0.65, 0.0}, 2.0, 1.0}};
   const SmoothingOptions once{.data = 0.1, .smoothness = 0.4, .sweeps = 1};
