@@ -41,8 +41,8 @@ TEST(FrenetFrame, OfALineIsTheLinesOwn) {
 }
 
 TEST(FrenetFrame, BesideACircleIsACircle) {
-  // The car's offset is 5 m to the inside of a circle of radius 20 m. The radius of the car's path is
-  // 15 m, and its speed is 3/4 of the rate of the station.
+  // The car's offset is 5 m to the inside of a circle of radius 20 m. The radius of the car's path
+  // is 15 m, and its speed is 3/4 of the rate of the station.
   const Path circle({0.0, 0.0, 0.0}, {{100.0, 1.0 / 20.0, 1}});
   const auto motion = FromFrenet(circle, {20.0, 4.0, 1.0, 5.0, 0.0, 0.0});
   ASSERT_TRUE(motion);

@@ -56,8 +56,8 @@ TEST(TrackWithAWrongNumber, OfTum) {
   }
 }
 
-/// A ring of 24 points in which one coordinate lost a digit: the line bends with a radius of 0.4 mm
-/// at that point.
+/// A ring of 24 points in which one coordinate lost a digit. At this point, the line bends with a
+/// radius of 0.4 mm.
 TEST(TrackWithAWrongNumber, IsRefusedBeforeTheTrackIsMade) {
   std::vector<TrackPoint> points = RingPoints(20.0, 24, 4.0, 3.0);
   points[18].position.y() = -2.0;
