@@ -65,8 +65,9 @@ double SpeedControl(const SpeedControlOptions& options, const SpeedProfile& prof
   }
   const bool ends = stops && from + ahead * period >= end;
   const double at_middle = profile.AccelerationAt(middle);
+  // A car before the start does not move along the profile, so its speed determines no mean.
   const double feed_forward =
-      ends ? at_middle : MeanAcceleration(profile, from, ahead, period, at_middle);
+      ends || from > s ? at_middle : MeanAcceleration(profile, from, ahead, period, at_middle);
   const double error = profile.SpeedAt(s) - speed;
   const double hard = on_purpose(-feed_forward) ? -kCatchUp * feed_forward : 0.0;
   const double hardest = std::min(std::max(2.0 * options.deceleration, hard), limit);

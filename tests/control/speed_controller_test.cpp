@@ -196,5 +196,17 @@ TEST(SpeedControl, DrivesOnACarThatRollsBack) {
   EXPECT_GE(SpeedControl(kOptions, profile, -0.004, -0.02, kPeriod), 0.9);
 }
 
+TEST(SpeedControl, BeforeTheStartDrivesAtAConstantSpeed) {
+  // A car that turns round before the start: with the start's acceleration of 1 m/s^2 and the gain
+  // of 2/s, its speed settles at 0.5 m/s. A faster car is braked, however far it is away.
+  const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
+  for (const double s : {-0.5, -5.0, -50.0}) {
+    EXPECT_NEAR(SpeedControl(kOptions, profile, s, 0.0, kPeriod), 1.0, Tolerance(kRounding));
+    EXPECT_NEAR(SpeedControl(kOptions, profile, s, 0.5, kPeriod), 0.0, Tolerance(kRounding));
+    EXPECT_NEAR(SpeedControl(kOptions, profile, s, 1.5, kPeriod), -2.0, Tolerance(kRounding));
+    EXPECT_EQ(SpeedControl(kOptions, profile, s, 10.0, kPeriod), -3.0);
+  }
+}
+
 }  // namespace
 }  // namespace trackbed
