@@ -11,8 +11,9 @@ namespace trackbed {
 namespace {
 
 double Lookahead(const ControlInput& input) {
-  const double offset = kReturnOffset * input.vehicle.wheelbase;
-  return std::max(PreviewDistance(input), ReturnDistance(input.vehicle, input.state.speed, offset));
+  const double design = kReturnOffset * input.vehicle.wheelbase;
+  return std::max({PreviewDistance(input), ReturnDistance(input),
+                   ReturnDistance(input.vehicle, input.state.speed, design)});
 }
 
 class PurePursuit final : public SteeringController {

@@ -13,10 +13,10 @@ namespace trackbed {
 ///
 /// On a circle of radius R, the steering angle is exactly atan(L/R). With wheels that turn at most
 /// at the rate omega, a car at speed v needs a look-ahead distance l of about 1.5 cbrt(e L v/omega)
-/// to return from an offset e without oscillation. Unlike the preview controller, pure pursuit does
-/// not lengthen the look-ahead distance l when the car is off its path. By default, l is the larger
-/// of the distance R of PreviewOptions and 3/4 L cbrt(v/(L omega)). The distance 3/4 L cbrt(v/(L
-/// omega)) is long enough for an offset of an eighth of the wheelbase.
+/// to return from an offset e without oscillation. By default, l is the largest of the distance R
+/// of PreviewOptions, 1.5 cbrt(e L v/omega) and 3/4 L cbrt(v/(L omega)). The distance 3/4 L
+/// cbrt(v/(L omega)) is long enough for an offset of an eighth of the wheelbase. Unlike the preview
+/// controller, pure pursuit does not lengthen a given `distance` when the car is off its path.
 ///
 /// On paths that are driven in reverse, the circle passes through a path point behind the car.
 /// Beyond the end of the path, the look-ahead point lies on the tangent at the end. Pure pursuit
