@@ -134,6 +134,10 @@ double CommandedAngle::Turn(const ControlInput& input, double rate) {
   return *last_;
 }
 
+double CommandedAngle::Approach(const ControlInput& input, double angle) {
+  return Turn(input, (angle - Now(input)) / input.period);
+}
+
 Regulator SolveRegulator(const ErrorModel& model, const ErrorWeights& weights) {
   const auto n = model.a.rows();
   const Matrix identity = Matrix::Identity(n, n);

@@ -67,6 +67,9 @@ class CommandedAngle {
   /// Returns the new commanded angle delta at the end of the control period [rad], clamped to the
   /// car's limits of steering rate and steering angle.
   double Turn(const ControlInput& input, double rate);
+  /// Turns toward `angle` [rad] as far as the steering rate allows in a control period, and returns
+  /// the new commanded angle delta [rad].
+  double Approach(const ControlInput& input, double angle);
 
  private:
   std::optional<double> last_;

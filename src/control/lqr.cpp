@@ -5,6 +5,7 @@
 
 #include "src/control/control_keys.h"
 #include "src/control/error_model.h"
+#include "src/control/turn_round.h"
 
 namespace trackbed {
 namespace {
@@ -14,6 +15,9 @@ class Lqr final : public SteeringController {
   explicit Lqr(const LqrOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
+    if (const std::optional<double> steering = turn_round_.Steer(input)) {
+      return angle_.Approach(input, *steering);
+    }
     const VehicleParams& vehicle = input.vehicle;
     const Tracking tracking = ProjectOntoPath(input);
     const ErrorModel model = MakeErrorModel(input, tracking, input.period, options_.tyres);
@@ -38,6 +42,7 @@ class Lqr final : public SteeringController {
  private:
   LqrOptions options_;
   CommandedAngle angle_;
+  TurnRound turn_round_;
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "src/control/control_keys.h"
 #include "src/control/error_model.h"
+#include "src/control/turn_round.h"
 #include "trackbed/optimize/quadratic_program.h"
 
 namespace trackbed {
@@ -26,6 +27,9 @@ class Mpc final : public SteeringController {
   explicit Mpc(const MpcOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
+    if (const std::optional<double> steering = turn_round_.Steer(input)) {
+      return angle_.Approach(input, *steering);
+    }
     const VehicleParams& vehicle = input.vehicle;
     const Tracking tracking = ProjectOntoPath(input);
     const double step = std::max(options_.step, input.period);
@@ -74,6 +78,7 @@ class Mpc final : public SteeringController {
 
   MpcOptions options_;
   CommandedAngle angle_;
+  TurnRound turn_round_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
+#include "src/control/turn_round.h"
 #include "trackbed/control/optimal_steering.h"
 #include "trackbed/core/angle.h"
 
@@ -30,6 +31,11 @@ class OptimalSteeringController final : public SteeringController {
         options_.matching == Matching::kTime
             ? planned
             : std::max(planned, ReturnDistance(input.vehicle, speed, deviation_.y));
+    if (const std::optional<double> steering = turn_round_.Steer(input)) {
+      match_ = {.steering = std::clamp(*steering, -limit, limit)};
+      last_ = match_.steering;
+      return match_.steering;
+    }
     const Pose2 wanted = RelativePathPose(input, primary.station + horizon);
     const Vec2 aim = ToLocal(input.state.pose, wanted.position());
     const SteeringProblem problem{
@@ -94,6 +100,7 @@ class OptimalSteeringController final : public SteeringController {
   std::optional<double> last_;  // steering angle at which the next search starts [rad]
   Deviation deviation_;
   SteeringMatch match_;
+  TurnRound turn_round_;
 };
 
 }  // namespace

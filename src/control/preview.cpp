@@ -7,6 +7,7 @@
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
 #include "src/control/tracking.h"
+#include "src/control/turn_round.h"
 
 namespace trackbed {
 namespace {
@@ -27,6 +28,9 @@ class Preview final : public SteeringController {
     const double shortest = options_.distance ? *options_.distance : PreviewDistance(input);
     const double distance =
         std::max({shortest, options_.time * std::abs(input.state.speed), ReturnDistance(input)});
+    if (const std::optional<double> steering = turn_round_.Steer(input, distance)) {
+      return *steering;
+    }
     const int direction = input.reference.path.BendAt(input.station).direction;
     const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
                      (options_.slip ? RearSlip(input) : 0.0);
@@ -50,6 +54,7 @@ class Preview final : public SteeringController {
   }
 
   PreviewOptions options_;
+  TurnRound turn_round_;
 };
 
 /// Returns the station of the first path point after `station` that is `distance` away from the

@@ -10,6 +10,7 @@
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
 #include "src/control/tracking.h"
+#include "src/control/turn_round.h"
 #include "trackbed/control/preview.h"
 
 namespace trackbed {
@@ -64,6 +65,9 @@ class PreviewIntegral final : public SteeringController {
         options_.distance ? *options_.distance : spread * PreviewDistance(input, options_.delay);
     const double distance =
         std::max({shortest, options_.time * speed, spread * ReturnDistance(input)});
+    if (const std::optional<double> steering = turn_round_.Steer(input, distance)) {
+      return Delayed(*steering, input);
+    }
     const bool dynamic =
         direction > 0 && input.state.speed >= kMinDynamicSpeed && HasTyres(vehicle);
 
@@ -113,6 +117,7 @@ class PreviewIntegral final : public SteeringController {
   }
 
   PreviewIntegralOptions options_;
+  TurnRound turn_round_;
   std::vector<double> past_commands_;  // past steering angles of the law, the newest first
 };
 

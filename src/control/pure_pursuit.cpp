@@ -5,6 +5,7 @@
 
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
+#include "src/control/turn_round.h"
 #include "trackbed/control/preview.h"
 
 namespace trackbed {
@@ -24,6 +25,9 @@ class PurePursuit final : public SteeringController {
     const Path& path = input.reference.path;
     const double shortest = options_.distance ? *options_.distance : Lookahead(input);
     const double distance = std::max(shortest, options_.time * std::abs(input.state.speed));
+    if (const std::optional<double> steering = turn_round_.Steer(input, distance)) {
+      return *steering;
+    }
     const double u = PreviewAngle(path, input.state.pose, input.station, distance);
     const double steering = std::atan(2.0 * input.vehicle.wheelbase * std::sin(u) / distance);
     const double limit = input.vehicle.steering_limit;
@@ -33,6 +37,7 @@ class PurePursuit final : public SteeringController {
 
  private:
   PurePursuitOptions options_;
+  TurnRound turn_round_;
 };
 
 }  // namespace

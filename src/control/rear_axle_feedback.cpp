@@ -6,6 +6,7 @@
 #include "src/control/control_keys.h"
 #include "src/control/preview_distance.h"
 #include "src/control/tracking.h"
+#include "src/control/turn_round.h"
 
 namespace trackbed {
 namespace {
@@ -30,6 +31,9 @@ class RearAxleFeedback final : public SteeringController {
   explicit RearAxleFeedback(const RearAxleFeedbackOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
+    if (const std::optional<double> steering = turn_round_.Steer(input)) {
+      return *steering;
+    }
     const VehicleParams& vehicle = input.vehicle;
     const Tracking tracking = ProjectOntoPath(input);
     const int direction = tracking.foot.direction;
@@ -47,6 +51,7 @@ class RearAxleFeedback final : public SteeringController {
 
  private:
   RearAxleFeedbackOptions options_;
+  TurnRound turn_round_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "src/control/tracking.h"
+#include "src/control/turn_round.h"
 
 namespace trackbed {
 namespace {
@@ -13,6 +14,9 @@ class Stanley final : public SteeringController {
   explicit Stanley(const StanleyOptions& options) : options_(options) {}
 
   double Steer(const ControlInput& input) override {
+    if (const std::optional<double> steering = turn_round_.Steer(input)) {
+      return *steering;
+    }
     const VehicleParams& vehicle = input.vehicle;
     const Tracking tracking = ProjectOntoPath(input);
     const int direction = tracking.foot.direction;
@@ -35,6 +39,7 @@ class Stanley final : public SteeringController {
 
  private:
   StanleyOptions options_;
+  TurnRound turn_round_;
 };
 
 }  // namespace

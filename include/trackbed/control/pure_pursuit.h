@@ -18,6 +18,9 @@ namespace trackbed {
 /// cbrt(v/(L omega)) is long enough for an offset of an eighth of the wheelbase. Unlike the preview
 /// controller, pure pursuit does not lengthen a given `distance` when the car is off its path.
 ///
+/// A look-ahead point behind the car, for example after a start that faces away from the path, is
+/// steered to by a turn at full lock on the shorter side (src/control/turn_round.h).
+///
 /// On paths that are driven in reverse, the circle passes through a path point behind the car.
 /// Beyond the end of the path, the look-ahead point lies on the tangent at the end. Pure pursuit
 /// ignores tyre slip, so an understeering car drives a wider circle than the path.

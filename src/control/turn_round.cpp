@@ -1,0 +1,76 @@
+#include "src/control/turn_round.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "src/control/preview_distance.h"
+#include "src/control/tracking.h"
+#include "trackbed/control/preview.h"
+#include "trackbed/core/angle.h"
+
+namespace trackbed {
+namespace {
+
+/// Fraction of the lateral grip that a car uses in the steady turn.
+constexpr double kGripShare = 0.5;
+
+/// Returns the lateral acceleration [m/s^2] at which the car slides or its inner wheels lift;
+/// infinite if unknown.
+double LateralGrip(const VehicleParams& vehicle) {
+  double grip = std::numeric_limits<double>::infinity();
+  if (vehicle.friction_lateral > 0.0) {
+    grip = vehicle.friction_lateral * kGravity;
+  }
+  if (!vehicle.braking.axles.empty()) {
+    const double height = std::abs(vehicle.braking.axles.front().transfer) * vehicle.wheelbase;
+    const double track = 0.5 * (vehicle.track_front + vehicle.track_rear);
+    if (height > 0.0 && track > 0.0) {
+      grip = std::min(grip, kGravity * track / (2.0 * height));
+    }
+  }
+  return grip;
+}
+
+}  // namespace
+
+double TurnRoundLimit(const VehicleParams& vehicle, double speed) {
+  const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
+  const double allowed = kGripShare * LateralGrip(vehicle);
+  if (vehicle.kind != VehicleKind::kSteered || !(speed * speed * tightest > allowed)) {
+    return vehicle.steering_limit;
+  }
+  const double steering = SteadyTurnOn(vehicle, allowed / (speed * speed), speed).steering;
+  return std::clamp(std::abs(steering), 0.0, vehicle.steering_limit);
+}
+
+std::optional<double> TurnRound::Steer(const ControlInput& input, double distance) {
+  const Path& path = input.reference.path;
+  const double heading_error =
+      AngleDifference(input.state.pose.yaw, path.At(input.station).pose.yaw);
+  const double u = PreviewAngle(path, input.state.pose, input.station, distance);
+  // The angle from the direction of the path to P is u + psi.
+  if (std::cos(u) >= 0.0 || std::cos(u + heading_error) < 0.0) {
+    side_ = 0.0;
+    return std::nullopt;
+  }
+  if (side_ == 0.0) {
+    side_ = std::copysign(1.0, u);
+  }
+  const int direction = path.BendAt(input.station).direction;
+  return direction * side_ * TurnRoundLimit(input.vehicle, input.state.speed);
+}
+
+std::optional<double> TurnRound::Steer(const ControlInput& input) {
+  const double heading_error =
+      AngleDifference(input.state.pose.yaw, input.reference.path.At(input.station).pose.yaw);
+  // A law without a preview point steers a car back by itself if its heading error is below 90
+  // degrees.
+  if (std::cos(heading_error) > 0.0) {
+    side_ = 0.0;
+    return std::nullopt;
+  }
+  return Steer(input, std::max(PreviewDistance(input), ReturnDistance(input)));
+}
+
+}  // namespace trackbed

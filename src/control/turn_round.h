@@ -1,0 +1,42 @@
+#pragma once
+
+#include <optional>
+
+#include "trackbed/control/steering_controller.h"
+
+namespace trackbed {
+
+/// Returns the largest steering angle [rad] with which a car may turn round at `speed` [m/s]: the
+/// steering limit, or the angle of the steady turn in which the car uses half of its lateral grip.
+/// The lateral grip is the smaller one of mu_y g and g b/(2 h), at which the inner wheels lift;
+/// b is the mean track and h the height of the center of gravity. A step of the steering angle
+/// makes an undamped car overshoot the steady lateral acceleration by a factor of 2, hence half. A
+/// car of unknown grip uses its steering limit.
+double TurnRoundLimit(const VehicleParams& vehicle, double speed);
+
+/// Turns a car round whose target lies behind it.
+///
+/// Laws such as pure pursuit steer by the sine of the angle u from the direction of motion to the
+/// target point P. The sine decreases for |u| > 90 degrees, and is 0 for a target exactly behind
+/// the car, which then drives away from its path. Laws with the heading error psi saturate there,
+/// but the sign of psi jumps at 180 degrees, and measurement noise would turn the wheels back and
+/// forth. TurnRound replaces these laws while P is behind the car, but ahead along the path:
+///   |u| > 90 degrees  and  (P - O) . t >= 0,
+/// with O the rear axle and t the direction of the path at the car's station. The second condition
+/// excludes a car on its path before a hairpin, whose P lies on the returning leg. The car then
+/// steers to the side of P with the angle TurnRoundLimit, and keeps this side until P is no longer
+/// behind.
+class TurnRound {
+ public:
+  /// Returns the commanded steering angle [rad] if the car must turn round, otherwise nullopt. P is
+  /// the point of PreviewAngle at `distance` [m] > 0. Call Steer once per control period.
+  std::optional<double> Steer(const ControlInput& input, double distance);
+
+  /// Calls Steer with the default preview distance, for controllers without a preview point.
+  std::optional<double> Steer(const ControlInput& input);
+
+ private:
+  double side_ = 0.0;  // Side of the present turn: +1 left, -1 right, 0 if the car does not turn.
+};
+
+}  // namespace trackbed

@@ -1,0 +1,158 @@
+#include "src/control/turn_round.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/control/loop.h"
+#include "tests/tolerance.h"
+#include "trackbed/control/pure_pursuit.h"
+#include "trackbed/core/angle.h"
+
+// A target behind the car: full lock on the shorter side until the car faces its path.
+namespace trackbed {
+namespace turn_round_test {
+
+/// The controllers that steer by feedback along a path.
+std::vector<ControllerEntry> Feedback() {
+  std::vector<ControllerEntry> all;
+  for (const ControllerEntry& entry : Controllers()) {
+    if (entry.needs_plan && entry.station == StationSource::kProjection) {
+      all.push_back(entry);
+    }
+  }
+  return all;
+}
+
+Path Straight(int direction = 1) {
+  return {{}, {{300.0, 0.0, direction}}};
+}
+
+/// Calls the controller for a car beside a straight.
+class Car {
+ public:
+  Car(const ControllerOptions& options, const Path& path)
+      : controller_(MakeSteeringController(options)),
+        reference_{path, SpeedProfile({{0.0, 3.0}})} {}
+
+  double Steer(const Pose2& pose, double speed = 3.0) {
+    const double station = reference_.path.Project(pose, {0.0, 60.0}).s;
+    VehicleState state;
+    state.pose = pose;
+    state.speed = speed;
+    return controller_->Steer({.vehicle = car_,
+                               .reference = reference_,
+                               .schedule = {},
+                               .state = state,
+                               .station = station,
+                               .period = 0.02});
+  }
+
+ private:
+  VehicleParams car_ = ReferenceCar();
+  std::unique_ptr<SteeringController> controller_;
+  Reference reference_;
+};
+
+class TurnsRound : public ::testing::TestWithParam<ControllerEntry> {};
+
+TEST_P(TurnsRound, FromAnyHeadingAndOffset) {
+  // Until the wheels are at full lock, the car drives at most v delta_max/omega; on the circle of
+  // full lock, it moves at most another radius away from any line. From an offset of 3 m, the
+  // laws may first drive on toward the path, within their preview distance.
+  const VehicleParams car = ReferenceCar();
+  const double speed = 1.0;
+  const double turning = speed * car.steering_limit / car.steering_rate + car.min_turning_radius();
+  for (int eighth = -3; eighth <= 4; ++eighth) {
+    for (const double offset : {0.0, 3.0}) {
+      SCOPED_TRACE(fmt::format("{} eighths of a turn, {} m", eighth, offset));
+      LoopSetup setup;
+      setup.path = Straight();
+      setup.start = {50.0, offset, eighth * kPi / 4.0};
+      setup.speed = speed;
+      setup.duration = 80.0;
+      const std::vector<LoopRow> rows = Loop(GetParam().defaults, setup);
+      double rearmost = setup.start.x;
+      for (const LoopRow& row : rows) {
+        rearmost = std::min(rearmost, row.state.pose.x);
+      }
+      EXPECT_GT(rearmost, setup.start.x - turning);
+      EXPECT_LT(LargestOffset(rows, rows.size() * 9 / 10), 0.1);
+      EXPECT_LT(std::abs(rows.back().tracking.heading_error), 0.05);
+    }
+  }
+}
+
+TEST_P(TurnsRound, ToOneSideUnderNoise) {
+  // The sign of the heading error jumps between two measurements; the side of the turn must not.
+  Car car(GetParam().defaults, Straight());
+  const double first = car.Steer({50.0, 0.0, kPi - 0.02});
+  ASSERT_NE(first, 0.0);
+  double last = first;
+  for (int i = 0; i < 20; ++i) {
+    const double noise = (i % 2 == 0 ? 0.04 : -0.04) - 0.001 * i;
+    const double command = car.Steer({50.0, 0.0, kPi + noise});
+    EXPECT_GE(std::abs(command), std::abs(last));
+    EXPECT_GT(command * first, 0.0);
+    last = command;
+  }
+}
+
+TEST_P(TurnsRound, ToTheShorterSideInBothGears) {
+  // To the left of the target's line if the car heads just short of the opposite direction. A car
+  // in reverse turns its heading to the left with its wheels to the right.
+  for (const int direction : {1, -1}) {
+    for (const double side : {1.0, -1.0}) {
+      SCOPED_TRACE(fmt::format("direction {}, side {}", direction, side));
+      Car car(GetParam().defaults, Straight(direction));
+      const Pose2 start = Straight(direction).At(50.0).pose;
+      const double command =
+          car.Steer({start.x, start.y, start.yaw - side * (kPi - 0.1)}, direction * 3.0);
+      EXPECT_GT(direction * side * command, 0.0);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Feedback, TurnsRound, ::testing::ValuesIn(Feedback()),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+TEST(TurnRound, StepsToFullLockAndEndsWhenTheTargetIsNotBehind) {
+  const VehicleParams car = ReferenceCar();
+  Car pursuit(PurePursuitOptions{.distance = 4.0}, Straight());
+  for (const double yaw : {1.6, 2.0, 3.0, 3.14159}) {
+    EXPECT_EQ(pursuit.Steer({50.0, 0.0, yaw}), -car.steering_limit) << yaw;
+  }
+  // On the path, u = -psi: within 90 degrees, the law is that of pure pursuit.
+  EXPECT_NEAR(pursuit.Steer({50.0, 0.0, 0.2}),
+              -std::atan(2.0 * car.wheelbase * std::sin(0.2) / 4.0), Tolerance(1e-11));
+}
+
+TEST(TurnRound, LeavesAHairpinToTheLaw) {
+  // A hairpin of radius 2 m, whose legs are 4 m apart. From 1 m before it, the first point at a
+  // distance of 7 m is on the returning leg, at the angle u with sin u = 4/7, behind the car.
+  const Path hairpin{{}, {{20.0, 0.0, 1}, {2.0 * kPi, 0.5, 1}, {40.0, 0.0, 1}}};
+  Car car(PurePursuitOptions{.distance = 7.0}, hairpin);
+  const VehicleParams params = ReferenceCar();
+  EXPECT_NEAR(car.Steer({19.0, 0.0, 0.0}), std::atan(2.0 * params.wheelbase * (4.0 / 7.0) / 7.0),
+              Tolerance(1e-10));
+}
+
+TEST(TurnRound, KeepsHalfOfTheGrip) {
+  VehicleParams car = ReferenceCar();
+  EXPECT_EQ(TurnRoundLimit(car, 30.0), car.steering_limit);  // unknown grip
+  car.friction_lateral = 0.8;
+  EXPECT_EQ(TurnRoundLimit(car, 1.0), car.steering_limit);
+  EXPECT_NEAR(TurnRoundLimit(car, 10.0), std::atan(car.wheelbase * 0.4 * kGravity / 100.0),
+              Tolerance(1e-12));
+  // Inner wheels lift at g b/(2 h) = 0.6 g with a track of 1.5 m and h = 1.25 m.
+  car.track_front = 1.5;
+  car.track_rear = 1.5;
+  const double height = 1.25;
+  car.braking.axles = {{.weight = 0.5, .force = 0.5, .transfer = height / car.wheelbase}};
+  EXPECT_NEAR(TurnRoundLimit(car, -10.0), std::atan(car.wheelbase * 0.3 * kGravity / 100.0),
+              Tolerance(1e-12));
+}
+
+}  // namespace turn_round_test
+}  // namespace trackbed
