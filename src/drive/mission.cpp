@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "src/drive/replanning_monitor.h"
 #include "src/drive/scenario_parts.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/drive/drive.h"
 #include "trackbed/drive/start_overlap.h"
 #include "trackbed/planning/avoidance/avoidance.h"
@@ -54,6 +56,51 @@ void NoteMissedWaypoint(FeasiblePlan& plan, const VehicleParams& vehicle) {
         "{} is missed by {:.4g} m, at s = {:.4g} m; plan.max_waypoint_miss bounds this distance",
         DescribeWaypoint(miss->waypoint, miss->at), miss->distance, miss->station));
   }
+}
+
+/// Returns the path of a car that turns round at full lock to the shorter side until it faces along
+/// `to`, while its wheels turn at their full rate from straight ahead.
+Path TurnRoundPath(const VehicleParams& vehicle, const StartState& start, const PathPoint& to,
+                   double speed) {
+  const double turn = AngleDifference(to.pose.yaw, start.pose.yaw);
+  const double tightest = CurvatureForSteering(vehicle, vehicle.steering_limit);
+  const double curvature = to.direction * std::copysign(tightest, turn);
+  const double ramp = speed * vehicle.steering_limit / vehicle.steering_rate;
+  const double arc = std::abs(turn) / tightest - 0.5 * ramp;
+  std::vector<Segment> segments{
+      {.length = ramp, .direction = to.direction, .sharpness = curvature / ramp}};
+  if (arc > 0.0) {
+    segments.push_back({.length = arc, .curvature = curvature, .direction = to.direction});
+  }
+  return {start.pose, segments};
+}
+
+/// Adds a note to the plan if the car starts with its back to the path: where the car turns round,
+/// and whether an obstacle is in its way.
+void NoteTurnRound(FeasiblePlan& plan, const VehicleParams& vehicle, const StartState& start,
+                   const SpeedControlOptions& speed, const std::vector<OrientedBox>& known) {
+  if (plan->reference.path.length() == 0.0 || vehicle.kind != VehicleKind::kSteered) {
+    return;
+  }
+  const PathPoint to = plan->reference.path.At(0.0);
+  const double turn = AngleDifference(to.pose.yaw, start.pose.yaw);
+  if (std::cos(turn) >= 0.0) {
+    return;
+  }
+  // Before the start of the path, the speed control keeps this speed above the start speed.
+  const Path path =
+      TurnRoundPath(vehicle, start, to, std::abs(start.speed) + speed.acceleration / speed.gain);
+  std::string note = fmt::format(
+      "the car starts with its back to the path ({:.0f} deg off) and turns round to the {}, on a "
+      "radius of {:.4g} m",
+      std::abs(turn) * 180.0 / kPi, turn > 0.0 ? "left" : "right", vehicle.min_turning_radius());
+  if (const std::optional<double> s = CollisionChecker(vehicle, known, 0.0).FirstBlocked(path)) {
+    note += fmt::format(
+        ", but meets an obstacle after {:.3g} m: start farther away from it, or let "
+        "plan.global: {{method: reeds_shepp}} turn round in reverse gear",
+        *s);
+  }
+  plan.AddNote(std::move(note));
 }
 
 /// Returns the bound on the distance of the path from waypoints [m]; nullopt if there is no bound.
@@ -176,6 +223,7 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
     return WithHint(std::move(plan), request, scenario);
   }
   NoteSlowTurns(plan, request.speed.speed);
+  NoteTurnRound(plan, vehicle, start, scenario.control.speed, known);
   if (!scenario.plan->avoid) {
     if (!scenario.plan->replan) {
       NoteObstacle(plan, vehicle, known);
