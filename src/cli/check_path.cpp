@@ -107,9 +107,8 @@ void PrintCheck(const Scenario& scenario, const FittedPath& fitted, const PathCh
             check.max_speed_station);
     }
   }
-  if (fitted.noise_deviation) {
-    Print("  if the points turn back because of noise, use --max-deviation {:.2g}\n",
-          *fitted.noise_deviation);
+  if (!fitted.reversals.empty()) {
+    Print("  the path turns back on itself{}\n", ReversalRemedy(fitted, "use --max-deviation"));
   }
   std::istringstream notes(plan.notes.value_or(""));
   for (std::string note; std::getline(notes, note);) {

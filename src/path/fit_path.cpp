@@ -3,99 +3,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
 
+#include "src/path/leg_fit.h"
+#include "src/path/legs.h"
 #include "src/path/points_to_fit.h"
-#include "src/path/spline_fit.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
+#include "trackbed/geometry/pose.h"
 
-// Fits a path to points. FitPath drops repeated points, and optionally resamples the other points
-// along straight lines. A spline fit is in spline_fit.cpp. A polyline fit joins straight lines by
-// arcs with tangents of at most 1 mm. Points at which the path turns back are reported as
-// reversals.
+// Fits a path to points. The points are divided into legs of one direction of motion (legs.cpp).
+// Each leg is fitted as a forward path in its direction of travel (leg_fit.cpp). A first fit of
+// each leg gives the headings at the cusps between the legs. A second fit of each leg has these
+// headings at its ends, which makes the heading of the whole path continuous.
 
 namespace trackbed {
 namespace {
-
-/// Finds the distinct points of the given points. A polyline passes all points, so it has no noise.
-DistinctPoints DistinctFor(const PathPoints& given, const PathFitOptions& options) {
-  // The points within a box of noise are nearer to its center than half of this share of the
-  // deviation, and points at the ends are nearer to the end than this share.
-  constexpr double kNoise = 0.9;
-  return Distinct(given, options.closed,
-                  options.fit == PathFit::kSpline ? kNoise * options.max_deviation : 0.0);
-}
-
-std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period) {
-  std::vector<HeadingJump> reversals;
-  ForEachTurn(chords, period, [&](std::size_t i, double angle, double /*shorter*/) {
-    if (std::abs(angle) > kMaxHeadingJump) {
-      reversals.push_back({.point = i,
-                           .s = chords.u[i],
-                           .position = chords.points[i],
-                           .angle = angle,
-                           .rounded = {chords.u[i], chords.u[i]}});
-    }
-  });
-  return reversals;
-}
-
-/// Returns the points to which the path is fitted.
-ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& options) {
-  return options.resample ? Resampled(distinct, *options.resample) : distinct.chords;
-}
-
-/// Fits a path that consists of straight lines joined by tiny arcs.
-void FitPolyline(const ChordPoints& chords, double period, FittedPath& fitted,
-                 std::vector<double>& stations) {
-  constexpr double kTangent = 1e-3;  // [m]
-  const std::size_t count = chords.points.size();
-  std::vector<double> angles(count, 0.0);
-  std::vector<double> tangents(count, 0.0);
-  ForEachTurn(chords, period, [&](std::size_t i, double angle, double shorter) {
-    // The path has no corner at its start, even if the path is closed.
-    const bool is_start = i == 0;
-    if (std::abs(angle) > kEqualityTolerance && !is_start) {
-      angles[i] = angle;
-      tangents[i] = std::min(kTangent, 0.25 * shorter);
-    }
-  });
-  const Vec2 first = chords.points[1] - chords.points[0];
-  std::vector<Segment> segments;
-  double s = 0.0;
-  stations.assign(count, 0.0);
-  const std::size_t lines = period > 0.0 ? count : count - 1;
-  for (std::size_t i = 0; i < lines; ++i) {
-    const std::size_t next = (i + 1) % count;
-    const double length = (chords.points[next] - chords.points[i]).norm();
-    segments.push_back({.length = length - tangents[i] - tangents[next]});
-    s += segments.back().length;
-    if (next == 0) {
-      continue;
-    }
-    const double angle = std::abs(angles[next]);
-    const double radius = angle > 0.0 ? tangents[next] / std::tan(0.5 * angle) : 0.0;
-    const double arc = radius * angle;
-    stations[next] = s + 0.5 * arc;
-    if (angle > 0.0) {
-      segments.push_back({.length = arc, .curvature = std::copysign(1.0 / radius, angles[next])});
-      fitted.jumps.push_back({.point = next,
-                              .s = stations[next],
-                              .position = chords.points[next],
-                              .angle = angles[next],
-                              .rounded = {s, s + arc}});
-    }
-    s += arc;
-  }
-  fitted.path = Path({chords.points[0].x(), chords.points[0].y(), std::atan2(first.y(), first.x())},
-                     std::move(segments));
-  if (period > 0.0) {
-    stations.push_back(fitted.path.length());
-  }
-}
 
 void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
   TRACKBED_REQUIRE(
@@ -108,6 +34,12 @@ void CheckArguments(const PathPoints& given, const PathFitOptions& options) {
   }
   TRACKBED_REQUIRE(given.lines.empty() || given.lines.size() == given.points.size(),
                    "FitPath: {} lines for {} points", given.lines.size(), given.points.size());
+  TRACKBED_REQUIRE(given.direction.empty() || given.direction.size() == given.points.size(),
+                   "FitPath: {} directions for {} points", given.direction.size(),
+                   given.points.size());
+  for (const int direction : given.direction) {
+    TRACKBED_REQUIRE(std::abs(direction) <= 1, "FitPath: a direction {}", direction);
+  }
   for (const auto* list : {&given.yaw, &given.curvature, &given.speed}) {
     TRACKBED_REQUIRE(list->empty() || list->size() == given.points.size(),
                      "FitPath: {} entries for {} points", list->size(), given.points.size());
@@ -127,11 +59,15 @@ double HeadingDifference(const FittedPath& fitted) {
     const double own = std::abs(AngleDifference(fitted.given.yaw[i], yaw));
     if (own > kOpposite) {
       const Vec2& point = fitted.given.points[i];
+      const bool is_reverse = fitted.path.At(fitted.stations[i]).direction < 0;
       FailFit("",
-              fmt::format("the heading of point {} at ({:.6g}, {:.6g}), {:.4g} rad, is against the "
-                          "direction of travel, {:.4g} rad; paths that are driven in reverse are "
-                          "not supported",
-                          i + 1, point.x(), point.y(), fitted.given.yaw[i], WrapAngle(yaw)),
+              fmt::format("the heading of point {} at ({:.6g}, {:.6g}), {:.4g} rad, is opposite to "
+                          "{:.4g} rad, the heading of a car that drives {} there as the file's {} "
+                          "say; correct the headings or the {}, or remove one of their columns",
+                          i + 1, point.x(), point.y(), fitted.given.yaw[i], WrapAngle(yaw),
+                          is_reverse ? "in reverse" : "forwards",
+                          fitted.given.direction.empty() ? "points" : "directions of motion",
+                          fitted.given.direction.empty() ? "points" : "directions"),
               LineOf(fitted.given, i));
     }
     largest = std::max(largest, own);
@@ -139,64 +75,143 @@ double HeadingDifference(const FittedPath& fitted) {
   return largest;
 }
 
+/// Returns the heading of the car where a leg has the heading `travel` in its direction of travel.
+double CarHeading(double travel, int direction) {
+  return direction > 0 ? travel : WrapAngle(travel + kPi);
+}
+
+/// Returns the mean of angles that are close to each other [rad].
+double MeanAngle(const std::vector<double>& angles) {
+  double sum = 0.0;
+  for (const double angle : angles) {
+    sum += AngleDifference(angle, angles.front());
+  }
+  return angles.front() + sum / static_cast<double>(angles.size());
+}
+
+/// Returns the heading of the car at the cusp between two legs, which are fitted without prescribed
+/// headings.
+double CuspHeading(const PathPoints& given, const std::array<Leg, 2>& legs,
+                   const std::array<const FittedPath*, 2>& fits) {
+  // Number of points from which the heading at the end of a curve is certain enough.
+  constexpr std::size_t kManyPoints = 4;
+  // Heading difference above which the given headings are no help [rad].
+  constexpr double kFar = 0.3;
+  std::vector<double> from_many;
+  std::vector<double> from_all;
+  std::vector<double> differences;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const FittedPath& fit = *fits[k];
+    const double travel = fit.path.At(k == 0 ? fit.path.length() : 0.0).pose.yaw;
+    from_all.push_back(CarHeading(travel, legs[k].direction));
+    if (fit.given.points.size() - fit.repeated - fit.merged >= kManyPoints) {
+      from_many.push_back(from_all.back());
+    }
+    for (std::size_t i = legs[k].first; !given.yaw.empty() && i <= legs[k].last; ++i) {
+      const double own = fit.path.At(fit.stations[i - legs[k].first]).pose.yaw;
+      differences.push_back(AngleDifference(CarHeading(own, legs[k].direction), given.yaw[i]));
+    }
+  }
+  const double heading = MeanAngle(from_many.empty() ? from_all : from_many);
+  if (given.yaw.empty()) {
+    return heading;
+  }
+  const double from_file = given.yaw[legs[1].first] + MeanAngle(differences);
+  return std::abs(AngleDifference(from_file, heading)) < kFar ? from_file : heading;
+}
+
+/// Returns the headings of the car at the cusps between the legs, for curves that are fitted
+/// without prescribed headings. Polylines keep the heading with which they reach a cusp.
+std::vector<EndHeadings> HeadingsOfLegs(const PathPoints& given, const std::vector<Leg>& legs,
+                                        const std::vector<FittedPath>& fits) {
+  std::vector<EndHeadings> headings(legs.size());
+  const bool is_polyline = fits.front().options.fit == PathFit::kPolyline;
+  for (std::size_t i = 1; i < legs.size(); ++i) {
+    const Path& before = fits[i - 1].path;
+    const double heading =
+        is_polyline ? CarHeading(before.At(before.length()).pose.yaw, legs[i - 1].direction)
+                    : CuspHeading(given, {legs[i - 1], legs[i]}, {&fits[i - 1], &fits[i]});
+    if (!is_polyline) {
+      headings[i - 1].end = CarHeading(heading, legs[i - 1].direction);
+    }
+    headings[i].begin = CarHeading(heading, legs[i].direction);
+  }
+  return headings;
+}
+
+/// Joins the fits of all legs to one path.
+FittedPath JoinLegs(const std::vector<Leg>& legs, const std::vector<FittedPath>& fits) {
+  FittedPath joined;
+  std::vector<Segment> segments;
+  double s = 0.0;
+  for (std::size_t i = 0; i < legs.size(); ++i) {
+    const FittedPath& fit = fits[i];
+    for (HeadingJump jump : fit.jumps) {
+      jump.point += legs[i].first;
+      jump.s += s;
+      jump.rounded = {jump.rounded.from + s, jump.rounded.to + s};
+      joined.jumps.push_back(jump);
+    }
+    for (HeadingJump jump : fit.reversals) {
+      jump.point += legs[i].first;
+      jump.s += s;
+      joined.reversals.push_back(jump);
+    }
+    for (std::size_t k = i == 0 ? 0 : 1; k < fit.stations.size(); ++k) {
+      joined.stations.push_back(s + fit.stations[k]);
+    }
+    if (fit.bulge >= joined.bulge) {
+      joined.bulge = fit.bulge;
+      joined.bulge_station = s + fit.bulge_station;
+    }
+    joined.repeated += fit.repeated;
+    joined.merged += fit.merged;
+    joined.smoothing_length =
+        i == 0 ? fit.smoothing_length : std::min(joined.smoothing_length, fit.smoothing_length);
+    const std::vector<Segment> own = InDirection(fit.path.segments(), legs[i].direction);
+    segments.insert(segments.end(), own.begin(), own.end());
+    s += fit.path.length();
+  }
+  Pose2 start = fits.front().path.At(0.0).pose;
+  start.yaw = CarHeading(start.yaw, legs.front().direction);
+  joined.path = Path(start, std::move(segments));
+  return joined;
+}
+
 /// Fits a path as FitPath does, without a search for a larger deviation if the fit fails.
 FittedPath FitOnce(PathPoints given, const PathFitOptions& options) {
-  const DistinctPoints distinct = DistinctFor(given, options);
+  const std::vector<Leg> legs = FindLegs(given, options.max_deviation);
   FittedPath fitted;
+  if (legs.size() == 1) {
+    fitted = FitLeg(PointsOf(given, legs.front()), options, {});
+    if (legs.front().direction < 0) {
+      fitted = JoinLegs(legs, {std::move(fitted)});
+    }
+  } else {
+    if (options.closed) {
+      FailFit("closed", "a path with changes of direction cannot be closed; remove closed");
+    }
+    std::vector<FittedPath> fits;
+    for (const Leg& leg : legs) {
+      fits.push_back(FitLeg(PointsOf(given, leg), options, {}));
+    }
+    fitted = JoinLegs(legs, fits);
+    if (fitted.reversals.empty()) {
+      const std::vector<EndHeadings> headings = HeadingsOfLegs(given, legs, fits);
+      for (std::size_t i = 0; i < legs.size(); ++i) {
+        fits[i] = FitLeg(std::move(fits[i].given), options, headings[i]);
+      }
+      fitted = JoinLegs(legs, fits);
+    }
+  }
   fitted.given = std::move(given);
   fitted.options = options;
-  const std::size_t count = distinct.chords.points.size();
-  if (count < 2 || (options.closed && count < 3)) {
-    FailFit("", fmt::format("{} different point{}; must be at least {}", count,
-                            count == 1 ? "" : "s", options.closed ? 3 : 2));
-  }
-  CheckLength(distinct, fitted.given);
-  fitted.repeated = distinct.repeated;
-  fitted.merged = distinct.merged;
-  const ChordPoints own = KnotsOf(distinct, options);
-  if (own.points.size() > kMaxFittedPoints) {
-    FailFit("resample",
-            fmt::format("{} points; must be at most {}, give a distance to resample them",
-                        own.points.size(), kMaxFittedPoints));
-  }
-  const auto name_points = [&](std::vector<HeadingJump>& jumps) {
-    for (HeadingJump& jump : jumps) {
-      jump.point = distinct.number[LastBefore(distinct.chords.u, own.u[jump.point])];
-    }
-  };
-  fitted.reversals = FindReversals(own, distinct.period);
   if (!fitted.reversals.empty()) {
-    name_points(fitted.reversals);
     return fitted;
   }
-  std::vector<double> stations;  // stations of the distinct points
-  if (options.fit == PathFit::kSpline && own.points.size() > 2) {
-    FitSpline(own, distinct, fitted, stations);
-  } else {
-    std::vector<double> own_stations;
-    FitPolyline(own, distinct.period, fitted, own_stations);
-    if (options.resample) {
-      for (std::size_t i = 0; i < count; ++i) {
-        const Vec2& point = distinct.chords.points[i];
-        const double about = distinct.chords.u[i];
-        stations.push_back(
-            fitted.path
-                .Project({point.x(), point.y(), 0.0},
-                         {about - 2.0 * *options.resample, about + *options.resample})
-                .s);
-      }
-    } else {
-      stations = std::move(own_stations);
-    }
-    name_points(fitted.jumps);
-  }
-  // A repeated point gets the station of its predecessor. The last point of a closed path gets the
-  // station of the path's end.
-  for (const double u : distinct.given_u) {
-    const std::size_t i = LastBefore(distinct.chords.u, u);
-    fitted.stations.push_back(u > distinct.chords.u[i] ? fitted.path.length() : stations[i]);
-    const std::size_t point = fitted.stations.size() - 1;
-    const Vec2 at = fitted.path.At(fitted.stations.back()).pose.position();
+  for (std::size_t point = 0; point < fitted.stations.size(); ++point) {
+    fitted.stations[point] = std::min(fitted.stations[point], fitted.path.length());
+    const Vec2 at = fitted.path.At(fitted.stations[point]).pose.position();
     const double deviation = (at - fitted.given.points[point]).norm();
     if (deviation > fitted.deviation) {
       fitted.deviation = deviation;
@@ -226,9 +241,13 @@ std::optional<double> NoiseDeviation(const PathPoints& given, const PathFitOptio
       options.fit == PathFit::kSpline ? kStep * spline.max_deviation : kEqualityTolerance;
   for (; allowed <= 0.1 * length && fits < kMaxFits; allowed *= kStep) {
     spline.max_deviation = RoundedUp(allowed);
-    const DistinctPoints distinct = DistinctFor(given, spline);
-    if (distinct.chords.points.size() < 2 || distinct.chords.u.back() > kMaxPathLength ||
-        !FindReversals(KnotsOf(distinct, spline), distinct.period).empty()) {
+    const std::vector<Leg> legs = FindLegs(given, spline.max_deviation);
+    const bool can_fit = std::all_of(legs.begin(), legs.end(), [&](const Leg& leg) {
+      const DistinctPoints distinct = DistinctFor(PointsOf(given, leg), spline);
+      return distinct.chords.points.size() > 1 && distinct.chords.u.back() <= kMaxPathLength &&
+             FindReversals(KnotsOf(distinct, spline), distinct.period).empty();
+    });
+    if (!can_fit) {
       continue;
     }
     ++fits;
@@ -255,6 +274,14 @@ PathPoints AtRearAxle(PathPoints given, double ahead) {
       given.points[i] -= ahead * Vec2(std::cos(given.yaw[i]), std::sin(given.yaw[i]));
     }
     return given;
+  }
+  const auto reverse = std::find(given.direction.begin(), given.direction.end(), -1);
+  if (reverse != given.direction.end()) {
+    const auto point = static_cast<std::size_t>(reverse - given.direction.begin());
+    FailFit("ahead",
+            fmt::format("{} is driven in reverse, so the path of the rear axle needs headings; add "
+                        "a column of headings, or give points of the rear axle and remove ahead",
+                        NameOf(given, point)));
   }
   const ChordPoints chords = Distinct(given, false, 0.0).chords;
   if (chords.points.size() < 2) {

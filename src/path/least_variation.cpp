@@ -43,7 +43,8 @@ constexpr double kMinShortening = 0.2;
 
 class Newton {
  public:
-  Newton(std::vector<CurveNode> nodes, bool closed) : nodes_(std::move(nodes)), closed_(closed) {
+  Newton(std::vector<CurveNode> nodes, bool closed, const EndHeadings& headings)
+      : nodes_(std::move(nodes)), closed_(closed), headings_(headings) {
     for (const CurveNode& node : nodes_) {
       shortest_.push_back(kMinShortening * node.length);
     }
@@ -65,6 +66,7 @@ class Newton {
 
   std::vector<CurveNode> nodes_;
   bool closed_;
+  EndHeadings headings_;
   double mean_ = 0.0;             // The constant c.
   std::vector<double> shortest_;  // Smallest length before each node.
   std::vector<double> slides_;    // Distance that each node moves along the curve.
@@ -135,6 +137,13 @@ StateVector Newton::Start(const StateMatrix& cost) const {
     }
   } else {
     state(kOffset) = OffsetOf(nodes_.front());
+    if (headings_.begin) {
+      state(kHeading) = AngleDifference(*headings_.begin, nodes_.front().pose.yaw);
+      free.erase(free.begin());
+    }
+    if (headings_.end) {
+      free.push_back(kMultiplier + kHeading);
+    }
   }
   const Eigen::MatrixXd system = cost(free, free);
   const Eigen::VectorXd right = -(cost * state)(free);
@@ -158,6 +167,12 @@ double Newton::Iterate() {
   } else {
     cost(kOffset, kMultiplier) = cost(kMultiplier, kOffset) = 1.0;
     cost(kOne, kMultiplier) = cost(kMultiplier, kOne) = -OffsetOf(nodes_.back());
+    if (headings_.end) {
+      constexpr int kTurn = kMultiplier + kHeading;
+      cost(kHeading, kTurn) = cost(kTurn, kHeading) = 1.0;
+      cost(kOne, kTurn) = cost(kTurn, kOne) =
+          -AngleDifference(*headings_.end, nodes_.back().pose.yaw);
+    }
   }
   // Where the points leave the constant open, as three points do, it stays as it is.
   double length = 0.0;
@@ -236,8 +251,12 @@ double Newton::Move(StateVector state) {
 double Newton::EndError() const {
   const CurveNode& last = nodes_.back();
   if (!closed_) {
-    return std::max((*last.point - last.pose.position()).norm(),
-                    (*nodes_.front().point - nodes_.front().pose.position()).norm());
+    const auto turned = [](const std::optional<double>& heading, const CurveNode& node) {
+      return heading ? std::abs(AngleDifference(*heading, node.pose.yaw)) : 0.0;
+    };
+    return std::max({(*last.point - last.pose.position()).norm(),
+                     (*nodes_.front().point - nodes_.front().pose.position()).norm(),
+                     turned(headings_.begin, nodes_.front()), turned(headings_.end, last)});
   }
   const CurveNode& first = nodes_.front();
   return std::max((last.pose.position() - first.pose.position()).norm(),
@@ -268,7 +287,8 @@ void Scale(std::vector<CurveNode>& nodes, double factor) {
 }  // namespace
 
 std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode> nodes,
-                                                          double smoothing_length, bool closed) {
+                                                          double smoothing_length, bool closed,
+                                                          const EndHeadings& headings) {
   constexpr int kMaxIterations = 30;
   // Iterations after which nodes that still move by kFar smoothing lengths are given up.
   constexpr int kFarIterations = 10;
@@ -283,7 +303,7 @@ std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode>
     }
   }
   Scale(nodes, 1.0 / smoothing_length);
-  Newton newton(std::move(nodes), closed);
+  Newton newton(std::move(nodes), closed, headings);
   // Movement below which rounding dominates.
   const double rounding = 1e-14 * length / smoothing_length;
   double before = std::numeric_limits<double>::infinity();

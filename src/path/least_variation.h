@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "src/path/smoothing_spline.h"
 #include "trackbed/path/path.h"
 
 namespace trackbed {
@@ -30,14 +31,17 @@ struct CurveNode {
 /// fitted curve is this curve, up to rounding.
 ///
 /// The sharpness is continuous and is linear between nodes, so curvature and sharpness are
-/// continuous. An open curve begins at the first point and ends at the last point. A closed curve
-/// returns to its first node with equal curvature and sharpness; the last node repeats the first.
+/// continuous. An open curve begins at the first point and ends at the last point, with the
+/// prescribed headings. A closed curve returns to its first node with equal curvature and
+/// sharpness; the last node repeats the first.
 ///
 /// `nodes` are the initial values, at least three; a first and last node of an open curve have
-/// points. Newton's method converges if the initial curve is near the points compared with its
-/// radii. Returns nullopt if the method does not converge. Costs about 20 us per node.
+/// points. `headings` must be empty for a closed curve. Newton's method converges if the initial
+/// curve is near the points compared with its radii. Returns nullopt if the method does not
+/// converge. Costs about 20 us per node.
 std::optional<std::vector<CurveNode>> LeastVariationCurve(std::vector<CurveNode> nodes,
-                                                          double smoothing_length, bool closed);
+                                                          double smoothing_length, bool closed,
+                                                          const EndHeadings& headings = {});
 
 /// Returns the segments between the nodes.
 std::vector<Segment> SegmentsBetween(const std::vector<CurveNode>& nodes);

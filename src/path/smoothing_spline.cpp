@@ -42,7 +42,8 @@ std::vector<double> Weights(const ChordPoints& fitted, double period) {
 
 }  // namespace
 
-SmoothingSpline::SmoothingSpline(const ChordPoints& fitted, double period)
+SmoothingSpline::SmoothingSpline(const ChordPoints& fitted, double period,
+                                 const EndHeadings& headings)
     : period_(period), knots_(fitted.u), weights_(Weights(fitted, period)) {
   TRACKBED_CHECK(knots_.size() >= (period > 0.0 ? 3U : 2U), "{} points", knots_.size());
   const auto count = static_cast<Eigen::Index>(knots_.size());
@@ -64,7 +65,7 @@ SmoothingSpline::SmoothingSpline(const ChordPoints& fitted, double period)
       all_knots_[i] = knots_[static_cast<std::size_t>(std::clamp<Eigen::Index>(own, 0, count - 1))];
     }
   }
-  AddData(fitted);
+  AddData(fitted, headings);
   AddPenalty();
 }
 
@@ -73,19 +74,34 @@ SmoothingSpline::Basis SmoothingSpline::BasisAt(double u, int order) const {
   return {span - kDegree, Spline::BasisFunctionDerivatives(u, order, kDegree, all_knots_)};
 }
 
-void SmoothingSpline::AddData(const ChordPoints& fitted) {
+void SmoothingSpline::AddData(const ChordPoints& fitted, const EndHeadings& headings) {
   std::vector<Eigen::Triplet<double>> entries;
   right_ = Eigen::MatrixX2d::Zero(size_, 2);
-  for (std::size_t i = 0; i < fitted.u.size(); ++i) {
-    const Basis basis = BasisAt(fitted.u[i], 0);
+  // Adds a weighted equation for the derivative of the given order at u.
+  const auto add = [&](double u, int order, double weight, const Vec2& value) {
+    const Basis basis = BasisAt(u, order);
     for (Eigen::Index a = 0; a <= kDegree; ++a) {
-      const double factor = weights_[i] * basis.factors(0, a);
-      right_.row(Coefficient(basis.first + a)) += factor * fitted.points[i].transpose();
+      const double factor = weight * basis.factors(order, a);
+      right_.row(Coefficient(basis.first + a)) += factor * value.transpose();
       for (Eigen::Index b = 0; b <= kDegree; ++b) {
         entries.emplace_back(Coefficient(basis.first + a), Coefficient(basis.first + b),
-                             factor * basis.factors(0, b));
+                             factor * basis.factors(order, b));
       }
     }
+  };
+  for (std::size_t i = 0; i < fitted.u.size(); ++i) {
+    add(fitted.u[i], 0, weights_[i], fitted.points[i]);
+  }
+  // The derivative by the chord length is about a unit vector along the heading. The factor of the
+  // square of a length gives the derivative the weight of an end point.
+  const auto square = [](double length) { return length * length; };
+  if (headings.begin) {
+    add(knots_.front(), 1, weights_.front() * square(knots_[1] - knots_[0]),
+        Direction(*headings.begin));
+  }
+  if (headings.end) {
+    add(knots_.back(), 1, weights_.back() * square(knots_.back() - *(knots_.end() - 2)),
+        Direction(*headings.end));
   }
   data_.resize(size_, size_);
   data_.setFromTriplets(entries.begin(), entries.end());

@@ -4,6 +4,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "trackbed/path/path.h"
@@ -16,12 +17,20 @@ struct ChordPoints {
   std::vector<Vec2> points;
 };
 
+/// Prescribed headings at the ends of an open curve, in the direction of travel [rad]; nullopt: the
+/// heading of this end follows from the points.
+struct EndHeadings {
+  std::optional<double> begin{};
+  std::optional<double> end{};
+};
+
 /// Smoothing spline of degree 5, which FitPath uses. With `period` > 0 [m], the spline is closed:
 /// its last point connects to its first point, and u repeats after `period`.
 class SmoothingSpline {
  public:
-  /// An open path needs at least two points, and a closed path needs at least three points.
-  SmoothingSpline(const ChordPoints& fitted, double period);
+  /// An open path needs at least two points, and a closed path needs at least three points. An open
+  /// path has the prescribed headings at its ends, nearly exactly.
+  SmoothingSpline(const ChordPoints& fitted, double period, const EndHeadings& headings = {});
 
   /// Fits the spline with the smoothing length l [m]. If the system of equations is singular to
   /// machine precision, Fit() returns false and leaves the spline unchanged.
@@ -51,7 +60,7 @@ class SmoothingSpline {
   };
   [[nodiscard]] Basis BasisAt(double u, int order) const;
   [[nodiscard]] Eigen::Index Coefficient(Eigen::Index i) const { return i % size_; }
-  void AddData(const ChordPoints& fitted);
+  void AddData(const ChordPoints& fitted, const EndHeadings& headings);
   void AddPenalty();
 
   double period_;

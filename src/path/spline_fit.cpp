@@ -191,6 +191,7 @@ struct LocalPoints {
   ChordPoints distinct;
   ChordPoints given;
   double period = 0.0;
+  EndHeadings headings;  // Prescribed headings at the ends.
 };
 
 /// Returns the station of each distinct point on a path.
@@ -324,11 +325,12 @@ std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& loc
   int failures = 0;
   for (int i = 0; i < kLengths && failures < kMaxFailures; ++i, own_length *= kShorter) {
     if (nodes) {
-      nodes = LeastVariationCurve(*nodes, own_length, closed);
+      nodes = LeastVariationCurve(*nodes, own_length, closed, local.headings);
     }
     for (std::size_t k = 0; k < (i == 0 ? kStarts.size() : 1) && !nodes; ++k) {
       if (spline.Fit(kStarts[k] * own_length)) {
-        nodes = LeastVariationCurve(NodesAlong(spline, local.knots, closed), own_length, closed);
+        nodes = LeastVariationCurve(NodesAlong(spline, local.knots, closed), own_length, closed,
+                                    local.headings);
       }
     }
     if (!nodes) {
@@ -346,14 +348,14 @@ std::optional<KnotPath> FitCurve(SmoothingSpline& spline, const LocalPoints& loc
 
 }  // namespace
 
-void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct, FittedPath& fitted,
-               std::vector<double>& stations) {
+void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct,
+               const EndHeadings& headings, FittedPath& fitted, std::vector<double>& stations) {
   const double tolerance = fitted.options.max_deviation;
   const Vec2 origin = knots.points.front();
   const LocalPoints local{Relative(knots, origin), Relative(distinct.chords, origin),
                           Relative({distinct.given_u, fitted.given.points}, origin),
-                          distinct.period};
-  SmoothingSpline spline(local.knots, local.period);
+                          distinct.period, headings};
+  SmoothingSpline spline(local.knots, local.period, headings);
   // Reserve 5 % of the tolerance for the segments, which approximate the spline.
   double smoothing_length = FitWithin(spline, local.given, local.knots, 0.95 * tolerance);
   const auto curve = [&](std::size_t knot, double share) -> Vec2 {

@@ -9,8 +9,9 @@ namespace trackbed {
 
 /// Fits a spline to the knots, as FitPath describes, with the options and the given points of
 /// `fitted`. Sets the path, the bulge and the smoothing length of `fitted`, and the station of each
-/// distinct point [m]. Throws InputError if no spline stays within the largest deviation.
-void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct, FittedPath& fitted,
-               std::vector<double>& stations);
+/// distinct point [m]. An open path has the prescribed headings at its ends. Throws InputError if
+/// no spline stays within the largest deviation.
+void FitSpline(const ChordPoints& knots, const DistinctPoints& distinct,
+               const EndHeadings& headings, FittedPath& fitted, std::vector<double>& stations);
 
 }  // namespace trackbed

@@ -12,7 +12,7 @@
 #include "trackbed/core/text_table.h"
 
 // Reads CommonRoad solution files, which contain one trajectory for each planning problem; a
-// trajectory is a list of states.
+// trajectory is a list of states. Velocities are negative in reverse.
 namespace trackbed {
 namespace {
 
@@ -63,6 +63,15 @@ const XMLElement* FindTrajectory(const XMLElement& root, std::size_t& count) {
   return first;
 }
 
+/// Takes the directions of motion from the velocities, which are signed in CommonRoad. Without a
+/// negative velocity, the car drives forwards all along, whatever its orientations say.
+void TakeVelocities(PathPoints& points) {
+  TakeSignedSpeeds(points);
+  if (points.direction.empty() && !points.yaw.empty() && !points.speed.empty()) {
+    points.direction.assign(points.points.size(), 1);
+  }
+}
+
 }  // namespace
 
 PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& text) {
@@ -98,10 +107,6 @@ PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& te
       points.yaw.push_back(*yaw);
     }
     if (speed) {
-      if (*speed < 0.0) {
-        Refuse(file, "velocity", "paths that are driven in reverse are not supported",
-               state->GetLineNum());
-      }
       points.speed.push_back(*speed);
     } else if (vx && vy) {
       points.speed.push_back(std::min(std::hypot(*vx, *vy), kMaxPathSpeed));
@@ -116,6 +121,7 @@ PathFile ReadCommonRoad(const std::filesystem::path& path, const std::string& te
              trajectory->GetLineNum());
     }
   }
+  TakeVelocities(points);
   found.notes.push_back(fmt::format(
       "CommonRoad {} of {} states{}", trajectory->Name(), points.points.size(),
       trajectories > 1 ? fmt::format(", the first of {}", trajectories) : std::string()));

@@ -20,9 +20,10 @@
 // Reads paths from CSV tables with a header line of column names; the header line may begin with
 // '#'. The reader identifies columns by their usual names (PathColumnNames) or by names that the
 // caller specifies. The reader converts the values to SI units and collects problems with their
-// line and column. If the table has times but no speed column, the speeds are computed from the
-// times. Invalid cells in the columns of curvature, speed and time only make these columns
-// unusable.
+// line and column. Directions of motion come from a column of directions or gears, and from the
+// signs of the speeds. If the table has times but no speed column, the speeds are computed from the
+// times. Invalid cells in the columns of curvature, speed, time and direction only make these
+// columns unusable.
 namespace trackbed {
 namespace {
 
@@ -76,8 +77,8 @@ struct Column {
   double largest = 0.0;  // largest permitted magnitude of the quantity, in SI units
 };
 
-/// Quantities of a path. The quantities from kCurvature on are not needed for the path itself.
-enum Quantity { kX, kY, kYaw, kCurvature, kSpeed, kTime, kQuantities };
+/// Quantities of a path. The quantities from kCurvature on may be unusable.
+enum Quantity { kX, kY, kYaw, kCurvature, kSpeed, kTime, kMotion, kQuantities };
 
 /// Invalid cells of a column.
 struct InvalidCells {
@@ -127,6 +128,12 @@ class CsvPath {
         found_.speed_problems.back().message = describe(invalid);
       }
     }
+    FinishDirections();
+    if (!found_.speed_problems.empty()) {
+      points.speed.clear();
+    }
+    const bool has_speeds = !points.speed.empty();
+    TakeSignedSpeeds(points);
     if (!found_.speed_problems.empty()) {
       points.speed.clear();
     } else if (columns_[kTime]) {
@@ -137,6 +144,38 @@ class CsvPath {
       if (const std::string problem = HeadingUnitProblem(points); !problem.empty()) {
         Refuse(file_, names_[yaw->index], problem);
       }
+    }
+    if (has_speeds) {
+      if (const std::string problem = HalfTurnProblem(points); !problem.empty()) {
+        Refuse(file_, names_[yaw->index], problem);
+      }
+    }
+  }
+
+  /// Drops a column of directions that has an invalid cell or says nothing.
+  void FinishDirections() {
+    std::vector<int>& direction = found_.points.direction;
+    if (const InvalidCells& invalid = invalid_[kMotion]; invalid.count > 0) {
+      if (requested_.direction) {
+        throw InputError(invalid.first);
+      }
+      direction.clear();
+      found_.notes.push_back(fmt::format("column {} is ignored: line {}: {}", invalid.first.key,
+                                         invalid.first.line, invalid.first.message));
+    }
+    const auto has = [&](int own) {
+      return std::find(direction.begin(), direction.end(), own) != direction.end();
+    };
+    if (has(-1)) {
+      return;
+    }
+    // In a column of directions that has only the numbers 0 and 1, they mean false and true.
+    if (direction_column_ == DirectionColumn::kSigned && has(0) && has(1) && !has_words_) {
+      std::replace(direction.begin(), direction.end(), 0, -1);
+    } else if (has(1)) {
+      std::fill(direction.begin(), direction.end(), 1);
+    } else {
+      direction.clear();
     }
   }
 
@@ -200,7 +239,8 @@ class CsvPath {
                     {"yaw", &requested_.yaw},
                     {"curvature", &requested_.curvature},
                     {"speed", &requested_.speed},
-                    {"time", &requested_.time}}};
+                    {"time", &requested_.time},
+                    {"direction", &requested_.direction}}};
     for (std::size_t i = 0; i < kQuantities; ++i) {
       Find(static_cast<Quantity>(i), quantities[i].first, *quantities[i].second, line);
     }
@@ -269,6 +309,14 @@ class CsvPath {
       }
       return;
     }
+    if (quantity == kMotion) {
+      direction_column_ = unit == "gear"      ? DirectionColumn::kGear
+                          : unit == "forward" ? DirectionColumn::kForward
+                          : unit == "reverse" ? DirectionColumn::kReverse
+                                              : DirectionColumn::kSigned;
+      columns_[kMotion] = Column{.index = *index, .factor = 1.0};
+      return;
+    }
     const std::string si = PathColumnNames(name).front().unit;
     const std::optional<std::string>* given = quantity <= kY       ? &requested_.position_unit
                                               : quantity == kYaw   ? &requested_.yaw_unit
@@ -297,21 +345,20 @@ class CsvPath {
     }
     std::array<double, kQuantities> values{};
     for (std::size_t i = 0; i < kQuantities; ++i) {
-      if (!columns_[i]) {
+      if (!columns_[i] || i == kMotion) {
         continue;
       }
       const Column& column = *columns_[i];
       const std::optional<double> number = CellNumber(cells[column.index]);
       values[i] = number.value_or(0.0) * column.factor + column.offset;
-      const double smallest = i == kSpeed ? 0.0 : -column.largest;
       const auto quantity = static_cast<Quantity>(i);
       if (!number) {
         TakeInvalidCell(quantity, line,
                         fmt::format("'{}' is not a finite number", cells[column.index]));
-      } else if (values[i] < smallest || values[i] > column.largest) {
+      } else if (values[i] < -column.largest || values[i] > column.largest) {
         TakeInvalidCell(quantity, line,
                         fmt::format("{} is out of range; must be between {} and {} in SI units",
-                                    *number, smallest, column.largest));
+                                    *number, -column.largest, column.largest));
       }
     }
     PathPoints& points = found_.points;
@@ -326,6 +373,23 @@ class CsvPath {
     add(kCurvature, points.curvature);
     add(kSpeed, points.speed);
     add(kTime, times_);
+    TakeDirection(cells, line);
+  }
+
+  void TakeDirection(const std::vector<std::string>& cells, int line) {
+    if (!columns_[kMotion]) {
+      return;
+    }
+    const std::string& cell = cells[columns_[kMotion]->index];
+    const std::optional<int> direction = DirectionIn(cell, direction_column_);
+    if (!direction) {
+      TakeInvalidCell(kMotion, line,
+                      fmt::format("'{}' is no direction of motion; allowed: 1 or -1, D or R, "
+                                  "forward or reverse",
+                                  cell));
+    }
+    has_words_ = has_words_ || !CellNumber(cell);
+    found_.points.direction.push_back(direction.value_or(0));
   }
 
   const fs::path& file_;
@@ -340,6 +404,8 @@ class CsvPath {
   std::array<std::optional<Column>, kQuantities> columns_;
   std::array<InvalidCells, kQuantities> invalid_;
   std::vector<double> times_;
+  DirectionColumn direction_column_ = DirectionColumn::kSigned;
+  bool has_words_ = false;  // whether a cell of the direction column is no number
   PathFile found_;
 };
 
@@ -361,11 +427,17 @@ std::string PathCsv(const PathPoints& points) {
   add("yaw_rad", points.yaw);
   add("curvature_radpm", points.curvature);
   add("speed_mps", points.speed);
+  if (!points.direction.empty()) {
+    columns.emplace_back("direction");
+  }
   Table table(columns);
   for (std::size_t i = 0; i < points.points.size(); ++i) {
     std::vector<double> row{points.points[i].x(), points.points[i].y()};
     for (const std::vector<double>* list : lists) {
       row.push_back((*list)[i]);
+    }
+    if (!points.direction.empty()) {
+      row.push_back(points.direction[i]);
     }
     table.AddRow(row);
   }

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -53,9 +54,31 @@ double NumberOf(const nlohmann::json& value, const std::string& key, double larg
 
 /// Evaluates the times at which the points are reached [s]. If the points have no speeds, computes
 /// the speed at each point from the times. If the times do not increase, or if the car stands for
-/// some time between the ends of the path, drops the speeds and adds a problem that names the point
-/// to PathFile::speed_problems.
+/// some time between the ends of the path, except where it turns back, drops the speeds and adds a
+/// problem that names the point to PathFile::speed_problems.
 void TakeTimes(PathFile& found, const std::vector<double>& times, const std::string& file);
+
+/// The meaning of the numbers in a column of directions of motion. In each, words such as "D", "R",
+/// "forward" and "reverse" are allowed, too.
+enum class DirectionColumn {
+  kSigned,   ///< 1 forwards, -1 in reverse, 0 if the car stands.
+  kGear,     ///< Positive forwards, negative in reverse, 0 neutral.
+  kForward,  ///< 1 or true forwards, 0 or false in reverse.
+  kReverse,  ///< 1 or true in reverse, 0 or false forwards.
+};
+
+/// Returns the direction of motion in a cell: 1, -1 or, if the car stands, 0. Returns nullopt if
+/// the cell is no direction.
+std::optional<int> DirectionIn(const std::string& cell, DirectionColumn column);
+
+/// Converts speeds that are negative in reverse to directions of motion and speeds of at least 0.
+/// Keeps given directions other than 0.
+void TakeSignedSpeeds(PathPoints& points);
+
+/// Returns the problem, with its remedy, if the headings of points without directions of motion are
+/// opposite to the direction of travel all along the path; else "". Such headings contradict a
+/// column of speeds that are not negative.
+std::string HalfTurnProblem(const PathPoints& points);
 
 /// Returns how the headings of the points fit the direction of travel, if they do not fit as
 /// radians from the x axis but in another common unit or direction; for people, with the remedy.

@@ -10,7 +10,8 @@
 
 // Recognizes headings that are not radians from the x axis. For each common meaning of a heading,
 // the reader converts the headings to radians from the x axis, and compares them with the direction
-// of travel at the points. The meaning with the smallest mean difference is the most probable one.
+// of travel at the points, or with the opposite direction where the car may drive in reverse. The
+// meaning with the smallest mean difference is the most probable one.
 namespace trackbed {
 namespace {
 
@@ -39,16 +40,18 @@ const std::array<HeadingMeaning, 5> kMeanings{{
 struct Heading {
   double number;
   double travel;
+  double weight;  ///< Length of the step from which the direction of travel follows [m].
 };
 
+/// Returns the headings at both ends of each step between two different points.
 std::vector<Heading> HeadingsOf(const PathPoints& points) {
   std::vector<Heading> headings;
-  for (std::size_t i = 0; i < points.yaw.size(); ++i) {
-    const std::size_t before = i == 0 ? 0 : i - 1;
-    const std::size_t after = std::min(i + 1, points.points.size() - 1);
-    const Vec2 along = points.points[after] - points.points[before];
+  for (std::size_t i = 0; i + 1 < points.yaw.size(); ++i) {
+    const Vec2 along = points.points[i + 1] - points.points[i];
     if (along.norm() > 0.0) {
-      headings.push_back({points.yaw[i], std::atan2(along.y(), along.x())});
+      const double travel = std::atan2(along.y(), along.x());
+      headings.push_back({points.yaw[i], travel, along.norm()});
+      headings.push_back({points.yaw[i + 1], travel, along.norm()});
     }
   }
   return headings;
@@ -59,10 +62,23 @@ double Difference(const Heading& heading, const HeadingMeaning& meaning) {
   return std::abs(AngleDifference(yaw, heading.travel));
 }
 
+/// Returns the mean difference of the headings from the direction of travel, or from the opposite
+/// direction for steps in reverse [rad]. Longer steps have larger weights.
+double MeanDifference(const std::vector<Heading>& headings, const HeadingMeaning& meaning) {
+  double sum = 0.0;
+  double length = 0.0;
+  for (const Heading& heading : headings) {
+    const double difference = Difference(heading, meaning);
+    sum += heading.weight * std::min(difference, kPi - difference);
+    length += heading.weight;
+  }
+  return sum / length;
+}
+
 }  // namespace
 
 std::string HeadingUnitProblem(const PathPoints& points) {
-  // Heading difference [rad] above which FitPath rejects a heading.
+  // Heading difference [rad] above which a heading is against the direction of travel.
   constexpr double kOpposite = 2.0;
   const std::vector<Heading> headings = HeadingsOf(points);
   const bool fits = std::none_of(headings.begin(), headings.end(), [](const Heading& heading) {
@@ -71,32 +87,27 @@ std::string HeadingUnitProblem(const PathPoints& points) {
   if (fits) {
     return "";
   }
-  const HeadingMeaning* best = nullptr;
-  double least = 0.0;
+  // Headings that have nothing to do with the path differ by an eighth of a turn on average.
+  constexpr double kFits = 0.3;  // [rad]
+  const HeadingMeaning* best = &kMeanings.front();
+  double least = MeanDifference(headings, *best);
+  if (least <= kFits) {
+    return "";  // the car drives in reverse
+  }
   for (const HeadingMeaning& meaning : kMeanings) {
-    double sum = 0.0;
-    for (const Heading& heading : headings) {
-      const double difference = Difference(heading, meaning);
-      // A car that is driven in reverse has the opposite heading, in radians from the x axis.
-      sum += &meaning == &kMeanings.front() ? std::min(difference, kPi - difference) : difference;
-    }
-    if (best == nullptr || sum < least) {
+    if (const double own = MeanDifference(headings, meaning); own < least) {
       best = &meaning;
-      least = sum;
+      least = own;
     }
   }
-  const bool best_fits =
-      std::none_of(headings.begin(), headings.end(),
-                   [&](const Heading& heading) { return Difference(heading, *best) > kOpposite; });
-  if (best == &kMeanings.front() || !best_fits) {
+  if (least > kFits) {
     return "";
   }
   const std::string remedy = best->remedy;
   return fmt::format(
       "the headings are against the direction of travel if they are radians from the x axis, but "
       "fit the path within {:.3g} rad on average if they are {}{}{}",
-      least / static_cast<double>(headings.size()), remedy, best->offset != 0.0 ? "; " : "",
-      best->offset != 0.0 ? kConvert : "");
+      least, remedy, best->offset != 0.0 ? "; " : "", best->offset != 0.0 ? kConvert : "");
 }
 
 }  // namespace trackbed

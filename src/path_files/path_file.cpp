@@ -129,7 +129,12 @@ void TakeTimes(PathFile& found, const std::vector<double>& times, const std::str
     }
     const double distance = (points.points[i + 1] - points.points[i]).norm();
     if (distance > 0.0) {
-      if (standing_since > 0 && standing_since < i) {
+      // At a cusp, the car stops anyway.
+      const auto turns_back = [&] {
+        return (points.points[i + 1] - points.points[i])
+                   .dot(points.points[standing_since] - points.points[standing_since - 1]) < 0.0;
+      };
+      if (standing_since > 0 && standing_since < i && !turns_back()) {
         drop_speeds(standing_since,
                     fmt::format("the car stands for {:.4g} s at point {}; path_file cannot wait on "
                                 "the way: divide the path at this point, or remove the points {} "

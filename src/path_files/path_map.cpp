@@ -42,12 +42,19 @@ void Visit(KeyVisitor& keys, PathColumns& columns) {
       {"curvature", "", "column of the curvature; default: kappa_radpm, curvature, ... if present"},
       columns.curvature);
   keys.Field(
-      {"speed", "", "column of the speed; default: vx_mps, speed_mps, velocity, ... if present"},
+      {"speed", "",
+       "column of the speed, negative in reverse; default: vx_mps, speed_mps, velocity, ... if "
+       "present"},
       columns.speed);
   keys.Field({"time", "",
               "column of the time, from which speeds are computed if there are none; default: t_s, "
               "time, ..."},
              columns.time);
+  keys.Field(
+      {"direction", "",
+       "column of the direction of motion or the gear, such as 1 and -1, D and R, or forward "
+       "and reverse; default: direction, gear, ... if present"},
+      columns.direction);
   keys.Field({"position_unit", "", "m, cm, mm or km; default: that in the column's name, or m"},
              columns.position_unit);
   keys.Field({"yaw_unit", "", "rad or deg; default: that in the column's name, or rad"},
@@ -155,6 +162,19 @@ const std::vector<PathColumnName>& PathColumnNames(std::string_view quantity) {
         {"speed_kmh", "km/h"},
         {"v_kmh", "km/h"},
         {"speed_mph", "mph"}}},
+      {"direction",
+       {{"direction", "direction"},
+        {"driving_direction", "direction"},
+        {"motion_direction", "direction"},
+        {"travel_direction", "direction"},
+        {"dir", "direction"},
+        {"gear", "gear"},
+        {"gear_position", "gear"},
+        {"forward", "forward"},
+        {"is_forward", "forward"},
+        {"reverse", "reverse"},
+        {"is_reverse", "reverse"},
+        {"backward", "reverse"}}},
       {"time", {{"t_s", "s"}, {"time_s", "s"}, {"time", "s"}, {"t", "s"}, {"timestamp", "s"}}},
   };
   const auto found = names.find(quantity);

@@ -295,12 +295,13 @@ TEST(FitPath, NamesThePointWhereAPathTurnsBack) {
   }
 }
 
-TEST(FitPath, RefusesReverseTravel) {
+TEST(FitPath, RefusesHeadingsAgainstTheDirectionOfMotion) {
   PathPoints given;
   given.points = {{0.0, 0.0}, {1.0, 0.0}, {2.0, 0.0}};
   given.yaw = {0.1, 0.1, 0.1};
   EXPECT_NEAR(FitPath(given, {}).heading_difference, 0.1, Tolerance(1e-9));
   given.yaw = {kPi, kPi, kPi};
+  given.direction = {1, 1, 1};
   try {
     FitPath(given, {});
     FAIL();

@@ -130,7 +130,7 @@ TEST(PathCsv, SaysWhatIsWrong) {
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,nan\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,inf\n"), HasSubstr("not a finite number"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3,1e300\n"), HasSubstr("out of range"));
-  EXPECT_THAT(SpeedProblem("x,y,v\n1,2,-1\n3,4,1\n"), HasSubstr("out of range"));
+  EXPECT_THAT(SpeedProblem("x,y,v\n1,2,-101\n3,4,1\n"), HasSubstr("out of range"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n3\n"), HasSubstr("1 cells, the header has 2"));
   EXPECT_THAT(Error("p.csv", "x,y\n1,2\n"), HasSubstr("1 point; a path has at least 2"));
   EXPECT_THAT(Error("p.csv", "x,x,y\n1,2,3\n"), HasSubstr("repeated column"));
@@ -145,11 +145,11 @@ TEST(PathCsv, SaysWhatIsWrong) {
 TEST(PathCsv, ReadsThePathBesideInvalidSpeeds) {
   std::string rows;
   for (int i = 0; i < 100; ++i) {
-    rows += fmt::format("{},0,-3\n", i);
+    rows += fmt::format("{},0,-300\n", i);
   }
   EXPECT_EQ(SpeedProblem("x,y,v\n" + rows),
-            "2: v: -3 is out of range; must be between 0 and 100 in SI units, and 99 more invalid "
-            "cells in this column");
+            "2: v: -300 is out of range; must be between -100 and 100 in SI units, and 99 more "
+            "invalid cells in this column");
   const TempFolder folder;
   const PathFile found =
       ReadPathFile(folder.Write("p.csv", "x,y,kappa,t\n0,0,none,0\n1,0,0,1\n2,0,nan,2\n"));
@@ -166,6 +166,9 @@ TEST(PathCsv, RefusesToWaitOnTheWay) {
       AllOf(HasSubstr("3: time: the car stands for 3 s at point 2"), HasSubstr("points 3 to 4")));
   const PathPoints ends = Read("p.csv", "t,x,y\n0,0,0\n2,0,0\n3,3,0\n4,6,0\n9,6,0\n");
   EXPECT_EQ(ends.speed, (std::vector<double>{0.0, 3.0, 3.0, 0.0, 0.0}));
+  // At a cusp, the car stops anyway.
+  const PathPoints cusp = Read("p.csv", "t,x,y\n0,0,0\n1,3,0\n4,3,0\n5,1,0\n");
+  EXPECT_EQ(cusp.speed, (std::vector<double>{3.0, 0.0, 2.0, 2.0}));
 }
 
 /// Returns the text of a CSV file with an arc of radius 40 m. The function `number` converts the
@@ -191,6 +194,119 @@ TEST(PathCsv, RecognizesHeadingsInOtherUnits) {
               HasSubstr("degrees, clockwise from north; convert them"));
   EXPECT_THAT(Error("p.csv", ArcWithHeadings([](double yaw) { return 0.5 * kPi - yaw; })),
               HasSubstr("radians, clockwise from north; convert them"));
+}
+
+// --- Directions of motion ------------------------------------------------------------------------
+
+constexpr const char* kBackAndForth = "0,0,{}\n2,0,{}\n1,0,{}\n3,0,{}\n";
+
+/// The directions of four points, with the cells of a column of this name.
+std::vector<int> Directions(const std::string& column, const std::vector<std::string>& cells) {
+  return Read("p.csv",
+              "x,y," + column + "\n" +
+                  fmt::format(fmt::runtime(kBackAndForth), cells[0], cells[1], cells[2], cells[3]))
+      .direction;
+}
+
+TEST(PathDirections, AreReadFromColumns) {
+  const std::vector<int> expected{1, 1, -1, 1};
+  EXPECT_EQ(Directions("direction", {"1", "1", "-1", "1"}), expected);
+  EXPECT_EQ(Directions("Direction", {"1.0", "1.0", "0.0", "1.0"}), expected);
+  EXPECT_EQ(Directions("direction", {"True", "True", "False", "True"}), expected);
+  EXPECT_EQ(Directions("gear", {"D", "D", "R", "D"}), expected);
+  EXPECT_EQ(Directions("gear", {"1", "2", "-1", "1"}), expected);
+  EXPECT_EQ(Directions("gear", {"GEAR_DRIVE", "GEAR_DRIVE", "GEAR_REVERSE", "GEAR_DRIVE"}),
+            expected);
+  EXPECT_EQ(Directions("dir", {"forward", "Forwards", "reverse", " f "}), expected);
+  EXPECT_EQ(Directions("reverse", {"0", "0", "1", "0"}), expected);
+  EXPECT_EQ(Directions("is_reverse", {"false", "false", "true", "false"}), expected);
+  EXPECT_EQ(Directions("forward", {"1", "1", "0", "1"}), expected);
+  EXPECT_EQ(Directions("gear", {"D", "N", "R", "P"}), (std::vector<int>{1, 0, -1, 0}));
+  EXPECT_EQ(Directions("direction", {"1", "0", "-1", "0"}), (std::vector<int>{1, 0, -1, 0}));
+  // A gear of 0 is neutral, and a car that never reverses drives forwards.
+  EXPECT_EQ(Directions("gear", {"0", "1", "2", "0"}), (std::vector<int>{1, 1, 1, 1}));
+  PathMap map;
+  map.columns.direction = "way";
+  EXPECT_EQ(Read("p.csv", "way,x,y\nR,0,0\nR,1,0\n", map).direction, (std::vector<int>{-1, -1}));
+}
+
+TEST(PathDirections, IgnoreColumnsOfOtherMeaning) {
+  const TempFolder folder;
+  const PathFile found = ReadPathFile(folder.Write("p.csv", "x,y,direction\n0,0,45.3\n1,1,45.1\n"));
+  EXPECT_TRUE(found.points.direction.empty());
+  EXPECT_THAT(found.notes, ::testing::Contains(HasSubstr(
+                               "column direction is ignored: line 2: '45.3' is no direction")));
+  PathMap map;
+  map.columns.direction = "direction";
+  EXPECT_THAT(Error("p.csv", "x,y,direction\n0,0,45.3\n1,1,45.1\n", map),
+              AllOf(HasSubstr("p.csv:2: direction: '45.3' is no direction of motion"),
+                    HasSubstr("D or R")));
+}
+
+TEST(PathDirections, AreTheSignsOfSpeeds) {
+  const PathPoints points = Read("p.csv", "x,y,v\n0,0,2\n2,0,0.01\n1,0,-1\n0.5,0,-0.02\n3,0,1.5\n");
+  EXPECT_EQ(points.direction, (std::vector<int>{1, 0, -1, 0, 1}));
+  EXPECT_EQ(points.speed, (std::vector<double>{2.0, 0.01, 1.0, 0.02, 1.5}));
+  // Noise of a standing car is no reverse piece.
+  EXPECT_TRUE(Read("p.csv", "x,y,v\n0,0,-0.01\n2,0,1\n").direction.empty());
+  // A column of directions counts before the signs.
+  EXPECT_EQ(Read("p.csv", "x,y,v,gear\n0,0,-1,D\n2,0,-1,N\n1,0,1,R\n").direction,
+            (std::vector<int>{1, -1, -1}));
+}
+
+TEST(PathDirections, ContradictHeadingsOfHalfATurn) {
+  const std::string rows = "0,0,3.14,{0}\n1,0,3.14,{0}\n2,0,3.13,{0}\n";
+  const auto error = [&](double speed) {
+    return Error("p.csv", "x,y,yaw,v\n" + fmt::format(fmt::runtime(rows), speed));
+  };
+  EXPECT_THAT(error(1.0), AllOf(HasSubstr("yaw: the headings are opposite to the direction of "
+                                          "travel all along the path, but no speed is negative"),
+                                HasSubstr("half a turn")));
+  EXPECT_EQ(error(-1.0), "");
+}
+
+TEST(PathDirections, AreWrittenAndReadAgain) {
+  PathPoints points;
+  points.points = {{0.0, 0.0}, {2.0, 0.25}, {1.0, 0.125}};
+  points.speed = {1.0, 0.0, 0.5};
+  for (const std::vector<int>& direction :
+       {std::vector<int>{1, 0, -1}, {-1, -1, -1}, {1, 1, 1}, {0, -1, -1}}) {
+    points.direction = direction;
+    const PathPoints again = Read(kPathCsv, PathCsv(points));
+    EXPECT_EQ(again.direction, points.direction);
+    EXPECT_EQ(again.speed, points.speed);
+  }
+}
+
+TEST(PathDirections, DoNotHideDegrees) {
+  std::string degrees = "x,y,yaw,gear\n";
+  std::string radians = "x,y,yaw,gear\n";
+  for (int i = 0; i <= 80; ++i) {
+    const bool is_reverse = i > 40;
+    const double x = is_reverse ? 40.0 - (i - 40) : i;
+    const double yaw = 0.7 + 0.02 * x;
+    const Vec2 at(50.0 * std::sin(yaw), -50.0 * std::cos(yaw));
+    const std::string gear = is_reverse ? "R" : "D";
+    degrees += fmt::format("{},{},{},{}\n", at.x(), at.y(), yaw * 180.0 / kPi, gear);
+    radians += fmt::format("{},{},{},{}\n", at.x(), at.y(), yaw, gear);
+  }
+  EXPECT_THAT(Error("p.csv", degrees), HasSubstr("degrees; set columns.yaw_unit: deg"));
+  EXPECT_EQ(Error("p.csv", radians), "");
+}
+
+TEST(CommonRoad, HasSignedVelocities) {
+  const auto state = [](double x, double velocity) {
+    return fmt::format(
+        "<ksState><x>{}</x><y>0</y><velocity>{}</velocity><orientation>0</orientation></ksState>",
+        x, velocity);
+  };
+  const auto read = [&](double last) {
+    return Read("s.xml", "<CommonRoadSolution><ksTrajectory>" + state(0.0, 2.0) + state(2.0, 0.0) +
+                             state(1.0, last) + "</ksTrajectory></CommonRoadSolution>");
+  };
+  EXPECT_EQ(read(-1.0).direction, (std::vector<int>{1, 0, -1}));
+  EXPECT_EQ(read(-1.0).speed, (std::vector<double>{2.0, 0.0, 1.0}));
+  EXPECT_EQ(read(1.0).direction, (std::vector<int>{1, 1, 1}));
 }
 
 TEST(PathCsv, IsBoundedInPoints) {
@@ -309,8 +425,8 @@ TEST(CommonRoad, SaysWhatIsWrong) {
               AllOf(HasSubstr("s.xml:2"), HasSubstr("missing in ksState")));
   EXPECT_THAT(Error("s.xml", begin + "<x>one</x><y>2</y>" + end),
               HasSubstr("'one' is not a finite"));
-  EXPECT_THAT(Error("s.xml", begin + "<x>1</x><y>2</y><velocity>-3</velocity>" + end),
-              HasSubstr("reverse"));
+  EXPECT_THAT(Error("s.xml", begin + "<x>1</x><y>2</y><velocity>-300</velocity>" + end),
+              HasSubstr("out of range"));
 }
 
 TEST(CommonRoad, ExpandsNoEntities) {

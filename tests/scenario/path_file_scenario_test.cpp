@@ -98,10 +98,10 @@ TEST(PathFileScenario, RefusesSpeedsThatCannotBeDriven) {
   // A car that stands, and whose measured position jitters by less than max_deviation.
   EXPECT_EQ(error("x,y,v\n0,0,0\n0.01,0,0\n10,0,2\n20,0,2\n", "file"), "");
   EXPECT_THAT(error("x,y\n0,0\n10,0\n", "file"), HasSubstr("columns.speed"));
-  EXPECT_THAT(error("x,y,v\n0,0,1\n10,0,-1\n20,0,-2\n", "file"),
-              AllOf(HasSubstr("v.csv:3: v: -1 is out of range"),
+  EXPECT_THAT(error("x,y,v\n0,0,1\n10,0,-101\n20,0,-102\n", "file"),
+              AllOf(HasSubstr("v.csv:3: v: -101 is out of range"),
                     HasSubstr("and 1 more invalid cells in this column")));
-  EXPECT_EQ(error("x,y,v\n0,0,1\n10,0,-1\n20,0,-2\n", "mission"), "");
+  EXPECT_EQ(error("x,y,v\n0,0,1\n10,0,-101\n20,0,-102\n", "mission"), "");
   const std::string waits = "t,x,y\n0,0,0\n1,3,0\n2,6,0\n7,6,0\n8,9,0\n9,12,0\n";
   EXPECT_THAT(error(waits, "file"),
               AllOf(HasSubstr("v.csv:4: time: the car stands for 5 s at point 3"),
@@ -123,6 +123,62 @@ TEST(PathFileScenario, HasItsPointsBesideIt) {
   EXPECT_EQ(once, ResolvedYaml(again));
   EXPECT_EQ(again.plan->global.Get<PathFileOptions>().path->path.segments(),
             fitted.path.segments());
+}
+
+/// A three-point turn: 4 m to the left, 3 m back to the right, 5 m ahead.
+Path ThreePointTurn() {
+  return Path({1.0, 2.0, 0.3}, {{.length = 4.0, .curvature = 0.15},
+                                {.length = 3.0, .curvature = -0.15, .direction = -1},
+                                {.length = 5.0, .curvature = 0.1}});
+}
+
+/// Columns x, y and the speed, which is negative in reverse and 0 at the cusps.
+std::string SignedSpeeds(const Path& path) {
+  std::string text = "x,y,v\n";
+  for (const Stations& leg : SplitIntoLegs(path)) {
+    for (int i = leg.from == 0.0 ? 0 : 1; i <= 10; ++i) {
+      const PathPoint at = path.At(std::lerp(leg.from, leg.to, 0.1 * i) - (i == 10 ? 1e-12 : 0.0));
+      text += fmt::format("{},{},{}\n", at.pose.x, at.pose.y, i == 10 ? 0.0 : at.direction * 0.8);
+    }
+  }
+  return text;
+}
+
+TEST(PathFileScenario, KeepsReversePiecesInItsRunFolder) {
+  const TempFolder folder;
+  folder.Write("v.csv", SignedSpeeds(ThreePointTurn()));
+  const Scenario scenario = Parse(folder, "file: v.csv, speeds: file");
+  const FittedPath& fitted = *scenario.plan->global.Get<PathFileOptions>().path;
+  EXPECT_EQ(SplitIntoLegs(fitted.path).size(), 3U);
+  const TempFolder elsewhere;
+  elsewhere.Write(kPathCsv, PathCsv(fitted.given));
+  const Scenario again = ParseScenario(ResolvedYaml(scenario), "resolved.yaml", elsewhere.path());
+  EXPECT_EQ(again.plan->global.Get<PathFileOptions>().path->path.segments(),
+            fitted.path.segments());
+}
+
+TEST(PathFileScenario, StartsInReverseAtRest) {
+  const TempFolder folder;
+  folder.Write("back.csv", "x,y,v\n0,0,-1\n-5,0,-1\n-10,0,-1\n");
+  for (const std::string speeds : {"file", "mission"}) {
+    const Scenario scenario = Parse(folder, "file: back.csv, speeds: " + speeds);
+    EXPECT_EQ(InitialState(scenario).speed, 0.0);
+    EXPECT_NEAR(InitialState(scenario).pose.yaw, 0.0, Tolerance(1e-12));
+  }
+}
+
+TEST(PathFileScenario, PlansNoDetoursInReverse) {
+  const TempFolder folder;
+  folder.Write("v.csv", SignedSpeeds(ThreePointTurn()));
+  try {
+    ParseScenario(
+        "schema: 1\nname: x\nmission: {speed: 4}\nplan:\n  global: {method: path_file, file: "
+        "v.csv}\n  replan: {along: {method: frenet}}\n",
+        "test.yaml", folder.path());
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("not available for plans by path_file, which may reverse"));
+  }
 }
 
 TEST(PathFileScenario, ReadsFilesBelowItsFolderAlone) {
@@ -148,7 +204,7 @@ TEST(PathFileScenario, SaysWhatIsWrong) {
   folder.Write("p.csv", Circle());
   folder.Write("cell.csv", "x,y\n0,0\n1,one\n");
   folder.Write("point.csv", "x,y\n0,0\n0,0\n");
-  folder.Write("back.csv", "x,y,yaw\n0,0,3.1\n1,0,3.1\n2,0,3.1\n");
+  folder.Write("back.csv", "x,y,yaw,gear\n0,0,3.1,D\n1,0,3.1,D\n2,0,3.1,D\n");
   EXPECT_THAT(Error(folder, "file: p.csv"),
               AllOf(HasSubstr("p.csv:1"), HasSubstr("no column for x")));
   EXPECT_THAT(Error(folder, "file: cell.csv"), HasSubstr("cell.csv:3: y: 'one'"));

@@ -16,9 +16,12 @@ struct PathPoints {
   std::vector<double> yaw;   ///< Headings of the car at the points [rad].
   /// Curvatures of the path at the points, positive to the left [1/m].
   std::vector<double> curvature;
-  std::vector<double> speed;  ///< Speeds of the car at the points [m/s], >= 0.
+  std::vector<double> speed;  ///< Speeds of the car at the points [m/s], >= 0, also in reverse.
   /// Line numbers of the points in the file, from 1, for error messages.
   std::vector<int> lines{};
+  /// Directions of motion at the points: +1 forwards, -1 backwards, 0 unknown, as where the car
+  /// stands. If the list is empty, the directions follow from the headings.
+  std::vector<int> direction{};
 };
 
 /// The method by which a path is fitted to points.
@@ -91,10 +94,20 @@ inline constexpr double kMaxHeadingJump = 2.8;
 /// front of the rear axle. The conversion is exact if headings are given. Without headings, the
 /// conversion assumes that the rear axle follows the reference point without slip (a tractrix) and
 /// starts on the circle through the first three points. Keeps the speeds, but drops the curvatures,
-/// because these are the curvatures of the reference point's path.
+/// because these are the curvatures of the reference point's path. Throws InputError if the car
+/// drives in reverse and no headings are given, because no axle follows a point in reverse.
 PathPoints AtRearAxle(PathPoints given, double ahead);
 
 /// Fits a path through or along the points.
+///
+/// The points are divided into legs of one direction of motion, by their directions and, where
+/// these are missing, by their headings: the car drives in reverse where its heading is opposite to
+/// the step to the next point. A leg that is shorter than max_deviation counts as noise. The car
+/// changes its direction at points, the cusps of the path. Each leg is fitted as a curve of its
+/// own. At a cusp, the heading is continuous; it is the given heading, corrected by the mean
+/// difference of the curves from the given headings, or the mean of the curves' headings. The
+/// curvature may jump at a cusp, where the car stands. A path without directions and headings has
+/// one forward leg.
 ///
 /// Because a Path has a continuous heading, each corner of a polyline becomes an arc. The arc is at
 /// most 2 mm long, is within 1 mm of the corner, and is far too tight for any car.
@@ -117,19 +130,20 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// in a car that stands: a spline is fitted to the centers of these points.
 ///
 /// Guarantees: an open path begins at the first point and ends at the last point, to 1e-9 m (at
-/// coordinates of 1e6 m and more, to their rounding). If all points lie on one line, arc or
-/// clothoid, the path deviates from it by at most 1e-9 m. No point lies further than max_deviation
-/// from the path's point at the same station, as measured on the fitted path. With `resample`, the
-/// deviation is measured from the resampled points on the straight lines between the given points.
-/// Between widely spaced points, a spline deviates from the straight lines (`bulge`); next to
-/// corners, the deviation is a tenth of the spacing or more. The deviation of a spline from the
-/// straight lines (`bulge`) is at most the larger of two values: a fifth of the spacing, and the
-/// height of an arc that turns by the same angle as the points. The fit does not account for
-/// obstacles or the limits of a car.
+/// coordinates of 1e6 m and more, to their rounding); so does each of its legs. If all points lie
+/// on one line, arc or clothoid, the path deviates from it by at most 1e-9 m. No point lies further
+/// than max_deviation from the path's point at the same station, as measured on the fitted path.
+/// With `resample`, the deviation is measured from the resampled points on the straight lines
+/// between the given points. Between widely spaced points, a spline deviates from the straight
+/// lines (`bulge`); next to corners, the deviation is a tenth of the spacing or more. The deviation
+/// of a spline from the straight lines (`bulge`) is at most the larger of two values: a fifth of
+/// the spacing, and the height of an arc that turns by the same angle as the points. The fit does
+/// not account for obstacles or the limits of a car.
 ///
 /// Throws InputError if there are fewer than two different points or more than 200 000 points to be
 /// fitted, or if no spline stays within max_deviation. Throws InputError if the heading of a point
-/// is opposite to the direction of travel; the message names the first such point. Throws
+/// contradicts the directions of motion; the message names the first such point. Throws InputError
+/// if a closed path has cusps. Throws
 /// InputError if the path is longer than kMaxPathLength; the message names the largest gap between
 /// points. Throws InputError if a spline deviates more than guaranteed from the straight lines; the
 /// message names the point that is probably wrong. Throws PreconditionError if a number is not

@@ -32,9 +32,15 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// points.
 ///
 /// Invalid speeds and times do not make a path unusable; PathFile::speed_problems lists them: cells
-/// of a CSV file that are not finite numbers or out of range (speeds from 0 to 100 m/s), times that
-/// do not increase, and a car that stands for some time between the ends of the path. Invalid
-/// curvatures are dropped, with a note.
+/// of a CSV file that are not finite numbers or out of range (speeds to 100 m/s), times that do not
+/// increase, and a car that stands for some time between the ends of the path, except where it
+/// turns back. Invalid curvatures are dropped, with a note.
+///
+/// PathPoints::direction comes from a column of directions or gears, or from the signs of the
+/// speeds. Speeds of less than 0.05 m/s, or of less than a tenth of the largest speed, have no
+/// certain sign; the direction is 0 there. If a file has neither directions nor negative speeds,
+/// the list is empty, except for CommonRoad solutions with orientations: their velocities are
+/// signed.
 ///
 /// ReadPathFile does not fit a curve, and does not check whether a car can follow the path.
 ///
@@ -42,11 +48,12 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// number or is out of range (positions to 1e7 m). Throws InputError if a column is missing (the
 /// message suggests the most similar name), or if a required member of a YAML or JSON file is
 /// missing. Throws InputError if a heading is against the direction of travel, and the headings are
-/// degrees or compass headings (the message suggests the unit). Throws InputError if there are
-/// fewer than two or more than kMaxPathPoints points. Throws InputError if the text is malformed,
-/// is nested deeper than 64 levels, has YAML aliases, or contains coordinates that do not exist on
-/// Earth. Throws RunError if the file cannot be read or is larger than 512 MiB (CSV) or 16 MiB
-/// (other formats). Reading takes about 1 us per point.
+/// degrees or compass headings (the message suggests the unit), or if all headings of a CSV file
+/// are opposite to the direction of travel although a column of speeds is not negative. Throws
+/// InputError if there are fewer than two or more than kMaxPathPoints points. Throws InputError if
+/// the text is malformed, is nested deeper than 64 levels, has YAML aliases, or contains
+/// coordinates that do not exist on Earth. Throws RunError if the file cannot be read or is larger
+/// than 512 MiB (CSV) or 16 MiB (other formats). Reading takes about 1 us per point.
 PathFile ReadPathFile(const std::filesystem::path& file, const PathMap& map = {});
 
 /// Returns true if a YAML file in a folder of scenarios is a path and not a scenario. Returns false

@@ -35,6 +35,7 @@ struct PathColumns {
   std::optional<std::string> curvature;
   std::optional<std::string> speed;
   std::optional<std::string> time;
+  std::optional<std::string> direction;  ///< Column of the direction of motion, or of the gear.
   /// Unit of the position columns: "m", "cm", "mm" or "km".
   std::optional<std::string> position_unit;
   std::optional<std::string> yaw_unit;    ///< Unit of the yaw column: "rad" or "deg".
@@ -74,8 +75,9 @@ struct PathColumnName {
   const char* unit;
 };
 
-/// Returns the usual column names of a quantity ("x", "y", "yaw", "curvature", "speed" or "time"),
-/// in order of preference.
+/// Returns the usual column names of a quantity ("x", "y", "yaw", "curvature", "speed", "time" or
+/// "direction"), in order of preference. The unit of a column of directions is "direction", "gear",
+/// "forward" or "reverse": what the numbers in the column mean.
 const std::vector<PathColumnName>& PathColumnNames(std::string_view quantity);
 
 }  // namespace trackbed

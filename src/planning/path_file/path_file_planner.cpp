@@ -19,14 +19,19 @@ namespace {
 // Lower bound of the speed caps [m/s]. Next to a stop, the mean of the file's speeds may be lower.
 constexpr double kMinSpeed = 0.1;
 
-/// Returns the remedy if the points turn back because of noise.
-std::string NoiseRemedy(const FittedPath& fitted) {
-  if (!fitted.noise_deviation) {
-    return "";
+bool HasReversePieces(const Path& path) {
+  return std::any_of(path.segments().begin(), path.segments().end(),
+                     [](const Segment& segment) { return segment.direction < 0; });
+}
+
+/// Returns the stations at which the path changes its direction [m].
+std::vector<double> CuspsOf(const Path& path) {
+  std::vector<double> cusps;
+  for (const Stations& leg : SplitIntoLegs(path)) {
+    cusps.push_back(leg.from);
   }
-  return fmt::format(
-      "; if this is noise of the positions, use fit: spline with max_deviation: {:.2g}",
-      *fitted.noise_deviation);
+  cusps.erase(cusps.begin());
+  return cusps;
 }
 
 /// Returns speed caps that follow the speeds in the file; between two points, the cap is the mean
@@ -71,12 +76,20 @@ std::vector<Standstill> FindStandstills(const std::vector<double>& speed) {
   return found;
 }
 
-/// Returns the stations between the ends of the path at which the speed in the file is 0.
+/// Returns the stations between the ends of the path at which the speed in the file is 0, apart
+/// from the cusps, at which the car stops anyway.
 std::vector<double> StopsOf(const FittedPath& fitted) {
+  const std::vector<double> cusps = CuspsOf(fitted.path);
+  const double near = fitted.options.max_deviation;
   std::vector<double> stops;
   for (const auto& [first, last] : FindStandstills(fitted.given.speed)) {
-    if (fitted.stations[first] > 0.0 && fitted.stations[last] < fitted.path.length()) {
-      stops.push_back(fitted.stations[first]);
+    const double from = fitted.stations[first];
+    const double to = fitted.stations[last];
+    const bool is_at_cusp = std::any_of(cusps.begin(), cusps.end(), [&](double cusp) {
+      return from - near <= cusp && cusp <= to + near;
+    });
+    if (from > 0.0 && to < fitted.path.length() && !is_at_cusp) {
+      stops.push_back(from);
     }
   }
   return stops;
@@ -120,18 +133,27 @@ std::vector<std::string> SpeedNotes(const FittedPath& fitted, const std::vector<
 }
 
 /// Makes the steering schedule of the fitted path. On a path with continuous curvature and no
-/// heading jumps, the steering schedule follows the curvature.
+/// heading jumps, the steering schedule follows the curvature. At a cusp, the wheels turn within
+/// the last micrometer.
 SteeringSchedule ScheduleOf(const FittedPath& fitted, const PlanRequest& request,
                             const std::vector<SpeedCap>& caps, const std::vector<double>& stops) {
   const Path& path = fitted.path;
   if (!fitted.jumps.empty()) {
     return CourseSchedule(request.vehicle, path.segments(), request.speed.speed, caps, stops);
   }
+  constexpr double kTurn = 1e-6;  // [m]
   std::vector<SteeringSchedule::Knot> knots;
   double s = 0.0;
+  const Segment* before = nullptr;
   for (const Segment& segment : path.segments()) {
+    if (before != nullptr && before->direction != segment.direction) {
+      const double turn = std::min(kTurn, 0.5 * before->length);
+      knots.push_back({s - turn, SteeringForCurvature(request.vehicle,
+                                                      before->CurvatureAt(before->length - turn))});
+    }
     knots.push_back({s, SteeringForCurvature(request.vehicle, segment.curvature)});
     s += segment.length;
+    before = &segment;
   }
   const Segment& last = path.segments().back();
   knots.push_back({s, SteeringForCurvature(request.vehicle, last.CurvatureAt(last.length))});
@@ -151,7 +173,7 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
     plan.status = PlanStatus::kUTurn;
     plan.reason = fmt::format("the path turns back on itself by {:.3g} rad at ({:.6g}, {:.6g})",
                               std::abs(first.angle), first.position.x(), first.position.y());
-    plan.reason += NoiseRemedy(fitted);
+    plan.reason += ReversalRemedy(fitted, "use fit: spline with max_deviation:");
     return plan;
   }
   plan.diagnostics.planner = DiagnosticsOf(fitted);
@@ -168,6 +190,9 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
     return plan;
   }
   plan.reference.path = fitted.path;
+  if (HasReversePieces(fitted.path)) {
+    plan.diagnostics.direction_changes = CuspsOf(fitted.path).size();
+  }
   const double length = fitted.path.length();
   if (options.speeds == PathSpeeds::kFile) {
     plan.caps = CapsOf(fitted);
@@ -244,10 +269,16 @@ std::optional<PlannedStart> StartOf(const PathFileOptions& options) {
   }
   PlannedStart start{.pose = options.path->path.At(0.0).pose};
   const std::vector<double>& speed = options.path->given.speed;
-  if (options.speeds == PathSpeeds::kFile && !speed.empty()) {
+  if (options.path->path.At(0.0).direction < 0) {
+    start.speed = 0.0;  // a rolling car rolls forwards
+  } else if (options.speeds == PathSpeeds::kFile && !speed.empty()) {
     start.speed = speed.front();
   }
   return start;
+}
+
+bool MayReverse(const PathFileOptions& options) {
+  return options.path != nullptr && HasReversePieces(options.path->path);
 }
 
 std::optional<double> StartCurvature(const PathFileOptions& options, const RouteStart& /*route*/) {
@@ -287,6 +318,21 @@ PathFileDiagnostics DiagnosticsOf(const FittedPath& fitted) {
   return own;
 }
 
+std::string ReversalRemedy(const FittedPath& fitted, const std::string& noise_key) {
+  const PathPoints& given = fitted.given;
+  std::string text =
+      given.direction.empty() && given.yaw.empty()
+          ? "; if the car changes its direction of motion there, say so in the file: add a column "
+            "direction of 1 and -1, speeds that are negative in reverse, or headings"
+          : fmt::format("; the file's {} say that the car keeps its direction of motion there",
+                        given.direction.empty() ? "headings" : "directions of motion");
+  if (fitted.noise_deviation) {
+    text += fmt::format("; if this is noise of the positions, {} {:.2g}", noise_key,
+                        *fitted.noise_deviation);
+  }
+  return text;
+}
+
 std::string Describe(const FittedPath& fitted) {
   std::string text =
       fitted.options.fit == PathFit::kSpline
@@ -297,6 +343,13 @@ std::string Describe(const FittedPath& fitted) {
   if (fitted.bulge > fitted.options.max_deviation) {
     text += fmt::format(", up to {:.3g} m beside the straight lines between them at s = {:.4g} m",
                         fitted.bulge, fitted.bulge_station);
+  }
+  if (const std::vector<double> cusps = CuspsOf(fitted.path); !cusps.empty()) {
+    text += fmt::format(", begins {}, changes its direction at s = {:.4g} m",
+                        fitted.path.At(0.0).direction > 0 ? "forwards" : "in reverse",
+                        fmt::join(cusps, ", "));
+  } else if (HasReversePieces(fitted.path)) {
+    text += ", driven in reverse";
   }
   if (fitted.options.resample) {
     text += fmt::format(", resampled every {:.3g} m", *fitted.options.resample);
@@ -369,6 +422,7 @@ PlannerEntry PathFilePlanner() {
           .summary = summary.c_str(),
           .defaults = PathFileOptions{},
           .plan = PlanBy<PathFileOptions, PlanWith>,
+          .may_go_backwards = OnOptions<PathFileOptions, MayReverse>,
           .start = OnOptions<PathFileOptions, StartOf>,
           .start_curvature = OnOptions<PathFileOptions, StartCurvature>,
           .read_inputs = OnOptions<PathFileOptions, ReadPath>,

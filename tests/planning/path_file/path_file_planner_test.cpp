@@ -198,6 +198,56 @@ TEST(PathFilePlanner, NamesTheDeviationThatTakesJitter) {
   EXPECT_THAT(plan.notes, Contains(HasSubstr("points merged whose steps turn back")));
 }
 
+/// Samples of a three-point turn with speeds of 0 at the cusps.
+PathPoints ThreePointTurn() {
+  const Path path({0.0, 0.0, 0.0}, {{.length = 4.0, .curvature = 0.12},
+                                    {.length = 3.0, .curvature = -0.12, .direction = -1},
+                                    {.length = 5.0, .curvature = 0.1}});
+  PathPoints given;
+  for (const Stations& leg : SplitIntoLegs(path)) {
+    const int direction = path.At(0.5 * (leg.from + leg.to)).direction;
+    for (int i = leg.from == 0.0 ? 0 : 1; i <= 12; ++i) {
+      given.points.push_back(path.At(std::lerp(leg.from, leg.to, i / 12.0)).pose.position());
+      given.direction.push_back(direction);
+      given.speed.push_back(i == 12 ? 0.0 : 1.0);
+    }
+  }
+  return given;
+}
+
+// A kinematic car steered by the schedule stays on the path (RK4 over knots 0.1 m apart).
+TEST(PathFilePlanner, DrivesReversePieces) {
+  PathFileOptions options;
+  options.path = std::make_shared<const FittedPath>(FitPath(ThreePointTurn(), {}));
+  PlanRequest request = RequestAlong(options);
+  request.start_speed = 0.0;
+  for (const PathSpeeds speeds : {PathSpeeds::kMission, PathSpeeds::kFile}) {
+    options.speeds = speeds;
+    const Plan plan = MakePlan(request, options);
+    ASSERT_TRUE(plan.ok()) << plan.reason;
+    const nlohmann::json json = DiagnosticsJson(plan);
+    EXPECT_LE(json.at("open_loop").at("deviation_max_m").get<double>(), 1e-3);
+    EXPECT_EQ(json.at("changes_of_direction"), 2);
+    EXPECT_TRUE(plan.stops.empty());
+    for (const double cusp : {4.0, 7.0}) {
+      // The stations of the cusps are exact to 1e-8 m, where v^2 = 2 a d.
+      EXPECT_NEAR(plan.reference.speed.SpeedAt(cusp), 0.0, Tolerance(1e-3));
+    }
+    EXPECT_THAT(plan.notes, Contains(HasSubstr("begins forwards, changes its direction at s = 4, "
+                                               "7 m")));
+  }
+}
+
+TEST(PathFilePlanner, SaysHowToGiveTheDirection) {
+  PathPoints given = ThreePointTurn();
+  given.direction.clear();
+  PathFileOptions options;
+  options.path = std::make_shared<const FittedPath>(FitPath(given, {}));
+  const Plan plan = MakePlan(RequestAlong(Bend()), options);
+  EXPECT_EQ(plan.status, PlanStatus::kUTurn);
+  EXPECT_THAT(plan.reason, HasSubstr("add a column direction of 1 and -1"));
+}
+
 TEST(PathFilePlanner, RefusesACarThatStartsElsewhere) {
   const PathFileOptions options = Bend();
   PlanRequest request = RequestAlong(options);

@@ -63,10 +63,16 @@ PathFileDiagnostics DiagnosticsOf(const FittedPath& fitted);
 /// length 3.1 m".
 std::string Describe(const FittedPath& fitted);
 
+/// Returns the remedy, as the end of a message, if the path turns back on itself
+/// (FittedPath::reversals). `noise_key` names the option against noise, to which the message adds
+/// the value.
+std::string ReversalRemedy(const FittedPath& fitted, const std::string& noise_key);
+
 /// Returns the planner `path_file`. The plan follows the path in PathFileOptions from its first
-/// point, and ignores obstacles. If the path is a polyline with corners, the status of the plan is
-/// kTurnTooTight, unless the request allows infeasible plans. If PathFileOptions contains no path,
-/// the status of the plan is kNoPath.
+/// point, forwards and in reverse, stops at the path's cusps, and ignores obstacles. If the path
+/// begins in reverse, the car starts at rest unless the mission sets its speed. If the path is a
+/// polyline with corners, the status of the plan is kTurnTooTight, unless the request allows
+/// infeasible plans. If PathFileOptions contains no path, the status of the plan is kNoPath.
 PlannerEntry PathFilePlanner();
 
 }  // namespace trackbed

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "src/path/points_to_fit.h"
+#include "src/path/smoothing_spline.h"
+#include "trackbed/path/fit_path.h"
+
+namespace trackbed {
+
+/// Finds the distinct points of the given points. A polyline passes all points, so it has no noise.
+DistinctPoints DistinctFor(const PathPoints& given, const PathFitOptions& options);
+
+/// Returns the points to which the path is fitted.
+ChordPoints KnotsOf(const DistinctPoints& distinct, const PathFitOptions& options);
+
+/// Returns the points at which the direction of travel changes by more than kMaxHeadingJump.
+std::vector<HeadingJump> FindReversals(const ChordPoints& chords, double period);
+
+/// Fits a forward path to the points of one leg, with the prescribed headings at its ends. Does not
+/// compute the deviation and the heading difference. If the points turn back, fits no path and sets
+/// the reversals.
+FittedPath FitLeg(PathPoints given, const PathFitOptions& options, const EndHeadings& headings);
+
+}  // namespace trackbed
