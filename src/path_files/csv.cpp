@@ -139,15 +139,34 @@ class CsvPath {
     } else if (columns_[kTime]) {
       TakeTimes(found_, times_, file_.string());
     }
-    const std::optional<Column>& yaw = columns_[kYaw];
-    if (yaw && yaw->factor == 1.0 && yaw->offset == 0.0) {
-      if (const std::string problem = HeadingUnitProblem(points); !problem.empty()) {
-        Refuse(file_, names_[yaw->index], problem);
-      }
+    FinishHeadings(has_speeds);
+  }
+
+  /// Converts the headings to angles from the x axis. If the file has speeds, refuses headings that
+  /// are opposite to the direction of travel all along the path.
+  void FinishHeadings(bool has_speeds) {
+    if (!columns_[kYaw]) {
+      return;
+    }
+    const std::string& name = names_[columns_[kYaw]->index];
+    PathPoints& points = found_.points;
+    // Do not look for degrees if the unit is given, or is part of the name.
+    const bool is_unit_known =
+        columns_[kYaw]->factor != 1.0 || requested_.yaw_unit || boost::iends_with(name, "_rad");
+    const HeadingReading reading =
+        ReadHeadings(points, boost::iequals(name, "psi_rad"), is_unit_known);
+    if (!reading.problem.empty()) {
+      Refuse(file_, name, reading.problem);
+    }
+    for (double& heading : points.yaw) {
+      heading += reading.offset;
+    }
+    if (!reading.note.empty()) {
+      found_.notes.push_back(name + " " + reading.note);
     }
     if (has_speeds) {
       if (const std::string problem = HalfTurnProblem(points); !problem.empty()) {
-        Refuse(file_, names_[yaw->index], problem);
+        Refuse(file_, name, problem);
       }
     }
   }
@@ -255,20 +274,6 @@ class CsvPath {
       }
     }
     found_.notes.push_back(fmt::format("CSV, columns {}", fmt::join(used, ", ")));
-    ConvertTumHeading();
-  }
-
-  /// Detects racing lines in the format of TUM, in which headings are measured from north, and
-  /// converts the headings.
-  void ConvertTumHeading() {
-    const auto has = [&](const char* name) {
-      return std::find(names_.begin(), names_.end(), name) != names_.end();
-    };
-    if (columns_[kYaw] && names_[columns_[kYaw]->index] == "psi_rad" && !requested_.yaw &&
-        has("s_m") && has("kappa_radpm") && has("vx_mps")) {
-      columns_[kYaw]->offset = 0.5 * kPi;
-      found_.notes.emplace_back("psi_rad is taken from north, as in TUM's racing lines");
-    }
   }
 
   void Find(Quantity quantity, const char* name, const std::optional<std::string>& requested,

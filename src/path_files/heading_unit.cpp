@@ -8,10 +8,12 @@
 #include "src/path_files/formats.h"
 #include "trackbed/core/angle.h"
 
-// Recognizes headings that are not radians from the x axis. For each common meaning of a heading,
-// the reader converts the headings to radians from the x axis, and compares them with the direction
-// of travel at the points, or with the opposite direction where the car may drive in reverse. The
-// meaning with the smallest mean difference is the most probable one.
+// Decides how the headings of a path are measured. For each common meaning of a heading, the reader
+// converts the headings to radians from the x axis, and compares them with the direction of travel
+// at the points. A car that is driven in reverse has the opposite heading, so directions are
+// compared without their sign. The meanings "from the x axis" and "from north, positive to the
+// left" differ by 90 degrees and cannot be confused; the reader takes both. All other meanings are
+// refused, with the remedy.
 namespace trackbed {
 namespace {
 
@@ -21,26 +23,30 @@ struct HeadingMeaning {
   double unit;
   double sign;
   double offset;
-  const char* remedy;  ///< Change that the user should make; empty for radians from the x axis.
+  const char* remedy;  ///< Change that the user should make; empty for meanings that are read.
 };
 
 constexpr double kDegree = kPi / 180.0;
 constexpr const char* kConvert =
-    "convert them to angles from the x axis, positive to the left, or remove the column";
+    "; convert them to angles from the x axis, positive to the left, or remove the column";
 
-const std::array<HeadingMeaning, 5> kMeanings{{
-    {1.0, 1.0, 0.0, ""},
+constexpr HeadingMeaning kFromX{1.0, 1.0, 0.0, ""};
+constexpr HeadingMeaning kFromNorth{1.0, 1.0, 0.5 * kPi, ""};
+constexpr std::array<HeadingMeaning, 3> kOthers{{
     {kDegree, 1.0, 0.0, "degrees; set columns.yaw_unit: deg"},
     {1.0, -1.0, 0.5 * kPi, "radians, clockwise from north"},
     {kDegree, -1.0, 0.5 * kPi, "degrees, clockwise from north"},
-    {1.0, 1.0, 0.5 * kPi, "radians from north, positive to the left"},
 }};
 
-/// A given heading, and the direction of travel at its point [rad].
+/// Mean difference between headings and direction of travel up to which a meaning fits [rad]: half
+/// of the 45 degrees by which unrelated directions differ on average.
+constexpr double kFits = kPi / 8.0;
+
+/// A given heading, and the direction of travel of a step that begins or ends at its point [rad].
 struct Heading {
   double number;
   double travel;
-  double weight;  ///< Length of the step from which the direction of travel follows [m].
+  double weight;  ///< Length of the step [m].
 };
 
 /// Returns the headings at both ends of each step between two different points.
@@ -57,57 +63,79 @@ std::vector<Heading> HeadingsOf(const PathPoints& points) {
   return headings;
 }
 
-double Difference(const Heading& heading, const HeadingMeaning& meaning) {
-  const double yaw = meaning.sign * meaning.unit * heading.number + meaning.offset;
-  return std::abs(AngleDifference(yaw, heading.travel));
-}
-
-/// Returns the mean difference of the headings from the direction of travel, or from the opposite
-/// direction for steps in reverse [rad]. Longer steps have larger weights.
+/// Returns the mean difference between the headings and the direction of travel or its opposite
+/// [rad], from 0 to 90 degrees. The mean is weighted by distance, because the direction of travel
+/// is inaccurate where points are close together.
 double MeanDifference(const std::vector<Heading>& headings, const HeadingMeaning& meaning) {
   double sum = 0.0;
-  double length = 0.0;
+  double weight = 0.0;
   for (const Heading& heading : headings) {
-    const double difference = Difference(heading, meaning);
+    const double yaw = meaning.sign * meaning.unit * heading.number + meaning.offset;
+    const double difference = std::abs(AngleDifference(yaw, heading.travel));
     sum += heading.weight * std::min(difference, kPi - difference);
-    length += heading.weight;
+    weight += heading.weight;
   }
-  return sum / length;
+  return sum / weight;
+}
+
+/// Returns whether another meaning fits so much better than `least`, the mean difference of the
+/// meanings that are read, that `least` is an accident of a path that hardly turns.
+bool IsMuchBetter(double other, double least) {
+  constexpr double kExact = 0.05;  // Difference up to which the meanings that are read are taken.
+  return least > kExact && other < 0.25 * least;
 }
 
 }  // namespace
 
-std::string HeadingUnitProblem(const PathPoints& points) {
-  // Heading difference [rad] above which a heading is against the direction of travel.
-  constexpr double kOpposite = 2.0;
+HeadingReading ReadHeadings(const PathPoints& points, bool is_racing_line, bool is_unit_known) {
   const std::vector<Heading> headings = HeadingsOf(points);
-  const bool fits = std::none_of(headings.begin(), headings.end(), [](const Heading& heading) {
-    return Difference(heading, kMeanings.front()) > kOpposite;
+  if (headings.empty()) {
+    return {};
+  }
+  const double from_x = MeanDifference(headings, kFromX);
+  const double from_north = MeanDifference(headings, kFromNorth);
+  const double least = std::min(from_x, from_north);
+  // Numbers beyond a whole turn are probably degrees.
+  const bool exceeds_turn = std::any_of(headings.begin(), headings.end(), [](const Heading& own) {
+    return std::abs(own.number) > 2.0 * kPi;
   });
-  if (fits) {
-    return "";
-  }
-  // Headings that have nothing to do with the path differ by an eighth of a turn on average.
-  constexpr double kFits = 0.3;  // [rad]
-  const HeadingMeaning* best = &kMeanings.front();
-  double least = MeanDifference(headings, *best);
-  if (least <= kFits) {
-    return "";  // the car drives in reverse
-  }
-  for (const HeadingMeaning& meaning : kMeanings) {
-    if (const double own = MeanDifference(headings, meaning); own < least) {
+  const HeadingMeaning* best = nullptr;
+  double best_difference = kFits;
+  for (const HeadingMeaning& meaning : kOthers) {
+    const double difference = MeanDifference(headings, meaning);
+    const bool counts = meaning.unit == 1.0 || (!is_unit_known && (exceeds_turn || least > kFits));
+    if (counts && difference < best_difference) {
       best = &meaning;
-      least = own;
+      best_difference = difference;
     }
   }
-  if (least > kFits) {
-    return "";
+  HeadingReading reading;
+  if (best != nullptr && (least > kFits || IsMuchBetter(best_difference, least))) {
+    reading.problem = fmt::format(
+        "the headings are {:.3g} rad from the direction of travel on average if they are radians "
+        "from the x axis, but {:.3g} rad if they are {}{}",
+        from_x, best_difference, best->remedy, best->offset != 0.0 ? kConvert : "");
+  } else if (least > kFits) {
+    reading.problem =
+        is_racing_line
+            ? fmt::format(
+                  "the headings do not fit the path: on average they are {:.3g} rad from "
+                  "the direction of travel if they are measured from the x axis, and "
+                  "{:.3g} rad if they are measured from north; must be at most {:.3g} rad: "
+                  "correct the headings, or remove the column",
+                  from_x, from_north, kFits)
+            : "";
+  } else {
+    reading.offset = from_north < from_x ? kFromNorth.offset : kFromX.offset;
+    if (is_racing_line || reading.offset != 0.0) {
+      reading.note = fmt::format(
+          "is taken from {}: within {:.2g} rad of the direction of travel on average",
+          reading.offset != 0.0 ? "north, positive to the left, as in TUM's racing lines"
+                                : "the x axis",
+          least);
+    }
   }
-  const std::string remedy = best->remedy;
-  return fmt::format(
-      "the headings are against the direction of travel if they are radians from the x axis, but "
-      "fit the path within {:.3g} rad on average if they are {}{}{}",
-      least, remedy, best->offset != 0.0 ? "; " : "", best->offset != 0.0 ? kConvert : "");
+  return reading;
 }
 
 }  // namespace trackbed

@@ -309,6 +309,50 @@ TEST(CommonRoad, HasSignedVelocities) {
   EXPECT_EQ(read(1.0).direction, (std::vector<int>{1, 1, 1}));
 }
 
+// --- Headings ------------------------------------------------------------------------------------
+
+/// A racing line around an ellipse, with headings that are measured from the x axis plus `offset`.
+std::string RacingLine(double offset, const std::string& name = "psi_rad") {
+  std::string text = "# s_m; x_m; y_m; " + name + "; kappa_radpm; vx_mps; ax_mps2\n";
+  for (int i = 0; i < 90; ++i) {
+    const double t = 2.0 * kPi * i / 90.0;
+    const double yaw = std::atan2(20.0 * std::cos(t), -40.0 * std::sin(t));
+    text += fmt::format("{};{};{};{};0.01;8;0\n", i, 40.0 * std::cos(t), 20.0 * std::sin(t),
+                        yaw + offset);
+  }
+  return text;
+}
+
+// The racing lines of TUM measure headings from north, those of F1TENTH from the x axis.
+TEST(PathCsv, DecidesFromTheTangentsWhereHeadingsAreMeasuredFrom) {
+  const TempFolder folder;
+  for (const std::string name : {"psi_rad", "yaw"}) {
+    const PathFile from_x = ReadPathFile(folder.Write("x.csv", RacingLine(0.0, name)));
+    const PathFile from_north =
+        ReadPathFile(folder.Write("north.csv", RacingLine(-0.5 * kPi, name)));
+    for (std::size_t i = 0; i < from_x.points.yaw.size(); ++i) {
+      // Both are the angle of the tangent; rounding of sums of angles below 8 rad.
+      EXPECT_NEAR(from_x.points.yaw[i], from_north.points.yaw[i], Tolerance(4e-15));
+    }
+    EXPECT_NEAR(from_x.points.yaw[0], 0.5 * kPi, Tolerance(1e-15));
+    EXPECT_THAT(from_north.notes.back(), HasSubstr(name + " is taken from north"));
+  }
+  EXPECT_THAT(ReadPathFile(folder.Write("x.csv", RacingLine(0.0))).notes.back(),
+              HasSubstr("psi_rad is taken from the x axis"));
+  // The heading of a car in reverse is opposite to the direction of travel, but then its speeds are
+  // negative.
+  EXPECT_THAT(Error("reverse.csv", RacingLine(kPi)), HasSubstr("no speed is negative"));
+  EXPECT_THAT(Error("p.csv", RacingLine(0.25 * kPi)),
+              AllOf(HasSubstr("psi_rad"), HasSubstr("do not fit the path"),
+                    HasSubstr("0.785 rad if they are measured from north")));
+}
+
+// A straight line at 45 degrees has the same heading from the x axis and clockwise from north.
+TEST(PathCsv, TakesHeadingsOfAStraightLineFromTheXAxis) {
+  EXPECT_NEAR(Read("p.csv", "x,y,yaw\n0,0,0.7\n1,1,0.8\n2,2,0.7\n").yaw[1], 0.8, Tolerance(1e-15));
+  EXPECT_THAT(Error("p.csv", "x,y,yaw\n0,0,45\n1,1,45\n2,2,45\n"), HasSubstr("degrees"));
+}
+
 TEST(PathCsv, IsBoundedInPoints) {
   std::string text = "x,y\n";
   for (std::size_t i = 0; i <= kMaxPathPoints; ++i) {

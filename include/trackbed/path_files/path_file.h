@@ -47,13 +47,15 @@ inline constexpr std::size_t kMaxPathPoints = 1'000'000;
 /// Throws InputError, with file, line and column or key, for every other cell that is not a finite
 /// number or is out of range (positions to 1e7 m). Throws InputError if a column is missing (the
 /// message suggests the most similar name), or if a required member of a YAML or JSON file is
-/// missing. Throws InputError if a heading is against the direction of travel, and the headings are
-/// degrees or compass headings (the message suggests the unit), or if all headings of a CSV file
-/// are opposite to the direction of travel although a column of speeds is not negative. Throws
-/// InputError if there are fewer than two or more than kMaxPathPoints points. Throws InputError if
-/// the text is malformed, is nested deeper than 64 levels, has YAML aliases, or contains
-/// coordinates that do not exist on Earth. Throws RunError if the file cannot be read or is larger
-/// than 512 MiB (CSV) or 16 MiB (other formats). Reading takes about 1 us per point.
+/// missing. The direction of travel decides whether the headings of a CSV file are measured from
+/// the x axis or from north, positive to the left; a note says which. Throws InputError if the
+/// headings are degrees or compass headings (the message suggests the unit), if the column
+/// `psi_rad` of a racing line fits the direction of travel in neither way, or if all headings of a
+/// CSV file are opposite to the direction of travel although a column of speeds is not negative.
+/// Throws InputError if there are fewer than two or more than kMaxPathPoints points. Throws
+/// InputError if the text is malformed, is nested deeper than 64 levels, has YAML aliases, or
+/// contains coordinates that do not exist on Earth. Throws RunError if the file cannot be read or
+/// is larger than 512 MiB (CSV) or 16 MiB (other formats). Reading takes about 1 us per point.
 PathFile ReadPathFile(const std::filesystem::path& file, const PathMap& map = {});
 
 /// Returns true if a YAML file in a folder of scenarios is a path and not a scenario. Returns false
