@@ -9,6 +9,7 @@
 
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
+#include "trackbed/core/text_table.h"
 
 namespace trackbed {
 namespace {
@@ -68,6 +69,93 @@ struct RowReader {
   }
 };
 
+/// Splits the blocks of a file into comments and other text. Passes the other text to `parse`, in
+/// parts that end at the end of a line or of the block.
+class CommentFilter {
+ public:
+  CommentFilter(RowReader& reader, const csv_parser& parser) : reader_(reader), parser_(parser) {}
+
+  /// Processes a block; returns false to stop reading.
+  template <typename Parse>
+  bool Take(std::string_view block, const Parse& parse) {
+    while (!block.empty()) {
+      if (at_line_start_ && block.front() == '#') {
+        in_comment_ = true;
+      }
+      const std::size_t end = block.find_first_of("\r\n");
+      at_line_start_ = false;
+      if (in_comment_) {
+        comment_ += block.substr(0, end);
+        if (comment_.size() > kMaxCellLength) {
+          reader_.Stop(fmt::format("a comment of more than {} characters", kMaxCellLength));
+          return false;
+        }
+        if (end == std::string_view::npos) {
+          return true;
+        }
+        Finish();
+        block.remove_prefix(end);  // the end of the line is parsed as that of an empty line
+        continue;
+      }
+      const std::size_t size = end == std::string_view::npos ? block.size() : end + 1;
+      if (!parse(block.substr(0, size))) {
+        return false;
+      }
+      at_line_start_ = end != std::string_view::npos && parser_.quoted == 0;
+      block.remove_prefix(size);
+    }
+    return true;
+  }
+
+  /// Passes on a comment that ends with the file.
+  void Finish() {
+    if (std::exchange(in_comment_, false)) {
+      reader_.Cell(comment_);
+      if (!reader_.stopped) {
+        reader_.any_row = true;
+        reader_.take(reader_.cells, reader_.line);
+        reader_.cells.clear();
+      }
+    }
+    comment_.clear();
+  }
+
+ private:
+  RowReader& reader_;
+  const csv_parser& parser_;
+  bool at_line_start_ = true;
+  bool in_comment_ = false;
+  std::string comment_;
+};
+
+char FindDelimiter(const std::filesystem::path& file) {
+  std::string begin;
+  ReadBlocks(file, [&](std::string_view block) {
+    begin = block;
+    return false;
+  });
+  std::string_view rest = begin;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
+    const std::string_view line = rest.substr(0, end);
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+    if (line.empty() || line.front() == '#') {
+      continue;
+    }
+    char delimiter = ',';
+    std::ptrdiff_t most = 0;
+    for (const char candidate : {',', ';', '\t'}) {
+      const auto count = std::count(line.begin(), line.end(), candidate);
+      if (count > most) {
+        most = count;
+        delimiter = candidate;
+      }
+    }
+    return delimiter;
+  }
+  return ',';
+}
+
 }  // namespace
 
 void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
@@ -77,7 +165,9 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   TRACKBED_CHECK(csv_init(&parser, CSV_STRICT | CSV_STRICT_FINI | CSV_REPALL_NL) == 0,
                  "libcsv did not start");
   const std::unique_ptr<csv_parser, void (*)(csv_parser*)> guard(&parser, csv_free);
-  csv_set_delim(&parser, static_cast<unsigned char>(limits.delimiter));
+  const char delimiter =
+      limits.delimiter == kFindDelimiter ? FindDelimiter(file) : limits.delimiter;
+  csv_set_delim(&parser, static_cast<unsigned char>(delimiter));
   const auto cell = [](void* data, std::size_t size, void* self) {
     static_cast<RowReader*>(self)->Cell({static_cast<const char*>(data), size});
   };
@@ -86,10 +176,6 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   // Parse the file in blocks, so that reading can stop between blocks. libcsv itself cannot be
   // stopped, and buffers a cell until the cell ends.
   const auto parse = [&](std::string_view part) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-    if (std::exchange(at_begin, false) && part.starts_with(kByteOrderMark)) {
-      part.remove_prefix(kByteOrderMark.size());
-    }
     if (csv_parse(&parser, part.data(), part.size(), cell, row, &reader) != part.size()) {
       reader.Stop(csv_strerror(csv_error(&parser)));
     } else if (parser.entry_pos > kMaxCellLength) {
@@ -97,13 +183,140 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
     }
     return !reader.stopped;
   };
-  ReadBlocks(file, parse, limits.max_bytes);
+  CommentFilter comments(reader, parser);
+  const auto take_block = [&](std::string_view block) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (std::exchange(at_begin, false) && block.starts_with(kByteOrderMark)) {
+      block.remove_prefix(kByteOrderMark.size());
+    }
+    return limits.comments ? comments.Take(block, parse) : parse(block);
+  };
+  ReadBlocks(file, take_block, limits.max_bytes);
+  comments.Finish();
   if (!reader.stopped && csv_fini(&parser, cell, row, &reader) != 0) {
     reader.Stop(csv_strerror(csv_error(&parser)));
   }
   if (!reader.any_row && problems.empty()) {
     reader.Stop("empty file; expected a header line of column names");
   }
+}
+
+namespace {
+
+void DropEmptyEnd(std::vector<std::string>& cells, std::size_t least) {
+  while (cells.size() > least && cells.back().empty()) {
+    cells.pop_back();
+  }
+}
+
+/// The cells of a comment, without the '#'.
+std::vector<std::string> CommentCells(std::string_view comment, char delimiter) {
+  std::vector<std::string> cells;
+  comment.remove_prefix(std::min(comment.find_first_not_of('#'), comment.size()));
+  for (bool more = true; more;) {
+    const std::size_t end = comment.find(delimiter);
+    more = end != std::string_view::npos;
+    std::string_view cell = comment.substr(0, end);
+    constexpr std::string_view kSpaces = " \t\r";
+    cell.remove_prefix(std::min(cell.find_first_not_of(kSpaces), cell.size()));
+    cells.emplace_back(cell.substr(0, cell.find_last_not_of(kSpaces) + 1));
+    comment.remove_prefix(more ? end + 1 : comment.size());
+  }
+  DropEmptyEnd(cells, 1);
+  return cells;
+}
+
+/// Finds the names of a table's columns, and passes names and rows on.
+class NamedRows {
+ public:
+  NamedRows(const std::filesystem::path& file, char delimiter, ProblemList& problems,
+            const TakeCsvNames& take_names, const TakeCsvRow& take)
+      : file_(file),
+        delimiter_(delimiter),
+        problems_(problems),
+        take_names_(take_names),
+        take_(take) {}
+
+  void Take(std::vector<std::string>& cells, int line) {
+    if (cells.front().starts_with('#')) {
+      // Comments between the rows cannot contain the names.
+      if (columns_ == 0 && !is_broken_) {
+        comments_.push_back({CommentCells(cells.front(), delimiter_), line});
+        constexpr std::size_t kMaxComments = 100;
+        comments_.erase(comments_.begin(), comments_.end() - static_cast<std::ptrdiff_t>(std::min(
+                                                                 comments_.size(), kMaxComments)));
+      }
+      return;
+    }
+    if (columns_ == 0 && !is_broken_ && TakeNames(cells, line)) {
+      return;
+    }
+    if (!is_broken_) {
+      DropEmptyEnd(cells, columns_);
+      take_(cells, line);
+    }
+  }
+
+  [[nodiscard]] bool is_empty() const { return columns_ == 0 && !is_broken_; }
+
+ private:
+  struct Comment {
+    std::vector<std::string> cells;
+    int line;
+  };
+
+  /// Takes the names from the first row or from a comment; returns whether the row has the names.
+  bool TakeNames(std::vector<std::string>& row, int line) {
+    const bool is_data = std::all_of(row.begin(), row.end(), [](const std::string& cell) {
+      return cell.empty() || CellNumber(cell).has_value();
+    });
+    if (!is_data) {
+      DropEmptyEnd(row, 1);
+      columns_ = row.size();
+      take_names_(row, line);
+      return true;
+    }
+    std::vector<std::string> used = row;
+    DropEmptyEnd(used, 1);
+    const auto found =
+        std::find_if(comments_.rbegin(), comments_.rend(), [&](const Comment& comment) {
+          return comment.cells.size() == used.size() || comment.cells.size() == row.size();
+        });
+    if (found == comments_.rend()) {
+      problems_.Add({.file = file_.string(),
+                     .line = line,
+                     .message = "no column names before the first row; expected a header line such "
+                                "as x_m,y_m"});
+      is_broken_ = true;
+      return false;
+    }
+    columns_ = found->cells.size();
+    take_names_(found->cells, found->line);
+    return false;
+  }
+
+  const std::filesystem::path& file_;
+  char delimiter_;
+  ProblemList& problems_;
+  const TakeCsvNames& take_names_;
+  const TakeCsvRow& take_;
+  std::vector<Comment> comments_;  // the last comments before the first row
+  std::size_t columns_ = 0;        // 0: the names are not known yet
+  bool is_broken_ = false;
+};
+
+}  // namespace
+
+bool ReadCsvTable(const std::filesystem::path& file, CsvLimits limits, ProblemList& problems,
+                  const TakeCsvNames& take_names, const TakeCsvRow& take) {
+  limits.comments = true;
+  if (limits.delimiter == kFindDelimiter) {
+    limits.delimiter = FindDelimiter(file);
+  }
+  NamedRows rows(file, limits.delimiter, problems, take_names, take);
+  ReadCsvRows(file, limits, problems,
+              [&](std::vector<std::string>& cells, int line) { rows.Take(cells, line); });
+  return !rows.is_empty();
 }
 
 }  // namespace trackbed

@@ -250,7 +250,19 @@ void ReadCsvNumbers(const std::filesystem::path& file, const std::vector<std::st
     take(ordered, line);
   };
   constexpr std::size_t kAny = std::numeric_limits<std::size_t>::max();
-  ReadThrough(file, {.max_cells = kAny, .max_bytes = kAny, .delimiter = delimiter}, reader);
+  const auto take_cells = [&](std::vector<std::string>& cells, int line) {
+    reader.cells.swap(cells);
+    reader.line = line;
+    reader.TakeRow();
+    reader.cells.swap(cells);
+  };
+  const bool has_names =
+      ReadCsvTable(file, {.max_cells = kAny, .max_bytes = kAny, .delimiter = delimiter},
+                   reader.problems, take_cells, take_cells);
+  if (!has_names && reader.problems.empty()) {
+    reader.AddError("", "no rows after the comments");
+  }
+  reader.problems.ThrowIfAny();
 }
 
 }  // namespace trackbed

@@ -17,13 +17,12 @@
 #include "trackbed/core/table.h"
 #include "trackbed/core/text_table.h"
 
-// Reads paths from CSV tables with a header line of column names; the header line may begin with
-// '#'. The reader identifies columns by their usual names (PathColumnNames) or by names that the
-// caller specifies. The reader converts the values to SI units and collects problems with their
-// line and column. Directions of motion come from a column of directions or gears, and from the
-// signs of the speeds. If the table has times but no speed column, the speeds are computed from the
-// times. Invalid cells in the columns of curvature, speed, time and direction only make these
-// columns unusable.
+// Reads paths from CSV tables with a header line of column names (ReadCsvTable). The reader
+// identifies columns by their usual names (PathColumnNames) or by names that the caller specifies.
+// The reader converts the values to SI units and collects problems with their line and column.
+// Directions of motion come from a column of directions or gears, and from the signs of the speeds.
+// If the table has times but no speed column, the speeds are computed from the times. Invalid cells
+// in the columns of curvature, speed, time and direction only make these columns unusable.
 namespace trackbed {
 namespace {
 
@@ -39,34 +38,6 @@ double InSi(const std::string& unit) {
                                   [&](const auto& entry) { return entry.first == unit; });
   TRACKBED_CHECK(found != units.end(), "no unit '{}'", unit);
   return found->second;
-}
-
-/// Returns the character that separates the cells of the table, as detected from the first line
-/// that is not a comment.
-char FindDelimiter(const fs::path& file) {
-  char delimiter = ',';
-  std::string begin;
-  ReadBlocks(file, [&](std::string_view block) {
-    begin = block;
-    return false;
-  });
-  std::vector<std::string> lines;
-  boost::split(lines, begin, [](char c) { return c == '\n' || c == '\r'; });
-  for (const std::string& line : lines) {
-    if (line.empty() || line.front() == '#') {
-      continue;
-    }
-    std::ptrdiff_t most = 0;
-    for (const char candidate : {',', ';', '\t'}) {
-      const auto count = std::count(line.begin(), line.end(), candidate);
-      if (count > most) {
-        most = count;
-        delimiter = candidate;
-      }
-    }
-    break;
-  }
-  return delimiter;
 }
 
 /// Column of the table from which a quantity is read.
@@ -92,10 +63,15 @@ class CsvPath {
       : file_(file), requested_(requested) {}
 
   PathFile Read() {
-    const char delimiter = FindDelimiter(file_);
-    ReadCsvRows(file_, {.delimiter = delimiter}, problems_,
-                [&](std::vector<std::string>& cells, int line) { Take(cells, line); });
-    if (!is_header_known_ && problems_.empty()) {
+    const bool has_names = ReadCsvTable(
+        file_, {.delimiter = kFindDelimiter}, problems_,
+        [&](std::vector<std::string>& names, int line) { SetHeader(std::move(names), line); },
+        [&](std::vector<std::string>& cells, int line) {
+          if (!is_broken_) {
+            TakeRow(cells, line);
+          }
+        });
+    if (!has_names && problems_.empty()) {
       AddError(1, "", "no rows after the comments");
     }
     problems_.ThrowIfAny();
@@ -205,41 +181,6 @@ class CsvPath {
       AddError(line, name, std::move(message));
     } else if (InvalidCells& invalid = invalid_[quantity]; invalid.count++ == 0) {
       invalid.first = {file_.string(), line, 0, name, std::move(message)};
-    }
-  }
-
-  void Take(std::vector<std::string>& cells, int line) {
-    if (cells.front().starts_with('#')) {
-      if (!is_header_known_) {
-        cells.front().erase(0, 1);
-        comment_.clear();
-        for (const std::string& cell : cells) {
-          comment_.push_back(boost::trim_copy(cell));
-        }
-        comment_line_ = line;
-      }
-      return;
-    }
-    if (!is_header_known_) {
-      is_header_known_ = true;
-      const bool is_data = std::all_of(cells.begin(), cells.end(), [](const std::string& cell) {
-        return CellNumber(cell).has_value();
-      });
-      if (!is_data) {
-        SetHeader(cells, line);
-        return;
-      }
-      if (comment_.size() != cells.size()) {
-        AddError(line, "",
-                 "no column names before the first row; expected a header line such as "
-                 "x_m,y_m");
-        is_broken_ = true;
-        return;
-      }
-      SetHeader(comment_, comment_line_);
-    }
-    if (!is_broken_) {
-      TakeRow(cells, line);
     }
   }
 
@@ -400,11 +341,7 @@ class CsvPath {
   const fs::path& file_;
   const PathColumns& requested_;
   ProblemList problems_;
-  bool is_header_known_ = false;
   bool is_broken_ = false;
-  // Cells of the last comment line before the table; this line may be the header.
-  std::vector<std::string> comment_;
-  int comment_line_ = 0;
   std::vector<std::string> names_;
   std::array<std::optional<Column>, kQuantities> columns_;
   std::array<InvalidCells, kQuantities> invalid_;

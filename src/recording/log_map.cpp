@@ -150,10 +150,14 @@ void Visit(KeyVisitor& keys, LogMap& map) {
   keys.Field({"schema", "", "version of this format"}, schema, Need::kRequired,
              Range{.min = 1, .max = 1});
   keys.Identifier({"name", "", "name of the map, in notes"}, map.name);
-  static const EnumNames<LogDelimiter> delimiters{{LogDelimiter::kComma, "comma"},
+  static const EnumNames<LogDelimiter> delimiters{{LogDelimiter::kAuto, "auto"},
+                                                  {LogDelimiter::kComma, "comma"},
                                                   {LogDelimiter::kSemicolon, "semicolon"},
                                                   {LogDelimiter::kTab, "tab"}};
-  keys.Field({"delimiter", "", "what separates cells"}, map.delimiter, Need::kOptional, delimiters);
+  keys.Field({"delimiter", "",
+              "what separates cells; auto: the most frequent of comma, semicolon and tab in the "
+              "first line that is not a comment"},
+             map.delimiter, Need::kOptional, delimiters);
   keys.Section({"time", "", "when rows were logged"}, map.time, Need::kRequired);
   keys.Section({"position", "", "where the measured point is"}, map.position, Need::kRequired);
   keys.Section({"yaw", "", "heading of the measured axes; this or orientation"}, map.yaw);

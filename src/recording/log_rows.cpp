@@ -12,6 +12,7 @@
 
 #include "trackbed/control/signal.h"
 #include "trackbed/core/angle.h"
+#include "trackbed/core/csv_rows.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 #include "trackbed/core/table.h"
@@ -65,7 +66,8 @@ std::vector<SignalColumn> SignalColumns(const LogMap& map) {
 }
 
 char DelimiterOf(const LogMap& map) {
-  return map.delimiter == LogDelimiter::kComma       ? ','
+  return map.delimiter == LogDelimiter::kAuto        ? kFindDelimiter
+         : map.delimiter == LogDelimiter::kComma     ? ','
          : map.delimiter == LogDelimiter::kSemicolon ? ';'
                                                      : '\t';
 }

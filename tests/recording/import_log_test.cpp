@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <ostream>
@@ -160,6 +161,19 @@ TEST(ImportLog, IsExactForPolynomialsOfItsDegree) {
       EXPECT_THAT(sample.yaw_rate, DoubleNear(0.1 + 0.04 * t, Tolerance(1e-11)));
       EXPECT_THAT(sample.yaw_acceleration, DoubleNear(0.04, Tolerance(1e-9)));
     }
+  }
+}
+
+// The same log with other delimiters, comments, and its names in a comment.
+TEST(ImportLog, ReadsTheDialectsOfPaths) {
+  const std::string csv = PoseCsv(IrregularTimes(4.0, 0.02), OnCircle);
+  const RecordedDrive plain = Import(csv, PoseMap());
+  for (const char delimiter : {',', ';', '\t'}) {
+    std::string own = "# recorded \"by hand\"\n# " + csv + "# end\n";
+    std::replace(own.begin(), own.end(), ',', delimiter);
+    const RecordedDrive drive = Import(own, PoseMap());
+    ASSERT_EQ(drive.samples.size(), plain.samples.size());
+    EXPECT_EQ(drive.samples.back().pose, plain.samples.back().pose);
   }
 }
 

@@ -15,11 +15,21 @@ namespace trackbed {
 /// callback may move from. `line` is the number (from 1) of the line on which the row begins.
 using TakeCsvRow = std::function<void(std::vector<std::string>& cells, int line)>;
 
+/// Callback that receives the names of a table's columns, which the callback may move from.
+using TakeCsvNames = std::function<void(std::vector<std::string>& names, int line)>;
+
+/// Value of CsvLimits::delimiter that stands for the most frequent of comma, semicolon and tab in
+/// the first line that is neither empty nor a comment.
+inline constexpr char kFindDelimiter = '\0';
+
 /// The delimiter of a CSV file, and limits on the size of the file.
 struct CsvLimits {
   std::size_t max_cells = 50'000'000;
   std::size_t max_bytes = kMaxFileBytes;
   char delimiter = ',';
+  /// Whether lines that begin with '#' are comments. The text of a comment, with the '#', is passed
+  /// on as a row of a single cell, whatever characters it contains.
+  bool comments = false;
 };
 
 /// Reads a CSV file (RFC 4180, with libcsv) and calls `take` for each row, beginning with the
@@ -32,5 +42,17 @@ struct CsvLimits {
 /// same cases as ReadBlocks.
 void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, ProblemList& problems,
                  const TakeCsvRow& take);
+
+/// Reads a table with named columns from a CSV file of another program. Lines that begin with '#'
+/// are comments. The names of the columns are in the first line that is not a comment or, if this
+/// line consists of numbers, in the last comment before it that has as many cells. The cells of a
+/// comment are separated by the same delimiter.
+///
+/// Calls `take_names` once, and then `take` for each row. Drops empty cells at the end of a row
+/// that exceed the number of names, because some programs end each line with a delimiter. Returns
+/// false, without a problem, if the file has no line but comments. Adds a problem if there are no
+/// names. Other problems and errors are those of ReadCsvRows.
+bool ReadCsvTable(const std::filesystem::path& file, CsvLimits limits, ProblemList& problems,
+                  const TakeCsvNames& take_names, const TakeCsvRow& take);
 
 }  // namespace trackbed

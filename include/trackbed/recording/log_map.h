@@ -70,7 +70,12 @@ struct LogOrientation {
   std::string w;
 };
 
-enum class LogDelimiter { kComma, kSemicolon, kTab };
+enum class LogDelimiter {
+  kAuto,  ///< The most frequent of comma, semicolon and tab in the file's first line.
+  kComma,
+  kSemicolon,
+  kTab,
+};
 
 enum class LogFrame {
   /// World axes are x east, y north, z up; all angles and rates are positive to the left.
@@ -121,7 +126,7 @@ struct LogResample {
 
 struct LogMap {
   std::string name;  ///< Name of the log map, which appears in RecordedDrive::notes.
-  LogDelimiter delimiter = LogDelimiter::kComma;
+  LogDelimiter delimiter = LogDelimiter::kAuto;
   LogTime time;
   LogPosition position;
   /// Column with the measured yaw; cannot be combined with `orientation`.
