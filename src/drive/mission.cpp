@@ -37,6 +37,20 @@ void NoteSlowTurns(FeasiblePlan& plan, double speed) {
   }
 }
 
+/// Adds the notes on the file of the track or of the roads to the plan.
+void NoteInputs(FeasiblePlan& plan, const Scenario& scenario) {
+  if (scenario.mission.track) {
+    for (const std::string& note : scenario.mission.track->notes) {
+      plan.AddNote(fmt::format("{}: {}", scenario.mission.track->file, note));
+    }
+  }
+  if (scenario.world.road_network && scenario.world.road_network->data) {
+    for (const std::string& note : scenario.world.road_network->data->network.notes) {
+      plan.AddNote(fmt::format("{}: {}", scenario.world.road_network->file, note));
+    }
+  }
+}
+
 /// Adds a note to the plan if the path hits an obstacle, which may happen with planners that ignore
 /// obstacles.
 void NoteObstacle(FeasiblePlan& plan, const VehicleParams& vehicle,
@@ -229,6 +243,7 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
       NoteObstacle(plan, vehicle, known);
     }
     NoteMissedWaypoint(plan, vehicle);
+    NoteInputs(plan, scenario);
     return plan;
   }
   std::erase_if(known, [&](const OrientedBox& box) {
@@ -250,6 +265,7 @@ FeasiblePlan PlanWith(const Scenario& scenario, const VehicleParams& vehicle,
                     *scenario.plan->avoid);
   if (plan.ok()) {
     NoteMissedWaypoint(plan, vehicle);
+    NoteInputs(plan, scenario);
   }
   return plan;
 }

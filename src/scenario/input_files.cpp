@@ -87,6 +87,7 @@ Scenario WithResolvedFiles(const Scenario& scenario) {
   }
   if (auto& track = resolved.mission.track) {
     track->file = kTrackCsv;
+    track->width.reset();  // TrackCsv writes the widths
   }
   if (IsModelPath(resolved.vehicle.model)) {
     resolved.vehicle.model = kVehicleXml;

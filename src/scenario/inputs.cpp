@@ -228,12 +228,13 @@ std::vector<Problem> ReadPlannerFiles(Scenario& scenario, ReaderContext& context
   return reader.problems();
 }
 
-std::vector<Problem> ReadTrackFile(Scenario& scenario, ReaderContext& context,
-                                   const AddKeyError& add_error) {
+std::vector<Problem> ReadTrackInput(Scenario& scenario, ReaderContext& context,
+                                    const AddKeyError& add_error) {
   TrackSpec& track = *scenario.mission.track;
   const char* key = "mission.track.file";
   if (!context.Read("mission.track") || !context.Read(key) ||
-      !context.Read("mission.track.smoothing") || track.file.empty()) {
+      !context.Read("mission.track.smoothing") || !context.Read("mission.track.width") ||
+      track.file.empty()) {
     return {};
   }
   if (const std::string why =
@@ -244,8 +245,10 @@ std::vector<Problem> ReadTrackFile(Scenario& scenario, ReaderContext& context,
   }
   return Attempt(
       [&] {
-        track.data =
-            std::make_shared<const Track>(ReadTrack(scenario.folder / track.file, track.smoothing));
+        TrackFile read = ReadTrackFile(scenario.folder / track.file,
+                                       {.smoothing = track.smoothing, .width = track.width});
+        track.data = std::make_shared<const Track>(std::move(read.track));
+        track.notes = std::move(read.notes);
       },
       key, context, add_error);
 }
@@ -337,7 +340,7 @@ std::vector<Problem> ReadInputs(Scenario& scenario, ReaderContext& context,
     add(TakeInputs(scenario, context, add_error));
   }
   if (scenario.mission.track) {
-    add(ReadTrackFile(scenario, context, add_error));
+    add(ReadTrackInput(scenario, context, add_error));
   }
   if (auto& map = scenario.world.map) {
     add(ReadMap(scenario, *map, context, add_error));

@@ -60,7 +60,7 @@ inline void Visit(KeyVisitor& a, StartSpec& start) {
 inline constexpr Key kMissionSection{"mission", "", "route and speed"};
 
 inline void Visit(KeyVisitor& a, TrackSpec& track) {
-  a.Field({"file", "", "track: a CSV file in TUM's format, relative to this file"}, track.file,
+  a.Field({"file", "", "track: a CSV file of points and widths, relative to this file"}, track.file,
           Need::kRequired);
   a.Field({"laps", "", "laps that are timed"}, track.laps, Need::kOptional,
           Range{.min = 1, .max = 1000});
@@ -68,6 +68,9 @@ inline void Visit(KeyVisitor& a, TrackSpec& track) {
            "bends of the center line shorter than this are smoothed out; default: four times the "
            "mean distance of the points"},
           track.smoothing, Range{.max = 1000.0, .above = 0.0});
+  a.Field({"width", "m",
+           "width of the track, half on either side of the center line; for files without widths"},
+          track.width, Range{.max = 2000.0, .above = 0.0});
 }
 
 inline void Visit(KeyVisitor& a, LanePlace& place) {

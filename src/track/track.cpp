@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "src/track/track_fold.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/path/bezier.h"
@@ -281,8 +282,6 @@ std::optional<FrenetState> Track::ToFrenet(const MotionState& motion) const {
 
 namespace {
 
-constexpr double kMaxRadiusFraction = 0.95;
-
 /// Largest |curvature| of a piece of the center line, and an upper bound of the heading change
 /// within this piece.
 struct PieceBend {
@@ -331,13 +330,16 @@ std::optional<TrackFold> FindFold(const std::vector<TrackPoint>& points,
   return std::nullopt;
 }
 
+double StationOfSample(const Track& track, std::size_t point, int sample) {
+  const bool is_last = point + 1 == track.points().size();
+  const double to = is_last ? track.length() : track.StationOf(point + 1);
+  return std::lerp(track.StationOf(point), to, static_cast<double>(sample) / kFoldSamples);
+}
+
 std::optional<TrackFold> FindFold(const Track& track) {
   for (std::size_t i = 0; i < track.points().size(); ++i) {
-    const double from = track.StationOf(i);
-    const bool is_last = i + 1 == track.points().size();
-    const double to = is_last ? track.length() : track.StationOf(i + 1);
-    for (int k = 0; k < 4; ++k) {
-      const double s = std::lerp(from, to, 0.25 * k);
+    for (int k = 0; k < kFoldSamples; ++k) {
+      const double s = StationOfSample(track, i, k);
       const double curvature = track.At(s).curvature;
       const TrackEdges edges = track.EdgesAt(s);
       const double width = curvature > 0.0 ? edges.left : -edges.right;

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <system_error>
 #include <utility>
 
+#include "src/track/track_fold.h"
+#include "src/track/track_rows.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
@@ -17,8 +20,6 @@ namespace trackbed {
 namespace {
 
 constexpr std::uintmax_t kMaxTrackFileBytes = std::uintmax_t{16} << 20U;
-constexpr double kMaxPosition = 1e5;     // Largest permitted |x| and |y| of a point [m].
-constexpr double kMaxWidth = 1000.0;     // Largest permitted track width on either side [m].
 constexpr double kMaxLapLength = 200e3;  // Largest permitted length of the lap [m].
 // Largest permitted change of direction at a point [deg]; beyond this angle, the center line counts
 // as turning back.
@@ -33,19 +34,6 @@ void CheckSize(const std::filesystem::path& file) {
         .file = file.string(),
         .message = fmt::format("has {} bytes; a track has at most {}", size, kMaxTrackFileBytes)});
   }
-}
-
-/// Returns the name of the table's first column, which may include the '#' that begins the header.
-const char* FindFirstColumn(const std::filesystem::path& file, const Table& table) {
-  for (const char* name : {kFirstColumn, "#x_m", "x_m"}) {
-    if (table.Find(name) >= 0) {
-      return name;
-    }
-  }
-  throw InputError(Problem{.file = file.string(),
-                           .line = 1,
-                           .message = "no column 'x_m'; the header of a track is "
-                                      "'# x_m,y_m,w_tr_right_m,w_tr_left_m'"});
 }
 
 /// Rejects a center line that jumps back and forth, because such a line cannot be smoothed to a
@@ -85,7 +73,7 @@ void CheckShape(const std::string& name, const std::vector<int>& lines,
   }
 }
 
-std::string DescribeFold(const TrackFold& fold) {
+std::string DescribeFold(const TrackFold& fold, double given) {
   return fold.width < fold.radius && fold.turn > 0.0
              ? fmt::format(
                    "the center line turns by {:.3g} rad within a quarter of the mean "
@@ -93,87 +81,180 @@ std::string DescribeFold(const TrackFold& fold) {
                    "wrong, or the smoothing too short",
                    fold.turn)
              : fmt::format(
-                   "the center line bends on a radius of {:.3g} m, and the inner edge is "
-                   "{:.3g} m from it; must be less than the radius, so that the edge does "
-                   "not fold over",
-                   fold.radius, fold.width);
+                   "the center line bends on a radius of {:.4g} m, but the inner edge is "
+                   "{:.4g} m from it; an edge is narrowed to {} of the radius, but not to less "
+                   "than half: a point may be wrong, or a longer mission.track.smoothing "
+                   "straightens the bend",
+                   fold.radius, given, kMaxRadiusFraction);
+}
+
+/// Refuses points at which an edge would have to be narrowed to less than half.
+void CheckFolds(TrackRows& rows, std::optional<double> smoothing) {
+  std::vector<TrackPoint> halved = rows.points;
+  for (TrackPoint& point : halved) {
+    point.width_left *= 0.5;
+    point.width_right *= 0.5;
+  }
+  if (std::optional<TrackFold> fold = FindFold(halved, smoothing)) {
+    rows.Add(fold->point, "", DescribeFold(*fold, 2.0 * fold->width));
+  }
+  rows.problems.ThrowIfAny();
+}
+
+/// Largest offset of an edge at each surveyed point at which the edge does not fold over [m].
+struct EdgeLimits {
+  std::vector<double> left;
+  std::vector<double> right;
+  std::vector<double> radius;  // Smallest radius of the center line next to the point [m].
+};
+
+EdgeLimits FindEdgeLimits(const Track& track) {
+  const std::size_t count = track.points().size();
+  constexpr double kAny = std::numeric_limits<double>::infinity();
+  EdgeLimits limits{std::vector<double>(count, kAny), std::vector<double>(count, kAny),
+                    std::vector<double>(count, kAny)};
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = (i + 1) % count;
+    for (int k = 0; k < kFoldSamples; ++k) {
+      const double s = StationOfSample(track, i, k);
+      const double curvature = track.At(s).curvature;
+      // Slightly less, because the edge is interpolated with rounding errors.
+      constexpr double kRounding = 1.0 - 1e-9;
+      const double limit = kRounding * kMaxRadiusFraction / std::abs(curvature);
+      std::vector<double>& side = curvature > 0.0 ? limits.left : limits.right;
+      for (const std::size_t point : {i, next}) {
+        side[point] = std::min(side[point], limit);
+        limits.radius[point] = std::min(limits.radius[point], 1.0 / std::abs(curvature));
+      }
+    }
+  }
+  return limits;
+}
+
+/// Notes the narrowed places of one edge: consecutive points are one place.
+class NarrowedPlaces {
+ public:
+  NarrowedPlaces(TrackRows& rows, const char* edge) : rows_(rows), edge_(edge) {}
+
+  void Add(std::size_t point, double from, double to, double radius, double station) {
+    if (count_ > 0 && point == last_ + 1) {
+      last_ = point;
+      if (from - to > from_ - to_) {
+        Set(from, to, radius, station);
+      }
+      return;
+    }
+    Finish();
+    ++count_;
+    first_ = last_ = point;
+    Set(from, to, radius, station);
+  }
+
+  void Finish() {
+    if (count_ == 0 || count_ > kMaxNoted) {
+      return;
+    }
+    const std::string lines =
+        first_ == last_ ? fmt::format("line {}", rows_.lines[first_])
+                        : fmt::format("lines {} to {}", rows_.lines[first_], rows_.lines[last_]);
+    rows_.notes.push_back(fmt::format(
+        "{}, s = {:.4g} m: the {} edge is narrowed from {:.4g} m to {:.4g} m, because the center "
+        "line bends on a radius of {:.4g} m",
+        lines, station_, edge_, from_, to_, radius_));
+  }
+
+  void FinishAll() {
+    Finish();
+    if (count_ > kMaxNoted) {
+      rows_.notes.push_back(
+          fmt::format("the {} edge is narrowed at {} more places", edge_, count_ - kMaxNoted));
+    }
+  }
+
+ private:
+  static constexpr std::size_t kMaxNoted = 5;
+
+  void Set(double from, double to, double radius, double station) {
+    from_ = from;
+    to_ = to;
+    radius_ = radius;
+    station_ = station;
+  }
+
+  TrackRows& rows_;
+  const char* edge_;
+  std::size_t count_ = 0;
+  std::size_t first_ = 0;
+  std::size_t last_ = 0;
+  double from_ = 0.0;
+  double to_ = 0.0;
+  double radius_ = 0.0;
+  double station_ = 0.0;
+};
+
+/// Narrows the edges that fold over; returns the points with their new widths.
+std::vector<TrackPoint> Narrow(const Track& track, TrackRows& rows) {
+  const EdgeLimits limits = FindEdgeLimits(track);
+  NarrowedPlaces left(rows, "left");
+  NarrowedPlaces right(rows, "right");
+  std::vector<TrackPoint> points = track.points();
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double s = track.StationOf(i);
+    const TrackEdges edges = track.EdgesAt(s);
+    const auto narrow = [&](double excess, double& width, NarrowedPlaces& places) {
+      if (excess <= 0.0) {
+        return;
+      }
+      places.Add(i, width, width - excess, limits.radius[i], s);
+      if (width - excess < 0.5 * width) {
+        rows.Add(i, "", DescribeFold({i, limits.radius[i], width}, width));
+      }
+      width -= excess;
+    };
+    narrow(edges.left - limits.left[i], points[i].width_left, left);
+    narrow(-edges.right - limits.right[i], points[i].width_right, right);
+  }
+  left.FinishAll();
+  right.FinishAll();
+  rows.problems.ThrowIfAny();
+  return points;
 }
 
 }  // namespace
 
-Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothing) {
+TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& reading) {
   CheckSize(file);
-  const CsvExcerpt excerpt =
-      ReadCsvExcerpt(file, {"y_m", "w_tr_right_m", "w_tr_left_m"}, {kFirstColumn, "#x_m", "x_m"});
-  const Table& table = excerpt.table;
-  const std::string name = file.string();
-  const auto column = [&](const char* own) { return static_cast<std::size_t>(table.Find(own)); };
-  const std::size_t x = column(FindFirstColumn(file, table));
-  const std::size_t y = column("y_m");
-  const std::size_t right = column("w_tr_right_m");
-  const std::size_t left = column("w_tr_left_m");
-  if (table.rows() < Track::kMinPoints || table.rows() > Track::kMaxPoints) {
+  TrackRows rows(file, reading);
+  if (rows.points.size() < Track::kMinPoints || rows.points.size() > Track::kMaxPoints) {
     throw InputError(
-        Problem{.file = name,
-                .message = fmt::format("has {} points; a track has {} to {}", table.rows(),
+        Problem{.file = file.string(),
+                .message = fmt::format("has {} points; a track has {} to {}", rows.points.size(),
                                        Track::kMinPoints, Track::kMaxPoints)});
   }
-  ProblemList problems;
-  std::vector<TrackPoint> points;
-  const auto add = [&](std::size_t row, std::string key, std::string message) {
-    problems.Add({name, excerpt.lines[row], 0, std::move(key), std::move(message)});
-  };
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    points.push_back(
-        {{table.at(row, x), table.at(row, y)}, table.at(row, right), table.at(row, left)});
-    for (const auto& [key, value] :
-         {std::pair{"x_m", table.at(row, x)}, {"y_m", table.at(row, y)}}) {
-      if (std::abs(value) > kMaxPosition) {
-        add(row, key,
-            fmt::format("{} is out of range; must be between {} and {}", value, -kMaxPosition,
-                        kMaxPosition));
-      }
-    }
-    for (const auto& [key, value] :
-         {std::pair{"w_tr_right_m", table.at(row, right)}, {"w_tr_left_m", table.at(row, left)}}) {
-      if (!(value > 0.0) || value > kMaxWidth) {
-        add(row, key,
-            fmt::format("{} is out of range; must be above 0 and at most {}", value, kMaxWidth));
-      }
-    }
-    if (row > 0 && points[row].position == points[row - 1].position) {
-      add(row, "", "same point as in the row before");
-    }
+  CheckShape(file.string(), rows.lines, rows.points, rows.problems);
+  rows.problems.ThrowIfAny();
+  CheckFolds(rows, reading.smoothing);
+  Track track(rows.points, reading.smoothing);
+  if (FindFold(track)) {
+    track = Track(Narrow(track, rows), reading.smoothing);
   }
-  if (points.back().position == points.front().position) {
-    add(points.size() - 1, "", "the first point again; a track is closed without it");
-  }
-  problems.ThrowIfAny();
-  CheckShape(name, excerpt.lines, points, problems);
-  problems.ThrowIfAny();
-  const auto add_fold = [&](const TrackFold& fold) {
-    add(fold.point, "", DescribeFold(fold));
-    problems.ThrowIfAny();
-  };
-  if (const std::optional<TrackFold> fold = FindFold(points, smoothing)) {
-    add_fold(*fold);
-  }
-  Track track(std::move(points), smoothing);
-  if (const std::optional<TrackFold> fold = FindFold(track)) {
-    add_fold(*fold);
-  }
+  TRACKBED_CHECK(!FindFold(track), "{}: an edge folds over after it was narrowed", file.string());
   for (std::size_t i = 0; i < track.points().size(); ++i) {
     const TrackEdges edges = track.EdgesAt(track.StationOf(i));
     if (edges.right >= 0.0 || edges.left <= 0.0) {
-      add(i, "",
-          fmt::format("smoothed over {:.4g} m, the center line leaves the track here; use a "
-                      "shorter smoothing",
-                      track.smoothing()));
+      rows.Add(i, "",
+               fmt::format("smoothed over {:.4g} m, the center line leaves the track here; use a "
+                           "shorter smoothing",
+                           track.smoothing()));
       break;
     }
   }
-  problems.ThrowIfAny();
-  return track;
+  rows.problems.ThrowIfAny();
+  return {std::move(track), std::move(rows.notes)};
+}
+
+Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothing) {
+  return ReadTrackFile(file, {.smoothing = smoothing}).track;
 }
 
 std::string TrackCsv(const std::vector<TrackPoint>& points) {

@@ -1,8 +1,10 @@
 #include "trackbed/track/track_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "tests/support/temp_folder.h"
@@ -92,8 +94,6 @@ TEST(ReadTrack, NamesTheLineOfEachMistake) {
   EXPECT_EQ(ErrorMessages(RingFile(5, "1,2,4,-3")),
             "t.csv:5: w_tr_left_m: -3 is out of range; must be above 0 and at most 1000");
   EXPECT_EQ(ErrorMessages(RingFile(3, "20,0,4,3")), "t.csv:3: same point as in the row before");
-  EXPECT_EQ(ErrorMessages(RingFile() + "20,0,4,3\n"),
-            "t.csv:26: the first point again; a track is closed without it");
   EXPECT_THAT(ErrorMessages(RingFile(5, "1,2,4")), StartsWith("t.csv:5: "));
 }
 
@@ -130,12 +130,70 @@ TEST(ReadTrack, RefusesLargeFilesBeforeItReadsThem) {
   }
 }
 
-TEST(ReadTrack, NamesTheBendThatIsTighterThanTheTrackIsWide) {
+TEST(ReadTrack, DropsTheFirstPointAtTheEnd) {
+  const TempFolder folder;
+  for (const char* end : {"20,0,4,3\n", "20.0001,-0.0001,4,3\n"}) {
+    const TrackFile read = ReadTrackFile(folder.Write("t.csv", RingFile() + end));
+    EXPECT_EQ(read.track.points(), RingPoints(20.0, 24, 4.0, 3.0));
+    EXPECT_THAT(read.notes, testing::ElementsAre("line 26: the first point again, dropped"));
+  }
+}
+
+TEST(ReadTrack, TakesOtherDelimitersCommentsAndNames) {
+  const TempFolder folder;
+  const std::vector<TrackPoint> points = RingPoints(20.0, 24, 4.0, 3.0);
+  const std::string rows = RingFile().substr(kHeader.size());
+  for (const char delimiter : {',', ';', '\t'}) {
+    std::string own = "# made by \"somebody\", by hand\n# x_m, y_m, w_tr_right_m, w_tr_left_m\n" +
+                      rows + "# the end\n";
+    std::replace(own.begin(), own.end(), ',', delimiter);
+    EXPECT_EQ(ReadTrack(folder.Write("t.csv", own)).points(), points) << delimiter;
+  }
+  const TrackFile named =
+      ReadTrackFile(folder.Write("t.csv", "X,Y,right_width,left_width\n" + rows));
+  EXPECT_EQ(named.track.points(), points);
+  EXPECT_THAT(named.notes.at(0), HasSubstr("X, Y, right_width, left_width"));
+}
+
+TEST(ReadTrack, TakesTheWidthOfFilesWithoutWidths) {
+  const TempFolder folder;
+  std::string text = "y,x\n";
+  for (const TrackPoint& point : RingPoints(20.0, 24, 4.0, 3.0)) {
+    text += fmt::format("{},{}\n", point.position.y(), point.position.x());
+  }
+  EXPECT_THAT(ErrorMessages(text), HasSubstr("give the width of the track by mission.track.width"));
+  const std::filesystem::path file = folder.Write("t.csv", text);
+  EXPECT_EQ(ReadTrackFile(file, {.width = 5.0}).track.points(), RingPoints(20.0, 24, 2.5, 2.5));
+  const std::filesystem::path with_widths = folder.Write("w.csv", RingFile());
+  EXPECT_THROW(ReadTrackFile(with_widths, {.width = 5.0}), InputError);
+}
+
+TEST(ReadTrack, NarrowsTheEdgeWhereItWouldFold) {
   // The ellipse's radius of curvature is 30 m at its start and at the opposite end.
+  const TempFolder folder;
+  const std::string text = TrackCsv(EllipsePoints(120.0, 60.0, 114, 5.0, 31.0));
+  const TrackFile read = ReadTrackFile(folder.Write("t.csv", text));
+  ASSERT_EQ(read.notes.size(), 3U);  // the place at the start line is at both ends of the file
+  EXPECT_THAT(read.notes[0], testing::AllOf(StartsWith("lines 2 to "),
+                                            HasSubstr("the left edge is narrowed from 31 m to 28."),
+                                            HasSubstr("bends on a radius of 30.")));
+  for (double s = 0.0; s < read.track.length(); s += 0.4) {
+    EXPECT_LT(read.track.EdgesAt(s).left * read.track.At(s).curvature, 0.96);
+  }
+  // Points at which the ellipse is straighter keep their width.
+  EXPECT_EQ(read.track.points()[28].width_left, 31.0);
+  EXPECT_EQ(read.track.points()[3].width_right, 5.0);
+  const std::string again = TrackCsv(read.track.points());
+  const TrackFile second = ReadTrackFile(folder.Write("again.csv", again));
+  EXPECT_EQ(second.track.points(), read.track.points());
+  EXPECT_TRUE(second.notes.empty());
+}
+
+TEST(ReadTrack, RefusesToNarrowAnEdgeToLessThanHalf) {
   EXPECT_THAT(
-      ErrorMessages(TrackCsv(EllipsePoints(120.0, 60.0, 114, 5.0, 31.0))),
+      ErrorMessages(TrackCsv(EllipsePoints(120.0, 60.0, 114, 5.0, 62.0))),
       testing::AllOf(StartsWith("t.csv:"), HasSubstr("the center line bends on a radius of"),
-                     HasSubstr("the inner edge is 31 m from it")));
+                     HasSubstr("the inner edge is 62 m from it"), HasSubstr("less than half")));
 }
 
 // Without this error message, the smoothed center line would have cusps.

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace trackbed {
 
@@ -16,8 +17,13 @@ struct TrackSpec {
   /// out; nullopt: the default of Track.
   std::optional<double> smoothing;
 
+  /// Width of the track [m], half on either side of the center line, for files without widths.
+  std::optional<double> width;
+
   // The track, which copies of the scenario share. The track is not a key of the scenario file.
   std::shared_ptr<const Track> data{};
+  // Notes of ReadTrackFile.
+  std::vector<std::string> notes{};
 };
 
 }  // namespace trackbed

@@ -9,20 +9,42 @@
 
 namespace trackbed {
 
-/// Reads a track in the format of TUM's racetrack database, a CSV file with the header
+/// How to read a track.
+struct TrackReading {
+  std::optional<double> smoothing{};  ///< Argument of Track's constructor [m].
+  /// Width of a track whose file has no widths [m], > 0: half on either side of the center line.
+  std::optional<double> width{};
+};
+
+/// A track, and notes about how it was read.
+struct TrackFile {
+  Track track;
+  /// What differs from the file, with line numbers: narrowed edges, a repeated first point, and the
+  /// columns if their names are not those of TUM.
+  std::vector<std::string> notes;
+};
+
+/// Reads a track from a CSV file, such as those of TUM's racetrack database with the header
 ///   # x_m,y_m,w_tr_right_m,w_tr_left_m
-/// The '#' is optional, columns may have any order, and other columns are ignored. The rows are
-/// points in the order of driving, from the start line on. The track is closed, but the file does
-/// not repeat the first point at the end.
+/// The file is read as by ReadCsvTable: cells are separated by commas, semicolons or tabs, the
+/// header may begin with '#', and there may be comments. Columns may have any order and several
+/// usual names, and other columns are ignored. The rows are points in the order of driving, from
+/// the start line on. The track is closed; if the last row repeats the first point, this row is
+/// dropped. If there are no columns of widths, `reading.width` is the width of the track.
+///
+/// Where the inner edge would fold over in a bend (TrackFold), the edge is narrowed to 95 % of the
+/// bend's radius, to no less than half of its width in the file.
 ///
 /// Throws InputError, which lists up to twenty problems with file and line, including the problems
-/// that ReadCsvExcerpt finds. A point is a problem if its position is beyond 1e5 m, if a width is
+/// that ReadCsvTable finds. A point is a problem if its position is beyond 1e5 m, if a width is
 /// not above 0 or exceeds 1000 m, or if the point coincides with the previous point. A point at
 /// which the center line turns by more than 150 degrees is also a problem. The track as a whole has
 /// a problem if a lap is longer than 200 km, if there are fewer than Track::kMinPoints or more than
-/// Track::kMaxPoints points, if the file is larger than 16 MB, or if the track has a fold
-/// (TrackFold). Throws RunError if the file cannot be read. `smoothing` is the same argument as
-/// that of Track's constructor.
+/// Track::kMaxPoints points, if the file is larger than 16 MB, or if an edge would have to be
+/// narrowed to less than half. Throws RunError if the file cannot be read.
+TrackFile ReadTrackFile(const std::filesystem::path& file, const TrackReading& reading = {});
+
+/// Reads a track like ReadTrackFile, without the notes.
 Track ReadTrack(const std::filesystem::path& file, std::optional<double> smoothing = {});
 
 /// The file name of a track in the run folder, next to the resolved scenario.

@@ -1,0 +1,191 @@
+#include "src/track/track_rows.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+#include <utility>
+
+#include "trackbed/core/csv_rows.h"
+
+namespace trackbed {
+namespace {
+
+constexpr double kMaxPosition = 1e5;  // Largest permitted |x| and |y| of a point [m].
+constexpr double kMaxWidth = 1000.0;  // Largest permitted track width on either side [m].
+
+/// Quantities in the columns of a track.
+enum Quantity { kX, kY, kRight, kLeft, kWidth };
+
+/// Usual names of the columns of each quantity, in order of preference; the first is TUM's.
+const std::array<std::vector<const char*>, kTrackQuantities>& UsualNames() {
+  static const std::array<std::vector<const char*>, kTrackQuantities> names{
+      {{"x_m", "x", "x [m]", "pos_x", "position_x", "center_x", "x_center", "easting"},
+       {"y_m", "y", "y [m]", "pos_y", "position_y", "center_y", "y_center", "northing"},
+       {"w_tr_right_m", "w_tr_right", "width_right_m", "width_right", "w_right_m", "w_right",
+        "right_width_m", "right_width"},
+       {"w_tr_left_m", "w_tr_left", "width_left_m", "width_left", "w_left_m", "w_left",
+        "left_width_m", "left_width"},
+       {"width_m", "width", "track_width_m", "track_width", "w_tr_m"}}};
+  return names;
+}
+
+}  // namespace
+
+TrackRows::TrackRows(const std::filesystem::path& file, const TrackReading& reading)
+    : name_(file.string()), reading_(reading) {
+  ReadCsvTable(
+      file, {.delimiter = kFindDelimiter}, problems,
+      [&](const std::vector<std::string>& names, int line) { TakeNames(names, line); },
+      [&](const std::vector<std::string>& cells, int line) { TakeRow(cells, line); });
+  problems.ThrowIfAny();
+  DropRepeatedEnd();
+}
+
+void TrackRows::TakeNames(const std::vector<std::string>& names, int line) {
+  names_ = names;
+  const auto add = [&](std::string message) {
+    problems.Add({.file = name_, .line = line, .message = std::move(message)});
+    is_broken_ = true;
+  };
+  std::string others;
+  for (std::size_t quantity = 0; quantity < kTrackQuantities; ++quantity) {
+    for (const char* usual : UsualNames()[quantity]) {
+      for (std::size_t i = 0; i < names.size() && !columns_[quantity]; ++i) {
+        if (boost::iequals(names[i], usual)) {
+          columns_[quantity] = i;
+        }
+      }
+    }
+    if (columns_[quantity] &&
+        std::count(names.begin(), names.end(), names[*columns_[quantity]]) > 1) {
+      add(fmt::format("the column '{}' is repeated", names[*columns_[quantity]]));
+    }
+    if (columns_[quantity] && names[*columns_[quantity]] != UsualNames()[quantity].front()) {
+      others += (others.empty() ? "" : ", ") + names[*columns_[quantity]];
+    }
+  }
+  for (const Quantity quantity : {kX, kY}) {
+    if (!columns_[quantity]) {
+      add(
+          fmt::format("no column '{}'; the header of a track is "
+                      "'# x_m,y_m,w_tr_right_m,w_tr_left_m', but this file has '{}'",
+                      UsualNames()[quantity].front(), fmt::join(names, ",")));
+    }
+  }
+  const bool has_sides = columns_[kRight] && columns_[kLeft];
+  const bool has_widths = has_sides || columns_[kWidth];
+  if (!has_sides && (columns_[kRight] || columns_[kLeft])) {
+    const Quantity missing = columns_[kRight] ? kLeft : kRight;
+    add(fmt::format("no column '{}', but '{}'", UsualNames()[missing].front(),
+                    names[*columns_[missing == kLeft ? kRight : kLeft]]));
+  } else if (!has_widths && !reading_.width) {
+    add("no columns of widths, 'w_tr_right_m' and 'w_tr_left_m'; add them, or give the width of "
+        "the track by mission.track.width");
+  } else if (has_widths && reading_.width) {
+    add(
+        fmt::format("mission.track.width is given, but the file has the column '{}'; remove one of "
+                    "them",
+                    names[*columns_[has_sides ? kRight : kWidth]]));
+  }
+  if (has_sides) {
+    columns_[kWidth].reset();
+  }
+  if (!others.empty()) {
+    notes.push_back("columns taken by their names: " + others);
+  }
+}
+
+void TrackRows::TakeRow(const std::vector<std::string>& cells, int line) {
+  if (is_broken_) {
+    return;
+  }
+  const auto add = [&](std::size_t column, std::string message) {
+    problems.Add({name_, line, 0, fmt::format("cell {} ({})", column + 1, names_[column]),
+                  std::move(message)});
+  };
+  if (cells.size() != names_.size()) {
+    problems.Add(
+        {.file = name_,
+         .line = line,
+         .message = fmt::format("{} cells, the header has {}", cells.size(), names_.size())});
+    return;
+  }
+  TrackNumbers numbers{};
+  bool valid = true;
+  for (std::size_t i = 0; i < kTrackQuantities; ++i) {
+    if (!columns_[i]) {
+      continue;
+    }
+    const std::string& cell = cells[*columns_[i]];
+    const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), numbers[i]);
+    if (error != std::errc{} || end != cell.data() + cell.size()) {
+      add(*columns_[i], fmt::format("'{}' is not a number", cell));
+      valid = false;
+    } else if (!std::isfinite(numbers[i])) {
+      add(*columns_[i], fmt::format("'{}' is not a finite number", cell));
+      valid = false;
+    }
+  }
+  if (!valid) {
+    return;
+  }
+  if (!columns_[kRight]) {
+    const double width = columns_[kWidth] ? numbers[kWidth] : *reading_.width;
+    numbers[kRight] = 0.5 * width;
+    numbers[kLeft] = 0.5 * width;
+  }
+  points.push_back({{numbers[kX], numbers[kY]}, numbers[kRight], numbers[kLeft]});
+  lines.push_back(line);
+  CheckNumbers(numbers);
+}
+
+void TrackRows::CheckNumbers(const TrackNumbers& numbers) {
+  const std::size_t row = points.size() - 1;
+  const auto key = [&](Quantity quantity) {
+    return columns_[quantity] ? names_[*columns_[quantity]] : UsualNames()[quantity].front();
+  };
+  for (const Quantity quantity : {kX, kY}) {
+    if (std::abs(numbers[quantity]) > kMaxPosition) {
+      Add(row, key(quantity),
+          fmt::format("{} is out of range; must be between {} and {}", numbers[quantity],
+                      -kMaxPosition, kMaxPosition));
+    }
+  }
+  for (const Quantity quantity : {kRight, kLeft}) {
+    if (!(numbers[quantity] > 0.0) || numbers[quantity] > kMaxWidth) {
+      Add(row, key(columns_[kWidth] ? kWidth : quantity),
+          fmt::format("{} is out of range; must be above 0 and at most {}", numbers[quantity],
+                      kMaxWidth));
+    }
+  }
+  if (row > 0 && points[row].position == points[row - 1].position) {
+    Add(row, "", "same point as in the row before");
+  }
+}
+
+/// Drops the last points if they are the first point again. Such points may differ from the first
+/// point by the rounding of the file.
+void TrackRows::DropRepeatedEnd() {
+  if (points.size() < Track::kMinPoints) {
+    return;
+  }
+  double length = 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    length += (points[i].position - points[i - 1].position).norm();
+  }
+  // Fraction of the mean distance between points below which points coincide.
+  constexpr double kSame = 1e-3;
+  const double same = kSame * length / static_cast<double>(points.size() - 1);
+  while (points.size() > 1 && (points.back().position - points.front().position).norm() <= same) {
+    notes.push_back(fmt::format("line {}: the first point again, dropped", lines.back()));
+    points.pop_back();
+    lines.pop_back();
+  }
+}
+
+}  // namespace trackbed

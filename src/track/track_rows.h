@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "trackbed/core/table.h"
+#include "trackbed/track/track_file.h"
+
+namespace trackbed {
+
+/// Number of quantities in the columns of a track: x, y, widths to the right and to the left, and
+/// the whole width.
+inline constexpr std::size_t kTrackQuantities = 5;
+using TrackNumbers = std::array<double, kTrackQuantities>;
+
+/// Rows of a track file.
+class TrackRows {
+ public:
+  /// Reads the rows of a file. Throws InputError if a row or the header has a problem. Drops the
+  /// first point if the file repeats it at its end.
+  TrackRows(const std::filesystem::path& file, const TrackReading& reading);
+
+  /// Adds a problem of a point.
+  void Add(std::size_t point, std::string key, std::string message) {
+    problems.Add({name_, lines[point], 0, std::move(key), std::move(message)});
+  }
+
+  ProblemList problems;
+  std::vector<TrackPoint> points;
+  std::vector<int> lines;  // Line of each point in the file.
+  std::vector<std::string> notes;
+
+ private:
+  void TakeNames(const std::vector<std::string>& names, int line);
+  void TakeRow(const std::vector<std::string>& cells, int line);
+  void CheckNumbers(const TrackNumbers& numbers);
+  void DropRepeatedEnd();
+
+  std::string name_;
+  const TrackReading& reading_;
+  std::vector<std::string> names_;
+  std::array<std::optional<std::size_t>, kTrackQuantities> columns_;
+  bool is_broken_ = false;
+};
+
+}  // namespace trackbed
