@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <optional>
@@ -11,7 +12,8 @@
 #include "trackbed/core/angle.h"
 
 // Joins the centers of a route's lanes to a path. The center line of a lane is the reference line
-// of the road plus a lateral offset. In a lane change, a quintic polynomial blends the offsets of
+// of the road plus a lateral offset, which is measured across the road's surface and projected to
+// the plane. In a lane change, a quintic polynomial blends the offsets of
 // the two lanes. The algorithm splits the lane centers into pieces, at the stations where one
 // polynomial of the OpenDRIVE file ends and the next polynomial begins. Each piece is sampled at
 // points with exact heading and curvature. Kinks of at most 0.2 rad are rounded over 0.5 m on
@@ -68,6 +70,14 @@ struct RoadStretch {
   }
 };
 
+/// Whether the superelevation moves the lanes sideways.
+bool IsBanked(const Road& road) {
+  const auto& pieces = road.superelevation.pieces();
+  return std::any_of(pieces.begin(), pieces.end(), [](const auto& piece) {
+    return piece.coefficients != std::array<double, 4>{};
+  });
+}
+
 /// Returns the stations at which a polynomial that defines the lane center ends and the next
 /// polynomial begins.
 std::vector<double> Joints(const RoadStretch& own) {
@@ -83,6 +93,13 @@ std::vector<double> Joints(const RoadStretch& own) {
   }
   for (const auto& piece : own.road.lane_offset.pieces()) {
     add(piece.s);
+  }
+  if (IsBanked(own.road)) {
+    for (const PiecewiseCubic* function : {&own.road.superelevation, &own.road.elevation}) {
+      for (const auto& piece : function->pieces()) {
+        add(piece.s);
+      }
+    }
   }
   const LaneSection& section = own.road.sections[own.section];
   for (const Lane& lane : section.lanes) {
@@ -101,40 +118,12 @@ std::vector<double> Joints(const RoadStretch& own) {
   return apart;
 }
 
-/// State of the lane center R(s) + t(s) N(s) at a station s, where R is the reference line, N is
-/// the left normal of R, and t is the lateral offset. The derivative of the lane center with
-/// respect to s is m T + t' N, where T is the tangent of R, kappa is the curvature of R, and m =
-/// |dR/ds| (1 - kappa t).
-struct CenterState {
-  Vec2 position{0.0, 0.0};
-  double heading = 0.0;
-  double curvature = 0.0;
-  double speed = 0.0;  ///< Derivative of the lane center's arc length with respect to s.
-  /// Whether the lateral offset is so large that the lane center runs backward (m <= 0).
-  bool folded = false;
-};
-
-CenterState StateAt(const RoadStretch& own, double s, double piece_of) {
-  const ReferenceLinePoint r = own.road.reference.At(s, piece_of);
-  const CubicValue t = own.Offset(s, piece_of);
-  const double m = r.stretch * (1.0 - r.curvature * t.value);
-  const double m_slope = -r.stretch * (r.stretch * r.sharpness * t.value + r.curvature * t.slope);
-  CenterState state;
-  state.position = ToWorld(r.pose, {0.0, t.value});
-  state.speed = std::hypot(m, t.slope);
-  state.folded = m <= 0.0;
-  if (state.folded) {
-    return state;
-  }
-  state.heading = r.pose.yaw + std::atan2(t.slope, m);
-  state.curvature =
-      (r.stretch * r.curvature + (t.second * m - t.slope * m_slope) / (state.speed * state.speed)) /
-      state.speed;
-  return state;
+SurfaceLine StateAt(const RoadStretch& own, double s, double piece_of) {
+  return SurfaceLineAt(own.road, own.Offset(s, piece_of), s, piece_of);
 }
 
 /// Returns the smooth pieces of a stretch's lane center, in driving direction. Returns no pieces if
-/// the lane center is folded (CenterState::folded).
+/// the lane center is folded (SurfaceLine::folded).
 std::vector<Piece> SmoothPieces(const RoadStretch& own) {
   std::vector<Piece> pieces;
   const std::vector<double> joints = Joints(own);
@@ -151,7 +140,7 @@ std::vector<Piece> SmoothPieces(const RoadStretch& own) {
         distance += boost::math::quadrature::gauss<double, 7>::integrate(
             [&](double at) { return StateAt(own, at, middle).speed; }, s - step, s);
       }
-      const CenterState state = StateAt(own, s, middle);
+      const SurfaceLine state = StateAt(own, s, middle);
       if (state.folded) {
         return {};
       }

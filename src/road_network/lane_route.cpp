@@ -98,14 +98,10 @@ Pose2 PoseAt(const RoadNetwork& network, const LanePlace& place) {
   const std::string why = LanePlaceError(network, place);
   TRACKBED_REQUIRE(why.empty(), "PoseAt: {}", why);
   const Road& road = network.roads.find(place.road)->second;
-  const LaneBorders borders = LaneBordersAt(road, place.lane, place.s);
-  const CubicValue center = borders.Center();
-  const ReferenceLinePoint reference = road.reference.At(place.s);
-  const Vec2 position = ToWorld(reference.pose, {0.0, center.value});
-  const double along = reference.stretch * (1.0 - reference.curvature * center.value);
-  const double heading = reference.pose.yaw + std::atan2(center.slope, along);
-  return {position.x(), position.y(),
-          WrapAngle(FollowsRoad(road, place.lane) ? heading : heading + kPi)};
+  const SurfaceLine center =
+      SurfaceLineAt(road, LaneBordersAt(road, place.lane, place.s).Center(), place.s, place.s);
+  return {center.position.x(), center.position.y(),
+          WrapAngle(FollowsRoad(road, place.lane) ? center.heading : center.heading + kPi)};
 }
 
 std::string LanePlaceError(const RoadNetwork& network, const LanePlace& place) {

@@ -110,7 +110,81 @@ RoadPosition PositionAt(const Road& road, double s, double t) {
   const Eigen::Vector3d across =
       AcrossSurface(reference.stretch * Direction(reference.pose.yaw), height.slope, roll);
   return {reference.pose.x + t * across.x(), reference.pose.y + t * across.y(),
-          height.value + t * across.z(), reference.pose.yaw};
+          height.value + t * across.z() + ShapeHeight(road, at, t), reference.pose.yaw};
+}
+
+double ShapeHeight(const Road& road, double s, double t) {
+  if (road.shape.empty()) {
+    return 0.0;
+  }
+  const auto height = [&](const ShapeProfile& profile) {
+    return profile.height.At(t, std::max(t, profile.height.pieces().front().s)).value;
+  };
+  const auto after =
+      std::upper_bound(road.shape.begin(), road.shape.end(), s,
+                       [](double at, const ShapeProfile& profile) { return at < profile.s; });
+  if (after == road.shape.begin() || after == road.shape.end()) {
+    return height(after == road.shape.begin() ? road.shape.front() : road.shape.back());
+  }
+  const ShapeProfile& before = *(after - 1);
+  return std::lerp(height(before), height(*after), (s - before.s) / (after->s - before.s));
+}
+
+namespace {
+
+/// The product of two functions, with its derivatives.
+CubicValue Product(const CubicValue& a, const CubicValue& b) {
+  return {a.value * b.value, a.slope * b.value + a.value * b.slope,
+          a.second * b.value + 2.0 * a.slope * b.slope + a.value * b.second};
+}
+
+/// The sine of the angle at which the reference line climbs. `stretch` is the ratio of arc length
+/// to station.
+CubicValue SineOfSlope(const Road& road, double stretch, double s, double piece_of) {
+  const CubicValue height = road.elevation.At(s, piece_of);
+  // The second derivative of a cubic polynomial is linear, so the difference quotient is exact.
+  const double third = road.elevation.At(s + 1.0, piece_of).second - height.second;
+  const double square = stretch * stretch + height.slope * height.slope;
+  const double root = std::sqrt(square);
+  const double change = stretch * stretch / (square * root);
+  return {height.slope / root, height.second * change,
+          third * change - 3.0 * height.slope * height.second * height.second * change / square};
+}
+
+}  // namespace
+
+// The line is P(s) = R + n N + a T, where R is the reference line with the tangent T, the left
+// normal N and the curvature k. With the roll angle r and the climbing angle c of the reference
+// line, n = t cos(r) and a = -t sin(r) sin(c). With q = |dR/ds|, the derivative of P is A T + B N,
+// where A = q (1 - k n) + a' and B = n' + q k a.
+SurfaceLine SurfaceLineAt(const Road& road, const CubicValue& t, double s, double piece_of) {
+  const ReferenceLinePoint reference = road.reference.At(s, piece_of);
+  const CubicValue roll = road.superelevation.At(s, piece_of);
+  const double sine = std::sin(roll.value);
+  const double cosine = std::cos(roll.value);
+  const double q = reference.stretch;
+  const double k = reference.curvature;
+  const double k_slope = q * reference.sharpness;
+  const CubicValue n = Product(
+      t, {cosine, -sine * roll.slope, -sine * roll.second - cosine * roll.slope * roll.slope});
+  CubicValue a;
+  if (sine != 0.0 || roll.slope != 0.0 || roll.second != 0.0) {
+    a = Product(Product(t, {-sine, -cosine * roll.slope,
+                            -cosine * roll.second + sine * roll.slope * roll.slope}),
+                SineOfSlope(road, q, s, piece_of));
+  }
+  const double ahead = q * (1.0 - k * n.value) + a.slope;
+  const double left = n.slope + q * k * a.value;
+  const double ahead_slope = -q * (k_slope * n.value + k * n.slope) + a.second;
+  const double left_slope = n.second + q * (k_slope * a.value + k * a.slope);
+  SurfaceLine line;
+  line.position = ToWorld(reference.pose, {a.value, n.value});
+  line.speed = std::hypot(ahead, left);
+  line.folded = ahead <= 0.0;
+  line.heading = reference.pose.yaw + std::atan2(left, ahead);
+  line.curvature =
+      (q * k + (left_slope * ahead - left * ahead_slope) / (line.speed * line.speed)) / line.speed;
+  return line;
 }
 
 RoadPosition LanePositionAt(const Road& road, int lane, double s, double offset) {
@@ -122,7 +196,7 @@ bool IsLevel(const Road& road) {
   return !HasSlope(road.elevation) && !HasSteps(road.elevation) && !HasSlope(road.superelevation) &&
          std::all_of(roll.begin(), roll.end(),
                      [](const auto& piece) { return piece.coefficients[0] == 0.0; }) &&
-         road.unread_heights.empty();
+         road.shape.empty() && road.unread_heights.empty();
 }
 
 bool IsDrivable(const Lane& lane) {

@@ -21,7 +21,7 @@ constexpr double kDefaultMarkWidth = 0.12;
 constexpr double kDoubleGap = 0.1;  // Gap between the two lines of a double road mark [m].
 
 Vec2 Beside(const Road& road, double s, double piece_of, double t) {
-  return ToWorld(road.reference.At(s, piece_of).pose, {0.0, t});
+  return SurfaceLineAt(road, {.value = t}, s, piece_of).position;
 }
 
 /// Returns evenly spaced stations from `from` to `to`, including both, at most `spacing` apart.

@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "trackbed/core/spelling.h"
@@ -36,6 +38,48 @@ std::optional<RoadLink> ReadRoadLink(const XmlFields& road, const char* name) {
   return found;
 }
 
+bool IsZero(const PiecewiseCubic& function) {
+  return std::all_of(function.pieces().begin(), function.pieces().end(), [](const auto& piece) {
+    return piece.coefficients == std::array<double, 4>{};
+  });
+}
+
+/// Reads the profiles across a road. Returns none if all heights are 0.
+std::vector<ShapeProfile> ReadShape(const XMLElement* lateral, const std::string& where,
+                                    XmlProblems& problems) {
+  struct Record {
+    double s = 0.0;
+    PiecewiseCubic::Piece piece;
+  };
+  std::vector<Record> records;
+  ForEachChild(lateral, "shape", [&](const XMLElement& element, std::size_t index) {
+    const XmlFields fields(element, fmt::format("{}.shape[{}]", where, index), problems);
+    records.push_back(
+        {fields.Number("s", {0.0, 1e6}),
+         {fields.Number("t", {-1e4, 1e4}),
+          {fields.Number("a"), fields.Number("b"), fields.Number("c"), fields.Number("d")}}});
+  });
+  const bool is_flat = std::all_of(records.begin(), records.end(), [](const Record& record) {
+    return record.piece.coefficients == std::array<double, 4>{};
+  });
+  if (is_flat) {
+    return {};
+  }
+  std::stable_sort(records.begin(), records.end(), [](const Record& a, const Record& b) {
+    return std::tie(a.s, a.piece.s) < std::tie(b.s, b.piece.s);
+  });
+  std::vector<ShapeProfile> profiles;
+  for (std::size_t i = 0; i < records.size();) {
+    std::vector<PiecewiseCubic::Piece> pieces;
+    const double s = records[i].s;
+    for (; i < records.size() && records[i].s == s; ++i) {
+      pieces.push_back(records[i].piece);
+    }
+    profiles.push_back({s, PiecewiseCubic(std::move(pieces))});
+  }
+  return profiles;
+}
+
 void ReadHeights(const XmlFields& fields, Road& road) {
   const std::string& where = fields.where();
   const XMLElement* elevation = fields.Child("elevationProfile");
@@ -44,10 +88,20 @@ void ReadHeights(const XmlFields& fields, Road& road) {
   const XMLElement* lateral = fields.Child("lateralProfile");
   road.superelevation =
       ReadCubics(lateral, "superelevation", "s", where + ".lateralProfile", fields.problems());
-  for (const char* unread : {"shape", "crossfall", "crossSectionSurface"}) {
-    if (lateral != nullptr && lateral->FirstChildElement(unread) != nullptr) {
-      road.unread_heights.emplace_back(unread);
+  road.shape = ReadShape(lateral, where + ".lateralProfile", fields.problems());
+  bool has_crossfall = false;
+  ForEachChild(lateral, "crossfall", [&](const XMLElement& element, std::size_t) {
+    XmlProblems own(fields.problems().file());
+    const XmlFields record(element, where, own);
+    for (const char* coefficient : {"a", "b", "c", "d"}) {
+      has_crossfall = has_crossfall || record.Number(coefficient) != 0.0 || !own.empty();
     }
+  });
+  if (has_crossfall) {
+    road.unread_heights.emplace_back("crossfall");
+  }
+  if (lateral != nullptr && lateral->FirstChildElement("crossSectionSurface") != nullptr) {
+    road.unread_heights.emplace_back("crossSectionSurface");
   }
 }
 
@@ -172,6 +226,10 @@ Road ReadRoad(const XMLElement& element, XmlProblems& problems) {
   const XmlFields lane_fields(*lanes, fields.where() + ".lanes", problems);
   road.lane_offset = ReadCubics(lanes, "laneOffset", "s", lane_fields.where(), problems);
   road.sections = ReadLaneSections(lane_fields, road, road.unread_heights);
+  // The attribute `level` of a lane changes nothing on a road that is level across.
+  if (IsZero(road.superelevation) && road.shape.empty()) {
+    std::erase(road.unread_heights, "level lane");
+  }
   return road;
 }
 

@@ -18,6 +18,7 @@
 namespace trackbed {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
@@ -231,6 +232,59 @@ TEST(LaneRoute, RefusesALaneBeyondTheCenterOfCurvature) {
   EXPECT_THAT(FindLaneRoute(network, {{"1", -3, 10.0}, {"1", -3, 60.0}}).failure,
               HasSubstr("lane -3 lies beyond"));
   EXPECT_TRUE(FindLaneRoute(network, {{"1", -1, 10.0}, {"1", -1, 60.0}}).ok());
+}
+
+/// A road that curves, climbs and banks, with widening lanes.
+std::string BankedRoad() {
+  RoadText road;
+  road.geometry =
+      "<geometry s='0' x='3' y='-2' hdg='0.4' length='100'>"
+      "<spiral curvStart='0.0' curvEnd='0.02'/></geometry>";
+  road.heights =
+      "<elevationProfile><elevation s='0' a='2' b='0.05' c='0.001' d='-0.00001'/>"
+      "</elevationProfile><lateralProfile>"
+      "<superelevation s='0' a='0' b='0' c='0.0002' d='-0.000002'/>"
+      "<superelevation s='50' a='0.25' b='0.005' c='-0.0001' d='0'/></lateralProfile>";
+  return road.Xml();
+}
+
+// The lanes of a steep bank are t cos(roll) from the reference line, seen from above.
+TEST(LaneRoute, FollowsLanesOnABank) {
+  const RoadNetwork network = ParseNetwork(BankedRoad());
+  const LaneRoute route = FindLaneRoute(network, {{"1", 1, 95.0}, {"1", 1, 5.0}});
+  ASSERT_TRUE(route.ok()) << route.failure;
+  const Road& road = network.roads.at("1");
+  for (double s = 6.0; s < 95.0; s += 1.7) {
+    const RoadPosition center = LanePositionAt(road, 1, s);
+    const Projection at = route.path.Project({center.x, center.y, 0.0});
+    EXPECT_NEAR(at.cross_track, 0.0, Tolerance(kOnCenter)) << s;
+  }
+}
+
+TEST(LaneRoute, HasTheHeadingAndCurvatureOfLanesOnABank) {
+  const RoadNetwork network = ParseNetwork(BankedRoad());
+  const Road& road = network.roads.at("1");
+  const auto at = [&](double s) {
+    const RoadPosition center = LanePositionAt(road, -1, s);
+    return Vec2(center.x, center.y);
+  };
+  for (double s = 3.0; s < 97.0; s += 3.1) {
+    const SurfaceLine line = SurfaceLineAt(road, LaneBordersAt(road, -1, s).Center(), s, s);
+    // Central differences over h: errors of order h^2 of the third derivatives, 1e-3, and of the
+    // rounding 1e-14/h^2.
+    constexpr double kStep = 1e-3;
+    const Vec2 first = (at(s + kStep) - at(s - kStep)) / (2.0 * kStep);
+    const Vec2 second = (at(s + kStep) - 2.0 * at(s) + at(s - kStep)) / (kStep * kStep);
+    EXPECT_NEAR((line.position - at(s)).norm(), 0.0, Tolerance(1e-12)) << s;
+    EXPECT_NEAR(line.speed, first.norm(), Tolerance(1e-8)) << s;
+    EXPECT_NEAR(AngleDifference(line.heading, std::atan2(first.y(), first.x())), 0.0,
+                Tolerance(1e-8))
+        << s;
+    EXPECT_NEAR(line.curvature, Cross(first, second) / std::pow(first.norm(), 3.0), Tolerance(1e-7))
+        << s;
+    const Pose2 pose = PoseAt(network, {"1", -1, s});
+    EXPECT_NEAR(AngleDifference(pose.yaw, line.heading), 0.0, Tolerance(1e-14));
+  }
 }
 
 TEST(LaneRoute, EndsWhereLinksGoInCircles) {

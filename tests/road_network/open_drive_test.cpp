@@ -90,7 +90,7 @@ TEST(OpenDrive, ReadsEveryShape) {
 TEST(OpenDrive, NotesWhatChangesHeightsAndIsNotRead) {
   RoadText road;
   road.heights =
-      "<lateralProfile><crossfall side='both' s='0' a='0' b='0' c='0' d='0'/>"
+      "<lateralProfile><crossfall side='both' s='0' a='0.02' b='0' c='0' d='0'/>"
       "</lateralProfile>";
   const RoadNetwork network = ParseNetwork(road.Xml());
   ASSERT_EQ(network.notes.size(), 1U);

@@ -58,6 +58,37 @@ TEST(Position, RollsAboutTheReferenceLine) {
   EXPECT_NEAR(left.z, 7.0 + 4.0 * std::sin(0.1), Tolerance(kRoundingOfPositions));
 }
 
+// Heights across the road: records at s = 0 and s = 100, linear in between.
+TEST(Position, AddsTheProfileAcrossTheRoad) {
+  RoadText text;
+  text.heights =
+      "<lateralProfile>"
+      "<shape s='0' t='-10' a='0' b='0' c='0' d='0'/>"
+      "<shape s='0' t='0' a='0' b='0.1' c='0.02' d='-0.001'/>"
+      "<shape s='100' t='-10' a='1' b='-0.1' c='0' d='0'/></lateralProfile>";
+  const Road road = ReadOne(text);
+  EXPECT_TRUE(road.unread_heights.empty());
+  EXPECT_FALSE(IsLevel(road));
+  for (const double s : {0.0, 30.0, 100.0}) {
+    for (const double t : {-12.0, -4.0, 0.0, 3.0}) {
+      const double first = t < 0.0 ? 0.0 : 0.1 * t + 0.02 * t * t - 0.001 * t * t * t;
+      const double last = 1.0 - 0.1 * (t + 10.0);
+      EXPECT_NEAR(PositionAt(road, s, t).z, first + 0.01 * s * (last - first),
+                  Tolerance(kRoundingOfPositions));
+    }
+  }
+}
+
+// RoadRunner writes profiles of zero.
+TEST(Position, IgnoresProfilesOfZero) {
+  RoadText text;
+  text.heights =
+      "<lateralProfile><superelevation s='0' a='0' b='0' c='0' d='0'/>"
+      "<shape s='0' t='-14' a='0' b='0' c='0' d='0'/>"
+      "<crossfall side='both' s='0' a='0' b='0' c='0' d='0'/></lateralProfile>";
+  EXPECT_TRUE(IsLevel(ReadOne(text)));
+}
+
 TEST(Position, RollsAboutTheTangentInSpace) {
   RoadText text;
   text.heights =
@@ -132,8 +163,8 @@ TEST(Position, KnowsWhetherARoadIsLevel) {
                             "<elevation s='50' a='6' b='0'" + rest + "</elevationProfile>")));
   EXPECT_FALSE(IsLevel(
       with("<lateralProfile><superelevation s='0' a='0.01' b='0'" + rest + "</lateralProfile>")));
-  EXPECT_FALSE(
-      IsLevel(with("<lateralProfile><shape s='0' t='0' a='0' b='0'" + rest + "</lateralProfile>")));
+  EXPECT_FALSE(IsLevel(
+      with("<lateralProfile><shape s='0' t='0' a='0' b='0.01'" + rest + "</lateralProfile>")));
 }
 
 /// Compares positions at random places with those that libOpenDRIVE computed

@@ -28,6 +28,14 @@ struct RoadMark {
   double width = 0.0;  ///< Width of the mark [m]; 0 if the width is unknown.
 };
 
+/// The profile of a road's surface across the road at one station.
+struct ShapeProfile {
+  double s = 0.0;  ///< Station of the profile [m].
+  /// Height above the surface that elevation and superelevation describe [m], upward, as a function
+  /// of the lateral coordinate t [m].
+  PiecewiseCubic height;
+};
+
 struct Lane {
   int id = 0;
   std::string type;  ///< Type of the lane in the file: "driving", "shoulder", "sidewalk", ...
@@ -76,14 +84,17 @@ struct Road {
   /// Roll angle of the road's surface about the reference line [rad]; positive if the left side is
   /// higher.
   PiecewiseCubic superelevation;
+  /// Profiles across the road, ordered by station. Between two profiles, the height is
+  /// interpolated linearly over the station. Empty if all heights are 0.
+  std::vector<ShapeProfile> shape;
   PiecewiseCubic lane_offset;  ///< Lateral coordinate t of the center lane [m] as a function of s.
   /// Lane sections, ordered by station; there is at least one section, and the first section starts
   /// at s = 0.
   std::vector<LaneSection> sections;
   std::optional<RoadLink> predecessor;
   std::optional<RoadLink> successor;
-  /// Kinds of height data in the file that are not supported and therefore ignored: "shape",
-  /// "crossfall", "lane height", "level lane".
+  /// Kinds of height data in the file that are not supported and therefore ignored: "crossfall",
+  /// "crossSectionSurface", "lane height", "level lane".
   std::vector<std::string> unread_heights;
   int line = 0;  ///< Line number in the OpenDRIVE file.
 
@@ -151,10 +162,33 @@ struct RoadPosition {
   double heading = 0.0;
 };
 
+/// Returns the height that the profiles of a road add at station s and lateral coordinate t [m].
+/// Beyond the first and last record of a profile,
+/// its outermost polynomials apply. Cost O(log n) for n records.
+double ShapeHeight(const Road& road, double s, double t);
+
+/// The center of a lane, or another line along a road, at one station s: a point in the plane and
+/// its derivatives with respect to s. The line is at the distance t(s) from the reference line,
+/// measured across the surface, which the superelevation rolls about the tangent of the reference
+/// line. The profiles of the road do not move the line.
+struct SurfaceLine {
+  Vec2 position{0.0, 0.0};
+  double heading = 0.0;    ///< [rad]
+  double curvature = 0.0;  ///< [1/m]
+  double speed = 0.0;      ///< Derivative of the arc length in the plane with respect to s.
+  /// Whether t is so large that the line runs backward, beyond the center of curvature.
+  bool folded = false;
+};
+
+/// Returns the line at distance `t` from the reference line. The polynomials of the road are those
+/// that apply at the station `piece_of`.
+SurfaceLine SurfaceLineAt(const Road& road, const CubicValue& t, double s, double piece_of);
+
 /// Returns the point of the road's surface at station s and at the distance t [m] from the
 /// reference line. The distance is measured across the road's surface: along the left normal of the
-/// reference line, rotated by the superelevation about the tangent of the reference line. Height
-/// data of the kinds in Road::unread_heights are ignored. Throws PreconditionError if the station
+/// reference line, rotated by the superelevation about the tangent of the reference line. The
+/// height of the profiles (ShapeHeight) is added upward. Height data of the kinds in
+/// Road::unread_heights are ignored. Throws PreconditionError if the station
 /// is outside of the road by more than 1 mm, or if a number is not finite.
 RoadPosition PositionAt(const Road& road, double s, double t);
 
@@ -163,8 +197,8 @@ RoadPosition PositionAt(const Road& road, double s, double t);
 /// as PositionAt, and if the lane does not exist.
 RoadPosition LanePositionAt(const Road& road, int lane, double s, double offset = 0.0);
 
-/// Whether the road is flat and level: constant height, no superelevation and no ignored height
-/// data.
+/// Whether the road is flat and level: constant height, no superelevation, no profiles and no
+/// ignored height data.
 bool IsLevel(const Road& road);
 
 /// Whether vehicles use the lane. Vehicles use lanes of these types: "driving", "entry", "exit",

@@ -33,8 +33,8 @@ struct RoadPaint {
 /// sidewalks, borders, curbs and "none") form one band. Broken lines are dashes of 3 m every 9 m;
 /// double lines consist of two lines that are 0.1 m apart; marks of other types ("grass", "curb",
 /// "edge", "custom", "botts dots") are solid lines; marks of the type "none" are not drawn.
-/// PaintRoads ignores heights and superelevation. Throws InternalError unless the spacing is
-/// positive.
+/// Superelevation moves lines as it moves the centers of lanes (SurfaceLineAt). Throws
+/// InternalError unless the spacing is positive.
 RoadPaint PaintRoads(const RoadNetwork& network, double spacing);
 
 }  // namespace trackbed

@@ -145,13 +145,14 @@ std::optional<RoadStrip::Place> RoadStrip::Locate(const Vec2& point_W) const {
     constexpr double kLevelingLength = 10.0;  // [m]
     const double run = on + kLevelingLength * (1.0 - std::exp((on - beyond) / kLevelingLength));
     const auto [right, left] = Borders(s);
-    return Place{
-        .s = s,
-        .z = height.value + t * across.z() + std::copysign(run, along) * height.slope / stretch,
-        .beside = std::max({0.0, right - t, t - left}),
-        .beyond = beyond,
-        .straight_on = on,
-        .share = SmoothStep((fold - kFold) / (kFoldEnd - kFold))};
+    return Place{.s = s,
+                 .z = height.value + t * across.z() +
+                      ShapeHeight(*road_, s, std::clamp(t, right, left)) +
+                      std::copysign(run, along) * height.slope / stretch,
+                 .beside = std::max({0.0, right - t, t - left}),
+                 .beyond = beyond,
+                 .straight_on = on,
+                 .share = SmoothStep((fold - kFold) / (kFoldEnd - kFold))};
   }
   return std::nullopt;
 }

@@ -64,6 +64,27 @@ TEST(RouteGround, IsNoneOfLevelRoads) {
   EXPECT_EQ(OnStraight(Elevation(7.0, 0.0, 0.0)).terrain, nullptr);
 }
 
+// A crown: both lanes fall by 2.5 % from the center, with 1 m of parabola in the middle.
+TEST(RouteGround, HasTheProfileAcrossTheRoad) {
+  RoadText road;
+  road.heights =
+      "<lateralProfile>"
+      "<shape s='0' t='-8' a='-0.1875' b='0.025' c='0' d='0'/>"
+      "<shape s='0' t='-0.5' a='0' b='0.025' c='-0.025' d='0'/>"
+      "<shape s='0' t='0.5' a='0' b='-0.025' c='0' d='0'/></lateralProfile>";
+  const RoadNetwork network = ParseNetwork(road.Xml());
+  const RouteGround ground = MakeRouteGround(network, kAlong);
+  ASSERT_TRUE(ground.ok()) << ground.failure;
+  ASSERT_NE(ground.terrain, nullptr);
+  for (double t = -3.4; t < 3.5; t += 0.2) {
+    const double away = std::abs(t);
+    const double height = away > 0.5 ? -0.025 * (away - 0.5) : 0.025 * (0.25 - t * t);
+    // The ground of the route may deviate from the lanes by 1 cm; on planes it interpolates.
+    EXPECT_NEAR(ground.terrain->At({50.0, t}).height, height, Tolerance(away > 1.0 ? 1e-6 : 0.01))
+        << t;
+  }
+}
+
 TEST(RouteGround, HasConstantGradeAndBank) {
   const double roll = 0.1;
   const RouteGround ground = OnStraight(Elevation(5.0, 0.06, 0.0) + Roll(roll));
