@@ -6,6 +6,8 @@
 #include <limits>
 #include <tuple>
 
+#include "src/road_network/broken_exits.h"
+
 namespace trackbed {
 
 LaneGraph::LaneGraph(const RoadNetwork& network) : network_(network) {
@@ -100,6 +102,29 @@ void LaneGraph::AddLinks(std::size_t index) {
 
 void LaneGraph::Link(std::size_t from, std::size_t to) {
   boost::add_edge(from, to, nodes_[from].end() - nodes_[from].start(), links_);
+}
+
+std::vector<std::string> LaneGraph::BrokenPartsFrom(std::size_t from) const {
+  constexpr std::size_t kMaxParts = 3;
+  std::vector<std::string> parts;
+  std::vector<bool> seen(nodes_.size(), false);
+  std::vector<std::size_t> open{from};
+  seen[from] = true;
+  for (std::size_t i = 0; i < open.size() && parts.size() < kMaxParts; ++i) {
+    for (const std::string& part : BrokenExits(network_, nodes_[open[i]])) {
+      if (std::find(parts.begin(), parts.end(), part) == parts.end() && parts.size() < kMaxParts) {
+        parts.push_back(part);
+      }
+    }
+    const auto [begin, end] = boost::adjacent_vertices(open[i], links_);
+    for (auto next = begin; next != end; ++next) {
+      if (!seen[*next]) {
+        seen[*next] = true;
+        open.push_back(*next);
+      }
+    }
+  }
+  return parts;
 }
 
 std::vector<std::size_t> LaneGraph::ShortestWay(std::size_t from, std::size_t to) const {

@@ -27,12 +27,23 @@ void ReadLaneLinks(const XmlFields& fields, Lane& lane) {
 
 void ReadRoadMarks(const XmlFields& fields, Lane& lane) {
   ForEachChild(&fields.element(), "roadMark", [&](const XMLElement& element, std::size_t index) {
-    const XmlFields mark(element, fmt::format("{}.roadMark[{}]", fields.where(), index),
-                         fields.problems());
-    lane.marks.push_back({.s = mark.Number("sOffset", {0.0, 1e6}),
-                          .type = mark.Text("type"),
-                          .color = mark.OptionalText("color"),
-                          .width = mark.Number("width", {0.0, 10.0}, 0.0)});
+    // A wrong mark is only noted, because no car needs a mark.
+    XmlProblems own(fields.problems().file());
+    const XmlFields mark(element, fmt::format("{}.roadMark[{}]", fields.where(), index), own);
+    double s = mark.Number("sOffset", {-1e6, 1e6});
+    if (s < 0.0) {
+      own.AddFlaw(mark.line(), mark.where() + ".sOffset",
+                  fmt::format("{} m; the mark is drawn from the start of the lane section", s));
+      s = 0.0;
+    }
+    RoadMark read{.s = s,
+                  .type = mark.Text("type"),
+                  .color = mark.OptionalText("color"),
+                  .width = mark.Number("width", {0.0, 10.0}, 0.0)};
+    if (own.empty()) {
+      lane.marks.push_back(std::move(read));
+    }
+    fields.problems().AddFlaws(own);
   });
   std::stable_sort(lane.marks.begin(), lane.marks.end(),
                    [](const RoadMark& a, const RoadMark& b) { return a.s < b.s; });

@@ -81,7 +81,9 @@ std::string Connect(const LaneGraph& graph, const LanePlace& a, const Found& fro
   }
   const std::vector<std::size_t> way = graph.ShortestWay(from.node, to.node);
   if (way.empty()) {
-    return fmt::format("no linked lanes lead from {} to {}", Named(a), Named(b));
+    const std::vector<std::string> broken = graph.BrokenPartsFrom(from.node);
+    return fmt::format("no linked lanes lead from {} to {}{}{}", Named(a), Named(b),
+                       broken.empty() ? "" : "; on the way, ", fmt::join(broken, "; "));
   }
   stretches.AddUpToEnd(node, a.s);
   for (std::size_t i = 1; i + 1 < way.size(); ++i) {
@@ -107,6 +109,10 @@ Pose2 PoseAt(const RoadNetwork& network, const LanePlace& place) {
 std::string LanePlaceError(const RoadNetwork& network, const LanePlace& place) {
   const auto found = network.roads.find(place.road);
   if (found == network.roads.end()) {
+    const auto broken = network.broken.find("road " + place.road);
+    if (broken != network.broken.end()) {
+      return fmt::format("road {} is left out, because of {}", place.road, broken->second);
+    }
     std::vector<std::string> ids;
     for (const auto& [id, road] : network.roads) {
       ids.push_back(id);

@@ -5,6 +5,7 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "src/road_network/road_reader.h"
@@ -39,11 +40,12 @@ void CheckVersion(const XMLElement& root, RoadNetwork& network, XmlProblems& pro
   }
 }
 
-Junction ReadJunction(const XmlFields& fields) {
+/// Reads a junction. Connections with an error are left out.
+Junction ReadJunction(const XmlFields& fields, RoadNetwork& network) {
   Junction junction{.id = fields.OptionalText("id"), .connections = {}};
   ForEachChild(&fields.element(), "connection", [&](const XMLElement& element, std::size_t index) {
-    const XmlFields own(element, fmt::format("{}.connection[{}]", fields.where(), index),
-                        fields.problems());
+    XmlProblems problems(fields.problems().file());
+    const XmlFields own(element, fmt::format("{}.connection[{}]", fields.where(), index), problems);
     JunctionConnection connection;
     connection.line = own.line();
     connection.incoming = own.OptionalText("incomingRoad");
@@ -51,27 +53,66 @@ Junction ReadJunction(const XmlFields& fields) {
     // between them.
     const bool direct = element.Attribute("linkedRoad") != nullptr;
     connection.connecting = direct ? own.Text("linkedRoad") : own.OptionalText("connectingRoad");
-    if (connection.incoming.empty() || connection.connecting.empty()) {
+    if (connection.incoming.empty() || (!direct && connection.connecting.empty())) {
       return;  // skip a virtual connection, because cars do not use virtual connections
     }
     connection.contact = ReadContactPoint(own);
     ForEachChild(&element, "laneLink", [&](const XMLElement& link, std::size_t) {
-      const XmlFields lanes(link, own.where() + ".laneLink", fields.problems());
+      const XmlFields lanes(link, own.where() + ".laneLink", problems);
       connection.lane_links.emplace_back(lanes.Integer("from"), lanes.Integer("to"));
     });
-    junction.connections.push_back(std::move(connection));
+    if (problems.empty()) {
+      junction.connections.push_back(std::move(connection));
+      return;
+    }
+    fields.problems().AddFlaws(problems);
+    network.broken.emplace(fmt::format("junction {} connection", junction.id), problems.First());
   });
   return junction;
 }
 
-/// Adds a road or junction to a map whose keys are ids; reports an error if the map already
-/// contains the id.
+/// Roads or junctions of a file: adds each part to a map, or leaves it out.
 template <typename Part>
-void AddById(Part part, int line, const char* kind, std::map<std::string, Part, std::less<>>& parts,
-             XmlProblems& problems) {
-  const std::string id = part.id;
-  if (!id.empty() && !parts.emplace(id, std::move(part)).second) {
-    problems.Add(line, fmt::format("{}[{}].id", kind, id), "there are two of this id");
+class Parts {
+ public:
+  Parts(const char* kind, std::map<std::string, Part, std::less<>>& parts, RoadNetwork& network,
+        XmlProblems& left_out)
+      : kind_(kind), parts_(parts), network_(network), left_out_(left_out) {}
+
+  /// Adds a part with its problems. A part with problems is left out, and so are all parts with the
+  /// same id.
+  void Add(Part part, int line, XmlProblems& problems) {
+    const std::string id = part.id;
+    const std::string name = fmt::format("{} {}", kind_, id);
+    if (problems.empty() && !ids_.insert(id).second) {
+      problems.Add(line, fmt::format("{}[{}].id", kind_, id), "there are two of this id");
+    }
+    if (problems.empty()) {
+      parts_.emplace(id, std::move(part));
+    } else {
+      ids_.insert(id);
+      parts_.erase(id);
+      network_.broken.emplace(name, problems.First());
+      network_.notes.push_back(fmt::format("{} is left out: {}", name, problems.First()));
+    }
+    left_out_.Append(problems);
+  }
+
+ private:
+  const char* kind_;
+  std::map<std::string, Part, std::less<>>& parts_;
+  RoadNetwork& network_;
+  XmlProblems& left_out_;
+  std::set<std::string> ids_;
+};
+
+/// Shortens notes that begin at the note `from` to a few.
+void Shorten(std::vector<std::string>& notes, std::size_t from, const char* what) {
+  constexpr std::size_t kMaxListed = 5;
+  const std::size_t count = notes.size() - from;
+  if (count > kMaxListed) {
+    notes.resize(from + kMaxListed);
+    notes.push_back(fmt::format("and {} more {}", count - kMaxListed, what));
   }
 }
 
@@ -130,21 +171,31 @@ RoadNetwork ParseOpenDrive(std::string_view xml, const std::string& name) {
   RoadNetwork network;
   XmlProblems problems(name);
   CheckVersion(*root, network, problems);
-  ForEachChild(root, "road", [&](const XMLElement& element, std::size_t) {
-    AddById(ReadRoad(element, problems), element.GetLineNum(), "road", network.roads, problems);
-  });
-  ForEachChild(root, "junction", [&](const XMLElement& element, std::size_t) {
-    const XmlFields unnamed(element, "junction", problems);
-    const XmlFields fields(element, fmt::format("junction[{}]", unnamed.Text("id")), problems);
-    AddById(ReadJunction(fields), element.GetLineNum(), "junction", network.junctions, problems);
-  });
-  if (network.roads.empty() && problems.empty()) {
-    problems.Add(root->GetLineNum(), "road", "missing; a network needs at least one road");
-  }
-  if (problems.empty()) {
-    CheckLinks(network, problems);
-  }
   problems.ThrowIfAny();
+  const std::size_t first_note = network.notes.size();
+  Parts<Road> roads("road", network.roads, network, problems);
+  ForEachChild(root, "road", [&](const XMLElement& element, std::size_t) {
+    XmlProblems own(name);
+    Road road = ReadRoad(element, own, network);
+    roads.Add(std::move(road), element.GetLineNum(), own);
+  });
+  Parts<Junction> junctions("junction", network.junctions, network, problems);
+  ForEachChild(root, "junction", [&](const XMLElement& element, std::size_t) {
+    XmlProblems own(name);
+    const XmlFields unnamed(element, "junction", own);
+    const XmlFields fields(element, fmt::format("junction[{}]", unnamed.Text("id")), own);
+    Junction junction = ReadJunction(fields, network);
+    junctions.Add(std::move(junction), element.GetLineNum(), own);
+  });
+  if (network.roads.empty()) {
+    problems.ThrowIfAny();
+    Refuse(name, root->GetLineNum(), "no <road>; a network needs at least one road");
+  }
+  Shorten(network.notes, first_note, "parts are left out");
+  CheckLinks(network, problems);
+  const std::size_t first_flaw = network.notes.size();
+  network.notes.insert(network.notes.end(), problems.flaws().begin(), problems.flaws().end());
+  Shorten(network.notes, first_flaw, "flaws");
   NoteUnreadHeights(network);
   return network;
 }

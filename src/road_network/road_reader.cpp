@@ -16,13 +16,16 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-std::optional<RoadLink> ReadRoadLink(const XmlFields& road, const char* name) {
+/// Reads a link of a road. A link with an error is left out.
+std::optional<RoadLink> ReadRoadLink(const XmlFields& road, const char* name, const std::string& id,
+                                     RoadNetwork& network) {
   const XMLElement* link = road.element().FirstChildElement("link");
   const XMLElement* element = link == nullptr ? nullptr : link->FirstChildElement(name);
   if (element == nullptr) {
     return std::nullopt;
   }
-  const XmlFields fields(*element, fmt::format("{}.link.{}", road.where(), name), road.problems());
+  XmlProblems own(road.problems().file());
+  const XmlFields fields(*element, fmt::format("{}.link.{}", road.where(), name), own);
   RoadLink found{.is_junction = false,
                  .id = fields.Text("elementId"),
                  .contact = RoadEnd::kStart,
@@ -34,6 +37,11 @@ std::optional<RoadLink> ReadRoadLink(const XmlFields& road, const char* name) {
     found.contact = ReadContactPoint(fields);
   } else if (!type.empty()) {
     fields.AddError("elementType", UnknownName(type, {"road", "junction"}));
+  }
+  if (!own.empty()) {
+    road.problems().AddFlaws(own);
+    network.broken.emplace(fmt::format("road {} {}", id, name), own.First());
+    return std::nullopt;
   }
   return found;
 }
@@ -110,7 +118,7 @@ void CheckLaneIds(const std::vector<int>& ids, const LaneSection& beyond, const 
                   int line, XmlProblems& problems) {
   for (const int id : ids) {
     if (beyond.Find(id) == nullptr) {
-      problems.Add(line, key, fmt::format("links to lane {}, which is not there", id));
+      problems.AddFlaw(line, key, fmt::format("links to lane {}, which is not there", id));
     }
   }
 }
@@ -152,8 +160,8 @@ void CheckConnection(const RoadNetwork& network, const Junction& junction, std::
   for (const auto& [name, id] : {std::pair("incomingRoad", &connection.incoming),
                                  std::pair("connectingRoad", &connection.connecting)}) {
     if (!id->empty() && network.roads.find(*id) == network.roads.end()) {
-      problems.Add(connection.line, fmt::format("{}.{}", key, name),
-                   fmt::format("road '{}' is not there", *id));
+      problems.AddFlaw(connection.line, fmt::format("{}.{}", key, name),
+                       fmt::format("road '{}' is not there", *id));
     }
   }
   const auto found = network.roads.find(connection.connecting);
@@ -197,14 +205,14 @@ PiecewiseCubic ReadCubics(const XMLElement* parent, const char* name, const char
   return rises ? PiecewiseCubic(std::move(pieces)) : PiecewiseCubic();
 }
 
-Road ReadRoad(const XMLElement& element, XmlProblems& problems) {
+Road ReadRoad(const XMLElement& element, XmlProblems& problems, RoadNetwork& network) {
   const XmlFields unnamed(element, "road", problems);
   Road road;
   road.id = unnamed.Text("id");
   const XmlFields fields(element, fmt::format("road[{}]", road.id), problems);
   road.line = fields.line();
   road.name = fields.OptionalText("name");
-  road.length = fields.Number("length", {1e-6, 1e6});
+  road.length = fields.Number("length", {0.0, 1e6});
   const std::string junction = fields.OptionalText("junction");
   if (!junction.empty() && junction != "-1") {
     road.junction = junction;
@@ -214,8 +222,8 @@ Road ReadRoad(const XMLElement& element, XmlProblems& problems) {
   if (!rule.empty() && !road.left_hand_traffic && rule != "RHT" && rule != "rht") {
     fields.AddError("rule", UnknownName(rule, {"RHT", "LHT"}));
   }
-  road.predecessor = ReadRoadLink(fields, "predecessor");
-  road.successor = ReadRoadLink(fields, "successor");
+  road.predecessor = ReadRoadLink(fields, "predecessor", road.id, network);
+  road.successor = ReadRoadLink(fields, "successor", road.id, network);
   road.reference = ReadPlanView(fields, road.length);
   ReadHeights(fields, road);
   const XMLElement* lanes = fields.Child("lanes");
@@ -244,9 +252,9 @@ void CheckLinks(const RoadNetwork& network, XmlProblems& problems) {
                              ? network.junctions.find((*link)->id) != network.junctions.end()
                              : network.roads.find((*link)->id) != network.roads.end();
       if (!found) {
-        problems.Add((*link)->line, fmt::format("road[{}].link.{}", id, name),
-                     fmt::format("{} '{}' is not there", (*link)->is_junction ? "junction" : "road",
-                                 (*link)->id));
+        problems.AddFlaw((*link)->line, fmt::format("road[{}].link.{}", id, name),
+                         fmt::format("{} '{}' is not there",
+                                     (*link)->is_junction ? "junction" : "road", (*link)->id));
       }
     }
     CheckLaneLinks(network, road, problems);

@@ -11,8 +11,9 @@
 /// Functions that read the parts of an OpenDRIVE file.
 namespace trackbed {
 
-/// Reads a <road> element, and adds its errors to `problems`.
-Road ReadRoad(const tinyxml2::XMLElement& element, XmlProblems& problems);
+/// Reads a <road> element, and adds its errors to `problems`. Adds links with errors to
+/// RoadNetwork::broken; these links are left out.
+Road ReadRoad(const tinyxml2::XMLElement& element, XmlProblems& problems, RoadNetwork& network);
 
 /// Reads the reference line of a road from its <planView>. If the plan view has an error, returns
 /// an empty reference line.
@@ -32,7 +33,7 @@ std::vector<LaneSection> ReadLaneSections(const XmlFields& lanes, const Road& ro
 /// Reads a contact point, which is "start" or "end". Any other contact point is an error.
 RoadEnd ReadContactPoint(const XmlFields& fields);
 
-/// Reports all links to roads, junctions and lanes that do not exist.
+/// Notes all links to roads, junctions and lanes that do not exist, as flaws.
 void CheckLinks(const RoadNetwork& network, XmlProblems& problems);
 
 }  // namespace trackbed

@@ -31,7 +31,41 @@ bool ParseAll(std::string_view text, Number_& number) {
   return error == std::errc{} && end == text.data() + text.size();
 }
 
+/// Returns a problem as a text without the name of the file.
+std::string Text(const Problem& problem) {
+  return fmt::format("line {}: {}{}{}", problem.line, problem.key, problem.key.empty() ? "" : ": ",
+                     problem.message);
+}
+
 }  // namespace
+
+std::vector<Problem> XmlProblems::All() const {
+  try {
+    problems_.ThrowIfAny();
+  } catch (const InputError& error) {
+    return error.problems();
+  }
+  return {};
+}
+
+std::string XmlProblems::First() const {
+  const std::vector<Problem> all = All();
+  return all.empty() ? "" : Text(all.front());
+}
+
+void XmlProblems::AddFlaws(const XmlProblems& part) {
+  for (const Problem& problem : part.All()) {
+    flaws_.push_back(Text(problem));
+  }
+  flaws_.insert(flaws_.end(), part.flaws_.begin(), part.flaws_.end());
+}
+
+void XmlProblems::Append(const XmlProblems& part) {
+  for (const Problem& problem : part.All()) {
+    problems_.Add(problem);
+  }
+  flaws_.insert(flaws_.end(), part.flaws_.begin(), part.flaws_.end());
+}
 
 void XmlFields::AddError(const char* name, std::string message) const {
   problems_.Add(line(), *name == '\0' ? where_ : fmt::format("{}.{}", where_, name),

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <fmt/format.h>
 #include <tinyxml2.h>
 
 #include <limits>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "trackbed/core/error.h"
 #include "trackbed/core/table.h"
 
 /// Reads attributes of XML elements as numbers and collects all problems.
@@ -26,12 +29,28 @@ class XmlProblems {
   void Add(int line, std::string key, std::string message) {
     problems_.Add({file_, line, 0, std::move(key), std::move(message)});
   }
+  /// Adds a flaw of the file that harms no other part: it is only noted.
+  void AddFlaw(int line, const std::string& key, const std::string& message) {
+    flaws_.push_back(fmt::format("line {}: {}: {}", line, key, message));
+  }
+  /// Adds the problems of `part`, a part of the file that is left out, as flaws.
+  void AddFlaws(const XmlProblems& part);
+  /// Adds the problems of `part` as problems, and its flaws as flaws.
+  void Append(const XmlProblems& part);
+
   [[nodiscard]] bool empty() const { return problems_.empty(); }
   void ThrowIfAny() const { problems_.ThrowIfAny(); }
+  [[nodiscard]] const std::string& file() const { return file_; }
+  [[nodiscard]] const std::vector<std::string>& flaws() const { return flaws_; }
+  /// Returns the first problem with its line, as a text; empty if there are no problems.
+  [[nodiscard]] std::string First() const;
 
  private:
+  [[nodiscard]] std::vector<Problem> All() const;
+
   std::string file_;
   ProblemList problems_;
+  std::vector<std::string> flaws_;
 };
 
 /// Reads the attributes of an XML element. In error messages, the element is named by the text

@@ -287,6 +287,48 @@ TEST(LaneRoute, HasTheHeadingAndCurvatureOfLanesOnABank) {
   }
 }
 
+/// Three roads of 100 m in a row along the x axis. The lanes of the middle one are `lanes`.
+std::string ThreeRoads(const std::string& lanes) {
+  std::string all;
+  for (int i = 1; i <= 3; ++i) {
+    RoadText road;
+    road.id = std::to_string(i);
+    road.geometry = fmt::format(
+        "<geometry s='0' x='{}' y='0' hdg='0' length='100'><line/></geometry>", 100 * (i - 1));
+    if (i < 3) {
+      road.link =
+          fmt::format("<successor elementType='road' elementId='{}' contactPoint='start'/>", i + 1);
+    }
+    road.lanes =
+        "<laneSection s='0'><center><lane id='0'/></center><right><lane id='-1' type='driving'>"
+        "<link><successor id='-1'/></link><width sOffset='0' a='3' b='0' c='0' d='0'/></lane>"
+        "</right></laneSection>";
+    if (i == 2 && !lanes.empty()) {
+      road.lanes = lanes;
+    }
+    all += road.Xml();
+  }
+  return all;
+}
+
+TEST(LaneRoute, NamesTheBrokenPartThatItNeeds) {
+  const std::vector<LanePlace> through{{"1", -1, 5.0}, {"3", -1, 50.0}};
+  EXPECT_TRUE(FindLaneRoute(ParseNetwork(ThreeRoads("")), through).ok());
+  const RoadNetwork broken = ParseNetwork(ThreeRoads("<laneSection s='0'/>"));
+  EXPECT_THAT(FindLaneRoute(broken, through).failure,
+              AllOf(HasSubstr("no linked lanes lead"),
+                    HasSubstr("road 2 is left out, because of line "), HasSubstr("center")));
+  EXPECT_TRUE(FindLaneRoute(broken, {{"1", -1, 5.0}, {"1", -1, 50.0}}).ok());
+  EXPECT_THAT(LanePlaceError(broken, {"2", -1, 5.0}), HasSubstr("road 2 is left out"));
+  const RoadNetwork dangling = ParseNetwork(
+      ThreeRoads("<laneSection s='0'><center><lane id='0'/></center><right><lane id='-1' "
+                 "type='driving'><link><successor id='-4'/></link>"
+                 "<width sOffset='0' a='3' b='0' c='0' d='0'/></lane></right></laneSection>"));
+  EXPECT_THAT(FindLaneRoute(dangling, through).failure,
+              HasSubstr("lane -4 of road 3 at s = 0 m, to which lane -1 of road 2 leads, is not "
+                        "in the file"));
+}
+
 TEST(LaneRoute, EndsWhereLinksGoInCircles) {
   // Each road is its own successor, and no road leads to the other road.
   RoadText ring;

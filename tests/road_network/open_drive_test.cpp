@@ -182,25 +182,34 @@ TEST(OpenDrive, RefusesLanesThatDoNotFitTogether) {
               HasSubstr("not allowed with a <laneOffset>"));
 }
 
-TEST(OpenDrive, RefusesLinksToWhatIsNotThere) {
+/// The notes on a network, in one text.
+std::string Notes(const std::string& content) {
+  std::string all;
+  for (const std::string& note : ParseNetwork(content).notes) {
+    all += note + "\n";
+  }
+  return all;
+}
+
+TEST(OpenDrive, NotesLinksToWhatIsNotThere) {
   RoadText road;
   road.link = "<successor elementType='road' elementId='9' contactPoint='start'/>";
-  EXPECT_THAT(RoadError(road), HasSubstr("road[1].link.successor: road '9' is not there"));
+  EXPECT_THAT(Notes(road.Xml()), HasSubstr("road[1].link.successor: road '9' is not there"));
   road.link = "<predecessor elementType='junction' elementId='9'/>";
-  EXPECT_THAT(RoadError(road), HasSubstr("road[1].link.predecessor: junction '9' is not there"));
+  EXPECT_THAT(Notes(road.Xml()), HasSubstr("road[1].link.predecessor: junction '9' is not there"));
   road.link = "<successor elementType='rode' elementId='9'/>";
-  EXPECT_THAT(RoadError(road), HasSubstr("'rode'; did you mean 'road'?"));
+  EXPECT_THAT(Notes(road.Xml()), HasSubstr("'rode'; did you mean 'road'?"));
   road.link = "<successor elementType='road' elementId='1'/>";
-  EXPECT_THAT(RoadError(road), HasSubstr("link.successor.contactPoint: missing"));
+  EXPECT_THAT(Notes(road.Xml()), HasSubstr("link.successor.contactPoint: missing"));
   const std::string connection =
       "<connection incomingRoad='1' connectingRoad='4' contactPoint='start'/>";
-  EXPECT_THAT(WhyNot(Document(RoadText{}.Xml() + "<junction id='2'>" + connection + "</junction>")),
+  EXPECT_THAT(Notes(RoadText{}.Xml() + "<junction id='2'>" + connection + "</junction>"),
               HasSubstr("junction[2].connection[0].connectingRoad: road '4' is not there"));
   RoadText twice;
   EXPECT_THAT(WhyNot(Document(twice.Xml() + twice.Xml())), HasSubstr("there are two of this id"));
 }
 
-TEST(OpenDrive, RefusesLaneLinksToWhatIsNotThere) {
+TEST(OpenDrive, NotesLaneLinksToWhatIsNotThere) {
   RoadText road;
   road.lanes =
       "<laneSection s='0'><center><lane id='0'/></center><right><lane id='-1' type='driving'>"
@@ -208,8 +217,53 @@ TEST(OpenDrive, RefusesLaneLinksToWhatIsNotThere) {
       "</right></laneSection>" +
       kTwoLanes;
   road.lanes.replace(road.lanes.rfind("s=\"0\""), 5, "s=\"50\"");
-  EXPECT_THAT(RoadError(road), HasSubstr("laneSection[0].lane[-1].link.successor: links to lane "
-                                         "-3, which is not there"));
+  EXPECT_THAT(Notes(road.Xml()), HasSubstr("laneSection[0].lane[-1].link.successor: links to lane "
+                                           "-3, which is not there"));
+}
+
+/// A road of 100 m along y = 100 `place` with the number `place` as id.
+RoadText RoadNumber(int place) {
+  RoadText road;
+  road.id = std::to_string(place);
+  road.geometry = fmt::format(
+      "<geometry s='0' x='0' y='{}' hdg='0' length='100'><line/></geometry>", 100 * place);
+  return road;
+}
+
+// One broken road does not make the others useless.
+TEST(OpenDrive, LeavesOutBrokenRoadsWithANote) {
+  RoadText broken = RoadNumber(2);
+  broken.lanes = "<laneSection s='0'/>";
+  const RoadNetwork network = ParseNetwork(RoadNumber(1).Xml() + broken.Xml());
+  EXPECT_EQ(network.roads.size(), 1U);
+  EXPECT_THAT(network.broken.at("road 2"), HasSubstr("road[2].lanes.laneSection[0].center"));
+  EXPECT_THAT(network.notes.at(0), HasSubstr("road 2 is left out: line "));
+  // Roads of the same id are all left out.
+  const RoadNetwork twice =
+      ParseNetwork(RoadNumber(1).Xml() + RoadNumber(2).Xml() + RoadNumber(2).Xml());
+  EXPECT_EQ(twice.roads.size(), 1U);
+  EXPECT_THAT(twice.broken.at("road 2"), HasSubstr("two of this id"));
+}
+
+TEST(OpenDrive, ReadsRoadsOfLessThanAMicrometer) {
+  RoadText tiny = RoadNumber(2);
+  tiny.length = "2e-7";
+  tiny.geometry = "<geometry s='0' x='0' y='0' hdg='0' length='2e-7'><line/></geometry>";
+  EXPECT_EQ(ParseNetwork(RoadNumber(1).Xml() + tiny.Xml()).roads.at("2").length, 2e-7);
+}
+
+TEST(OpenDrive, NotesWrongRoadMarks) {
+  RoadText road;
+  road.lanes =
+      "<laneSection s='0'><center><lane id='0'>"
+      "<roadMark sOffset='-0.5' type='solid'/><roadMark sOffset='5' type='broken' width='wide'/>"
+      "</lane></center></laneSection>";
+  const RoadNetwork network = ParseNetwork(road.Xml());
+  const std::vector<RoadMark>& marks = network.roads.at("1").sections[0].lanes[0].marks;
+  ASSERT_EQ(marks.size(), 1U);
+  EXPECT_EQ(marks[0].s, 0.0);
+  EXPECT_THAT(network.notes.at(0), HasSubstr("roadMark[0].sOffset: -0.5 m; the mark is drawn"));
+  EXPECT_THAT(network.notes.at(1), HasSubstr("roadMark[1].width: 'wide' is not a finite number"));
 }
 
 TEST(OpenDrive, RefusesWhatIsNoOpenDrive) {

@@ -59,7 +59,8 @@ std::string LanePlaceError(const RoadNetwork& network, const LanePlace& place);
 /// between lanes are bridged. `deviation` is the largest distance by which rounding and bridging
 /// move the path. FindLaneRoute finds no route if a kink exceeds 0.2 rad, if the deviation exceeds
 /// 0.05 m, or if the route is longer than 100 km. FindLaneRoute also finds no route if a lane lies
-/// beyond the center of curvature of the lane's road.
+/// beyond the center of curvature of the lane's road. If a route is missing because the file has
+/// broken links or roads (RoadNetwork::broken), `failure` names the broken parts.
 ///
 /// Throws PreconditionError if there are fewer than two places, or if LanePlaceError rejects a
 /// place. The cost is O(n log n) for each pair of places in a network of n lanes, plus about 30 us

@@ -13,20 +13,25 @@ inline constexpr std::size_t kMaxOpenDriveBytes = std::size_t{32} << 20U;
 
 /// Reads an OpenDRIVE file of version 1.4 to 1.7; files of other versions 1.x are read like version
 /// 1.7, with a note in RoadNetwork::notes. Reads these elements: reference lines (line, arc,
-/// spiral, poly3 and paramPoly3); elevation, superelevation and lane offset; lane sections with
-/// lanes, widths or borders, links and road marks; links of roads; and connections of junctions.
-/// Objects, signals, controllers, railroads, surfaces, user data and the geographic reference are
-/// skipped. Road::unread_heights and RoadNetwork::notes list the skipped elements that would change
-/// the height of the road.
+/// spiral, poly3 and paramPoly3); elevation, superelevation, shape and lane offset; lane sections
+/// with lanes, widths or borders, links and road marks; links of roads; and connections of
+/// junctions. Objects, signals, controllers, railroads, surfaces, user data and the geographic
+/// reference are skipped. Road::unread_heights and RoadNetwork::notes list the skipped elements
+/// that would change the height of the road.
+///
+/// A road or junction with a problem is left out: RoadNetwork::broken contains its first problem,
+/// and RoadNetwork::notes names it. Links to missing or broken elements, links and connections with
+/// a problem, and wrong road marks are only noted.
 ///
 /// Throws InputError, which lists the first twenty problems, each with the line in the file and the
-/// place in the road network. Problems are invalid XML, a wrong root element, a document type
+/// place in the road network, if the document is not an OpenDRIVE file, or if each road has a
+/// problem. Problems are invalid XML, a wrong root element, a document type
 /// declaration, and a missing or repeated id. A number that is missing, not finite or out of range
 /// is also a problem. Other problems are decreasing stations, and gaps of more than 0.1 m in the
-/// stations of a reference line. Lanes that are not numbered consecutively or have no width, and
-/// links to missing elements, are also problems. Throws RunError if the file cannot be read or is
-/// larger than kMaxOpenDriveBytes. Reading takes about 20 ms per megabyte, and temporarily needs 25
-/// times the file's size in memory.
+/// stations of a reference line. Lanes that are not numbered consecutively or have no width are
+/// also problems. Throws RunError if the file cannot be read or is larger than kMaxOpenDriveBytes.
+/// Reading takes about 20 ms per megabyte, and temporarily needs 25 times the file's size in
+/// memory.
 RoadNetwork ReadOpenDrive(const std::filesystem::path& file);
 
 /// The text of an OpenDRIVE file, and the road network that was read from this text.

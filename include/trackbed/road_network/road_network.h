@@ -124,7 +124,12 @@ struct Junction {
 struct RoadNetwork {
   std::map<std::string, Road, std::less<>> roads;          ///< Roads by id.
   std::map<std::string, Junction, std::less<>> junctions;  ///< Junctions by id.
-  /// Notes on parts of the file that are not used.
+  /// Parts of the file that cannot be read and are left out, such as "road 7", "road 7 successor",
+  /// "junction 2" and "junction 2 connection", each with the reason for people: its first problem
+  /// and the line.
+  std::map<std::string, std::string, std::less<>> broken;
+  /// Notes on parts of the file that are not used: broken roads, links to missing roads, junctions
+  /// or lanes, invalid road marks, and heights that are not read.
   std::vector<std::string> notes;
 };
 

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "src/road_network/lane_graph.h"
+
+namespace trackbed {
+
+/// Returns the links from the end of a lane that lead to missing or broken parts of the network,
+/// each as a text for people.
+std::vector<std::string> BrokenExits(const RoadNetwork& network, const LaneNode& node);
+
+}  // namespace trackbed
