@@ -33,6 +33,9 @@ target_compile_options(
             # on every machine.
             -ffp-contract=off
             $<$<BOOL:${TRACKBED_WARNINGS_AS_ERRORS}>:-Werror>)
+# Options of all modules, whose code is position-independent. No program replaces a function of a
+# module at load time, so the compiler may inline the calls inside a module, as in other code.
+set(TRACKBED_POSITION_INDEPENDENT -fno-semantic-interposition)
 if(TRACKBED_FUZZ)
   # Instruments the code with Clang's coverage counters, which libFuzzer needs.
   target_compile_options(

@@ -19,5 +19,6 @@ else()
   target_link_libraries(trackbed_sim PRIVATE $<BUILD_INTERFACE:trackbed_place>
                                              $<INSTALL_INTERFACE:trackbed::place>)
   add_library(trackbed_default_place STATIC src/sim/place/unknown.cpp)
+  set_target_properties(trackbed_default_place PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_link_libraries(trackbed_default_place PRIVATE trackbed_core trackbed_compiler)
 endif()

@@ -2,7 +2,8 @@
 #                 [MODULES module...] [LIBRARIES lib...] [PRIVATE_LIBRARIES lib...])
 #
 # Adds one library for a module; the library is static or shared (Shared.cmake), but always static
-# with the option STATIC. A module consists of one or more folders: the public headers of a folder are
+# with the option STATIC. The code is position-independent, because the Python module links the
+# static libraries. A module consists of one or more folders: the public headers of a folder are
 # in include/trackbed/FOLDER, its sources are in src/FOLDER (or DIR). FOLDERS is PATH by default.
 # PATH is a name such as `core`, or a path such as `planning/search` for a part of a larger module.
 # The target of `planning/search` is trackbed_planning_search, exported as trackbed::planning_search.
@@ -72,9 +73,6 @@ function(trackbed_module path)
   endforeach()
   if(ARG_STATIC)
     add_library(trackbed_${name} STATIC ${sources})
-    if(BUILD_SHARED_LIBS) # as for the precompiled headers that the target shares
-      set_target_properties(trackbed_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
-    endif()
   else()
     add_library(trackbed_${name} ${sources})
     trackbed_shared_properties(trackbed_${name})
@@ -85,7 +83,8 @@ function(trackbed_module path)
     PUBLIC $<BUILD_INTERFACE:${public}> $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
     PRIVATE ${private})
   target_compile_features(trackbed_${name} PUBLIC cxx_std_20)
-  set_target_properties(trackbed_${name} PROPERTIES EXPORT_NAME ${name}
+  target_compile_options(trackbed_${name} PRIVATE ${TRACKBED_POSITION_INDEPENDENT})
+  set_target_properties(trackbed_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON
                         UNITY_BUILD ${TRACKBED_UNITY_BUILD} UNITY_BUILD_MODE GROUP)
   target_link_libraries(
     trackbed_${name}

@@ -12,4 +12,5 @@ const char* PlaceOfData() { return R"trackbed(@folder@)trackbed"; }
 }  // namespace trackbed
 ]] @ONLY)
   add_library(trackbed_place STATIC EXCLUDE_FROM_ALL ${file})
+  set_target_properties(trackbed_place PROPERTIES POSITION_INDEPENDENT_CODE ON)
 endfunction()

@@ -86,8 +86,9 @@ function(trackbed_precompiled_header kind out)
   endif()
   # GCC uses a precompiled header only if the target has the same compiler flags as the header, such
   # as position-independent code.
-  if(BUILD_SHARED_LIBS AND NOT kind STREQUAL "TESTS")
+  if(NOT kind STREQUAL "TESTS")
     set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+    target_compile_options(${target} PRIVATE ${TRACKBED_POSITION_INDEPENDENT})
   endif()
   target_precompile_headers(
     ${target} PRIVATE <algorithm> <cmath> <filesystem> <functional> <map> <memory> <optional>

@@ -10,6 +10,7 @@ add_custom_target(
           ${PROJECT_SOURCE_DIR}/cmake/describe.cmake
   COMMENT "")
 add_library(trackbed_version ${TRACKBED_VERSION_FILE})
+set_target_properties(trackbed_version PROPERTIES POSITION_INDEPENDENT_CODE ON)
 trackbed_shared_properties(trackbed_version)
 add_dependencies(trackbed_version trackbed_describe)
 target_link_libraries(trackbed_version PRIVATE $<BUILD_INTERFACE:trackbed_compiler>)
