@@ -16,8 +16,9 @@
 ///     const trackbed::FeasiblePlan plan = trackbed::PlanScenario(scenario, car);
 ///     const trackbed::RunLog log = trackbed::SimulateScenario(scenario, car, plan, "mujoco");
 ///
-/// A Scenario can also be filled in code, with the options of any planner, local planner and
-/// controller. SimulateClosedLoop runs user-defined plants and controllers. Main is the
+/// MakeSteppedLoop makes the loop of SimulateScenario, for a program that gives the commands
+/// itself. A Scenario can also be filled in code, with the options of any planner, local planner
+/// and controller. SimulateClosedLoop runs user-defined plants and controllers. Main is the
 /// command-line program. Further headers are in the folders of the modules.
 
 #include "trackbed/analysis/compare.h"                      // IWYU pragma: export
@@ -37,6 +38,7 @@
 #include "trackbed/control/steering_profile.h"              // IWYU pragma: export
 #include "trackbed/drive/closed_loop.h"                     // IWYU pragma: export
 #include "trackbed/drive/drive.h"                           // IWYU pragma: export
+#include "trackbed/drive/stepped_loop.h"                    // IWYU pragma: export
 #include "trackbed/planning/avoidance/avoidance_options.h"  // IWYU pragma: export
 #include "trackbed/planning/course/course.h"                // IWYU pragma: export
 #include "trackbed/planning/course/lane_change.h"           // IWYU pragma: export

@@ -61,6 +61,11 @@ class ValidatingController final : public SteeringController {
 
   [[nodiscard]] std::vector<double> Values() const override { return inner_->Values(); }
 
+  [[nodiscard]] std::unique_ptr<SteeringController> Clone() const override {
+    std::unique_ptr<SteeringController> inner = inner_->Clone();
+    return inner ? std::make_unique<ValidatingController>(std::move(inner)) : nullptr;
+  }
+
  private:
   static void Check(const ControlInput& input) {
     const VehicleState& state = input.state;

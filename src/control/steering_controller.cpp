@@ -14,4 +14,8 @@ std::vector<double> SteeringController::Values() const {
   return {};
 }
 
+std::unique_ptr<SteeringController> SteeringController::Clone() const {
+  return nullptr;
+}
+
 }  // namespace trackbed

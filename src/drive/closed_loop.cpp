@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <utility>
 
-#include "src/drive/fault_injector.h"
+#include "src/drive/loop_core.h"
 #include "src/drive/loop_preconditions.h"
-#include "src/drive/recorder.h"
-#include "src/drive/replanning_monitor.h"
 #include "src/drive/scheduled_steering.h"
-#include "src/drive/segment_sequencer.h"
 #include "src/drive/slip_control.h"
-#include "src/drive/standstill.h"
-#include "src/drive/termination.h"
 #include "trackbed/control/steering_controller.h"
 #include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
@@ -26,100 +20,10 @@
 //   4. Step the plant until the next period. Prescribed angles and steering schedules change at
 //      every physics step; other commands are held constant.
 namespace trackbed {
-namespace {
 
-/// Reports the progress of the run each time it has grown by one percent.
-class Progress {
- public:
-  explicit Progress(const std::function<void(double)>& callback) : callback_(callback) {}
-
-  void Report(double fraction) {
-    const int hundredths = static_cast<int>(std::clamp(fraction, 0.0, 1.0) * 100.0);
-    if (callback_ && hundredths > last_) {
-      last_ = hundredths;
-      callback_(hundredths / 100.0);
-    }
-  }
-
- private:
-  const std::function<void(double)>& callback_;
-  int last_ = 0;
-};
-
-/// Simulates one run. The arguments of the constructor must outlive the ClosedLoop, which refers to
-/// them.
-class ClosedLoop {
- public:
-  ClosedLoop(Plant& plant, SteeringController& controller, const FeasiblePlan& plan,
-             const LoopConfig& config);
-
-  RunLog Run();
-
- private:
-  /// Returns the plant's state at the beginning of a control period.
-  [[nodiscard]] VehicleState Observe(long tick) const;
-
-  /// Switches to a new plan or to the next segment if one is due. Returns the car's projection onto
-  /// the plan, or none without a path.
-  std::optional<Projection> FollowPlan(const VehicleState& state, bool at_rest);
-
-  /// Returns whether the car is at rest and will stay at rest. A car at standstill counts as at
-  /// rest if it has no command to move. At the end of its segment, a car also counts as at rest if
-  /// it cannot move despite a command, for example on a grade.
-  bool Rests(const VehicleState& state);
-
-  /// Returns the final status of the run if the run has ended.
-  std::optional<DriveStatus> Ending(const VehicleState& state, bool at_rest);
-
-  /// Computes the command for the coming period and stores the command in `row`. Returns the input
-  /// with which the controller was called.
-  ControlInput Control(const VehicleState& state, LogRow& row);
-  double Steer(const ControlInput& input);
-  /// Returns the commanded acceleration along the car's x axis [m/s^2] over the control period of
-  /// `row`.
-  double Accelerate(const ControlInput& input, const LogRow& row);
-  /// Returns the wanted acceleration of the car, before disturbances. Options that prescribe the
-  /// speed over time override the controller, and the controller overrides the plan's speed
-  /// profile.
-  double WantedAcceleration(const ControlInput& input, const Vec2& position);
-  /// Returns the planned speed that is logged in LogRow::planned_speed.
-  [[nodiscard]] std::optional<double> PlannedSpeed(const VehicleState& state) const;
-
-  /// Steps the plant for the control period of `row`.
-  void StepPlant(long tick, const ControlInput& input, const LogRow& row);
-  [[nodiscard]] Command CommandAt(int step, const ControlInput& input, const LogRow& row);
-  /// Returns the command of the steering schedule in a physics step. The steering schedule is a
-  /// function of the driven distance.
-  [[nodiscard]] Command ScheduledCommand(int step, const ControlInput& input, const LogRow& row);
-
-  void ReportProgress(const VehicleState& state);
-
-  Plant& plant_;
-  SteeringController& controller_;
-  const LoopConfig& config_;
-  VehicleState start_;
-  VehicleParams controlled_;  // Parameters of the nominal vehicle, which the controller assumes.
-  int steps_;                 // Number of plant steps per control period.
-  SegmentSequencer sequencer_;
-  std::optional<ReplanningMonitor> monitor_;
-  FaultInjector faults_;
-  Recorder recorder_;
-  Termination termination_;
-  Standstill standstill_;
-  Progress progress_;
-  bool plan_sets_speed_ = false;
-  Command command_;         // The last command.
-  double steering_before_;  // Prescribed steering angle at the start of the period [rad].
-  // Whether the loop has adopted, in this control period, a plan that does not stop at an obstacle.
-  // After such a change of plan, the last command may still stop the car for the previous plan;
-  // this stop must not end the run.
-  bool continues_past_obstacle_ = false;
-};
-
-ClosedLoop::ClosedLoop(Plant& plant, SteeringController& controller, const FeasiblePlan& plan,
-                       const LoopConfig& config)
-    : plant_(plant),
-      controller_(controller),
+LoopCore::LoopCore(Plant& plant, const SteeringController& controller, const FeasiblePlan& plan,
+                   const LoopConfig& config, bool keeps_rows)
+    : plant_(&plant),
       config_(config),
       start_(plant.Observe()),
       controlled_(
@@ -134,10 +38,11 @@ ClosedLoop::ClosedLoop(Plant& plant, SteeringController& controller, const Feasi
                                     .start_steering = start_.steering_actuator,
                                     .speed = config.speed,
                                     .seed = config.seed}),
-      recorder_(config, controller.Columns()),
+      recorder_(config, controller.Columns(), keeps_rows),
       termination_(config, plan),
       progress_(config.hooks.progress),
-      steering_before_(start_.steering_actuator / config.disturbances.steering.factor) {
+      steering_before_(start_.steering_actuator / config.disturbances.steering.factor),
+      values_(controller.Values()) {
   if (config.replanning) {
     monitor_.emplace(
         ReplanningMonitor::Options{.replanning = *config.replanning,
@@ -147,38 +52,48 @@ ClosedLoop::ClosedLoop(Plant& plant, SteeringController& controller, const Feasi
         plan);
   }
   command_.gear = sequencer_.has_path() ? PlanGear(sequencer_.plan()) : 1;
+  recorder_.Sample(plant, 0.0);
+  BeginPeriod();
 }
 
-RunLog ClosedLoop::Run() {
-  recorder_.Sample(plant_, 0.0);
-  for (long tick = 0;; ++tick) {
-    const VehicleState state = Observe(tick);
-    LogRow row = recorder_.BeginRow(state, command_, controller_.Values());
-    row.measured = faults_.Measure(state.pose);
-    const bool at_rest = tick > 0 && Rests(state);
-    row.tracking = FollowPlan(state, at_rest);
-    if (const std::optional<DriveStatus> status = Ending(state, at_rest)) {
-      if (*status != DriveStatus::kDiverged || tick == 0) {
-        recorder_.AddRow(row);  // the final row repeats the last command
-      }
-      progress_.Report(1.0);
-      return recorder_.Finish(*status, termination_.cause());
-    }
-    const ControlInput input = Control(state, row);
-    recorder_.AddRow(row);
-    StepPlant(tick, input, row);
-    ReportProgress(state);
+void LoopCore::BeginPeriod() {
+  state_ = Observe();
+  row_ = recorder_.BeginRow(state_, command_, values_);
+  row_.measured = faults_.Measure(state_.pose);
+  const bool at_rest = tick_ > 0 && Rests(state_);
+  row_.tracking = FollowPlan(state_, at_rest);
+  status_ = Ending(state_, at_rest);
+  if (!status_) {
+    return;
   }
+  if (*status_ != DriveStatus::kDiverged || tick_ == 0) {
+    recorder_.AddRow(row_);  // the final row repeats the last command
+  }
+  progress_.Report(1.0);
 }
 
-VehicleState ClosedLoop::Observe(long tick) const {
-  VehicleState state = plant_.Observe();
+void LoopCore::Step(SteeringController& controller, bool follow_schedule) {
+  const ControlInput input = Input();
+  Control(controller, input);
+  recorder_.AddRow(row_);
+  if (follow_schedule && config_.follow_schedule) {
+    StepPlant([&](int step) { return ScheduledCommand(step, controller, input); });
+  } else {
+    StepPlant([&](int step) { return CommandAt(step); });
+  }
+  ReportProgress(state_);
+  ++tick_;
+  BeginPeriod();
+}
+
+VehicleState LoopCore::Observe() const {
+  VehicleState state = plant_->Observe();
   // Rounds the time to nanoseconds, for example 11.700000000000001 to 11.7.
-  state.time = std::round(static_cast<double>(tick) * config_.control_period * 1e9) / 1e9;
+  state.time = std::round(static_cast<double>(tick_) * config_.control_period * 1e9) / 1e9;
   return state;
 }
 
-std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool at_rest) {
+std::optional<Projection> LoopCore::FollowPlan(const VehicleState& state, bool at_rest) {
   std::optional<Projection> tracking = sequencer_.Project(state);
   if (!tracking) {
     return std::nullopt;
@@ -204,7 +119,7 @@ std::optional<Projection> ClosedLoop::FollowPlan(const VehicleState& state, bool
   return tracking;
 }
 
-bool ClosedLoop::Rests(const VehicleState& state) {
+bool LoopCore::Rests(const VehicleState& state) {
   // Within this duration [s], a car that starts from rest with more than 0.02 m/s^2 moves farther
   // than 1 cm, the limit of Standstill.
   constexpr double kMinRestDuration = 1.0;  // Duration for which a car must rest [s].
@@ -217,12 +132,12 @@ bool ClosedLoop::Rests(const VehicleState& state) {
          sequencer_.IsAtEnd(state);
 }
 
-std::optional<DriveStatus> ClosedLoop::Ending(const VehicleState& state, bool at_rest) {
+std::optional<DriveStatus> LoopCore::Ending(const VehicleState& state, bool at_rest) {
   const bool steers = sequencer_.stationary_steer().InProgress();
   const bool waits = monitor_ && monitor_->IsWaiting();
   return termination_.Update(
       {.state = state,
-       .plant = plant_,
+       .plant = *plant_,
        .segment = sequencer_.plan(),
        .is_last_segment = sequencer_.is_last(),
        .interrupted = config_.hooks.interrupted && config_.hooks.interrupted(),
@@ -232,69 +147,74 @@ std::optional<DriveStatus> ClosedLoop::Ending(const VehicleState& state, bool at
        .contact_time = recorder_.contact_time()});
 }
 
-ControlInput ClosedLoop::Control(const VehicleState& state, LogRow& row) {
+ControlInput LoopCore::Input() const {
   const Plan& plan = sequencer_.plan();
   ControlInput input{.vehicle = controlled_,
                      .reference = plan.reference,
                      .schedule = plan.schedule,
-                     .state = state,
-                     .station = sequencer_.StationFor(state),
+                     .state = state_,
+                     .station = sequencer_.StationFor(state_),
                      .period = config_.control_period,
-                     .plan_time = state.time - sequencer_.start_time(),
+                     .plan_time = state_.time - sequencer_.start_time(),
                      .speed_gain = config_.speed.gain};
-  if (row.measured) {
-    input.state.pose = *row.measured;
+  if (row_.measured) {
+    input.state.pose = *row_.measured;
     if (sequencer_.has_path() && config_.station_source == StationSource::kProjection) {
-      input.station = sequencer_.StationNear(*row.measured);
+      input.station = sequencer_.StationNear(*row_.measured);
     }
   }
-  command_.steering = Steer(input);
-  command_.acceleration = Accelerate(input, row);
-  TRACKBED_REQUIRE(std::isfinite(command_.steering) && std::isfinite(command_.acceleration),
-                   "SimulateClosedLoop: at {} s the controller asks for a steering angle of {} rad "
-                   "and an acceleration of {} m/s^2; must be finite",
-                   state.time, command_.steering, command_.acceleration);
-  command_.coast = Coasts(config_.speed, state.time);
-  row.command = command_;
-  row.controller = controller_.Values();
-  row.planned_speed = PlannedSpeed(state);
   return input;
 }
 
-double ClosedLoop::Steer(const ControlInput& input) {
+void LoopCore::Control(SteeringController& controller, const ControlInput& input) {
+  command_.steering = Steer(controller, input);
+  command_.acceleration = Accelerate(controller, input);
+  TRACKBED_REQUIRE(std::isfinite(command_.steering) && std::isfinite(command_.acceleration),
+                   "SimulateClosedLoop: at {} s the controller asks for a steering angle of {} rad "
+                   "and an acceleration of {} m/s^2; must be finite",
+                   state_.time, command_.steering, command_.acceleration);
+  command_.coast = Coasts(config_.speed, state_.time);
+  values_ = controller.Values();
+  row_.command = command_;
+  row_.controller = values_;
+  row_.planned_speed = PlannedSpeed(state_);
+}
+
+double LoopCore::Steer(SteeringController& controller, const ControlInput& input) {
   if (!config_.hooks.steered) {
-    return controller_.Steer(input);
+    return controller.Steer(input);
   }
   using Clock = std::chrono::steady_clock;
   const Clock::time_point start = Clock::now();
-  const double steering = controller_.Steer(input);
+  const double steering = controller.Steer(input);
   config_.hooks.steered(std::chrono::duration<double>(Clock::now() - start).count());
   return steering;
 }
 
-double ClosedLoop::Accelerate(const ControlInput& input, const LogRow& row) {
-  const double station = row.tracking ? row.tracking->s : input.state.distance;
+double LoopCore::Accelerate(SteeringController& controller, const ControlInput& input) {
+  const double station = row_.tracking ? row_.tracking->s : input.state.distance;
   const double left =
-      faults_.LimitSpeed(WantedAcceleration(input, row.state.pose.position()),
-                         command_.gear * input.state.speed, input.state.time, station);
+      faults_.LimitSpeed(WantedAcceleration(controller, input), command_.gear * input.state.speed,
+                         input.state.time, station);
   const bool steers = sequencer_.stationary_steer().InProgress();
   return command_.gear * (steers ? -config_.speed.deceleration : left);
 }
 
-double ClosedLoop::WantedAcceleration(const ControlInput& input, const Vec2& position) {
+double LoopCore::WantedAcceleration(SteeringController& controller, const ControlInput& input) {
   // Speed of the car in the direction of the gear; negative if the car rolls in the opposite
   // direction.
   const double speed = command_.gear * input.state.speed;
   std::optional<double> own =
       TimedSpeedControl(config_.speed, input.state.time, speed, input.period);
   if (!own) {
-    own = controller_.Accelerate(input);
+    own = controller.Accelerate(input);
   }
   plan_sets_speed_ = !own;
   if (own) {
     return *own;
   }
-  const double hardest = MaxDeceleration(controlled_, RoadFactor(config_.world, position));
+  const double hardest =
+      MaxDeceleration(controlled_, RoadFactor(config_.world, row_.state.pose.position()));
   const double wanted =
       SpeedControl(config_.speed, sequencer_.speed(), input.station, speed, input.period, hardest);
   const bool at_limit =
@@ -302,7 +222,7 @@ double ClosedLoop::WantedAcceleration(const ControlInput& input, const Vec2& pos
   return at_limit ? command_.gear * EaseForSlip(command_.gear * wanted, input.state) : wanted;
 }
 
-std::optional<double> ClosedLoop::PlannedSpeed(const VehicleState& state) const {
+std::optional<double> LoopCore::PlannedSpeed(const VehicleState& state) const {
   if (!sequencer_.has_path() || !plan_sets_speed_) {
     return std::nullopt;
   }
@@ -319,23 +239,21 @@ std::optional<double> ClosedLoop::PlannedSpeed(const VehicleState& state) const 
   return highest;
 }
 
-void ClosedLoop::StepPlant(long tick, const ControlInput& input, const LogRow& row) {
-  for (int step = 0; step < steps_ && !plant_.diverged(); ++step) {
-    Command now = CommandAt(step, input, row);
+template <typename CommandOf>
+void LoopCore::StepPlant(const CommandOf& command) {
+  for (int step = 0; step < steps_ && !plant_->diverged(); ++step) {
+    Command now = command(step);
     now.steering = faults_.Steer(now.steering);
-    faults_.Kick(tick * steps_ + step, plant_);
-    plant_.Step(now);
-    if (!plant_.diverged()) {
-      recorder_.Sample(plant_, row.state.time + (step + 1) * config_.timestep);
+    faults_.Kick(tick_ * steps_ + step, *plant_);
+    plant_->Step(now);
+    if (!plant_->diverged()) {
+      recorder_.Sample(*plant_, row_.state.time + (step + 1) * config_.timestep);
     }
   }
   steering_before_ = command_.steering;
 }
 
-Command ClosedLoop::CommandAt(int step, const ControlInput& input, const LogRow& row) {
-  if (config_.follow_schedule) {
-    return ScheduledCommand(step, input, row);
-  }
+Command LoopCore::CommandAt(int step) const {
   Command now = command_;
   if (config_.steering_input == SteeringInput::kPrescribed) {
     // The wheels reach the commanded angle at the end of the control period; in earlier physics
@@ -346,16 +264,17 @@ Command ClosedLoop::CommandAt(int step, const ControlInput& input, const LogRow&
   return now;
 }
 
-Command ClosedLoop::ScheduledCommand(int step, const ControlInput& input, const LogRow& row) {
+Command LoopCore::ScheduledCommand(int step, SteeringController& controller,
+                                   const ControlInput& input) {
   ControlInput at = input;
   at.period = config_.timestep;
   if (step > 0) {
-    at.state = plant_.Observe();
-    at.state.time = row.state.time + step * config_.timestep;
+    at.state = plant_->Observe();
+    at.state.time = row_.state.time + step * config_.timestep;
     at.station = sequencer_.StationFor(at.state);
   }
   Command now = command_;
-  now.acceleration = Accelerate(at, row);
+  now.acceleration = Accelerate(controller, at);
   const bool prescribed = config_.steering_input == SteeringInput::kPrescribed;
   now.steering =
       ScheduledSteering(sequencer_.plan().schedule,
@@ -364,19 +283,21 @@ Command ClosedLoop::ScheduledCommand(int step, const ControlInput& input, const 
   return now;
 }
 
-void ClosedLoop::ReportProgress(const VehicleState& state) {
+void LoopCore::ReportProgress(const VehicleState& state) {
   const double offset = sequencer_.offset();
   progress_.Report(sequencer_.has_path() ? (offset + sequencer_.StationFor(state)) /
                                                (offset + sequencer_.plan().reference.path.length())
                                          : state.time / termination_.end_time());
 }
 
-}  // namespace
-
 RunLog SimulateClosedLoop(Plant& plant, SteeringController& controller, const FeasiblePlan& plan,
                           const LoopConfig& config) {
   CheckLoopArguments(plant, plan, config);
-  return ClosedLoop(plant, controller, plan, config).Run();
+  LoopCore loop(plant, controller, plan, config);
+  while (!loop.status()) {
+    loop.Step(controller, true);
+  }
+  return loop.TakeLog();
 }
 
 }  // namespace trackbed

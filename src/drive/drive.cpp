@@ -1,9 +1,14 @@
 #include "trackbed/drive/drive.h"
 
+#include <fmt/format.h>
+
+#include <utility>
+
 #include "src/drive/recorded_log.h"
 #include "src/drive/scenario_parts.h"
 #include "trackbed/control/controllers.h"
 #include "trackbed/control/schedule.h"
+#include "trackbed/core/error.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/scenario/initial_state.h"
 
@@ -48,27 +53,56 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car) {
   return config;
 }
 
-RunLog SimulateScenario(const Scenario& scenario, const CarModel& car, const FeasiblePlan& plan,
-                        const std::string& plant_name, const DriveHooks& hooks) {
-  if (plant_name == kRecordedPlant) {
-    return RecordedLog(scenario, car);
-  }
+namespace {
+
+/// Makes the named plant of a scenario, at the scenario's start.
+std::unique_ptr<Plant> PlantAtStart(const Scenario& scenario, const CarModel& car,
+                                    const std::string& name) {
   StartState start = InitialState(scenario, car.params());
   if (scenario.record && !scenario.mission.start.steering &&
       scenario.drive.steering == SteeringInput::kActuator) {
     start.steering = RestingSteering(car.params(), start.steering);
   }
+  return MakePlant(name, {.car = car,
+                          .world = scenario.world,
+                          .start = start,
+                          .tyre = scenario.vehicle.tyre,
+                          .steering = scenario.drive.steering});
+}
+
+}  // namespace
+
+RunLog SimulateScenario(const Scenario& scenario, const CarModel& car, const FeasiblePlan& plan,
+                        const std::string& plant_name, const DriveHooks& hooks) {
+  if (plant_name == kRecordedPlant) {
+    return RecordedLog(scenario, car);
+  }
   const auto controller = MakeSteeringController(scenario.control.steering);
-  const auto plant = MakePlant(plant_name, {.car = car,
-                                            .world = scenario.world,
-                                            .start = start,
-                                            .tyre = scenario.vehicle.tyre,
-                                            .steering = scenario.drive.steering});
+  const auto plant = PlantAtStart(scenario, car, plant_name);
   LoopConfig config = MakeLoopConfig(scenario, car);
   config.hooks = hooks;
   RunLog log = SimulateClosedLoop(*plant, *controller, plan, config);
   log.plant = plant_name;
   return log;
+}
+
+SteppedLoop MakeSteppedLoop(const std::shared_ptr<const Scenario>& scenario,
+                            const std::shared_ptr<const CarModel>& car, const FeasiblePlan& plan,
+                            const std::string& plant_name, bool keeps_log) {
+  if (plant_name == kRecordedPlant) {
+    throw InputError(Problem{.message = fmt::format("the plant {} is a recorded drive, which "
+                                                    "cannot be stepped",
+                                                    kRecordedPlant)});
+  }
+  auto plant = PlantAtStart(*scenario, *car, plant_name);
+  return {
+      std::move(plant),
+      MakeSteeringController(scenario->control.steering),
+      plan,
+      MakeLoopConfig(*scenario, *car),
+      std::make_shared<std::pair<std::shared_ptr<const Scenario>, std::shared_ptr<const CarModel>>>(
+          scenario, car),
+      keeps_log};
 }
 
 }  // namespace trackbed

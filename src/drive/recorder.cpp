@@ -4,7 +4,8 @@
 
 namespace trackbed {
 
-Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller_columns)
+Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller_columns,
+                   bool keeps_rows)
     : log_{.plant = {},
            .status = DriveStatus::kArrived,
            .contact_time = {},
@@ -12,6 +13,7 @@ Recorder::Recorder(const LoopConfig& config, std::vector<std::string> controller
            .rows = {},
            .changes = {},
            .configurations = Table({"t_s"})},
+      keeps_rows_(keeps_rows),
       hooks_(config.hooks),
       configurations_(config.configuration_columns, config.world, config.state_period),
       collisions_(config.world, config.vehicle) {}
@@ -35,6 +37,9 @@ LogRow Recorder::BeginRow(const VehicleState& state, const Command& command,
 }
 
 void Recorder::AddRow(const LogRow& row) {
+  if (!keeps_rows_) {
+    log_.rows.clear();
+  }
   log_.rows.push_back(row);
   if (hooks_.logged) {
     hooks_.logged(log_, configurations_.table());
@@ -47,6 +52,15 @@ RunLog Recorder::Finish(DriveStatus status, std::string cause) {
   log_.contact_time = contact_time();
   log_.configurations = configurations_.Take();
   return std::move(log_);
+}
+
+RunLog Recorder::Copy(DriveStatus status, std::string cause) const {
+  RunLog log = log_;
+  log.status = status;
+  log.cause = std::move(cause);
+  log.contact_time = contact_time();
+  log.configurations = configurations_.table();
+  return log;
 }
 
 }  // namespace trackbed

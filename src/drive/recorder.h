@@ -14,8 +14,8 @@ namespace trackbed {
 class Recorder {
  public:
   /// World, vehicle and hooks of `config` must outlive the Recorder, which keeps references to all
-  /// three.
-  Recorder(const LoopConfig& config, std::vector<std::string> controller_columns);
+  /// three. If `keeps_rows` is false, the log contains only the last row.
+  Recorder(const LoopConfig& config, std::vector<std::string> controller_columns, bool keeps_rows);
 
   /// Records the plant's state at `time` [s]. Call Sample at the start of the run and after every
   /// physics step.
@@ -37,9 +37,12 @@ class Recorder {
 
   /// Completes the log and moves it out of this recorder.
   RunLog Finish(DriveStatus status, std::string cause = "");
+  /// Returns a copy of the log so far, completed with `status` and `cause`.
+  [[nodiscard]] RunLog Copy(DriveStatus status, std::string cause) const;
 
  private:
   RunLog log_;
+  bool keeps_rows_;
   const DriveHooks& hooks_;
   ConfigurationLog configurations_;
   CollisionWatch collisions_;

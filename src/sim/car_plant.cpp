@@ -62,6 +62,10 @@ class CarPlant final : public MujocoPlant {
     }
   }
 
+  [[nodiscard]] std::unique_ptr<Plant> Clone() const override {
+    return std::make_unique<CarPlant>(*this);
+  }
+
  private:
   void Act(const Command& command) override {
     if (prescribed_) {

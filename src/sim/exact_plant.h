@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cmath>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "trackbed/core/error.h"
@@ -70,6 +72,10 @@ class ExactPlant final : public Plant {
 
   [[nodiscard]] std::string divergence() const override {
     return diverged() ? "the car's motion is unstable: its position or yaw is beyond 1e10" : "";
+  }
+
+  [[nodiscard]] std::unique_ptr<Plant> Clone() const override {
+    return std::make_unique<ExactPlant>(*this);
   }
 
  private:

@@ -33,4 +33,13 @@ MujocoData MakeMujocoData(const mjModel_& model) {
   return data;
 }
 
+MujocoData CopyMujocoData(const mjModel_& model, const mjData_& data) {
+  const MujocoErrorScope errors;
+  MujocoData copy(mj_copyData(nullptr, &model, &data));
+  if (!copy) {
+    throw RunError("no memory for a copy of the MuJoCo simulation");
+  }
+  return copy;
+}
+
 }  // namespace trackbed

@@ -52,10 +52,9 @@ bool HasCollidableGeoms(const mjModel& model) {
 }  // namespace
 
 MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
-    : car_(setup.car),
+    : MujocoSimulation(*setup.car.get()),
+      car_(setup.car),
       world_(setup.world),
-      model_(CopyMujocoModel(*setup.car.get())),
-      data_(MakeMujocoData(*model_)),
       ground_(car_, support, *model_) {
   const std::span<const int> tyres = car_.tyres();
   for (std::size_t w = 0; w < tyres.size(); ++w) {

@@ -15,9 +15,24 @@
 
 namespace trackbed {
 
+/// A MuJoCo simulation: data, and a copy of the model for this simulation alone, because brakes and
+/// road modify the model. A copy of the object is an independent simulation in the same state.
+class MujocoSimulation {
+ protected:
+  explicit MujocoSimulation(const mjModel& model)
+      : model_(CopyMujocoModel(model)), data_(MakeMujocoData(*model_)) {}
+  MujocoSimulation(const MujocoSimulation& other)
+      : model_(CopyMujocoModel(*other.model_)), data_(CopyMujocoData(*model_, *other.data_)) {}
+  MujocoSimulation& operator=(const MujocoSimulation&) = delete;
+  ~MujocoSimulation() = default;
+
+  MujocoModel model_;
+  MujocoData data_;
+};
+
 /// Base class of the MuJoCo plants; handles the vehicle's state, the road, the air and external
 /// forces. Derived classes implement the actuators and the wheels.
-class MujocoPlant : public Plant {
+class MujocoPlant : public Plant, private MujocoSimulation {
  public:
   void Step(const Command& command) final;
   void ApplyLateralOffset(double left) final;
@@ -92,9 +107,6 @@ class MujocoPlant : public Plant {
 
   const CarModel& car_;
   const World& world_;
-  // copy of the model that belongs to this plant, because brakes and road modify the model
-  MujocoModel model_;
-  MujocoData data_;
   RoadContact ground_;
   std::vector<Slider> sliders_;
   std::vector<bool> is_obstacle_;  // For each geom of the model, whether it is an obstacle.

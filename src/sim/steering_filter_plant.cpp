@@ -34,6 +34,10 @@ class SteeringFilterPlant final : public Plant {
   [[nodiscard]] bool diverged() const override { return plant_->diverged(); }
   [[nodiscard]] std::string divergence() const override { return plant_->divergence(); }
   [[nodiscard]] double wheel_gap() const override { return plant_->wheel_gap(); }
+  [[nodiscard]] std::unique_ptr<Plant> Clone() const override {
+    std::unique_ptr<Plant> plant = plant_->Clone();
+    return plant ? std::make_unique<SteeringFilterPlant>(std::move(plant), filter_) : nullptr;
+  }
 
  private:
   std::unique_ptr<Plant> plant_;

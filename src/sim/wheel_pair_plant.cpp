@@ -25,6 +25,10 @@ class WheelPairPlant final : public MujocoPlant {
     Begin();
   }
 
+  [[nodiscard]] std::unique_ptr<Plant> Clone() const override {
+    return std::make_unique<WheelPairPlant>(*this);
+  }
+
  private:
   void Act(const Command& command) override {
     const WheelPairParts& parts = car().wheel_pair();

@@ -3,6 +3,8 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "trackbed/control/controller_options.h"
@@ -51,6 +53,11 @@ class SteeringController {
   /// default, there are no diagnostic columns.
   [[nodiscard]] virtual std::vector<std::string> Columns() const;
   [[nodiscard]] virtual std::vector<double> Values() const;
+
+  /// Returns an independent copy of the controller in its present state: for the same inputs, both
+  /// controllers then return the same outputs. Returns nullptr if the controller cannot be copied,
+  /// as by default.
+  [[nodiscard]] virtual std::unique_ptr<SteeringController> Clone() const;
 };
 
 /// Selects how the station on the path that a controller receives is computed.
@@ -102,11 +109,36 @@ struct ControllerEntry {
   void (*resolve)(ControllerOptions& options, bool from_record) = nullptr;
 };
 
+/// Adds SteeringController::Clone to a controller class with a copy constructor.
+template <typename Controller>
+class CopyableController final : public SteeringController {
+ public:
+  explicit CopyableController(Controller inner) : inner_(std::move(inner)) {}
+
+  double Steer(const ControlInput& input) override { return inner_.Steer(input); }
+  std::optional<double> Accelerate(const ControlInput& input) override {
+    return inner_.Accelerate(input);
+  }
+  [[nodiscard]] std::vector<std::string> Columns() const override { return inner_.Columns(); }
+  [[nodiscard]] std::vector<double> Values() const override { return inner_.Values(); }
+  [[nodiscard]] std::unique_ptr<SteeringController> Clone() const override {
+    return std::make_unique<CopyableController>(*this);
+  }
+
+ private:
+  Controller inner_;
+};
+
 /// Implements ControllerEntry::make for a controller class whose constructor takes the controller's
-/// options.
+/// options. If the class has a copy constructor, which must copy all of the controller's state, the
+/// controller can be copied (SteeringController::Clone).
 template <typename Options, typename Controller>
 std::unique_ptr<SteeringController> MakeBy(const ControllerOptions& options) {
-  return std::make_unique<Controller>(options.Get<Options>());
+  if constexpr (std::is_copy_constructible_v<Controller>) {
+    return std::make_unique<CopyableController<Controller>>(Controller(options.Get<Options>()));
+  } else {
+    return std::make_unique<Controller>(options.Get<Options>());
+  }
 }
 
 }  // namespace trackbed

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <memory>
 #include <string>
 
 #include "trackbed/drive/closed_loop.h"
 #include "trackbed/drive/run_log.h"
+#include "trackbed/drive/stepped_loop.h"
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/sim/car_model.h"
 
@@ -42,5 +44,12 @@ LoopConfig MakeLoopConfig(const Scenario& scenario, const CarModel& car);
 /// the car.
 RunLog SimulateScenario(const Scenario& scenario, const CarModel& car, const FeasiblePlan& plan,
                         const std::string& plant_name, const DriveHooks& hooks = {});
+
+/// Makes the loop that SimulateScenario runs, to be stepped by the caller. The loop keeps the
+/// scenario and the car. If `keeps_log` is false, the log of the loop only contains its last row.
+/// Throws the same errors as SimulateScenario; for kRecordedPlant, throws InputError.
+SteppedLoop MakeSteppedLoop(const std::shared_ptr<const Scenario>& scenario,
+                            const std::shared_ptr<const CarModel>& car, const FeasiblePlan& plan,
+                            const std::string& plant_name, bool keeps_log = true);
 
 }  // namespace trackbed

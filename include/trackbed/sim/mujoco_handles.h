@@ -22,4 +22,8 @@ MujocoModel CopyMujocoModel(const mjModel_& model);
 /// enough memory.
 MujocoData MakeMujocoData(const mjModel_& model);
 
+/// Copies the complete state of a simulation of the model. Throws RunError if there is not enough
+/// memory.
+MujocoData CopyMujocoData(const mjModel_& model, const mjData_& data);
+
 }  // namespace trackbed

@@ -58,6 +58,12 @@ class Plant {
   /// distance is negative while the load deflects the tyre. Plants whose wheels cannot leave the
   /// road return 0.
   [[nodiscard]] virtual double wheel_gap() const { return 0.0; }
+
+  /// Returns an independent copy of the plant in its present state: for the same commands, both
+  /// plants then simulate the same motion, bit for bit. The copy refers to the same car and world.
+  /// Returns nullptr if the plant cannot be copied, as by default; all built-in plants can be
+  /// copied. Throws RunError if there is not enough memory.
+  [[nodiscard]] virtual std::unique_ptr<Plant> Clone() const { return nullptr; }
 };
 
 /// The arguments from which a plant is made. PlantSetup holds references to the car and the world,
