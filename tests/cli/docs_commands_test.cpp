@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "src/cli/scenario_options.h"
 #include "tests/cli/program.h"
 #include "tests/support/temp_folder.h"
 #include "trackbed/core/file.h"
+#include "trackbed/scenario/scenario_files.h"
 
 namespace trackbed {
 namespace docs_commands_test {
@@ -233,7 +233,7 @@ TEST_P(Documented, CommandDoesWhatItsPageSays) {
   std::vector<std::string> words = command.words;
   if (command.parts > 1) {
     const std::vector<fs::path> files =
-        cli::ScenarioFiles({(kSource / words[1]).string()}, cli::FolderContent::kScenarios);
+        ScenarioFiles({(kSource / words[1]).string()}, FolderContent::kScenarios);
     ASSERT_GE(files.size(), command.parts);
     words.resize(1);
     for (std::size_t i = command.part; i < files.size(); i += command.parts) {

@@ -1,0 +1,128 @@
+#include "trackbed/scenario/scenario_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+
+#include "trackbed/core/error.h"
+#include "trackbed/core/spelling.h"
+#include "trackbed/path_files/path_file.h"
+#include "trackbed/scenario/identification.h"
+#include "trackbed/scenario/map_file.h"
+#include "trackbed/scenario/record.h"
+#include "trackbed/scenario/study.h"
+#include "trackbed/sim/scene.h"
+
+namespace trackbed {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Appends the scenario files in `folder`, then the scenario files in its subfolders.
+void AddFilesIn(const fs::path& folder, FolderContent content, std::vector<fs::path>& files) {
+  std::vector<fs::path> own;
+  std::vector<fs::path> folders;
+  std::error_code error;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const fs::path& path = entry->path();
+    const std::string extension = path.extension().string();
+    if (path.filename().string().starts_with('.')) {
+      continue;
+    }
+    if (entry->is_directory()) {
+      if (!entry->is_symlink()) {
+        folders.push_back(path);
+      }
+    } else if (extension == ".yaml" || extension == ".yml") {
+      const bool is_study = IsStudy(path) || IsIdentification(path);
+      if ((content == FolderContent::kScenariosAndStudies || !is_study) && !IsLogMap(path) &&
+          !IsRosMap(path) && !IsNavPathYaml(path)) {
+        own.push_back(path);
+      }
+    }
+  }
+  if (error) {
+    throw RunError(fmt::format("cannot read {}: {}", folder.string(), error.message()));
+  }
+  std::sort(own.begin(), own.end());
+  std::sort(folders.begin(), folders.end());
+  files.insert(files.end(), own.begin(), own.end());
+  for (const fs::path& inner : folders) {
+    AddFilesIn(inner, content, files);
+  }
+}
+
+}  // namespace
+
+std::vector<fs::path> ShippedScenarios(FolderContent content) {
+  std::vector<fs::path> files;
+  AddFilesIn(DataFolder() / "scenarios", content, files);
+  std::erase_if(files,
+                [](const fs::path& file) { return file.parent_path().filename() == "validation"; });
+  return files;
+}
+
+fs::path FindScenario(const fs::path& name) {
+  std::error_code ignored;
+  if (fs::exists(fs::symlink_status(name, ignored)) || name.has_extension() || name.is_absolute()) {
+    return name;
+  }
+  const fs::path shipped = DataFolder() / "scenarios";
+  std::vector<std::string> names;
+  std::vector<fs::path> found;
+  for (const fs::path& file : ShippedScenarios(FolderContent::kScenariosAndStudies)) {
+    const fs::path inside = file.lexically_relative(shipped).replace_extension();
+    names.push_back(inside.filename().string());
+    if (inside == name || inside.filename() == name) {
+      found.push_back(file);
+    }
+  }
+  if (found.size() == 1) {
+    return found.front();
+  }
+  if (found.size() > 1) {
+    throw InputError(Problem{.file = name.string(),
+                             .message = fmt::format("is the name of {} and of {}",
+                                                    found[0].string(), found[1].string())});
+  }
+  const std::string nearest = NearestSpelling(name.string(), names);
+  throw InputError(Problem{
+      .file = name.string(),
+      .message = fmt::format("no such file, and no scenario of this name comes with Trackbed{}",
+                             nearest.empty() ? "; `trackbed list scenarios` names those that do"
+                                             : fmt::format("; did you mean '{}'?", nearest))});
+}
+
+std::vector<fs::path> ScenarioFiles(const std::vector<std::string>& paths, FolderContent content) {
+  std::vector<fs::path> found;
+  for (const std::string& path : paths) {
+    const std::size_t before = found.size();
+    if (fs::is_directory(path)) {
+      AddFilesIn(path, content, found);
+    }
+    if (found.size() == before) {
+      found.push_back(FindScenario(path));
+    }
+  }
+  std::vector<fs::path> files;
+  std::set<fs::path> known;
+  for (const fs::path& file : found) {
+    if (known.insert(fs::absolute(file).lexically_normal()).second) {
+      files.push_back(file);
+    }
+  }
+  return files;
+}
+
+void RefuseFolder(const fs::path& file) {
+  if (fs::is_directory(file)) {
+    throw InputError(
+        Problem{.file = file.string(), .message = "the folder has no scenarios (*.yaml, *.yml)"});
+  }
+}
+
+}  // namespace trackbed
