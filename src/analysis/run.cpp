@@ -40,25 +40,6 @@ using nlohmann::ordered_json;
 /// Largest distance between two consecutive points in plan.csv [m].
 constexpr double kPlanSpacing = 0.1;
 
-Table PlanTable(const Reference& reference) {
-  Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
-  // Sample each leg of the path separately, so that plan.csv contains every cusp. Where two legs
-  // meet, keep the point of the earlier leg.
-  for (const Stations& leg : SplitIntoLegs(reference.path)) {
-    const Reference part = Excerpt(reference, leg);
-    for (const PathPoint& point : part.path.Sample(kPlanSpacing)) {
-      if (point.s == 0.0 && table.rows() > 0) {
-        continue;
-      }
-      const double direction = point.direction;
-      const double speed = part.speed.SpeedAt(point.s);
-      table.AddRow({leg.from + point.s, point.pose.x, point.pose.y, point.pose.yaw, point.curvature,
-                    speed == 0.0 ? 0.0 : direction * speed, direction});
-    }
-  }
-  return table;
-}
-
 /// Returns a table with the knots of the open-loop steering schedule delta(D), which is the
 /// steering angle as a function of the distance driven.
 Table ScheduleTable(const SteeringSchedule& schedule) {
@@ -287,6 +268,25 @@ RunResult SimulateRun(RunResult planned, const CarModel& car, const RunHooks& ho
   return result;
 }
 
+Table PlanTable(const Reference& reference) {
+  Table table({"s_m", "x_m", "y_m", "yaw_rad", "curvature_radpm", "speed_mps", "direction"});
+  // Sample each leg of the path separately, so that plan.csv contains every cusp. Where two legs
+  // meet, keep the point of the earlier leg.
+  for (const Stations& leg : SplitIntoLegs(reference.path)) {
+    const Reference part = Excerpt(reference, leg);
+    for (const PathPoint& point : part.path.Sample(kPlanSpacing)) {
+      if (point.s == 0.0 && table.rows() > 0) {
+        continue;
+      }
+      const double direction = point.direction;
+      const double speed = part.speed.SpeedAt(point.s);
+      table.AddRow({leg.from + point.s, point.pose.x, point.pose.y, point.pose.yaw, point.curvature,
+                    speed == 0.0 ? 0.0 : direction * speed, direction});
+    }
+  }
+  return table;
+}
+
 ordered_json MetricsJson(const RunResult& result) {
   ordered_json metrics{{"scenario", result.scenario.name}, {"complete", !result.interrupted}};
   metrics["plants"] = ordered_json::object();
@@ -303,9 +303,7 @@ ordered_json MetricsJson(const RunResult& result) {
   return metrics;
 }
 
-namespace {
-
-void AddPlan(const RunResult& result, ResultWriter& writer) {
+ordered_json PlanJson(const RunResult& result) {
   const Plan& plan = result.plan;
   ordered_json content{{"status", ToString(plan.status)}};
   if (!plan.ok()) {
@@ -319,6 +317,19 @@ void AddPlan(const RunResult& result, ResultWriter& writer) {
         content[property.name] = *value;
       }
     }
+  }
+  const nlohmann::json diagnostics = DiagnosticsJson(plan);
+  for (const auto& [key, value] : diagnostics.items()) {
+    content[key] = value;
+  }
+  return content;
+}
+
+namespace {
+
+void AddPlan(const RunResult& result, ResultWriter& writer) {
+  const Plan& plan = result.plan;
+  if (plan.ok()) {
     writer.Add(run_folder::kPlanCsv, PlanTable(plan.reference).ToCsv());
     writer.Add(run_folder::kScheduleCsv, ScheduleTable(plan.schedule).ToCsv());
     for (const PlannerTable& table : PlannerFor(result.scenario.plan->global).tables) {
@@ -326,11 +337,7 @@ void AddPlan(const RunResult& result, ResultWriter& writer) {
     }
     AddUnlessEmpty(TreeTable(plan.tree), run_folder::kTreeCsv, writer);
   }
-  const nlohmann::json diagnostics = DiagnosticsJson(plan);
-  for (const auto& [key, value] : diagnostics.items()) {
-    content[key] = value;
-  }
-  writer.Add(run_folder::kPlanJson, JsonText(content));
+  writer.Add(run_folder::kPlanJson, JsonText(PlanJson(result)));
 }
 
 void AddLog(const RunLog& log, ResultWriter& writer) {
