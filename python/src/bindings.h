@@ -1,0 +1,66 @@
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "trackbed/analysis/run.h"
+
+/// Shared parts of the compiled module _trackbed, on which the Python files of the package build.
+/// All functions that simulate, plan, render, read or write files run without the GIL.
+namespace trackbed::python {
+
+namespace py = pybind11;
+
+/// A table of numbers, column by column, whose columns Python reads as arrays.
+class Columns {
+ public:
+  explicit Columns(const Table& table);
+
+  [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+  [[nodiscard]] std::size_t rows() const { return rows_; }
+  /// Returns a column, whose memory is constant as long as this object exists; nullptr if the table
+  /// has no such column.
+  [[nodiscard]] const double* Find(const std::string& name) const;
+
+ private:
+  std::vector<std::string> names_;
+  std::size_t rows_;
+  std::vector<double> cells_;  // One column after the other.
+};
+
+/// Converts JSON to dictionaries, lists, numbers and texts.
+py::object ToPython(const nlohmann::ordered_json& json);
+
+/// Asks Python about once in 20 ms, while a run is simulated without the GIL, whether a signal such
+/// as Ctrl-C has arrived. Only the main thread of Python handles signals.
+class Signals {
+ public:
+  /// Returns whether a signal handler has raised an exception, such as KeyboardInterrupt.
+  bool Raised();
+  /// Throws the exception of the signal handler if there was one. Requires the GIL.
+  void Rethrow();
+
+ private:
+  std::chrono::steady_clock::time_point next_ = std::chrono::steady_clock::now();
+  std::shared_ptr<py::error_already_set> error_;
+};
+
+/// Returns the cars that all runs and loops of the process share.
+CarCache& Cars();
+
+void BindErrors(py::module_& module);
+void BindRuns(py::module_& module);
+void BindChecks(py::module_& module);
+void BindPictures(py::module_& module);
+void BindLoops(py::module_& module);
+
+}  // namespace trackbed::python

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "python/src/bindings.h"
+#include "trackbed/drive/car_cache.h"
+#include "trackbed/scenario/scenario.h"
+#include "trackbed/scenario/scenario_files.h"
+
+namespace trackbed::python {
+
+namespace fs = std::filesystem;
+
+Columns::Columns(const Table& table) : names_(table.columns()), rows_(table.rows()) {
+  cells_.reserve(names_.size() * rows_);
+  for (std::size_t column = 0; column < names_.size(); ++column) {
+    for (std::size_t row = 0; row < rows_; ++row) {
+      cells_.push_back(table.at(row, column));
+    }
+  }
+}
+
+const double* Columns::Find(const std::string& name) const {
+  const auto found = std::find(names_.begin(), names_.end(), name);
+  return found == names_.end()
+             ? nullptr
+             : cells_.data() + static_cast<std::size_t>(found - names_.begin()) * rows_;
+}
+
+py::object ToPython(const nlohmann::ordered_json& json) {
+  return py::module_::import("json").attr("loads")(json.dump());
+}
+
+bool Signals::Raised() {
+  const auto now = std::chrono::steady_clock::now();
+  if (error_ || now < next_) {
+    return error_ != nullptr;
+  }
+  next_ = now + std::chrono::milliseconds(20);
+  const py::gil_scoped_acquire gil;
+  if (PyErr_CheckSignals() != 0) {
+    error_ = std::make_shared<py::error_already_set>();
+  }
+  return error_ != nullptr;
+}
+
+void Signals::Rethrow() {
+  if (error_) {
+    throw py::error_already_set(*std::exchange(error_, nullptr));
+  }
+}
+
+CarCache& Cars() {
+  static CarCache cars;
+  return cars;
+}
+
+namespace {
+
+std::shared_ptr<Scenario> Load(const fs::path& file, const std::vector<std::string>& overrides,
+                               const std::vector<fs::path>& asset_folders) {
+  const py::gil_scoped_release release;
+  return std::make_shared<Scenario>(LoadScenario(FindScenario(file), overrides, asset_folders));
+}
+
+std::shared_ptr<RunResult> Run(const std::shared_ptr<Scenario>& scenario) {
+  Signals signals;
+  std::shared_ptr<RunResult> result;
+  {
+    const py::gil_scoped_release release;
+    const RunHooks hooks{.drive = [&](const std::string&) {
+      return DriveHooks{.interrupted = [&] { return signals.Raised(); }};
+    }};
+    result = std::make_shared<RunResult>(RunScenario(*scenario, Cars(), hooks));
+  }
+  signals.Rethrow();
+  return result;
+}
+
+std::shared_ptr<Columns> LogOf(const RunResult& run, const std::string& plant) {
+  const std::optional<PlantRun> found = run.Find(plant);
+  return found ? std::make_shared<Columns>(ToTable(found->log)) : nullptr;
+}
+
+void BindColumns(py::module_& module) {
+  py::class_<Columns, std::shared_ptr<Columns>>(module, "Columns")
+      .def_property_readonly("names", &Columns::names)
+      .def_property_readonly("rows", &Columns::rows)
+      .def("column", [](const py::object& self, const std::string& name) {
+        const auto& columns = self.cast<const Columns&>();
+        const double* column = columns.Find(name);
+        if (column == nullptr) {
+          throw py::key_error(name);
+        }
+        // The array refers to the memory of `self`, and keeps it alive.
+        py::array_t<double> array(static_cast<py::ssize_t>(columns.rows()), column, self);
+        array.attr("setflags")(py::arg("write") = false);
+        return array;
+      });
+}
+
+}  // namespace
+
+void BindRuns(py::module_& module) {
+  BindColumns(module);
+  py::class_<Scenario, std::shared_ptr<Scenario>>(module, "Scenario")
+      .def_readonly("name", &Scenario::name)
+      .def_readonly("seed", &Scenario::seed)
+      .def_property_readonly("plants", [](const Scenario& s) { return s.drive.plants; })
+      .def_property_readonly("yaml", [](const Scenario& s) { return ResolvedYaml(s); });
+  module.def("load", &Load);
+  module.def("find_scenario", &FindScenario);
+
+  py::class_<RunResult, std::shared_ptr<RunResult>>(module, "RunResult")
+      .def_property_readonly("name", [](const RunResult& run) { return run.scenario.name; })
+      .def_property_readonly("yaml",
+                             [](const RunResult& run) { return ResolvedYaml(run.scenario); })
+      .def_property_readonly("plants",
+                             [](const RunResult& run) {
+                               std::vector<std::string> plants;
+                               for (const RunLog& log : run.logs) {
+                                 plants.push_back(log.plant);
+                               }
+                               return plants;
+                             })
+      .def_property_readonly("metrics",
+                             [](const RunResult& run) { return ToPython(MetricsJson(run)); })
+      .def_property_readonly("plan",
+                             [](const RunResult& run) -> py::object {
+                               return run.scenario.plan ? ToPython(PlanJson(run)) : py::none();
+                             })
+      .def_property_readonly("plan_notes", [](const RunResult& run) { return run.plan->notes; })
+      .def_property_readonly("notes", [](const RunResult& run) { return run.verdict.notes; })
+      .def("path",
+           [](const RunResult& run) -> std::shared_ptr<Columns> {
+             const bool has_path = run.plan.ok() && run.plan->reference.path.length() > 0.0;
+             return has_path ? std::make_shared<Columns>(PlanTable(run.plan->reference)) : nullptr;
+           })
+      .def("log", &LogOf)
+      .def("write", [](const RunResult& run, const fs::path& folder, bool mcap) {
+        const py::gil_scoped_release release;
+        WriteRunFolder(run, folder, {.mcap = mcap});
+      });
+  module.def("run", &Run);
+}
+
+}  // namespace trackbed::python

@@ -1,0 +1,54 @@
+"""Vehicle testbed: plans paths, drives cars along them in simulation, measures and judges.
+
+    import trackbed
+
+    run = trackbed.run("three_turns", plants=["kinematic", "mujoco"], set={"mission.speed": 2})
+    print(run)                                   # one line: how the plants ended
+    run["mujoco"]["cross_track_m"]               # a column of the log, a NumPy array
+    run.metrics["mujoco"]["cross_track"]["max"]  # the numbers of metrics.json
+
+`Loop` steps a car by one control period at a time, `VectorLoop` steps many cars on several threads.
+Quantities are in SI units and radians; the names of columns end with their units.
+"""
+
+from ._arguments import InputError, InternalError, PreconditionError, RunError
+from ._arguments import version as __version__
+from ._checks import (
+    compare,
+    differs_by_at_most,
+    keeps_clearance,
+    meets_its_expectations,
+    reaches_goal,
+    satisfies,
+    stays_within,
+    tracks_within,
+)
+from ._loops import Loop, LoopState, Observation, VectorLoop
+from ._runs import Comparison, Log, Path, Run, film, frame, run
+
+__all__ = [
+    "Comparison",
+    "InputError",
+    "InternalError",
+    "Log",
+    "Loop",
+    "LoopState",
+    "Observation",
+    "Path",
+    "PreconditionError",
+    "Run",
+    "RunError",
+    "VectorLoop",
+    "__version__",
+    "compare",
+    "differs_by_at_most",
+    "film",
+    "frame",
+    "keeps_clearance",
+    "meets_its_expectations",
+    "reaches_goal",
+    "run",
+    "satisfies",
+    "stays_within",
+    "tracks_within",
+]

@@ -1,0 +1,243 @@
+"""Loops that Python steps by one control period at a time."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Sequence
+from typing import Optional
+
+import numpy
+
+from . import _trackbed
+from ._arguments import Overrides, Scenario, array, instance, load, number, text, whole
+from ._runs import Log
+
+Observation = _trackbed.Observation
+
+
+class LoopState:
+    """The complete state of a loop: car, controller, plan, disturbances and log."""
+
+    def __init__(self, core: _trackbed.LoopState, prepared: _trackbed.Prepared, plant: str) -> None:
+        self._core = core
+        self._prepared = prepared
+        self._plant = plant
+
+
+class Loop:
+    """A car that is driven by one control period at a time.
+
+        loop = trackbed.Loop("three_turns", plant="kinematic")
+        seen = loop.reset()
+        while not seen.ended:
+            seen = loop.step(steering=-0.3 * seen.cross_track_m - seen.heading_error_rad)
+
+    A loop simulates exactly what `trackbed.run` simulates: stepped without arguments, the log is
+    the log of the run, bit for bit. Different loops may be stepped by different threads.
+
+    scenario: a YAML file, or the name of a scenario that comes with the package.
+    plant: name of the plant; by default the first plant of the scenario.
+    set: keys of the scenario and their values.
+    seed: the scenario's seed, at least 0.
+    log: whether to keep all rows of the log; if false, the log only has its last row.
+
+    Raises RunError if the scenario has no plan.
+    """
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        plant: Optional[str] = None,
+        set: Overrides = None,
+        *,
+        seed: Optional[int] = None,
+        log: bool = True,
+    ) -> None:
+        self._scenario = scenario
+        self._plant = None if plant is None else text("plant", plant)
+        self._keeps_log = bool(log)
+        self._prepare(set, seed)
+
+    def _prepare(self, set: Overrides, seed: Optional[int]) -> None:
+        scenario = load(self._scenario, set, self._plant, seed)
+        prepared = _trackbed.prepare(scenario)
+        plant = scenario.plants[0] if self._plant is None else self._plant
+        self._start(prepared, plant)
+
+    def _start(self, prepared: _trackbed.Prepared, plant: str) -> None:
+        if hasattr(self, "_core"):
+            self._core.restart(prepared, plant, self._keeps_log)
+        else:
+            self._core = _trackbed.Loop(prepared, plant, self._keeps_log)
+        self._prepared = prepared
+        self.plant = plant
+
+    def reset(self, seed: Optional[int] = None, set: Overrides = None) -> Observation:
+        """Returns the car to its start, and returns the first observation.
+
+        Without arguments, nothing is read or planned again. With `seed` or `set`, the scenario is
+        read and planned again with these values instead of those of the constructor.
+        """
+        if seed is None and set is None:
+            self._start(self._prepared, self.plant)
+        else:
+            self._prepare(set, seed)
+        return self._core.observe()
+
+    def step(
+        self, steering: Optional[float] = None, acceleration: Optional[float] = None
+    ) -> Observation:
+        """Simulates one control period, and returns what the controller sees after it.
+
+        steering: commanded steering angle of the bicycle model [rad], positive to the left. Without
+            it, the scenario's controller steers and sets the speed.
+        acceleration: commanded acceleration [m/s^2], positive if the car speeds up in the direction
+            of its gear. Without it, the car follows the speeds of the plan.
+
+        Raises RunError if the run has ended.
+        """
+        try:
+            return self._core.step(steering, acceleration)
+        except TypeError:
+            if steering is not None:
+                number("steering", steering)
+            if acceleration is not None:
+                number("acceleration", acceleration)
+            raise
+        except _trackbed.PreconditionError:
+            number("steering", steering)
+            if acceleration is not None:
+                number("acceleration", acceleration)
+            raise
+
+    @property
+    def observation(self) -> Observation:
+        """What the controller sees now."""
+        return self._core.observe()
+
+    @property
+    def period(self) -> float:
+        """Length of a control period [s]."""
+        return self._prepared.period
+
+    @property
+    def steering_limit(self) -> float:
+        """Largest steering angle of the car [rad]."""
+        return self._prepared.steering_limit
+
+    @property
+    def path_length(self) -> float:
+        """Length of the plan at the start [m]; 0 without a path."""
+        return self._prepared.path_length
+
+    @property
+    def state(self) -> LoopState:
+        """The state of the loop. Set it to return to that state exactly, as often as you like."""
+        return LoopState(self._core.save(), self._prepared, self.plant)
+
+    @state.setter
+    def state(self, state: LoopState) -> None:
+        instance("state", state, LoopState)
+        if state._prepared is not self._prepared or state._plant != self.plant:
+            raise ValueError("state is the state of a loop with another scenario or plant")
+        self._core.restore(state._core)
+
+    def reference(self, stations: Sequence[float]) -> dict[str, numpy.ndarray]:
+        """Returns points of the present plan at `stations` [m], an array with the shape (n,).
+
+        Stations count as Observation.station_m; a plan that stops on the way has one part for each
+        stretch between two stops. Returns arrays with the shape (n,): x_m, y_m, yaw_rad,
+        curvature_radpm, speed_mps, direction. Beyond its ends, the path is straight.
+        """
+        shape = numpy.shape(stations)
+        return self._core.reference(array("stations", stations, (shape[0] if shape else 1,)))
+
+    @property
+    def log(self) -> Log:
+        """The log so far, with the columns of `run[plant]`."""
+        return Log(self._core.log(), self.plant)
+
+
+class VectorLoop:
+    """Many cars that are stepped together on several threads, without the GIL.
+
+    The results are the same as those of single loops, whatever the number of threads.
+
+    scenario, plant, set: those of Loop, the same for all cars.
+    count: number of cars.
+    seeds: one seed for each car; by default, all cars have the scenario's seed.
+    threads: number of threads; by default, the number of processors.
+    log: whether every loop keeps all rows of its log.
+    """
+
+    columns: tuple[str, ...] = tuple(_trackbed.observation_columns)
+    """Names of the columns of an observation."""
+
+    def __init__(
+        self,
+        scenario: Scenario,
+        plant: Optional[str] = None,
+        count: int = 1,
+        *,
+        seeds: Optional[Sequence[int]] = None,
+        set: Overrides = None,
+        threads: Optional[int] = None,
+        log: bool = False,
+    ) -> None:
+        self.count = whole("count", count, 1)
+        if seeds is not None and len(seeds) != self.count:
+            raise ValueError(f"seeds has {len(seeds)} values; must have count = {self.count}")
+        if threads is None:
+            threads = len(os.sched_getaffinity(0))
+        self._threads = whole("threads", threads, 1)
+        first = Loop(scenario, plant, set, seed=None if seeds is None else seeds[0], log=log)
+        self.loops: list[Loop] = [first]
+        """The loops, which may also be stepped alone."""
+        for i in range(1, self.count):
+            if seeds is None:
+                loop = Loop.__new__(Loop)
+                loop.__dict__.update(first.__dict__)
+                del loop._core
+                loop._start(first._prepared, first.plant)
+            else:
+                loop = Loop(scenario, plant, set, seed=seeds[i], log=log)
+            self.loops.append(loop)
+        self._core = _trackbed.VectorLoop([loop._core for loop in self.loops], self._threads)
+
+    def reset(self) -> numpy.ndarray:
+        """Returns all cars to their starts, and returns the first observations."""
+        for loop in self.loops:
+            loop.reset()
+        return self._core.observe()
+
+    def step(
+        self,
+        steering: Optional[Sequence[float]] = None,
+        acceleration: Optional[Sequence[float]] = None,
+    ) -> numpy.ndarray:
+        """Simulates one control period of every car that has not ended.
+
+        steering [rad] and acceleration [m/s^2]: arrays with the shape (count,), as in Loop.step. An
+        acceleration of NaN follows the speeds of the plan.
+
+        Returns the observations, an array of float64 with the shape (count, len(columns)).
+        """
+        shape = (self.count,)
+        angles = None if steering is None else array("steering", steering, shape)
+        if acceleration is None:
+            rates = None
+        else:
+            rates = array("acceleration", acceleration, shape, finite=False)
+            if numpy.isinf(rates).any():
+                raise ValueError("acceleration has an infinite value")
+        return self._core.step(angles, rates)
+
+    @property
+    def observations(self) -> numpy.ndarray:
+        """The present observations, an array of float64 with the shape (count, len(columns))."""
+        return self._core.observe()
+
+    @property
+    def ended(self) -> numpy.ndarray:
+        """Whether each car's run has ended, an array of bool with the shape (count,)."""
+        return self._core.ended

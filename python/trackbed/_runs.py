@@ -1,0 +1,263 @@
+"""Runs of scenarios, and what they leave: logs, plan, metrics, verdict, pictures."""
+
+from __future__ import annotations
+
+import html
+import os
+import tempfile
+from collections.abc import Iterator, Mapping
+from typing import Any, Optional, Union
+
+import numpy
+
+from . import _trackbed
+from ._arguments import Overrides, Plants, Scenario, instance, load, number, text, whole
+
+
+class Columns(Mapping[str, numpy.ndarray]):
+    """Columns of a table: read-only arrays of float64 with the shape (rows,), by name.
+
+    The arrays refer to the memory of the table, without a copy, and keep it alive.
+    """
+
+    def __init__(self, core: _trackbed.Columns) -> None:
+        self._core = core
+
+    def __getitem__(self, name: str) -> numpy.ndarray:
+        if name not in self._core.names:
+            raise KeyError(f"no column {name!r}; the columns are {', '.join(self._core.names)}")
+        return self._core.column(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._core.names)
+
+    def __len__(self) -> int:
+        return len(self._core.names)
+
+    @property
+    def rows(self) -> int:
+        """Number of rows."""
+        return self._core.rows
+
+    def to_pandas(self) -> Any:
+        """Returns a pandas.DataFrame with these columns. Needs pandas."""
+        return _pandas().DataFrame({name: self[name] for name in self})
+
+    def __repr__(self) -> str:
+        return f"<{type(self).__name__}: {self.rows} rows of {', '.join(self)}>"
+
+
+class Log(Columns):
+    """The log of one plant: one row for each control period (docs/conventions.md)."""
+
+    def __init__(self, core: _trackbed.Columns, plant: str) -> None:
+        super().__init__(core)
+        self.plant = plant
+
+
+class Path(Columns):
+    """The planned path, points at most 0.1 m apart: s_m, x_m, y_m, yaw_rad, curvature_radpm, ..."""
+
+
+class Run(Mapping[str, Log]):
+    """A finished run of a scenario. `run["mujoco"]` is the log of the plant mujoco."""
+
+    def __init__(self, core: _trackbed.RunResult) -> None:
+        self._core = core
+        self._metrics: Optional[dict[str, Any]] = None
+        self._logs: dict[str, Log] = {}
+        self._written: Optional[tempfile.TemporaryDirectory[str]] = None
+
+    def __getitem__(self, plant: str) -> Log:
+        if plant not in self._logs:
+            core = self._core.log(text("plant", plant))
+            if core is None:
+                known = ", ".join(self.plants) or "none"
+                raise KeyError(f"no plant {plant!r}; the run has {known}")
+            self._logs[plant] = Log(core, plant)
+        return self._logs[plant]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self.plants)
+
+    def __len__(self) -> int:
+        return len(self.plants)
+
+    @property
+    def name(self) -> str:
+        """Name of the scenario."""
+        return self._core.name
+
+    @property
+    def plants(self) -> list[str]:
+        """Names of the plants; empty if there is no plan."""
+        return self._core.plants
+
+    @property
+    def yaml(self) -> str:
+        """The resolved scenario, as in scenario.resolved.yaml."""
+        return self._core.yaml
+
+    def _all_metrics(self) -> dict[str, Any]:
+        if self._metrics is None:
+            self._metrics = self._core.metrics
+        return self._metrics
+
+    @property
+    def metrics(self) -> dict[str, dict[str, Any]]:
+        """The metrics of each plant, as in metrics.json, in SI units and radians."""
+        return self._all_metrics()["plants"]
+
+    @property
+    def verdict(self) -> dict[str, Any]:
+        """The verdict, with all checks, as in metrics.json."""
+        return self._all_metrics()["verdict"]
+
+    @property
+    def comparisons(self) -> list[dict[str, Any]]:
+        """The differences of every pair of plants at equal stations, as in metrics.json."""
+        return self._all_metrics()["between"]
+
+    @property
+    def passed(self) -> bool:
+        """Whether the run was judged and no check failed."""
+        return self.verdict["passed"] is True
+
+    @property
+    def plan(self) -> Optional[dict[str, Any]]:
+        """Status, method and properties of the plan, as in plan.json; None without `plan`."""
+        return self._core.plan
+
+    @property
+    def path(self) -> Optional[Path]:
+        """The planned path; None if there is none."""
+        core = self._core.path()
+        return None if core is None else Path(core)
+
+    @property
+    def notes(self) -> list[str]:
+        """Remarks on the plan, then remarks of the verdict."""
+        return self._core.plan_notes + self._core.notes
+
+    def write(self, folder: Union[str, os.PathLike[str]], *, mcap: bool = False) -> None:
+        """Writes the run folder, as `trackbed run` does; with `mcap`, also run.mcap."""
+        self._core.write(os.fspath(folder), bool(mcap))
+
+    def to_pandas(self) -> Any:
+        """Returns a pandas.DataFrame of all logs; the plant is the first index. Needs pandas."""
+        tables = {plant: log.to_pandas() for plant, log in self.items()}
+        return _pandas().concat(tables, names=["plant"])
+
+    def report(self) -> str:
+        """Returns the report with its replay, a self-contained HTML page."""
+        return _trackbed.report_page(self._folder())
+
+    def _folder(self) -> str:
+        if self._written is None:
+            folder = tempfile.TemporaryDirectory(prefix="trackbed-")
+            self._core.write(folder.name, False)
+            self._written = folder
+        return self._written.name
+
+    def _repr_html_(self) -> str:
+        return (
+            '<iframe sandbox="allow-scripts" style="width: 100%; height: 720px; border: 0" '
+            f'srcdoc="{html.escape(self.report())}"></iframe>'
+        )
+
+    def __repr__(self) -> str:
+        return f"<Run {_trackbed.describe(self._core)}>"
+
+
+class Comparison(Mapping[str, Any]):
+    """The differences of two plants or runs at equal stations, as in metrics.json."""
+
+    def __init__(self, core: _trackbed.PlantComparison) -> None:
+        self._core = core
+        self._values = core.values
+
+    def __getitem__(self, key: str) -> Any:
+        return self._values[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._values)
+
+    def __len__(self) -> int:
+        return len(self._values)
+
+    def __repr__(self) -> str:
+        return f"<Comparison {self._core.description}>"
+
+
+def run(
+    scenario: Scenario, plants: Plants = None, set: Overrides = None, *, seed: Optional[int] = None
+) -> Run:
+    """Plans, simulates, measures and judges a scenario, as `trackbed run` does.
+
+    scenario: a YAML file, or the name of a scenario that comes with the package.
+    plants: names of the plants, instead of those of the scenario.
+    set: keys of the scenario and their values, such as {"mission.speed": 2}.
+    seed: the scenario's seed, at least 0.
+
+    Raises InputError (a ValueError) for a wrong scenario, and RunError (a RuntimeError) if the
+    environment fails. A run without a plan is a result: its verdict has failed. Other threads of
+    Python continue during a run. Ctrl-C ends a simulation; a planner first finishes its plan.
+    """
+    return Run(_trackbed.run(load(scenario, set, plants, seed)))
+
+
+def _size(size: object) -> tuple[int, int]:
+    if not isinstance(size, (tuple, list)) or len(size) != 2:
+        raise TypeError("size must be (width, height) in pixels")
+    return whole("size[0]", size[0], 1), whole("size[1]", size[1], 1)
+
+
+def frame(
+    run: Run,
+    t: float,
+    size: tuple[int, int] = (640, 360),
+    *,
+    camera: str = "chase",
+    quality: str = "draft",
+) -> numpy.ndarray:
+    """Draws the run at the time `t` [s], off-screen.
+
+    Returns an array of uint8 with the shape (height, width, 3): red, green and blue, from the top
+    left. `size` is (width, height). `camera` and `quality` are those of `trackbed render`.
+    """
+    instance("run", run, Run)
+    width, height = _size(size)
+    return _trackbed.frame(
+        run._folder(), number("t", t), width, height, text("camera", camera), text("quality", quality)
+    )
+
+
+def film(
+    run: Run,
+    file: Union[str, os.PathLike[str]],
+    size: tuple[int, int] = (1280, 720),
+    *,
+    fps: float = 30.0,
+    camera: str = "chase",
+    quality: str = "draft",
+) -> None:
+    """Films the run; the extension of `file` is .mp4, .webp, .apng or .png (one file per frame)."""
+    instance("run", run, Run)
+    width, height = _size(size)
+    _trackbed.film(
+        run._folder(),
+        os.fspath(file),
+        width,
+        height,
+        number("fps", fps),
+        text("camera", camera),
+        text("quality", quality),
+    )
+
+
+def _pandas() -> Any:
+    try:
+        import pandas
+    except ImportError:
+        raise ImportError("to_pandas() needs pandas: pip install trackbed[pandas]") from None
+    return pandas

@@ -1,0 +1,10 @@
+import pathlib
+
+import pytest
+
+SCENARIOS = pathlib.Path(__file__).resolve().parents[2] / "scenarios"
+
+
+@pytest.fixture
+def scenarios():
+    return SCENARIOS

@@ -1,0 +1,37 @@
+"""Runs the Python blocks of the docs, each page in a folder of its own."""
+
+import pathlib
+import re
+
+import pytest
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = ["docs/how-to/python.md", "docs/tutorial-python.md"]
+
+pytest_plugins = "trackbed.pytest_plugin"
+
+
+@pytest.mark.parametrize("page", PAGES)
+def test_blocks_run_in_their_order(page, tmp_path, monkeypatch, trackbed_run):
+    monkeypatch.chdir(tmp_path)
+    text = (ROOT / page).read_text(encoding="utf-8")
+    blocks = list(re.finditer(r"^```python\n(.*?)^```", text, re.M | re.S))
+    assert blocks
+    names = {}
+    for block in blocks:
+        # The line numbers of a traceback are those of the page.
+        before = text.count("\n", 0, block.start(1))
+        exec(compile("\n" * before + block.group(1), page, "exec"), names)
+    tests = [value for name, value in names.items() if name.startswith("test_")]
+    for test in tests:
+        test(trackbed_run)
+    if page.endswith("tutorial-python.md"):
+        # The claims of the page: the error, and steering against the errors and into the turn.
+        assert names["cost"].min() ** 0.5 < 0.3
+        assert (names["mean"][:2] < 0).all() and names["mean"][2] > 0
+
+
+def test_every_page_with_python_blocks_is_run():
+    pages = [p for p in sorted((ROOT / "docs").rglob("*.md")) if "```python" in p.read_text("utf-8")]
+    found = [str(p.relative_to(ROOT)) for p in pages if "import trackbed" in p.read_text("utf-8")]
+    assert sorted(found) == sorted(PAGES)
