@@ -27,8 +27,9 @@ TEST(BrushAxle, HasFialasForceAtItsSlip) {
 
 TEST(BrushAxle, HasTheSlopeOfItsForceBesideABrakingForce) {
   // Central differences over 2 x 0.1 N of 6 kN have relative errors of (0.1/6000)^2 = 3e-10 times
-  // the third derivative of the slip. That grows as (1 - F/(mu F_z))^(-8/3), 400 at 0.9. The
-  // tolerance of 1e-6 also covers the rounding of slips, 1e-17 rad of the 1e-6 rad between them.
+  // the third derivative of the slip. This derivative grows as (1 - F/(mu F_z))^(-8/3), which is
+  // about 460 at F = 0.9 mu F_z. The tolerance of 1e-6 also covers the rounding of the slips by
+  // 1e-17 rad, while the difference between two slips is 1e-6 rad.
   constexpr double kStep = 0.1;
   for (const double longitudinal : {0.0, -3000.0, 4500.0}) {
     for (const double lateral : {0.5, 1500.0, -3000.0}) {
@@ -47,7 +48,7 @@ TEST(BrushAxle, IsLinearWithoutForceAndKeepsSomeStiffnessWhereItSlides) {
   const AxleOperation idle = BrushAxleAt(kStiffness, kFrictionForce, {});
   EXPECT_EQ(idle.slip, 0.0);
   EXPECT_EQ(idle.stiffness, kStiffness);
-  // At 0.95: (1 - q)^2 = 0.05^(2/3).
+  // The lateral force is limited to 0.95 of the friction force, where (1 - q)^2 = 0.05^(2/3).
   const AxleOperation slides = BrushAxleAt(kStiffness, kFrictionForce, {.lateral = 2e4});
   EXPECT_NEAR(slides.stiffness, kStiffness * std::pow(0.05, 2.0 / 3.0), Tolerance(1e-6));
   EXPECT_EQ(slides.slip, BrushAxleAt(kStiffness, kFrictionForce, {.lateral = 1e4}).slip);

@@ -86,7 +86,8 @@ TEST(ErrorModel, StaysInASteadyTurn) {
         const Tracking tracking = ProjectOntoPath(input);
         const ErrorModel model = MakeErrorModel(input, tracking, 0.1);
         Ahead ahead(input, tracking, model);
-        // Path headings within 500 m round at 1e-13, and at 1e-12 per stride of 0.1 m or more.
+        // Headings on a path of 500 m are rounded by about 1e-13 rad. Divided by a stride of at
+        // least 0.1 m, this causes an error of 1e-12 1/m in the curvature.
         EXPECT_LT((ErrorState(input, tracking) - ahead.steady()).norm(), Tolerance(1e-12));
         for (int k = 0; k < 5; ++k) {
           EXPECT_LT(ahead.Next().norm(), Tolerance(1e-11));
@@ -97,8 +98,9 @@ TEST(ErrorModel, StaysInASteadyTurn) {
 }
 
 TEST(ErrorModel, RunsAsTheCarDoesNearItsPath) {
-  // 0.1 s at a steering rate of 0.1 rad/s, from 1e-3 in every state. The linear model neglects
-  // squares, 1e-6 each, and cubes of the steering angle.
+  // Compares the linear model with SingleTrackCar after 0.1 s at a steering rate of 0.1 rad/s,
+  // starting with an offset of 1e-3 in every state but the steering. The linear model neglects the
+  // squares of the states, about 1e-6, and the cube of the steering angle.
   for (const double speed : {2.0, 10.0, 20.0, -2.0}) {
     SCOPED_TRACE(speed);
     VehicleParams car = ReferenceCarWithTyres();
@@ -120,7 +122,8 @@ TEST(ErrorModel, RunsAsTheCarDoesNearItsPath) {
                                 .lateral_speed = state.lateral_speed,
                                 .yaw_rate = state.yaw_rate});
     driven.Step({.steering = 1.0, .acceleration = 0.0, .gear = speed < 0.0 ? -1 : 1}, 0.1);
-    // The wheels' shortest lag is a millisecond: 1e-4 rad over the whole run.
+    // The error model assumes a steering lag of at least 1 ms, which delays wheels that turn at 0.1
+    // rad/s by 1e-4 rad.
     const double wheels = 1e-4;
     EXPECT_NEAR(x[0], driven.state().pose.y, Tolerance(1e-5 + 0.01 * wheels * std::abs(speed)));
     EXPECT_NEAR(x[1], driven.state().pose.yaw, Tolerance(1e-5 + 0.2 * wheels));
@@ -211,7 +214,8 @@ VehicleParams CarWithAxles() {
   return car;
 }
 
-/// Real part of the largest eigenvalue of (v, r) at a speed [1/s]; above 0 the car spins.
+/// Largest real part of the eigenvalues of the lateral dynamics (lateral speed and yaw rate) at a
+/// speed [1/s]; above 0 the car spins.
 double FastestGrowth(const VehicleParams& car, const CorneringStiffness& stiffness, double speed) {
   const Eigen::Matrix2d rates = LateralRates(car, stiffness, speed).leftCols<2>();
   return rates.eigenvalues().real().maxCoeff();
@@ -224,8 +228,9 @@ TEST(OperateOn, IsTheLinearCarWhereTyresCarryLittle) {
   EXPECT_NEAR(brush.stiffness.front, car.cornering_stiffness_front, Tolerance(1e-9));
   EXPECT_NEAR(brush.stiffness.rear, car.cornering_stiffness_rear, Tolerance(1e-9));
   EXPECT_EQ(brush.turn.steering, 0.0);
-  // With q = C a/(3 mu F_z), the slip angle exceeds the linear one by the fraction q to first
-  // order: at 0.04 m/s^2 of 8.8 m/s^2, q < 0.002.
+  // To first order, the slip angle of a brush tyre exceeds that of a linear tyre by the fraction q
+  // = C alpha/(3 mu F_z). The lateral acceleration is 0.04 m/s^2 and the friction limit 8.8 m/s^2,
+  // so q = 0.04/(3 * 8.8) < 0.002.
   const Motion gentle{.curvature = 1e-4, .speed = 20.0};
   const SteadyTurn expected = SteadyTurnOn(car, gentle.curvature, gentle.speed);
   const SteadyTurn turn = OperateOn(car, TyreForces::kBrush, gentle).turn;
@@ -238,8 +243,9 @@ TEST(OperateOn, MovesTheLoadWhenTheCarBrakes) {
   const VehicleParams car = CarWithAxles();
   const Motion braking{.speed = 45.0, .acceleration = -6.5};
   const CorneringStiffness stiffness = OperateOn(car, TyreForces::kBrush, braking).stiffness;
-  // The rear axle has the load 1 - h a/(g l_f). F_x uses part of load times friction. The stiffness
-  // is C (1 - q + q^2/3).
+  // Braking with a = 6.5 m/s^2 multiplies the load of the rear axle by 1 - h a/(g l_f). `use` is
+  // the axle's braking force divided by its friction force. The cornering stiffness is C times the
+  // load factor times 1 - q + q^2/3.
   const double load = 1.0 - 0.5 * 6.5 / (kGravity * car.cg_to_front());
   const double weight = car.mass * kGravity * car.cg_to_front() / car.wheelbase;
   const double use = 0.3 * car.mass * 6.5 / (0.9 * load * weight);
@@ -259,7 +265,7 @@ TEST(OperateOn, MovesTheLoadWhenTheCarBrakes) {
 
 TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
   const VehicleParams car = CarWithAxles();
-  // From 30 m/s down to 10 m/s at the beginning of the arc.
+  // The speed falls from 30 m/s to 10 m/s at the beginning of the arc.
   const Reference reference{Path({}, {{100.0, 0.0, 1}, {100.0, 0.05, 1}}),
                             SpeedProfile({{0.0, 30.0}, {100.0, 10.0}, {200.0, 10.0}})};
   const SteeringSchedule schedule;
@@ -274,7 +280,8 @@ TEST(Ahead, BrushTyresTurnAtThePlannedSpeed) {
   const Tracking tracking = ProjectOntoPath(input);
   const ErrorModel model = MakeErrorModel(input, tracking, 0.1, TyreForces::kBrush);
   Ahead ahead(input, tracking, model);
-  // A mean of 20 m/s reaches the arc after five seconds; no earlier step has an input.
+  // At a mean speed of 20 m/s, the car reaches the arc after 5 s. The path adds no input to earlier
+  // steps.
   for (int k = 0; k < 45; ++k) {
     EXPECT_EQ(ahead.Next().norm(), 0.0);
   }

@@ -37,8 +37,8 @@ struct LoopRow {
   VehicleState state;
 };
 
-/// A controller and a car at constant speed: the linear single-track car if the car has tyres,
-/// otherwise the kinematic one.
+/// Simulates a controller and a car at constant speed. The car is SingleTrackCar if `setup.vehicle`
+/// has cornering stiffnesses, otherwise KinematicCar.
 inline std::vector<LoopRow> Loop(const ControllerOptions& options, const LoopSetup& setup) {
   const auto controller = MakeSteeringController(options);
   const KinematicState start{.pose = setup.start, .speed = setup.speed};

@@ -26,9 +26,9 @@ double Steer(const ControllerOptions& options, const VehicleParams& vehicle,
 }
 
 TEST(Mpc, IsTheRegulatorWhereNoLimitIsInTheWay) {
-  // Both have the same model and cost; one solves a Riccati recursion, the other a condensed
-  // program. Angles are below 0.1 rad, and Cholesky decompositions have condition numbers below
-  // 1e4.
+  // lqr and mpc have the same model and cost. lqr solves a Riccati recursion, mpc a condensed
+  // quadratic program. Angles are below 0.1 rad, and Cholesky decompositions have condition numbers
+  // below 1e4.
   Random random(91);
   const double period = 0.1;
   for (int i = 0; i < 100; ++i) {
@@ -66,8 +66,9 @@ TEST(Mpc, IsTheRegulatorWhereNoLimitIsInTheWay) {
 }
 
 TEST(Mpc, TurnsTheWheelsAsEarlyAsTheirRateNeeds) {
-  // A curvature step of 0.1 1/m: 0.264 rad, for which these wheels need 3.3 s. Both controllers
-  // look 4 s ahead in the same steps, but only the MPC knows that the wheels are slow.
+  // The path has a curvature step of 0.1 1/m, which is a steering angle of 0.264 rad. These wheels
+  // need 3.3 s to reach it. Both controllers look 4 s ahead in the same steps, but only the MPC
+  // knows that the wheels are slow.
   LoopSetup setup;
   setup.vehicle.steering_rate = 0.08;
   setup.path = Path({}, {{30.0, 0.0, 1}, {15.0, 0.1, 1}, {100.0, 0.0, 1}});
@@ -105,8 +106,8 @@ TEST(Mpc, KeepsRateAndAngle) {
 }
 
 TEST(Mpc, SmallLimitsAreKeptByThePlanToo) {
-  // A car with a steering limit of 0.02 rad on a circle of 0.01 1/m, which needs 0.027 rad: the MPC
-  // plans with full lock and not more.
+  // The circle with a curvature of 0.01 1/m needs 0.027 rad, but the steering limit of the car is
+  // 0.02 rad. mpc commands exactly the limit.
   VehicleParams car = ReferenceCar();
   car.steering_limit = 0.02;
   LoopSetup setup;

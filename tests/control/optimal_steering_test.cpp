@@ -126,8 +126,8 @@ INSTANTIATE_TEST_SUITE_P(Table, GlobalSearches,
 
 TEST_P(GlobalSearches, ByTimeReproduceThePublishedFirstStage) {
   for (const PaperRow& row : kPaper) {
-    // Printed to half a thousandth; the required accuracy is 0.02. esch does not quite reach a
-    // bound.
+    // `by_time` is rounded to 0.0005 degrees. Searches must reach it to 0.02 degrees, except esch,
+    // which does not quite reach an optimum on a bound.
     const double tolerance = GetParam() == SearchMethod::kEsch ? 0.05 : 0.02;
     EXPECT_NEAR(MatchedDegrees(row.speed, Matching::kTime, GetParam()), row.by_time,
                 Tolerance(tolerance))
@@ -155,8 +155,8 @@ TEST(MatchSteering, FindsTheMirroredAngleOnTheMirroredCircle) {
   const SearchOptions direct{.method = SearchMethod::kDirect};
   const double found = MatchSteering(ReferenceCar(), left, direct, 1).steering;
   EXPECT_GT(found, 0.15);
-  // direct stops within its tolerance of 1e-9 of the bounds, where the cost is flat to rounding:
-  // 1e-16 of some 10 m^2 over a curvature of 1e5 m^2/rad^2 gives 1e-10 rad^2.
+  // The search method direct stops at a tolerance of 1e-9 of the interval between the bounds.
+  // Rounding also limits the accuracy of a minimum, because the cost is flat near its minimum.
   EXPECT_NEAR(MatchSteering(ReferenceCar(), right, direct, 1).steering, -found, Tolerance(1e-5));
 }
 
@@ -182,8 +182,9 @@ class EverySearch : public testing::TestWithParam<SearchEntry> {};
 INSTANTIATE_TEST_SUITE_P(Table, EverySearch, testing::ValuesIn(Searches()),
                          [](const auto& test) { return std::string(test.param.name); });
 
-/// Distance of one update's angle from the optimum [rad]. Converging searches reach it. The random
-/// searches get as close as 600 evaluations allow; esch takes the largest steps.
+/// Largest distance of one update's angle from the optimum [rad]. Deterministic searches converge
+/// to the optimum. Random searches get as close as 600 evaluations allow. esch is the least
+/// accurate, because it takes the largest steps.
 double Accuracy(const SearchEntry& search) {
   return search.method == SearchMethod::kEsch ? 0.04 : search.random ? 0.003 : 1e-4;
 }
@@ -193,8 +194,8 @@ TEST_P(EverySearch, FindsTheAngleThatLeadsToThePose) {
   Random random(73);
   for (int i = 0; i < 50; ++i) {
     const double steering = random.Uniform(-0.3, 0.3);
-    // The wheels can turn by 0.15 rad. A simplex that steps onto the bound may stay there if the
-    // optimum is beyond half of that. The wheels turn at their full rate in both cases.
+    // The wheels can turn by 0.15 rad within the horizon. A simplex that steps onto this bound may
+    // stay there if the optimum is more than half of 0.15 rad away.
     const double answer = steering + random.Uniform(-0.06, 0.06);
     SCOPED_TRACE(fmt::format("case {}: from {} to {}", i, steering, answer));
     const SteeringMatch match =
@@ -208,7 +209,8 @@ TEST_P(EverySearch, TurnsTheWheelsAsTheBestAngleOfAGridDoes) {
   const VehicleParams car = ReferenceCar();
   Random random(74);
   for (int i = 0; i < 100; ++i) {
-    // Near a reachable pose; far from all reachable poses there are several minima.
+    // The wanted pose is near a reachable pose. Far from all reachable poses, the cost would have
+    // several minima.
     const double steering = random.Uniform(-0.4, 0.4);
     SteeringProblem problem = Problem(car, steering, steering + random.Uniform(-0.14, 0.14), 3.0);
     problem.wanted = Compose(problem.wanted, {random.Uniform(-0.1, 0.1), random.Uniform(-0.1, 0.1),
@@ -223,8 +225,9 @@ TEST_P(EverySearch, TurnsTheWheelsAsTheBestAngleOfAGridDoes) {
       best = cost < least ? delta : best;
       least = std::min(least, cost);
     }
-    // Angles that the wheels reach late have almost no effect on the cost, so searches end anywhere
-    // among them. The relevant quantity is the wheel angle after the next period of 20 ms.
+    // Angles that the wheels reach only near the end of the horizon have almost the same cost, so a
+    // search may return any of these angles. The test therefore compares the wheel angles after the
+    // next period of 20 ms.
     const auto soon = [&](double delta) {
       return MoveSteering({car.steering_limit, car.steering_rate}, problem.steering, delta)
           .At(0.02);
@@ -264,16 +267,16 @@ TEST_P(EverySearch, LeavesTheBoundOnWhichItBegins) {
 }
 
 TEST(TurnShare, IsTheShareOfTheHeading) {
-  // From straight ahead, the heading gained over S is (v/(L omega)) (-ln cos delta) + (S - ramp)
-  // tan(delta)/L. For small angles that is a parabola of delta whose vertex is the angle reached at
-  // the end.
+  // Starting with straight wheels, the heading changes over the distance S by (v/(L omega)) (-ln
+  // cos delta) + (S - ramp) tan(delta)/L. For small angles this is a parabola in delta. Its vertex
+  // is the angle that the wheels reach at the end of S.
   const VehicleParams car = ReferenceCar();
   SteeringProblem problem = Problem(car, 0.0, 0.0, 3.0);
   const double most = PredictPose(car, 0.0, 1.0, 3.0, 3.0).yaw;
   for (const double share : {-1.0, -0.3, 0.0, 0.1, 0.5, 0.9, 1.0}) {
     const double delta = SteeringOfShare(car, problem, share);
     EXPECT_NEAR(TurnShare(car, problem, delta), share, Tolerance(kRounding));
-    // The error is the next term of tan, delta^2/3 at 0.15 rad.
+    // The relative error is the next term of the tangent, delta^2/3 = 0.0075 at 0.15 rad.
     EXPECT_NEAR(PredictPose(car, 0.0, delta, 3.0, 3.0).yaw, share * most, Tolerance(0.008 * most));
   }
   problem.steering = 0.2;
@@ -327,7 +330,8 @@ Path Bend() {
 
 TEST(OptimalSteering, OnThePathSteersItsCurvature) {
   const Path path = Bend();
-  // Stations with constant curvature over the horizon, and wheels already at its angle.
+  // At these stations the curvature is constant over the horizon, and the wheels already have the
+  // steering angle of this curvature.
   for (const double s : {5.0, 16.5, 22.0, 26.5, 40.0, 55.0}) {
     const double wanted = std::atan(2.7 * path.At(s).curvature);
     const auto controller = MakeSteeringController(OptimalSteeringOptions{.horizon = 2.0});
@@ -382,7 +386,8 @@ TEST(OptimalSteering, SolvesTheLinearProblemOfAStraight) {
                                                  .period = 0.02});
       const double kappa =
           -((e + psi * S) * S * S / 2.0 + w * psi * S) / (S * S * S * S / 4.0 + w * S * S);
-      // Second order in 0.02: the deviation along the path, and tan.
+      // The tolerance covers terms of second order in 0.02 from the deviation along the path and
+      // the tangent.
       EXPECT_NEAR(steering, std::atan(2.7 * kappa), Tolerance(1e-4)) << e << ", " << psi;
     }
   }
@@ -409,8 +414,9 @@ TEST(OptimalSteering, TurnsWithTheWorld) {
     const Pose2 X_WA{random.Uniform(-50.0, 50.0), random.Uniform(-50.0, 50.0),
                      random.Uniform(-10.0, 10.0)};
     const Path moved(X_WA, path.segments());
-    // F is flat at its minimum: rounding of its value, 1e-16 x 10, over its curvature of at least
-    // 0.1/rad^2 gives 1e-7 rad. The search's tolerance adds 3e-7 rad.
+    // The cost F is flat at its minimum. A rounding error of F of 1e-16 x 10 and a curvature of F
+    // of at least 0.1/rad^2 give an error of sqrt(1e-15/0.1) = 1e-7 rad. The search's tolerance
+    // adds 3e-7 rad.
     EXPECT_NEAR(Steer(OptimalSteeringOptions{}, moved, Compose(X_WA, pose), s),
                 Steer(OptimalSteeringOptions{}, path, pose, s), Tolerance(2e-6))
         << "case " << i;
@@ -418,7 +424,8 @@ TEST(OptimalSteering, TurnsWithTheWorld) {
 }
 
 TEST(OptimalSteering, CountsTheTurnsOfTheHorizon) {
-  // More than a full turn ahead on a circle of 5.5 m: only the circle itself reaches the pose.
+  // The horizon of 40 m is more than a full turn on a circle of radius 5.5 m. Only the steering
+  // angle of this circle reaches the wanted pose with the right number of turns.
   const Path circle{{}, {{100.0, 1.0 / 5.5, 1}}};
   const double delta = std::atan(2.7 / 5.5);
   const OptimalSteeringOptions options{
@@ -434,7 +441,8 @@ TEST(OptimalSteering, BackwardsSteersTheSameCircle) {
   Pose2 pose = circle.At(10.0).pose;
   pose.yaw += 1e-6;
   const double delta = std::atan(2.7 * 0.05);
-  // The yaw offset is a microradian, over the horizon of 2 m.
+  // The yaw offset of 1e-6 rad, corrected over the horizon of 2 m, changes the angle by less than
+  // 1e-5 rad.
   EXPECT_NEAR(Steer(options, circle, pose, 10.0, {.speed = -1.0, .steering = delta}), delta,
               Tolerance(1e-5));
 }
@@ -451,7 +459,7 @@ TEST(OptimalSteering, LooksFurtherTheFasterTheCarIs) {
 }
 
 TEST(OptimalSteering, ByTimeChasesTheMotionThatIsAhead) {
-  // 3 m/s for 2 s: the primary is at 6 m, and the car at 4 m on its path.
+  // After 2 s at 3 m/s, the primary is at 6 m; the car is at 4 m on the path.
   const OptimalSteeringOptions by_time{.matching = Matching::kTime};
   const Path straight{{}, {{100.0, 0.0, 1}}};
   const auto controller = MakeSteeringController(by_time);
@@ -462,7 +470,8 @@ TEST(OptimalSteering, ByTimeChasesTheMotionThatIsAhead) {
   const auto met = MakeSteeringController(by_time);
   EXPECT_EQ(Steer(*met, straight, {4.0, 0.0, 0.0}, 4.0, {.plan_time = 4.0 / 3.0}), 0.0);
   EXPECT_NEAR(met->Values()[0], 0.0, Tolerance(kRounding));
-  // In a bend the shortcut to the primary is tighter.
+  // In a bend, the car needs a larger steering angle than the path to take the shortcut to the
+  // primary.
   const Path circle{{}, {{60.0, 0.05, 1}}};
   EXPECT_GT(Steer(by_time, circle, circle.At(4.0).pose, 4.0,
                   {.speed = 2.0, .steering = 0.13, .plan_time = 2.0}),
@@ -476,7 +485,7 @@ struct Trace {
   std::vector<double> steerings;  ///< commands [rad]
 };
 
-/// The kinematic car with its actuator at 3 m/s, until `station`.
+/// Simulates the kinematic car with its steering actuator at 3 m/s up to the station `until`.
 Trace Follow(const OptimalSteeringOptions& options, const Path& path, const Pose2& start,
              double until) {
   const auto controller = MakeSteeringController(options);
@@ -505,7 +514,8 @@ TEST_P(EverySearch, ReturnsToThePathFromBesideIt) {
   const Path straight{{}, {{100.0, 0.0, 1}}};
   for (const double e : {0.5, -2.0}) {
     const Trace trace = Follow(With(GetParam().method), straight, {0.0, e, 0.0}, 60.0);
-    // The overshoot is less than a fifth, and the final error is within the limit of 0.01.
+    // The car overshoots the path by at most a fifth of the initial offset. Its final offset is
+    // within the deviation limit of 0.01 m.
     double other_side = 0.0;
     for (const double offset : trace.offsets) {
       other_side = std::max(other_side, -offset * std::copysign(1.0, e));
@@ -517,10 +527,12 @@ TEST_P(EverySearch, ReturnsToThePathFromBesideIt) {
 
 TEST_P(EverySearch, HoldsACircleWithoutSwinging) {
   const Path path{{}, {{20.0, 0.0, 1}, {60.0, 0.05, 1}}};
-  const Trace trace = Follow(With(GetParam().method), path, {}, 76.5);  // the end is not seen
+  const Trace trace = Follow(With(GetParam().method), path, {}, 76.5);  // the end of the path stays
+                                                                        // beyond the horizon
   const double delta = std::atan(2.7 * 0.05);
-  // Within the limit of 0.01 the circle's own angle is used. Random searches enter and leave this
-  // limit by a few times their accuracy, in one draw in a thousand.
+  // Within the deviation limit of 0.01, the controller commands the steering angle of the circle.
+  // In one of a thousand draws, a random search crosses this limit and errs by a few times its
+  // accuracy.
   const bool coarse = GetParam().method == SearchMethod::kEsch;
   const double swing = coarse ? 0.08 : GetParam().random ? 0.03 : 0.01;
   for (std::size_t i = trace.steerings.size() / 2; i < trace.steerings.size(); ++i) {

@@ -26,7 +26,7 @@ TEST(Playback, SteersToWhereThePeriodEnds) {
   EXPECT_NEAR(PlaybackSteering(time, 0.4, 7.0, 0.1), 0.05, Tolerance(kRounding));
   EXPECT_NEAR(PlaybackSteering(time, 0.95, 7.0, 0.1), 0.09, Tolerance(kRounding));
   EXPECT_EQ(PlaybackSteering(time, 2.5, 7.0, 0.1), -0.1);
-  // 5 m/s for 0.1 s is half a meter ahead, whatever the direction of travel.
+  // At 5 m/s, forward or backward, the recording advances by 0.5 m during the period of 0.1 s.
   const PlaybackOptions distance = Replay(PlaybackAxis::kDistance, {kSteering, {}, {}});
   EXPECT_NEAR(PlaybackSteering(distance, 0.25, 5.0, 0.1), 0.075, Tolerance(kRounding));
   EXPECT_NEAR(PlaybackSteering(distance, 0.25, -5.0, 0.1), 0.075, Tolerance(kRounding));
@@ -42,9 +42,10 @@ TEST(Playback, FollowsTheSpeedWithFeedForwardAndGain) {
   const PlaybackOptions time = Replay(PlaybackAxis::kTime, {kSteering, kSpeed, {}});
   EXPECT_NEAR(*PlaybackAcceleration(time, 0.5, 11.0, 2.0, 0.1), 2.0, Tolerance(kRounding));
   EXPECT_NEAR(*PlaybackAcceleration(time, 0.5, 10.5, 2.0, 0.1), 3.0, Tolerance(kRounding));
-  // Across the knot at 1 s: up by 0.1 m/s, then down by 0.25 m/s.
+  // The period contains the knot at 1 s: the recorded speed rises by 0.1 m/s and then falls by 0.25
+  // m/s.
   EXPECT_NEAR(*PlaybackAcceleration(time, 0.95, 11.9, 2.0, 0.1), -1.5, Tolerance(kRounding));
-  // By distance at 10 m/s: a meter in 0.1 s.
+  // A recording over distance advances by 1 m in 0.1 s at 10 m/s.
   const PlaybackOptions distance = Replay(PlaybackAxis::kDistance, {kSteering, kSpeed, {}});
   EXPECT_NEAR(*PlaybackAcceleration(distance, 0.0, 10.0, 2.0, 0.1), 20.0, Tolerance(kRounding));
 }
@@ -94,8 +95,9 @@ TEST(Playback, RefusesRecordingsThatAreNone) {
 }
 
 TEST(Playback, OfAccelerationGivesItsIntegral) {
-  // The mean times the period is the integral, so the speed has no error for any period. Here the
-  // speed is 2 t - t^2 from 10 m/s, on rows that do not coincide with the periods.
+  // The mean acceleration times the period is the change of speed, so the speed is exact for any
+  // period. The speed is 10 m/s + 2 t - t^2; the rows of the recording do not coincide with the
+  // control periods.
   Signal acceleration;
   for (int i = 0; i <= 30; ++i) {
     acceleration.knots.emplace_back(i / 15.0, 2.0 - 2.0 * i / 15.0);

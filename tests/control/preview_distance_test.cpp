@@ -36,7 +36,8 @@ double Distance(const VehicleParams& vehicle, const Path& path, double station, 
                          delay);
 }
 
-/// Ramp distance S of a step between two curvatures.
+/// Ramp distance S [m]: the distance that the car covers while its wheels turn from one curvature
+/// to another.
 double Ramp(const VehicleParams& car, double before, double after, double speed) {
   return speed * std::abs(std::atan(car.wheelbase * after) - std::atan(car.wheelbase * before)) /
          car.steering_rate;
@@ -45,10 +46,12 @@ double Ramp(const VehicleParams& car, double before, double after, double speed)
 TEST(PreviewDistance, OnAStraightIsThreeQuartersOfTheWheelbaseOrThreeResponses) {
   const Path straight({}, {{200.0, 0.0, 1}});
   EXPECT_NEAR(Distance(ReferenceCar(), straight, 50.0, 3.0), 0.75 * 2.7, Tolerance(kRounding));
-  // At high speed without tyres: 3 v T with T = 0.02 s.
+  // At high speed and without tyre stiffnesses, the distance is 3 v T with the response time T =
+  // 0.02 s.
   EXPECT_NEAR(Distance(ReferenceCar(), straight, 50.0, 60.0), 3.0 * 60.0 * 0.02,
               Tolerance(kRounding));
-  // With tyres T = 0.02 + 0.01 + 1317 * 20/(90000 + 110000) = 0.1617 s.
+  // With tyre stiffnesses, the response time is the period plus the steering lag plus m v/(C_f +
+  // C_r): T = 0.02 + 0.01 + 1317 * 20/(90000 + 110000) = 0.1617 s.
   const VehicleParams car = ReferenceCarWithTyres();
   EXPECT_NEAR(ResponseTime(car, 20.0, kPeriod), 0.1617, Tolerance(kRounding));
   EXPECT_NEAR(Distance(car, straight, 50.0, 20.0), 3.0 * 20.0 * 0.1617, Tolerance(kRounding));
@@ -66,8 +69,8 @@ TEST(PreviewDistance, ReachesAStepOfCurvatureAsFarAsTheRampAsks) {
       const double wanted = 0.65 * Ramp(car, 0.0, curvature, 5.0) + 5.0 * kPeriod;
       ASSERT_GT(wanted, 1.1 * 0.75 * car.wheelbase);
       SCOPED_TRACE(fmt::format("curvature {}, direction {}", curvature, direction));
-      // Within R of the step on either side. A step is detected up to a fraction of 0.3 nearer than
-      // it is.
+      // The longer preview distance R = `wanted` applies within R of the step on either side. The
+      // rule may take a step to be up to 30 % nearer than it is.
       for (const double share : {-0.99, -0.5, -0.1, 0.0, 0.1, 0.5, 0.99}) {
         EXPECT_NEAR(Distance(car, path, 50.0 + share * wanted, speed), wanted, Tolerance(kRounding))
             << share;
@@ -82,8 +85,9 @@ TEST(PreviewDistance, ReachesAStepOfCurvatureAsFarAsTheRampAsks) {
 }
 
 TEST(PreviewDistance, AddsStepsThatTheWheelsHaveNotTheTimeFor) {
-  // From left to right over a straight shorter than the lock-to-lock ramp by `gap`. The sampled
-  // stations are up to 0.3 of their distance apart, so that fraction of the gap counts.
+  // The path turns left and then right, with a straight of length `gap` between. The straight is
+  // too short for the wheels to turn from one side to the other. The rule samples stations whose
+  // spacing is up to 0.3 of their distance, so the result may ignore the gap.
   const VehicleParams car = ReferenceCar();
   const double speed = 5.0;
   const double one = Ramp(car, 0.0, 0.1, speed);
@@ -95,7 +99,8 @@ TEST(PreviewDistance, AddsStepsThatTheWheelsHaveNotTheTimeFor) {
 }
 
 TEST(PreviewDistance, IsShortWhereTheWheelsCanFollow) {
-  // Curvature ramps that need at most 0.8 of the steering rate: S = 0.
+  // The curvature ramps of the path need at most 0.8 of the steering rate, so the ramp distance S
+  // is 0.
   const VehicleParams car = ReferenceCar();
   const double speed = 5.0;
   const double sharpness = 0.8 * car.steering_rate / (car.wheelbase * speed);
@@ -147,7 +152,8 @@ VehicleParams TenthOfACar() {
 }
 
 TEST(PreviewDistance, ErrorsScaleWithTheCar) {
-  // Lengths scale by 1/10 and times by 1/4. v/(L omega) is the same, and so is the motion.
+  // Lengths scale by 1/10 and times by 1/4. The ratio v/(L omega) of the speed v to the wheelbase L
+  // times the steering rate omega is the same, so both motions have the same shape.
   for (const ControllerOptions& options :
        {ControllerOptions(PreviewOptions{}), ControllerOptions(PreviewIntegralOptions{}),
         ControllerOptions(PurePursuitOptions{}), ControllerOptions(StanleyOptions{})}) {
@@ -161,17 +167,19 @@ TEST(PreviewDistance, ErrorsScaleWithTheCar) {
 }
 
 TEST(PreviewDistance, KeepsATenthOfACarOnItsCorner) {
-  // A right-angle turn of radius 1.7 m at 0.8 m/s, as in tests/data/small_three_turns.yaml. The
-  // ramp, S = 0.21 m, deviates by S^2/(24 r) = 1.1 mm; R = 0.2 m cuts the corner by up to R^2/(8 r)
-  // = 3 mm.
+  // A right-angle turn of radius r = 1.7 m at 0.8 m/s, as in tests/data/small_three_turns.yaml.
+  // While the wheels turn, the car covers S = 0.21 m and deviates from the path by S^2/(24 r) = 1.1
+  // mm. A preview distance of R = 0.2 m cuts the corner by up to R^2/(8 r) = 3 mm.
   EXPECT_LT(ErrorOnTurn(PreviewOptions{}, TenthOfACar(), 1.7, 1.57, 0.8), 0.005);
   EXPECT_GT(ErrorOnTurn(PreviewOptions{.distance = 2.5}, TenthOfACar(), 1.7, 1.57, 0.8), 0.1);
 }
 
 TEST(PreviewDistance, KeepsTheCarInASharpSlowTurn) {
-  // 170 degrees near full lock at 1 m/s: the ramp, S = 3.3 m, deviates by S^2/(24 r) = 0.09 m.
+  // A turn by 170 degrees with the radius r = 5.2 m, near full lock, at 1 m/s. While the wheels
+  // turn, the car covers S = 3.3 m and deviates from the path by S^2/(24 r) = 0.09 m.
   EXPECT_LT(ErrorOnTurn(PreviewOptions{}, ReferenceCar(), 5.2, 2.97, 1.0), 0.15);
-  // At twice the speed the ramp alone deviates by 0.35 m. A fixed 2.5 m overshoots.
+  // At twice the speed, S doubles, so the car deviates by 0.35 m. A fixed preview distance of 2.5 m
+  // overshoots.
   const double fast = ErrorOnTurn(PreviewOptions{}, ReferenceCar(), 5.2, 2.97, 2.0);
   EXPECT_LT(fast, 2.0 * 0.35);
   EXPECT_GT(ErrorOnTurn(PreviewOptions{.distance = 2.5}, ReferenceCar(), 5.2, 2.97, 2.0),

@@ -37,7 +37,7 @@ At Beside(const Path& path, const Pose2& pose, double speed = 3.0) {
 }
 
 TEST(PreviewIntegral, ConstantCurvatureGivesTheKinematicAngle) {
-  // delta = L kappa, up to the exact tangent and chord.
+  // On a path of constant curvature kappa, the law commands delta = atan(L kappa).
   for (const PreviewWeight weight : {PreviewWeight::kUniform, PreviewWeight::kNear}) {
     for (const double curvature : {0.0, 0.01, -0.05, 0.15}) {
       SCOPED_TRACE(curvature);
@@ -51,8 +51,8 @@ TEST(PreviewIntegral, BesideAStraightIsTheIntegralInClosedForm) {
   // At offset e from a straight, with heading psi: for small e, f = -e - x psi and A = x^2/(2 L).
   // The integral of (-e - x psi) x^2 over that of x^4/(2 L), from 0 to R, is -2 L (5/(3 R^2) e +
   // 5/(4 R) psi). With W = 1 - x/R it is -2 L (5/(2 R^2) e + 3/(2 R) psi). The chord differs from x
-  // by squares of e/x: 1e-5 m of offset and rad of heading cause some 1e-9 where x is large
-  // compared with e, which is where A is.
+  // by a relative error of (e/x)^2. With e = 1e-5 m and psi = 1e-5 rad, this error is about 1e-9
+  // where x is large compared with e. Smaller x hardly contribute, because A is small there.
   const double R = 5.0;
   const Path straight({}, {{100.0, 0.0, 1}});
   const double e = 1e-5;
@@ -71,8 +71,8 @@ TEST(PreviewIntegral, BesideAStraightIsTheIntegralInClosedForm) {
 
 TEST(PreviewIntegral, KnowsWhereTheCarSlidesAnyway) {
   // The linear car in its steady turn on a circle of curvature kappa moves along y_0 + A
-  // tan(delta_0). The law therefore gives delta_0, up to (R kappa)^2 of the circle and the slip of
-  // the rear axle.
+  // tan(delta_0). The law therefore commands delta_0, up to a relative error of (R kappa)^2 and the
+  // slip angle of the rear axle.
   const VehicleParams car = ReferenceCarWithTyres();
   const double speed = 15.0;
   const double curvature = 0.005;
@@ -88,7 +88,7 @@ TEST(PreviewIntegral, KnowsWhereTheCarSlidesAnyway) {
   at.state.lateral_speed = car.cg_to_rear * at.state.yaw_rate - speed * rear_slip;
   const double wanted = curvature * (car.wheelbase + understeer * speed * speed);
   EXPECT_NEAR(Steer({}, at), std::atan(wanted), Tolerance(0.02 * wanted));
-  // Without the tyre parameters the law does not.
+  // Without the tyre parameters, the law deviates from delta_0 by more than 5 %.
   at.vehicle.cornering_stiffness_front = 0.0;
   EXPECT_GT(std::abs(Steer({}, at) - std::atan(wanted)), 0.05 * wanted);
 }

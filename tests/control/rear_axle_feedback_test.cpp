@@ -33,9 +33,10 @@ class RearAxleFeedback : public testing::TestWithParam<int> {};
 INSTANTIATE_TEST_SUITE_P(Directions, RearAxleFeedback, testing::Values(1, -1));
 
 TEST_P(RearAxleFeedback, SmallErrorsDecayCriticallyDamped) {
-  // e'' = -2 e'/d - e/d^2 from e_0 at rest has the solution e = e_0 (1 + s/d) exp(-s/d). The angle
-  // is held for 1 ms, 3 mm of s, which adds e_0 (3 mm)/d = 2.5e-5. Terms of third order are
-  // (e_0/d)^3 d = 1e-6.
+  // The cross-track error e obeys e'' = -2 e'/d - e/d^2, with derivatives by the distance s.
+  // Starting at e_0 = 0.05 m parallel to the path, the solution is e = e_0 (1 + s/d) exp(-s/d). The
+  // angle is held for 1 ms, which is 3 mm of s and adds e_0 (3 mm)/d = 2.5e-5 m. Terms of third
+  // order add (e_0/d)^3 d = 3.5e-6 m.
   LoopSetup setup = IdealCar(GetParam());
   setup.start = {0.0, 0.05, 0.0};
   const double d = 6.0;
@@ -47,13 +48,15 @@ TEST_P(RearAxleFeedback, SmallErrorsDecayCriticallyDamped) {
 }
 
 TEST_P(RearAxleFeedback, LyapunovFunctionDoesNotGrowFromLargeErrors) {
-  // Within the steering limit: 2 psi/d + e/d^2 < tan(0.5)/L with d = 20 m.
+  // The start at e = 6 m and psi = 1.2 rad needs the curvature 2 psi/d + e/d^2 = 0.135 1/m with d =
+  // 20 m. This is within the steering limit, which allows 1/(5.1 m) = 0.196 1/m.
   LoopSetup setup = IdealCar(GetParam());
   setup.start = {0.0, 6.0, 1.2};
   const double d = 20.0;
   const std::vector<LoopRow> rows = Loop(RearAxleFeedbackOptions{.distance = d}, setup);
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    // Holding for h = 3 mm adds a second-order change of (h kappa_c)^2 with kappa_c < 0.14.
+    // The commanded curvature kappa_c < 0.14 1/m is held over h = 3 mm, which adds a second-order
+    // change of (h kappa_c)^2 < 2e-7.
     EXPECT_LE(LyapunovFunction(rows[i], d), LyapunovFunction(rows[i - 1], d) + 2e-7)
         << rows[i].state.time;
   }
@@ -77,7 +80,7 @@ TEST_P(RearAxleFeedback, ParallelCurveIsAnEquilibriumOfTheHeading) {
                                        .state = state,
                                        .station = 0.0,
                                        .period = 0.02});
-  // kappa/(1 - kappa e) - e/d^2.
+  // The commanded curvature is kappa/(1 - kappa e) - e/d^2, with kappa = 0.05 1/m and e = 2 m.
   EXPECT_NEAR(std::tan(steering) / car.wheelbase, 0.05 / 0.9 - 2e-6, Tolerance(1e-12));
 }
 
@@ -90,9 +93,11 @@ TEST(RearAxleFeedback, KeepsTheSingleTrackCarInASteadyTurn) {
   setup.speed = 8.0;
   setup.duration = 25.0;
   const std::vector<LoopRow> rows = Loop(RearAxleFeedbackOptions{}, setup);
-  // The feed-forward includes understeer and the rear axle's slip, tan(beta) = 0.0087, linear in
-  // beta. Neglected: the rear axle's speed u/cos(beta), a curvature of kappa beta^2/2, which d =
-  // 5.5 m turns into e = d^2 kappa beta^2/2 = 2.3e-5 m; and beta^3/3, which gives 2 d beta^3/3.
+  // The feed-forward includes understeer and the rear axle's slip, tan(beta) = 0.0087, to first
+  // order in beta. It neglects that the rear axle's speed is u/cos(beta), which is a curvature
+  // error of kappa beta^2/2. With d = 5.5 m, this causes the cross-track error d^2 kappa beta^2/2 =
+  // 2.3e-5 m. It also neglects beta^3/3 in the slip angle, which causes the cross-track error 2 d
+  // beta^3/3 = 2.4e-6 m.
   EXPECT_LT(LargestOffset(rows, rows.size() * 9 / 10), 2.6e-5);
 }
 

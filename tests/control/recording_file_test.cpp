@@ -128,7 +128,8 @@ TEST(ReadRecording, KnowsWhatACarCanBeAskedFor) {
             "r.csv:2: steering_rad: 4.5 is out of range; must be at least -1.5 and at most 1.5\n"
             "r.csv:2: speed_mps: -1 is out of range; must be at least 0 and at most 100\n"
             "r.csv:3: speed_mps: 101 is out of range; must be at least 0 and at most 100");
-  // Over distance, a car with a command to stand would never advance.
+  // A recording over distance may command the speed 0 only in its last row, because the car would
+  // stop and never advance to the next row.
   EXPECT_EQ(
       ErrorMessages("s_m,steering_rad,speed_mps\n0,0,0\n1,0,2\n2,0,0\n", PlaybackAxis::kDistance),
       "r.csv:2: speed_mps: 0 is out of range; must be above 0 and at most 100");

@@ -28,9 +28,9 @@ TEST(SpeedControl, OnTheProfileIsItsOwnAcceleration) {
 }
 
 TEST(SpeedControl, IsOnTheProfileAtTheEndOfEveryPeriod) {
-  // Also in periods that contain a knot: the speed begins to rise at 40 m, is constant from 42.5 m
-  // and falls from 97 m on. Three iterations, each more accurate by a T/v = 0.015, leave 1e-6 of a
-  // T.
+  // The car also ends on the profile in periods that contain a knot: the speed begins to rise at 40
+  // m, is constant from 42.5 m and falls from 97 m on. Each of three iterations multiplies the
+  // speed error by a T/v = 0.015. From a T = 0.03 m/s, an error of about 1e-7 m/s remains.
   const SpeedProfile profile = StopAtEnd(100.0, 2.0, kLimits, {{20.0, 40.0, 2.0}});
   for (double s = 38.0; s < 99.9; s += 0.013) {
     const double v = profile.SpeedAt(s);
@@ -55,30 +55,34 @@ TEST(SpeedControl, StaysWithinItsLimits) {
 TEST(SpeedControl, BrakesNoHarderThanTheRoadLets) {
   constexpr double kOnIce = 0.5;  // [m/s^2]
   const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
-  // Faster than the profile: before its braking, during it, and past its end.
+  // At all stations the car is faster than the profile: before the profile brakes, while it brakes,
+  // and past its end.
   for (const double s : {50.0, 98.5, 99.9, 100.5}) {
     EXPECT_EQ(SpeedControl(kOptions, profile, s, 20.0, kPeriod, kOnIce), -kOnIce) << s;
   }
 }
 
 TEST(SpeedControl, FollowsAProfileThatBrakesHardOnPurpose) {
-  // From 8 m/s to rest within 8 m: 4 m/s^2, where 1.5 is comfortable.
+  // The profile brakes from 8 m/s to rest within 8 m, which is 4 m/s^2. The comfortable
+  // deceleration is 1.5 m/s^2.
   const SpeedProfile profile = StopAtEnd(8.0, 8.0, kLimits);
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 8.0, kPeriod), -4.0, Tolerance(1e-6));
-  // A lagging car may brake by a twentieth more to catch up, within the car's limit. By the end of
-  // the period, a car that is 1 m/s of 9 faster is farther along, so the profile falls by that much
-  // more.
+  // A car that is faster than the profile may brake 5 % harder than the profile, within the car's
+  // limit. At 9 m/s instead of 8 m/s, the car covers 9/8 of the distance in a period, so the speed
+  // of the profile falls by 9/8 as much.
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 9.0, kPeriod), -4.2 * 9.0 / 8.0, 0.02);
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 9.0, kPeriod, 4.5), -4.5, Tolerance(kRounding));
-  // The same beyond the point where the car should be at rest.
+  // Beyond the end of the profile, where the car should be at rest, the car brakes at the 4 m/s^2
+  // of the profile.
   EXPECT_NEAR(SpeedControl(kOptions, profile, 8.1, 1.0, kPeriod), -4.0, Tolerance(kRounding));
 }
 
 TEST(SpeedControl, FollowsAProfileThatAcceleratesHardOnPurpose) {
-  // From 4 to 8 m/s within 8 m: 3 m/s^2, where 1 is comfortable.
+  // The profile accelerates from 4 to 8 m/s within 8 m, which is 3 m/s^2. The comfortable
+  // acceleration is 1 m/s^2.
   const SpeedProfile profile({{0.0, 4.0}, {8.0, 8.0}, {100.0, 8.0}});
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 4.0, kPeriod), 3.0, Tolerance(1e-6));
-  // A lagging car may accelerate by a twentieth more to catch up.
+  // A car that is slower than the profile may accelerate 5 % harder than the profile.
   EXPECT_NEAR(SpeedControl(kOptions, profile, 0.0, 3.0, kPeriod), 3.15, Tolerance(kRounding));
   // Where the profile does not accelerate hard, the comfortable limit applies.
   EXPECT_EQ(SpeedControl(kOptions, profile, 50.0, 3.0, kPeriod), kOptions.acceleration);
@@ -97,12 +101,13 @@ TEST(SpeedControl, GoesOnAfterAProfileThatEndsMoving) {
 }
 
 TEST(SpeedControl, StopsTheCarAtTheEndOfItsProfile) {
-  // A car that obeys acceleration exactly. If the profile's acceleration changes inside a period T,
-  // the midpoint rule is wrong for at most half of it. Where braking at b begins, that causes a
-  // speed error of b T/2, an error w of v b T in v^2. During the braking dw/ds = -2 gain (speed
-  // error) only reduces it, and it moves the stop by w/(2 b) = v T/2. In the last period the
-  // midpoint may lie past the end, where the profile commands nothing: less than b T^2/2 before the
-  // end, then at most b T * T farther.
+  // The car obeys the commanded acceleration exactly. If the acceleration of the profile changes
+  // inside a period T, the midpoint rule uses the wrong acceleration for at most T/2. Where braking
+  // with the deceleration b begins, the speed error is therefore at most b T/2, and the error w of
+  // v^2 is at most v b T. The speed feedback only reduces w during the braking, so w moves the
+  // stopping point by at most w/(2 b) = v T/2. In the last period, the midpoint may lie past the
+  // end, where the profile commands no acceleration. The car is then less than b T^2/2 before the
+  // end, slower than b T, and moves by at most b T * T.
   for (const double period : {0.005, 0.01, 0.02, 0.05}) {
     for (const double length : {1.0, 5.0, 37.123, 100.0}) {
       for (const double start : {0.0, 1.0}) {
@@ -123,7 +128,8 @@ TEST(SpeedControl, StopsTheCarAtTheEndOfItsProfile) {
 }
 
 TEST(SpeedControl, FollowsItsProfileClosely) {
-  // The same error of max(a, b) T/2 at each knot, with at most two knots at once.
+  // Each knot causes a speed error of at most max(a, b) T/2, and the errors of at most two knots
+  // add up.
   const SpeedProfile profile = StopAtEnd(60.0, 0.0, kLimits);
   KinematicCar car(ReferenceCar(), ReferencePoint::kRearAxle, {});
   while (car.state().pose.x < 59.0) {
@@ -145,12 +151,12 @@ TEST(SpeedControl, LeavesRestFromJustBehindTheStart) {
 
 TEST(SpeedAlong, EndsThePeriodAtTheWantedSpeed) {
   const Signal wanted{{{0.0, 10.0}, {1.0, 12.0}, {1.5, 8.0}}};
-  // A whole period on one slope, across a knot, and past the last knot.
+  // The three periods lie on one slope, across a knot, and past the last knot.
   EXPECT_NEAR(SpeedAlong(wanted, 0.5, 0.02, 2.0, 11.0, 0.02), 2.0, Tolerance(kRounding));
   EXPECT_NEAR(SpeedAlong(wanted, 0.9, 0.2, 2.0, 11.8, 0.2), (11.2 - 11.8) / 0.2,
               Tolerance(kRounding));
   EXPECT_NEAR(SpeedAlong(wanted, 3.0, 0.02, 2.0, 8.0, 0.02), 0.0, Tolerance(kRounding));
-  // 0.1 m/s too slow: the gain of 2 adds 0.2.
+  // The car is 0.1 m/s too slow, so the gain of 2 1/s adds 0.2 m/s^2.
   EXPECT_NEAR(SpeedAlong(wanted, 3.0, 0.02, 2.0, 7.9, 0.02), 0.2, Tolerance(kRounding));
 }
 
@@ -188,8 +194,9 @@ TEST(TimedSpeedControl, FollowsASpeedThatTheLimitsWouldCut) {
 }
 
 TEST(SpeedControl, DrivesOnACarThatRollsBack) {
-  // The profile leaves s = 0 at 1 m/s^2 and reaches sqrt(0.008) m/s after 4 mm. A car that rolls
-  // backward there lacks this speed plus its own. Following the profile in reverse, it would brake.
+  // The profile leaves s = 0 at 1 m/s^2 and reaches sqrt(0.008) m/s after 4 mm. The speed error of
+  // a car that rolls backward there is this speed plus the car's own speed. A controller that
+  // followed the profile in reverse would brake instead.
   const SpeedProfile profile = StopAtEnd(100.0, 0.0, kLimits);
   EXPECT_GE(SpeedControl(kOptions, profile, 0.004, -0.02, kPeriod),
             2.0 * (std::sqrt(0.008) + 0.02));

@@ -28,19 +28,23 @@ double Steer(const StanleyOptions& options, const Path& path, const Pose2& pose,
 
 TEST(Stanley, AddsHeadingAndOffsetOfTheFrontAxle) {
   const Path straight({}, {{100.0, 0.0, 1}});
-  // At 0.5 m to the left the angle is atan(1 * 0.5/(1 + 3)).
+  // With a cross-track error of 0.5 m to the left, a gain of 1 1/s, a softening of 1 m/s and a
+  // speed of 3 m/s, the angle is -atan(1 * 0.5/(1 + 3)).
   EXPECT_NEAR(Steer({}, straight, {0.0, 0.5, 0.0}, 3.0), -std::atan(0.125), Tolerance(1e-12));
-  // With a heading of 0.1 rad to the left the front axle is L sin(0.1) off.
+  // With a heading error of 0.1 rad to the left, the cross-track error of the front axle is L
+  // sin(0.1).
   EXPECT_NEAR(Steer({}, straight, {0.0, 0.0, 0.1}, 3.0),
               -0.1 - std::atan(2.7 * std::sin(0.1) / 4.0), Tolerance(1e-12));
-  // In reverse the rear axle leads, and the heading turns the other way.
+  // In reverse the law uses the cross-track error of the rear axle, and the heading error has the
+  // opposite sign.
   const Path back({}, {{100.0, 0.0, -1}});
   EXPECT_NEAR(Steer({}, back, {0.0, 0.5, 0.1}, -3.0), 0.1 - std::atan(0.125), Tolerance(1e-12));
 }
 
 TEST(Stanley, FrontAxleReturnsExponentially) {
-  // e_f' = -v sin(atan(k e_f/v)) with k_s = 0 and ideal wheels: exp(-k t) up to the third power of
-  // k e_f/v = 0.03, and the 20 ms for which the angle is held.
+  // With the softening k_s = 0 and ideal wheels, the cross-track error of the front axle obeys e_f'
+  // = -v sin(atan(k e_f/v)). The solution is 0.1 m exp(-k t), up to the third power of k e_f/v =
+  // 0.03 and the effect of holding the angle for 1 ms.
   LoopSetup setup;
   setup.vehicle.steering_rate = 1e6;
   setup.path = Path({}, {{100.0, 0.0, 1}});

@@ -30,8 +30,8 @@ void PrintTo(const ControllerEntry& entry, std::ostream* out) {
 
 namespace {
 
-// The intersection is found to 2^-48 of a station below 200 m, 7e-13 m; as an angle at a distance
-// of 2 m or more.
+// The search finds the station of the intersection to 2^-48 of a station below 200 m, which is
+// 7e-13 m. Seen from a distance of at least 2 m, this is an angle below 4e-13 rad.
 constexpr double kFound = 1e-11;
 
 double Steer(const ControllerOptions& options, const Path& path, const Pose2& pose, double station,
@@ -80,7 +80,8 @@ TEST(PreviewAngle, BesideAStraightIsTheArcSine) {
 }
 
 TEST(PreviewAngle, OnACircleIsTheArcSine) {
-  // The chord of length R from a tangent: u = asin(R/(2 Rc)).
+  // A chord of length R in a circle of radius Rc makes the angle u = asin(R/(2 Rc)) with the
+  // tangent at its start.
   EXPECT_NEAR(PreviewAngle(Circle(20.0), {}, 0.0, 4.0), 0.100167, Tolerance(0.5e-6));
   for (const double radius : {5.1, 10.0, 20.0, -20.0, 154.0}) {
     for (const double distance : {2.0, 4.0, 8.0}) {
@@ -109,7 +110,8 @@ TEST(PreviewAngle, GoesOnAlongTheEndTangent) {
 }
 
 TEST(PreviewAngle, FurtherAwayThanItLooksHeadsForThePointAheadOfTheNearest) {
-  // 5 m left of a straight, with R = 3 m: P is 3 m ahead of the nearest point.
+  // The car is 5 m to the left of a straight, which is more than the preview distance R = 3 m. The
+  // controller then aims at the point P on the path 3 m ahead of the nearest point.
   EXPECT_NEAR(PreviewAngle(Straight(), {10.0, 5.0, 0.0}, 10.0, 3.0), std::atan2(-5.0, 3.0),
               Tolerance(kFound));
 }
@@ -140,7 +142,8 @@ TEST(PreviewAngle, TurnsWithTheCarAndTheWorld) {
 }
 
 TEST(PreviewAngle, AimsAtTheFirstCrossing) {
-  // Brute force over the path in steps of 0.1 mm, which is an angle of 0.1 mm/R.
+  // Finds the first crossing by brute force in steps of 0.1 mm along the path. With the preview
+  // distance R, one step is an angle of 0.1 mm/R.
   Random random(62);
   for (int i = 0; i < 100; ++i) {
     std::vector<Segment> segments;
@@ -164,7 +167,8 @@ TEST(PreviewAngle, AimsAtTheFirstCrossing) {
 // --- Preview controller --------------------------------------------------------------------------
 
 TEST(PreviewController, ExactArcSteersTheCircle) {
-  // Rc = 20, R = 4: atan(L/Rc) = 0.134189, the linear gain 0.135226.
+  // On a circle of radius Rc = 20 m with the preview distance R = 4 m, the exact arc commands
+  // atan(L/Rc) = 0.134189 rad, and the linear law 0.135226 rad.
   const PreviewOptions exact{.distance = 4.0, .law = PreviewLaw::kExactArc};
   const PreviewOptions linear{.distance = 4.0, .law = PreviewLaw::kLinear};
   EXPECT_NEAR(Steer(exact, Circle(20.0), {}, 0.0), 0.134189, Tolerance(0.5e-6));
@@ -234,7 +238,7 @@ TEST(PreviewController, LooksFurtherAheadTheFasterItGoes) {
 TEST(ScheduleController, GivesTheValueAtTheEndOfThePeriod) {
   const SteeringSchedule schedule({{10.0, 30.0, 0.2}}, 0.05);
   const ScheduleOptions options;
-  // 3 m/s for 0.5 s is 1.5 m ahead.
+  // At 3 m/s, the car is 1.5 m ahead at the end of the period of 0.5 s.
   EXPECT_NEAR(Steer(options, Straight(), {}, 9.0, schedule, 3.0, 0.5), 0.05 * 0.5,
               Tolerance(1e-15));
   EXPECT_NEAR(Steer(options, Straight(), {}, 12.0, schedule, 3.0, 0.5), 0.05 * 3.5,
@@ -322,7 +326,9 @@ TEST(Controllers, OpenLoopsReadTheOdometer) {
 // --- Differential drive --------------------------------------------------------------------------
 
 TEST(Preview, WithDifferentialDriveCommandsADifferenceOfWheelSpeedsInProportionToTheAngle) {
-  // omega_R - omega_L = (2 b v/(R r_w)) sin(u), which for small angles is K u.
+  // The difference of the wheel speeds is omega_R - omega_L = (2 b v/(R r_w)) sin(u), with the
+  // track width b, the preview distance R and the wheel radius r_w. For small angles u it is
+  // proportional to u.
   const VehicleParams pair = WheelPair();
   const Path path = Straight();
   const Reference reference{path, StopAtEnd(path.length(), 3.0, {3.0, 1.0, 1.5})};

@@ -47,8 +47,8 @@ TEST(StepSteering, RampsAtItsRateAndStays) {
 
 TEST(StepSteering, WithoutARateJumps) {
   const StepSteeringOptions step{.amplitude = 0.2, .at = 2.0, .rate = {}};
-  // A control period that ends when the step begins does not turn the wheels yet, also with rounded
-  // times.
+  // A control period that ends when the step begins does not turn the wheels yet, even if its end
+  // time is rounded up.
   EXPECT_EQ(SteeringAt(step, 2.0), 0.0);
   EXPECT_EQ(SteeringAt(step, 2.0 + 1e-12), 0.0);
   EXPECT_EQ(SteeringAt(step, 2.001), 0.2);
@@ -142,10 +142,10 @@ TEST(SweptSine, SweepsItsFrequency) {
                                                  : f0 * std::exp(share * std::log(f1 / f0));
         // Near the peaks the division above loses precision.
         if (std::abs(SteeringAt(options, 1.0 + tau)) < 0.09) {
-          // Central differences over 2 us: the phase, up to 132 rad, is rounded to 1.4e-14 at
-          // either end, which is 2.2e-9 Hz. The sine's rounding adds as much at 0.2 Hz, and twice
-          // that where the root above is 0.44. Their truncation error, (2 pi f h)^2/6 = 1e-10, is
-          // smaller.
+          // The tolerance covers the errors of the central difference over 2 us. At both ends the
+          // phase of up to 132 rad is rounded by 1.4e-14 rad, which is 2.2e-9 Hz. Rounding of the
+          // sine adds the same error at 0.2 Hz, and twice this error where sqrt(1 - value^2) is
+          // 0.44. The truncation error, (2 pi f h)^2/6 = 1e-10, is smaller.
           EXPECT_NEAR(InstantaneousFrequency(options, 1.0 + tau), f, Tolerance(1e-8));
           ++looked_at;
         }
@@ -156,8 +156,8 @@ TEST(SweptSine, SweepsItsFrequency) {
 }
 
 TEST(SweptSine, CrossesZeroWhereThePhaseIsAMultipleOfPi) {
-  // Linear from 1 to 3 Hz in 2 s: phi = pi at tau + tau^2/2 = 1/2, phi = 2 pi where that is 1, and
-  // so on.
+  // The frequency rises linearly from 1 to 3 Hz in 2 s, so the phase is phi = 2 pi (tau + tau^2/2).
+  // The profile crosses zero where tau + tau^2/2 is a multiple of 1/2.
   const SweptSineOptions options{.amplitude = 0.1,
                                  .start_frequency = 1.0,
                                  .end_frequency = 3.0,
