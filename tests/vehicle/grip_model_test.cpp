@@ -11,7 +11,7 @@ namespace trackbed {
 namespace grip_model_test {
 
 constexpr double kGrip = 0.9;
-// Largest forces are found by halving 40 m/s^2 sixteen times.
+// Resolution of the largest accelerations [m/s^2]: bisection halves 40 m/s^2 sixteen times.
 constexpr double kHalved = 40.0 / 65536.0;
 
 /// A car on friction circles with brakes balanced according to the static loads.
@@ -44,8 +44,9 @@ TEST(GripModel, OfAPointMassIsTheFrictionCircle) {
     for (const double lateral : {0.0, 0.3, 0.7, 0.95}) {
       const double left = grip * road * std::sqrt(1.0 - lateral * lateral);
       const TyreRange range = diagram.TyresAt({.road = road, .lateral = lateral * grip * road});
-      // The largest f_y is flat in f_x, so bisection leaves an f_x of sqrt(2 kHalved mu g), 0.1
-      // m/s^2. That is at q = 0, and less elsewhere.
+      // Near its maximum, the lateral acceleration f_y hardly depends on the longitudinal
+      // acceleration f_x. Bisection of f_y to kHalved therefore leaves an error of f_x of up to
+      // sqrt(2 kHalved mu g) = 0.1 m/s^2.
       EXPECT_NEAR(range.driving, left, Tolerance(0.02 * left + kHalved)) << lateral;
       EXPECT_NEAR(range.braking, -left, Tolerance(0.02 * left + kHalved)) << lateral;
     }
@@ -71,7 +72,8 @@ TEST(GripModel, BrakesAndDrivesStraightAsTheAxleThatSlidesFirstAllows) {
 }
 
 TEST(GripModel, RollsOverWhereTheInnerWheelsLift) {
-  // m f_y h K/(K - m g h) = m g t/2, where K is the stiffness of both axles.
+  // The inner wheels lift where the roll moment m f_y h K/(K - m g h) equals m g t/2. K is the roll
+  // stiffness of both axles, t the track width and h the height of the center of gravity.
   GripModel car = Car(0.95);
   const double lean = 1500.0 * kGravity * 0.95 / 100e3;
   const double expected = kGravity * 0.5 * 1.5 / 0.95 * (1.0 - lean);
@@ -80,10 +82,12 @@ TEST(GripModel, RollsOverWhereTheInnerWheelsLift) {
 }
 
 TEST(GripModel, LoadSensitiveTyresLoseGripByLoadTransfer) {
-  // mu = 1 + p (F - F0)/F0 with p = -0.1 and F0 each wheel's load at rest. An axle with wheel loads
-  // F0 -+ d transmits 2 F0 mu0 - 0.2 d^2/F0 if both wheels peak at the same slip angle. They would
-  // with a cornering stiffness proportional to mu F. Here it is proportional to F, so their peaks
-  // are 0.2 d/F0 of the angle apart, which costs less than 1 %.
+  // The friction coefficient of a wheel with the load F is mu = 1 + p (F - F0)/F0, with p = -0.1
+  // and the load F0 at rest. An axle with the wheel loads F0 - d and F0 + d transmits 2 F0 - 0.2
+  // d^2/F0 if both wheels reach their largest force at the same slip angle. This holds for a
+  // cornering stiffness proportional to mu F. Here the stiffness is proportional to F, so the slip
+  // angles of the largest forces differ by a fraction of 0.2 d/F0. This reduces the force by less
+  // than 1 %.
   GripModel car = Car();
   MagicFormula tyre;
   tyre.p_cx1 = 1.6;
@@ -98,8 +102,8 @@ TEST(GripModel, LoadSensitiveTyresLoseGripByLoadTransfer) {
     axle.weight = 0.5;
     axle.tyre = tyre;
   }
-  // Coasting, so no drive force compensates the drag of the slip angles. The wheelbase is so long
-  // that slowing down shifts no load.
+  // The car coasts, so no drive force compensates the drag of the slip angles. The wheelbase is so
+  // long that the deceleration transfers no load.
   car.wheelbase = 1e3;
   const double found = ComputeGgv(car, {1.0}).MaxLateral({});
   const double lean = 1500.0 * kGravity * car.cg_height / 100e3;
@@ -114,7 +118,8 @@ TEST(GripModel, DragPressesOnTheRearAxle) {
   car.forces.drag = 0.5;
   car.drag_height = 1.5;
   const GgvDiagram diagram = ComputeGgv(car, {1.0});
-  // The front axle, which alone drives, loses (D (z_D - h) + m f_x h)/L.
+  // Only the front axle drives. The drag D at the height z_D and the acceleration f_x reduce its
+  // load by (D (z_D - h) + m f_x h)/L.
   const double speed = 40.0;
   const double drag = 0.5 * speed * speed;
   const double weight = 1500.0 * kGravity;

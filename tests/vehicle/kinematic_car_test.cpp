@@ -91,7 +91,7 @@ TEST(KinematicCar, WithDifferentialDriveChangesItsRatioAtTheLimitedRate) {
     car.Step({.steering = 1.5}, 0.01);
   }
   EXPECT_NEAR(car.state().steering, 0.5, Tolerance(1e-14));
-  // A fourth-order method in steps of 10 ms, far more accurate than the 1e-10 for 20 ms.
+  // Steps of 10 ms with a fourth-order method err by much less than the 1e-10 of steps of 20 ms.
   EXPECT_NEAR(car.state().pose.yaw, -2.0 / 0.6 * std::log(std::cos(0.5)), Tolerance(1e-10));
   car.Step({.steering = 1.5}, 1.0);
   EXPECT_EQ(car.state().steering, pair.steering_limit);
@@ -101,8 +101,9 @@ TEST(KinematicCar, WithDifferentialDriveChangesItsRatioAtTheLimitedRate) {
 // ---------------------------------------------------------------------
 
 TEST(KinematicCar, YawRateIsSpeedOverRadius) {
-  // psi' = v/sqrt(r^2 + l_g^2) for the center of gravity (Skackauskas, dissertation, eq. (C.25)),
-  // printed to 1e-6; v/r for the rear axle.
+  // If v is the speed of the center of gravity, the yaw rate is v/sqrt(r^2 + l_g^2) (Skackauskas,
+  // dissertation, eq. (C.25), printed to 1e-6). If v is the speed of the rear axle, the yaw rate is
+  // v/r.
   const std::vector<std::pair<double, double>> table{
       {5.1, 0.567251}, {10.0, 0.297103}, {20.0, 0.149634}, {50.0, 0.059976}, {154.0, 0.019480}};
   for (const auto& [radius, rate] : table) {
@@ -156,15 +157,16 @@ TEST(KinematicCar, ConstantSteeringIsExactWhateverTheStep) {
       const Pose2 exact = ExactCircle(reference, steering, speed, time);
       KinematicCar once = CarAt({.speed = speed, .steering = steering}, reference);
       once.Step({.steering = steering}, time);
-      // Radii are up to 270 m: the closed form cancels to 270 * 2^-52 = 6e-14, and an angle of up
-      // to 20 rad errs by 2e-15, times 270 m.
+      // With radii of up to 270 m, cancellation in the closed form leaves an error of 270 m * 2^-52
+      // = 6e-14 m. Angles of up to 20 rad are rounded by 2e-15 rad, which adds 270 m * 2e-15 =
+      // 5e-13 m.
       ExpectSamePose(once.state().pose, exact, 2e-12);
       KinematicCar often = CarAt({.speed = speed, .steering = steering}, reference);
       for (int step = 0; step < 1000; ++step) {
         often.Step({.steering = steering}, time / 1000.0);
       }
-      // A thousand roundings of 200 m and of 20 rad, in the worst case all of one sign: 1000 *
-      // 2.8e-14.
+      // In the worst case, 1000 roundings of distances of 200 m have the same sign: 1000 * 2.8e-14
+      // m.
       ExpectSamePose(often.state().pose, exact, 3e-11);
       EXPECT_NEAR(often.state().distance, speed * time, Tolerance(3e-11));
       EXPECT_NEAR(often.FullState().time, time, Tolerance(1e-11));
@@ -222,7 +224,8 @@ TEST(KinematicCar, FullLockTakesLimitOverRate) {
 }
 
 TEST(KinematicCar, StepsOfTwentyMillisecondsKeepTheirPromise) {
-  // One step of 20 ms compared with a hundred shorter ones: "below 1e-10 m at 3 m/s".
+  // Compares one step of 20 ms with a hundred shorter steps. The documented error of a step is
+  // below 1e-10 m at 3 m/s.
   Random random(22);
   for (int i = 0; i < 200; ++i) {
     const double from = random.Uniform(-0.48, 0.48);
@@ -246,7 +249,8 @@ TEST(KinematicCar, StepsOfTwentyMillisecondsKeepTheirPromise) {
 }
 
 TEST(KinematicCar, ArrivalOfTheSteeringSplitsTheStep) {
-  // The ramp ends inside the step: same as stepping to its end and then over the rest.
+  // A step that contains the end of the steering ramp equals a step to the end of the ramp and a
+  // step over the rest.
   const double to = 0.1;
   const double ramp = to / ReferenceCar().steering_rate;
   KinematicCar once = CarAt({.speed = kSpeed});
@@ -262,7 +266,7 @@ TEST(KinematicCar, ArrivalOfTheSteeringSplitsTheStep) {
 // ---------------------------------------------------------------------------------
 
 TEST(KinematicCar, SlowsToRestAndStays) {
-  // 3 m/s at 1.5 m/s^2: at rest after 2 s and 3 m.
+  // Braking from 3 m/s at 1.5 m/s^2 takes 2 s and 3 m.
   for (const int sign : {1, -1}) {
     SCOPED_TRACE(sign);
     KinematicCar car = CarAt({.speed = sign * kSpeed});
@@ -315,8 +319,8 @@ TEST(KinematicCar, CutOfTimeDoesNotMatter) {
       fine.Step(command, 0.0075);
       fine.Step(command, 0.0125);
     }
-    // A hundred steps, each within the stated accuracy, at up to twice the speed for which it is
-    // stated.
+    // The tolerance covers the documented errors of a hundred steps. The car drives at up to twice
+    // the speed for which the error is documented.
     ExpectSamePose(fine.state().pose, coarse.state().pose, 1e-8);
     EXPECT_NEAR(fine.state().speed, coarse.state().speed, Tolerance(1e-12));
     EXPECT_NEAR(fine.state().distance, coarse.state().distance, Tolerance(1e-12));
@@ -324,8 +328,8 @@ TEST(KinematicCar, CutOfTimeDoesNotMatter) {
 }
 
 TEST(KinematicCar, CutOfTimeDoesNotMatterWhenTheGearChangesTheDirection) {
-  // Rolling backward at 1 m/s in the forward gear while accelerating forward: rest after 1 s. One
-  // step of 2 s and two steps of 1 s must agree afterward.
+  // The car rolls backward at 1 m/s in the forward gear while it accelerates forward, so it is at
+  // rest after 1 s. One step of 2 s and two steps of 1 s must agree afterward.
   for (const int gear : {1, -1}) {
     const KinematicState start{.speed = -1.0 * gear};
     const Command command{.acceleration = 1.0 * gear, .gear = gear};
@@ -340,8 +344,9 @@ TEST(KinematicCar, CutOfTimeDoesNotMatterWhenTheGearChangesTheDirection) {
 }
 
 TEST(KinematicCar, NeverRollsAgainstItsGear) {
-  // Braking to rest over control periods in which the steering arrives at any time. Rounding must
-  // not carry the speed through zero, because the same command would then accelerate the car.
+  // The car brakes to rest over control periods in which the steering reaches its command at a
+  // random time. Rounding must not carry the speed through zero, because the same command would
+  // then accelerate the car.
   Random random(24);
   for (int i = 0; i < 3000; ++i) {
     const double deceleration = 0.1 * (1 + random.Below(30));
@@ -409,9 +414,9 @@ TEST(FullState, AccelerationsAreThoseOfTheCenterOfGravity) {
 TEST(FullState, LateralAccelerationRunsSmoothlyAlongARampCutIntoPeriods) {
   // In each period a schedule commands exactly the angle that the actuator can reach by the
   // period's end. The ramp therefore ends with the period, to rounding, and the wheels never rest.
-  // Along it a_y = v^2 tan(delta)/L + l_g v omega/(L cos^2 delta) rises by at most v^2/L omega
-  // T/cos^2 = 0.0115 m/s^2 per period. Losing the steering rate for one period would change a_y by
-  // l_g v omega/L = 0.234 m/s^2.
+  // Along the ramp, a_y = v^2 tan(delta)/L + l_g v omega/(L cos^2 delta) rises by at most v^2/L
+  // omega T/cos^2 = 0.0115 m/s^2 per period. Losing the steering rate for one period would change
+  // a_y by l_g v omega/L = 0.234 m/s^2.
   const double period = 0.02;
   const VehicleParams params = ReferenceCar();
   KinematicCar car = CarAt({.speed = kSpeed});

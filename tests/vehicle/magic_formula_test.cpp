@@ -46,7 +46,7 @@ MagicFormula Bmw() {
           .r_vy6 = -10.704};
 }
 
-/// Without shifts and without combined slip effects.
+/// Tyre parameters without shifts and without combined slip effects.
 MagicFormula Plain() {
   return {.p_cx1 = 1.6,
           .p_dx1 = 1.1,
@@ -62,8 +62,8 @@ MagicFormula Plain() {
 const double kRounding = Tolerance(1e-9);
 
 TEST(MagicFormula, SlopesAtZeroAreTheStiffnesses) {
-  // The formula is odd, so a central difference over h errs by its third derivative: some (B h)^2 =
-  // (20 1e-5)^2 of the slope.
+  // The error of a central difference with the step h comes from the third derivative of the
+  // formula. Its fraction of the slope is about (B h)^2 = (20 * 1e-5)^2 = 4e-8.
   constexpr double kStep = 1e-5;
   for (MagicFormula tyre : {Plain(), [] {
                               MagicFormula sensitive = Plain();
@@ -112,7 +112,8 @@ TEST(MagicFormula, SignsAreThoseOfIso8855) {
 }
 
 TEST(MagicFormula, SlidesAsTheLawSays) {
-  // A locked wheel (kappa = -1) rolling straight ahead, from the formula by hand.
+  // The force of a locked wheel (kappa = -1) that moves straight ahead, evaluated from the formula
+  // by hand.
   const MagicFormula tyre = Plain();
   const double b = 20.0 / (1.6 * 1.1);
   const double phi = -b - 0.4 * (-b - std::atan(-b));
@@ -174,7 +175,7 @@ TEST(MagicFormula, PullsNothingWithoutLoad) {
 }
 
 TEST(MagicFormula, MirrorsWithSlipAngleAndCamber) {
-  // Symmetric, except for the tyre's own shifts under combined slip.
+  // The forces are symmetric if the shifts under combined slip are 0.
   MagicFormula tyre = Bmw();
   tyre.r_by3 = tyre.r_hx1 = tyre.r_vy1 = 0.0;
   for (const double kappa : {-0.2, 0.0, 0.1}) {
@@ -202,10 +203,11 @@ TEST(MagicFormula, LoadSensitivityIsPacejkas) {
   tyre.p_dy2 = -0.1;
   // The largest stiffness is p_ky1 F_z0, at p_ky2 F_z0.
   EXPECT_NEAR(CorneringStiffness(tyre, 1.8 * 4000.0), 15.0 * 4000.0, kRounding);
-  // Load transfer between the wheels of an axle makes it softer.
+  // Load transfer between the wheels of an axle reduces the cornering stiffness of the axle.
   EXPECT_LT(CorneringStiffness(tyre, 2000.0) + CorneringStiffness(tyre, 4000.0),
             2.0 * CorneringStiffness(tyre, 3000.0));
-  // Friction changes by p_dy2 per change of load, so it falls with the load.
+  // The friction coefficient changes by p_dy2 times the relative change of the load. Here p_dy2 is
+  // negative, so the coefficient falls with the load.
   double heaviest = 0.0;
   for (int i = 0; i < 10000; ++i) {
     heaviest =

@@ -123,7 +123,7 @@ TEST(BicycleAngle, IsTheMeanOfSmallAngles) {
     const double left = random.Uniform(-1e-4, 1e-4);
     const double right = random.Uniform(-1e-4, 1e-4);
     SCOPED_TRACE(fmt::format("left {}, right {}", left, right));
-    // First order; the second-order term is k epsilon^2.
+    // The mean is exact to first order; the second-order term is k epsilon^2 with k = 0.28.
     EXPECT_NEAR(BicycleAngle(car, {left, right}), 0.5 * (left + right), Tolerance(0.28e-8));
   }
 }

@@ -55,9 +55,10 @@ void ExpectSame(const SingleTrackState& actual, const SingleTrackState& expected
   EXPECT_NEAR(actual.distance, expected.distance, Tolerance(tolerance));
 }
 
-/// The header's equations in v and r, integrated by Runge-Kutta steps of 20 us. The error is
-/// rounding while |u| is above 1 m/s (decay rates of up to some 150/s). The command must neither
-/// reach its steering angle nor bring the car to rest.
+/// Integrates the header's equations for the lateral speed v and the yaw rate r with Runge-Kutta
+/// steps of 20 us. At speeds |u| above 1 m/s, decay rates are at most about 150 1/s, so the
+/// integration error is at the level of rounding. Within `duration`, the wheels must not reach the
+/// commanded steering angle, and the car must not come to rest.
 SingleTrackState BruteForce(const VehicleParams& car, const SingleTrackState& start,
                             double steering_rate, double acceleration, double duration) {
   using Vector = Eigen::Matrix<double, 5, 1>;  // x, y, yaw, v, r
@@ -113,7 +114,8 @@ TEST(SingleTrackCar, SteadyStateIsTheClosedForm) {
       SingleTrackCar rolling = Rolling({.speed = speed, .steering = steering}, car);
       rolling.Step({.steering = steering, .gear = speed > 0.0 ? 1 : -1}, 40.0);
       const double yaw_rate = speed * std::tan(steering) / stretched;
-      // Settled: the slowest decay here is faster than 1/s, e^-40. The remaining error is rounding.
+      // After 40 s the motion has settled: all decay rates are above 1 1/s, so a fraction of less
+      // than e^-40 remains. The tolerance covers rounding.
       EXPECT_NEAR(rolling.state().yaw_rate, yaw_rate, Tolerance(1e-9 * std::abs(yaw_rate)));
       // The rear tyres carry l_f/L of the centripetal force.
       const VehicleState state = rolling.FullState();
@@ -130,8 +132,9 @@ TEST(SingleTrackCar, SteadyStateIsTheClosedForm) {
 }
 
 TEST(SingleTrackCar, LateralModeHasItsClosedFormFrequencyAndDamping) {
-  // Straight ahead the yaw rate is a second-order decay. Samples a time T apart obey r_(n+1) = 2
-  // e^(-zeta w T) cos(w sqrt(1 - zeta^2) T) r_n - e^(-2 zeta w T) r_(n-1).
+  // On a straight, the yaw rate r decays as a second-order system with the frequency w and the
+  // damping ratio zeta. Samples with the spacing T obey r_(n+1) = 2 e^(-zeta w T) cos(w sqrt(1 -
+  // zeta^2) T) r_n - e^(-2 zeta w T) r_(n-1).
   const VehicleParams car = TyredCar();
   const double front = car.cornering_stiffness_front;
   const double rear = car.cornering_stiffness_rear;
@@ -159,8 +162,9 @@ TEST(SingleTrackCar, LateralModeHasItsClosedFormFrequencyAndDamping) {
     const double damping =
         (car.mass * (l_f * l_f * front + l_r * l_r * rear) + car.yaw_inertia * (front + rear)) /
         (2.0 * car.mass * car.yaw_inertia * speed * frequency);
-    // The mode decays with some 10 to 20 per second. A step of 2 ms errs by (0.04)^6/7200 of it,
-    // far below the fit's condition number (100) times 1e-10.
+    // The mode decays at a rate of 10 to 20 1/s, so a step of 2 ms has a relative error of
+    // 0.04^6/7200 = 6e-13. The condition number of the fit, 100, increases this error to 6e-11,
+    // which is far below the tolerance.
     const double tolerance = Tolerance(1e-8 * frequency);
     if (damping < 1.0) {
       EXPECT_NEAR(std::abs(eigenvalue), frequency, tolerance);
@@ -204,7 +208,8 @@ TEST(SingleTrackCar, MovesAsTheEquationsSay) {
 }
 
 TEST(SingleTrackCar, CutOfTimeDoesNotMatter) {
-  // Five seconds of one command: a ramp that ends, a stop in between, or acceleration from rest.
+  // Simulates one command for 5 s. During this time the steering ramp ends, and the car may stop or
+  // start from rest.
   Random random(32);
   for (int i = 0; i < 20; ++i) {
     const int gear = random.Below(2) == 0 ? 1 : -1;
@@ -233,10 +238,10 @@ TEST(SingleTrackCar, CutOfTimeDoesNotMatter) {
 // --- Low speed, rest and reverse -----------------------------------------------------------------
 
 TEST(SingleTrackCar, SlowCarIsTheKinematicOne) {
-  // 50 m on a circle. The radius R is larger by dR = R K u^2/L, 3.7e-4 of it at 0.5 m/s. The end of
-  // the arc, R (sin(s/R), 1 - cos(s/R)), moves by its derivative: 20 mm at 0.5 m/s, a quarter of
-  // that at half the speed. The rest is the rear tyres' slip, 0.45 of that per meter of chord and
-  // radius: within 5 % here.
+  // The car drives 50 m on a circle. Its radius is larger than the kinematic radius R by dR = R K
+  // u^2/L, a fraction of 3.7e-4 at 0.5 m/s. The end of the arc, R (sin(s/R), 1 - cos(s/R)), moves
+  // by dR times its derivative with respect to R. This is 20 mm at 0.5 m/s and a quarter of 20 mm
+  // at half the speed. The slip of the rear tyres changes this distance by less than 5 %.
   const VehicleParams car = TyredCar();
   const double steering = 0.3;
   const double radius = car.wheelbase / std::tan(steering);
@@ -258,8 +263,8 @@ TEST(SingleTrackCar, SlowCarIsTheKinematicOne) {
 }
 
 TEST(SingleTrackCar, FollowsTheKinematicCarOnAGentleCourse) {
-  // 50 m at 0.5 m/s while the wheels oscillate by +-0.02 rad every 10 s. The heading is at most
-  // 0.04 rad, and 3e-4 of it is lost.
+  // Both cars drive 50 m at 0.5 m/s while the steering angle oscillates by +-0.02 rad with a period
+  // of 10 s. The heading is at most 0.04 rad; understeer reduces it by a fraction of 3e-4.
   const KinematicState start{.speed = 0.5};
   KinematicCar kinematic(TyredCar(), ReferencePoint::kRearAxle, start);
   SingleTrackCar dynamic = Rolling(start);
@@ -282,13 +287,13 @@ TEST(SingleTrackCar, StopsStandsAndBacksUp) {
       car.Step(command, 0.02);
       ASSERT_EQ(car.state().speed, kinematic.state().speed);
       ASSERT_EQ(car.state().steering, kinematic.state().steering);
-      // Curvature and sideslip differ by about K u^2/L, 0.5 %, and by the force that accelerates
-      // the turning car, |a| m/C, 1 %. A change of steering takes effect with a delay of m u/C, 30
-      // ms.
+      // The curvature and the sideslip of both cars differ by about K u^2/L = 0.5 %. The force that
+      // accelerates the turning car adds a difference of |a| m/C = 1 %. A change of steering takes
+      // effect with a delay of m u/C, 30 ms.
       const double rate = kinematic.FullState().yaw_rate;
       ASSERT_NEAR(car.state().yaw_rate, rate, Tolerance(0.02 * std::abs(rate) + 0.004));
-      // 1 % of the 0.46 rad that the car turns over 4 m, times these 4 m: 18 mm, and as much on the
-      // way back.
+      // The car turns by 0.46 rad over 4 m. 1 % of this angle displaces the car by 0.0046 rad * 4 m
+      // = 18 mm. The way back adds another 18 mm.
       ASSERT_LT(Distance(car.state().pose, kinematic.state().pose), Tolerance(0.037));
     }
   };
@@ -312,15 +317,17 @@ TEST(SingleTrackCar, StopsStandsAndBacksUp) {
 }
 
 TEST(SingleTrackCar, SlidesAtNoSpeedAtAll) {
-  // Just above rest the tyres build up all slip at once, and nothing overflows.
+  // Just above rest, the lateral speed decays almost at once. The integration must not overflow.
   for (const double speed : {1e-3, 1e-6, 1e-9, -1e-6}) {
     SCOPED_TRACE(speed);
     SingleTrackCar car(TyredCar(), {.speed = speed, .lateral_speed = 0.1, .steering = 0.2});
     car.Step({.steering = 0.2, .gear = speed > 0.0 ? 1 : -1}, 0.02);
-    // The car rolled |u| 20 ms and slid sideways with v over the decay, some 100/|u| 1/s.
+    // In 20 ms the car rolls by |u| * 20 ms. It also slides sideways at 0.1 m/s, which decays at a
+    // rate of about 100/|u| 1/s.
     EXPECT_LT(car.state().pose.position().norm(),
               Tolerance((0.02 + 0.1 / 100.0) * std::abs(speed)));
-    // The remainder of 0.1 m/s after ten steps of a stiff method.
+    // The initial lateral speed of 0.1 m/s has decayed: after ten steps of an integrator for stiff
+    // equations, it changes the yaw rate by less than 1e-9 rad/s.
     EXPECT_NEAR(car.state().yaw_rate, speed * std::tan(0.2) / 2.7, Tolerance(1e-9));
   }
 }
@@ -353,9 +360,10 @@ TEST(SingleTrackCar, MirrorsAndTurnsWithItsStart) {
 // --- The full state ------------------------------------------------------------------------------
 
 TEST(SingleTrackCar, AccelerationsAreThoseOfTheCenterOfGravity) {
-  // Second differences of the center of gravity's position over 1 ms, as for the kinematic car:
-  // h^2/12 times a fourth derivative. A tenth of a second into a ramp it is C_f omega/m, 8 m/s^3,
-  // over the tyres' time constant of at most 10 ms: 800 m/s^4.
+  // Compares accelerations with second differences of the center of gravity's position over h = 1
+  // ms. Their truncation error is h^2/12 times the fourth derivative of the position. 0.1 s after
+  // the start of a steering ramp, this derivative is C_f omega/m = 8 m/s^3 divided by the tyres'
+  // time constant of 10 ms: 800 m/s^4.
   constexpr double kH = 1e-3;
   Random random(33);
   for (int i = 0; i < 50; ++i) {

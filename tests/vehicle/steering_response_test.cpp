@@ -35,7 +35,7 @@ std::vector<double> RandomCommands(std::size_t count) {
   return commands;
 }
 
-/// A servo that turns further to the right.
+/// Steering curve of a servo that turns further to the right than to the left.
 std::vector<Vec2> Asymmetric() {
   std::vector<Vec2> points;
   for (int i = -4; i <= 4; ++i) {
@@ -117,7 +117,7 @@ TEST(SteeringFilter, IdealGivesTheCommand) {
 }
 
 TEST(SteeringFilter, LagsByItsTimeConstant) {
-  // A unit step: 1 - exp(-t/tau) at the end of each timestep.
+  // The response to a unit step is 1 - exp(-t/tau) at the end of each timestep.
   const std::vector<double> angles =
       Filtered({.time_constant = 0.1}, std::vector<double>(500, 1.0));
   for (std::size_t i = 0; i < angles.size(); ++i) {
@@ -133,8 +133,9 @@ TEST(SteeringFilter, IsBehindARampByItsDelay) {
   for (int i = 0; i < 1000; ++i) {
     ramp.push_back(kRate * kTimestep * i);
   }
-  // A command held over a timestep has a mean that is half a timestep late. The filter's output is
-  // for the timestep's end, half a timestep early. exp(-1.87/0.08) of the lag remains.
+  // A ramp that is held over each timestep is late by half a timestep on average. The output of the
+  // filter is the angle at the end of the timestep. Of the initial transient, a fraction of
+  // exp(-1.87/0.08) remains.
   const double held = kTimestep / 2.0;
   const double expected = ramp.back() + kRate * (kTimestep - held - response.delay());
   // The lag of a held ramp differs from the exact one by T^2/(12 tau).
@@ -158,8 +159,9 @@ TEST(SteeringFilter, LosesItsBacklashAtEveryTurn) {
   }
   const std::vector<double> angles = Filtered({.backlash = 0.02}, commands);
   for (std::size_t i = 0; i < angles.size(); ++i) {
-    // Rising: half the play behind. After a reversal at a: at rest over the play, then half the
-    // play behind again.
+    // While the command rises, the angle is behind it by half of the play. After a reversal, the
+    // angle rests until the command has moved by the play, and then is behind by half of the play
+    // again.
     const double up = std::max(0.0, commands[i] - 0.01);
     const double down = std::min(0.09, commands[i] + 0.01);
     const double again = std::max(-0.09, commands[i] - 0.01);

@@ -21,8 +21,8 @@ namespace steering_schedule_test {
 constexpr double kSpeed = 3.0;
 const double kSlope = ReferenceCar().steering_rate / kSpeed;
 
-// Angles below 1 rad over distances below 200 m, and a few operations: 200 * slope * 2^-53 and
-// similar.
+// Rounding of angles below 1 rad at distances below 200 m after a few operations, for example 200 *
+// slope * 2^-53.
 constexpr double kRounding = 1e-14;
 
 // --- The function --------------------------------------------------------------------------------
@@ -151,8 +151,9 @@ TEST(SteeringSchedule, IsTheStateMachineAndKeepsTheSlope) {
     EXPECT_EQ(knots.back().steering, 0.0);
     for (int j = 0; j < 10; ++j) {
       const double distance = random.Uniform(0.0, 110.0);
-      // Each of at most ten switches is detected up to half a step of 110/20000 m late or early,
-      // and the target changes sign: 10 * h * slope.
+      // StateMachine detects each of at most ten switches up to half a step early or late, with the
+      // step h = 110/20000 m. The target may change sign, so each switch causes an error of up to 2
+      // * slope * h/2. The tolerance is 10 * h * slope.
       EXPECT_NEAR(schedule.At(distance), StateMachine(turns, kSlope, distance, 20000),
                   Tolerance(10.0 * 110.0 / 20000.0 * kSlope));
     }
@@ -180,8 +181,9 @@ TEST(SteeringDistance, HasThePrintedTable) {
 }
 
 TEST(SteeringDistance, FitsIntoTheArcFromThePrintedRadiusOn) {
-  // The ramp fits into the arc for radii from these values on; the sign changes within the last
-  // digit. The page rounds the last one, 4.84045, up to 4.841.
+  // The ramp fits into the arc for radii from these values on; `spare` changes its sign within the
+  // last digit. The published radius for 120 degrees is 4.841, because the author rounds 4.84045
+  // up.
   const std::vector<std::pair<double, double>> table{
       {30.0, 10.018}, {45.0, 8.132}, {60.0, 7.002}, {90.0, 5.652}, {120.0, 4.840}};
   for (const auto& [degrees, radius] : table) {
@@ -203,7 +205,8 @@ double TurnHeadingDefect(const VehicleParams& params, double steering, double sp
 }
 
 TEST(TurnHeadingDefect, HasThePrintedValues) {
-  // The formula holds for any angle; at 5.1 m it needs an arc of more than 109 deg.
+  // The result does not depend on the angle of the turn. At a radius of 5.1 m, the ramps fit only
+  // into turns of more than 109 degrees.
   struct Row {
     double radius, degrees, tolerance;
   };
@@ -240,8 +243,10 @@ TEST(RampHeading, IsWhatTheCarTurnsOnItsRamp) {
     const double ramp = SteeringDistance(ReferenceCar(), steering, kSpeed);
     const SteeringSchedule schedule({{0.0, 100.0, steering}}, kSlope);
     const KinematicState end = RollOut(ReferenceCar(), Start(), schedule, ramp, 0.05);
-    // Simpson's rule on psi' = v tan(delta)/L: the error is h^4/2880 |d^4/ds^4 tan(delta)/L| S;
-    // tan'''' <= 60 at 0.487 rad, slope^4 = 6.3e-6: 6.25e-6/2880 * 60/2.7 * 6.3e-6 * 9.7 = 3e-12.
+    // RollOut integrates the curvature tan(delta)/L with Simpson's rule. The error of the heading
+    // is h^4/2880 |d^4/ds^4 tan(delta)/L| S, with the step h = 0.05 m and the length S = 9.7 m.
+    // With tan'''' <= 60 at 0.487 rad and slope^4 = 6.3e-6, it is 6.25e-6/2880 * 60/2.7 * 6.3e-6 *
+    // 9.7 = 3e-12 rad.
     EXPECT_NEAR(end.pose.yaw, RampHeading(ReferenceCar(), steering, kSpeed), Tolerance(1e-11));
     EXPECT_NEAR(end.steering, steering, Tolerance(kRounding));
   }
@@ -262,7 +267,8 @@ TEST(RollOut, MissesTheArcsHeadingByTheDefect) {
 }
 
 TEST(RollOut, TruncatedTurnTurnsSeventyDegrees) {
-  // 90 deg at 5.1 m reaches at most 0.4021 rad and turns the rear axle by 70.2771 deg.
+  // In a turn of 90 degrees with a radius of 5.1 m, the steering angle reaches only 0.4021 rad, and
+  // the car turns by only 70.2771 degrees.
   const double arc = 5.1 * kPi / 2.0;
   const SteeringSchedule schedule({{5.0, 5.0 + arc, ReferenceCar().steering_limit}}, kSlope);
   const KinematicState peak = RollOut(ReferenceCar(), Start(), schedule, 5.0 + arc, 0.05);
@@ -309,11 +315,10 @@ TEST(RollOut, ChecksItsCaller) {
 }
 
 TEST(SteeringSchedule, ValueAtTheEndOfThePeriodDrivesTheScheduleAtAnyPeriod) {
-  // A controller that commands the schedule's value at the end of its period. If a ramp begins
-  // inside a period T, at a fraction f of it, the wheels start f T early and rest for (1 - f) T of
-  // the ramp. The heading errs by v/L * omega f (1 - f) T^2 <= v omega T^2/(4 L). Everything else
-  // is exact. Two ramp starts cause twice that, and the position errs by at most that times the
-  // distance.
+  // The controller commands the schedule's value at the end of each period. If a ramp begins inside
+  // a period T, after the fraction f of the period, the wheels start f T too early. The heading
+  // errs by v/L * omega f (1 - f) T^2 <= v omega T^2/(4 L). Everything else is exact. Two ramp
+  // starts cause twice that, and the position errs by at most that times the distance.
   const VehicleParams car = ReferenceCar();
   const double distance = 60.0;
   const SteeringSchedule schedule({{10.013, 30.007, SteeringForCurvature(car, 1.0 / 16.830685)}},
