@@ -18,7 +18,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// A plant and a controller of the user's own, in the loop.
+// Tests the closed loop with a plant and a controller that a user defines.
 namespace trackbed {
 namespace {
 
@@ -41,8 +41,8 @@ TEST(SimulateClosedLoop, DrivesAPlantOfYourOwnOnACircle) {
   ASSERT_EQ(log.rows.size(), 201U);
   const double radius = kUnicycleWheelbase / std::tan(0.1);
   for (const LogRow& row : log.rows) {
-    // Arcs put together: 2000 roundings of numbers below 32, half an ulp of 3.6e-15 each, which an
-    // error of the yaw, likewise, turns into 12 m times that.
+    // The tolerance covers 2000 roundings of numbers below 32 by up to half an ulp, 1.8e-15, each.
+    // Equal roundings of the yaw are multiplied by the distance of 12 m.
     const double yaw = 0.5 + 3.0 * row.state.time / radius;
     const double x = 1.0 + radius * (std::sin(yaw) - std::sin(0.5));
     const double y = 2.0 - radius * (std::cos(yaw) - std::cos(0.5));
@@ -60,7 +60,8 @@ TEST(SimulateClosedLoop, ObeysAControllerThatSetsTheSpeed) {
       SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), ConfigFor(6.0));
   for (const LogRow& row : log.rows) {
     const double t = row.state.time;
-    // 3000 additions to numbers below 16, half an ulp of 1.8e-15 each.
+    // The tolerance covers 3000 additions to numbers below 16, rounded by up to half an ulp,
+    // 0.9e-15, each.
     EXPECT_NEAR(row.state.pose.x, 0.25 * t * t, Tolerance(3000 * 0.9e-15 * 2.0));
     EXPECT_NEAR(row.state.speed, 0.5 * t, Tolerance(3000 * 0.9e-15));
   }
@@ -72,10 +73,10 @@ TEST(SimulateClosedLoop, ArrivesAtTheEndOfAPathWhenItsSpeedsSay) {
   const RunLog log = SimulateClosedLoop(
       plant, controller, Drivable(PlanAlongRoute({{.length = 50.0}}, 0.0)), Config());
   EXPECT_EQ(log.status, DriveStatus::kArrived);
-  // 4.5 m in 3 s, 42.5 m at 3 m/s, 3 m in 2 s. The mean acceleration of a period is off where the
-  // profile has its three knots: by at most a period times the change of acceleration there, half
-  // of that on the way, 1.5 x 0.02 x 0.02/2, which is 0.3 mm, each. The last row is the first one
-  // at rest, at most two periods later.
+  // The car accelerates over 4.5 m in 3 s, drives 42.5 m at 3 m/s and brakes over 3 m in 2 s. At
+  // each of the three knots of the profile, the speed errs by at most a period times the change of
+  // acceleration. Each knot thus moves the stop by at most 1.5 x 0.02 x 0.02/2 m = 0.3 mm. The last
+  // row is the first one at rest, at most two periods after the stop.
   EXPECT_NEAR(log.rows.back().state.pose.x, 50.0, Tolerance(3 * 3e-4));
   EXPECT_NEAR(log.rows.back().state.time, 5.0 + 42.5 / 3.0, Tolerance(0.05));
   for (const LogRow& row : log.rows) {
@@ -124,8 +125,8 @@ class HeldByAGrade : public Unicycle {
 };
 
 TEST(SimulateClosedLoop, ArrivesWhereAGradeHoldsTheCarAtTheGoal) {
-  // The car stands although it is commanded to drive: within 0.4 m of the goal it arrives after 1
-  // s.
+  // The car stands still although it is commanded to drive. Within 0.4 m of the goal, it has
+  // arrived after 1 s at rest.
   for (const double before : {0.002, 0.1, 0.39}) {
     HeldByAGrade plant({}, before);
     ConstantController controller(0.0);
@@ -167,7 +168,8 @@ TEST(SimulateClosedLoop, CountsFromTheOdometerThatThePlantBeginsWith) {
   const std::vector<double> later = stations(128.0);
   ASSERT_EQ(later.size(), own.size());
   for (std::size_t i = 0; i < own.size(); ++i) {
-    // 3500 additions to 128 to 138, half an ulp of 2.8e-14 each.
+    // The tolerance covers 3500 additions to numbers from 128 to 138, rounded by up to half an ulp,
+    // 1.4e-14, each.
     EXPECT_NEAR(later[i], own[i], Tolerance(3500 * 1.4e-14));
   }
 }
@@ -215,7 +217,8 @@ TEST(SimulateClosedLoop, EndsAsThePlantDoes) {
   const RunLog log =
       SimulateClosedLoop(plant, controller, Drivable(PlanAtSpeed(3.0)), ConfigFor(5.0));
   EXPECT_EQ(log.status, DriveStatus::kDiverged);
-  EXPECT_EQ(plant.commands.size(), 25U);  // in the middle of the third period: not stepped again
+  EXPECT_EQ(plant.commands.size(), 25U);  // diverged in the middle of the third period, so not
+                                          // stepped again
   EXPECT_EQ(log.rows.size(), 3U);         // the log ends before
 }
 
@@ -228,7 +231,8 @@ TEST(SimulateClosedLoop, CallsBackWithEachRowBeforeItIsSimulatedOn) {
   config.hooks.logged = [&](const RunLog& log, const Table& configurations) {
     times.push_back(log.rows.back().state.time);
     EXPECT_EQ(log.rows.size(), times.size());
-    // The plant stands where the row says, and the configurations have come as far.
+    // The plant is at the pose of the row, and the configurations end within one state period of
+    // the row's time.
     EXPECT_EQ(plant.Observe().pose.x, log.rows.back().state.pose.x);
     EXPECT_LE(configurations.at(configurations.rows() - 1, 0), times.back() + 1e-9);  // rounding
     EXPECT_GT(configurations.at(configurations.rows() - 1, 0), times.back() - config.state_period);
@@ -279,7 +283,8 @@ TEST(SimulateClosedLoop, RepeatsEveryBit) {
   EXPECT_EQ(csv(), csv());
 }
 
-/// What the message of a bad argument says; empty when there was none. Nothing was stepped then.
+/// Returns the error message for arguments that `spoil` has changed, or an empty text if there is
+/// no error. After an error, the plant must not have been stepped.
 std::string MessageFor(const std::function<void(LoopConfig&, Plan&)>& spoil) {
   LoopConfig config = Config();
   Plan plan = PlanAlongRoute({{.length = 10.0}}, 3.0);

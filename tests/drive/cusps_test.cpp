@@ -10,11 +10,11 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// Plans that change direction, driven: the car stops at each cusp, changes gear and goes on.
+// Tests drives along plans with cusps: the car stops at each cusp, changes gear and continues.
 namespace trackbed {
 namespace {
 
-/// Turns round beside itself: forwards, backwards, forwards.
+/// The car turns by 180 degrees to a goal 6 m to its left by driving forward, backward and forward.
 Scenario TurnRound(const std::string& plant, const std::string& rest = "") {
   return ParseScenario(
       fmt::format("schema: 1\nname: cusps\n"
@@ -46,7 +46,7 @@ TEST_P(Cusps, AreDrivenGearByGear) {
   const std::vector<Stations> legs = SplitIntoLegs(plan.reference.path);
   ASSERT_GE(legs.size(), 2U);
   EXPECT_EQ(log.status, DriveStatus::kArrived);
-  // Off by what the ramps of the steering lead off, twice, and what the controller cuts.
+  // The end pose deviates because of the steering ramps and because the controller cuts corners.
   const Pose2& end = log.rows.back().state.pose;
   EXPECT_LE((end.position() - plan.goal.position()).norm(), 0.5);
   EXPECT_LE(std::abs(AngleDifference(end.yaw, plan.goal.yaw)), 0.1);
@@ -54,9 +54,10 @@ TEST_P(Cusps, AreDrivenGearByGear) {
   double station = 0.0;
   for (const LogRow& row : log.rows) {
     largest = std::max(largest, std::abs(row.tracking->cross_track));
-    // Never against the gear, but for what the tyres' deflection gives back when the brakes let go:
-    // stopped at a = 1.5 m/s^2 it is sigma a/(p_kx1 g), and swings at sqrt(p_kx1 g/sigma), so that
-    // the car moves at a sqrt(sigma/(p_kx1 g)) = 0.06 m/s for a tenth of a second.
+    // The car does not move against its gear, except when the tyres spring back after the brakes
+    // release. Braking at a = 1.5 m/s^2 deflects the tyres by sigma a/(p_kx1 g). The deflection
+    // oscillates with the angular frequency sqrt(p_kx1 g/sigma), so the car moves at up to a
+    // sqrt(sigma/(p_kx1 g)) = 0.06 m/s for 0.1 s.
     EXPECT_GE(row.state.speed * row.command.gear, -0.06) << "at " << row.state.time;
     const bool moves = std::abs(row.state.speed) > 0.1;
     const PathPoint at = plan.reference.path.At(row.tracking->s);
@@ -83,7 +84,8 @@ TEST_P(Cusps, AreStoodAtUntilTheWheelsHaveTurned) {
     EXPECT_LE(std::abs(log.rows[i].state.speed), 0.02);
     const double limit = LoadCar(TurnRound(GetParam())).params().steering_limit;
     const double asked = std::clamp(log.rows[i].command.steering, -limit, limit);
-    // Rested: less than 1e-4 rad a period. On the way there it stood.
+    // The wheels rest if they turn by less than 1e-4 rad in a period. The car stood while they
+    // turned.
     EXPECT_NEAR(log.rows[i].state.steering_actuator, asked, Tolerance(1e-3));
     std::size_t stood = 0;
     while (stood < i && std::abs(log.rows[i - stood].state.speed) <= 0.02) {

@@ -12,7 +12,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 
-// Runs with disturbances.
+// Tests runs with disturbances.
 namespace trackbed {
 namespace {
 
@@ -40,7 +40,7 @@ std::string Route(const std::string& plant) {
       plant);
 }
 
-/// A scenario straight ahead for 60 m.
+/// A scenario with a straight path of 60 m.
 std::string Straight(const std::string& plant, const std::string& start = "x: 0") {
   return fmt::format(
       "mission: {{speed: 3, waypoints: [[0, 0], [30, 0], [60, 0]], start: {{{}}}}}\n"
@@ -121,13 +121,13 @@ TEST(SteeringDeadBand, IsTakenOffWhatTheWheelsDo) {
     play = std::clamp(play, wanted - 0.01, wanted + 0.01);
     EXPECT_NEAR(log.rows[i].state.steering, play, Tolerance(1e-15));
   }
-  // The sine ends at 0, rising from below.
+  // The sine ends at 0, rising from below, so the wheels stay behind by half of the play.
   EXPECT_NEAR(log.rows.back().state.steering, -0.01, Tolerance(1e-9));
 }
 
 TEST(Wheelbase, IsWhatTheControllerTakesItFor) {
-  // Pure pursuit's circle through the point ahead: tan(delta) = L 2 sin(u)/R, initially with the
-  // same u.
+  // The controller steers the circle through the point ahead: tan(delta) = L 2 sin(u)/R. In the
+  // first period, the angle u does not depend on the wheelbase.
   const auto first = [](const std::string& disturb) {
     return Drive(Straight("kinematic", "yaw: 0.1") + "control: {method: preview, distance: 2.5}\n" +
                  disturb)
@@ -144,13 +144,14 @@ TEST(SpeedLoss, HoldsTheCarBackAndThePlanGoesOn) {
   for (const char* plant : {"kinematic", "single_track", "mujoco"}) {
     const RunLog log = Drive(Straight(plant) + "disturb: {speed_loss: {from: 5, speed: 1}}\n");
     EXPECT_NEAR(At(log, 5.0).state.speed, 3.0, Tolerance(0.01)) << plant;
-    // 3 m/s^2 down to a speed error of 1.5 m/s, then e^(-2 t), which is 1e-8 after 9 s. The
-    // controller compensates MuJoCo's bearings and air drag to a millimeter per second.
+    // The car brakes at 3 m/s^2 until the speed error is 1.5 m/s. The error then decays as e^(-2
+    // t), to a fraction of 1e-8 after 9 s. The controller compensates MuJoCo's bearings and air
+    // drag to a millimeter per second.
     EXPECT_NEAR(At(log, 15.0).state.speed, 1.0, Tolerance(2e-3)) << plant;
     EXPECT_NEAR(At(log, 40.0).state.speed, 1.0, Tolerance(2e-3)) << plant;
     EXPECT_EQ(log.status, DriveStatus::kArrived) << plant;  // stops where the plan does
-    // The car begins to brake below the planned speed. The gain of 2/s does not remove that in the
-    // 0.7 s that braking from 1 m/s takes: of the 0.33 m of distance, e^-1.4 remains.
+    // The car begins to brake below the planned speed. Braking from 1 m/s takes 0.7 s and 0.33 m.
+    // In this time, the gain of 2 1/s reduces the error only to a fraction of e^-1.4.
     EXPECT_NEAR(log.rows.back().state.pose.x, 60.0, Tolerance(0.33 * 0.25)) << plant;
   }
 }
@@ -209,8 +210,8 @@ TEST(Noise, HasItsStatistics) {
     EXPECT_NEAR(statistics.mean, 0.0, Tolerance(4.0 * sigma / std::sqrt(n)));
     EXPECT_NEAR(statistics.deviation, sigma, Tolerance(4.0 * sigma / std::sqrt(2.0 * n)));
     EXPECT_NEAR(statistics.correlation, 0.0, Tolerance(4.0 / std::sqrt(n)));
-    // Of a normal distribution 4.55 % lie beyond two sigma, with a deviation of sqrt(p q / n) = 0.3
-    // %.
+    // Of a normal distribution, 4.55 % lie beyond two sigma. The standard deviation of this
+    // fraction is sqrt(p q / n) = 0.3 %.
     const auto beyond =
         std::count_if(errors.begin(), errors.end(),
                       [limit = 2.0 * sigma](double e) { return std::abs(e) > limit; });
@@ -227,8 +228,9 @@ TEST(Noise, IsSeenByTheControllerAndIsNotTheTruth) {
     commands.push_back(row.command.steering);
     EXPECT_NEAR(row.tracking->cross_track, row.state.pose.y, Tolerance(1e-12));
   }
-  // tan(delta) = 2 L sin(u)/R with R = 2.5 m: 0.01 rad and 0.05 m/2.5 m give 0.022 rad of u and
-  // 0.05 rad of steering, which wheels at 0.15 rad/s cannot follow.
+  // The controller commands tan(delta) = 2 L sin(u)/R with R = 2.5 m. Noise of 0.01 rad in the
+  // heading and 0.05 m in the position causes standard deviations of 0.022 rad in u and 0.05 rad in
+  // the command. Wheels that turn at 0.15 rad/s cannot follow these commands.
   EXPECT_NEAR(Of(commands).deviation, 0.05, Tolerance(0.015));
   EXPECT_LT(std::abs(log.rows.back().state.pose.y), 0.1);
   // The first row's command belongs to the first row's measurement.
@@ -266,9 +268,9 @@ TEST(Kick, SetsTheCarAsideAndItComesBack) {
 }
 
 TEST(Kick, IsAnImpulseOverItsDuration) {
-  // On ice the air causes the only other lateral force. It meets the car at 3 m/s and, on average,
-  // 0.19 m/s from its left: 1/2 1.225 3 0.19 5.07 = 1.8 N, which changes the speed by 7e-4 m/s in
-  // 0.5 s.
+  // On ice, air drag is the only other lateral force. The air meets the car at 3 m/s from ahead
+  // and, on average, at 0.19 m/s from the left. The force of 1/2 * 1.225 * 3 * 0.19 * 5.07 = 1.8 N
+  // changes the lateral speed by 7e-4 m/s in 0.5 s.
   for (const char* duration : {"", ", duration: 0.5"}) {
     const RunLog log = Drive(fmt::format(
         "mission: {{speed: 3, duration: 3}}\ncontrol: {{method: constant_steering, steering: 0}}\n"
@@ -294,8 +296,8 @@ TEST(PayloadOnTheWay, StaysInTheCarInAWorld) {
   const RunLog log =
       SimulateScenario(scenario, car, PlanScenario(scenario, car.unladen()), "mujoco");
   EXPECT_EQ(log.status, DriveStatus::kArrived);
-  // The car does not bounce at the start. 1 % of its weight is twice the load change of the unladen
-  // car's wheels in the first step.
+  // The car does not bounce at the start. The tolerance is 1 % of its weight, which is twice the
+  // load change of the unladen car's wheels in the first step.
   for (std::size_t i = 0; i < 50; ++i) {
     double sum = 0.0;
     for (const WheelState& wheel : *log.rows[i].state.wheels) {

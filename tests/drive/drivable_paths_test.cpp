@@ -155,7 +155,8 @@ TEST(DrivablePaths, AreDrivenAndOthersHaveAPlaceAndAReason) {
       EXPECT_FALSE(ToString(fault).empty());
       if (fault.kind == PathFaultKind::kSteeringRate ||
           fault.kind == PathFaultKind::kSteeringAngle) {
-        // Differences of the path's own curvature over the piece of 0.05 m that begins there.
+        // Computes the largest steering angle and steering rate from the curvature of the path,
+        // over the piece of 0.05 m that begins at the fault.
         constexpr double kStep = 1e-4;  // [m]
         double angle = 0.0;
         double rate = 0.0;

@@ -9,7 +9,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 
-// Braking for obstacles that become known too late for any other reaction.
+// Tests braking for obstacles that become known too late for any other reaction.
 namespace trackbed {
 namespace {
 
@@ -61,7 +61,8 @@ TEST(EmergencyBraking, StopsWheneverTyresAndBrakesCan) {
   std::uniform_real_distribution<double> places(60.0, 90.0);
   for (int i = 0; i < 40; ++i) {
     const double speed = speeds(random);
-    // The least range that suffices: braking at the limit, up to two control periods late.
+    // The shortest range at which the car can stop: it brakes at the limit, up to two control
+    // periods late.
     const double least = speed * speed / (2.0 * limit) + 2.0 * speed * kPeriod + kSafe;
     const double range = least * (1.0 + spares(random) * spares(random));
     const double place = places(random);

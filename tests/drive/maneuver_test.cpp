@@ -8,7 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/drive/drive.h"
 
-// Runs of maneuvers over time: the car follows the specified steering and speed.
+// Tests maneuvers over time: the car follows the specified steering and speed.
 namespace trackbed {
 namespace maneuver_test {
 
@@ -29,7 +29,8 @@ TEST(Maneuver, BrakesToStandstillAndStays) {
       Drive("{method: sine, amplitude: 0, speed: {braking: {at: 2, deceleration: 8}}}",
             "mission: {speed: 20, duration: 6}\ndrive: {plants: [kinematic]}");
   EXPECT_EQ(log.status, DriveStatus::kArrived);
-  // A hundred additions of 0.16 m/s; 20/8 = 2.5 s and 400/16 = 25 m to rest.
+  // Braking from 20 m/s at 8 m/s^2 takes 20/8 = 2.5 s and 400/16 = 25 m. The tolerances cover the
+  // rounding of about a hundred additions of 0.16 m/s.
   EXPECT_EQ(At(log, 2.0).speed, 20.0);
   EXPECT_NEAR(At(log, 3.0).speed, 12.0, Tolerance(1e-12));
   EXPECT_NEAR(At(log, 4.6).speed, 0.0, Tolerance(1e-12));
@@ -54,7 +55,8 @@ TEST(Maneuver, FollowsTheSpeedOverTime) {
             "mission: {duration: 5}\ndrive: {plants: [kinematic]}");
   const Signal speed{{{1.0, 20.0}, {2.0, 12.0}, {4.0, 16.0}}};
   for (const LogRow& row : log.rows) {
-    // 250 additions to numbers below 32, half an ulp of 3.6e-15 each.
+    // The tolerance covers 250 additions to numbers below 32, rounded by up to half an ulp,
+    // 1.8e-15, each.
     EXPECT_NEAR(row.state.speed, speed.At(row.state.time), Tolerance(250 * 1.8e-15));
   }
 }

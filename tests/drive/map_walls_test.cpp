@@ -10,11 +10,12 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/world/map_obstacles.h"
 
-// The walls of a grid map on the way.
+// Tests drives toward the walls of a grid map.
 namespace trackbed {
 namespace {
 
-/// The cells of a map of 60 x 60 m from (-10, -10) on, in cells of 2 m, occupied in one rectangle.
+/// A map of 60 x 60 m with its corner at (-10, -10) and cells of 2 m. Only the cells in the
+/// rectangle `wall` are occupied.
 MapSpec MapWith(const CellRectangle& wall) {
   constexpr int kSide = 30;
   GridMap map{.X_WM = {-10.0, -10.0, 0.0},
@@ -32,7 +33,7 @@ MapSpec MapWith(const CellRectangle& wall) {
           .data = std::make_shared<const MapObstacles>(std::move(map), UnknownCells::kFree)};
 }
 
-/// The same rectangle as an obstacle.
+/// Returns a box obstacle that covers the rectangle `wall` of the map.
 Obstacle BoxOf(const CellRectangle& wall) {
   return {.footprint = {{-10.0 + 2.0 * (wall.column + 0.5 * wall.columns),
                          -10.0 + 2.0 * (wall.row + 0.5 * wall.rows), 0.0},
@@ -54,7 +55,7 @@ RunLog Drive(const Scenario& scenario, const std::string& plant) {
 }
 
 TEST(MapWalls, AreHitAsBoxesAre) {
-  // Beside the way, behind a turn: the car grazes it.
+  // The wall is beside the route after a turn, and the car grazes it.
   constexpr CellRectangle kWall{22, 12, 3, 2};
   Scenario mapped = Toward("{method: fillet}", "[[0, 0], [36, 0], [36, 40]]");
   Scenario boxed = mapped;
@@ -80,7 +81,7 @@ TEST(MapWalls, AreHitAsBoxesAre) {
 }
 
 TEST(MapWalls, ArePassedByPlannersThatSearch) {
-  // Right across, from y = -10 m to 42 m.
+  // The wall crosses the route, from y = -10 m to 42 m.
   constexpr CellRectangle kWall{15, 0, 1, 26};
   for (const char* planner : {"astar", "hybrid_astar", "rrt"}) {
     SCOPED_TRACE(planner);
@@ -102,7 +103,7 @@ TEST(MapWalls, StopACarThatReplans) {
       "road: {left: 3, right: 3}}}",
       "[[0, 0], [28, 0], [60, 0]]");
   scenario.world.map = MapWith(kWall);
-  // The plan itself is refused where a wall is in its way.
+  // Planning fails if the wall is known, because it blocks the path.
   const CarModel car = LoadCar(scenario);
   EXPECT_FALSE(PlanScenario(scenario, car.unladen()).ok());
   World empty;
@@ -113,8 +114,8 @@ TEST(MapWalls, StopACarThatReplans) {
     const RunLog log = SimulateScenario(scenario, LoadCar(scenario), straight, plant);
     EXPECT_EQ(log.status, DriveStatus::kBlocked) << plant;
     for (const LogRow& row : log.rows) {
-      // Motions may fall short of the safe distance by a centimeter between their samples, the
-      // MuJoCo car by some more.
+      // Between their samples, motions may be closer to the wall than the safe distance of 0.5 m by
+      // 1 cm. The MuJoCo car may come closer by a few more centimeters.
       ASSERT_GT(row.clearance.value_or(0.0), 0.4) << plant;
     }
   }

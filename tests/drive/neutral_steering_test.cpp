@@ -8,7 +8,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// plan.neutral_steering, driven open loop.
+// Tests open-loop drives with plan.neutral_steering.
 namespace trackbed {
 namespace {
 
@@ -29,9 +29,9 @@ TEST(NeutralSteering, CarDrivesWhatItsPlanPredicts) {
   const LogRow& last = log.rows.back();
   EXPECT_EQ(first.state.steering, 0.02);
 
-  // The prediction is of the distance D_end at constant speed; the car comes to rest within a
-  // control period's crawl of it, 1 mm, and its ramps are steps of 3 mm: 1e-3 m each over the
-  // ramps.
+  // The prediction is for the distance D_end at constant speed. The car stops within 1 mm of this
+  // distance, and its steering ramps are divided into steps of 3 mm of travel. The tolerance covers
+  // both errors.
   const auto predicted = DiagnosticsJson(plan).at("open_loop");
   const Pose2 goal = plan->reference.path.At(plan->reference.path.length()).pose;
   const double distance = (last.state.pose.position() - goal.position()).norm();

@@ -11,15 +11,16 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// What plan.json says of a plan's open loop is what the kinematic car then does.
+// Compares the open-loop prediction in plan.json with drives of the kinematic car.
 namespace trackbed {
 namespace {
 
-/// A millimeter, over routes of some hundred meters. The run follows the schedule and the speed
-/// profile at every physics step of 2 ms, so that the control period, 20 ms by default, leaves
-/// nothing: where braking at a ends within a step T, at speed v, the car is up to a T^2/8 ahead of
-/// its profile and its actuator lags by omega a T^2/(8 v) over the ramp: 1e-7 rad at omega = 0.15
-/// rad/s, a = 1.5 m/s^2 and v = 1.1 m/s, or 3 um after 60 m for each ramp.
+/// Tolerance of a millimeter [m] over routes of some hundred meters. The run follows the schedule
+/// and the speed profile at every physics step T = 2 ms, so the control period of 20 ms causes no
+/// error. If braking at a ends within a step at the speed v, the car is up to a T^2/8 ahead of its
+/// profile. Over a steering ramp, the actuator then lags by omega a T^2/(8 v). With omega = 0.15
+/// rad/s, a = 1.5 m/s^2 and v = 1.1 m/s, the lag is 1e-7 rad, which causes an error of 3 um after
+/// 60 m for each ramp.
 constexpr double kMillimeter = 1e-3;
 
 std::string Number(double x) {
@@ -51,7 +52,8 @@ class Routes {
   std::mt19937 random_;
 };
 
-/// Drives a mission open loop, and compares. False if there is no plan.
+/// Drives a mission open loop and compares the result with the prediction. Returns false if there
+/// is no plan.
 bool Agrees(const std::string& mission, const std::string& plan) {
   const Scenario scenario =
       ParseScenario("schema: 1\nname: open_loop\nmission: {" + mission + "}\nplan: {" + plan +
@@ -76,7 +78,8 @@ bool Agrees(const std::string& mission, const std::string& plan) {
 }
 
 TEST(OpenLoopPrediction, IsTheDriveOfFillets) {
-  // Slowed turns among them: legs down to 16 m, corners up to 2 rad, up to 5 m/s.
+  // Legs of 16 to 45 m, corners of up to 2 rad and speeds of up to 5 m/s include turns that the
+  // planner slows down.
   Routes routes(1);
   int planned = 0;
   for (int i = 0; i < 120; ++i) {
@@ -90,7 +93,7 @@ TEST(OpenLoopPrediction, IsTheDriveOfFillets) {
 }
 
 TEST(OpenLoopPrediction, IsTheDriveOfCurves) {
-  // With steps of curvature taken slowly, and where needed by turning the wheels on the spot.
+  // The car drives slowly over steps of curvature, and turns its wheels at rest where necessary.
   Routes routes(2);
   int planned = 0;
   for (int i = 0; i < 60; ++i) {

@@ -20,12 +20,12 @@ Projection At(const Path& path, const Pose2& pose, double overrun = 0.4) {
 }
 
 TEST(DistanceFromPath, IsToTheNearestPointOfAPathWithEnds) {
-  // Behind the start, at 20 m along and 0.02 m beside the line.
+  // The pose is 20 m behind the start and 0.02 m beside the line.
   const Projection behind = At(Straight(), {-20.0, 0.02, 0.1});
   EXPECT_EQ(behind.s, 0.0);
   EXPECT_NEAR(behind.cross_track, std::hypot(20.0, 0.02), Tolerance(1e-12));
   EXPECT_NEAR(behind.heading_error, 0.1, Tolerance(1e-15));
-  // Past the end on the right, a 3-4-5 triangle.
+  // The pose is 3 m past the end and 4 m to the right of the line, so it is 5 m from the end.
   const Projection beyond = At(Straight(), {13.0, -4.0, 0.0});
   EXPECT_EQ(beyond.s, 10.0);
   EXPECT_NEAR(beyond.cross_track, -5.0, Tolerance(1e-12));
@@ -40,7 +40,7 @@ TEST(DistanceFromPath, LetsACarStopALittleBeyondTheEnd) {
 }
 
 TEST(DistanceFromPath, IsThatOfThePathsOwnPointsAnywhere) {
-  // Brute force over points 1 mm apart, which errs by at most half of that.
+  // Compares with brute force over points 1 mm apart, which errs by at most 0.5 mm.
   const Path path({1.0, 2.0, 0.3}, {{.length = 8.0},
                                     {.length = 6.0, .curvature = 0.2},
                                     {.length = 5.0, .curvature = 0.0, .sharpness = -0.02}});

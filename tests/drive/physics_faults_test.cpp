@@ -80,7 +80,7 @@ TEST(PhysicsFaults, DivergesWhereContactsFindNoRoom) {
 }
 
 TEST(PhysicsFaults, SinksThroughARoadThatCarriesNothing) {
-  // A collision bit that no tyre has, so the ground collides with nothing.
+  // The ground has a collision bit that no tyre has, so it collides with nothing.
   const RunLog log = LogOf({.find = "geom name=\"ground\"",
                             .replace = "geom name=\"ground\" contype=\"8\" conaffinity=\"8\""});
   EXPECT_EQ(log.status, DriveStatus::kSunk);
@@ -88,7 +88,8 @@ TEST(PhysicsFaults, SinksThroughARoadThatCarriesNothing) {
 }
 
 TEST(PhysicsFaults, IsAirborneFromASpringboard) {
-  // A bump 1.2 m high and 12 m long at 40 m/s: more than a second in the air.
+  // At 50 m/s, a bump of 1.5 m height and 16 m length keeps the car in the air for more than a
+  // second.
   const RunLog log = LogOf({.keys = "world: {ground: {bumps: [{x: 30, y: 0, length: 16, "
                                     "width: 20, edge: 8, height: 1.5}]}}\n",
                             .speed = 50.0,

@@ -14,13 +14,14 @@
 #include "trackbed/core/file.h"
 #include "trackbed/drive/drive.h"
 
-// Runs that replay recordings.
+// Tests runs that replay recordings.
 namespace trackbed {
 namespace {
 
 constexpr double kPriusRate = 0.15056818181818182;  // rate limit of the steering actuator [rad/s]
 
-/// 6 s of randomly varying steering and speed at up to `rate` [rad/s] and 8 m/s^2, on uneven rows.
+/// A recording of 6 s with unevenly spaced rows. Steering and speed vary randomly, at up to `rate`
+/// [rad/s] and 8 m/s^2.
 Recording Wandering(std::uint64_t seed, double rate) {
   Random random(seed);
   Recording recording{{}, {}, {}};
@@ -64,7 +65,8 @@ TEST(Playback, OnPrescribedWheelsGivesTheRecordedAngleAndSpeed) {
     for (const LogRow& row : log.rows) {
       const VehicleState& state = row.state;
       EXPECT_NEAR(state.steering, recording.steering.At(state.time), Tolerance(1e-12));
-      // Additions of a few 1e-15, of which the gain corrects 4 % in each period.
+      // Each period adds a rounding error of a few 1e-15 m/s, and the gain corrects 4 % of the
+      // error.
       EXPECT_NEAR(state.speed, recording.speed.At(state.time), Tolerance(1e-12));
     }
   }
@@ -95,7 +97,8 @@ TEST(Playback, ThroughTheActuatorIsExactWhereTheRateAllows) {
 }
 
 TEST(Playback, BrakesAsHardAsWasRecordedOnMujocoToo) {
-  // 6 m/s^2 for 2 s from 20 m/s; tyres with a friction of 0.9 allow 8.8 m/s^2.
+  // The recording brakes from 20 m/s at 6 m/s^2 for 2 s. Tyres with a friction coefficient of 0.9
+  // allow 8.8 m/s^2.
   const Recording recording{
       {{{0.0, 0.0}}}, {{{0.0, 20.0}, {1.0, 20.0}, {3.0, 8.0}, {4.0, 8.0}}}, {}};
   Scenario scenario = Replay(recording, "mujoco", SteeringInput::kActuator);
@@ -118,7 +121,8 @@ TEST(Playback, ByDistanceTurnsTheWheelsWhereTheyWereTurned) {
   const RunLog log = Drive(scenario);
   EXPECT_NEAR(log.rows.back().state.distance, 6.0, Tolerance(1e-11));
   for (const LogRow& row : log.rows) {
-    // A thousand periods of 6 mm sum to an error of 1e-15 each, on slopes of 2 rad/m.
+    // The distance is a sum over a thousand periods of 6 mm, with a rounding error of 1e-15 m each.
+    // The recorded steering angle changes by up to 2 rad/m.
     EXPECT_NEAR(row.state.steering, playback.recording.steering.At(row.state.distance),
                 Tolerance(1e-11));
   }
@@ -135,7 +139,7 @@ TEST(Playback, WithoutASpeedHoldsTheMissions) {
 }
 
 TEST(Playback, OfItsOwnLogIsTheSameDrive) {
-  // Replays the commands of a run along a path without the path.
+  // Drives along a path, then replays the logged commands in a run without a path.
   const Scenario first = ReadScenario(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/winding.yaml",
                                       {"drive.plants=[kinematic]", "expect={}"});
   const RunLog log = Drive(first);
@@ -154,8 +158,8 @@ TEST(Playback, OfItsOwnLogIsTheSameDrive) {
     const VehicleState& b = replayed.rows[i].state;
     const double before = i > 0 ? log.rows[i - 1].state.speed : 0.0;
     if (a.speed == 0.0 && before > 0.0) {
-      // The log does not record when the car came to rest within the period: at its beginning, or
-      // at its end as in the replay.
+      // The log does not record at which time within the period the car came to rest. The replay
+      // assumes the end of the period.
       untold += 0.5 * before * 0.02;
       EXPECT_LT(untold, 1e-3);
     }

@@ -31,7 +31,8 @@ TEST(Recorder, LogsTheExtremesSinceTheRowBefore) {
   Recorder recorder(config, {});
   recorder.Sample(plant, 0.0);
   EXPECT_NEAR(*recorder.BeginRow({}, {}, {}).clearance, 6.0, Tolerance(1e-9));
-  // Forward and back within one period: the front is at 3 m + 4 m, the obstacle at 10 m.
+  // The car moves forward and back within one period. At x = 3 m, its front is at 7 m, 3 m from the
+  // obstacle at 10 m.
   for (const auto& [x, force, time] : {std::tuple(3.0, 20.0, 0.01), std::tuple(1.0, 5.0, 0.02)}) {
     plant.state().pose.x = x;
     plant.force = 0.0;
@@ -41,7 +42,7 @@ TEST(Recorder, LogsTheExtremesSinceTheRowBefore) {
   EXPECT_NEAR(*row.clearance, 3.0, Tolerance(1e-9));
   EXPECT_EQ(row.state.obstacle_force, 0.0);
   EXPECT_FALSE(recorder.contact_time());
-  // No state was recorded since, so the clearance is that of the current pose.
+  // No state was recorded since the last row, so the clearance is that of the current pose.
   EXPECT_NEAR(*recorder.BeginRow({}, {}, {}).clearance, 5.0, Tolerance(1e-9));
 }
 
@@ -73,8 +74,8 @@ TEST(Recorder, SeesAThinWallBetweenTwoSteps) {
   recorder.Sample(plant, 0.0);
   plant.state().pose.x = 20.0;  // 20 m in 0.2 s, 100 m/s
   recorder.Sample(plant, 0.2);
-  // From the time at which the front, 4 m ahead, reaches the near side, after 5.99 m, until the
-  // rear axle reaches the far side, after 10.01 m.
+  // The contact begins no earlier than the front, 4 m ahead of the rear axle, reaches the near side
+  // at 10 m, and no later than the rear axle reaches it.
   ASSERT_TRUE(recorder.contact_time());
   EXPECT_GE(*recorder.contact_time(), 0.0599);
   EXPECT_LE(*recorder.contact_time(), 0.1001);

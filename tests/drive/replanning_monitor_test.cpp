@@ -9,7 +9,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kDelay = 0.9;  ///< of the avoider by default [s]
+constexpr double kDelay = 0.9;  ///< default delay of the avoider [s]
 
 VehicleParams Prius() {
   static const VehicleParams vehicle =
@@ -17,7 +17,7 @@ VehicleParams Prius() {
   return vehicle;
 }
 
-/// 100 m along x at 3 m/s.
+/// A plan of 100 m along x at 3 m/s.
 FeasiblePlan StraightPlan() {
   const Scenario scenario = ParseScenario(
       "schema: 1\nname: straight\nmission: {speed: 3, waypoints: [[0, 0], [100, 0]]}\n"
@@ -44,8 +44,8 @@ ReplanningMonitor::Options Avoiding(const std::vector<Obstacle>& obstacles) {
   return options;
 }
 
-/// Asks every control period from 0 to `end` [s] for a car that keeps to the plan at 3 m/s. When
-/// the first new plan came [s]; none: it did not.
+/// Calls `monitor` in every control period from 0 to `end` [s] for a car that follows the plan at 3
+/// m/s. Returns the time of the first new plan [s], or nullopt if there is no new plan.
 std::optional<double> FirstPlan(ReplanningMonitor& monitor, const Plan& plan, double end) {
   for (long tick = 0; 0.02 * static_cast<double>(tick) <= end; ++tick) {
     VehicleState state;
@@ -64,7 +64,7 @@ TEST(ReplanningMonitor, AvoidsWhatBecomesKnownAfterTheDelay) {
   box.known_from_time = 1.0;
   const FeasiblePlan plan = StraightPlan();
   ReplanningMonitor monitor(Avoiding({box}), plan);
-  // The first control period no earlier than 1.9 s.
+  // The new plan comes in the first control period at or after 1.9 s.
   const std::optional<double> time = FirstPlan(monitor, plan, 4.0);
   ASSERT_TRUE(time);
   EXPECT_NEAR(*time, 1.0 + kDelay, 1e-9);
@@ -92,12 +92,13 @@ TEST(ReplanningMonitor, KnowsAnObstacleFromItsRangeOn) {
   box.known_from_range = 40.0;
   const FeasiblePlan plan = StraightPlan();
   ReplanningMonitor monitor(Avoiding({box}), plan);
-  // Its near side is at 59 m, the car's front ahead of its rear axle: known at front + 40 m = 59 m.
+  // The near side of the obstacle is at 59 m. The obstacle becomes known when the front of the car
+  // is 40 m before it.
   const VehicleParams car = Prius();
   const double known = (59.0 - 40.0 - (car.length - car.rear_overhang)) / 3.0;
   const std::optional<double> time = FirstPlan(monitor, plan, 10.0);
   ASSERT_TRUE(time);
-  // Up to a control period late for knowing, and one for the delay.
+  // Detection and delay each end up to one control period late.
   EXPECT_GE(*time, known + kDelay - 1e-9);
   EXPECT_LE(*time, known + kDelay + 0.04);
 }
@@ -108,13 +109,14 @@ TEST(ReplanningMonitor, LeavesThePlanWhereNothingIsInItsWay) {
   const FeasiblePlan plan = StraightPlan();
   ReplanningMonitor monitor(Avoiding({beside}), plan);
   EXPECT_FALSE(FirstPlan(monitor, plan, 4.0));
-  // Known from the start, the plan was made with it.
+  // The plan already considers an obstacle that is known from the start.
   ReplanningMonitor from_start(Avoiding({BoxAt(70.0, 0.0)}), plan);
   EXPECT_FALSE(FirstPlan(from_start, plan, 4.0));
 }
 
 TEST(ReplanningMonitor, WaitsBehindWhatMayClearOnly) {
-  // A car at rest behind a box, on a road too narrow to pass: one that leaves is waited for.
+  // The car is at rest behind a box, on a road that is too narrow to pass. The monitor waits only
+  // if the box drives away.
   for (const bool leaves : {true, false}) {
     Obstacle box = BoxAt(10.0, 0.0);
     box.velocity = leaves ? Vec2(0.2, 0.0) : Vec2::Zero();
@@ -130,7 +132,7 @@ TEST(ReplanningMonitor, WaitsBehindWhatMayClearOnly) {
       state.time = time;
       if (std::optional<FeasiblePlan> next = monitor.Update(state, plan, {.s = 4.0})) {
         plan = *next;
-        plan.reference.path = Path({}, {{.length = 4.01}});  // it stands where that ends
+        plan.reference.path = Path({}, {{.length = 4.01}});  // the car stands at its end
       }
     }
     EXPECT_EQ(monitor.IsWaiting(), leaves);

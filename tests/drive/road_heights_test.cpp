@@ -13,7 +13,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// Cars on roads with elevation and superelevation.
+// Tests cars on roads with elevation and superelevation.
 namespace trackbed {
 namespace {
 
@@ -25,8 +25,8 @@ struct RoadDrive {
   RunLog log;
 };
 
-/// Along the right lane of a straight road of 200 m to the east, from x = 20 m on; `world` are
-/// further keys of the world, `more` sections of the scenario.
+/// Drives along the right lane of a straight road of 200 m to the east, from x = 20 m on. `world`
+/// contains further keys of the world, `more` further sections of the scenario.
 RoadDrive DriveOn(const std::string& heights, const std::string& tyre, double speed,
                   const std::string& world = "", const std::string& more = "",
                   const std::string& infeasible = "slow_down") {
@@ -62,7 +62,7 @@ std::string Bank(double slope) {
       std::atan(slope));
 }
 
-/// Mean loads of the wheels [N] while the rear axle is between two places.
+/// Mean loads of the wheels [N] while the rear axle is between x = `from` and x = `to` [m].
 std::array<double, 4> MeanLoads(const RunLog& log, double from, double to) {
   std::array<double, 4> sums{};
   double count = 0.0;
@@ -89,7 +89,7 @@ class RoadHeights : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Tyres, RoadHeights, testing::Values("contact", "magic_formula"));
 
 TEST_P(RoadHeights, OfConstantSlopesAreThePlaneThatTheWorldCanHave) {
-  // The ground of the world is another computation of the same plane.
+  // The reference is the key `ground` of the world, which describes the same plane in another way.
   for (const auto& [heights, plane] : {std::pair(Elevation(0.0, 0.1, 0.0), "grade: {x: 0.1}"),
                                        std::pair(Bank(0.1), "grade: {y: 0.1}")}) {
     const RoadDrive road = DriveOn(heights, GetParam(), 8.0);
@@ -99,7 +99,8 @@ TEST_P(RoadHeights, OfConstantSlopesAreThePlaneThatTheWorldCanHave) {
     const std::array<double, 4> own = MeanLoads(road.log, 60.0, 140.0);
     const std::array<double, 4> other = MeanLoads(oracle.log, 60.0, 140.0);
     for (std::size_t w = 0; w < own.size(); ++w) {
-      // The surface is within 0.02 mm and 2e-4 of slope: 0.2 % of a load at most.
+      // The road surface deviates from the plane by up to 0.02 mm in height and 2e-4 in slope,
+      // which changes a wheel load by at most 0.2 %.
       EXPECT_NEAR(own[w], other[w], Tolerance(2e-3 * other[w])) << plane << " wheel " << w;
     }
     const auto end = [](const RunLog& log) { return log.rows.back().state; };
@@ -112,14 +113,16 @@ TEST_P(RoadHeights, OfConstantSlopesAreThePlaneThatTheWorldCanHave) {
 TEST_P(RoadHeights, CarryTheWeightAcrossTheSlope) {
   const RoadDrive road = DriveOn(Elevation(0.0, 0.2, 0.0), GetParam(), 6.0);
   const double weight = road.car.params().mass * kGravity;
-  // Across a slope of 0.2 it is less by 1.9 %; what the suspension still moves is a tenth of that.
+  // The part of the weight perpendicular to a slope of 0.2 is 1.9 % below the weight. Residual
+  // motion of the suspension changes the loads by a tenth of this difference.
   EXPECT_NEAR(Sum(MeanLoads(road.log, 60.0, 140.0)), weight / std::hypot(1.0, 0.2),
               Tolerance(2e-3 * weight));
 }
 
 TEST_P(RoadHeights, LoadTheLowerWheelsOfABankedRoad) {
-  // The left side is up: about the middle of the track, the weight along the road at the height of
-  // the center of gravity, which ggv and level turns find too: here to the sign and half of 0.5 m.
+  // The left side is up. The moment of the wheel loads about the middle of the track equals the
+  // component of the weight along the road times the height of the center of gravity. The test only
+  // requires that this height is between 0.4 and 0.8 m.
   const RoadDrive road = DriveOn(Bank(0.1), GetParam(), 6.0);
   const std::array<double, 4> loads = MeanLoads(road.log, 60.0, 140.0);
   const double weight = road.car.params().mass * kGravity;
@@ -132,7 +135,8 @@ TEST_P(RoadHeights, LoadTheLowerWheelsOfABankedRoad) {
 }
 
 TEST_P(RoadHeights, LightenACarOnACrestByTheSquareOfItsSpeed) {
-  // The crest of a parabola is at x = 100 m: from 97 to 103 m z'' v^2 = -0.008 * 144 m/s^2.
+  // The road is a parabola with its crest at x = 100 m. From 97 to 103 m, the vertical acceleration
+  // of the car is z'' v^2 = -0.008 * 144 m/s^2.
   const double bend = -0.008;
   const double speed = 12.0;
   // At its ends the road is too steep to stand on.
@@ -148,8 +152,9 @@ TEST_P(RoadHeights, LightenACarOnACrestByTheSquareOfItsSpeed) {
     }
   }
   const double mass = road.car.params().mass;
-  // Its axles, and the height h of its center of gravity, bend that path by 1 + h z'': 0.5 %. The
-  // bodies of wheels and chassis do not follow the ground's curve in phase: 2 % of the weight.
+  // The center of gravity, at the height h, moves on a path whose curvature differs by the factor 1
+  // + h z'', which is 0.5 %. Wheels and chassis do not follow the curve of the ground in phase,
+  // which changes the loads by up to 2 % of the weight.
   EXPECT_NEAR(Sum(MeanLoads(road.log, 95.65, 101.65)), mass * (kGravity + bend * squares / count),
               Tolerance(0.02 * mass * kGravity));
 }
@@ -169,7 +174,8 @@ TEST(RoadHeightsCoasting, SlowACarBySineOfTheGrade) {
   };
   const double grade = 0.05;
   const double slowed = deceleration(Elevation(0.0, grade, 0.0)) - deceleration("");
-  // Turning wheels add some percent to the mass; drag at a lower speed is smaller by less.
+  // The inertia of the wheels adds a few percent to the mass. The drag changes by less, because the
+  // speed is lower.
   EXPECT_NEAR(slowed, kGravity * grade, Tolerance(0.08 * kGravity * grade));
 }
 
@@ -201,8 +207,8 @@ TEST(RoadHeightsLimits, AreHigherInABankedTurn) {
   const double level = SpeedAtLimitOnArc("");
   const double banked = SpeedAtLimitOnArc(Bank(-0.1));  // the right side up
   const double radius = 60.0 + 1.75;
-  // Of a point: v^2 = g R (mu + e)/(1 - mu e). Loads, which the bank evens out and the turn raises,
-  // change mu by a few percent, the speed by half of that.
+  // A point mass on a bank with the slope e obeys v^2 = g R (mu + e)/(1 - mu e). Changes of the
+  // wheel loads change mu by a few percent, and the speed by half as many percent.
   const double mu = level * level / (kGravity * radius);
   const double expected = std::sqrt(kGravity * radius * (mu + 0.1) / (1.0 - 0.1 * mu));
   EXPECT_GT(expected, 1.05 * level);

@@ -13,7 +13,7 @@
 namespace trackbed {
 namespace {
 
-/// 10 m forwards, 6 m back, 3 m forwards, straight along x.
+/// A plan straight along x: 10 m forward, 6 m backward, 3 m forward.
 Plan BackAndForth() {
   return PlanAlongRoute({{.length = 10.0}, {.length = 6.0, .direction = -1}, {.length = 3.0}}, 0.0);
 }
@@ -75,7 +75,7 @@ TEST(StationarySteer, IsOverWhenTheWheelsRest) {
   EXPECT_FALSE(steer.InProgress());  // never begun
   steer.Begin();
   EXPECT_TRUE(steer.InProgress());
-  steer.Update(0.0);  // it takes two to tell that nothing moves
+  steer.Update(0.0);  // rest needs two angles that hardly differ
   EXPECT_TRUE(steer.InProgress());
   steer.Update(0.003);
   EXPECT_TRUE(steer.InProgress());
@@ -102,7 +102,7 @@ TEST(SegmentSequencer, CountsStationsOnOverSegments) {
   EXPECT_EQ(sequencer.start_time(), 5.0);
   EXPECT_NEAR(sequencer.offset(), 10.0, Tolerance(1e-12));
   EXPECT_FALSE(sequencer.is_last());
-  // On the way back x = 9 is station 1 of the segment, 11 of the log.
+  // On the way back, x = 9 m is at station 1 m of the segment and at station 11 m of the log.
   EXPECT_NEAR(sequencer.Project(StateAt(9.0, 10.2))->s, 11.0, Tolerance(1e-12));
   EXPECT_NEAR(sequencer.station(), 1.0, Tolerance(1e-12));
 }
@@ -118,7 +118,8 @@ TEST(SegmentSequencer, EndsAfterItsLastSegment) {
 }
 
 TEST(SegmentSequencer, ReachesHalfOfAShortSegmentAtLeast) {
-  // 0.4 m of tolerance would skip a segment of 0.3 m: half of it has to be driven.
+  // The goal tolerance of 0.4 m would skip a segment of 0.3 m, so the car must drive at least half
+  // of the segment.
   SegmentSequencer sequencer(
       Drivable(PlanAlongRoute({{.length = 0.3}, {.length = 5.0, .direction = -1}}, 0.0)),
       StateAt(0.0, 0.0), Options());

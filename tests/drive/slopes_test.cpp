@@ -10,7 +10,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// Starts, stops and speeds on slopes.
+// Tests starts, stops and speeds on slopes.
 namespace trackbed {
 namespace {
 
@@ -21,7 +21,7 @@ struct Outcome {
   double goal_distance = 0.0;  ///< at the end [m]
 };
 
-/// 20 m straight ahead, or backwards, from rest to rest at 2 m/s.
+/// Drives 20 m straight forward or backward, from rest to rest at up to 2 m/s.
 Outcome Drive(const std::string& car_name, const std::string& plant, double grade, int direction,
               const std::string& infeasible = "slow_down") {
   const Scenario scenario = ParseScenario(
@@ -64,19 +64,19 @@ TEST_P(Slopes, AreStartedDrivenAndStoppedOn) {
   const auto& [car, plant, grade, direction] = GetParam();
   const Outcome outcome = Drive(car, plant, grade, direction);
   EXPECT_EQ(outcome.status, DriveStatus::kArrived);
-  // Between the brakes' release and the tyres' full drive force, some ten timesteps of 2 ms, a car
-  // falls back by g sin(0.2) (20 ms)^2/2 = 0.4 mm; its tyres' deflection, sigma mu, adds less than
-  // the bound's 0.05 m.
+  // The tyres reach their full drive force about ten timesteps of 2 ms after the brakes release.
+  // Meanwhile the car rolls back by g sin(0.2) (20 ms)^2/2 = 0.4 mm. The deflection of the tyres,
+  // sigma mu, adds less than 0.05 m.
   EXPECT_LE(outcome.rolled_back, Tolerance(0.05));
-  // The slope is fed forward: what is left are the drag of tyres and the pitching, of which the
-  // gain of 2/s leaves an error of 0.01 m/s for each 0.02 m/s^2.
+  // The feed-forward compensates the slope, but not tyre drag and pitching. With the gain of 2 1/s,
+  // a disturbance of 0.02 m/s^2 causes a speed error of 0.01 m/s.
   EXPECT_LE(outcome.speed_error, Tolerance(0.02));
   EXPECT_LE(outcome.goal_distance, Tolerance(0.1));
 }
 
 TEST(Slopes, HoldACarWhoseMotorIsTooWeak) {
-  // 50 % asks 0.447 g = 4.4 m/s^2 of a Prius whose motor gives 4.0: its brakes hold it. Without
-  // `allow` there is no plan.
+  // A grade of 50 % requires 0.447 g = 4.4 m/s^2, but the motor of the Prius provides only 4.0
+  // m/s^2. The brakes hold the car. Without `infeasible: allow`, there is no plan.
   const Outcome outcome = Drive("prius", "mujoco:magic_formula", 0.5, 1, "allow");
   EXPECT_EQ(outcome.status, DriveStatus::kStuck);
   EXPECT_LE(outcome.rolled_back, Tolerance(0.05));

@@ -9,8 +9,8 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/planning/common/plan.h"
 
-// Tests the refusal of starts inside obstacles, and the hint how to leave obstacles to the layers
-// that plan during the run.
+// Tests the refusal of starts inside obstacles, and the hint how to leave obstacles to replanning
+// during the run.
 namespace trackbed {
 namespace {
 
@@ -28,8 +28,8 @@ Scenario ScenarioWith(double x, double y, const std::string& more,
 TEST(StartOverlap, NamesTheObstacleAndTheDepth) {
   const VehicleParams car = ReferenceCar();
   const double front = car.length - car.rear_overhang;
-  // The obstacle reaches from x - 1 m on; moving it forward by the overlap frees the car. Obstacles
-  // that move, or become known later, overlap alike.
+  // The obstacle reaches from x - 1 m on; moving it forward by the overlap frees the car. Moving
+  // obstacles and obstacles that become known later are treated in the same way.
   for (const char* more : {"", ", velocity: {x: 5}", ", known_from: {time: 3}"}) {
     EXPECT_EQ(StartOverlap(ScenarioWith(front + 0.75, 0.2, more), car),
               fmt::format("world.obstacles[0] at ({:.4g}, 0.2) overlaps the car, which starts at "
@@ -60,11 +60,11 @@ TEST(PlanScenario, SaysHowToLeaveAnObstacleToReplanning) {
                                  "0.1}, or use a planner that ignores obstacles"),
             std::string::npos)
       << refused->reason;
-  // Both remedies make a plan.
+  // Both remedies of the hint lead to a plan.
   EXPECT_TRUE(
       PlanScenario(ScenarioWith(50.0, 0.2, ", known_from: {time: 0.1}", replan), ReferenceCar())
           .ok());
-  // Without layers that plan during the run, the hint would be wrong.
+  // Without replanning during the run, the hint would be wrong.
   const FeasiblePlan alone = PlanScenario(ScenarioWith(50.0, 0.2, ""), ReferenceCar());
   ASSERT_FALSE(alone.ok());
   EXPECT_EQ(alone->reason.find("known_from"), std::string::npos) << alone->reason;

@@ -10,7 +10,7 @@
 namespace trackbed {
 namespace {
 
-/// A vehicle 4 m long: 0.4 m count as arrived at the goal at (10, 0).
+/// A vehicle of 4 m length, which has arrived if it is within 0.4 m of the goal at (10, 0).
 LoopConfig Config() {
   return {.vehicle = UnicycleParams()};
 }
@@ -62,7 +62,8 @@ TEST(IsAtRest, IsSlowAndNotAskedToMove) {
   state.speed = -0.0099;
   for (const int gear : {1, -1}) {
     command.gear = gear;
-    command.acceleration = 0.1 * gear;  // along the gear: it is about to leave
+    command.acceleration = 0.1 * gear;  // in the direction of the gear, so the car is about to
+                                        // start
     EXPECT_FALSE(IsAtRest(state, command)) << gear;
     command.acceleration = -0.1 * gear;
     EXPECT_TRUE(IsAtRest(state, command)) << gear;
@@ -114,7 +115,7 @@ TEST_F(TerminationTest, SaysByHowMuchTheGoalIsMissed) {
   EXPECT_EQ(cause(), "heading error -0.28 rad exceeds 0.2 rad");
   state_.pose.x = 9.0;
   EXPECT_EQ(cause(), "distance of 1 m to the goal exceeds 0.4 m");
-  is_last_segment_ = false;  // the goal is not next
+  is_last_segment_ = false;  // the goal is not in this segment
   EXPECT_EQ(cause(), "");
 }
 
@@ -139,7 +140,7 @@ TEST_F(TerminationTest, EndsAtTheTimeLimitToHalfATimestep) {
   EXPECT_EQ(Ask(), std::nullopt);
   state_.time = 7.9991;
   EXPECT_EQ(Ask(), DriveStatus::kTimeLimit);
-  config_.duration = 6.0;  // along a path, its end is no arrival
+  config_.duration = 6.0;  // with a path, the end of the duration is not an arrival
   state_.time = 6.0;
   EXPECT_EQ(Ask(), DriveStatus::kTimeLimit);
 }
@@ -147,7 +148,7 @@ TEST_F(TerminationTest, EndsAtTheTimeLimitToHalfATimestep) {
 TEST_F(TerminationTest, ArrivesAfterTheDurationWithoutAPath) {
   plan_ = PlanAtSpeed(3.0);
   config_.duration = 6.0;
-  EXPECT_EQ(Ask(), std::nullopt);  // at rest, and staying there, for all that is known
+  EXPECT_EQ(Ask(), std::nullopt);  // at rest, but before the end of the duration
   state_.time = 6.0;
   EXPECT_EQ(Ask(), DriveStatus::kArrived);
   config_.time_limit = 5.5;
@@ -210,7 +211,7 @@ TEST_F(TerminationTest, IsAirborneAfterASecondWithoutTheRoad) {
   };
   EXPECT_EQ(ask(5.0, 0.31), std::nullopt);
   EXPECT_EQ(ask(5.99, 0.31), std::nullopt);
-  EXPECT_EQ(ask(6.0, 0.29), std::nullopt);  // a wheel has come near
+  EXPECT_EQ(ask(6.0, 0.29), std::nullopt);  // a wheel is near the road again
   EXPECT_EQ(ask(6.01, 5.0), std::nullopt);
   EXPECT_EQ(ask(7.0, 9.0), std::nullopt);
   EXPECT_EQ(ask(7.02, 12.5), DriveStatus::kAirborne);
@@ -228,7 +229,7 @@ TEST_F(TerminationTest, IsStuckAfterTenSecondsInPlaceAlthoughItIsToMove) {
   };
   EXPECT_EQ(ask(1.0, 0.0), std::nullopt);
   EXPECT_EQ(ask(10.9, 0.009), std::nullopt);
-  EXPECT_EQ(ask(11.0, 0.011), std::nullopt);  // it moves, if slowly
+  EXPECT_EQ(ask(11.0, 0.011), std::nullopt);  // it moves slowly
   EXPECT_EQ(ask(20.9, 0.011), std::nullopt);
   to_move_ = false;
   EXPECT_EQ(ask(21.1, 0.011), std::nullopt);

@@ -11,12 +11,12 @@
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/sim/plant.h"
 
-/// A plant, a controller and plans as a user would write them, small enough for closed forms.
+/// A plant, a controller and plans like those of a user, simple enough for results in closed form.
 namespace trackbed {
 
 inline constexpr double kUnicycleWheelbase = 2.0;  // [m]
 
-/// What the loop is told of it: 4 m by 2 m, so that 0.1 of its length is 0.4 m.
+/// Parameters of the unicycle. It is 4 m long and 2 m wide, so a tenth of its length is 0.4 m.
 inline VehicleParams UnicycleParams() {
   VehicleParams params;
   params.wheelbase = kUnicycleWheelbase;
@@ -27,8 +27,8 @@ inline VehicleParams UnicycleParams() {
   return params;
 }
 
-/// Obeys the acceleration exactly, has its wheels where they are asked to be at once, and moves by
-/// an arc of the exact length in each step. Like every plant it never rolls against the gear.
+/// Obeys the acceleration exactly, turns its wheels to the commanded angle at once, and moves on an
+/// arc of the exact length in each step. Like every plant it never rolls against the gear.
 class Unicycle : public Plant {
  public:
   explicit Unicycle(const StartState& start, double timestep = 0.002) : timestep_(timestep) {
@@ -41,7 +41,7 @@ class Unicycle : public Plant {
     commands.push_back(command);
     double along = command.gear * state_.speed;
     const double next = along + command.gear * command.acceleration * timestep_;
-    // Where it comes to rest within the step, it has moved by v^2/(2 a).
+    // If the unicycle comes to rest within the step, it moves by v^2/(2 a).
     const double moved = next < 0.0 ? 0.5 * along * along / std::abs(command.acceleration)
                                     : 0.5 * (along + next) * timestep_;
     along = std::max(0.0, next);
@@ -84,7 +84,7 @@ class Unicycle : public Plant {
   VehicleState state_;
 };
 
-/// Always asks for the same angle, and for an acceleration if it has one.
+/// Always commands the same steering angle, and the same acceleration if one is given.
 class ConstantController : public SteeringController {
  public:
   explicit ConstantController(double steering, std::optional<double> acceleration = {})
@@ -97,8 +97,8 @@ class ConstantController : public SteeringController {
   }
   std::optional<double> Accelerate(const ControlInput& /*input*/) override { return acceleration_; }
 
-  std::vector<VehicleState> inputs;  ///< that it was told, update by update
-  std::vector<double> stations;      ///< likewise [m]
+  std::vector<VehicleState> inputs;  ///< states of all updates
+  std::vector<double> stations;      ///< stations of all updates [m]
 
  private:
   double steering_;
@@ -108,7 +108,7 @@ class ConstantController : public SteeringController {
 inline constexpr SpeedLimits kUnicycleLimits{
     .speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
 
-/// Along `segments` from the origin, at rest at its cusps and its end.
+/// A plan along `segments` from the origin, with stops at the cusps and at the end.
 inline Plan PlanAlongRoute(const std::vector<Segment>& segments, double start_speed) {
   Plan plan;
   plan.reference.path = Path({}, segments);
@@ -118,7 +118,7 @@ inline Plan PlanAlongRoute(const std::vector<Segment>& segments, double start_sp
   return plan;
 }
 
-/// Without a path, at `speed` [m/s].
+/// A plan without a path, at `speed` [m/s].
 inline Plan PlanAtSpeed(double speed) {
   Plan plan;
   plan.reference.speed = SpeedProfile({{0.0, speed}});
@@ -126,7 +126,7 @@ inline Plan PlanAtSpeed(double speed) {
   return plan;
 }
 
-/// Any plan as one that may be driven.
+/// Converts any plan to a FeasiblePlan, even if it is infeasible.
 inline FeasiblePlan Drivable(Plan plan) {
   PlanRequest request{};
   request.infeasible = InfeasiblePolicy::kAllow;
