@@ -46,7 +46,8 @@ Trace Circle(const std::string& name, double radius, double wheelbase, double le
 }
 
 TEST(CompareTraces, LeavesOutGapsOfARecord) {
-  // The traces are 1 m apart until 10 m and 5 m apart after 20 m; the second one has a gap between.
+  // The traces are 1 m apart up to s = 10 m and 5 m apart from s = 20 m on; the second trace has a
+  // gap between these stations.
   Trace second = Line("recorded", {0, 5, 10, 12, 18, 20, 25}, 1.0);
   for (std::size_t i = 3; i < 7; ++i) {
     second.pose[i].y = 5.0;
@@ -89,8 +90,8 @@ TEST(CompareTraces, IntegratesOverArcLengthAndNotOverRows) {
 
 TEST(CompareTraces, KnowsHowTwoCirclesPart) {
   // Both circles start on one tangent: |p_2 - p_1| follows from their equations, psi = s/R, psi' =
-  // v/R, delta = atan(L/R). At the rows nothing is interpolated; between rows, chords of length h
-  // deviate by h^2/(8 R), 1.25 um. The largest difference is at the end.
+  // v/R, delta = atan(L/R). Between rows, chords of length h deviate from the circle by h^2/(8 R) =
+  // 1.25 um. The largest difference is at the end.
   constexpr double kLength = 15.0;
   constexpr double kSpacing = 0.01;
   const Trace a = Circle("a", 10.0, 2.7, kLength, kSpacing);

@@ -233,7 +233,8 @@ TEST(SineWithDwell, GivesRatiosAndDisplacement) {
 TEST(SineWithDwell, FailsWhatTurnsOnOrHardlyMoves) {
   EXPECT_EQ(Evaluated(SineWithDwellTestOptions{}, SineWithDwellLog(1.0, 2.0, 4.0, 5.0)).passed,
             false);
-  // The displacement is 0.5 a 1.07^2, which reaches the required 1.83 m only at 3.2 m/s^2.
+  // The displacement is 0.5 a (1.07 s)^2. It reaches the required 1.83 m only if the acceleration a
+  // is at least 3.2 m/s^2.
   EXPECT_EQ(Evaluated(SineWithDwellTestOptions{}, SineWithDwellLog(1.0, 0.5, 3.0, 5.0)).passed,
             false);
   const ManeuverMetrics cut =

@@ -15,8 +15,8 @@
 namespace trackbed {
 namespace metrics_test {
 
-/// A run at `speed` that steers as cos(t), by a car of understeer gradient K that is always in
-/// steady state.
+/// Returns the log of a run at `speed` with a steering angle proportional to cos(t). The car has
+/// the understeer gradient `gradient` and is in steady state at all times.
 RunLog Drive(double speed, double amplitude, double gradient, double wheelbase) {
   RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
   for (int i = 0; i <= 500; ++i) {
@@ -49,15 +49,16 @@ TEST(YawRateRatio, IsThatOfTheUndersteerGradient) {
 }
 
 TEST(YawRateRatio, IsNotSaidOfACarThatHardlyTurned) {
-  // The RMS yaw rate of 10 m/s / 2.5 m tan(A) / sqrt 2 is the threshold of 1 mrad/s at A = 0.35
-  // mrad.
+  // With the steering amplitude A, the RMS yaw rate is (10 m/s)/(2.5 m) tan(A)/sqrt(2). It reaches
+  // the threshold of 1e-3 rad/s at A = 0.35e-3 rad.
   EXPECT_TRUE(Ratio(10.0, 5e-4, 0.0).has_value());
   EXPECT_FALSE(Ratio(10.0, 2e-4, 0.0).has_value());
   EXPECT_FALSE(Ratio(0.0, 0.1, 0.0).has_value());
 }
 
 TEST(SteeringRateRms, IsThatOfARampAndARest) {
-  // 0.1 rad/s for a quarter of the time: RMS 0.1 sqrt(1/4).
+  // The steering rate is 0.1 rad/s for a quarter of the time and then 0, so its RMS is 0.1
+  // sqrt(1/4) rad/s.
   RunLog log{.plant = "made_up", .configurations = Table({"t_s"})};
   for (int i = 0; i <= 400; ++i) {
     LogRow row;
@@ -94,12 +95,15 @@ double Saturated(double step, double limit, const std::function<double(int)>& co
 }
 
 TEST(SaturatedFraction, CountsTheRateLimit) {
-  // 0.08 rad at 0.008 rad per period takes ten periods; the last of them reaches the command.
+  // Turning by 0.08 rad at 0.008 rad per period takes ten periods. The last of them reaches the
+  // command, so only nine are saturated.
   EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 100 ? 0.08 : 0.0; }), 9.0 / 400.0);
 }
 
 TEST(SaturatedFraction, CountsTheAngleLimit) {
-  // Half of the periods command more than 0.5 rad, which takes 62 periods to reach.
+  // The last 200 of 400 periods command 0.6 rad, which exceeds the angle limit of 0.5 rad. The
+  // wheels first turn at the rate limit for 62 periods and then stay at the angle limit. All 200
+  // periods are saturated.
   EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 200 ? 0.6 : 0.0; }), 200.0 / 400.0);
 }
 
@@ -252,7 +256,8 @@ TEST(Measure, SaysWhereAndWhenTheLargestValuesWere) {
     LogRow row;
     row.state.time = 0.02 * i;
     row.state.distance = 0.06 * i;
-    // 0.1 s from row 150 to 155, and one row with a larger value.
+    // The lateral acceleration is -2 m/s^2 for 0.1 s, in the rows 150 to 155, and larger in a
+    // single row.
     row.state.lateral_acceleration = i >= 150 && i < 156 ? -2.0 : i == 50 ? -6.0 : 1.0;
     row.state.steering = 0.002 * std::clamp(i - 200, 0, 5);  // 0.01 rad in the 0.1 s up to 4.1 s
     row.clearance = 1.0;

@@ -42,8 +42,7 @@ TEST(PartialPlan, IsDrivenToItsEndAndNotPassed) {
     EXPECT_EQ(metrics.blocked, "");
     EXPECT_EQ(metrics.plan_changes, 0);
     EXPECT_FALSE(metrics.clearance->collision);
-    // The car rests at the end of its path: the last meter of a plan brings it there to
-    // centimeters.
+    // The car rests at the end of its path.
     const Vec2 stands = run.logs[i].rows.back().state.pose.position();
     EXPECT_LE((stands - end).norm(), 0.2);
     // goal_distance is measured from the mission's goal.

@@ -179,9 +179,10 @@ TEST(RecordedRuns, AreReplayedExactlyByThePlantThatTheyAreOf) {
       {.plants = {"recorded", "kinematic"}, .bounds = {.position_max = 0.01}}};
   const RunResult result = RunScenario(scenario);
   EXPECT_TRUE(result.verdict.passed) << testing::PrintToString(result.verdict.failures);
-  // The measured angle at the end of a period is the actuator's command at its beginning. The
-  // actuator moves there at its full rate and then waits: up to a period early. 0.5 rad/s over 20
-  // ms is at most 0.01 rad of steering, half of that on average, of an amplitude of 0.2 rad.
+  // The angle measured at the end of a period is the command of the actuator at the beginning of
+  // the period. The actuator turns at its full rate and then waits, so it reaches the angle up to a
+  // period early. At 0.5 rad/s over 20 ms, the steering errs by at most 0.01 rad and by 0.005 rad
+  // on average, with an amplitude of 0.2 rad.
   EXPECT_LT(Number(result.metrics[1], "recorded.yaw_rate.relative_rms"), Tolerance(0.05));
   EXPECT_GT(Number(result.metrics[2], "recorded.yaw_rate.relative_rms"),
             2.0 * Number(result.metrics[1], "recorded.yaw_rate.relative_rms"));
@@ -229,10 +230,11 @@ TEST(ImportedLogs, HaveTheMotionThatTheyWereMadeOf) {
     double speed_error;
     double rate_error;
   };
-  // autoware.csv has digits of 1e-6 and slopes over 0.1 s; a parabola's error in the yaw rate is
-  // psi''' h^2/6 with psi''' = 1.5 rad/s 1.2^2/s^2. f1tenth has position noise of 3 mm over some 6
-  // rows of 0.3 s: a standard deviation of 0.03 m/s, at most four times that; and 0.5 deg/s over 20
-  // rows, a standard deviation of 0.004 rad/s, at most four times that.
+  // The numbers in autoware.csv are rounded to 1e-6, and derivatives are fitted over 0.1 s. Fitting
+  // a parabola causes an error of the yaw rate of psi''' h^2/6 with psi''' = 1.5 * 1.2^2 rad/s^3.
+  // The f1tenth log has a position noise of 3 mm, which causes a standard deviation of 0.03 m/s in
+  // the speed. Its heading noise causes a standard deviation of 0.004 rad/s in the yaw rate. The
+  // tolerances for f1tenth are at least four standard deviations.
   for (const Case& own : {Case{"autoware.csv", "autoware", 0.0, 1e-3, 0.01},
                           Case{"f1tenth/pfPoseData.csv", "f1tenth", 0.3, 0.15, 0.03}}) {
     const RecordedDrive drive =
@@ -270,8 +272,8 @@ TEST(ImportedLogs, HaveTheDartCarsMotion) {
     EXPECT_GT(fastest->velocity_V.x(), own.fastest) << own.log;
     EXPECT_LT(fastest->velocity_V.x(), 4.0) << own.log;
     // The rear axle of a gently driven car hardly moves sideways, so a small lateral speed shows
-    // that the lever arm and the misalignment are right. A slip of 0.03 rad at 1.5 m/s^2 is the
-    // rear axle's, by the tyre fit of the authors of the data.
+    // that the lever arm and the misalignment are right. According to the tyre fit of the authors
+    // of the data, the slip angle of the rear axle is 0.03 rad at 1.5 m/s^2.
     double sideways = 0.0;
     double count = 0.0;
     for (const RecordedSample& sample : drive.samples) {

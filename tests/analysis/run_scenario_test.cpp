@@ -7,7 +7,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/scenario/cameras.h"
 
-/// The functions of the public face: LoadScenario, RunScenario, Find and Compare.
+/// Tests the public functions LoadScenario, RunScenario, Find and Compare.
 namespace trackbed {
 namespace {
 
@@ -122,8 +122,8 @@ TEST(FollowingNote, SaysHowLongAndWhy) {
   const std::string& note = result.verdict.notes.front();
   EXPECT_EQ(note.find("kinematic: followed a slower obstacle for "), 0U) << note;
   EXPECT_NE(note.find(" s instead of passing it: no room to pass"), std::string::npos) << note;
-  // The car follows until the leader is past the goal: 105 m at 3 m/s, less the last meters, in
-  // which the car brakes to its goal from 3 m/s.
+  // The car follows the leader for about 105 m at 3 m/s, until the leader is past the goal. The
+  // last meters do not count, because the car brakes to its goal.
   const double time = std::stod(note.substr(note.find(" for ") + 5));
   EXPECT_GT(time, 25.0);
   EXPECT_LT(time, 40.0);

@@ -59,16 +59,18 @@ TEST_P(Routes, PreviewTracksThemOnEveryPlant) {
     EXPECT_EQ(metrics.status, DriveStatus::kArrived);
     EXPECT_LE(metrics.tracking->cross_track_max, 0.15);
     EXPECT_LE(metrics.tracking->goal_distance, 0.5);
-    // Measured at the knuckles, over any 0.1 s: the limit plus 2 % for the servo's final overshoot.
+    // The steering rate is measured at the knuckles over 0.1 s. It may exceed the limit by 2 %,
+    // because the servo overshoots.
     EXPECT_LE(metrics.steering_rate_max, 1.02 * 0.15056818181818182);
     EXPECT_GT(metrics.steering_rate_max, 0.05);  // it did steer
   }
 }
 
 TEST_P(Routes, StopWhereTheSchedulePredicts) {
-  // Computed independently of this program: C.40, rear reference, wheels that follow the schedule
-  // exactly, stopped after the plan's length. The car ends 0.1285 m from A's end and 0.0104 m from
-  // B's.
+  // The expected goal distances were computed independently of this program: with eq. (C.40) of
+  // Skackauskas, dissertation, for the rear axle, wheels that follow the schedule exactly, and a
+  // stop after the length of the plan. They are 0.1285 m for route A (three_turns) and 0.0104 m for
+  // route B.
   const bool is_a = std::string(GetParam()) == "three_turns";
   const double converged = is_a ? 0.1285 : 0.0104;
   for (const double period : {0.001, 0.002, 0.004, 0.01, 0.02}) {
@@ -77,9 +79,9 @@ TEST_P(Routes, StopWhereTheSchedulePredicts) {
                           "drive.timestep=0.001", fmt::format("drive.control_period={}", period)}));
     const TrackingMetrics& tracking = *Of(result, "kinematic").tracking;
     // The tolerance covers the printed digits and the stopping point. The speed follows the profile
-    // in periods of constant acceleration, off by at most a T/2 if braking begins within a period;
-    // at the end that is half a period's distance at a speed of a T. Both together are 1.5 a T^2,
-    // 0.9 mm at 20 ms.
+    // in periods T of constant acceleration. If braking at a begins within a period, the speed errs
+    // by at most a T/2. Together with the last period before the stop, the stopping point errs by
+    // at most 1.5 a T^2, which is 0.9 mm at 20 ms.
     EXPECT_NEAR(tracking.goal_distance, converged, Tolerance(0.0001 + 1.5 * 1.5 * period * period))
         << "period " << period;
   }
@@ -89,8 +91,8 @@ TEST(OpenLoop, MujocoStaysNearTheKinematicCarOnContacts) {
   for (const char* route : {"three_turns", "winding"}) {
     const RunResult result = RunScenario(
         Load(route, {"control={method: schedule}", "expect={}", "vehicle.tyre=contact"}));
-    // The physical servo lags by 10 to 15 ms, 4 cm of road at either end of each ramp, which mostly
-    // cancels; a remaining heading error of one milliradian is 8 cm after 80 m.
+    // The physical servo lags by 10 to 15 ms, which is 4 cm of road at each end of a ramp. The
+    // errors of both ends mostly cancel. A remaining heading error of 1e-3 rad is 8 cm after 80 m.
     EXPECT_NEAR(Of(result, "mujoco").tracking->goal_distance,
                 Of(result, "kinematic").tracking->goal_distance, Tolerance(0.08))
         << route;
@@ -140,9 +142,10 @@ TEST(Run, TurnedStartGivesTheTurnedRun) {
       yaw_apart = std::max(yaw_apart, std::abs(expected.yaw - actual.yaw));
       apart = std::max(apart, (expected.position() - actual.position()).norm());
     }
-    // Kinematic: rounding over 140 m of route (1e-14 in each of 23 000 steps). MuJoCo: the contact
-    // solver stops at 1e-10 of its scale, differently for each direction; the closed loop keeps the
-    // resulting micrometers from growing.
+    // The kinematic run deviates by rounding over a route of 140 m: 1e-14 m in each of 23 000
+    // steps. MuJoCo's contact solver stops at a relative tolerance of 1e-10, with results that
+    // depend on the direction. The resulting deviations of micrometers do not grow in the closed
+    // loop.
     EXPECT_LE(apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
     EXPECT_LE(yaw_apart, a.logs[i].plant == "kinematic" ? Tolerance(1e-9) : Tolerance(1e-4));
   }
@@ -434,7 +437,7 @@ TEST(Drive, LogsCommandActuatorAndMeasurementApart) {
     measured_behind =
         std::max(measured_behind, std::abs(row.state.steering - row.state.steering_actuator));
   }
-  EXPECT_GT(command_ahead, 0.002);     // the rate limit bites
+  EXPECT_GT(command_ahead, 0.002);     // the rate limit applies
   EXPECT_GT(measured_behind, 0.0005);  // the servo lags
   EXPECT_LT(measured_behind, 0.005);
 }

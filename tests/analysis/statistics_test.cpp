@@ -170,17 +170,19 @@ TEST(FirstOrderIndices, AreThoseOfIshigamisFunction) {
       // for x2, where f' = a sin 2 x2. Half an interval is 1.96 standard deviations; a fixed sample
       // lies within four of them with a probability of 1 - 1/16 000.
       EXPECT_NEAR(indices[i]->index, truth[i], 0.0014 + 4.0 / 1.96 * half) << i;
-      // sqrt(1 / 16384) is 0.008; with the variance of these outputs' squares it is less than twice
-      // as much, and 1.96 standard deviations are 0.03.
+      // The standard deviation of the index of 16384 samples is about sqrt(1 / 16384) = 0.008, and
+      // less than twice as much for these outputs. Half an interval is 1.96 standard deviations, so
+      // it is below 0.03.
       EXPECT_LT(half, 0.03) << i;
       EXPECT_GT(half, 0.001) << i;
     }
   }
 }
 
-// About 95 % of the intervals of 200 samples must contain the true value: binomial, 190 +- 3.1, so
-// 178 is four standard deviations below. y = x1 + x2 / 2 + noise, all uniform: shares 1 : 1/4 :
-// 1/4.
+// About 95 % of the intervals of 200 samples must contain the true value. Their number is binomial
+// with the mean 190 and the standard deviation 3.1, so 178 is four standard deviations below the
+// mean. The output y = x1 + x2 / 2 + noise, with uniform variables, has the variance shares 1 : 1/4
+// : 1/4.
 TEST(FirstOrderIndices, HaveIntervalsThatHaveTheTruth) {
   constexpr int kSamples = 200;
   const std::vector<double> truth{1.0 / 1.5, 0.25 / 1.5, 0.0};
@@ -202,8 +204,8 @@ TEST(FirstOrderIndices, HaveIntervalsThatHaveTheTruth) {
   }
   for (std::size_t i = 0; i < truth.size(); ++i) {
     EXPECT_GE(held[i], 178) << i;
-    // Ten classes of a straight line lose a hundredth of its share; the mean of 200 samples is
-    // accurate to a fourteenth of half an interval, which is below 0.1.
+    // With ten classes, the index of a linear effect is too small by 1 %. The mean of 200 samples
+    // is accurate to 1/14 of half an interval, and half an interval is below 0.1.
     EXPECT_NEAR(sum[i], 0.99 * truth[i], 0.01) << i;
   }
 }

@@ -12,7 +12,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/core/file.h"
 
-/// Checks of a study before it runs, and the execution of a single run.
+/// Tests the checks of a study before it runs, and the execution of a single run.
 namespace trackbed {
 namespace {
 
@@ -314,8 +314,9 @@ TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
   // To first order the cross-track error e obeys e'' + 2/L e' + 2/L^2 e = f. For an arc of radius R
   // that begins L ahead, f grows as x^2/(L^2 R) over the distance L to its beginning and then
   // vanishes: e rises to 0.104 L^2/R, 0.57 L into the arc. With a preview of 2.5 m the car is back
-  // on the path before the arc of 16.83 m ends. Higher orders are (L/R)^2 = 2 % of that; commands
-  // are held for 20 ms and the servo lags by 15 ms, together 4 % of L: 10 % in all.
+  // on the path before the arc of 16.83 m ends. Terms of higher order change this error by (L/R)^2
+  // = 2 %. Commands are held for 20 ms and the servo lags by 15 ms, together 4 % of L. The
+  // tolerance of 10 % covers all of these effects.
   const double expected = 0.104 * 2.5 * 2.5 / 16.83;
   for (const std::size_t cross_track : {2U, 3U}) {  // on both plants
     EXPECT_NEAR(std::stod(rows[1][cross_track]), expected, Tolerance(0.1 * expected));

@@ -59,8 +59,8 @@ TEST_F(Records, HaveTheLastOfSeveralLinesOfARow) {
   EXPECT_EQ(Open().Read(1)["cells"][0], "11");
 }
 
-// A killed process, a full disk or a power failure may truncate the file anywhere behind its
-// header, with which it appears at once.
+// A killed process, a full disk or a power failure may truncate the file anywhere after its header.
+// The header is always complete, because the file is created together with its header.
 TEST_F(Records, GoOnBehindTheLastWholeLineOfAFileThatIsCutOff) {
   {
     SweepRecords records = Open();

@@ -131,9 +131,10 @@ TEST(TrackMargin, IsThatOfBruteForce) {
     const double s = track.Locate(box.center.position()).s;
     const double expected = BruteForceOnRing(box, kRadius - 4.0, kRadius + 4.0);
     off += expected < 0.0 ? 1 : 0;
-    // Edges are chords. With widths linear between points 5 m apart they match circles to 1e-4 m,
-    // with pieces of 0.5 m to 0.5^2/(8 x 46) = 7e-4 m. Points of the outline 0.25 m apart miss
-    // 0.25^2/(8 x 46) = 2e-4 m, those of the brute force less.
+    // The edges are polylines. Linear interpolation of the widths between points 5 m apart errs by
+    // 1e-4 m. Chords of 0.5 m deviate from the inner edge, a circle of radius 46 m, by 0.5^2/(8 x
+    // 46) = 7e-4 m. Sampling the outline of the car at points 0.25 m apart adds 0.25^2/(8 x 46) =
+    // 2e-4 m.
     EXPECT_NEAR(TrackMargin(track, box, s), expected, Tolerance(1.1e-3)) << i;
   }
   EXPECT_GT(off, 100);  // the sample has points on and off the track

@@ -13,7 +13,7 @@
 #include "trackbed/scenario/scenario.h"
 #include "trackbed/vehicle/steering_schedule.h"
 
-// Effects of the limited steering rate on turns, predicted and measured.
+// Tests the predicted and the measured effects of the limited steering rate on turns.
 namespace trackbed {
 namespace turns_test {
 
@@ -43,8 +43,8 @@ TEST(Turns, SayWhereAndWhenTheyWereMeasured) {
   ASSERT_EQ(turns.size(), planned.size());
   for (std::size_t i = 0; i < turns.size(); ++i) {
     EXPECT_EQ(turns[i].s, planned[i].middle);
-    // At 3 m/s from the first row on. The car runs up to a centimeter inside its path in a bend of
-    // 16.8 m, which shortens the distance by 0.1 %.
+    // The car drives at 3 m/s from the first row on. In a bend of radius 16.8 m, it runs up to 1 cm
+    // inside its path, which shortens the distance by 0.1 %.
     EXPECT_NEAR(turns[i].t, planned[i].middle / 3.0, Tolerance(1e-3 * turns[i].t));
   }
 }
@@ -54,7 +54,8 @@ TEST(Turns, OnContactsLagByTheServo) {
       Load("three_turns", {"control.method=schedule", "drive.plants=['mujoco:contact']"}));
   ASSERT_EQ(run.metrics[0].turns.size(), 3U);
   for (const TurnMetrics& turn : run.metrics[0].turns) {
-    // Contacts slip by a velocity proportional to the force: 0.1 % of a heading of pi/4.
+    // Tyre contacts slip at a velocity proportional to the force, which changes the heading of pi/4
+    // by 0.1 %.
     EXPECT_NEAR(turn.measured.heading_deficit, turn.predicted.heading_deficit,
                 Tolerance(1e-3 * 0.785));
   }
@@ -95,8 +96,8 @@ TEST_P(HeadingDeficit, OfAStepOnContactsIsTheClosedForm) {
   ASSERT_NEAR(car.params().steering_rate, rate, 1e-12);
   const RunLog log =
       SimulateScenario(scenario, car, PlanScenario(scenario, car.params()), "mujoco:contact");
-  // Compares a curvature step with the ramp: the deficit after the wheels have settled, five lags
-  // after the ramp.
+  // Compares the car with a car that follows a curvature step. The heading deficit is measured
+  // after the wheels have settled, five steering lags after the end of the ramp.
   const double ramp_time = delta / rate;
   const double lag = car.params().steering_lag;
   const auto row = static_cast<std::size_t>(std::ceil((ramp_time + 5.0 * lag) / 0.02));

@@ -32,7 +32,8 @@ TEST(Verdict, FailsACarThatPassesThroughAThinWallBetweenTwoRows) {
     SCOPED_TRACE(run.logs[i].plant);
     EXPECT_EQ(run.logs[i].status, DriveStatus::kCollided);
     EXPECT_EQ(run.metrics[i].clearance->min, 0.0);
-    // The front bumper reaches the wall at (64.9 - front)/10; MuJoCo's car may be a little slower.
+    // The front bumper reaches the wall at the time (64.9 m - front)/(10 m/s). MuJoCo's car may be
+    // a little slower.
     const LogRow& first = run.logs[i].rows.front();
     EXPECT_EQ(first.state.pose.x, 0.0);
     EXPECT_NEAR(*run.logs[i].contact_time, 6.13, 0.15);
@@ -65,7 +66,7 @@ TEST(Verdict, MeasuresTheDistanceFromThePathBehindItsStart) {
 }
 
 TEST(Verdict, HoldsASmallCarToItsOwnSize) {
-  // A car that steers a tenth of the commanded angle stops meters away from its goal at 2 m.
+  // A car that steers a tenth of the commanded angle stops far from its goal at (2, 2).
   const std::string mission =
       "vehicle: {model: small_car.xml}\nmission: {speed: 1, waypoints: [[0, 0], [2, 0], [2, 2]]}\n"
       "plan: {method: fillet}\ndrive: {plants: [kinematic]}\n";
