@@ -8,7 +8,7 @@
 #include "tests/sim/cars.h"
 #include "tests/tolerance.h"
 
-/// Compares VehicleParams' largest deceleration with the MuJoCo cars.
+/// Compares the largest deceleration of VehicleParams with that of the MuJoCo cars.
 namespace trackbed {
 namespace {
 
@@ -53,7 +53,8 @@ TEST(Braking, ThePriusBrakesAsHardAsItsLimitAndHoldsItsWheels) {
       SCOPED_TRACE(fmt::format("{}, road {}", plant, road));
       const double limit = MaxDeceleration(CarWith("prius", {}).params(), road);
       const Stop stop = Brake("prius", plant, limit, road);
-      // The commanded deceleration, except for slip in the first 0.02 s and bearing friction.
+      // The car reaches the commanded deceleration, except for slip in the first 0.02 s and bearing
+      // friction.
       EXPECT_NEAR(stop.deceleration, limit, Tolerance(0.002 * limit));
       EXPECT_GT(stop.slip, -0.9);
     }
@@ -61,8 +62,8 @@ TEST(Braking, ThePriusBrakesAsHardAsItsLimitAndHoldsItsWheels) {
 }
 
 TEST(Braking, HarderThanThatAWheelLocksAndTheCarBrakesNoHarder) {
-  // Contacts lock at 10 % more. The Magic Formula tyres exceed the contact's 0.9 only while they
-  // roll.
+  // Contacts lock at 10 % more than the limit. Magic Formula tyres have more friction than the
+  // contacts' 0.9 only while they roll.
   const double limit = CarWith("prius", {}).params().max_deceleration;
   const Stop on_tyres = Brake("prius", "mujoco:magic_formula", 1.1 * limit);
   EXPECT_LT(on_tyres.slip, -0.99);

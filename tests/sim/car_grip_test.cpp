@@ -71,8 +71,8 @@ TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatCoasts) {
 }
 
 TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatKeepsItsSpeed) {
-  // The inner front wheel of the Prius must drive against air drag and the drag of slip angles, and
-  // slides: 8 % less.
+  // The front wheels of the Prius must drive against air drag and the drag of slip angles, so the
+  // inner front wheel slides. The car reaches 8 % less.
   const CarModel car = CarWith("prius", {});
   const GripModel grip = MakeGripModel(car, TyreLaw::kMagicFormula);
   const LongitudinalForces& forces = grip.forces;
@@ -86,8 +86,8 @@ TEST(CarGrip, LateralLimitIsThatOfAMujocoCarThatKeepsItsSpeed) {
 }
 
 TEST(CarGrip, RollStiffnessIsThatOfTheModelsSprings) {
-  // Stiffnesses in models/prius/prius.xml: springs of 19 and 22 kN/m, anti-roll bars of 11480 and
-  // 5480 N/m. Tyres have a height of 6 % of the radius.
+  // The springs in models/prius/prius.xml have stiffnesses of 19 and 22 kN/m, the anti-roll bars of
+  // 11480 and 5480 N/m.
   const CarModel car = CarWith("prius", {});
   const GripModel grip = MakeGripModel(car, TyreLaw::kMagicFormula);
   const double tyre = car.parts().tyres->vertical_stiffness;
@@ -95,7 +95,8 @@ TEST(CarGrip, RollStiffnessIsThatOfTheModelsSprings) {
   const std::array<double, 2> bar{11480.0, 5480.0};
   for (std::size_t i = 0; i < 2; ++i) {
     const double square = grip.axles[i].track * grip.axles[i].track;
-    // For a wheel travel z the roll angle is 2 z/t, and the bar is stretched by 2 z.
+    // With the wheel travel z and the track width t, the roll angle is 2 z/t, and the bar is
+    // stretched by 2 z.
     const double springs = (0.5 * spring[i] + bar[i]) * square;
     const double tyres = 0.5 * tyre * square;
     EXPECT_NEAR(grip.axles[i].roll_stiffness, springs * tyres / (springs + tyres),

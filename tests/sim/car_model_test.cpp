@@ -32,7 +32,7 @@ TEST(Prius, HasThePublishedParameters) {
   const VehicleParams& params = car.params();
   EXPECT_EQ(params.name, "prius");
   EXPECT_EQ(params.wheelbase, 2.7);
-  // Masses are set by hand to 13 digits; a tenth of a millimeter has no physical significance.
+  // The file states masses with 13 digits. A deviation of 0.1 mm has no physical significance.
   EXPECT_NEAR(params.cg_to_rear, 1.4, Tolerance(1e-4));
   EXPECT_NEAR(params.cg_to_front(), 1.3, Tolerance(1e-4));
   EXPECT_NEAR(params.mass, 1317.0, Tolerance(1e-9));
@@ -46,7 +46,7 @@ TEST(Prius, HasThePublishedParameters) {
 
 TEST(Prius, ActuatorAgreesWithTheNumbersItIsMadeOf) {
   const CarModel car = Prius();
-  // Both sides are the same real number in double precision, up to the rounding of one operation.
+  // Both numbers are equal except for the rounding of one operation.
   EXPECT_NEAR(car.params().min_turning_radius(), Custom(car, "turning_radius"), Tolerance(1e-14));
   EXPECT_NEAR(car.params().steering_rate,
               Custom(car, "steering_wheel_rate") / Custom(car, "steering_ratio"), Tolerance(1e-16));
@@ -119,7 +119,7 @@ TEST(Prius, OpensAndSteersInMujocoAlone) {
     mj_step(m.get(), d.get());
   }
   const int rack = m->jnt_qposadr[mj_name2id(m.get(), mjOBJ_JOINT, "rack")];
-  // 2 s at the limit of 0.1506 rad/s, less the servo's lag of 10 ms.
+  // The rack turns for 2 s at the limit of 0.1506 rad/s, with a servo lag of 10 ms.
   EXPECT_NEAR(d->qpos[rack], 2.0 * 0.15056818181818182, Tolerance(0.002));
   EXPECT_GT(d->qpos[0], 0.5);  // drives forward
   EXPECT_GT(d->qpos[1], 0.0);  // and to the left
@@ -343,14 +343,16 @@ TEST(VehicleLimits, BrakingIsLimitedByWeakBrakesToo) {
 }
 
 TEST(VehicleLimits, TheDriveIsLimitedByItsTorqueOrItsAxlesGrip) {
-  // Prius: limited by the torque, less 1 % of the weight and four bearings of 1 N m. The
-  // front-wheel drive would slip only at 3.828 m/s^2.
+  // The motor torque limits the Prius. 1 % of the weight and the friction of four bearings, 1 N m
+  // each, are subtracted. The front wheels would slip only at 3.828 m/s^2.
   const double rolling = 0.01 * 1317.0 * 9.81 + 4.0 / 0.31075;
   const VehicleParams prius = Load("prius").params();
   EXPECT_NEAR(prius.max_acceleration, (1645.0 / 0.31075 - rolling) / kPriusByHand.Rolling(),
               Tolerance(kByHand * 4.0));
-  // BMW: 4325 N m would give 10.9 m/s^2. Its rear axle drives everything including the front
-  // wheels' inertia: X = (M - J) a, under a load of m (g l_f + a h)/L.
+  // The grip of the rear axle limits the BMW, because its torque of 4325 N m would give 10.9 m/s^2.
+  // The rear axle also accelerates the front wheels, so its force is X = (M - J) a. M is the mass
+  // including the inertia of all wheels and J the inertia of the rear wheels, as a mass. The load
+  // of the axle is m (g l_f + a h)/L.
   const VehicleParams bmw = Load("bmw320i").params();
   const LimitsByHand& b = kBmwByHand;
   const double a = bmw.max_acceleration;
@@ -358,22 +360,23 @@ TEST(VehicleLimits, TheDriveIsLimitedByItsTorqueOrItsAxlesGrip) {
       (b.Rolling() - b.Wheels()) * a,
       b.friction * b.mass * (9.81 * (b.wheelbase - b.to_rear) + a * b.cg_height) / b.wheelbase,
       Tolerance(b.mass * a * kByHand));
-  // Small car: 0.5 N m on the rear axle, four bearings of 1e-3 N m.
+  // The small car has 0.5 N m on the rear axle and four bearings with a friction of 1e-3 N m.
   const VehicleParams small = Load("tests/data/models/small_car.xml").params();
   EXPECT_NEAR(small.max_acceleration, (0.5 - 4e-3) / 0.033 / kSmallByHand.Rolling(),
               Tolerance(kByHand * 5.0));
 }
 
 TEST(VehicleLimits, AreTheFrictionOfTheWorseTyreLaw) {
-  // The Prius' contacts have 0.9. At 3350 N its front tyres have a smaller mu_y and a larger mu_x.
+  // The contacts of the Prius have a friction coefficient of 0.9. At 3350 N, its front tyres have a
+  // smaller lateral and a larger longitudinal friction coefficient.
   const double load = 0.5 * 1317.0 * 9.81 * 1.4 / 2.7;
   const VehicleParams params = Load("prius").params();
   EXPECT_NEAR(params.friction_lateral, 0.8784 - 0.06445 * (load - 4000.0) / 4000.0,
               Tolerance(1e-5));
   EXPECT_NEAR(params.friction_longitudinal, 0.9, Tolerance(1e-12));
   EXPECT_NEAR(Load("bmw320i").params().friction_lateral, 1.0489, Tolerance(1e-12));
-  // With a contact friction of 2 the tyre law's own peaks limit; the front's mu_x is the smaller
-  // one.
+  // With a contact friction of 2, the friction coefficients of the Magic Formula are the limits.
+  // The smaller longitudinal one belongs to the front tyres.
   const CarModel sticky({.xml = PriusWith("friction=\"0.9 ", "friction=\"2 "), .assets = {}},
                         "car.xml");
   EXPECT_NEAR(sticky.params().friction_longitudinal, 1.0422 - 0.0827 * (load - 4000.0) / 4000.0,
@@ -398,7 +401,8 @@ TEST(VehicleLimits, TopSpeedIsWhereDragTakesAll) {
 
 TEST(VehicleLimits, OfDifferentialDriveAreThoseOfItsMotorsAndOfTheDrivenAxle) {
   const VehicleParams params = Load("diff_drive").params();
-  // 80 kg and two wheels with 0.26 kg m^2; 30 N m per motor, 0.3 N m in the bearings.
+  // The vehicle has 80 kg, two wheels with an inertia of 0.26 kg m^2, two motors with 30 N m, and
+  // bearings with a friction of 0.3 N m.
   const double rolling_mass = 80.0 + 2.0 * 0.26 / (0.165 * 0.165);
   const double force = 60.0 / 0.165;
   EXPECT_NEAR(params.max_deceleration, force / rolling_mass, Tolerance(1e-9));
@@ -406,8 +410,8 @@ TEST(VehicleLimits, OfDifferentialDriveAreThoseOfItsMotorsAndOfTheDrivenAxle) {
   EXPECT_NEAR(params.top_speed, (22.0 - 30.0 / 60.0) * 0.165, Tolerance(1e-12));
   EXPECT_EQ(params.friction_longitudinal, 0.8);
   EXPECT_EQ(params.friction_lateral, 0.8);
-  // With half the grip the tyres slide first: m a = mu m (g 0.44 - a 0.26)/0.62. The load that they
-  // lose moves to the caster, 0.62 m ahead.
+  // With half the friction, the tyres slide before the motors reach their limit: m a = mu m (g 0.44
+  // - a 0.26)/0.62. Braking transfers load to the caster, 0.62 m ahead of the axle.
   std::string xml = ReadFile(FindModel("diff_drive", ""));
   const std::string friction = "friction=\"0.8 ";
   xml.replace(xml.find(friction), friction.size(), "friction=\"0.4 ");

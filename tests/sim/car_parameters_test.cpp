@@ -40,7 +40,7 @@ TEST(CarParameters, AreReadBack) {
     }
     const CarModel changed(WithCarParameters(car, own), model);
     for (const CarParameter& parameter : own) {
-      // Sums over a dozen bodies, each rounded once.
+      // The tolerance covers sums over a dozen bodies, each rounded once.
       EXPECT_NEAR(CarParameterValue(changed, parameter.name), parameter.value,
                   Tolerance(1e-9) * std::abs(parameter.value))
           << model << " " << parameter.name;

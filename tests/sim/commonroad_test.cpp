@@ -16,8 +16,9 @@
 namespace trackbed {
 namespace {
 
-/// Recordings of the model as published, which scenarios also replay, or with a single, consistent
-/// center of gravity; see the READMEs.
+/// kPublished: recordings of the model as published, which scenarios also replay. kConsistent:
+/// recordings of the model with a single, consistent center of gravity. The READMEs of the folders
+/// explain the difference.
 enum class Kind { kPublished, kConsistent };
 
 std::filesystem::path Reference(Kind kind, const std::string& name) {
@@ -60,16 +61,16 @@ class Signal {
 
 /// Deviation of a run from the reference.
 struct Deviation {
-  double yaw_rate = 0.0;              ///< rms over the reference's peak
-  double lateral_acceleration = 0.0;  ///< rms over the reference's peak
-  double path = 0.0;                  ///< largest distance over the distance driven
-  double speed = 0.0;                 ///< rms over the speed at the start
+  double yaw_rate = 0.0;              ///< RMS relative to the reference's peak
+  double lateral_acceleration = 0.0;  ///< RMS relative to the reference's peak
+  double path = 0.0;                  ///< largest distance relative to the distance driven
+  double speed = 0.0;                 ///< RMS relative to the speed at the start
   double distance = 0.0;              ///< distance driven, relative
   double yaw = 0.0;                   ///< largest heading [rad]
 };
 
-/// The lateral acceleration is compared up to `until` [s]; later the reference's tyres make it
-/// chatter.
+/// Compares the lateral acceleration only up to `until` [s], because the reference's tyres make it
+/// chatter later.
 Deviation Compare(Kind kind, const std::string& name, const Numerics& numerics,
                   double timestep = 0.002, double until = 3.5) {
   const Table table = ReadCsv(Reference(kind, name));
@@ -193,10 +194,10 @@ TEST_P(CommonRoad, SteadyTurns) {
         },
         [](double, const VehicleState&) {});
     ASSERT_NEAR(state.speed, speeds[i], 1e-3 * speeds[i]);
-    // The published model has its weight 15.6 mm behind the point about which it turns. That equals
-    // an understeer gradient of 1.13e-4 rad s^2/m (1.24e-4 at 2.5 m/s^2), and changes the yaw rate
-    // by K v^2/L. The assumed aerodynamics push the car's rear sideways and load its tyres: 3 % at
-    // 25 m/s.
+    // In the published model, the weight acts 15.6 mm behind the point about which the car turns.
+    // This equals an understeer gradient K of 1.13e-4 rad s^2/m (1.24e-4 at 2.5 m/s^2), which
+    // changes the yaw rate by the fraction K v^2/L. The assumed aerodynamics push the car's rear
+    // sideways and load its tyres: 3 % at 25 m/s.
     const double v_squared = speeds[i] * speeds[i];
     const bool is_published = kind() == Kind::kPublished;
     const double published = is_published ? 1.3e-4 * v_squared / car.params().wheelbase : 0.0;
@@ -204,10 +205,10 @@ TEST_P(CommonRoad, SteadyTurns) {
     EXPECT_NEAR(state.yaw_rate / yaw_rates[i], 1.0,
                 Tolerance((accelerations[i] <= 4.0 ? 0.01 : 0.02) + published + air))
         << speeds[i] << " m/s, " << angles[i] << " rad";
-    // This comparison depends on the sign of the camber. With the other sign, 15 m/s and 0.08 rad
-    // deviate by half, 0.07 m/s. The shifts of the tyre set have that sign and are not in this car:
-    // they turn the rear tyres' slip by p_hy1 + p_vy1/p_ky1 = 0.00097 rad. The published axle
-    // loads, off by 1.3 %, change the slip of 0.023 rad at 4.9 m/s^2 by 0.0003 rad.
+    // This comparison depends on the sign of the camber. With the opposite sign, the lateral speed
+    // at 15 m/s and 0.08 rad deviates by half, 0.07 m/s. This car lacks the shifts of the tyre set,
+    // which change the slip angle of the rear tyres by p_hy1 + p_vy1/p_ky1 = 0.00097 rad. The
+    // published axle loads, off by 1.3 %, change the slip of 0.023 rad at 4.9 m/s^2 by 0.0003 rad.
     EXPECT_NEAR(state.lateral_speed, lateral_speeds[i],
                 Tolerance((is_published ? 0.00127 : 0.00097) * speeds[i] + 0.003));
   }

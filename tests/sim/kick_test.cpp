@@ -31,8 +31,7 @@ TEST(ApplyLateralOffset, SetsEveryPlantAside) {
     for (int i = 0; i < 500; ++i) {
       plant->Step({});
     }
-    // The car continues straight, parallel to its old line, at walking pace and without lateral
-    // force.
+    // The car continues straight and parallel to its old line.
     const Pose2 pose = plant->Observe().pose;
     EXPECT_NEAR(ToLocal({5.0, 3.0, 0.7}, pose.position()).y(), 0.5, Tolerance(1e-4)) << entry.name;
     EXPECT_FALSE(plant->diverged()) << entry.name;
@@ -60,11 +59,12 @@ TEST(ApplyLateralForce, GivesMujocosCarTheMomentum) {
     plant->Step({});
   }
   const VehicleState state = plant->Observe();
-  // 400 N s. The road takes 1e-5 g for 0.1 s. The air, at 0.3 m/s from the side, takes at most 0.3
-  // N of 4000 (1/2 1.225 5 0.3 5.07 = 4.7 N at the end, half of it on average): 0.06 %.
+  // The impulse is 4000 N * 0.1 s = 400 N s. Friction of the road reduces the speed by 1e-5 g * 0.1
+  // s. The air meets the car at up to 0.3 m/s from the side. Its force rises to 1/2 * 1.225 * 5 *
+  // 0.3 * 5.07 = 4.7 N, which is 2.3 N on average, or 0.06 % of 4000 N.
   EXPECT_NEAR(state.lateral_speed, 400.0 / 1317.0, Tolerance(3e-4));
-  // The force acts at the center of gravity, so the only moment is the air's: 0.28 m 2.3 N 0.1 s /
-  // 2157 kg m^2.
+  // The force acts at the center of gravity, so only the air causes a yaw rate: 0.28 m * 2.3 N *
+  // 0.1 s / 2157 kg m^2 = 3e-5 rad/s.
   EXPECT_NEAR(state.yaw_rate, 0.0, Tolerance(1e-4));
   EXPECT_NEAR(state.roll, 0.0, Tolerance(1e-3));
   plant->Step({});

@@ -95,7 +95,8 @@ INSTANTIATE_TEST_SUITE_P(Pairs, Understeer,
                          testing::Values(Axles{12.0, 20.0}, Axles{10.0, 14.0}, Axles{15.0, 25.0}));
 
 TEST_P(Understeer, GradientIsThatOfTheAxles) {
-  // K = (W_f/C_f - W_r/C_r)/g, where each stiffness here is c times the load.
+  // The understeer gradient is K = (W_f/C_f - W_r/C_r)/g, with the loads W and the cornering
+  // stiffnesses C of the axles. Here, each stiffness C is a factor c times the load.
   const double expected = (1.0 / GetParam().front - 1.0 / GetParam().rear) / kGravity;
   ASSERT_GE(expected, 0.001);
   EXPECT_NEAR(Gradient(GetParam()) / expected, 1.0, Tolerance(0.05));  // small-angle approximation
@@ -132,8 +133,8 @@ TEST(MagicFormulaTyres, LoadTransferAndRollAreThoseOfStatics) {
     carried += (w % 2 == 0 ? -1.0 : 1.0) * arm * (*state.wheels)[w].normal_force;
   }
   EXPECT_NEAR(carried / moment, 1.0, Tolerance(0.05));
-  // Roll stiffness from springs and bars of the car's file in series with the tyres; roll centers
-  // on the ground.
+  // The roll stiffness of the springs and bars in the car's file is in series with that of the
+  // tyres. The roll centers are on the ground.
   const double track_f = params.track_front * params.track_front;
   const double track_r = params.track_rear * params.track_rear;
   const double springs =
@@ -290,9 +291,9 @@ TEST(MagicFormulaTyres, LeftAndRightAreMirrorImages) {
 }
 
 TEST(MagicFormulaTyres, SlidingNeverGainsEnergy) {
-  // A car sliding sideways at 12 m/s without drive or brakes. Its kinetic energy may only decrease,
-  // except for the energy that springs and deflected tyres return in the first bounce: below 2 %
-  // here.
+  // The car slides sideways at 12 m/s without drive or brakes. Its kinetic energy may only
+  // decrease, except for the energy that springs and deflected tyres return in the first bounce:
+  // below 2 % here.
   const CarModel car = CarWith("prius", {});
   const World world;
   const auto plant = On(car, world, {.speed = 12.0});

@@ -8,7 +8,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/sim/car_model.h"
 
-/// Models that MuJoCo compiles but that are not vehicles.
+/// Tests the messages for models that MuJoCo compiles but that are not vehicles.
 namespace trackbed {
 namespace {
 

@@ -41,7 +41,7 @@ TEST(Payload, MovesMassCenterOfGravityAndYawInertia) {
   const CarModel car = Loaded("prius", {.mass = 250.0, .x = -0.3, .y = 0.4, .z = 0.7});
   const double mass = own.params().mass;
   const double cg = (mass * own.params().cg_to_rear - 250.0 * 0.3) / (mass + 250.0);
-  // Parallel axis theorem for two masses at a distance along x and y: m M / (m + M) d^2.
+  // By the parallel axis theorem, two masses m and M at the distance d add m M / (m + M) d^2.
   const double arm = std::hypot(own.params().cg_to_rear + 0.3, 0.4);
   const double inertia = own.params().yaw_inertia + 250.0 * mass / (mass + 250.0) * arm * arm;
   // Rounding of MuJoCo's sums over twelve bodies.
@@ -69,8 +69,8 @@ TEST(Payload, IsNotInTheUnladenCar) {
   EXPECT_EQ(own.unladen().mass, own.params().mass);
 }
 
-/// Static moments about the axles and about the centerline, for a car inclined by its own pitch and
-/// roll.
+/// Compares the wheel loads with the static moments about the axles and the center line of a car
+/// that is inclined by its pitch and roll angles.
 TEST(Payload, LoadsTheWheelsAsStaticsSays) {
   const CarModel own = Unloaded("prius");
   const double m = 100.0;
@@ -85,7 +85,8 @@ TEST(Payload, LoadsTheWheelsAsStaticsSays) {
   const VehicleParams& p = own.params();
   const double weight = (p.mass + m) * kGravity;
   const double height = own.parts().cg_height;
-  // The car still moves by less than 1 um/s at a mode of some 10/s: 1e-5 m/s^2.
+  // The car still moves at less than 1 um/s with a frequency of about 10 1/s, so its accelerations
+  // are below 1e-5 m/s^2.
   EXPECT_NEAR(load(0) + load(1) + load(2) + load(3), weight, Tolerance(0.05));
   // Nose up is a negative pitch: the center of gravity moves backward relative to the hubs, under
   // which the wheels touch. It also sinks by 2 cm on the springs, which changes this shift of 2 mm
@@ -94,8 +95,9 @@ TEST(Payload, LoadsTheWheelsAsStaticsSays) {
                        weight * (height - p.wheel_radius) * std::sin(state.pitch) / p.wheelbase;
   EXPECT_LT(state.pitch, -0.005);
   EXPECT_NEAR(load(0) + load(1), front, Tolerance(2.0));
-  // In the same way to the left, the lower side: a negative roll. Wheels incline with the car and
-  // touch the ground below the center of their tread's curve, an ellipse of 0.0925 m by 0.31075 m.
+  // The center of gravity also moves to the left, the lower side; the roll angle is negative.
+  // Wheels incline with the car and touch the ground below the center of their tread's curve, an
+  // ellipse of 0.0925 m by 0.31075 m.
   const double above_tread = height - 0.0925 * 0.0925 / p.wheel_radius;
   const double moment =
       0.5 * p.track_front * (load(0) - load(1)) + 0.5 * p.track_rear * (load(2) - load(3));
@@ -157,8 +159,8 @@ TEST(Payload, SlowsTheCarDownThatDoesNotKnowOfIt) {
     }
     return plant->Observe().speed - 5.0;
   };
-  // The drive force is the same: rolling mass, including the wheels' 0.8 kg m^2, times
-  // acceleration. 2 s at 1 m/s^2, with 4 % for the difference in air drag.
+  // Both cars have the same drive force: the acceleration times the mass including the inertia of
+  // the wheels, 0.8 kg m^2 each. The tolerance covers the difference in air drag.
   const double radius = own.params().wheel_radius;
   const double rolling = own.params().mass + 4.0 * 0.8 / (radius * radius);
   EXPECT_NEAR(speed_of(car) / speed_of(own), rolling / (rolling + 400.0), Tolerance(2e-3));

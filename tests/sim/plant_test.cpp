@@ -79,7 +79,8 @@ TEST_P(EveryPlant, HeadingNorthMovesNorth) {
   const auto plant = At({.pose = {0.0, 0.0, kPi / 2.0}, .speed = 3.0});
   Hold(*plant, 0.0, 3.0, 2.0);
   const VehicleState state = plant->Observe();
-  // 6 m at 3 m/s. Speed control compensates the MuJoCo car's bearing friction.
+  // The car drives 6 m in 2 s at 3 m/s, because the speed control compensates the bearing friction
+  // of the MuJoCo car.
   EXPECT_NEAR(state.pose.y, 6.0, Tolerance(0.01));
   EXPECT_NEAR(state.pose.x, 0.0, Tolerance(1e-3));
   EXPECT_NEAR(state.distance, 6.0, Tolerance(0.01));
@@ -122,7 +123,8 @@ TEST_P(EveryPlant, DrivesTheSameInEveryDirection) {
     Hold(*turned, 0.3, 3.0, 4.0);
     const Pose2 expected = Compose(start, reference.pose);
     const Pose2 actual = turned->Observe().pose;
-    // As for the mirror image: the solver's tolerance depends on the axes, the physics does not.
+    // As in MirrorsWithTheSteering, the remaining difference is the solver's tolerance, which
+    // depends on the axes.
     const double tolerance = Tolerance(1e-5);
     EXPECT_NEAR(actual.x, expected.x, tolerance);
     EXPECT_NEAR(actual.y, expected.y, tolerance);
@@ -136,7 +138,7 @@ TEST_P(EveryPlant, TakesAFullLockTimeToFullLock) {
       const auto plant = At({.speed = speed});
       const double limit = Prius().params().steering_limit;
       int steps = 0;
-      // 0.999 of the limit, because a real servo only approaches its target.
+      // Stop at 0.999 of the limit, because a real servo only approaches its target.
       while (sign * plant->Observe().steering < 0.999 * limit && steps < 3000) {
         plant->Step({.steering = sign * 1.0, .acceleration = 0.0});
         ++steps;
@@ -154,15 +156,15 @@ TEST_P(EveryPlant, BrakesToRestAndStaysThere) {
     plant->Step({.acceleration = -2.0});
   }
   const VehicleState stopped = plant->Observe();
-  // v^2/(2 a) = 2.25 m. The MuJoCo car's brakes act through tyres and springs, which adds up to 2
-  // %.
+  // The stopping distance is v^2/(2 a) = 2.25 m. The brakes of the MuJoCo car act through tyres and
+  // springs, which adds up to 2 %.
   EXPECT_NEAR(stopped.distance, 2.25, Tolerance(0.045));
   for (int i = 0; i < 5000; ++i) {
     plant->Step({.acceleration = 0.0});
   }
   const VehicleState later = plant->Observe();
-  // A parked car does not creep for ten seconds. A tenth of a millimeter is the springs' remaining
-  // oscillation.
+  // A parked car does not creep for ten seconds. The tolerance of 0.1 mm covers the remaining
+  // oscillation of the springs.
   EXPECT_NEAR(later.pose.x, stopped.pose.x, Tolerance(1e-4));
   EXPECT_NEAR(later.pose.y, stopped.pose.y, Tolerance(1e-4));
   EXPECT_NEAR(later.speed, 0.0, Tolerance(1e-5));
@@ -173,7 +175,8 @@ TEST_P(EveryPlant, AcceleratesFromRestAsAsked) {
   for (int i = 0; i < 1000; ++i) {
     plant->Step({.acceleration = 1.0});
   }
-  // 2 s at 1 m/s^2. The bearings take 4 N m of about 410: 1 %.
+  // The car accelerates for 2 s at 1 m/s^2. The bearings reduce the torque of about 410 N m by 4 N
+  // m, which is 1 %.
   EXPECT_NEAR(plant->Observe().speed, 2.0, Tolerance(0.03));
 }
 
@@ -212,8 +215,8 @@ TEST(MujocoPlant, StandsAtStaticLoad) {
   ASSERT_TRUE(state.wheels.has_value());
   const auto& wheels = *state.wheels;
   const double weight = 1317.0 * 9.81;
-  // Statics: l_g/L of the weight is on the front axle. The tolerance of 0.1 % covers settling
-  // springs.
+  // The front axle carries l_g/L of the weight, with the distance l_g of the center of gravity from
+  // the rear axle. The tolerance of 0.1 % covers settling springs.
   EXPECT_NEAR(wheels[0].normal_force, 0.5 * weight * 1.4 / 2.7, Tolerance(0.001 * weight));
   EXPECT_NEAR(wheels[1].normal_force, 0.5 * weight * 1.4 / 2.7, Tolerance(0.001 * weight));
   EXPECT_NEAR(wheels[2].normal_force, 0.5 * weight * 1.3 / 2.7, Tolerance(0.001 * weight));
@@ -235,7 +238,8 @@ TEST(MujocoPlant, TyresCarryTheCentripetalForce) {
       w[0].lateral_force * std::cos(front.left) + w[0].longitudinal_force * std::sin(front.left) +
       w[1].lateral_force * std::cos(front.right) + w[1].longitudinal_force * std::sin(front.right) +
       w[2].lateral_force + w[3].lateral_force;
-  // a_y is about 1.9 m/s^2, 2500 N. 1 % covers the remaining change of state and a lag of one step.
+  // The lateral acceleration is about 1.9 m/s^2, which is a force of 2500 N. The tolerance of 1 %
+  // covers the remaining change of state and a lag of one step.
   EXPECT_NEAR(lateral, 1317.0 * state.lateral_acceleration, Tolerance(25.0));
   EXPECT_NEAR(state.lateral_acceleration, state.speed * state.yaw_rate, Tolerance(0.02));
   EXPECT_GT(w[1].normal_force, w[0].normal_force);  // load moves to the outer side
@@ -268,9 +272,9 @@ TEST(MujocoPlant, SlipperyRoadLimitsBraking) {
     }
     return plant->Observe().distance;
   };
-  // A command beyond the limit makes the brakes lock or nearly lock: v^2/(2 mu g), with mu = 0.9
-  // times the road's factor. The tolerance is 5 %: the brakes stop at 1.02 m g, and load transfer
-  // unloads the rear axle first.
+  // A command beyond the limit makes the wheels lock or nearly lock. The stopping distance is then
+  // v^2/(2 mu g), with mu = 0.9 times the road's factor. The tolerance of 5 % covers the limit of
+  // the brake force at 1.02 m g and the load transfer, which unloads the rear axle first.
   EXPECT_NEAR(distance(0.5), 100.0 / (2.0 * 0.45 * 9.81), Tolerance(0.57));
   EXPECT_NEAR(distance(0.2), 100.0 / (2.0 * 0.18 * 9.81), Tolerance(1.42));
 }
@@ -290,8 +294,8 @@ TEST(MujocoPlant, DrivesOverABumpAndIsLevelAgain) {
   }
   const VehicleState state = plant->Observe();
   EXPECT_GT(highest, 0.05);
-  // 3 s and 25 m after the excitation: body modes of 1.3 Hz with damping ratio 0.3 have decayed to
-  // exp(-0.3 * 8.2 * 3) = 6e-4 of 0.05 m, over 2.7 m.
+  // The state is 3 s and 25 m after the bump. Body modes of 1.3 Hz with a damping ratio of 0.3 have
+  // decayed to exp(-0.3 * 8.2 * 3) = 6e-4 of 0.05 m, and the wheelbase is 2.7 m.
   EXPECT_GT(state.pose.x, 25.0);
   EXPECT_NEAR(state.pitch, 0.0, Tolerance(1e-3));
   EXPECT_NEAR(state.roll, 0.0, Tolerance(1e-3));
@@ -308,7 +312,8 @@ TEST(MujocoPlant, SteeringFollowsTheActuatorClosely) {
   EXPECT_NEAR(moving.steering, moving.steering_actuator, Tolerance(0.003));
   Hold(*plant, 0.4, 3.0, 3.0);
   const VehicleState resting = plant->Observe();
-  // At rest: deflection of the servo under the aligning moment, and the quartic's 0.00024 rad.
+  // When the wheels rest, the difference is the deflection of the servo under the aligning moment
+  // and the error of the steering linkage's polynomial, 0.00024 rad.
   EXPECT_NEAR(resting.steering, 0.4, Tolerance(0.001));
 }
 

@@ -101,8 +101,9 @@ TEST(RoadContact, WheelsFollowTheClosedFormOverABump) {
   }
   EXPECT_GT(highest, 0.31 + 0.099);
   // The contact's static deflection is 2e-5 m, and the search finds the lowest point to
-  // 0.31/400^2/4 = 5e-7 m. Over the foot and the crest of the hump, where c v^2 = 0.8 m/s^2, the
-  // deflection varies by c v^2 (1 - 2 dt/t)/k = 0.8 * 0.2/4e4 = 4e-6 m.
+  // 0.31/400^2/4 = 5e-7 m. The hump has the curvature c at its foot and crest, so the wheels
+  // accelerate vertically by c v^2 = 0.8 m/s^2. This changes the deflection by c v^2 (1 - 2 dt/t)/k
+  // = 0.8 * 0.2/4e4 = 4e-6 m.
   EXPECT_LT(worst, Tolerance(3e-5));
 }
 
@@ -123,12 +124,12 @@ TEST(RoadContact, LoadsChangeAsSmoothlyAsTheGround) {
       last[w] = load;
     }
   }
-  // At the beginning of the hump the unsprung 36 kg are suddenly accelerated by 2 pi^2 h/L^2 v^2 =
-  // 3.1 m/s^2: 110 N. Springs and dampers add 1450 N s/m times 2 dt of it. With facets the load
-  // would jump by thousands of newtons.
+  // At the beginning of the hump, the unsprung mass of 36 kg is suddenly accelerated by 2 pi^2
+  // h/L^2 v^2 = 3.1 m/s^2, which needs 110 N. The damper adds 1450 N s/m times the change of speed
+  // in two timesteps. On a ground of flat facets, the load would jump by thousands of newtons.
   EXPECT_LT(largest, 200.0);
-  // Of 3100 N at rest: the inertia of a quarter of the car, 330 kg, times 3.1 m/s^2, plus
-  // oscillation.
+  // The load at rest is 3100 N. It decreases by the inertia of a quarter of the car, 330 kg * 3.1
+  // m/s^2 = 1020 N, and by an oscillation.
   EXPECT_GT(lightest, 1500.0);
 }
 
@@ -140,8 +141,8 @@ TEST(RoadContact, ACarComesToRestAgainAsItStood) {
   }
   const mjtNum* q = rolling.d->qpos + car.parts().chassis_qpos;
   EXPECT_GT(q[0], 40.0);
-  // Body modes of 1.3 Hz with damping ratio 0.3 have decayed for 3 s: exp(-0.3 * 8.2 * 3) of 0.05
-  // m.
+  // Body modes of 1.3 Hz with a damping ratio of 0.3 have decayed for 3 s, to exp(-0.3 * 8.2 * 3)
+  // of 0.05 m.
   EXPECT_NEAR(q[2], 0.0, Tolerance(1e-4));
   EXPECT_NEAR(q[5], 0.0, Tolerance(1e-4));
   EXPECT_NEAR(q[1], 0.0, Tolerance(1e-6));  // left and right are symmetric
@@ -151,7 +152,7 @@ TEST(RoadContact, ACarComesToRestAgainAsItStood) {
 }
 
 TEST(RoadContact, FlatStretchesAreAsFlatGround) {
-  // Two cars; only one world has a hump, far away.
+  // Compares two cars. The world of only one of them has a hump, far away.
   Ground far = kHump;
   far.bumps[0].area.center.x = 1000.0;
   const CarModel flat = PriusOn({});
@@ -163,7 +164,7 @@ TEST(RoadContact, FlatStretchesAreAsFlatGround) {
     b.Step();
   }
   for (int i = 0; i < flat.get()->nq; ++i) {
-    // Rounding over 500 stiff steps.
+    // The tolerance covers rounding over 500 steps of stiff contacts.
     EXPECT_NEAR(a.d->qpos[i], b.d->qpos[i], Tolerance(1e-8)) << i;
   }
 }
@@ -216,8 +217,8 @@ TEST(RoadContact, ASideSlopeRollsTheCar) {
     moment += load * (w < 2 ? 0.7525 : 0.74) * (w % 2 == 0 ? 1.0 : -1.0);
   }
   EXPECT_NEAR(sum, weight * std::cos(angle), Tolerance(0.001 * weight));
-  // On its springs the center of gravity, 0.55 m high, leans and sinks slightly further: 5 degrees
-  // at 1 g, 0.4 degrees here, times 0.55 m: 4 mm to the right, 1 % of the lever arm.
+  // On its springs, the car leans farther: 5 degrees at 1 g, 0.4 degrees here. The center of
+  // gravity, 0.55 m high, therefore moves 4 mm to the right, by 1 % of the lever arm.
   const double expected = -weight * std::sin(angle) * 0.55;
   EXPECT_NEAR(moment, expected, Tolerance(0.004 * weight));
   EXPECT_LT(moment, expected);

@@ -1,4 +1,4 @@
-// The plant single_track, from the numbers in a car's file to its motion.
+// Tests the plant single_track, from the numbers in a car's file to its motion.
 // tests/vehicle/single_track_car_test.cpp tests the equations of the single-track car.
 
 #include <gmock/gmock.h>
@@ -26,7 +26,8 @@ CarModel OnTyres(double front, double rear, double timestep = 0.002, Numerics nu
   return CarWith("bmw320i", numerics, timestep);
 }
 
-/// K [s^2/m]: the difference of the axles' load over stiffness, divided by g.
+/// Understeer gradient K [s^2/m]: the difference of load over cornering stiffness between both
+/// axles, divided by g.
 double UndersteerGradient(double front, double rear) {
   return (1.0 / front - 1.0 / rear) / kGravity;
 }
@@ -77,7 +78,7 @@ TEST(SingleTrackPlant, YawRateGainIsThatOfTheTyresInTheFile) {
     const double wheelbase = car.params().wheelbase;
     for (const double speed : {1.0, 10.0, 20.0, 30.0}) {
       const double gain = speed / (wheelbase + UndersteerGradient(front, rear) * speed * speed);
-      // The slowest mode here decays with 2/s, to e^-32. The remaining error is rounding.
+      // The slowest mode decays at 2 1/s, to e^-32 after 16 s. The tolerance covers rounding.
       EXPECT_NEAR(Gain(car, speed) / gain, 1.0, Tolerance(1e-9))
           << front << ", " << rear << " at " << speed;
     }
@@ -109,7 +110,7 @@ TEST(SingleTrackPlant, AboveItsCriticalSpeedAnOversteeringCarSpins) {
   for (const double share : {0.8, 0.95, 1.05, 1.3}) {
     SCOPED_TRACE(share);
     const double speed = share * critical;
-    // The slower eigenvalue of l^2 + a l + b.
+    // The slower eigenvalue is the larger root of l^2 + a l + b.
     const double a = (front + rear) / (params.mass * speed) +
                      (l_f * l_f * front + l_r * l_r * rear) / (params.yaw_inertia * speed);
     const double b = front * rear * wheelbase * wheelbase /
@@ -121,7 +122,7 @@ TEST(SingleTrackPlant, AboveItsCriticalSpeedAnOversteeringCarSpins) {
     const auto straighten = [](double, const VehicleState&) { return Command{}; };
     const double before = Drive(car, *plant, 3.0, straighten, kNoLook).yaw_rate;
     const double after = Drive(car, *plant, 1.0, straighten, kNoLook).yaw_rate;
-    // The faster mode, with some 10/s, has decayed to at most e^-20 of the slower one.
+    // The faster mode decays at about 10 1/s, to at most e^-20 of the slower mode.
     EXPECT_NEAR(std::log(after / before), slower, Tolerance(1e-6));
   }
 }
@@ -171,15 +172,17 @@ TEST(SingleTrackPlant, DrivesTheSameAtEveryTimestep) {
   for (const double timestep : {0.002, 0.004}) {
     SCOPED_TRACE(timestep);
     const VehicleState state = driven(timestep);
-    // A sine held at its value in the middle of each step is larger by (omega dt)^2/24, and so is
-    // the response. The car drifts at a mean heading y/x, which is at most twice that.
+    // A sine that is held at its value in the middle of each step is larger by the fraction (omega
+    // dt)^2/24, and so is the response. The car drifts at the mean heading y/x; its heading is at
+    // most twice this mean.
     const double larger = std::pow(kPi * timestep, 2) / 24.0;
     EXPECT_NEAR(state.pose.x, fine.pose.x, Tolerance(larger * std::abs(fine.pose.y)));
     EXPECT_NEAR(state.pose.y, fine.pose.y, Tolerance(larger * std::abs(fine.pose.y)));
     EXPECT_NEAR(state.pose.yaw, fine.pose.yaw,
                 Tolerance(larger * 2.0 * std::abs(fine.pose.y) / fine.pose.x));
-    // Over the second half of a step the held angle falls behind the sine, by delta' timestep^2/8
-    // in integral. The yaw rate changes by C_f l_f/I times that.
+    // In the second half of a step, the held angle is behind the sine. The integral of this
+    // difference is delta' timestep^2/8, which changes the yaw rate by C_f l_f/I times the
+    // integral.
     const double response =
         params.cornering_stiffness_front * params.cg_to_front() / params.yaw_inertia;
     EXPECT_NEAR(state.yaw_rate, fine.yaw_rate,
@@ -303,11 +306,12 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
     }
     const double rms = std::sqrt(squares / static_cast<double>(two.physical.size()));
     // MuJoCo's car has effects that the single-track car lacks. They change the tyre forces, and
-    // thereby the fraction of the steering that is slip. Rolling moves the body by h roll, which
-    // changes its acceleration by omega^2 times that. Forces follow the slip with a delay of the
-    // relaxation length over u, a quarter of a period out of phase with the former. The tyres
-    // soften. Wheels of angular momentum H on a body that rolls at omega roll cause a yaw moment M
-    // = H omega roll, equivalent to a steering angle of M (1/C_f + 1/C_r)/L.
+    // thereby the fraction of the steering that is slip. The roll angle moves the center of gravity
+    // by the height h times the angle, which changes the acceleration by omega^2 times this
+    // distance. Forces follow the slip with a delay of the relaxation length over u. The errors
+    // from roll and delay are a quarter of a period out of phase. The tyres soften. Wheels of
+    // angular momentum H on a body that rolls at omega roll cause a yaw moment M = H omega roll,
+    // equivalent to a steering angle of M (1/C_f + 1/C_r)/L.
     const MagicFormula& tyre = car.parts().tyres->axle[0];
     const VehicleParams& params = car.params();
     const double rolls = omega * omega * car.parts().cg_height * roll / acceleration;
@@ -319,8 +323,8 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
     const double part =
         share * (std::hypot(rolls, late) + Softening(tyre, acceleration)) + yaws / kSteering;
     EXPECT_LT(rms, Tolerance(part * yaw_rate));
-    // The heading error is the integral of the yaw-rate error, which stays on one side: 1/omega of
-    // it on average.
+    // The heading error is the integral of the yaw-rate error. Its mean is not zero, but 1/omega
+    // times the amplitude of the yaw-rate error.
     EXPECT_LT(apart, Tolerance(part * yaw_rate / omega * kSpeed * 8.0));
   }
 }

@@ -10,7 +10,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/sim/plant.h"
 
-// Straight runs with centered wheels, and the steering of the front wheels.
+// Tests straight runs with centered wheels, and the steering linkage of the front wheels.
 namespace trackbed {
 namespace {
 
@@ -73,7 +73,7 @@ TEST_P(Linkage, PointsBothWheelsAtOneCenter) {
     return static_cast<std::size_t>(std::find(columns.begin(), columns.end(), joint) -
                                     columns.begin());
   };
-  // From lock to lock and back to the center, at the actuator's rate.
+  // Steers from lock to lock and back to the center, at the actuator's rate.
   const double sweep = params.steering_limit / params.steering_rate;
   double largest = 0.0;
   for (double t = 0.0; t < 4.0 * sweep; t += 0.002) {
@@ -89,8 +89,8 @@ TEST_P(Linkage, PointsBothWheelsAtOneCenter) {
 }
 
 TEST(Linkage, SharesTheLateralForceBetweenTheFrontTyres) {
-  // A turn at 3 m/s on 15 m needs m v^2/r = 800 N in total, so tyres that push against each other
-  // with more than that are noticed.
+  // A turn at 3 m/s with a radius of 15 m needs m v^2/r = 800 N in total. The test detects front
+  // tyres that push against each other.
   const CarModel car = Car("prius");
   const World world;
   const double steering = SteeringForCurvature(car.params(), 1.0 / 15.0);
@@ -105,8 +105,8 @@ TEST(Linkage, SharesTheLateralForceBetweenTheFrontTyres) {
       difference += (wheels[0].lateral_force - wheels[1].lateral_force) / 500.0;
     }
   }
-  // The outer tyre carries more of 800 N/2 because the turn shifts 10 % of the load to it. 120 N is
-  // three times that.
+  // Together, the front tyres carry about 400 N. The turn transfers 10 % of the load to the outer
+  // tyre, so it carries about 40 N more. The bound of 120 N is three times this difference.
   EXPECT_LE(std::abs(difference), Tolerance(120.0));
 }
 
@@ -117,7 +117,8 @@ TEST(AckermannSlopes, AreTheAnglesDerivatives) {
     const FrontAngles slope = AckermannSlopes(params, steering);
     const FrontAngles low = AckermannAngles(params, steering - kStep);
     const FrontAngles high = AckermannAngles(params, steering + kStep);
-    // Central difference: h^2 f'''/6 with f''' of at most 10, plus rounding of 1e-16/h.
+    // The error of a central difference is h^2 f'''/6 with f''' of at most 10, plus rounding of
+    // 1e-16/h.
     EXPECT_NEAR(slope.left, 0.5 * (high.left - low.left) / kStep, Tolerance(2e-9));
     EXPECT_NEAR(slope.right, 0.5 * (high.right - low.right) / kStep, Tolerance(2e-9));
   }
@@ -143,7 +144,8 @@ TEST_P(Coasting, LosesSpeedToDragAndRollingResistance) {
   for (int i = 0; i < 5000; ++i) {
     plant->Step({.coast = true});
   }
-  // m v' = -F - c v^2, so v = sqrt(F/c) tan(atan(v_0 sqrt(c/F)) - t sqrt(F c)/m).
+  // With the rolling resistance F and the drag c v^2, the coasting car obeys m v' = -F - c v^2. The
+  // solution is v = sqrt(F/c) tan(atan(v_0 sqrt(c/F)) - t sqrt(F c)/m).
   double mass = params.mass;
   double rolling = 0.0;
   for (std::size_t w = 0; w < 4; ++w) {
@@ -161,8 +163,8 @@ TEST_P(Coasting, LosesSpeedToDragAndRollingResistance) {
       scale * std::tan(std::atan(kSpeed / scale) - kTime * std::sqrt(rolling * drag) / mass);
   const double lost = kSpeed - expected;
   EXPECT_GT(lost, 0.3);
-  // Tyres reach their slip and the body settles on its springs within the first half second: 2 % of
-  // the speed loss.
+  // The tolerance of 2 % of the speed loss covers the first half second, in which the tyres reach
+  // their slip and the body settles on its springs.
   EXPECT_NEAR(plant->Observe().speed, expected, Tolerance(0.02 * lost));
 }
 
@@ -192,8 +194,8 @@ TEST(Acceleration, IsThatOfTheCenterOfGravityAtItsHeight) {
       const double lateral = LeftNormal(Direction(pose.yaw)).dot(acceleration);
       largest = std::max(largest, std::abs(lateral));
       // The logged acceleration belongs to the previous step, and a second difference to its
-      // middle. Meanwhile the body turns at up to 0.5 rad/s for 2 ms: 1e-3 of 8 m/s^2, and as much
-      // again for changes within a step.
+      // middle. Meanwhile the body turns at up to 0.5 rad/s for 2 ms, which changes 8 m/s^2 by a
+      // fraction of 1e-3. Changes within a step have the same size.
       EXPECT_NEAR(state.lateral_acceleration, lateral, Tolerance(0.03)) << i;
     }
     before = now;

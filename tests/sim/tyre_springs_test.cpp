@@ -12,8 +12,8 @@
 #include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
-/// Magic Formula cars use forces in place of MuJoCo's constraints: tyres as springs, brakes and
-/// bearings as dry friction, and the steering linkage.
+/// Tests the forces that Magic Formula cars use in place of MuJoCo's constraints: tyres as springs,
+/// brakes and bearings as dry friction, and the steering linkage.
 namespace trackbed {
 namespace {
 
@@ -43,7 +43,7 @@ TEST(TyreSprings, LeaveNoConstraintsOnTheRoad) {
       const CarModel car = CarWith(name, {}, 0.002, world);
       const auto plant = OnTyres(car, world, {.speed = 15.0});
       const auto& mujoco = dynamic_cast<const MujocoPlant&>(*plant);
-      // Turns, brakes to rest at half a g, and stands.
+      // The car turns, brakes to rest at half a g, and stands.
       Drive(
           car, *plant, 8.0,
           [](double t, const VehicleState& s) {
@@ -77,8 +77,8 @@ TEST(TyreSprings, AreRefusedWhenNegative) {
 }
 
 TEST(TyreSprings, NeedATimestepThatWheelsDoNotHopAt) {
-  // Corner masses of 36 kg in front and 30 kg at the rear: dt = 2 sqrt(m/k) = 2 sqrt(30/4e7) = 1.73
-  // ms.
+  // The unsprung masses are 36 kg per front wheel and 30 kg per rear wheel. The largest stable
+  // timestep is 2 sqrt(m/k) = 2 sqrt(30/4e7) = 1.73 ms.
   const CarModel car = CarWith("prius", {{"tyre_vertical_stiffness", 4e7}});
   EXPECT_THAT([&] { OnTyres(car, kLevel); },
               testing::ThrowsMessage<InputError>(
@@ -92,7 +92,8 @@ TEST(TyreSprings, NeedATimestepThatWheelsDoNotHopAt) {
 }
 
 TEST(TyreSprings, LetWheelsLiftOffAndLand) {
-  // At 20 m/s over a hump of 4 m and 0.25 m the road falls away at v^2 k = 400 * 0.3 = 12 g.
+  // The hump is 4 m long and 0.25 m high. At 20 m/s, its crest falls away from the wheels at v^2 k
+  // = 400 m^2/s^2 * 0.3 1/m = 12 g.
   const World world{.ground = {.bumps = {{.area = {{20.0, 0.0, 0.0}, 4.0, 8.0}, .height = 0.25}}}};
   for (const char* name : {"prius", "bmw320i"}) {
     const CarModel car = CarWith(name, {}, 0.002, world);
@@ -134,8 +135,8 @@ TEST(DryFriction, HoldsASlopeWithoutCreep) {
             [&](double, const VehicleState& s) { fastest = std::max(fastest, std::abs(s.speed)); });
         return std::pair(state, fastest);
       };
-      // Springs and tyres first settle under the load on a slope. Their modes decay with at least
-      // 2/s: e^-24 after 12 s. The remaining motion is rounding.
+      // Springs and tyres first settle under the load on a slope. Their modes decay at a rate of at
+      // least 2 1/s, to e^-24 after 12 s. The tolerances cover rounding.
       const VehicleState settled = stand(12.0).first;
       const auto [state, fastest] = stand(30.0);
       EXPECT_LT(std::abs(settled.pose.x), 0.002) << name;
@@ -158,8 +159,8 @@ CarModel Trailing(double trail) {
 }
 
 TEST(SteeringLinkage, LoadsTheRackWithWhatTurnsTheWheels) {
-  // Side forces act behind the steering axes and turn the wheels straight, because the servo of 2e5
-  // N m/rad yields.
+  // Lateral forces act behind the steering axes. They turn the wheels toward straight ahead,
+  // because the servo has a stiffness of only 2e5 N m/rad.
   constexpr double kTrail = 0.05;
   constexpr double kServo = 2e5;
   const CarModel car = Trailing(kTrail);

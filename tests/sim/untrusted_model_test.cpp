@@ -17,8 +17,8 @@
 #include "trackbed/sim/compile_scene.h"
 #include "trackbed/sim/scene.h"
 
-/// Models from untrusted sources: which files they may reference, and inputs that crash MuJoCo's
-/// readers.
+/// Tests models from untrusted sources: which files they may reference, and inputs that crash
+/// MuJoCo's readers.
 namespace trackbed {
 namespace {
 
@@ -94,7 +94,7 @@ TEST(ModelFiles, LieInTheModelsFolder) {
             "own/car.xml:2: <include> refers to own/../part.xml, " + outside);
   EXPECT_EQ(Refusal(folder, Model("<mesh file='../body.stl'/>")),
             "own/car.xml:2: <mesh> refers to own/../body.stl, " + outside);
-  // A folder that shares only a name prefix, and one named by <compiler>.
+  // Checks a folder that shares only a name prefix, and a folder that <compiler> names.
   EXPECT_THAT(Refusal(folder, Model("<mesh file='../own2/body.stl'/>")), EndsWith(outside));
   EXPECT_THAT(Refusal(folder,
                       "<mujoco><compiler meshdir='..'/><asset><mesh file='body.stl'/>"

@@ -10,7 +10,7 @@
 #include "trackbed/core/file.h"
 #include "trackbed/sim/payload.h"
 
-/// Tests of a differential-drive vehicle.
+/// Tests a differential-drive vehicle.
 namespace trackbed {
 namespace {
 
@@ -203,8 +203,8 @@ TEST(WheelPair, DrivesTheCircleOfItsWheelSpeeds) {
     for (const double speed : {0.5, 1.0}) {
       SCOPED_TRACE(fmt::format("steering {}, speed {}", steering, speed));
       const auto plant = Mujoco({.speed = speed});
-      // The speed ratio is reached after 0.8 s; the servos' integrals are after five more times
-      // 0.15 s.
+      // The wheels reach their speed ratio after 0.8 s. The servos' integrals settle within five
+      // more time constants of 0.15 s.
       const VehicleState before = Hold(*plant, steering, speed, 2.0);
       EXPECT_NEAR(before.steering, steering, Tolerance(1e-3));
       EXPECT_NEAR(before.speed, speed, Tolerance(1e-3 * speed));
@@ -219,8 +219,8 @@ TEST(WheelPair, DrivesTheCircleOfItsWheelSpeeds) {
 }
 
 TEST(WheelPair, DoesNotRunAwayWhereItsInnerWheelSlips) {
-  // 0.39 g to the side: the moment m l_g a_y takes 92 N off the inner wheel, which leaves 14 kg on
-  // it.
+  // The lateral acceleration is 0.39 g. The moment m l_g a_y reduces the load of the inner wheel by
+  // 92 N, to the weight of 14 kg.
   const auto plant = Mujoco({.speed = 1.5});
   const VehicleState state = Hold(*plant, 0.8, 1.5, 6.0);
   EXPECT_FALSE(plant->diverged());
@@ -230,7 +230,7 @@ TEST(WheelPair, DoesNotRunAwayWhereItsInnerWheelSlips) {
 TEST(WheelPair, DrivesStraight) {
   const auto plant = Mujoco({.pose = {0.0, 0.0, 0.5}, .speed = 2.0});
   const VehicleState state = Hold(*plant, 0.0, 2.0, 3.0);
-  // Mirror symmetric up to the convergence of the contact solver.
+  // The vehicle is mirror symmetric up to the convergence of the contact solver.
   const Vec2 at = ToLocal({0.0, 0.0, 0.5}, state.pose.position());
   EXPECT_NEAR(at.y(), 0.0, Tolerance(1e-5));
   // The speed control recovers the loss of the first steps within half a second.
@@ -303,7 +303,7 @@ TEST(WheelPair, HoldsStillOnASlope) {
     const VehicleState state = Drive(
         car, *plant, 20.0, [](double, const VehicleState&) { return Command{}; },
         [](double, const VehicleState&) {});
-    // Under a steady force a contact creeps at g 0.1 dmax timeconst/2 over impratio: 25 um/s.
+    // Under a steady force, a contact creeps at (g * 0.1 * dmax * timeconst/2)/impratio = 25 um/s.
     EXPECT_NEAR(state.pose.position().norm(), 0.0, Tolerance(20.0 * 25e-6)) << yaw;
   }
 }
@@ -325,7 +325,7 @@ TEST(WheelPair, SteersAtACrawlAsWanted) {
         return Command{.steering = 0.4, .acceleration = 2.0 * (0.02 - now.speed)};
       },
       [](double, const VehicleState& now) {
-        // The deviation never exceeds that of wheel speeds off by a tenth of 0.1 m/s.
+        // The deviation corresponds to an error of the wheel speeds of at most a tenth of 0.1 m/s.
         EXPECT_NEAR(now.steering, now.steering_actuator, Tolerance(0.1)) << now.time;
       });
 }
@@ -337,7 +337,8 @@ TEST(WheelPair, SlidesOnIce) {
       DiffDrive(), *plant, 1.0,
       [](double, const VehicleState&) { return Command{.acceleration = -3.0}; },
       [](double, const VehicleState&) {});
-  // Rolling resistance of two tyres, 0.8 x 0.02 under 71 % of the weight: 0.0114 g.
+  // The two tyres have a friction of 0.8 * 0.02 and carry 71 % of the weight, so the deceleration
+  // is 0.0114 g.
   EXPECT_NEAR(state.speed, 2.0 - 0.0114 * 9.81, Tolerance(0.02));
 }
 
@@ -348,7 +349,8 @@ TEST(WheelPair, FeelsAPush) {
     plant->ApplyLateralForce(200.0);
     plant->Step({});
   }
-  // 20 N s on 80 kg, less 1e-5 for the road and 0.01 N s for the air.
+  // An impulse of 20 N s acts on 80 kg. The friction of the road, 1e-5, and the impulse of the air,
+  // 0.01 N s, are negligible.
   EXPECT_NEAR(plant->Observe().lateral_speed, 0.25, Tolerance(1e-3));
 }
 

@@ -101,8 +101,8 @@ TEST_P(OnBothTyres, ACarAtSteadySpeedIsDrivenAgainstTheAirItMeets) {
           mean += t < 3.0 ? 0.0 : HeldBy(state).forward / count;
         });
     const double air = wind - 10.0;
-    // From 34 N of push to 123 N of drag at 0.5 m^2. The tolerance of 4 N is 3 mm/s^2 of remaining
-    // acceleration.
+    // The air force ranges from 31 N forward to 123 N backward. The tolerance of 4 N allows a
+    // remaining acceleration of 3 mm/s^2.
     EXPECT_NEAR(mean, -0.5 * kAirDensity * std::abs(air) * air * kDragArea, Tolerance(4.0)) << wind;
     // The motor compensates the air drag before the speed deviates.
     EXPECT_NEAR(end.speed, 10.0, Tolerance(0.02)) << wind;
@@ -137,7 +137,7 @@ TEST_P(OnBothTyres, AGustOnAStretchPushesTheCarThereAndNotBefore) {
     yaw_rate = std::max(yaw_rate, pushed[i].yaw_rate - as_ever[i].yaw_rate);
   }
   // 20 m/s across and 20 m/s along meet the car at |a| = 28.3 m/s: 1/2 rho 28.3 * 20 * 5 = 1732 N,
-  // or 1.32 m/s^2 on 1317 kg. Most of that is already balanced by the tyres, here bare contacts.
+  // or 1.32 m/s^2 on 1317 kg. The tyres, here bare contacts, already balance most of this force.
   EXPECT_GT(acceleration, 0.25);
   EXPECT_LT(acceleration, 1.5);
   // The center of pressure is ahead of the center of gravity, so the nose turns away from the wind.

@@ -89,14 +89,14 @@ TEST(WithGround, AHeightFieldIsTheClosedFormAtItsSamples) {
         highest = std::max(highest, p[2] - ground.grade.dot(Vec2(p[0], p[1])));
       }
     }
-    // Samples are floats: 6e-8 of a range of less than 2 m.
+    // Samples are floats with a relative rounding error of 6e-8, over a range of less than 2 m.
     EXPECT_NEAR(worst, 0.0, Tolerance(2e-7)) << name;
     EXPECT_GT(highest, 0.09) << name;
   }
 }
 
 /// Height of the center of a ball of radius `r` that rests on the ground above `p`, by a search
-/// over points. Too low by at most step^2/(4 r).
+/// over points. The result is too low by at most step^2/(4 r).
 double BallHeight(const Ground& ground, const Vec2& p, double r, double step) {
   double highest = -1e9;
   for (double x = -r; x <= r; x += step) {
@@ -140,7 +140,7 @@ TEST(WithGround, ATerrainIsFineWhereItIsRefinedAndCoarseAround) {
       const double z = m.geom_pos[3 * geom + 2] +
                        sides[2] * static_cast<double>(m.hfield_data[m.hfield_adr[field] + i]);
       const double below = GroundHeight(ground, p) - z;
-      // Single precision over a span below 8 m.
+      // The tolerance covers single precision over a height range below 8 m.
       const bool hidden = std::abs(below - 4.0) < Tolerance(1e-6);
       EXPECT_TRUE(hidden || std::abs(below) < Tolerance(1e-6)) << name << " " << below;
       under += hidden ? 1 : 0;
@@ -168,8 +168,9 @@ TEST(WithGround, ABallComesToRestOnTheClosedForm) {
       mj_step(car.get(), d.get());
     }
     const int body = mj_name2id(car.get(), mjOBJ_BODY, "ball");
-    // Facets of 5 cm cut off at most c d^2/8 with c = 2 pi^2 h/L^2 = 0.12 /m: 4e-5 m. The contact
-    // yields by 0.005 g/b k = 1e-6 m.
+    // The facets of the height field have the size d = 5 cm. They are lower than the bump, with its
+    // curvature c = 2 pi^2 h/L^2 = 0.12 1/m, by at most c d^2/8 = 4e-5 m. The contact yields by
+    // 1e-6 m.
     EXPECT_NEAR(d->xpos[3 * body + 2], BallHeight(ground, p, r, 0.002), Tolerance(5e-5)) << along;
   }
 }
@@ -270,7 +271,8 @@ TEST(StandingPosition, OnAGradeIsTheFlatOneTilted) {
     std::copy(qpos.begin(), qpos.end(), d->qpos);
     mj_forward(&m, d.get());
     for (const double distance : TyreDistances(car, *d, ground)) {
-      // As on flat ground: the hub height of the Prius at rest, with zero inclination of the tyres.
+      // The distance is that on flat ground: the hub height of the Prius at rest, with zero
+      // inclination of the tyres.
       EXPECT_NEAR(distance, 0.31073, Tolerance(1e-9)) << yaw;
     }
     const mjtNum* R = d->xmat + 9 * car.parts().chassis;
@@ -306,8 +308,8 @@ TEST(StandingPosition, AcrossABumpNoWheelIsInTheGround) {
           std::min(nearest, center[2] - BallHeight(ground, {center[0], center[1]}, 0.31073, 0.01));
     }
     // Only the point below each hub is on the ground. On a slope of 0.08 the ground ahead of it or
-    // behind it may be higher by R (1 - cos 0.08) = 1 mm. The resulting inclination of the car
-    // moves its hubs by 0.02 m times that.
+    // behind it may be higher by R (1 - cos 0.08) = 1 mm. The resulting change of the car's
+    // inclination hardly moves its hubs.
     EXPECT_GT(nearest, Tolerance(-3e-3)) << x;
     EXPECT_LT(nearest, 0.05) << x;
   }
