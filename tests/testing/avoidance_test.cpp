@@ -10,7 +10,7 @@
 #include "trackbed/drive/drive.h"
 #include "trackbed/testing/scenario_testing.h"
 
-/// Plans that avoid obstacles, driven on both plants.
+/// Tests plans that avoid obstacles on both plants.
 namespace trackbed {
 namespace {
 
@@ -23,7 +23,8 @@ class DrivenRoundObstacle : public testing::TestWithParam<ObstacleCase> {};
 INSTANTIATE_TEST_SUITE_P(Cases, DrivenRoundObstacle, testing::ValuesIn(AllObstacleCases()),
                          CaseName);
 
-/// The turns of the listing: 20 m radius, S = 22.7 m of straight before and after, a box of 2 m.
+/// The turns of the listing have a radius of 20 m and straights of 22.7 m before and after; the
+/// obstacle is a box of 2 m.
 TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
   const ObstacleCase& c = GetParam();
   constexpr double kRadius = 20.0;
@@ -44,8 +45,9 @@ TEST_P(DrivenRoundObstacle, KeepsToThePlanAndClearOnBothPlants) {
   const RunResult run = RunScenario(scenario);
   ASSERT_EQ(run.logs.size(), 2U);
   EXPECT_THAT(run, ReachesGoal(0.5));
-  // The path's curvature changes at up to 0.9 of the steering rate; a preview of 2.5 m cuts it by
-  // some centimeters (0.034 m observed), and the plan keeps 1.5 m clear.
+  // The curvature of the path needs up to 0.9 of the steering rate. A controller with a preview
+  // distance of 2.5 m cuts this path by some centimeters (0.034 m observed). The plan keeps a
+  // distance of 1.5 m.
   EXPECT_THAT(run, TracksWithin(0.15));
   EXPECT_THAT(run, KeepsClearance(1.4));
   EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", 0.05));
@@ -107,7 +109,8 @@ TEST(ObstacleAppears, WithoutAnAvoiderItIsHit) {
 
 TEST(ObstacleAppears, TooLateForAnyWayAroundStopsTheCar) {
   Scenario scenario = ReadScenario(ScenarioFile("obstacle_appears"));
-  // Detected at 7.5 m: 2.7 m are driven before the plan changes, and stopping takes 4.5 m.
+  // The obstacle becomes known at a distance of 7.5 m. The car drives 2.7 m before the plan
+  // changes, and needs 4.5 m to stop.
   scenario.world.obstacles[0].known_from_range = 7.5;
   std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).safe_distance = 1.0;
   std::get<BezierAvoidanceOptions>(*scenario.plan->avoid).min_speed = 2.5;

@@ -86,7 +86,8 @@ TEST(Counterexamples, AreAllOnThePageOfLimits) {
 
 class KnownLimit : public testing::TestWithParam<LimitRow> {};
 
-/// Fixed failures must stay fixed. Listed ones must fail at the stated value and pass beside it.
+/// Fixed failures must stay fixed. Listed failures must occur at the stated value and not at the
+/// nearby values of the table.
 TEST_P(KnownLimit, IsWhereThePageSays) {
   const LimitRow& row = GetParam();
   const fs::path file = kFolder / (row.name + ".yaml");
@@ -98,7 +99,8 @@ TEST_P(KnownLimit, IsWhereThePageSays) {
     EXPECT_FALSE(row.holds_up_to.empty());
   }
   for (const Override& nearer : row.holds_up_to) {
-    // The file's expectations describe its failure, so beside it a run does not pass.
+    // The expectations of the file describe its failure, so a run without this failure does not
+    // pass.
     EXPECT_FALSE(RunScenario(file, WithStart(nearer)).verdict.passed)
         << testing::PrintToString(nearer);
   }

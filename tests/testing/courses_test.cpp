@@ -1,4 +1,4 @@
-// Controllers at speeds with tyre slip: whole runs on Magic Formula tyres.
+// Tests controllers at speeds with tyre slip, in whole runs on Magic Formula tyres.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -94,16 +94,16 @@ TEST(SCourse, PreviewIsLeftOutsideWithoutItsSlip) {
 }
 
 TEST(SCourse, PreviewHasToLookFurtherTheFasterItGoes) {
-  // 4 m are a fifth of a second at 20 m/s: the car's direction of motion lags by as much, and the
-  // car diverges.
+  // At 20 m/s, a preview distance of 4 m is 0.2 s. The car's direction of motion lags by as much,
+  // so the car diverges.
   Scenario scenario = CourseAt("s_course", "prius", 20.0);
   scenario.control.steering = PreviewOptions{.distance = 4.0, .slip = true};
   EXPECT_THAT(RunScenario(scenario), testing::Not(TracksWithin(3.0)));
 }
 
 TEST(SlowDrives, FollowersTrackInSpiteOfTheirSteering) {
-  // A delayed actuator, backlash, a wrong steering factor, and a kick. The kinematic car isolates
-  // the controller.
+  // The disturbances are a delayed actuator, backlash, a wrong steering factor, and a kick. The
+  // kinematic car isolates the controller.
   for (const char* disturbance : {"disturb.steering.delay=0.1", "disturb.steering.backlash=0.00873",
                                   "disturb.steering.factor=0.9", "disturb.steering.factor=1.1",
                                   "disturb.kicks=[{at: 5, displacement: 0.5}]"}) {
@@ -121,7 +121,7 @@ TEST(SlowDrives, FollowersTrackInSpiteOfTheirSteering) {
 }
 
 TEST(SlowDrives, FollowersTrackThreeTurnsAndWinding) {
-  // MuJoCo's car at 3 m/s on arcs that begin with a curvature step.
+  // MuJoCo's car drives at 3 m/s on arcs that begin with a curvature step.
   for (const char* name : {"three_turns", "winding"}) {
     for (const ControllerOptions& options :
          {ControllerOptions(LqrOptions{}), ControllerOptions(MpcOptions{}),

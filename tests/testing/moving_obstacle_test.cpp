@@ -1,4 +1,4 @@
-// Moving obstacles: where every plant hits them, and what the logs record.
+// Tests where every plant hits moving obstacles, and what the logs record.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -45,7 +45,8 @@ TEST(MovingObstacle, IsMetWhereTheWaysCross) {
     }
     return -1.0;
   };
-  // Both approach it at 6 m/s relative speed: the contacts differ by at most a control period.
+  // Both cars approach the obstacle at a relative speed of 6 m/s, so the contact times differ by at
+  // most a control period.
   EXPECT_NEAR(first_contact(run.logs[0]), first_contact(run.logs[1]), 0.021);
 }
 

@@ -1,4 +1,5 @@
-// Whole scenarios steered by a search at every control period, on the kinematic car and MuJoCo's.
+// Tests whole scenarios with the controller optimal_steering, which searches for the steering angle
+// in every control period, on the kinematic car and MuJoCo's.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -103,9 +104,9 @@ TEST_P(OptimallySteeredAgainst, StaysNearItsPathWhereThePlansSteeringAloneDoesNo
   const PlantMetrics closed = drive("optimal_steering");
   EXPECT_EQ(closed.status, DriveStatus::kArrived);
   EXPECT_LE(closed.tracking->cross_track_rms, 0.10);
-  // Detects chatter: wheels that oscillate permanently have the RMS of their full rate, 0.15 rad/s.
-  // Half of that is allowed for the bends, and three quarters under noise, because the controller
-  // responds to every sample.
+  // Detects chatter: the steering rate of wheels that oscillate permanently has an RMS of the full
+  // rate, 0.15 rad/s. The test allows half of the full rate for the bends, and three quarters with
+  // noise, because the controller responds to every sample.
   const bool noisy = std::string(std::get<1>(GetParam()).name) == "noise";
   EXPECT_LE(closed.steering_rate_rms, noisy ? 0.113 : 0.075);
   const PlantMetrics open = drive("schedule");
@@ -134,8 +135,9 @@ TEST_P(OptimallySteeredAfter, ComesBackToItsPathAndStaysThere) {
               {"control={method: optimal_steering}", "drive.plants=[mujoco]", "expect={}"});
   const PlantMetrics metrics = RunScenario(File(course), keys).metrics.front();
   ASSERT_TRUE(metrics.recovery.has_value());
-  // Within 5 cm, the default. Returning over 0.5 m at full lock takes 1.5 cbrt(e L v/omega) = 4 m
-  // at 3 m/s; three times that is allowed.
+  // Recovered means within 5 cm, the default. Returning over e = 0.5 m at the full steering rate
+  // takes 1.5 cbrt(e L v/omega) = 4.5 m, which is 1.5 s at 3 m/s. The test allows more than three
+  // times as long.
   ASSERT_TRUE(metrics.recovery->time.has_value());
   EXPECT_LE(*metrics.recovery->time, 5.0);
 }
@@ -158,7 +160,8 @@ TEST_P(PaperSpeeds, MatchedByArcLengthTheCarStaysOnTheCircle) {
       RunScenario(File("paper_circle"), {fmt::format("disturb.speed_loss.speed={}", GetParam())});
   EXPECT_THAT(run, MeetsItsExpectations());
   for (const RunLog& log : run.logs) {
-    // The +-2.3 % of Skackauskas et al. 2017; covers tyres and body roll of MuJoCo's car.
+    // The tolerance of +-2.3 % is that of Skackauskas et al. 2017. It covers tyre slip and body
+    // roll of MuJoCo's car.
     EXPECT_NEAR(MeanSteering(log), kPi / 18.0, Tolerance(0.023 * kPi / 18.0)) << log.plant;
   }
 }

@@ -1,4 +1,4 @@
-// Planning again while driving, through the whole loop.
+// Tests replanning in whole closed-loop runs.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -47,8 +47,8 @@ const LogRow& RowAt(const RunLog& log, double time) {
                        [&](const LogRow& row) { return row.state.time == time; });
 }
 
-/// No plan asks at its start for another angle than the one before it did at that moment, by more
-/// than the wheels turn in a control period; nor is it elsewhere or of another speed.
+/// Expects that every plan begins at the pose, speed and steering angle of the previous plan at
+/// this time. The steering angles may differ by what the wheels turn in a control period.
 void ExpectSmoothSwitches(const Scenario& scenario, const RunLog& log, const Plan& first) {
   const VehicleParams vehicle = LoadCar(scenario).params();
   const double turned = vehicle.steering_rate * scenario.drive.control_period;
@@ -61,7 +61,7 @@ void ExpectSmoothSwitches(const Scenario& scenario, const RunLog& log, const Pla
     EXPECT_LE(std::abs(SteeringForCurvature(vehicle, was.curvature) -
                        SteeringForCurvature(vehicle, is.curvature)),
               turned);
-    // Back on the route from within 2 cm and 0.005 rad of it.
+    // A plan that returns to the route may begin up to 2 cm and 0.005 rad from it.
     EXPECT_LE((was.pose.position() - is.pose.position()).norm(), 0.021);
     EXPECT_LE(std::abs(was.pose.yaw - is.pose.yaw), 0.006);
     before = &change.plan;
@@ -82,7 +82,7 @@ TEST_P(Replanned, MeetsItsExpectationsAndSwitchesSmoothly) {
   for (const RunLog& log : run.logs) {
     EXPECT_FALSE(log.changes.empty());
     ExpectSmoothSwitches(scenario, log, run.plan);
-    // Every look is at a multiple of the period.
+    // The planner replans only at multiples of the period.
     const double period = scenario.plan->replan->period;
     for (const PlanChange& change : log.changes) {
       EXPECT_NEAR(std::remainder(change.time, period), 0.0, Tolerance(1e-9));
@@ -100,7 +100,7 @@ TEST(Overtake, PassesOnTheLeftAtFullSpeed) {
       if (row.state.time < 15.0) {
         slowest = std::min(slowest, row.state.speed);
       }
-      // Ahead and back in the lane 2 s before it stops.
+      // The car is ahead of the obstacle and back in its lane 2 s before the obstacle stops.
       if (row.state.time > 18.0) {
         EXPECT_GT(row.state.pose.x, 50.0 + 5.0 * row.state.time + 5.0);
         EXPECT_NEAR(row.state.pose.y, 0.0, 0.1);
@@ -109,7 +109,8 @@ TEST(Overtake, PassesOnTheLeftAtFullSpeed) {
         break;
       }
     }
-    // Half of both widths, the safe distance: 0.8625 + 0.9 + 0.8.
+    // The lateral distance is at least half of both widths plus the safe distance: 0.8625 + 0.9 +
+    // 0.8 m.
     EXPECT_GE(left, 2.5);
     EXPECT_GE(slowest, 11.5);
   }
@@ -121,12 +122,12 @@ TEST(FollowAndStop, KeepsItsGaps) {
   const VehicleParams vehicle = LoadCar(scenario).params();
   for (const RunLog& log : run.logs) {
     const LogRow& row = RowAt(log, 20.0);
-    // At 7 m/s behind it: 4 m and 1.5 s.
+    // At 7 m/s, the car follows the obstacle with a gap of 4 m plus 1.5 s times the speed.
     const double rear = 60.0 + 7.0 * 20.0 - 2.2;
     const double front = row.state.pose.x + vehicle.length - vehicle.rear_overhang;
     EXPECT_NEAR(row.state.speed, 7.0, 0.05);
-    // Motions that are planned anew before their end come there ever more slowly; K_st makes
-    // up for less than the station offset of half a meter.
+    // The car approaches this gap ever more slowly, because motions are replaced before their end.
+    // A station offset of up to 0.5 m remains.
     EXPECT_NEAR(rear - front, 4.0 + 1.5 * 7.0, 0.5);
   }
 }
@@ -160,14 +161,15 @@ TEST(DeadEnd, StopsTheGapBeforeTheWall) {
     EXPECT_EQ(run.logs[i].status, DriveStatus::kBlocked);
     EXPECT_THAT(run.metrics[i].blocked,
                 HasSubstr("stops behind the obstacle: no feasible motion past it"));
-    // The gap of 3 m; turned by 1.571 instead of pi/2 the wall is 0.01 m nearer 60 m out.
+    // The car stops with a gap of 3 m. The wall is turned by 1.571 rad instead of pi/2, so it is
+    // 0.01 m nearer at a distance of 60 m from its center.
     EXPECT_NEAR(*run.logs[i].rows.back().clearance, 3.0, 0.05);
   }
 }
 
 TEST(Waiting, EndsWhenWhatMovesHasGone) {
   Scenario scenario = Read("dead_end");
-  // A lorry crosses at walking pace: the car stops for it, waits and goes on.
+  // A lorry crosses at walking pace. The car stops for it, waits and then continues.
   Obstacle& lorry = scenario.world.obstacles[0];
   lorry.footprint = {{50.0, -12.0, 1.5707963267948966}, 16.0, 2.5};
   lorry.velocity = {0.0, 0.8};
@@ -189,7 +191,7 @@ TEST(Waiting, EndsWhenWhatMovesHasGone) {
   }
 }
 
-/// Every planner of a whole path with every controller, over a short mission.
+/// Tests every planner of whole paths with every controller on a short mission.
 TEST(EveryPlanner, IsDrivenByEveryController) {
   Scenario base = Read("heading_goal");
   base.world.obstacles.clear();
@@ -201,7 +203,7 @@ TEST(EveryPlanner, IsDrivenByEveryController) {
   base.drive.plants = {"kinematic", "mujoco"};
   for (const PlannerEntry& planner : Planners()) {
     if (planner.min_waypoints == 0) {
-      continue;  // courses and lane changes know no goal
+      continue;  // courses and lane changes have no goal
     }
     base.plan = PlanSpec{.global = planner.defaults};
     for (const ControllerEntry& controller : Controllers()) {
@@ -212,8 +214,9 @@ TEST(EveryPlanner, IsDrivenByEveryController) {
       base.control.steering = controller.defaults;
       const RunResult run = RunScenario(base);
       ASSERT_TRUE(run.plan.ok()) << run.plan->reason;
-      // Steps of curvature lead the open loop off its path, and Stanley's law meets them late: the
-      // table in docs/algorithms/control.md. They come to rest, and are not said to have arrived.
+      // With steps of curvature, the open loop leaves its path and Stanley's law reacts late (see
+      // the table in docs/algorithms/control.md). These cars stop away from the goal, so their
+      // status must not be `arrived`.
       const bool is_off_after_steps = (std::string(controller.name) == "schedule" ||
                                        std::string(controller.name) == "stanley") &&
                                       planner.has_headings;

@@ -7,7 +7,7 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/testing/scenario_testing.h"
 
-// Plans around obstacles and to goals with headings, driven on both plants.
+// Tests plans around obstacles and to goals with headings on both plants.
 namespace trackbed {
 namespace routes_test {
 
@@ -42,7 +42,8 @@ TEST(Routes, GoWithTheStreamInAWindyField) {
   const RunResult again =
       RunScenario(File("windy_field"), {"drive.plants=[kinematic]", "expect={}"});
   EXPECT_EQ(again.plan->reference.path.segments(), run.plan->reference.path.segments());
-  // With the stream turned against the car the way with it is none to take.
+  // If the wind blows against the car, the planner cannot use the route with the wind, and the
+  // score is higher.
   const RunResult against = RunScenario(
       File("windy_field"), {"drive.plants=[kinematic]", "expect={}", "world.wind.gusts[0].x=-12"});
   EXPECT_GT(score(against)["total_m"], score(run)["total_m"]);

@@ -97,7 +97,8 @@ TEST(Slalom, IsTrackedWithinFifteenCentimetersOnBothPlants) {
 TEST(IcePatch, IsWhatTheCarSlidesOn) {
   EXPECT_THAT(RunScenario(File("ice_patch")),
               testing::Not(StaysWithin("kinematic", "mujoco", 0.3)));
-  // Understeer of 0.003 rad s^2/m at 2.5 m/s^2, of which the controller leaves 5 cm.
+  // Without the ice, the understeer of 0.003 rad s^2/m at 2.5 m/s^2 causes a difference of at most
+  // 5 cm, because the controller compensates most of it.
   EXPECT_THAT(RunScenario(File("ice_patch"), {"world.friction_patches=[]"}),
               StaysWithin("kinematic", "mujoco", 0.05));
 }
@@ -124,7 +125,7 @@ TEST(StaysWithin, SaysHowFarApartWhereAndWhen) {
             "the run does not have both mujoco and single_track");
 }
 
-/// Two runs that differ by 0.5 in each quantity at s = 12 m.
+/// Comparison of two runs that differ by 0.5 in each quantity at s = 12 m.
 PlantComparison HalfApart() {
   const Difference half{.rms = 0.1, .max = 0.5, .max_s = 12.0, .max_t = 4.0};
   return {.first = "kinematic",
@@ -193,9 +194,10 @@ TEST(Compare, HoldsPlantsAndRunsAgainstEachOther) {
 }
 
 TEST(ThreeTurns, IsDrivenOnContactsAsTheKinematicModelSays) {
-  // The servo lags by 10 to 15 ms: at 0.15 rad/s the wheels lag by 2.3 mrad, the yaw rate by v/L =
-  // 1.1/s of that. In turns of 16.8 m, at 0.18 rad/s, the heading is then 2.7 mrad behind, which is
-  // 7 mm over the preview of 2.5 m. Tyres slip by less at 0.5 m/s^2.
+  // The servo lags by 10 to 15 ms. At 0.15 rad/s, the steering angle is therefore up to 2.3 mrad
+  // behind, and the yaw rate by v/L = 1.1 1/s times this angle. In turns of radius 16.8 m, with a
+  // yaw rate of 0.18 rad/s, the heading is 2.7 mrad behind, which is 7 mm over the preview distance
+  // of 2.5 m. At 0.5 m/s^2, the slip of the tyres has a smaller effect.
   EXPECT_THAT(
       Compare(RunScenario(File("three_turns"), {"control.distance=2.5", "vehicle.tyre=contact"}),
               "kinematic", "mujoco"),
@@ -261,8 +263,8 @@ TEST(HitTheBox, IsFeltByTheContactDynamics) {
   for (const PlantMetrics& metrics : run.metrics) {
     ASSERT_TRUE(metrics.clearance.has_value());
     EXPECT_TRUE(metrics.clearance->collision);
-    // 1317 kg stop from 3 m/s within the few centimeters that a stiff contact yields: a force of
-    // many times the car's weight. The kinematic car feels no force.
+    // 1317 kg stop from 3 m/s within the few centimeters by which a stiff contact yields, so the
+    // force is many times the car's weight. The kinematic car has no contact force.
     EXPECT_EQ(metrics.clearance->force_max > 13000.0, metrics.plant == "mujoco");
   }
 }

@@ -1,4 +1,4 @@
-// Whole scenarios on the linear single-track car, compared with the kinematic car and MuJoCo's.
+// Compares whole scenarios on the linear single-track car with the kinematic car and MuJoCo's.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -19,13 +19,14 @@ TEST(SingleTrack, DrivesAPlanLikeTheOthersAtWalkingSpeed) {
                   {"drive.plants=[kinematic, single_track, 'mujoco:magic_formula']", "expect={}"});
   EXPECT_THAT(run, ReachesGoal(0.5));
   EXPECT_THAT(run, TracksWithin(0.15));
-  // Turns of 29 m give 0.33 m/s^2. The rear tyres, with a cornering stiffness of 20 times their
-  // load, slip by 1.7 mrad, which a preview of 2.5 m takes for a path offset of 4.2 mm. Understeer
-  // of 1.1 %, K u^2/L, adds 1.1 % of 2.5^2/(2 x 29) m, 1.2 mm. Half as much again where turns begin
-  // and end.
+  // Turns of radius 29 m cause a lateral acceleration of 0.33 m/s^2. The cornering stiffness of the
+  // rear tyres is 20 times their load, so their slip angle is 1.7 mrad. With a preview distance of
+  // 2.5 m, this is equivalent to an offset from the path of 4.2 mm. Understeer of K u^2/L = 1.1 %
+  // adds 1.1 % of 2.5^2/(2 x 29) m, which is 1.2 mm. Where turns begin and end, the offset is
+  // larger by half.
   EXPECT_THAT(run, StaysWithin("kinematic", "single_track", Tolerance(0.008)));
-  // MuJoCo's servo lags by 10 ms: up to 1.5 mrad at the wheels, which is 1.5 mm over 3 m of road
-  // and preview. The camber thrust of its tyres has a smaller effect.
+  // MuJoCo's servo lags by 10 ms, so the steering angle errs by up to 1.5 mrad. This displaces the
+  // car by 1.5 mm. The camber thrust of its tyres has a smaller effect.
   EXPECT_THAT(run, StaysWithin("single_track", "mujoco:magic_formula", Tolerance(0.002)));
 }
 
@@ -34,8 +35,9 @@ TEST(SingleTrack, UndersteersAsMujocosCarOnItsTyresDoes) {
       File("steering_circle"), {"drive.plants=[kinematic, single_track, 'mujoco:magic_formula']",
                                 "expect={}", "mission.speed=15", "mission.duration=8",
                                 "control.steering=0.02", "mission.start.steering=0.02"});
-  // 120 m at 1.3 m/s^2 are 0.7 rad of turn. The Prius's tyres lose 1 % of stiffness there and get
-  // camber thrust from body roll: 1.5 % of yaw rate is 10 mrad at the end, half of that on average.
+  // Over 120 m at 1.3 m/s^2, the car turns by 0.7 rad. At this acceleration, the tyres of the Prius
+  // lose 1 % of their stiffness, and body roll causes camber thrust. Both change the yaw rate by
+  // 1.5 %, and the heading by 10 mrad at the end and 5 mrad on average.
   EXPECT_THAT(run, StaysWithin("single_track", "mujoco:magic_formula", Tolerance(0.6)));
   // Without slip the turn is tighter by K u^2/L, 27 %.
   EXPECT_THAT(run, testing::Not(StaysWithin("kinematic", "single_track", 5.0)));

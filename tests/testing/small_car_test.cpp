@@ -9,7 +9,7 @@
 #include "trackbed/control/steering_profile.h"
 #include "trackbed/testing/scenario_testing.h"
 
-/// A car of a tenth of the first one's size: only its MJCF file differs.
+/// Tests a car of a tenth of the size of the Prius, for which only the MJCF file differs.
 namespace trackbed {
 namespace {
 
@@ -17,7 +17,8 @@ std::filesystem::path Data(const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "tests" / "data" / name;
 }
 
-/// A scenario of the full-size car scaled to a tenth: lengths divided by 10, at 0.8 m/s.
+/// Scales a scenario of the full-size car to a tenth: divides lengths by 10 and sets the speed to
+/// 0.8 m/s.
 Scenario Scaled(const std::string& name) {
   Scenario scenario =
       ReadScenario(std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / (name + ".yaml"));
@@ -31,15 +32,16 @@ Scenario Scaled(const std::string& name) {
   return scenario;
 }
 
-// On an arc of radius r, a preview chord of length R runs up to R^2/(8 r) inside the path; entering
-// and leaving the arc adds as much. The turns have r >= 1.7 m, and R = 0.25 m: 4.6 mm. kParting
-// bounds the effect of the dynamics.
+// A chord with the length of the preview distance R = 0.25 m runs up to R^2/(8 r) = 4.6 mm inside
+// an arc of radius r >= 1.7 m. Where arcs begin and end, the car deviates from the path by up to
+// this distance. kParting bounds the effect of the dynamics.
 constexpr double kParting = 0.002;               // [m]
 constexpr double kTracking = 0.0046 + kParting;  // [m]
 
-// The servo lags by 10 ms, 8 mm of road, so the heading is up to 8 mm/r = 4 mrad behind. The
-// contact slip, a_y dmax tau/2 = 0.33 x 5 ms/2 over 0.8 m/s, adds 1 mrad. The controller removes
-// both within the preview distance: 5 mrad x 0.25 m = 1.3 mm, rounded up to kParting.
+// The servo lags by 10 ms, which is 8 mm of road, so the heading is up to 8 mm/r = 4 mrad behind.
+// The slip speed of the contacts, a_y dmax tau/2 = 0.33 m/s^2 * 5 ms/2, divided by the speed of 0.8
+// m/s, adds 1 mrad. The controller removes both errors within the preview distance. This leaves 5
+// mrad * 0.25 m = 1.3 mm, which is rounded up to kParting.
 
 TEST(SmallCar, IsReadFromItsOwnFile) {
   const Scenario scenario = ReadScenario(Data("small_three_turns.yaml"));
@@ -85,7 +87,7 @@ TEST(SmallCar, DrivesThreeTurnsAndStops) {
   const RunResult run = RunScenario(Data("small_three_turns.yaml"));
   EXPECT_THAT(run, TracksWithin(Tolerance(kTracking)));
   EXPECT_THAT(run, StaysWithin("kinematic", "mujoco", Tolerance(kParting)));
-  // It stops at a speed below 1 cm/s, so the speed controller's remaining correction (gain 2/s) is
+  // The run ends at a speed below 1 cm/s. With the gain of 2 1/s, the remaining position error is
   // at most 5 mm.
   EXPECT_THAT(run, ReachesGoal(Tolerance(0.005)));
 }

@@ -9,7 +9,7 @@
 
 #include "trackbed/testing/scenario_testing.h"
 
-/// A steered car and a differential-drive vehicle on the same slalom.
+/// Tests a steered car and a differential-drive vehicle on the same slalom.
 namespace trackbed {
 namespace two_vehicles_test {
 
@@ -39,8 +39,8 @@ TEST_P(SlalomByEither, IsCompletedOnBothPlants) {
 }
 
 TEST(DiffDrive, TurnsTighterThanACarCan) {
-  // Turns of 120 degrees between legs of 6 m: the Prius, which needs a radius of 5.1 m and distance
-  // to steer, has no plan.
+  // The route has turns of 120 degrees between legs of 6 m. There is no plan for the Prius, which
+  // needs a radius of 5.1 m and distance to turn its wheels.
   const std::vector<std::string> tight{
       "mission.waypoints=[[0, 0], [6, 0], [3, 5.2], [9, 5.2], [6, 10.4], [12, 10.4]]",
       "mission.speed=1", "control={method: preview, distance: 0.6}"};
@@ -57,7 +57,7 @@ TEST(DiffDrive, FeelsTheObstacleThatItHits) {
   for (const PlantMetrics& metrics : run.metrics) {
     ASSERT_TRUE(metrics.clearance.has_value());
     EXPECT_TRUE(metrics.clearance->collision);
-    // 80 kg stop from 3 m/s within centimeters: a force of many times the weight.
+    // 80 kg stop from 3 m/s within centimeters, so the force is many times the weight.
     EXPECT_EQ(metrics.clearance->force_max > 1500.0, metrics.plant == "mujoco");
   }
 }
