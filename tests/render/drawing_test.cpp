@@ -54,9 +54,9 @@ TEST(Thin, LeavesNoPointFartherThanTheTolerance) {
 }
 
 TEST(Thin, SpendsOnACircleWhatItsCurvatureAsksFor) {
-  // A chord of length c deviates by c^2 / (8 R) from its arc: at R = 5 m and 5 mm, c = 0.447 m. The
-  // points are 0.05 m apart, so a chord is shorter by at most one of them: 31.4 m in 71 to 79
-  // pieces.
+  // A chord of length c deviates by c^2 / (8 R) from its arc. With R = 5 m, a deviation of 5 mm
+  // allows c = 0.447 m. The points are 0.05 m apart, so a chord may be up to 0.05 m shorter. The
+  // circumference of 31.4 m thus needs 71 to 79 pieces.
   std::vector<Point> circle;
   for (int i = 0; i <= 628; ++i) {
     circle.push_back({5.0 * std::cos(0.01 * i), 5.0 * std::sin(0.01 * i)});
@@ -118,7 +118,8 @@ TEST(Canvas, BlendsARectangleAndRoundsItsCorners) {
 
 TEST(Canvas, FillsEveryPixelOfARectangleOnce) {
   Font font = BlockFont();
-  // Full coverage at half opacity, for any position of the edges between pixels.
+  // Pixels inside the rectangle are fully covered at half opacity, for any position of the edges
+  // between pixels.
   for (const double shift : {0.0, 0.3, 0.5, 0.9}) {
     Image image;
     image.Resize(60, 30);
@@ -192,9 +193,10 @@ TEST(Camera, SideGoesAlongWithoutAJerk) {
   for (int frame = 1; frame <= 60; ++frame) {
     const CameraPose pose = side.pose(subject, 1.0 + frame / 30.0, 1.8);
     const double rate = 30.0 * (pose.azimuth - before);
-    // The mean under a triangle of +-0.8 s: its rate changes by at most 0.5 / 0.8 [rad/s] per
-    // second, the step of 0.5 rad/s times the triangle's peak. The bound is doubled because the
-    // mean has 31 samples 0.05 s apart, while frames are 0.033 s apart.
+    // The heading of the camera is a mean weighted by a triangle of +-0.8 s. Its rate changes by at
+    // most 0.5/0.8 rad/s per second: the step of 0.5 rad/s times the peak of the triangle. The
+    // bound is doubled because the mean has 31 samples 0.05 s apart, while frames are 0.033 s
+    // apart.
     EXPECT_LT(std::abs(rate - rate_before), 2.0 * 0.5 / 0.8 / 30.0) << frame;
     before = pose.azimuth;
     rate_before = rate;

@@ -139,8 +139,8 @@ TEST_F(EventTest, ACollisionIsWhereTheClearanceIsGoneOrWhereTheMetricsSay) {
 }
 
 TEST_F(EventTest, ARollOverBeginsWhereTheCarLeansBy30DegreesForTheLastTime) {
-  // A roll rate of 1 rad/s from 0.5 s on gives 30 degrees, cosine 0.87, after 0.5156 s, and 60
-  // degrees after 1.0472 s. States are 1/60 s apart.
+  // With a roll rate of 1 rad/s from 0.5 s on, the roll angle is 30 degrees (its cosine is 0.87)
+  // after 0.5156 s and 60 degrees after 1.0472 s. States are 1/60 s apart.
   SetRoll([](double time) { return std::max(0.0, time - 0.5); });
   std::vector<RunEvent> events = Events();
   ASSERT_EQ(events.size(), 1U);
@@ -164,8 +164,8 @@ TEST_F(EventTest, MarksLieWhereTheCarWasFromThenOn) {
   Recording recording = ReadRecording(folder_.path());
   pose_ =
       FindCamera("top").pose(CameraSubject(recording), 2.0, static_cast<double>(kWidth) / kHeight);
-  // The car passed x = 0.6 and covers the road only from x = 2.2 on at 1 s: the trail is pink, more
-  // red than green.
+  // At 1 s the car has passed x = 0.6 m and covers the road only from x = 2.2 m on. The trail is
+  // pink, with more red than green.
   EXPECT_GT(At(Painted(1.0), 0.6, 0.0)[0], At(Painted(1.0), 0.6, 0.0)[1] + 60);
   const std::array<int, 3> before = At(Painted(0.19), -0.9, 0.0);
   EXPECT_LT(std::abs(before[0] - before[1]), 20);

@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// In a bend of 12 m to the left, the car falls behind and drifts outward from an icy patch on.
+/// Pose at `time` [s] of a car that drives at 3 m/s on a left bend of radius 12 m, `outside` [m]
+/// outside of the bend.
 CarPlace OnTheBend(double time, double outside) {
   constexpr double kRadius = 12.0;
   const double angle = 3.0 * time / kRadius;

@@ -60,10 +60,12 @@ TEST_F(GroundFilm, ThePlanLiesOnSlopesAndBumps) {
   WriteStraightPlan(folder_.path(), 16.0);
   for (const char* camera : {"chase", "top"}) {
     const Image image = Picture(camera, 0.0);
-    // In front of, on and behind the bump; from behind, its far side is partly hidden.
+    // The points are before, on and behind the bump, without the part of its far side that the
+    // camera behind the car cannot see.
     for (const double x : {6.5, 7.7, 8.3, 9.0, 9.6, 13.0}) {
-      // Paint on ground tilted by 0.18 to the west, away from the sun in the east, loses a fifth of
-      // the sun's half of the light: at least 0.96 * 0.89 = 0.85 of white remain. Asphalt has 0.67.
+      // The sun is in the east and provides half of the light. Ground that is tilted by 0.18 to the
+      // west receives a fifth less sunlight, so paint has at least 0.96 * 0.89 = 0.85 of white.
+      // Asphalt has 0.67.
       EXPECT_GT(AtGround(image, world, x, 0.0)[0], 200) << camera << " at " << x;
       for (const double beside : {-1.2, 1.2}) {
         EXPECT_LT(AtGround(image, world, x, beside)[0], 200) << camera << " at " << x;
@@ -98,7 +100,7 @@ TEST_F(GroundFilm, CamerasGoUpAndDownWithTheGround) {
     EXPECT_NEAR(pose.target_z, pose.ground_z + above, Tolerance(1e-9)) << camera;
   }
   const CameraPose chase = FindCamera("chase").pose(subject, 10.0, 1.8);
-  // 18 degrees down, plus the slope of the hill along the camera's azimuth.
+  // The camera looks 18 degrees down relative to the slope of the hill along the camera's azimuth.
   EXPECT_NEAR(chase.elevation, -18.0 * kPi / 180.0 + std::atan(0.1 * std::cos(chase.azimuth)),
               Tolerance(1e-12));
 }
@@ -125,8 +127,9 @@ TEST_F(GroundFilm, PatchesAreWhereTheyAreAndIceIsBlue) {
   for (const double x : {8.0, 10.0, 12.0}) {
     const std::array<int, 3> ice = At(image, x, 1.5);
     const std::array<int, 3> wet = At(image, x, -1.5);
-    // Ice is (0.66, 0.87, 1.00) with an opacity of 0.70 over gray: blue exceeds red by 0.24, 61 of
-    // 255. Wet asphalt is darker in red by at least 0.58 * (0.62 - 0.27) = 0.20, 51 of 255.
+    // Ice is (0.66, 0.87, 1.00) with an opacity of 0.70 over gray, so blue exceeds red by 0.24,
+    // which is 61 of 255. Wet asphalt has less red than dry asphalt by at least 0.58 * (0.62 -
+    // 0.27) = 0.20, which is 51 of 255.
     EXPECT_GT(ice[2], ice[0] + 40) << x;
     EXPECT_LT(wet[0], At(bare, x, -1.5)[0] - 35) << x;
     EXPECT_EQ(At(image, x, 0.0), At(bare, x, 0.0)) << x;
@@ -180,11 +183,11 @@ TEST(PatchTiles, FollowTheGroundAndCoverThePatch) {
       highest = std::max(highest, above);
     }
   }
-  // The tiles are rectangles, so on bent ground they overlap a little, by the square of the bend.
+  // The tiles are rectangles, so they overlap slightly on curved ground.
   EXPECT_NEAR(covered, area.length * area.width, Tolerance(0.01 * area.length * area.width));
-  // Tiles lie 1 mm above the ground, plus or minus 1.5 mm of curvature along the grid lines and as
-  // much for the twist between them; another 1 mm at the bump's sides, where tiles have their
-  // minimum size.
+  // Tiles lie 1 mm above the ground. The curvature of the ground along the grid lines changes this
+  // by up to 1.5 mm, and the twist between the lines by another 1.5 mm. At the sides of the bump,
+  // where tiles have their minimum size, 1 mm is added.
   EXPECT_GT(lowest, Tolerance(-3e-3));
   EXPECT_LT(highest, Tolerance(5e-3));
 }
@@ -262,10 +265,11 @@ TEST(Canvas, AnArrowsHeadIsWhereItPoints) {
     const Image black = image;
     Canvas canvas(image, font);
     canvas.Arrow(30.0, 30.0, 40.0, direction, {1.0F, 1.0F, 1.0F});
-    // In lengths: a shaft of 0.6 x 0.16 at -0.2, and a head of 0.4 x 0.52 / 2 at 0.1 + 0.4 / 3.
+    // In units of its length, the arrow has a shaft of 0.6 x 0.16 with its centroid at -0.2, and a
+    // triangular head of the area 0.4 x 0.52 / 2 with its centroid at 0.1 + 0.4 / 3.
     const double lean = 40.0 * (0.096 * -0.2 + 0.104 * (0.1 + 0.4 / 3.0)) / 0.2;  // 1.01
     const Vec2 off = MiddleOfLight(image, black) - Vec2(30.0, -30.0);
-    // 16 samples per pixel.
+    // The tolerance covers the sampling with 16 samples per pixel.
     EXPECT_NEAR((off - lean * Direction(direction)).norm(), 0.0, Tolerance(0.15)) << direction;
   }
 }

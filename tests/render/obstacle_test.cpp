@@ -67,7 +67,7 @@ TEST_F(ObstacleTest, OneThatIsNotKnownIsAnOutlineAndThenACrate) {
   EXPECT_NEAR(through[0], ground[0], 30);
   EXPECT_LT(std::abs(through[0] - through[2]), 20);
   EXPECT_GT(BrightestOfEdge(before), 230);
-  // Wood, (0.72, 0.61, 0.44), has much more red than blue; the outline remains for 1.5 s.
+  // Wood, (0.72, 0.61, 0.44), has much more red than blue.
   const Image after = Picture("top", 0.2);
   EXPECT_GT(At(after, 10.0, 3.0, 1.0)[0], At(after, 10.0, 3.0, 1.0)[2] + 40);
   // The outline has twelve white edges and remains for 1.5 s.
@@ -101,7 +101,8 @@ TEST_F(ObstacleTest, OneOfTheSizeOfACarIsACarThatFillsItsBox) {
         high = std::max<double>(high, geom.pos[0]);
       }
     }
-    // Scaled from 4.45 to 4.0 m, about the center of the car, 1.4 m ahead of the rear axle.
+    // The vehicle is scaled from 4.45 to 4.0 m about its center, which is 1.4 m ahead of its rear
+    // axle.
     EXPECT_NEAR(high - low, 2.7 * 4.0 / 4.45, Tolerance(1e-4));
     EXPECT_NEAR(low, 14.0 - 1.4 * 4.0 / 4.45, Tolerance(1e-4));
   });
@@ -138,8 +139,8 @@ TEST(Occlusion, IsTheShareOfLinesOfSightThatTheBoxCrosses) {
   };
   EXPECT_EQ(share(0.0, 20.0, 5.0), 1.0);
   EXPECT_EQ(share(8.0, 2.0, 5.0), 0.0);
-  // With its margin of 0.5 m the wall begins 0.2 m to the left of the center line. Of the lines to
-  // the points at -0.8, 0 and 0.8, only the last one crosses it, at 0.33 to 0.48.
+  // With its margin of 0.5 m, the wall begins at y = 0.2 m. Of the lines of sight to the points at
+  // y = -0.8, 0 and 0.8 m, only the last one crosses the wall, at y = 0.33 to 0.48 m.
   EXPECT_NEAR(share(3.2, 5.0, 5.0), 1.0 / 3.0, Tolerance(1e-9));
   EXPECT_EQ(FadedAlpha(0.0), 1.0);
   EXPECT_DOUBLE_EQ(FadedAlpha(1.0), 0.25);

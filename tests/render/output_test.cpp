@@ -176,7 +176,7 @@ TEST(BackgroundOutput, GoesOnWhileAPictureIsWrittenAndWritesWhatWaits) {
     output.Add(image);
     output.Add(image);
     EXPECT_EQ(given, 1);
-    // Destroyed without Finish, as after an exception.
+    // The output is destroyed without Finish, as after an exception.
     later = std::thread([&] {
       let_go = true;
       let_go.notify_all();
@@ -292,7 +292,7 @@ TEST_F(Frames, OfAnOlderFilmStayWhereTheyAreNoFiles) {
 TEST_F(Frames, DoNotReplacePicturesOfOthers) {
   ASSERT_EQ(RenderFilm(run_, output_, options_).frames, 3);
   const std::string own = ReadFile(FrameName(output_, 1));
-  // As another program writes it: without the chunk that names Trackbed.
+  // A picture as another program writes it, without the chunk that names Trackbed.
   const std::size_t chunk = own.find("tEXt") - 4;
   const std::string other =
       own.substr(0, chunk) + own.substr(own.find("Trackbed") + 8 + sizeof(std::uint32_t));

@@ -171,8 +171,8 @@ TEST_F(FilmSceneTest, TheErrorRibbonHasTheColorOfTheDistanceFromThePath) {
   const Image image = Picture("top", 2.0);
   const std::array<int, 3> on = At(image, 1.5, 0.0);
   const std::array<int, 3> off = At(image, 4.2, 0.0);
-  // viridis: dark violet, (68, 1, 84), on the path; yellow, (253, 231, 37), at the end of the
-  // scale.
+  // The color map viridis is dark violet, (68, 1, 84), for no error, and yellow, (253, 231, 37), at
+  // the end of the scale.
   EXPECT_GT(on[2], on[1] + 40);
   EXPECT_LT(on[1], 60);
   EXPECT_GT(off[1], off[2] + 100);
@@ -187,7 +187,8 @@ TEST_F(FilmSceneTest, WithoutAPathThereIsNoErrorRibbon) {
 
 TEST_F(FilmSceneTest, ErrorsThatSwayByLittleKeepOneColor) {
   WriteStraightPlan(folder_.path(), 16.0);
-  // A color step is 0.05 / 16 m: the error varies by a tenth of a step around the middle of one.
+  // The color scale divides errors up to 0.05 m into 16 steps. The error oscillates around the
+  // middle of the fourth step, with an amplitude of a tenth of a step.
   SetLogColumn(folder_.path(), "mujoco", "cross_track_m",
                [](double time) { return 0.05 / 16.0 * (3.5 + 0.1 * std::sin(40.0 * time)); });
   const std::vector<double> fractions = ErrorFractions(ReadRecording(folder_.path()));
@@ -207,7 +208,7 @@ TEST_F(FilmSceneTest, TheWindIsDrawnOnTheGroundWhereItBlowsTo) {
   const Image windy = Picture("top", 0.0);
   overlays_.pop_back();
   EXPECT_TRUE(Picture("top", 0.0).rgb == calm.rgb);
-  // Arrows of 3 m, 5 m apart, times the paint scale; all along y.
+  // The arrows are 3 m long, 5 m apart and along y. All lengths are multiplied by the paint scale.
   const double spacing = 5.0 * pose_->paint_scale;
   const double x = spacing * std::round(pose_->target_x / spacing) + spacing;
   const double y = spacing * std::round(pose_->target_y / spacing) + spacing;
@@ -261,8 +262,9 @@ class StripTest : public FilmSceneTest {
 
 TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
   const Image image = DrawAt(1.2);
-  // The plot ends a margin and half a pad above the picture's lower edge, and begins 0.4 pads and
-  // the letters below the panel's upper edge: 10, 4, 3.2 and 13.8 px.
+  // The plot ends a margin of 10 px and half a padding (4 px) above the lower edge of the picture.
+  // It begins 0.4 paddings (3.2 px) and the height of the letters (13.8 px) below the upper edge of
+  // the panel.
   const int first = static_cast<int>(std::round(top_ + 3.2 + 0.86 * 16.0));
   const int last = 360 - 10 - 4;
   const int middle = (first + last) / 2;
@@ -277,10 +279,10 @@ TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
   EXPECT_GT(std::min(asked[0], asked[2]), 200);
   const std::array<int, 3> done = Brightest(image, column(0.5), middle + 3, last);
   EXPECT_GT(done[0], done[2] + 100);
-  // Still in the future: no color.
+  // The measured angle has no color in the future.
   const std::array<int, 3> later = Brightest(image, column(1.7), middle + 3, last);
   EXPECT_LT(later[0], 30);
-  // No planned steering, then a curve to the left, paler where it is still ahead.
+  // The planned steering is zero at first and then to the left. Its color is paler in the future.
   const int between = (first + middle) / 2 + 2;
   EXPECT_LT(image.Pixel(column(0.8), between)[0], 30);
   EXPECT_GT(image.Pixel(column(1.1), between)[0], 100);
@@ -291,7 +293,7 @@ TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
 }
 
 TEST_F(StripTest, FollowsThePlanThatHolds) {
-  // A replan at 1.5 s, after 4.5 m: straight for 0.9 m, 0.3 s, then to the right.
+  // At 1.5 s, after 4.5 m, a replan takes effect: straight for 0.9 m (0.3 s), then to the right.
   Table plans({"from_t_s", "s_m", "x_m", "y_m", "curvature_radpm"});
   for (int i = 0; i <= 60; ++i) {
     plans.AddRow({1.5, 0.1 * i, 4.5 + 0.1 * i, 0.0, i < 9 ? 0.0 : -0.05});
@@ -316,8 +318,8 @@ TEST_F(StripTest, EndsWithItsOwnDriveOnTheAxisOfAll) {
   const Image image = DrawAt(4.0);
   const int first = static_cast<int>(std::round(top_ + 3.2 + 0.86 * 16.0));
   const int middle = (first + 346) / 2;
-  // The car's own 2 s of 4 s: command to the left, measured angle to the right, and nothing
-  // afterwards.
+  // The plot covers 4 s, but the log of the car only 2 s. In these 2 s, the command is to the left
+  // and the measured angle to the right. Nothing is drawn afterward.
   const auto column = [](double time) { return 18 + static_cast<int>(time / 4.0 * 603.0); };
   EXPECT_GT(Brightest(image, column(1.9), first, middle - 2)[2], 100);
   EXPECT_LT(Brightest(image, column(2.1), first, middle - 2)[2], 60);
@@ -356,9 +358,10 @@ TEST_F(FilmSceneTest, GhostAndCarAreApartInThePictureAsInTheLogs) {
         const auto seen_ghost = projection({of_ghost.pos[0], of_ghost.pos[1], of_ghost.pos[2]});
         ASSERT_TRUE(seen_car && seen_ghost);
         // A ghost is drawn 0.1 m farther along the line of sight, which does not move it in the
-        // picture; single precision at 10 m is 1e-6 m, less than 1e-4 px. MuJoCo derives the left
-        // and right cameras of a stereo pair from one camera: each is half of 0.068 m from the
-        // middle, so that 0.1 m / 15 m farther away moves the ghost by 2e-4 m, 0.004 px.
+        // picture. Single precision at 10 m is 1e-6 m, less than 1e-4 px. MuJoCo's cameras are the
+        // left and the right one of a stereo pair, each 0.034 m from the middle. At a distance of
+        // 15 m, drawing the ghost 0.1 m farther away therefore moves it by 2e-4 m, which is 0.004
+        // px.
         EXPECT_NEAR(seen_ghost->x, seen_car->x, 0.01) << time;
         EXPECT_NEAR(seen_ghost->y, seen_car->y, 0.01) << time;
         ++compared;

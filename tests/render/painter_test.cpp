@@ -104,7 +104,7 @@ TEST_F(PainterTest, PlantsSideBySideAreEachAsAlone) {
       one.width = kWidth / 2;
       one.plants = {options_.plants[static_cast<std::size_t>(part)]};
       const Image alone = Painted(one);
-      // Except for the seam, which is at most 1.2 px wide on either side.
+      // Both pictures are equal except for the seam, which is at most 1.2 px wide on either side.
       int different = 0;
       for (int y = 0; y < kHeight; ++y) {
         for (int x = 2; x < kWidth / 2 - 2; ++x) {
@@ -126,7 +126,8 @@ TEST_F(PainterTest, TheInsetIsTheOtherCamerasPicture) {
   const Image without = Painted(options_);
   options_.inset = "top";
   const Image with = Painted(options_);
-  // 0.3 of the sides, inside the right and upper margins of 10 px and a frame of 2 px.
+  // The inset has 0.3 of the picture's width and height. A margin of 10 px and a frame of 2 px
+  // separate it from the right and the upper edge.
   const int left = 640 - 10 - 192 - 2;
   const int top = 10 + 2;
   EXPECT_EQ(Different(with, without, 0, left - 2, 0, 360), 0);

@@ -107,8 +107,9 @@ class FilmSceneTest : public testing::Test {
   std::optional<CameraPose> pose_;
 };
 
-// Light on flat paint: the lamps of the Prius add up to at least 0.96 of its color, and the asphalt
-// between its lines has at most 0.69. The threshold 225 / 255 = 0.88 lies well between.
+// Threshold for the brightness of white paint on flat ground. The lamps of the Prius light paint
+// with at least 0.96 of its color. Asphalt between painted lines has at most 0.69 of white. The
+// threshold of 225 / 255 = 0.88 lies well between.
 inline constexpr int kWhite = 225;
 
 }  // namespace trackbed::render

@@ -22,7 +22,7 @@ TEST_F(FilmSceneTest, ARoadNetworkHasPavementAndPaintWhereTheFileSays) {
   folder_.Write("scenario.resolved.yaml", "world: {road_network: road_network.xodr}\n");
   overlays_ = {"road"};
   const Image image = Picture("top", 1.0);
-  // The camera `top` sees 20 m across; a pixel is 0.11 m, the paint 0.6 m wide.
+  // The camera `top` sees 20 m per picture height. A pixel is 0.11 m and the paint 0.6 m wide.
   for (const double x : {-2.0, 10.0}) {
     for (const double y : {-1.75, 1.75}) {
       const std::array<int, 3> asphalt = At(image, x, y);

@@ -37,9 +37,9 @@ TEST_F(FilmSceneTest, ThePlannedPathIsWhereItsProjectionSays) {
 TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
   WriteStraightPlan(folder_.path(), 16.0);
   Recording recording = ReadRecording(folder_.path());
-  // A shadow map far coarser than a film's, 0.8 m per texel. Paint that casts a shadow, such as
-  // thin boxes, is dark at 102 of the 123 points; with a film's map the speckle would lie between
-  // them.
+  // Use a shadow map of 0.8 m per texel, which is much coarser than in films. With this map, paint
+  // that casts a shadow (thin boxes, for example) is dark at 102 of the 123 points. With the map of
+  // a film, the dark speckles would lie between the points.
   recording.model->vis.map.shadowclip = static_cast<float>(200.0 / recording.model->stat.extent);
   recording.model->vis.quality.shadowsize = 512;
   Offscreen offscreen(*recording.model, kWidth, kHeight, 1);
@@ -49,9 +49,10 @@ TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
       FindCamera("top").pose(CameraSubject(recording), 0.0, static_cast<double>(kWidth) / kHeight);
   Image image;
   offscreen.Render(scene.At(0.0, *pose_), image);
-  // Sunlit ground ahead of the car, which ends at x = 3.6. Its shadow, 1.5 m high under a sun at
-  // (-0.3, 0.4, 0.8), ends 0.56 m farther. Every point of the ribbon must be lit: speckle would be
-  // dark dots.
+  // The checked points of the ribbon are in sunlight: the front of the car is at x = 3.6 m. The car
+  // is 1.5 m high and the sun is in the direction (-0.3, 0.4, 0.8), so the shadow of the car ends
+  // 0.56 m ahead of its front. All points must be bright, because a ribbon that casts a shadow on
+  // itself would have dark dots.
   for (int i = 0; i <= 40; ++i) {
     const double x = 4.5 + 0.05 * i;
     for (const double y : {-0.12, 0.0, 0.12}) {
@@ -63,12 +64,14 @@ TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
 TEST_F(FilmSceneTest, TheSunCastsTheCarsShadowToItsRight) {
   const Image lit = Picture("top", 0.0);
   const Image shaded = Picture("top", 0.0, true);
-  // The roof, 1.5 m high and 0.55 m off the middle, casts its edge 1.5 * 0.4 / 0.8 = 0.75 m to the
-  // right, so y = -1.15 is in the shade and -2.2 and +1.5 are not. The sun provides almost half of
-  // the light on flat ground, so the shade is darker by much more than a quarter.
+  // The edge of the roof is 1.5 m high and 0.55 m from the center line. Its shadow is 1.5 * 0.4 /
+  // 0.8 = 0.75 m farther to the right, so y = -1.15 m is in the shade and y = -2.2 m and 1.5 m are
+  // not. The sun provides almost half of the light on flat ground, so the shade is darker by much
+  // more than a quarter.
   EXPECT_LT(At(shaded, 1.4, -1.15)[1], 0.75 * At(lit, 1.4, -2.2)[1]);
-  // In the sun the lamps add up to 0.37 + 0.22 + 0.60 * 0.8 / 0.943 = 1.10. One pass clips that to
-  // 1; two passes, one for the sun, keep all of it. 2 allows for rounding in either.
+  // In the sun, the brightness of all lamps adds up to 0.37 + 0.22 + 0.60 * 0.8 / 0.943 = 1.10.
+  // Rendering in one pass clips the brightness to 1. Rendering in two passes, one of them for the
+  // sun, does not clip it. The tolerance of 2 covers rounding.
   for (const double y : {-2.2, 1.5}) {
     EXPECT_GE(At(shaded, 1.4, y)[1], At(lit, 1.4, y)[1] - 2) << y;
     EXPECT_LE(At(shaded, 1.4, y)[1], 1.10 * At(lit, 1.4, y)[1] + 2) << y;
@@ -76,7 +79,8 @@ TEST_F(FilmSceneTest, TheSunCastsTheCarsShadowToItsRight) {
 }
 
 TEST_F(FilmSceneTest, ThingsFarFromTheCarCastShadowsToo) {
-  // A cube of 2 m, 20 m ahead of the car, then 11 m to its left: far outside of the car's shadow.
+  // The test places a cube of 2 m first 20 m ahead of the car, then 11 m to its left, in both cases
+  // far outside of the car's shadow.
   struct Place {
     const char* camera;
     double x;
@@ -138,19 +142,20 @@ TEST_F(FilmSceneTest, TheSideCameraHasTheCarInTheMiddle) {
   EXPECT_NEAR(0.5 * (tail.x + nose.x), 0.5 * kWidth, 0.05 * kWidth);
   EXPECT_GT(Project(*pose_, 4.4, 0.0, 1.49).y, kHeight / 10);
   EXPECT_LT(Project(*pose_, 4.4, -0.86, 0.0).y, kHeight - kHeight / 10);
-  // The plant's orange on the doors is 0.86 of (1.00, 0.55, 0.05), where the ground has as much red
-  // as blue. In the shade, with 0.36 of ambient light, red still exceeds blue by 0.36 * 0.82 * 255
-  // = 75.
+  // The doors have 0.86 of the plant's orange, (1.00, 0.55, 0.05), while the ground has as much red
+  // as blue. In the shade, with an ambient light of 0.36, red exceeds blue by 0.36 * 0.82 * 255 =
+  // 75.
   const std::array<int, 3> door = At(image, 4.6, -0.8625, 0.6);
   EXPECT_GT(door[0], door[2] + 60);
 }
 
 /// Classifies the paint at a point of the road by its color.
 ///
-/// Asphalt is gray up to 0.62 * 1.10 of 255 = 174, with no more red than green. A discarded plan
-/// has 0.35 of its color over asphalt of 0.60: white ones have at least 0.96 * (0.60 + 0.35 * 0.40)
-/// = 181. Pink, (1.00, 0.58, 0.80), has 0.96 * 0.42 = 103 more red than green, and 33 if discarded.
-/// The thresholds are halfway between 33 and 103 and between 0 and 33.
+/// Colors are from 0 to 255. Asphalt is gray, up to 0.62 * 1.10 * 255 = 174, with no more red than
+/// green. A discarded plan is drawn with an opacity of 0.35 over asphalt of 0.60, so a white one
+/// has at least 0.96 * (0.60 + 0.35 * 0.40) * 255 = 181. The red of pink, (1.00, 0.58, 0.80),
+/// exceeds its green by 0.96 * 0.42 * 255 = 103, and by 33 for a discarded plan. The thresholds of
+/// this difference are halfway between 33 and 103 and between 0 and 33.
 std::string PaintAt(const std::array<int, 3>& rgb) {
   if (rgb[0] - rgb[1] > 68) {
     return "pink";
@@ -165,7 +170,7 @@ std::string PaintAt(const std::array<int, 3>& rgb) {
 }
 
 TEST_F(FilmSceneTest, ANewPlanTakesThePlaceOfTheOldOneWhenItHolds) {
-  // So slow that the car is never between the camera and the checked points.
+  // The car is so slow that it is never between the camera and the checked points.
   WritePlant(folder_.path(), "mujoco", 2.0, [](double time) { return CarPlace{time, 0.0, 0.0}; });
   WriteStraightPlan(folder_.path(), 16.0);
   WriteNewPlans(folder_.path(), "mujoco", {{1.0, 2.0, 16.0}, {2.0, -2.0, 16.0}});
@@ -199,9 +204,9 @@ TEST_F(FilmSceneTest, APlanThatHeldForLessThanASecondLeavesNothing) {
 TEST_F(FilmSceneTest, APlanThatWasGivenUpIsNarrowerAndBelowTheOneInForce) {
   WriteStraightPlan(folder_.path(), 16.0);
   const auto at = [this](const Image& image, double y) { return PaintAt(At(image, 12.0, y)); };
-  // From above at 20 m per picture height, paint is 20 / 22 of its width: half of 0.48 m ends 0.218
-  // m from the middle, half of 0.24 m at 0.109 m. A row of pixels is 20 / 180 = 0.111 m, so a pixel
-  // shows the point to within 0.056 m.
+  // The camera sees 20 m per picture height, so paint has 20/22 of its full width. A ribbon with a
+  // full width of 0.48 m ends 0.218 m from its center line, and a ribbon of 0.24 m ends at 0.109 m.
+  // A row of pixels is 20 / 180 = 0.111 m, so a pixel shows the point to within 0.056 m.
   EXPECT_EQ(at(Picture("top", 0.0), 0.15), "white");
   WriteNewPlans(folder_.path(), "mujoco", {{1.0, 2.0, 16.0}});
   EXPECT_EQ(at(Picture("top", 1.0), 0.0), "pale");
@@ -273,10 +278,10 @@ TEST_F(FilmSceneTest, TheGhostTintsTheGroundUnderItAndNothingElse) {
     return CarPlace{3.0 * time, 2.5, 0.0};
   });
   const Image with_ghost = Picture("chase", 0.0);
-  // The center of the ghost's left side, at half the door's height. The ground behind it is gray.
-  // The tint (0.10, 0.75, 0.95) at an opacity of 0.39 removes 0.39 * (0.6 - 0.1) = 0.19 of the red
-  // and leaves blue above red by at least 0.39 * 0.85 * 0.7 = 0.23: 59 of 255. The test requires
-  // half of that.
+  // The checked point is the center of the ghost's left side, at half the height of the door. The
+  // ground behind it is gray. With the tint (0.10, 0.75, 0.95) and an opacity of 0.39, blue exceeds
+  // red by at least 0.39 * 0.85 * 0.7 = 0.23, which is 59 of 255. The test requires half of this
+  // difference.
   const std::array<int, 3> ghost = At(with_ghost, 1.4, 2.5, 0.6);
   const std::array<int, 3> ground = At(alone, 1.4, 2.5, 0.6);
   EXPECT_GT(ghost[2] - ghost[0], ground[2] - ground[0] + 30);
@@ -290,7 +295,7 @@ TEST_F(FilmSceneTest, AGhostThatAgreesWithTheCarLeavesTheCarAsItIs) {
     return CarPlace{3.0 * time, 0.0, 0.0};
   });
   const Image with_ghost = Picture("chase", 1.0);
-  // The middle of the tailgate, 0.8 m behind the rear axle, which is at x = 3.
+  // The checked point is the middle of the tailgate, 0.8 m behind the rear axle at x = 3 m.
   EXPECT_EQ(At(with_ghost, 2.2, 0.0, 0.8), At(alone, 2.2, 0.0, 0.8));
 }
 

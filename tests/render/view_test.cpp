@@ -39,8 +39,8 @@ TEST(Isolines, AroundAHillClose) {
   double length = 0.0;
   for (std::size_t i = 1; i < lines.front().size(); ++i) {
     length += (lines.front()[i] - lines.front()[i - 1]).norm();
-    // In a cell of 0.1 m a parabola deviates from the chord by 0.1^2 / 4 = 2.5e-3; the slope along
-    // a side is 4 or 2.8.
+    // Along a cell side of 0.1 m, the height is a parabola that deviates from its chord by 0.1^2 /
+    // 4 = 2.5e-3. The slope is 4 or 2.8, so the line deviates by less than 1e-3 m.
     EXPECT_NEAR(lines.front()[i].norm(), 2.0, Tolerance(1e-3));
   }
   EXPECT_NEAR(length, 4.0 * kPi, Tolerance(0.02));
@@ -66,7 +66,8 @@ TEST_F(FilmSceneTest, ContoursLieWhereTheGroundHasTheirHeight) {
   WriteFileAtomically(folder_.path() / "scenario.resolved.yaml",
                       "schema: 1\nname: run\nmission: {speed: 3, waypoints: [[0, 0], [20, 0]]}\n"
                       "world: {ground: {grade: {x: 0.05}}}\n");
-  // Along the x axis from -30 to 36 m: 3.3 m of height in 33 lines of 0.1 m, 2 m apart.
+  // From x = -30 to 36 m, the ground rises by 3.3 m. The 33 contour lines, one per 0.1 m of height,
+  // are 2 m apart.
   Picture("top", 0.0);
   Recording recording = ReadRecording(folder_.path());
   const CameraPose camera = FindCamera("top").pose(CameraSubject(recording), 0.0, 16.0 / 9.0);
@@ -98,8 +99,8 @@ TEST_F(FilmSceneTest, GatesAreOutlinedBetweenTheirCones) {
     EXPECT_GT(At(image, x, -1.5)[0], 200) << x;
     EXPECT_LT(At(image, x, 0.7)[0], 200) << x;
   }
-  // Its exit and its entry: the camera's 20 m in 180 rows give 0.11 m per pixel, the line is 0.13 m
-  // wide.
+  // Checks the lines at the exit and the entry. The camera shows 20 m in 180 rows, so a pixel is
+  // 0.11 m, and the lines are 0.13 m wide.
   for (const double x : {6.0, 10.0}) {
     int most = 0;
     for (int i = -5; i <= 5; ++i) {
@@ -128,7 +129,8 @@ TEST_F(FilmSceneTest, PlainGroundKeepsItsColorAndHasLinesOnRequest) {
   };
   const double before = mean();
   MakeGroundPlain(model, false);
-  // Noise of mean 0 with amplitude 0.03 in at least 7 x 7 cells: 0.03 / sqrt(3) / 7 = 0.25 %.
+  // The mean of noise with the amplitude 0.03 in at least 7 x 7 cells has a standard deviation of
+  // 0.03 / sqrt(3) / 7 = 0.25 %.
   EXPECT_NEAR(mean(), before, Tolerance(3.0 * 0.0025 * before + 0.5));
   EXPECT_FLOAT_EQ(model.mat_texrepeat[2 * material], 0.1F);
   const auto least_of_row = [&](int row) {
@@ -138,8 +140,8 @@ TEST_F(FilmSceneTest, PlainGroundKeepsItsColorAndHasLinesOnRequest) {
     }
     return least;
   };
-  // In the middle of 10 m, along its whole length. A line is 1.12 of the mean, red a little less
-  // than the mean of all channels; grain is at most 1.10.
+  // The texture of 10 m has a line in its middle, along its whole length. A line has 1.12 of the
+  // mean brightness, grain at most 1.10, and red is slightly darker than the mean of all channels.
   EXPECT_LT(least_of_row(side / 2), before);
   MakeGroundPlain(model, true);
   EXPECT_GT(least_of_row(side / 2), 1.05 * before);
@@ -180,7 +182,8 @@ class LateralTest : public FilmSceneTest {
 TEST_F(LateralTest, ShowsDistancesTenTimesAsLargeAsStations) {
   const Recording recording = ReadRecording(folder_.path());
   const LateralView view(recording);
-  // 40 m in 400 px with the car at three quarters: 10 px per meter along the path, 100 across.
+  // The view shows 40 m of the path in 400 px, with the car at three quarters of the width. This is
+  // 10 px per meter along the path and 100 px per meter across.
   const CanvasPoint here = view.Place(400, 220, 6.0, 6.0, 0.0);
   EXPECT_DOUBLE_EQ(here.x, 300.0);
   EXPECT_DOUBLE_EQ(here.y, 110.0);
@@ -190,8 +193,9 @@ TEST_F(LateralTest, ShowsDistancesTenTimesAsLargeAsStations) {
   Image image;
   image.Resize(400, 220);
   view.Draw(image, font_, 2.0);
-  // The car's orange 0.4 m to the left, behind it; the other plant's blue 0.2 m to the right, 2 m
-  // farther along the path; nothing ahead of either.
+  // The car's orange trace is behind it, 0.4 m to the left. The blue trace of the other plant is
+  // 0.2 m to the right and reaches 2 m farther along the path. Nothing is drawn ahead of both
+  // plants.
   const auto rgb = [&](int x, int y) {
     const std::uint8_t* pixel = image.Pixel(x, y);
     return std::array<int, 3>{pixel[0], pixel[1], pixel[2]};
@@ -225,7 +229,7 @@ class CameraTest : public FilmSceneTest {
 };
 
 TEST_F(CameraTest, ChaseSwingsRoundInReverse) {
-  // Forward for 3 s, standing until 4 s, then in reverse.
+  // The car drives forward for 3 s, stands until 4 s and then drives in reverse.
   WritePlant(folder_.path(), "mujoco", 8.0, [](double time) {
     return CarPlace{time < 3.0   ? 3.0 * time
                     : time < 4.0 ? 9.0
@@ -240,8 +244,8 @@ TEST_F(CameraTest, ChaseSwingsRoundInReverse) {
   // A standing car keeps its last gear up to 0.8 s before it moves.
   EXPECT_NEAR(Pose("chase", 3.1).azimuth, aside, Tolerance(1e-9));
   EXPECT_NEAR(Pose("chase", 6.0).azimuth, kPi + aside, Tolerance(1e-9));
-  // Halfway at the change of gear, except for the samples' 0.05 s and the row of 0.02 s: pi / 16
-  // each.
+  // At the change of gear, the camera has turned halfway. Samples 0.05 s apart and rows 0.02 s
+  // apart each cause an error of up to pi / 16.
   EXPECT_NEAR(Pose("chase", 4.0).azimuth, 0.5 * kPi + aside, Tolerance(kPi / 16.0));
   // Looking backward, the camera is ahead of the car.
   EXPECT_GT(Eye(Pose("chase", 6.0)).x(), 3.0 + 3.6);
@@ -254,8 +258,8 @@ TEST_F(CameraTest, DriverSitsInTheCarAndLooksAhead) {
   const CameraPose pose = Pose("driver", 1.0);
   EXPECT_TRUE(pose.inside);
   EXPECT_NEAR(pose.azimuth, 1.0, Tolerance(1e-3));
-  // The seat: at the center of the Prius, 1.4 m ahead of its rear axle, 0.45 of half its width to
-  // the left.
+  // The seat is at the center of the Prius, 1.4 m ahead of its rear axle, and 0.45 of half its
+  // width to the left.
   const Vec2 seat =
       ToWorld({5.0 * std::sin(1.0), 5.0 - 5.0 * std::cos(1.0), 1.0}, {1.4, 0.45 * 0.8625});
   const Eigen::Vector3d eye = Eye(pose);
@@ -284,7 +288,7 @@ TEST_F(CameraTest, StandsNearerToSmallCars) {
   ASSERT_NE(xml.find(size), std::string::npos);
   xml.replace(xml.find(size), size.size(), "0.2 0.08 0.07");
   WriteFileAtomically(model, xml);
-  // A tenth of the 4 m above which cars count as full-size.
+  // The car is a tenth as long as 4 m, the length from which cars count as full-size.
   for (const char* camera : {"chase", "side", "orbit", "top"}) {
     EXPECT_LT(Pose(camera, 1.0).paint_scale, 0.2) << camera;
   }

@@ -28,7 +28,8 @@ TEST(WheelPair, IsSeenWhereItWasDriven) {
   FilmScene scene(recording, none, false);
   Image image;
   offscreen.Render(scene.At(time, pose), image);
-  // The hood, in its plant's orange: the middle of its right flank, 0.21 m out and 0.27 m high.
+  // The checked point is the middle of the hood's right flank, 0.21 m to the right and 0.27 m high.
+  // The hood has the orange of its plant.
   const Pose2 car = run.logs.back().rows[25].state.pose;
   const Vec2 flank = ToWorld(car, {0.25, -0.21});
   const Pixel pixel = Project(pose, flank.x(), flank.y(), 0.27);

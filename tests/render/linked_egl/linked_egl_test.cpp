@@ -15,11 +15,11 @@
 #include "trackbed/core/file.h"
 #include "trackbed/render/film.h"
 
-/// A program that links EGL for its own pictures and films with Trackbed.
+/// Tests a program that links EGL for its own pictures and also makes films with Trackbed.
 namespace trackbed::render {
 namespace {
 
-/// A current EGL context as such a program makes it.
+/// A current EGL context of such a program.
 class OwnContext {
  public:
   OwnContext()
@@ -100,9 +100,9 @@ class LinkedEgl : public testing::Test {
 TEST_F(LinkedEgl, GetsPictures) {
   const Image picture = Picture("auto");
   ASSERT_EQ(picture.width, 320);
-  // Orange paint has more red than blue by at least a quarter of the full range in light, and
-  // without overlays nothing else does. The car is 1.76 m wide and 1.5 m high, 8 to 15 m away:
-  // despite windows and shade, at least a hundredth of the picture is paint.
+  // In light, the red of orange paint exceeds its blue by at least a quarter of the full range.
+  // Without overlays, this holds for nothing else in the picture. The car is 1.76 m wide, 1.5 m
+  // high and 8 to 15 m away, so at least 1 % of the picture is paint despite windows and shade.
   int orange = 0;
   for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
     orange += picture.rgb[i] > picture.rgb[i + 2] + 64 ? 1 : 0;
