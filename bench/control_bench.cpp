@@ -69,7 +69,7 @@ void TimeUpdate(benchmark::State& state, const ControllerOptions& options) {
 
 constexpr double kHorizon = 2.0;  // [m]
 
-/// Makes optimal_steering search at every update, whatever the deviation.
+/// Makes optimal_steering search at every update, for any deviation.
 OptimalSteeringOptions Searching(SearchMethod method) {
   OptimalSteeringOptions options;
   options.horizon = kHorizon;

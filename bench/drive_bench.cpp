@@ -22,15 +22,15 @@
 namespace trackbed::bench {
 namespace {
 
-/// What a run feeds to MuJoCo: where it starts and, per physics step, all that the plant sets or
-/// adds.
+/// The inputs of MuJoCo in a run: the state at the start and, per physics step, all values that the
+/// plant sets or adds.
 struct Feed {
   MujocoModel model;  // as driven: with the road's friction
   std::vector<mjtNum> start_act;
-  std::vector<mjtNum> qpos;  // after MuJoCo has normalized the quaternions, first at the start
+  std::vector<mjtNum> qpos;  // with quaternions normalized by MuJoCo; begins with the start
   std::vector<mjtNum> qvel;
   std::vector<mjtNum> controls;
-  std::vector<mjtNum> friction;  // of the joints: how the plant brakes
+  std::vector<mjtNum> friction;  // friction of the joints, by which the plant brakes
   std::vector<mjtNum> linkage;   // the equality constraints of the steering
   std::vector<mjtNum> applied;   // forces of the air and of tyres
 
@@ -43,9 +43,9 @@ void Append(std::vector<mjtNum>& all, const mjtNum* numbers, std::int64_t count)
   all.insert(all.end(), numbers, numbers + count);
 }
 
-/// Listens while MuJoCo computes: its control callback is called once when a plant is made and once
-/// per step, when the plant's controls are in place. The forces that a step applies come after
-/// that: they are recorded at the next one, and the last step is left out.
+/// Records the inputs of MuJoCo in MuJoCo's control callback. MuJoCo calls it once when a plant is
+/// made, and once per step after the plant has set its controls. The plant applies forces after the
+/// callback, so the next call records them, and the forces of the last step are missing.
 class Listener {
  public:
   explicit Listener(Feed& feed) {
@@ -77,7 +77,7 @@ class Listener {
   static inline Feed* feed_ = nullptr;  // the callback is a plain function
 };
 
-/// A car that is to be driven on MuJoCo.
+/// A scenario with its car and plan, for drives on MuJoCo.
 struct Drive {
   explicit Drive(const std::string& name)
       : scenario(ReadScenario(DataFolder() / "scenarios" / (name + ".yaml"))),
@@ -101,7 +101,7 @@ struct Drive {
   FeasiblePlan plan;
 };
 
-/// Notes the commands that another plant is stepped with.
+/// Records the commands of another plant.
 class NotingPlant final : public Plant {
  public:
   explicit NotingPlant(Plant& plant) : plant_(plant) {}
@@ -133,7 +133,8 @@ void StepAlong(Plant& plant, const std::vector<Command>& commands) {
   }
 }
 
-/// The commands of a run; that they alone lead to the same end is checked.
+/// Returns the commands of a run. Checks that the commands alone lead to the same final
+/// configuration.
 std::vector<Command> CommandsOf(const Drive& drive) {
   const auto driven = drive.MakePlant();
   NotingPlant noting(*driven);
@@ -145,8 +146,9 @@ std::vector<Command> CommandsOf(const Drive& drive) {
   return noting.commands();
 }
 
-/// A bare mj_step loop over what was fed. The plant sets joints between steps, as the angles of the
-/// steered wheels: all but the chassis' own are set here as well.
+/// Runs a bare mj_step loop with the recorded inputs. Between steps, the plant sets joints such as
+/// the angles of the steered wheels. This loop therefore also sets all joints except those of the
+/// chassis.
 double StepBare(const Feed& feed, const CarModel& car) {
   const MujocoErrorScope errors;
   const MujocoModel model = CopyMujocoModel(*feed.model);
@@ -175,7 +177,8 @@ double StepBare(const Feed& feed, const CarModel& car) {
   return stopwatch.Seconds();
 }
 
-/// The closed loop with preview, logged and written as a run does, against the plant's steps alone.
+/// Compares the closed loop with the preview controller, logged and written like a run, with the
+/// plant's steps alone.
 void ClosedLoop(benchmark::State& state, const std::string& scenario) {
   const Drive drive(scenario);
   const TempFolder folder;
@@ -198,7 +201,7 @@ void ClosedLoop(benchmark::State& state, const std::string& scenario) {
       static_cast<double>(commands.size()) * drive.car.timestep() / median;
 }
 
-/// The plant's steps against those of MuJoCo on the same model under the same forces.
+/// Compares the plant's steps with MuJoCo's steps of the same model under the same forces.
 void PlantSteps(benchmark::State& state, const std::string& scenario) {
   const Drive drive(scenario);
   const std::vector<Command> commands = CommandsOf(drive);

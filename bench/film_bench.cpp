@@ -100,7 +100,8 @@ void DraftOverlays(benchmark::State& state) {
       },
       [&] {
         mjvScene& scene = painter.SceneAt(frame);
-        // The overlays follow the world; the first of them is the first decoration.
+        // The overlays come after the geoms of the world. The first overlay is the first decorative
+        // geom.
         const mjvGeom* overlays =
             std::find_if(scene.geoms, scene.geoms + scene.ngeom,
                          [](const mjvGeom& geom) { return geom.objtype == mjOBJ_UNKNOWN; });

@@ -63,7 +63,7 @@ int PrintRecords(const std::vector<std::string>& words) {
 
 }  // namespace
 
-/// Google Benchmark's main, which adds the machine's data to records; or prints tables of such
+/// Runs Google Benchmark, which writes the machine's data to records, or prints tables of such
 /// records.
 int main(int argc, char** argv) {
   if (argc > 1 && argv[1][0] != '-') {

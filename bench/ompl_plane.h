@@ -12,7 +12,7 @@
 
 #include "trackbed/planning/sampling/rrt_star.h"
 
-// Poses the maps of tests/planning/maps.h as problems for OMPL's planners.
+// Converts the maps of tests/planning/maps.h to problems for OMPL's planners.
 namespace trackbed::bench {
 
 namespace ob = ompl::base;

@@ -37,7 +37,8 @@ std::vector<std::pair<Pose2, Pose2>> Pairs() {
   return pairs;
 }
 
-/// Both compute the same pairs, including the curve and not only its length.
+/// Compares two computations of the shortest curves between the same pairs of poses. Both compute
+/// the curves and not only their lengths.
 template <typename Space, typename Ours, typename Theirs>
 void CompareCurves(benchmark::State& state, const Ours& ours, const Theirs& theirs) {
   const auto pairs = Pairs();

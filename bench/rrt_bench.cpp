@@ -70,8 +70,8 @@ Run Ompls(const RrtStarProblem& map, int budget) {
                                          : std::numeric_limits<double>::infinity()};
 }
 
-/// Compares medians over the seeds, of times per iteration and of lengths. Goal for both ratios: at
-/// most 1, for the lengths except for the scatter of a median.
+/// Compares medians over the seeds, of times per iteration and of lengths. The goal for both ratios
+/// is at most 1. The ratio of the lengths may exceed 1 by the scatter of a median.
 void CompareRrt(benchmark::State& state, const RrtStarProblem& map, int budget) {
   std::vector<double> our_lengths;
   std::vector<double> their_lengths;

@@ -59,8 +59,8 @@ Run Ompls(const RrtStarProblem& problem, int iterations) {
   return run;
 }
 
-/// Compares medians over the seeds, of times and of costs. Goal for both ratios: at most 1, for the
-/// costs except for the scatter of a median, some thousandths.
+/// Compares medians over the seeds, of times and of costs. The goal for both ratios is at most 1.
+/// The ratio of the costs may exceed 1 by the scatter of a median, some thousandths.
 void CompareRrtStar(benchmark::State& state, const RrtStarProblem& problem, int iterations) {
   std::vector<double> ours;
   std::vector<double> ompls;

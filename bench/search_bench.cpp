@@ -10,14 +10,15 @@
 #include "trackbed/optimize/search.h"
 #include "trackbed/planning/fillet/fillet.h"
 
-// What the table of searches and the planner put on top of NLopt.
+// Measures the overhead of the table of searches and of the planner over bare NLopt.
 namespace trackbed::bench {
 namespace {
 
 constexpr int kPopulation = 100;
 constexpr int kEvaluations = 10000;
 
-/// A turn's radius under C.40 as the planner searches it: 13 m would be best, 16.8 m is the most.
+/// Objective of the planner's search for the radius of a turn under eq. (C.40). A radius of 13 m
+/// has the least cost; the constraint Room limits the radius to 16.8 m.
 double Miss(double radius) {
   const double miss = 8.0111 / radius - 0.6133;
   return miss * miss;
@@ -26,20 +27,21 @@ double Room(double radius) {
   return radius + 19.924 * std::atan(2.7 / radius) - 20.0;
 }
 
-/// What a method that knows no constraints may make of both.
+/// Objective for methods without constraints: ranks infeasible radii after all feasible ones.
 double Ranked(double radius) {
   constexpr double kInfeasibleCost = 1e300;
   const double room = Room(radius);
   return room > 0.0 ? kInfeasibleCost * (1.0 + room / (1.0 + room)) : Miss(radius);
 }
 
-/// What a method that guesses the values of points without one sees.
+/// Objective for methods that estimate the values of points without a value: infinite for
+/// infeasible radii.
 double Hidden(double radius) {
   return Room(radius) > 0.0 ? HUGE_VAL : Miss(radius);
 }
 
-/// A search that has converged ends: it begins anew until as much is evaluated as the others do,
-/// and what counts is the time of one evaluation.
+/// Repeats a search, which may converge early, until it has used the budget of evaluations. Scales
+/// the time to exactly this budget.
 template <typename SearchOnce>
 double SecondsOfBudget(const SearchOnce& search_once) {
   const Stopwatch stopwatch;
@@ -50,13 +52,15 @@ double SecondsOfBudget(const SearchOnce& search_once) {
   return stopwatch.Seconds() * kEvaluations / evaluations;
 }
 
-/// Isres and esch use the whole budget of NLopt, however often they ask for a point anew.
+/// Number of evaluations that NLopt requests. Isres and esch use the whole budget, even if they
+/// request a point repeatedly.
 int Asked(SearchMethod method, int budget, int evaluations) {
   const bool all = method == SearchMethod::kIsres || method == SearchMethod::kEsch;
   return all ? budget : evaluations;
 }
 
-/// Ours: objective and constraint of a turn, through the table, each point checked and kept.
+/// Time of Trackbed's search with the objective and constraint of a turn [s]. It checks and keeps
+/// each point.
 double OursSeconds(SearchMethod method, int budget) {
   const SearchProblem problem{
       .lower = {5.1},
@@ -78,8 +82,8 @@ struct Counted {
   int evaluations;
 };
 
-/// Bare: the same call of NLopt on the same formulas, nothing between them: the values decide how
-/// long isres sorts, so that an objective without any would compare something else.
+/// Time of the bare NLopt call with the same formulas [s]. The objective must return the same
+/// values, because the values determine how long isres sorts.
 double BareSeconds(nlopt::algorithm algorithm, int budget, double (*objective)(double),
                    bool random) {
   return SecondsOfBudget([&] {
@@ -109,7 +113,7 @@ double BareSeconds(nlopt::algorithm algorithm, int budget, double (*objective)(d
     try {
       search.optimize(x, value);
     } catch (const nlopt::roundoff_limited&) {
-      // As far as it gets.
+      // Uses the best point so far.
     }
     benchmark::DoNotOptimize(value);
     return counted.evaluations;
@@ -119,13 +123,13 @@ double BareSeconds(nlopt::algorithm algorithm, int budget, double (*objective)(d
 struct Compared {
   SearchMethod method;
   nlopt::algorithm algorithm;
-  double (*objective)(double);  ///< Miss: it knows constraints itself
-  int budget;                   ///< of one call of NLopt
+  double (*objective)(double);  ///< Miss if the method handles constraints
+  int budget;                   ///< evaluations of one NLopt call
 };
 
 void CompareSearch(benchmark::State& state, const Compared& compared) {
   constexpr double kLimit = 1.25;
-  // Ours looks three times with `direct`, each time with a third.
+  // With `direct`, Trackbed searches three times, each time with a third of its budget.
   const int looks = compared.method == SearchMethod::kDirect ? 3 : 1;
   CompareInTurn(
       state, kLimit, [&] { return OursSeconds(compared.method, looks * compared.budget); },
@@ -135,7 +139,8 @@ void CompareSearch(benchmark::State& state, const Compared& compared) {
       });
 }
 
-/// The three-turn route through a searched plan, first run and verification included.
+/// Times the planning of the three-turn route with a search of the radii, including the first run
+/// and the verification.
 void TimeRoute(benchmark::State& state, SearchMethod method, double limit) {
   Scenario scenario =
       ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml", {"plan.objective=turn_local"});

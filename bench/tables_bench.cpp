@@ -21,7 +21,7 @@ Scenario ThreeTurns() {
   return ReadScenario(DataFolder() / "scenarios" / "three_turns.yaml");
 }
 
-/// How long the mission takes to plan with a planner's defaults.
+/// Times the planning of the mission with a planner's default options.
 void TimePlanner(benchmark::State& state, const PlannerEntry& planner) {
   Scenario scenario = ThreeTurns();
   scenario.plan = {planner.defaults, std::nullopt};
@@ -35,7 +35,7 @@ void TimePlanner(benchmark::State& state, const PlannerEntry& planner) {
   }
 }
 
-/// How much faster than the clock the mission is driven.
+/// Measures the real-time factor of simulating the mission.
 void TimeDrive(benchmark::State& state, const Scenario& scenario, const std::string& plant) {
   const CarModel car = LoadCar(scenario);
   const FeasiblePlan plan = PlanScenario(scenario, car.params());
@@ -47,7 +47,7 @@ void TimeDrive(benchmark::State& state, const Scenario& scenario, const std::str
   state.counters["real_time_factor"] = simulated / stopwatch.Seconds();
 }
 
-/// How long a search takes, and how near it comes to the minimum 0.02 at (0.2, 0.6).
+/// Times a search, and measures how near it comes to the minimum of 0.02 at (0.2, 0.6).
 void TimeSearch(benchmark::State& state, SearchMethod method) {
   const SearchProblem problem{
       .lower = {0.0, 0.0},
@@ -72,8 +72,8 @@ void Register(const std::string& name, const std::function<void(benchmark::State
   RegisterGuarded(name, function)->Unit(benchmark::kMillisecond);
 }
 
-/// One benchmark for everything in the tables, so that none is forgotten. Entries that need more
-/// than their defaults say so instead of a time.
+/// Registers one benchmark for each entry of the tables. Entries that need more than their default
+/// options report an error instead of a time.
 bool RegisterTables() {
   for (const SearchEntry& search : Searches()) {
     Register(std::string("Search/") + search.name,

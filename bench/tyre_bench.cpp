@@ -12,7 +12,8 @@ namespace {
 constexpr double kTimestep = 0.002;  // [s]
 constexpr double kDuration = 20.0;   // [s]
 
-/// A slalom at 15 m/s with up to 3 m/s^2 to either side; one command per step, without a log.
+/// Times a slalom at 15 m/s with lateral accelerations of up to 3 m/s^2. There is one command per
+/// step and no log.
 double DriveSlalom(const CarModel& car, const World& world, const std::string& plant) {
   const auto driven = MakePlant(plant, {.car = car, .world = world, .start = {.speed = 15.0}});
   const auto steps = static_cast<int>(std::lround(kDuration / kTimestep));

@@ -28,7 +28,7 @@ using trackbed::Table;
 struct Driven {
   double from = 0.0;
   Polyline line;
-  double sagitta = 0.0;  ///< of the curve above its chords [m]
+  double sagitta = 0.0;  ///< largest height of the curve above its chords [m]
   TimedPose end;
 };
 
@@ -280,8 +280,8 @@ class DriveCheck {
                          -nearest.gap, nearest.t, status_, record_.passed ? ", passed" : ""));
     }
     // The smallest distance may occur between two steps; evaluating it at the steps misses at most
-    // half of the relative motion in a step. A leaning car's footprint here differs from the
-    // program's, which does not lean, by up to `leans` at a corner.
+    // half of the relative motion in a step. The footprint of a leaning car here differs from the
+    // program's footprint, which does not lean, by up to `leans` at a corner.
     const double leans = SameYaw() * record_.car.footprint().reach();
     const double missed = 0.5 * nearest.step + 1e-6 + leans;
     missed_ = missed;
@@ -399,8 +399,9 @@ class DriveCheck {
     return std::sqrt(highest);
   }
 
-  /// No car that passed was faster than any of its plans by more than the bound on the overspeed.
-  /// At its place it may have been planned to be slower still: the program's value is no smaller.
+  /// Checks that a car that passed was never faster than the highest planned speed by more than the
+  /// bound on the overspeed. The program compares with the planned speed at the car's station, so
+  /// its overspeed is at least as large.
   void CheckOverspeed() {
     const std::vector<double> speed = drive_.log.Column("speed_mps");
     const double told = drive_.metrics.value("overspeed_max", 0.0);
@@ -427,8 +428,8 @@ class DriveCheck {
     }
   }
 
-  /// The goal of the mission. Of a mission without one, the end of the first plan: later plans end
-  /// millimeters beside it.
+  /// Returns the goal of the mission, or the end of the first plan if the mission has no goal.
+  /// Later plans may end millimeters beside it.
   [[nodiscard]] Point Goal() const {
     const Driven first = DrivenFrom(record_.plan, 0.0, 0.0);
     return record_.mission.goal.value_or(Point{first.end.x, first.end.y});
@@ -439,7 +440,7 @@ class DriveCheck {
     const TimedPose& last = rows_.back();
     const Point goal = Goal();
     const double away = std::hypot(last.x - goal.x, last.y - goal.y);
-    // Of a loop, the start is as near.
+    // On a loop, the start is as near to the goal as the end, so the car must have driven.
     const bool has_driven = drive_.metrics.at("distance").get<double>() > record_.car.length;
     if (away <= tolerances_.goal_position * record_.car.length && has_driven) {
       Report("stuck_at_goal", fmt::format("stuck {:.4g} m from the goal", away));
@@ -510,10 +511,12 @@ class DriveCheck {
   std::string status_;
   std::vector<TimedPose> rows_;
   std::vector<TimedPose> poses_;
-  bool touched_ = false;                                  ///< an obstacle, within tolerance
-  bool inside_ = false;                                   ///< the corridor throughout
+  bool touched_ = false;                                  ///< the car touched an obstacle, within
+                                                          ///< tolerance
+  bool inside_ = false;                                   ///< the car stayed inside the corridor
   bool fast_ = false;                                     ///< the overspeed exceeds its bound
-  bool slow_wheels_ = false;                              ///< within the steering rate limit
+  bool slow_wheels_ = false;                              ///< the wheels kept the steering rate
+                                                          ///< limit
   double gap_ = std::numeric_limits<double>::infinity();  ///< to the nearest obstacle [m]
   double missed_ = 0.0;  ///< by how much the gap may be smaller between two steps [m]
   std::vector<Finding> findings_;

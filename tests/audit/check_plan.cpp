@@ -51,7 +51,8 @@ struct Largest {
   }
 };
 
-/// The largest of something over what is there for it.
+/// The largest ratio of a required quantity to the available quantity, for example of braking to
+/// grip.
 class Worst {
  public:
   void Take(double asked, double hold, double s) {
@@ -222,8 +223,8 @@ class PlanCheck {
   /// Grip of the road and pull of gravity at a row [m/s^2].
   struct Ground {
     double grip = 0.0;
-    double up = 0.0;    ///< against the direction of travel
-    double left = 0.0;  ///< toward the right of the car
+    double up = 0.0;    ///< pull of gravity against the direction of travel
+    double left = 0.0;  ///< pull of gravity toward the right of the car
   };
 
   /// At the edge of a patch, the grip of the better neighboring row counts: the plan's own samples

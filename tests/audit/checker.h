@@ -17,9 +17,10 @@ struct Finding {
 
 /// Tolerances of the checks. The comment on each default derives it.
 struct Tolerances {
-  /// A car within this fraction of its length from the goal has arrived ...
+  /// A car has arrived if its distance from the goal is at most this fraction of its length.
   double goal_position = 0.1;
-  /// ... if its heading differs by at most this from the mission's goal heading [rad].
+  /// A car has arrived only if its heading differs by at most this from the mission's goal heading
+  /// [rad].
   double goal_heading = 0.2;
   double at_rest = 0.02;  ///< [m/s]; twice the program's threshold of standstill
   /// Plans are computed, not measured: they begin at the car's state except for rounding.
@@ -49,8 +50,8 @@ struct Tolerances {
 std::vector<Finding> Check(const Record& record, const Tolerances& tolerances = {});
 
 /// Checks one plan. `rows`: as in plan.csv. `taken_up_in`: the run that adopted this replan; null
-/// for the mission's own plan. `kept`: a note of the plan says that it exceeds a limit; what the
-/// car and the road hold is then not checked.
+/// for the mission's own plan. `kept`: whether a note of the plan says that it exceeds a limit. The
+/// limits of the car and the road are then not checked.
 std::vector<Finding> CheckPlan(const trackbed::Table& rows, const Record& record,
                                const Drive* taken_up_in, bool kept, const Tolerances& tolerances);
 

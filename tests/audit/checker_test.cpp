@@ -163,7 +163,7 @@ TEST(Checker, FindsACollisionThatPasses) {
 TEST(Checker, FindsACarBehindTheStartOfItsPath) {
   Record record = GoodRun();
   record.drives[0] = DriveAlong([](Motion& m) {
-    // A jump back to 20 m behind the start around 2 s, and forward again.
+    // The car jumps back to 20 m behind the start around 2 s, and then forward again.
     m.x -= 30.0 * std::max(0.0, 1.0 - std::abs(m.t - 2.0));
   });
   record.drives[0].metrics["cross_track"]["max"] = 0.022;

@@ -65,7 +65,7 @@ std::vector<Layer> Layers() {
 constexpr std::array kRoads{0.15, 0.3, 0.5, 0.0};
 constexpr std::array<std::array<double, 2>, 3> kGrades{{{0.0, 0.0}, {-0.08, 0.03}, {0.08, -0.05}}};
 
-/// The random route of a planner, with nothing else at random.
+/// The random route of a planner, without other random settings.
 Scenario RouteOf(std::size_t planner) {
   Scenario scenario = RandomScenario(planner, 0);
   for (int attempt = 1; attempt < 50; ++attempt) {

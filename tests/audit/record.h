@@ -20,7 +20,7 @@ struct Car {
   double wheelbase = 0.0;         ///< [m]
   double steering_limit = 0.0;    ///< [rad]
   double steering_rate = 0.0;     ///< [rad/s]
-  double friction = 0.0;          ///< largest tyre friction coefficient, either tyre law
+  double friction = 0.0;          ///< largest tyre friction coefficient of both tyre laws
   double brake_deceleration = 0;  ///< upper limit of all brakes together [m/s^2]
 
   [[nodiscard]] Rectangle footprint() const {
@@ -65,9 +65,11 @@ struct Drive {
   trackbed::Table log{{"t_s"}};             ///< <plant>.csv
   trackbed::Table steps{{"t_s"}};           ///< <plant>.state.csv with a row per physics step
   trackbed::Table changes{{"t_s"}};         ///< <plant>.plan.csv; no rows without a replan
-  std::optional<double> overspeed_bound{};  ///< of the check on it [m/s]; none: not checked
-  std::vector<bool> kept{};  ///< of each plan in `changes`: a note says that it exceeds a limit
-  nlohmann::json metrics{};  ///< its entry in metrics.json
+  std::optional<double> overspeed_bound{};  ///< bound of the check on the overspeed [m/s]; none:
+                                            ///< not checked
+  std::vector<bool> kept{};  ///< for each plan in `changes`: whether a note says that it exceeds a
+                             ///< limit
+  nlohmann::json metrics{};  ///< entry of the plant in metrics.json
 };
 
 struct Record {

@@ -100,7 +100,7 @@ TEST(InputPipe, OfACommandLineIsRefused) {
                                                                "check /dev/stdin",
                                                                "check /dev/zero",
                                                                "check-path /dev/zero --speed 3"}) {
-    // Nobody writes to the pipe, which is standard input as well.
+    // No process writes to the pipe, which is also standard input.
     const Outcome outcome = Shell(
         folder, "[ -p p ] || mkfifo p; timeout 15 " TRACKBED_PROGRAM " " + arguments + " 0<>p");
     EXPECT_EQ(outcome.code, 2) << arguments << ": " << outcome.output;
@@ -256,7 +256,7 @@ TEST_P(SignalTo, EndsItWithinASecond) {
   for (const char* signal : {"TERM", "INT", "HUP"}) {
     const auto [outcome, seconds] = Ended(folder, arguments, signal);
     EXPECT_EQ(outcome.code, 130) << signal << ": " << ReadFile(folder.path() / "said");
-    // 0.7 s, and what a busy machine adds.
+    // The program ends within 0.7 s. The bound allows for a busy machine.
     EXPECT_LE(seconds, 1.5) << signal;
   }
 }

@@ -46,8 +46,8 @@ TEST(CheckPath, ReadsEveryFormat) {
     ASSERT_EQ(outcome.code, 0) << outcome.output;
     const auto json = nlohmann::json::parse(outcome.output);
     EXPECT_EQ(json.at("points"), 12) << name;
-    // 11 chords of 2 m of a circle of 15 m. The tolerance covers the GeoJSON file, which was
-    // projected on a sphere.
+    // The path has 11 chords of 2 m of a circle with the radius 15 m. The tolerance covers the
+    // GeoJSON file, which was projected on a sphere.
     EXPECT_NEAR(json.at("length_m").get<double>(), 22.0, Tolerance(0.15)) << name;
     EXPECT_TRUE(json.at("faults").empty());
   }

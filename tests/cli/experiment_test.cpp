@@ -48,7 +48,7 @@ TEST(Experiment, OptimalSteeringGivesThePublishedTable) {
       EXPECT_EQ(row[7], published.at(row[0]));
       EXPECT_LE(std::abs(std::stod(row[7]) - 10.0), 0.23 + 1e-9);
     }
-    // 1e-9: both cells read back as the computed doubles.
+    // The tolerance covers rounding, because both cells are read back as the computed doubles.
     EXPECT_NEAR(std::stod(row[4]), 100.0 * (steering / 10.0 - 1.0), Tolerance(1e-9));
     EXPECT_GT(std::stoi(row[6]), 0);
   }

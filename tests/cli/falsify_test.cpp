@@ -87,7 +87,7 @@ TEST(FalsifyVerb, LeavesTheUsersFilesBesideTheCounterexample) {
     left.push_back(entry.path().filename());
   }
   EXPECT_THAT(left, testing::UnorderedElementsAre("notes.txt", "mine.mp4"));
-  // A link to a folder of the user's.
+  // The counterexample's folder is now a link to a folder of the user.
   std::filesystem::rename(found, folder.path() / "mine");
   std::filesystem::create_directory_symlink(folder.path() / "mine", found);
   const Outcome linked = Trackbed(folder, "falsify -q study.yaml --restart");
@@ -96,8 +96,8 @@ TEST(FalsifyVerb, LeavesTheUsersFilesBesideTheCounterexample) {
   EXPECT_EQ(ReadFile(folder.path() / "mine/notes.txt"), "mine");
 }
 
-// A process killed between the two leaves a counterexample of one search and the outcome of
-// another.
+// A process that is killed between writing the counterexample and the outcome leaves files of two
+// different searches.
 TEST(FalsifyVerb, TakesNoCounterexampleOfAnotherSearch) {
   const TempFolder folder;
   folder.Write("study.yaml", SearchText("0.3", "search: {runs: 30, shrink_runs: 0}\n"));
@@ -112,7 +112,7 @@ TEST(FalsifyVerb, TakesNoCounterexampleOfAnotherSearch) {
   EXPECT_EQ(mixed.code, 2);
   EXPECT_THAT(mixed.output,
               HasSubstr("out/reach/counterexample: has another result than falsify.json tells of"));
-  // The same command puts it right.
+  // Repeating the same command repairs the folder.
   EXPECT_EQ(Trackbed(folder, "falsify -q study.yaml").code, 3);
   EXPECT_EQ(Trackbed(folder, "report -q out/reach").code, 0);
 }

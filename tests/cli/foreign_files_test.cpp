@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 
 const std::string kSource = TRACKBED_SOURCE_DIR;
-// The drive is short: almost always the verb ends before it.
+// Ends each drive after 0.1 s.
 const std::string kShort = " --set drive.time_limit=0.1 expect={}";
 
 std::string StudyFile(const std::string& rest) {
@@ -37,7 +37,8 @@ struct Verb {
   std::string name;
   std::string arguments;
   std::string out = "r";
-  std::string before{};  ///< shell command that makes what it reads, in that folder or elsewhere
+  std::string before{};  ///< shell command that makes the input of the verb, in its output folder
+                         ///< or elsewhere
   NameParts parts{};
 
   friend void PrintTo(const Verb& verb, std::ostream* out) { *out << verb.name; }
@@ -73,7 +74,7 @@ std::vector<Verb> Verbs() {
   };
 }
 
-/// With files or with links of the names that the verb writes.
+/// Tests a verb in a folder that has files, or links, with the names that the verb writes.
 class ForeignFiles : public testing::TestWithParam<std::tuple<Verb, bool>> {
  protected:
   ForeignFiles() {
@@ -85,7 +86,7 @@ class ForeignFiles : public testing::TestWithParam<std::tuple<Verb, bool>> {
     folder_.Write("verify.yaml",
                   StudyFile("vary: {mission.speed: {distribution: uniform, from: 1, to: 2}}\n"
                             "sample: {count: 3, method: random}\n"));
-    // It stands in for Slurm's.
+    // A replacement for Slurm's sbatch.
     const fs::path sbatch = folder_.Write("bin/sbatch", "#!/bin/sh\necho 1\n");
     fs::permissions(sbatch, fs::perms::owner_all);
     if (verb().name == "identify") {
@@ -125,7 +126,8 @@ class ForeignFiles : public testing::TestWithParam<std::tuple<Verb, bool>> {
                               verb().arguments + " -q");
   }
 
-  /// Those that are declared, and those that it writes: from its output folder on.
+  /// Returns the declared names of the verb's files and the names of the files that the verb
+  /// writes, relative to its output folder.
   [[nodiscard]] std::vector<std::string> Names() const {
     const std::string name = verb().name.substr(0, verb().name.find(" --"));
     std::vector<std::string> names = FileNamesOfVerb(name, verb().parts);
@@ -186,7 +188,7 @@ TEST_P(ForeignFiles, AreNeitherReplacedNorRemoved) {
   }
 }
 
-// Notes of the user beside the results.
+// The user may have notes beside the results.
 TEST_P(ForeignFiles, OfOtherNamesAreInNobodysWay) {
   const fs::path target = folder_.Write("elsewhere", "mine\n");
   Restore();

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Names that no script may run, with what a shell gives a meaning to.
+/// Names with characters that a shell interprets. No script may execute them.
 const std::vector<std::string>& HostileNames() {
   static const std::vector<std::string> names{"$(touch evil)",
                                               "`touch evil`",
@@ -104,7 +104,7 @@ const std::vector<std::string>& UnquotableNames() {
   return names;
 }
 
-/// Words of the characters that shells know, and of others.
+/// Random words of characters that shells interpret, and of other characters.
 std::vector<std::string> RandomNames(std::size_t count) {
   const std::vector<std::string> parts{"'", "\"", "\\", "$", "`",   "(",    ")",   "{",       "}",
                                        "[", "]",  "*",  "?", "!",   "~",    "#",   "&",       ";",
@@ -129,7 +129,7 @@ std::vector<std::string> EveryName() {
   return names;
 }
 
-/// Runs a script in a shell. The output has each word in a line.
+/// Runs a script in a shell. The output has one word per line.
 std::string Echoed(const TempFolder& folder, const std::string& shell, const std::string& script) {
   folder.Write("words", script);
   return Shell(folder, "HOME=$PWD " + shell + " words").output;
@@ -171,8 +171,8 @@ TEST(ShellQuoting, RefusesControlCharactersAndBytesThatAreNotUtf8) {
   EXPECT_EQ(cli::AllQuoted({"\n"}, cli::QuotedForSh), "");
 }
 
-/// The words of a line behind "#SBATCH", by the rules of Slurm's parser: a backslash lets the next
-/// character stand for itself, quotes keep blanks, "#" begins a comment outside of quotes.
+/// Returns the words of a line after "#SBATCH" by the rules of Slurm's parser: a backslash quotes
+/// the next character, quotes keep blanks, and "#" begins a comment outside of quotes.
 std::vector<std::string> WordsOfSbatch(const std::string& line) {
   std::vector<std::string> words;
   std::optional<std::string> word;
@@ -242,8 +242,8 @@ class CompletionOfHostileNames : public testing::Test {
     return Shell(folder_, "export HOME=$PWD TRACKBED_DATA=$PWD/data; . ./script");
   }
 
-  /// Types the texts into a shell on a terminal that has made the file `ready`, slowly enough for
-  /// it to answer each. Returns what the terminal shows.
+  /// Types the texts into a shell on a terminal after the shell has made the file `ready`, slowly
+  /// enough for an answer to each text. Returns the output of the terminal.
   std::string Typed(const std::vector<std::string>& texts, const std::string& shell) const {
     std::string script = "{ until [ -e ready ]; do sleep 0.1; done; sleep 1; ";
     for (std::size_t i = 0; i < texts.size(); ++i) {
@@ -332,7 +332,8 @@ TEST_F(CompletionOfHostileNames, RunNothingAtTheTabKeyOfZsh) {
   ExpectNothingRan();
 }
 
-/// A Slurm that takes every script, gives it a number and keeps its options.
+/// Writes a replacement for Slurm's sbatch that accepts every script, prints a job number and logs
+/// its options.
 void WriteSbatch(const TempFolder& folder) {
   folder.Write("bin/sbatch", "#!/bin/sh\nprintf '%s\\n' \"$@\" >> " +
                                  (folder.path() / "sbatch.log").string() + "\necho 7\n");
@@ -445,7 +446,7 @@ TEST(SafeTexts, NameControlCharactersAndKeepOthers) {
   cli::ChooseColors("auto");
 }
 
-/// Whether a terminal obeys nothing in the text but line feeds and tabs.
+/// Whether the text has no control characters except line feeds and tabs.
 bool IsSafeOutput(const std::string& text) {
   return WithoutControls(text) == text;
 }
@@ -503,7 +504,7 @@ TEST(Watch, EndsWhenItsAddressCannotBePrinted) {
                      "run -q three_turns --plant kinematic -o r --set "
                      "drive.time_limit=0.1 expect={}")
                 .code,
-            3);  // short of the goal
+            3);  // the run ends before the goal
   for (const char* command :
        {"watch r >&-", "watch r > /dev/full", "watch r -q >&-",
         "watch three_turns --plant kinematic -o w --set drive.time_limit=5 >&-"}) {

@@ -80,7 +80,7 @@ class HugeFiles : public testing::Test {
                                     ScenarioFile("winding"))
                   .code,
               3);
-    fs::remove(run() / "manifest.json");  // it detects every change
+    fs::remove(run() / "manifest.json");  // the manifest would detect every change
   }
 
   [[nodiscard]] fs::path run() const { return folder_.path() / "r"; }

@@ -71,7 +71,7 @@ TEST(Identify, NamesWhatIsWrongWithItsPlace) {
               HasSubstr("three_turns.yaml has no record to compare with"));
 }
 
-/// The model and scenario of the dart under another name of the model, in `folder`.
+/// Writes the model of the car DART, under the name `name`, and its scenario to `folder`.
 void WriteDart(const TempFolder& folder, const std::string& model, const std::string& name) {
   const fs::path source = TRACKBED_SOURCE_DIR;
   fs::create_directories((folder.path() / model).parent_path());
@@ -122,7 +122,8 @@ TEST(Identify, LeavesTheModelThatItStartsFrom) {
   EXPECT_EQ(ReadFile(folder.path() / "dart.xml"), model);
 }
 
-// A process killed between the two leaves runs of one identification and the estimates of another.
+// A process that is killed between writing the runs and the estimates leaves files of two different
+// identifications.
 TEST(Identify, TakesNoRecordOfAnotherIdentification) {
   const TempFolder folder;
   WriteDart(folder, "model/dart.xml", "dart");
@@ -132,7 +133,7 @@ TEST(Identify, TakesNoRecordOfAnotherIdentification) {
   const Outcome mixed = Trackbed(folder, "report -q out");
   EXPECT_EQ(mixed.code, 2);
   EXPECT_THAT(mixed.output, HasSubstr("out/records/record: has another result than identify.json"));
-  // A changed file of the identification itself.
+  // Changes a file of the identification itself.
   ASSERT_EQ(Trackbed(folder, "identify -q study.yaml -o out").code, 0);
   folder.Write("out/record.residuals.csv",
                ReadFile(folder.path() / "out/record.residuals.csv") + " ");

@@ -53,7 +53,7 @@ TEST(Program, RunsAScenario) {
   EXPECT_THAT(outcome.output, StartsWith("winding: passed, in out/winding\n"));
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "out/winding/kinematic.csv"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out/winding/mujoco.csv"));
-  // No progress bar, no color: the output is a pipe.
+  // The output is a pipe, so it has no progress bar and no color.
   EXPECT_EQ(outcome.output.find('\r'), std::string::npos);
   EXPECT_EQ(
       Trackbed(folder, "run -q --plant kinematic --set 'expect={}' -o x " + ScenarioFile("winding"))

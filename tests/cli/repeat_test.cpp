@@ -16,8 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// RRT* during the run, an RRT route in wind, noise and kicks, Frenet motions around a moving car,
-/// a recording: covers random numbers, searches and additional input files.
+/// Scenarios that cover random numbers, searches and additional input files: RRT* during the run,
+/// an RRT route in wind, noise and kicks, Frenet motions around a moving car, and a recording.
 constexpr std::array kScenarios{"obstacle_appears", "windy_field", "disturbed", "overtake",
                                 "playback_lane_change"};
 

@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 const fs::path kSourceTree = TRACKBED_SOURCE_DIR;
 
-/// The shipped scenarios that read other files; from the folder of the scenarios.
+/// The shipped scenarios that read other files, as paths below the folder of the scenarios.
 constexpr std::array kFileReaders{"real/dart_ramp_02",
                                   "real/dart_ramp_neg03",
                                   "real/dart_steering",
@@ -55,7 +55,7 @@ std::map<std::string, std::string> FilesIn(const fs::path& folder) {
   return files;
 }
 
-/// The files that differ or are in one alone.
+/// Returns the names of the files that differ or exist in only one of the folders.
 std::vector<std::string> DifferingFiles(const std::map<std::string, std::string>& one,
                                         const std::map<std::string, std::string>& other) {
   std::vector<std::string> names;
@@ -92,7 +92,7 @@ TEST_P(Spellings, OfAPathGiveTheSameBytes) {
   const std::string parent = file.parent_path().filename().string();
   fs::create_directory_symlink(kSourceTree / "scenarios", folder.path() / "link");
   fs::create_directories(folder.path() / "a/b");
-  // From a folder, with the name of the file there.
+  // Each way is a working folder and the path of the file from this folder.
   std::vector<std::pair<std::string, std::string>> ways{{".", file.string()},
                                                         {inside, base},
                                                         {inside, "./" + base},
@@ -100,7 +100,7 @@ TEST_P(Spellings, OfAPathGiveTheSameBytes) {
                                                         {"/", file.string().substr(1)},
                                                         {".", "link/" + name + ".yaml"},
                                                         {"a/b", "../../link/" + name + ".yaml"}};
-  if (!name.starts_with("validation/")) {  // which have no names
+  if (!name.starts_with("validation/")) {  // these scenarios cannot be found by their names
     ways.emplace_back(".", fs::path(name).filename().string());
   }
   std::map<std::string, std::string> first;
@@ -152,7 +152,7 @@ TEST(SpellingsTest, OfRunsGiveTheSameComparison) {
     ASSERT_EQ(Trackbed(folder, "run " + std::string(run) +
                                    " -q --plant kinematic --set drive.time_limit=0.2 expect={}")
                   .code,
-              3);  // short of the goal
+              3);  // the run ends before the goal
   }
   fs::create_directory_symlink(folder.path() / "runs", folder.path() / "link");
   const std::string here = folder.path().string();

@@ -72,8 +72,8 @@ TEST(Sweep, WritesTheSameBytesForAnyNumberOfJobs) {
 
 TEST(Sweep, LeavesCellsEmptyThatARunHasNoValueFor) {
   const TempFolder folder;
-  // Half of the shorter leg at the turn of 56 degrees is 18.03 m, and a radius R needs R tan(28
-  // deg) of it: 40 m do not fit. The second point has no plant mujoco.
+  // At the turn of 56 degrees, half of the shorter leg is 18.03 m. A radius R needs R tan(28 deg),
+  // so 40 m do not fit. The second point has no plant mujoco.
   folder.Write("study.yaml",
                StudyText("set: {drive.time_limit: 1, expect: {}}\n"
                          "list:\n"
@@ -215,7 +215,7 @@ TEST(Sweep, ShardsMergeToTheBytesOfOneProcess) {
   const TempFolder folder;
   folder.Write("study.yaml", StudyText(kShort));
   ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o whole").code, 0);
-  for (const int shards : {3, 7}) {  // with seven one has no row
+  for (const int shards : {3, 7}) {  // with seven shards, one has no row
     const std::string out = "of" + std::to_string(shards);
     for (int shard = shards; shard >= 1; --shard) {
       const std::string part = std::to_string(shard) + "/" + std::to_string(shards);
@@ -234,7 +234,7 @@ TEST(Sweep, ShardsMergeToTheBytesOfOneProcess) {
 TEST(Sweep, TakesItsShardFromSlurmsArray) {
   const TempFolder folder;
   folder.Write("study.yaml", StudyText(kShort));
-  // Tasks 4, 6 and 8.
+  // The array has the tasks 4, 6 and 8.
   const std::string array =
       "SLURM_ARRAY_TASK_COUNT=3 SLURM_ARRAY_TASK_MIN=4 SLURM_ARRAY_TASK_STEP=2 ";
   for (const char* task : {"4", "6", "8"}) {
@@ -397,7 +397,7 @@ TEST(Sweep, RestartLeavesTheUsersFilesInKeptRows) {
   ASSERT_EQ(Trackbed(folder, "sweep -q study.yaml -o r").code, 0);
   folder.Write("r/rows/0/notes.txt", "mine");
   folder.Write("r/rows/1/deep/plan.csv", "mine");
-  folder.Write("r/rows/7/plan.csv", "mine");  // of no run of Trackbed's
+  folder.Write("r/rows/7/plan.csv", "mine");  // not written by Trackbed
   folder.Write("r/rows/notes.txt", "mine");
   folder.Write("study.yaml", StudyText(kDistances));
   const Outcome foreign = Trackbed(folder, "sweep -q study.yaml -o r --restart");

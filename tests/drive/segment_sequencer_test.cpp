@@ -48,7 +48,7 @@ TEST(Segments, AreCutAtCuspsWithTheirSpeedsAndSchedule) {
     EXPECT_EQ(own.reference.speed.SpeedAt(lengths[i]), 0.0);
     EXPECT_NEAR(own.reference.speed.SpeedAt(1.0), plan.reference.speed.SpeedAt(starts[i] + 1.0),
                 Tolerance(1e-12));
-    // 0.01 rad a meter.
+    // The schedule rises by 0.01 rad per meter up to 16 m.
     EXPECT_NEAR(own.schedule.At(1.0), plan.schedule.At(starts[i] + 1.0), Tolerance(1e-12));
     EXPECT_EQ(own.goal.x, plan.goal.x);
   }

@@ -18,8 +18,8 @@ namespace {
 
 using testing::HasSubstr;
 
-/// A study of the kinematic car on the winding route, which far previews and high speeds make cut
-/// its corners. It passes at its nominal point, and fails from some preview distance on.
+/// A search for the kinematic car on the winding route. Long preview distances make the car cut
+/// corners. The nominal point passes; points from some preview distance on fail.
 CheckedSearch MakeSearch(const TempFolder& folder, const std::string& search,
                          const std::string& more = "") {
   return CheckSearch(
@@ -51,11 +51,11 @@ TEST(Falsify, FindsTheSmallestPreviewDistanceThatFails) {
     // The speed does not matter to a car that rolls without slip; the distance alone does.
     EXPECT_EQ(worst.settings[1].value, "2");
     EXPECT_LT(worst.robustness, 0.0);
-    EXPECT_GT(worst.robustness, -0.05);  // a tolerance of the range is 0.08 m of some 8 m
+    EXPECT_GT(worst.robustness, -0.05);  // the tolerance is 0.08 m for a range of 8 m
     const RunResult run = RunCounterexample(result, search);
     EXPECT_FALSE(run.verdict.passed);
     EXPECT_EQ(RobustnessOf(run).value, worst.robustness);
-    // A tolerance nearer it passes.
+    // The run passes at a preview distance that is one tolerance nearer to the nominal point.
     const double holds = search.space.Value(0, result.shrunk.keys[0].holds_to.value());
     EXPECT_LT(holds, std::stod(worst.settings[0].value));
     EXPECT_NEAR(holds, std::stod(worst.settings[0].value), 0.08 + 0.002);
@@ -74,7 +74,7 @@ TEST_P(ReproducibleSearch, IsTheSameForAnyNumberOfJobsAndAfterAnInterruption) {
   EXPECT_GT(expected.at("violations"), 1);
   SweepRecords parallel = SweepRecords::InMemory(header);
   EXPECT_EQ(ToJson(Falsify(search, parallel, {.jobs = 4}), search), expected);
-  // Interrupted after each few runs.
+  // Interrupts the search after every few runs.
   SweepRecords parts = SweepRecords::InMemory(header);
   int interruptions = 0;
   for (;; ++interruptions) {
@@ -130,8 +130,8 @@ TEST(Falsify, EndsAtANominalPointThatFails) {
 
 TEST(Falsify, CountsPointsWithoutAScenarioAndWithoutAPlan) {
   const TempFolder folder;
-  // Half of the shorter leg of a turn of 56 degrees is 18.03 m, which a radius of 33.9 m takes: no
-  // plan beyond. A preview distance must be positive.
+  // At the turn of 56 degrees, half of the shorter leg is 18.03 m. A radius R needs R tan(28 deg),
+  // so there is no plan for radii above 33.9 m. A preview distance must be positive.
   const CheckedSearch search = CheckSearch(ReadStudy(
       folder.Write("study.yaml", "schema: 1\nname: study\nscenario: " TRACKBED_SOURCE_DIR
                                  "/scenarios/winding.yaml\n"

@@ -68,8 +68,8 @@ TEST_P(EverySearch, KeepsItsRunsAndTheSquare) {
       EXPECT_GE(std::min(point[0], point[1]), 0.0);
       EXPECT_LE(std::max(point[0], point[1]), 1.0);
     }
-    // Smaller than the mean nearest distance of as few points in a square: a ball of 1/20 of its
-    // area.
+    // The best value is a squared distance from the minimum. It must be below the squared radius of
+    // a disk with a quarter of the square's area.
     EXPECT_LT(course.least, 1.0 / (3.141592653589793 * 4.0));
   }
 }

@@ -61,7 +61,7 @@ TEST(SequentialTest, StopsWhereTheClosedFormDoes) {
     EXPECT_LT(above(expected - 1.0), 20.0);
   }
   SequentialTest test(0.99, 0.95);
-  // M after 1 and 2 failures: (1 - 0.01^2)/(2 0.99 0.01) = 50.5.
+  // After one failure, M is (1 - 0.01^2)/(2 * 0.99 * 0.01) = 50.5.
   test.Add(false);
   EXPECT_EQ(test.verdict(), ProbabilityVerdict::kBelow);
   EXPECT_NEAR(std::exp(test.LogBelow()), (1.0 - 1e-4) / (2.0 * 0.99 * 0.01), 1e-9);

@@ -35,7 +35,8 @@ import xml.etree.ElementTree as xml
 
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 SHORT = ["--set", "drive.time_limit=0.1", "expect={}"]
-# Of which the bytes are not the same each time: times, and rows in the order in which they were done.
+# Files whose bytes differ between repetitions: times, and rows in the order in which they were
+# done.
 CHANGING = {"timing.json", "sweep.records"}
 ADDITIONS = {"report.html", "video.mp4", "picture.png", "timing.json", "manifest.json"}
 
@@ -47,8 +48,8 @@ class Case:
         self.name = name
         self.args = args
         self.out = out
-        self.old = old  # args of the verb that left the earlier result; None: nothing was there
-        self.before = list(before)  # verbs that make what is read
+        self.old = old  # args of the verb that left the earlier result; None: no earlier result
+        self.before = list(before)  # verbs that make the inputs
         self.check = check or same_bytes
         self.codes = ()
 
@@ -106,7 +107,7 @@ def one_result(folder, now, old, new):
     """Whole results, all of the earlier state or all of the new one."""
     wrong = same_bytes(folder, {k: v for k, v in now.items() if k != "manifest.json"}, old, new)
     if any(".trackbed.complete" in name for name in now):
-        return wrong  # says itself that it is between two results
+        return wrong  # the folder itself says that it is between two results
     names = visible(now)
     if not names:
         return wrong
@@ -288,7 +289,7 @@ class Campaign:
             os.remove(log)
         code, error = self.run(case.args, self.shim(case, 0, 0, log))
         assert code in (0, 3), (case.args, code, error)
-        case.codes = (code,)  # 3: it does not arrive within its time
+        case.codes = (code,)  # 3: the car does not arrive within the time limit
         self.restore(case)
         begin = time.monotonic()
         code, error = self.run(case.args)
@@ -401,7 +402,8 @@ class Campaign:
         elif code in case.codes:
             wrong = [] if now == self.new else ["ends well, but has not the new result"]
         elif code == 130:
-            # What a run has logged so far is kept; all else is as before, or new.
+            # The log of the run so far is kept. All other files are those of the earlier or of the
+            # new result.
             if case.check not in (same_bytes, one_film):
                 new = dict(now)
                 wrong = case.check(folder, now, self.old, new)
@@ -432,7 +434,7 @@ class Campaign:
         if self.locale:
             same("decimal comma (LC_ALL=de_DE.UTF-8)", LOCPATH=self.locale, LC_ALL="de_DE.UTF-8",
                  LANG="de_DE.UTF-8")
-        # Closed streams: what is opened next must not take their place.
+        # Standard streams may be closed. The next opened file must not take their place.
         for closed in ((0,), (1,), (2,), (0, 1, 2)):
             loud = [arg for arg in case.args if arg != "-q"]
             self.restore(case)
@@ -474,7 +476,8 @@ class Campaign:
         self.restore(case)
         folder = f"{self.work}/{case.out}"
         middle = len(self.calls) // 2 + 1
-        # It stops itself: SIGSTOP in place of a failure.
+        # The first process stops itself, because the shim sends SIGSTOP instead of causing a
+        # failure.
         env = self.shim(case, middle, -1)
         first = self.start(case.args, env)
         deadline = time.monotonic() + 60
@@ -628,7 +631,7 @@ class Campaign:
         for number, case in enumerate(all_cases):
             if number % of != part - 1:
                 continue
-            # The same faults whatever the part.
+            # The faults of a case do not depend on the part.
             self.random.seed(f"{options.seed} {case.name}")
             self.prepare(case)
             begin = time.monotonic()
@@ -659,7 +662,7 @@ class Campaign:
         return 1 if self.losses else 0
 
 
-# Of these several may write to one folder at a time.
+# Several of these verbs may write to one folder at the same time.
 ADDERS = {"report", "render --at", "render film", "render frames"}
 
 

@@ -64,8 +64,8 @@ bool Counts(const std::string& path) {
   return !folder.empty() && path.compare(0, folder.size() + 1, folder + "/") == 0;
 }
 
-/// Counts a call. Returns whether it is to fail, with errno set; does not return if the program is
-/// to be killed.
+/// Counts a call. Returns whether the call must fail, with errno set. Does not return if the
+/// program must be killed.
 bool Fails(const char* what, const std::string& path) {
   if (!Counts(path)) {
     return false;

@@ -26,8 +26,8 @@ import zlib
 SOURCE = os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__))))
 QUICK = ["--plant", "kinematic", "--set", "drive.time_limit=0.3"]
 REMOVED = object()
-HUGE = "\0huge"  # becomes 1e999, which is JSON but no number of ours
-NAN = "\0nan"  # becomes NaN, which is no JSON
+HUGE = "\0huge"  # becomes 1e999, which is valid JSON but too large for a double
+NAN = "\0nan"  # becomes NaN, which is not valid JSON
 VALUES = [REMOVED, None, True, False, 0, -1, 1, 7.5, -1e300, 1e300, 18446744073709551615, HUGE, NAN,
           "", "text", "NaN", "1e999", "../../x", "a/b", "\x1b[31m", [], [1], ["a"], [[]], {}, {"a": 1}]
 WHOLE = ["", "{", "[]", "{}", "null", "1", "\"x\"", "[" * 100000, "{\"a\":" * 1000, "\xff\xfe", "\0"]
@@ -121,7 +121,7 @@ COMPARE = ["compare", "-q", "{}", "other", "-o", "again"]
 RENDER = ["render", "-q", "{}", "--at", "0.1", "--size", "64x64", "-o", "p.png"]
 MERGE = ["sweep", "merge", "-q", "{}", "-o", "merged"]
 ROW = ["run", "-q", "--from-sweep", "{}", "--row", "1", "-o", "row", "--set", "drive.time_limit=0.1"]
-# The file, and the verbs that read it. Their folder stands for {}.
+# Each file, with the verbs that read it. The folder of the file replaces {}.
 READERS = {
     "run/metrics.json": [REPORT, COMPARE, RENDER],
     "run/plan.json": [REPORT, RENDER],
@@ -175,7 +175,7 @@ def changes(text, name):
                 else:
                     new = value
                 shown = "removed" if value is REMOVED else json.dumps(value)
-                # Without blanks, as the lines of records are written.
+                # The text has no blanks, like the lines of records.
                 body = text_of(new) if make("") == "" else json.dumps(
                     new, separators=(",", ":")).replace(json.dumps(HUGE), "1e999").replace(
                         json.dumps(NAN), "NaN")
@@ -221,7 +221,7 @@ def main():
     faults = []
     try:
         results.make_all()
-        # The sums of a manifest would reveal every change.
+        # The checksums in a manifest would reveal every change.
         for at, _, names in os.walk(results.root):
             if "manifest.json" in names and not at.endswith("/run"):
                 os.remove(os.path.join(at, "manifest.json"))

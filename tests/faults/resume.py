@@ -126,7 +126,7 @@ def main():
                 kinds.remove(kind)
                 continue
         else:
-            # Chosen so that all faults together take about as long as the study.
+            # The time is chosen so that all faults together take about as long as the study.
             code = study.signaled(out, kind, 20.0 * duration / options.faults + 0.1)
         faults[kind] += 1
         after = rows_in(f"{study.root}/{out}")

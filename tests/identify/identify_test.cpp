@@ -35,7 +35,7 @@ struct Noise {
   unsigned seed = 7;
 };
 
-/// Cars whose numbers are to be found again by what they did.
+/// Tests whether Identify finds the known parameters of a car from its recorded drives.
 class IdentifiedCar : public testing::Test {
  protected:
   IdentifiedCar() {
@@ -49,8 +49,8 @@ class IdentifiedCar : public testing::Test {
 
   CarModel Base() const { return {ComposeScene(model_, {}), model_.string()}; }
 
-  /// A drive of the car with other numbers: faster and faster from 1 to 3 m/s, steering with two
-  /// frequencies within the steering rate.
+  /// Records a drive of the car with the parameters `truth`. The car accelerates from 1 to 3 m/s
+  /// and steers with two frequencies, within the steering rate.
   RecordedDrive Drive(const std::string& plant_name, const std::vector<CarParameter>& truth,
                       const Noise& noise = {}, double duration = 12.0) const {
     const CarModel base = Base();
@@ -128,8 +128,9 @@ TEST_F(IdentifiedCar, FindsTheCarThatWasDriven) {
   const IdentificationResult result =
       Identify(Study("single_track", Drive("single_track", kTruth), FiveParameters()));
   ASSERT_EQ(result.parameters.size(), kTruth.size());
-  // The windows restart at exactly what the car did, and the search ends with steps of 1e-4 of the
-  // bounds' widths, where Gauss-Newton steps of residuals that vanish are quadratic.
+  // The windows restart at the exact states of the car. The search ends when its steps are below
+  // 1e-4 of the bounds' widths. With residuals that vanish, Gauss-Newton steps converge
+  // quadratically.
   for (std::size_t i = 0; i < kTruth.size(); ++i) {
     const ParameterEstimate& estimate = result.parameters[i];
     const double width = estimate.parameter.to - estimate.parameter.from;
@@ -157,15 +158,15 @@ TEST_F(IdentifiedCar, KnowsHowFarNoiseLeadsIt) {
       squares += off * off;
     }
   }
-  // 24 squares of normal variables: between 7.4 and 52 in 99.9 % of all cases, and errors from 15
-  // windows are themselves known to a fifth.
+  // The sum of 24 squared normal variables is between 7.4 and 52 in 99.9 % of all cases. The
+  // standard errors are estimated from 15 windows, so they are accurate to about 20 %.
   EXPECT_GT(squares, 7.4 / 1.44);
   EXPECT_LT(squares, 52.0 * 1.44);
 }
 
 TEST_F(IdentifiedCar, SaysWhatTheRecordsDoNotTell) {
-  // Tyre forces are proportional to the load: masses, inertia and stiffness over load together
-  // leave the motion as it is only through inertia/mass. And linear tyres have no peak.
+  // Tyre forces are proportional to the load, so the motion depends on the mass and the yaw inertia
+  // only through their ratio. Linear tyres have no peak.
   std::vector<IdentifiedParameter> parameters = FiveParameters();
   parameters.push_back({.name = "mass", .from = 2.0, .to = 5.0});
   parameters.push_back({.name = "p_dy1_front", .from = 0.5, .to = 1.5});
@@ -173,7 +174,7 @@ TEST_F(IdentifiedCar, SaysWhatTheRecordsDoNotTell) {
       Identify(Study("single_track", Drive("single_track", kTruth), parameters));
   const ParameterEstimate& peak = *result.Find("p_dy1_front");
   EXPECT_EQ(peak.status, ParameterStatus::kNotIdentified);
-  EXPECT_EQ(peak.value, 0.9);  // the model's
+  EXPECT_EQ(peak.value, 0.9);  // the value of the model
   EXPECT_THAT(peak.remark, HasSubstr("no effect on the plant single_track"));
   const bool mass = result.Find("mass")->status == ParameterStatus::kNotIdentified;
   const bool inertia = result.Find("yaw_inertia")->status == ParameterStatus::kNotIdentified;
@@ -208,7 +209,8 @@ TEST_F(IdentifiedCar, FindsATyrePeakOnMujoco) {
       {{.name = "p_dy1", .from = 0.4, .to = 1.2}, {.name = "p_ky1", .from = -16.0, .to = -4.0}});
   study.horizon = 5.0;
   const IdentificationResult result = Identify(study, {.threads = 2});
-  // The body rolls anew after each restart, for 0.1 s of 5 s: 2 % of the widths.
+  // After each restart, the body rolls for 0.1 s of 5 s. The tolerance is therefore 2 % of the
+  // bounds' widths.
   EXPECT_NEAR(result.Find("p_dy1")->value, 0.7, Tolerance(0.02) * 0.8);
   EXPECT_NEAR(result.Find("p_ky1")->value, -10.0, Tolerance(0.02) * 12.0);
 }
@@ -234,7 +236,7 @@ TEST_F(IdentifiedCar, KeepsTheBestWhenInterrupted) {
 }
 
 TEST_F(IdentifiedCar, WeighsPriorsAgainstWindows) {
-  // One parameter, whose prior is so narrow that the windows count for little.
+  // The study has one parameter with a prior so narrow that the windows have little influence.
   const double prior = 0.1;
   std::vector<IdentifiedParameter> parameters{
       {.name = "steering_time_constant",
@@ -244,7 +246,7 @@ TEST_F(IdentifiedCar, WeighsPriorsAgainstWindows) {
   const IdentificationResult result =
       Identify(Study("single_track", Drive("single_track", kTruth), parameters));
   EXPECT_NEAR(result.parameters.front().value, prior, 1e-3);
-  // The windows, for their part, would say 0.08.
+  // Without the prior, the windows yield 0.08.
   parameters.front().prior.reset();
   EXPECT_NEAR(
       Identify(Study("single_track",
@@ -290,7 +292,7 @@ TEST_F(IdentifiedCar, WritesTheModelAndItsOrigins) {
               HasSubstr("yaw_rate_fitted_radps"));
 }
 
-// The names of models come from strangers, and the fitted model is called after its own.
+// The fitted model is named after the model, whose name may come from an untrusted source.
 TEST_F(IdentifiedCar, NeverWritesOutsideItsFolder) {
   Identification study =
       Study("single_track", Drive("single_track", kTruth), {FiveParameters()[0]});

@@ -93,10 +93,10 @@ Pose2 OnCircle(double t) {
   return {kRadius * std::sin(course), -kRadius * std::cos(course), course + kSlip};
 }
 
-/// The largest error of a value from a local polynomial of degree 2 on a circle. By Taylor it is
-/// the third derivative, R rate^3, times 1/6 h^3 over the window. The fit amplifies what is not a
-/// parabola by at most 3, the sum of its weights' magnitudes (1.6 in the middle, below 3 at an
-/// end).
+/// The largest error of a value from a local polynomial of degree 2 on a circle. By Taylor's
+/// theorem, the circle deviates from a parabola by up to R rate^3 h^3/6, with the half width h of
+/// the window. The fit amplifies this deviation by at most 3, the sum of the magnitudes of its
+/// weights (1.6 in the middle, below 3 at an end).
 double ValueError(double half_width) {
   return 3.0 / 6.0 * kRadius * std::pow(kRate, 3.0) * std::pow(half_width, 3.0);
 }
@@ -109,8 +109,8 @@ TEST(ImportLog, FindsTheMotionOnACircleFromALeverArm) {
   const RecordedDrive drive = Import(
       PoseCsv(IrregularTimes(12.0, 0.02), [&](double t) { return Compose(OnCircle(t), X_VS); }),
       map);
-  // The error of a slope is that of a value over the half width, and of a curvature over its
-  // square, each times the degree.
+  // The error of a slope is twice the error of a value divided by the half width. The error of a
+  // second derivative is four times the error of a value divided by the square of the half width.
   const double value = Tolerance(ValueError(0.1));
   const double slope = Tolerance(2.0 * ValueError(0.1) / 0.1);
   const double curvature = Tolerance(4.0 * ValueError(0.1) / 0.01);
@@ -277,7 +277,8 @@ TEST(ImportLog, TakesTheUpdatesOfASlowerLoop) {
   map.throttle->unit = "g";
   map.throttle->delay = 0.02;
   map.throttle->period = 0.1;
-  // 0 until 1 s, then rising by 0.1 g every 0.1 s until 2 s, held to 3 s, then 0.
+  // The throttle is 0 until 1 s, rises by 0.1 g every 0.1 s until 2 s, is constant until 3 s and is
+  // then 0.
   const RecordedDrive drive = Import(CircleWith("a",
                                                 [](double t) {
                                                   const double steps = std::floor(10.0 * t + 1e-9);
@@ -313,7 +314,8 @@ TEST(ImportLog, PrefersMeasuredSpeedYawRateAndAcceleration) {
   EXPECT_THAT(sample.velocity_V.x(), DoubleNear(1.4, Tolerance(1e-12)));
   EXPECT_THAT(sample.yaw_rate, DoubleNear(0.72, Tolerance(1e-12)));
   EXPECT_THAT(sample.yaw_acceleration, DoubleNear(0.01, Tolerance(1e-10)));
-  // 1 m ahead of the rear axle, the accelerometer reads -r^2 more forward and r' more to the left.
+  // The accelerometer is 1 m ahead of the rear axle. With the yaw rate r, it reads -r^2 * 1 m more
+  // forward and r' * 1 m more to the left.
   EXPECT_THAT(sample.acceleration_V.x(), DoubleNear(0.72 * 0.72, Tolerance(1e-10)));
   EXPECT_THAT(sample.acceleration_V.y(), DoubleNear(0.2 * 9.80665 - 0.01, Tolerance(1e-10)));
 }
@@ -559,7 +561,7 @@ TEST(ImportLog, ReadsManyRowsInBoundedMemory) {
   }
   const RecordedDrive drive = Import(csv, map);
   EXPECT_EQ(drive.samples.size(), 3001U);
-  // Rounded to 1e-6, in windows of 100 rows.
+  // The poses are rounded to 1e-6, and each window has 100 rows.
   EXPECT_THAT(drive.At(150.0).yaw_rate, DoubleNear(kRate, Tolerance(1e-4)));
 }
 

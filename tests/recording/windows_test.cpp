@@ -99,8 +99,9 @@ TEST(PredictWindows, EachWindowIsThatPartOfTheWholeDrive) {
     ASSERT_EQ(windows.size(), 4U) << plant;
     EXPECT_THAT(windows[2].start, DoubleNear(2.5, Tolerance(1e-12)));
     EXPECT_EQ(windows[2].states.size(), 101U);
-    // The same equations from the same state. The differences are rounding, 1e-16 per step over
-    // 1000 steps, and 1e-12 from solver steps that are split at different times.
+    // The windows integrate the same equations from the same states as the record. They differ by
+    // rounding, 1e-16 per step over 1000 steps, and by 1e-12 because solver steps are split at
+    // different times.
     EXPECT_LT(LargestDistance(windows, drive), Tolerance(1e-9)) << plant;
   }
 }
@@ -110,9 +111,9 @@ TEST(PredictWindows, MujocoRestartsOnItsSprings) {
   const RecordedDrive drive = Drive(car, "mujoco", 6.0);
   const auto windows =
       PredictWindows(car, "mujoco", drive, {1.0, 3.0}, 2.0, {.control_period = kPeriod});
-  // In a bend of curvature 0.8/m at 1.6 m/s the front tyres' side force brakes with a_y
-  // tan(delta)/2 = 2 m/s^2 0.1 = 0.2 m/s^2. The gain of 20/s turns that into a speed error of 0.01
-  // m/s: 0.02 m after 2 s. The body rolls again after each restart, which adds less.
+  // In a bend with a curvature of 0.8 1/m at 1.6 m/s, the lateral force of the front tyres brakes
+  // the car by a_y tan(delta)/2 = 2 m/s^2 * 0.1 = 0.2 m/s^2. With the gain of 20 1/s, the speed
+  // error is 0.01 m/s, which is 0.02 m after 2 s. The roll motion after each restart adds less.
   EXPECT_LT(LargestDistance(windows, drive), Tolerance(0.02));
   EXPECT_GT(LargestDistance(windows, drive), 0.0);
 }
@@ -124,7 +125,7 @@ TEST(PredictWindows, StartsWithTheRecordedSlip) {
     const auto windows = PredictWindows(car, plant, drive, {1.0}, 0.1, {.control_period = kPeriod});
     const RecordedSample recorded = drive.At(1.0);
     const VehicleState& first = windows.front().states.front();
-    // Rounding of the conversion to the free joint's velocity and back.
+    // The tolerance covers rounding of the conversion to the free joint's velocity and back.
     EXPECT_THAT(first.yaw_rate, DoubleNear(recorded.yaw_rate, Tolerance(1e-12))) << plant;
     EXPECT_THAT(first.lateral_speed,
                 DoubleNear(recorded.velocity_V.y() + car.params().cg_to_rear * recorded.yaw_rate,
@@ -215,8 +216,8 @@ TEST(MeasureWindows, GivesQuantilesOfWindowsAndRelativeErrors) {
   const WindowErrors errors = MeasureWindows(windows, drive, {.cg_to_rear = 0.1}, 1.0, 0.3);
   EXPECT_EQ(errors.count, 3);
   EXPECT_EQ(errors.diverged, 0);
-  // Sorted 0.1, 0.2, 0.3: the 90 % quantile is 0.8 of the way from the second to the third. Equal
-  // to rounding of positions of some meters.
+  // The sorted position errors are 0.1, 0.2 and 0.3 m, so the 90 % quantile is 0.8 of the way from
+  // the second to the third. The tolerance covers rounding of positions of some meters.
   EXPECT_THAT(errors.position_median, DoubleNear(0.2, Tolerance(1e-12)));
   EXPECT_THAT(errors.position_p90, DoubleNear(0.28, Tolerance(1e-12)));
   EXPECT_THAT(errors.heading_median, DoubleNear(0.02, Tolerance(1e-12)));

@@ -228,7 +228,7 @@ class Reports(PageTest):
             number, _, side = size.rpartition(" ")
             self.assertEqual(number, rounded(own["max"]))
             s, t = re.fullmatch(r"at ([\d.]+) m, ([\d.]+) s", place).groups()
-            # The last digit shown is a tenth.
+            # Stations and times are shown with one decimal.
             self.assertAlmostEqual(float(s), own["max_s"], delta=0.051)
             self.assertAlmostEqual(float(t), own["max_t"], delta=0.051)
             self.assertLess(bottom, 900)
@@ -281,8 +281,8 @@ class Reports(PageTest):
         heading = value_at(rows, "yaw_rad", moment) - value_at(rows, "heading_error_rad", moment)
         by = 9 * value_at(rows, "cross_track_m", moment)
         self.assertGreater(abs(by), 0.01)
-        # As for the car at its place; half of the time's last digit moves it by 15 mm along the
-        # path.
+        # The car is drawn at ten times its distance from the path. Half of the time's last digit
+        # moves the car by 15 mm along the path.
         self.assertAlmostEqual(x, value_at(rows, "x_m", moment) - by * math.sin(heading), delta=0.03)
         self.assertAlmostEqual(y, value_at(rows, "y_m", moment) + by * math.cos(heading), delta=0.03)
         self.click("#enlarge")
@@ -324,7 +324,7 @@ class Reports(PageTest):
             for plant in ("kinematic", "mujoco"):
                 rows = rows_of(self.root / "slow" / f"{plant}.csv")
                 x, y, degrees = self.numbers(f".car[data-track={plant}]")
-                # Six digits of 30 m; the time has two decimals at 3 m/s.
+                # The time has two decimals, so the position errs by up to 15 mm at 3 m/s.
                 self.assertAlmostEqual(x, value_at(rows, "x_m", moment), delta=0.02)
                 self.assertAlmostEqual(y, value_at(rows, "y_m", moment), delta=0.02)
                 yaw = math.degrees(value_at(rows, "yaw_rad", moment))
@@ -351,7 +351,8 @@ class Reports(PageTest):
         rows = rows_of(self.root / "slow/mujoco.csv")
         text = self.text("[data-quantity=steering] .readout[data-track=mujoco]").replace("−", "-")
         done, asked = (float(n) for n in re.fullmatch(r"(-?[\d.]+) \((-?[\d.]+)\)", text).groups())
-        # The rate limit of 0.15 rad/s times half of the time's last digit, plus four decimals.
+        # The tolerance is the rate limit of 0.15 rad/s times half of the time's last digit, plus
+        # rounding to four decimals.
         delta = 0.15 * 0.005 + 5e-5
         self.assertAlmostEqual(done, value_at(rows, "steering_rad", self.moment()), delta=delta)
         self.assertAlmostEqual(
@@ -543,7 +544,8 @@ class Reports(PageTest):
             "const place = e => { const b = e.getBoundingClientRect(); return [b.left, b.right]; };"
             "return [place(box), Array.from(box.querySelectorAll('tr')).map(row => Array.from(row.children).map(place))]"
         )
-        # With two plants the table fits; otherwise its row headings and some of the values do.
+        # With two plants, the whole table fits. Otherwise the row headings and some of the values
+        # fit.
         for page, tables in (
             ("slow/report.html", {"#numbers": 2, "#between": 1}),
             ("both.html", {"#numbers": 1, "#between": 2, "#headline": 1, "#differences": 1}),
@@ -574,7 +576,7 @@ class Reports(PageTest):
         self.assertTrue(self.run_in_page(has_controls))
         self.mouse("mouseMoved", 2, 2)
         self.assertFalse(self.run_in_page(has_controls))
-        # With the keyboard.
+        # The controls also appear with the keyboard.
         self.run_in_page("document.querySelector('video').focus()")
         self.assertTrue(self.run_in_page(has_controls))
         self.run_in_page("document.querySelector('video').blur()")
@@ -668,8 +670,8 @@ class Reports(PageTest):
                  "the runs follow different paths"]
                 if judged else [],
             )
-            # The difference curve at the station under the pointer, and the cars at the time of the
-            # first one.
+            # Compares the difference curve at the station under the pointer, and the first car at
+            # its time there.
             rows = [row for row in rows_of(self.root / "judged/compare.csv") if row["pair"] == "0"]
             self.point_at("difference_yaw_rate", 0.45)
             moment = self.moment()
@@ -683,8 +685,9 @@ class Reports(PageTest):
                 ("steering", "steering_rad", 0.01),
             ):
                 told = self.text(f"[data-quantity=difference_{quantity}] .readout").replace("−", "-")
-                # The time has two decimals, 15 mm of distance. Within half of that the runs differ
-                # little; headings change by 15 mm over a radius of 5 m, and rates change most.
+                # The time has two decimals, so the station errs by up to 15 mm. `slack` is the
+                # change of the difference over this distance; it is largest for steering angles and
+                # yaw rates.
                 self.assertAlmostEqual(float(told), value_at(at, column, station), delta=slack)
             x, _, _ = self.numbers(".car[data-track='slow · kinematic']")
             log = rows_of(self.root / "slow/kinematic.csv")
@@ -811,7 +814,7 @@ class Reports(PageTest):
             self.run_in_page("return document.querySelector('#worst tbody tr').dataset.number"), "0"
         )
         self.choose("#influence-of", "error")
-        # Shares of 9/13 and 3/13 of the variance.
+        # The shares of the variance are 9/13 and 3/13.
         (first, wide), (second, narrow) = shares()
         self.assertEqual([first, second], ["x", "method"])
         self.assertAlmostEqual(wide / narrow, 3, delta=0.3)

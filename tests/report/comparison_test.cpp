@@ -175,7 +175,7 @@ TEST(Comparison, SaysWhatIsWrong) {
               EndsWith("compare.json: does not name its runs; compare the runs again"));
   folder.Write("out/compare.json", text);
   EXPECT_EQ(ErrorMessage({out}), "");
-  // Another run under the same name.
+  // A different run has the same name.
   fs::remove_all(b);
   Shifted(a, "b", "single_track", 0.5, 0.0);
   EXPECT_THAT(

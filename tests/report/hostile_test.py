@@ -235,7 +235,7 @@ class HostileReports(PageTest):
             csv.writer(lines, lineterminator="\n").writerows(rows)
         self.trackbed("report", study.name, "-o", "study.html")
         self.check("study.html", {place: visible(text) for place, text in texts.items()}, "study")
-        # A dot, whose tooltip names its row.
+        # The tooltip of a dot names its row.
         self.browser.open(self.root / "study.html")
         self.browser.run("document.querySelector('.dots circle').dispatchEvent(new MouseEvent('mouseenter'))")
         tip = self.browser.run("return document.querySelector('.tooltip').textContent")

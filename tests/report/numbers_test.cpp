@@ -28,7 +28,7 @@ TEST(RoundedColumn, TakesTheRowsAskedFor) {
   EXPECT_EQ(RoundedColumn(table, "x_m", {0, 3}).dump(), "[0.333333,3.33333]");
 }
 
-/// Sinusoids of three periods over time; the second one has a peak in a single row.
+/// Three sinusoids with different periods over time; the second one has a peak in a single row.
 Table Waves(std::size_t rows) {
   Table table({"t_s", "a", "b", "c"});
   for (std::size_t i = 0; i < rows; ++i) {

@@ -351,7 +351,8 @@ TEST(StudyData, SaysWhatAllRowsSayTogether) {
   ASSERT_EQ(all["outputs"].size(), 2U);
   const ordered_json& y = all["outputs"][0];
   EXPECT_EQ(y["name"], "y");
-  // Half of the values are below 2/3: x < 2/3 and x < 1/3. The steps are 0.002.
+  // The median is 2/3, because y < 2/3 means x < 2/3 for one controller and x < 1/3 for the other.
+  // The values are 0.002 apart.
   EXPECT_EQ(y["quantiles"][4][0], 0.5);
   EXPECT_NEAR(y["quantiles"][4][1].get<double>(), 2.0 / 3.0, 0.002);
   EXPECT_EQ(y["distribution"].size(), 200U);
@@ -380,8 +381,8 @@ TEST(StudyData, OfABigStudyHasSomeRowsAndTheEndsOfOutputs) {
   EXPECT_EQ(study["even_count"], 4000);
   const auto numbers = study["row_numbers"].get<std::vector<int>>();
   EXPECT_EQ(numbers.size(), study["rows"].size());
-  // The lowest `y` are in the first rows, the highest in the last odd rows. Every second of those
-  // is not among the evenly chosen rows, one in 2.5.
+  // The lowest `y` are in the first rows, the highest in the last odd rows. The page must show
+  // these rows in addition to the evenly chosen rows, which are one in 2.5.
   for (const int row : {0, 1, 2, 3, 9999, 9997, 9995, 9981}) {
     EXPECT_NE(std::find(numbers.begin(), numbers.end(), row), numbers.end()) << row;
   }
@@ -506,7 +507,7 @@ TEST(ReportPage, LoadsNothing) {
 TEST(ReportPage, StaysSmall) {
   constexpr std::size_t kMaxBytes = 3'000'000;
   const TempFolder folder;
-  // One minute with turns, on two and on three plants, and the two runs compared.
+  // Runs of one minute with turns, on two and on three plants, and a comparison of both runs.
   const std::string minute =
       "schema: 1\nname: minute\nmission: {speed: 3, waypoints: [[0, 0], [70, 0], [70, 70], [150, "
       "70]]}\nplan: {method: fillet}\ncontrol: {method: preview}\ndrive: {plants: [kinematic, ";
@@ -525,7 +526,7 @@ TEST(ReportPage, StaysSmall) {
   EXPECT_LT(data.dump().size(), kMaxBytes / 2);  // the scripts take the other half
   EXPECT_LT(ReportPage(data).size(), kMaxBytes);
   EXPECT_LT(ReportPage(ReportData({two, three})).size(), kMaxBytes);
-  // Ten times as many rows.
+  // A log with ten times as many rows.
   const fs::path run = DriveCorner(folder, "run", "");
   for (const char* plant : {"kinematic", "mujoco"}) {
     LengthenLog(run / (std::string(plant) + ".csv"), 60.0, 0.002);

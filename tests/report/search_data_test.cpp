@@ -81,7 +81,7 @@ TEST_F(SearchDataTest, HasTheOutcomeAndTheMargins) {
   EXPECT_EQ(gain["column"], 0);
   EXPECT_EQ(gain["nominal"], 5.0);
   EXPECT_EQ(gain["to"], 10.0);
-  // No run decreased the gain, so the nominal value is that end.
+  // No run decreased the gain, so the lower end of `alone` is the nominal value.
   EXPECT_EQ(gain["margin"].dump(), R"({"sensitivity":-0.2,"holds_up_to":5.9,"alone":[5.0,5.9]})");
   EXPECT_EQ(search["keys"][1]["margin"].dump(), R"({"sensitivity":null,"holds_up_to":null})");
   EXPECT_EQ(search["keys"][2]["margin"]["alone"].dump(), "[1.0,3.0]");

@@ -29,7 +29,7 @@ Files Listed(const Scenario& scenario) {
   return files;
 }
 
-/// The scenario with its input files in an inner folder, read again.
+/// Writes the input files of a scenario to an inner folder and reads the scenario again.
 Scenario ReadBack(const TempFolder& folder, const Scenario& scenario) {
   folder.Write("run/x", "");  // makes the folder
   for (const InputFile& file : InputFiles(scenario)) {

@@ -82,7 +82,8 @@ class MapFiles : public testing::Test {
 const std::string kRamp = "P2 4 3 255  0 64 89 90  205 206 254 255  128 10 20 30";
 
 TEST_F(MapFiles, DecideByTheThresholds) {
-  // d = 1 - v/255 is > 0.65 up to 89 (0.651) and < 0.196 from 206 on (0.192); 205 gives 0.19608.
+  // A pixel v is occupied if d = 1 - v/255 > 0.65, which holds up to v = 89 (0.651). It is free if
+  // d < 0.196, which holds from v = 206 on (0.192); v = 205 gives 0.19608.
   EXPECT_EQ(Drawn(Read(kRamp)), "###_/_.../_###");
   const GridMap map = Read(kRamp);
   EXPECT_EQ(map.columns, 4);
@@ -99,7 +100,7 @@ TEST_F(MapFiles, DecideByTheThresholds) {
 }
 
 TEST_F(MapFiles, MayBeNegative) {
-  // d = v/255 is > 0.65 from 166 on and < 0.196 up to 49 (0.192).
+  // With `negate`, d = v/255 is above 0.65 from v = 166 on, and below 0.196 up to v = 49 (0.192).
   for (const char* negate : {"negate: 1", "negate: true"}) {
     EXPECT_EQ(Drawn(Read(kRamp, Replaced(kYaml, "negate: 0", negate))), ".___/####/_...");
   }
@@ -107,7 +108,8 @@ TEST_F(MapFiles, MayBeNegative) {
 }
 
 TEST_F(MapFiles, LeaveEqualToAThresholdUnknown) {
-  // With a maximum of 4: d = 0.75 and 0.25 exactly, except for the rounding of the file's numbers.
+  // With the maximum 4, the pixels 1 and 3 have d = 0.75 and 0.25 exactly, except for the rounding
+  // of the numbers in the file.
   const std::string yaml = Replaced(Replaced(kYaml, "0.196", "0.25"), "0.65", "0.75");
   EXPECT_EQ(Drawn(Read("P2 4 1 4 0 1 3 4", yaml)), "#__.");
 }
@@ -126,7 +128,7 @@ TEST_F(MapFiles, HaveTheSamePixelsInEveryFormatOfImage) {
   for (const char* png : {"gray8.png", "gray16.png", "rgb.png", "palette.png", "rgba.png"}) {
     EXPECT_EQ(Drawn(Read(ReadFile(Data(png)))), expected) << png;
   }
-  // Both colors have the mean 100, d = 0.61.
+  // Both colors have the mean 100, so d = 0.61.
   const std::string around_100 = Replaced(Replaced(kYaml, "0.65", "0.609"), "0.196", "0.605");
   EXPECT_EQ(Drawn(Read(ReadFile(Data("colors.png")), Replaced(around_100, "0.609", "0.6070"))),
             "##");

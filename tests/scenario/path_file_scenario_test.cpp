@@ -95,7 +95,7 @@ TEST(PathFileScenario, RefusesSpeedsThatCannotBeDriven) {
             HasSubstr("speeds: mission")));
   EXPECT_EQ(error(zeros, "mission"), "");
   EXPECT_EQ(error("x,y,v\n0,0,0\n10,0,2\n20,0,0\n30,0,2\n40,0,0\n", "file"), "");
-  // A car that stands, and whose measured position jitters by less than max_deviation.
+  // The car stands, and its measured position jitters by less than max_deviation.
   EXPECT_EQ(error("x,y,v\n0,0,0\n0.01,0,0\n10,0,2\n20,0,2\n", "file"), "");
   EXPECT_THAT(error("x,y\n0,0\n10,0\n", "file"), HasSubstr("columns.speed"));
   EXPECT_THAT(error("x,y,v\n0,0,1\n10,0,-101\n20,0,-102\n", "file"),

@@ -91,8 +91,8 @@ TEST(ReadLogMap, ReadsTheShippedMaps) {
   EXPECT_FALSE(IsLogMap(kSource / "scenarios/none.yaml"));
 }
 
-/// 5 s of a circle to the left of 5 m radius at 1 m/s, from x = 2, y = 1 at 90 degrees; in degrees
-/// and command units as kMap reads them.
+/// A log of 5 s at 1 m/s on a circle to the left with a radius of 5 m. It starts at x = 2 m, y = 1
+/// m with a heading of 90 degrees. Angles are in degrees and commands in the units of kMap.
 std::string Log() {
   std::string csv = "t,x,y,yaw,c\n";
   for (int i = 0; i <= 250; ++i) {
@@ -138,8 +138,8 @@ class RecordScenarios : public testing::Test {
 TEST_F(RecordScenarios, StartWhereTheRecordStarts) {
   const Scenario scenario = Read();
   const StartState start = InitialState(scenario);
-  // Parabolas over 0.1 s of a circle deviate by R (0.1 s 0.2/s)^3 / 2 = 2e-5 m; speeds by 2/0.1 s
-  // of that.
+  // Parabolas that are fitted over 0.1 s deviate from the circle by R (0.1 s * 0.2 1/s)^3 / 2 =
+  // 2e-5 m. Speeds deviate by 2/(0.1 s) times this distance, 4e-4 m/s.
   EXPECT_NEAR(start.pose.x, 2.0, Tolerance(2e-5));
   EXPECT_NEAR(start.pose.y, 1.0, Tolerance(2e-5));
   EXPECT_NEAR(start.pose.yaw, 0.5 * M_PI, Tolerance(1e-9));

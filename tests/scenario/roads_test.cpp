@@ -62,7 +62,7 @@ TEST(Roads, AreReadWithTheirRoute) {
 }
 
 TEST(Roads, AreWhereTheCarStarts) {
-  // On the left lane, against the road's direction.
+  // The route begins on the left lane, against the road's direction.
   const Pose2 start = InitialState(RoadFolder().Read()).pose;
   EXPECT_NEAR(start.x, 80.0, Tolerance(1e-12));
   EXPECT_NEAR(start.y, 1.75, Tolerance(1e-12));
@@ -150,7 +150,7 @@ TEST(Roads, ThatAreNotLevelAreTheGround) {
   WriteSloping(here);
   EXPECT_TRUE(IsFlat(here.Read().world.ground));
   const Scenario scenario = here.Read({"world.road_network=sloping.xodr"});
-  // As in route_ground_test.cpp.
+  // The tolerance is that of route_ground_test.cpp.
   EXPECT_NEAR(GroundHeight(scenario.world, {50.0, 1.75}), 1.0 + 0.05 * 50.0, Tolerance(2e-5));
   // Readers of only the run's world get the same ground.
   here.folder.Write("road_network.xodr", scenario.world.road_network->data->text);

@@ -140,7 +140,7 @@ TEST(Quantile, OfATruncatedNormalDistributionStaysWithinItsBounds) {
     EXPECT_LE(x, 1.1);
     EXPECT_NEAR((phi(x) - phi(0.25)) / (phi(1.1) - phi(0.25)), u, Tolerance(1e-12));
   }
-  // So far in the tail that probabilities round to 1.
+  // The bounds are so far in the tail that probabilities round to 1.
   const Distribution far{
       .kind = DistributionKind::kNormal, .mean = 0.0, .deviation = 1.0, .min = 40.0, .max = 50.0};
   EXPECT_EQ(Quantile(far, 0.5), "40");

@@ -34,7 +34,7 @@ class StudyFiles : public testing::Test {
     return ReadStudy(folder_.Write("study.yaml", kHead + keys), overrides);
   }
 
-  /// What a user is told of a study and its points, without the folder.
+  /// Returns the error messages of a study and its points, without the folder.
   [[nodiscard]] std::string ErrorMessages(const std::string& keys,
                                           const std::vector<Override>& overrides = {}) const {
     return ErrorsOfText(kHead + keys, overrides);
@@ -138,7 +138,7 @@ TEST_F(Grid, LeavesOutKeysWhoseConditionDoesNotHold) {
                                    "control.method=preview control.distance=4 mission.speed=3",
                                    "control.method=schedule mission.speed=1",
                                    "control.method=schedule mission.speed=3"));
-  // Of several values, and on a grid; on what the study sets throughout.
+  // `when` may list several values, may belong to a grid, and may name keys that `set` defines.
   EXPECT_THAT(
       Written(StudyPoints(Read(R"(set: {drive.timestep: 0.002}
 vary:
@@ -203,7 +203,7 @@ vary:
   for (const std::string& point : Written(points)) {
     seen.insert(point);
   }
-  // A Latin hypercube of nine points has three in each third.
+  // A Latin hypercube of nine points has three points in each third of a key's range.
   EXPECT_EQ(seen, (std::multiset<std::string>{
                       "world.friction=0.3 mission.speed=1", "world.friction=0.3 mission.speed=1",
                       "world.friction=0.3 mission.speed=1", "world.friction=0.5 mission.speed=2",
@@ -423,7 +423,7 @@ bisect: {key: world.friction, from: 0.1, to: 1, tolerance: 0.1}
             "5\nstudy.yaml:7:9: world.friction: overwrites world.friction, set in line 6");
   EXPECT_EQ(ErrorMessages("vary: {seed: [1, 2]}\nrepeat: 3\n"),
             "study.yaml:4:15: seed: cannot be varied together with repeat, which sets the seed");
-  // What is set for all runs is where repeat begins, and a section may be refined.
+  // `repeat` begins with the seed in `set`, and `vary` may refine a section in `set`.
   EXPECT_EQ(ErrorMessages("set: {seed: 5, control: {method: preview}}\nrepeat: 3\n"
                           "vary: {control.distance: [2]}\n"),
             "no error");
@@ -464,7 +464,7 @@ TEST_F(Studies, TryBisectionsAtBothEndsAndBetween) {
   EXPECT_EQ(ErrorMessages("bisect: {key: mission.speed, from: 1, to: 400, tolerance: 0.1}\n"),
             "study.yaml:4:9: mission.speed: 400 is out of range; must be at least 0.1 and at most "
             "100");
-  // A whole number cannot be halved.
+  // A key with whole numbers cannot be bisected.
   EXPECT_EQ(ErrorMessages("bisect: {key: seed, from: 0, to: 8, tolerance: 1}\n"),
             "study.yaml:4:9: seed: expected a whole number from 0 to 18446744073709551615, found "
             "'3.055728090000841'");

@@ -61,8 +61,8 @@ TEST(MissionTrack, StartsWithTheSteeringOfTheTrack) {
                           ReferenceCar())
           .steering;
     };
-    // A ring of 40 m radius; the car 2 m to the left is on a circle of 38 m. The smoothing of the
-    // center line shrinks its radius by 0.02 m.
+    // The track is a ring with a radius of 40 m. A car 2 m to the left of the center line is on a
+    // circle with a radius of 38 m. Smoothing the center line reduces its radius by 0.02 m.
     EXPECT_NEAR(steering({}), std::atan(2.7 / 40.0), Tolerance(1e-4));
     EXPECT_NEAR(steering({"mission.start={x: 38}"}), std::atan(2.7 / 38.0), Tolerance(1e-4));
     EXPECT_EQ(steering({"mission.start={steering: -0.1}"}), -0.1);

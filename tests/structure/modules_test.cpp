@@ -133,9 +133,10 @@ TEST(Modules, OnlySimAndRenderIncludeMujoco) {
   EXPECT_GT(seen, 5U);  // the scan found the sources
 }
 
-// A planner declares in its registry entry what other modules must know of it. So the modules of
-// scenarios and runs do not include its header. Exceptions: a maneuver that measures the gates of
-// lane changes, the ground below a route over roads, and the verb that checks a path file.
+// The registry entry of a planner contains everything that other modules need. Therefore the
+// modules of scenarios and runs do not include the planner's header. Exceptions: a maneuver that
+// measures the gates of lane changes, the ground below a route over roads, and the verb that checks
+// a path file.
 TEST(Modules, KnowPlannersByTheirEntriesAlone) {
   const std::vector<std::string> shared{"common/", "registry/", "replan/", "avoidance/"};
   const std::vector<std::pair<std::string, std::string>> exceptions{
@@ -253,7 +254,7 @@ TEST(RunFolder, ItsFilesAreNamedInOnePlaceAlone) {
   }
 }
 
-/// The sources below a folder that contain one of the texts, but for `owners`.
+/// Returns the sources below a folder that contain one of the texts, except the files `owners`.
 std::vector<std::string> SourcesWith(const fs::path& folder, const std::vector<std::string>& texts,
                                      const std::vector<std::string>& owners) {
   std::vector<std::string> found;
@@ -279,7 +280,8 @@ TEST(Output, OfVerbsGoesThroughOneFunction) {
       SourcesWith("src/cli", {"fmt::print(", "std::cout", "std::cerr", "printf(", "fwrite("},
                   {"terminal.h"}),
       testing::IsEmpty());
-  // Of errors that nothing may hinder, and of a bar without texts of inputs.
+  // Exceptions are the error messages of main.cpp, which must always be printed, and the progress
+  // bar, which prints no text of inputs.
   EXPECT_THAT(SourcesWith("src/cli", {"fputs("}, {"main.cpp", "progress_bar.cpp"}),
               testing::IsEmpty());
 }

@@ -13,9 +13,9 @@ namespace trackbed {
 /// An obstacle in a turn, varied as in Skackauskas (dissertation), listing F.2.
 struct ObstacleCase {
   PassingSideChoice passing_side;  ///< on which side to pass: kInner or kOuter
-  double side;                     ///< of the turn: 1 to the left, -1 to the right
+  double side;                     ///< direction of the turn: 1 to the left, -1 to the right
   double reduction;                ///< the turn is smaller than a right angle by this [rad]
-  int sixth;                       ///< its position on the arc in sixths, 1 to 5
+  int sixth;                       ///< position of the obstacle on the arc in sixths, 1 to 5
 };
 
 inline std::vector<ObstacleCase> AllObstacleCases() {

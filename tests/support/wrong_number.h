@@ -11,8 +11,8 @@
 
 namespace trackbed {
 
-/// A number as a slip of the hand or of a unit spoils it: scaled, shifted, with another sign,
-/// without its point, or with two digits swapped.
+/// Returns a number with a typical input error: scaled, shifted, with the opposite sign, without
+/// its decimal point, or with two digits swapped.
 inline std::string WrongNumber(const std::string& number, std::mt19937_64& random) {
   const double value = std::strtod(number.c_str(), nullptr);
   const std::vector<double> values{
@@ -32,7 +32,7 @@ inline std::string WrongNumber(const std::string& number, std::mt19937_64& rando
   return text;
 }
 
-/// A text with one of its numbers, from `from` on, spoiled.
+/// Returns a text in which one number, at the position `from` or later, has a typical input error.
 inline std::string WithWrongNumber(const std::string& text, std::size_t from,
                                    std::mt19937_64& random) {
   static const std::regex number(R"([-+]?[0-9]+(\.[0-9]*)?([eE][-+]?[0-9]+)?)");

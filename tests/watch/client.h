@@ -89,7 +89,7 @@ class LiveClient {
     socket_.read(buffer);
     return nlohmann::json::parse(beast::buffers_to_string(buffer.data()));
   }
-  /// The next message of that type.
+  /// Returns the next message of this type.
   nlohmann::json HearOf(const std::string& type) {
     for (;;) {
       nlohmann::json message = Hear();

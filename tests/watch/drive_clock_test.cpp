@@ -140,7 +140,7 @@ TEST(DriveClock, StepsAllPlantsByOnePeriod) {
   plants.Join();
 }
 
-// One plant has begun a period, the other one is still on its way into it when the pause begins.
+// When the pause begins, one plant has begun a period and the other plant has not yet.
 TEST(DriveClock, PausesAllPlantsAtTheSameTime) {
   for (int repetition = 0; repetition < 200; ++repetition) {
     DriveClock clock(2, kPeriod, kInfinity, false);

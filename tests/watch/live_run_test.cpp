@@ -16,7 +16,7 @@ using nlohmann::ordered_json;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-/// A page with one plant, of whose logs it shows times and speeds.
+/// Data of a page with one plant. The page shows the times and speeds of the plant's log.
 ordered_json OnePlant() {
   const ordered_json plant{{"name", "kinematic"},
                            {"log", {{"t", {0.0}}, {"speed", {0.0}}}},
@@ -32,7 +32,8 @@ RunLog EmptyLog() {
           .configurations = Table({"t_s"})};
 }
 
-/// Logs rows at 0, 0.02, ... s, with a speed of 7 times their number, and a configuration each.
+/// Logs a row and a configuration at each of the times 0, 0.02, ... s. The speed of a row is 7
+/// times its index.
 void LogRows(const DriveHooks& hooks, int count) {
   RunLog log = EmptyLog();
   Table configurations({"t_s", "x_m"});
@@ -46,7 +47,7 @@ void LogRows(const DriveHooks& hooks, int count) {
   }
 }
 
-/// Everything that a page is told until there is nothing more.
+/// Returns all messages that a page receives until there are no more.
 std::vector<json> HearAll(const LiveRun& run, LiveRun::Cursor& cursor) {
   std::vector<json> messages;
   while (const std::optional<std::string> text = run.Next(cursor)) {
@@ -67,13 +68,13 @@ TEST(ParseSpeed, TakesNumbersInRangeAndMax) {
 
 TEST(LiveRun, TellsStateFirstThenRowsOnce) {
   LiveRun run(OnePlant(), "abc", 0.02, 2.5, false);
-  run.Interrupt();  // nobody waits for the clock
+  run.Interrupt();  // no plant waits for the clock
   LogRows(run.HooksOf("kinematic"), 3);
   LiveRun::Cursor cursor;
   const std::vector<json> messages = HearAll(run, cursor);
   ASSERT_EQ(messages.size(), 2U);
   EXPECT_EQ(messages[0], json::parse(R"({"type":"state","id":"abc","paused":false,"speed":2.5})"));
-  // Poses at most every 1/30 s: that at 0.02 s is left out.
+  // Poses are sent at most every 1/30 s, so the pose at 0.02 s is omitted.
   EXPECT_EQ(messages[1], json::parse(R"({"type":"rows","plants":[{"first":[0,0,0],
     "rows":[[0,0],[0.02,7],[0.04,14]],"poses":[[0,0],[0.04,6]],"plans":[]}]})"));
 }

@@ -16,7 +16,8 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using Close = beast::websocket::close_code;
 
-/// A run that waits at its start and gets all kinds of requests. It must still serve after each.
+/// A run that waits at its start and receives all kinds of requests. After each request, the server
+/// must still answer.
 class ServerOfARun : public testing::Test {
  protected:
   [[nodiscard]] std::uint16_t port() const { return run_.port(); }
