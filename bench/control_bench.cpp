@@ -110,7 +110,7 @@ double BareSteering(nlopt::algorithm algorithm, const VehicleParams& car,
   try {
     search.optimize(x, value);
   } catch (const nlopt::roundoff_limited&) {
-    // Uses the best point so far.
+    // Ignore the exception: NLopt keeps the best point so far.
   }
   return SteeringOfShare(car, problem, x[0]);
 }

@@ -77,7 +77,7 @@ class Listener {
   static inline Feed* feed_ = nullptr;  // the callback is a plain function
 };
 
-/// A scenario with its car and plan, for drives on MuJoCo.
+/// A scenario with its car and plan, for runs on MuJoCo.
 struct Drive {
   explicit Drive(const std::string& name)
       : scenario(ReadScenario(DataFolder() / "scenarios" / (name + ".yaml"))),

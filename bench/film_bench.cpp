@@ -40,8 +40,8 @@ class RunFolder {
 };
 
 /// Times a film from its first picture (earlier work does not grow with the film) until the file is
-/// complete. The baseline: MuJoCo draws the same scenes, with the same overlays, shadows and
-/// samples, and reads them back. Both draw with the library that MUJOCO_GL selects.
+/// complete. The baseline draws the same scenes with MuJoCo, with the same overlays, shadows and
+/// samples, and reads the pictures back. Both use the OpenGL library that MUJOCO_GL selects.
 void Film(benchmark::State& state, const char* quality, double limit) {
   if (VideoEncoder() == "off") {
     state.SkipWithError("built without video");
@@ -82,7 +82,7 @@ void Film(benchmark::State& state, const char* quality, double limit) {
   state.counters["frames_per_s"] = kFrames / ours;
 }
 
-/// Compares a picture of draft quality with all overlays with the same one without them.
+/// Compares drawing a picture of draft quality with and without overlays.
 void DraftOverlays(benchmark::State& state) {
   const RunFolder folder;
   const MujocoErrorScope errors;

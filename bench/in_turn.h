@@ -24,10 +24,10 @@ class Stopwatch {
 using Timed = std::function<double()>;
 
 /// Compares two implementations of the same work. Each round executes both, in alternating order,
-/// so that other load on the machine affects both alike. Counters: the medians over the rounds,
-/// `ours_s` and `bare_s`; the median and quartiles of the rounds' ratios, `ratio`, `ratio_q1` and
-/// `ratio_q3`; and the goal for the ratio, `limit`. The benchmark must be registered with
-/// UseManualTime; its time is that of `ours`.
+/// so that other load on the machine affects both in the same way. Counters: the medians over the
+/// rounds, `ours_s` and `bare_s`; the median and quartiles of the rounds' ratios, `ratio`,
+/// `ratio_q1` and `ratio_q3`; and the goal for the ratio, `limit`. The benchmark must be registered
+/// with UseManualTime; its time is that of `ours`.
 ///
 /// Returns the median of `ours` [s].
 double CompareInTurn(benchmark::State& state, double limit, const Timed& ours, const Timed& bare);

@@ -44,7 +44,8 @@ class Edges : public ob::MotionValidator {
   const RrtStarProblem& problem_;
 };
 
-/// OMPL's problem for a map: sampled box, start, goal and edges. The map must outlive it.
+/// OMPL's problem for a map: sampled box, start, goal and edges. The map must outlive the returned
+/// problem.
 inline ob::ProblemDefinitionPtr MakeProblem(const RrtStarProblem& problem) {
   const auto space = std::make_shared<ob::RealVectorStateSpace>(2);
   ob::RealVectorBounds bounds(2);

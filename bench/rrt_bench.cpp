@@ -49,9 +49,9 @@ Run Ours(const RrtStarProblem& map, int budget, std::uint64_t seed) {
           result.ok() ? result.length : std::numeric_limits<double>::infinity()};
 }
 
-/// OMPL's RRT, from the first sample to the last, without its setup. Its random generators share
-/// the program's one seed and continue from run to run. It checks the termination condition once
-/// per iteration.
+/// Times OMPL's RRT from the first sample to the last, without its setup. Its random generators
+/// share the program's one seed and continue from run to run. OMPL checks the termination condition
+/// once per iteration.
 Run Ompls(const RrtStarProblem& map, int budget) {
   const ob::ProblemDefinitionPtr definition = MakeProblem(map);
   ompl::geometric::RRT planner(definition->getSpaceInformation());

@@ -37,8 +37,8 @@ Run Ours(const RrtStarProblem& problem, int iterations, std::uint64_t seed) {
   return {stopwatch.Seconds(), result.cost};
 }
 
-/// OMPL's RRT*, from the first sample to the last, without its setup. Its random generators share
-/// the program's one seed and continue from run to run.
+/// Times OMPL's RRT* from the first sample to the last, without its setup. Its random generators
+/// share the program's one seed and continue from run to run.
 Run Ompls(const RrtStarProblem& problem, int iterations) {
   const ob::ProblemDefinitionPtr definition = MakeProblem(problem);
   const ob::SpaceInformationPtr information = definition->getSpaceInformation();

@@ -59,8 +59,8 @@ int Asked(SearchMethod method, int budget, int evaluations) {
   return all ? budget : evaluations;
 }
 
-/// Time of Trackbed's search with the objective and constraint of a turn [s]. It checks and keeps
-/// each point.
+/// Time of Trackbed's search with the objective and constraint of a turn [s]. The search checks and
+/// keeps each point.
 double OursSeconds(SearchMethod method, int budget) {
   const SearchProblem problem{
       .lower = {5.1},
@@ -113,7 +113,7 @@ double BareSeconds(nlopt::algorithm algorithm, int budget, double (*objective)(d
     try {
       search.optimize(x, value);
     } catch (const nlopt::roundoff_limited&) {
-      // Uses the best point so far.
+      // Ignore the exception: NLopt keeps the best point so far.
     }
     benchmark::DoNotOptimize(value);
     return counted.evaluations;

@@ -289,7 +289,7 @@ TEST(WriteComparison, LeavesTheFiguresAndTheCurves) {
   EXPECT_THAT(table.Column("pair"), ElementsAre(0.0, 0.0, 1.0, 1.0));
   EXPECT_THAT(table.Column("s_m"), ElementsAre(0.0, 10.0, 0.0, 10.0));
   EXPECT_THAT(table.Column("y_m"), testing::Each(0.5));
-  // Relative to the output folder, also for absolute paths.
+  // The paths of the runs are relative to the output folder, even if absolute paths were given.
   EXPECT_EQ(json["runs"], nlohmann::json({"../a", "../b"}));
   RunComparison moved{.runs = {fs::relative(a)}};
   folder.Write("c/report.html", std::string(kPageMark));

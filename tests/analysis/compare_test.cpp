@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-/// Rows at these stations of a run along y = `offset` at 2 m/s.
+/// A trace along y = `offset` at 2 m/s, with rows at these stations.
 Trace Line(const std::string& name, const std::vector<double>& stations, double offset) {
   Trace trace{.name = name};
   for (const double s : stations) {
@@ -56,7 +56,8 @@ TEST(CompareTraces, LeavesOutGapsOfARecord) {
   const PlantComparison c = CompareTraces(Line("a", {0, 1, 15, 25}, 0.0), second);
   EXPECT_DOUBLE_EQ(c.position.max, 5.0);
   EXPECT_EQ(c.position.max_s, 20.0);
-  // RMS over 10 m with a difference of 1 m and 5 m with a difference of 5 m: sqrt((10 + 125)/15).
+  // The position difference is 1 m over 10 m and 5 m over 5 m, so its RMS is sqrt((10 * 1 + 5 *
+  // 25)/15) m.
   EXPECT_DOUBLE_EQ(c.position.rms, 3.0);
   EXPECT_EQ(DifferencesOverArcLength(Line("a", {0, 1, 15, 25}, 0.0), second).rows(), 6U);
 }
@@ -77,8 +78,9 @@ TEST(CompareTraces, KnowsHowFarShiftedLinesAreApart) {
 }
 
 TEST(CompareTraces, IntegratesOverArcLengthAndNotOverRows) {
-  // The difference is 0 up to s = 6 and grows to 0.9 at s = 9. The mean square over 9 m is a third
-  // of that of a line from 0 to 0.9: 0.81/3/3. Rows are dense where the runs agree.
+  // The difference is 0 up to s = 6 m and grows linearly to 0.9 m at s = 9 m. Its mean square is
+  // 0.81/3 over the last 3 m, and a third of this, 0.81/3/3, over all 9 m. Rows are dense where the
+  // runs agree.
   Trace bent = Line("b", {0, 1, 2, 3, 4, 5, 6, 9}, 0.0);
   bent.pose.back().y = 0.9;
   const PlantComparison c = CompareTraces(Line("a", {0, 9}, 0.0), bent);
@@ -89,9 +91,9 @@ TEST(CompareTraces, IntegratesOverArcLengthAndNotOverRows) {
 }
 
 TEST(CompareTraces, KnowsHowTwoCirclesPart) {
-  // Both circles start on one tangent: |p_2 - p_1| follows from their equations, psi = s/R, psi' =
-  // v/R, delta = atan(L/R). Between rows, chords of length h deviate from the circle by h^2/(8 R) =
-  // 1.25 um. The largest difference is at the end.
+  // Both circles start with the same tangent. The differences follow from the equations of the
+  // circles, psi = s/R, psi' = v/R and delta = atan(L/R). Between rows, chords of length h deviate
+  // from the circle by h^2/(8 R) = 1.25 um. The largest difference is at the end.
   constexpr double kLength = 15.0;
   constexpr double kSpacing = 0.01;
   const Trace a = Circle("a", 10.0, 2.7, kLength, kSpacing);

@@ -150,8 +150,8 @@ TEST(StepSteer, OfFirstOrder) {
       row.state.sideslip = -side * 0.02 * share;
     });
     const ManeuverMetrics metrics = Evaluated(StepSteerOptions{}, log);
-    // Linear interpolation between rows deviates by h^2/(8 tau^2) of the remaining 0.1; divided by
-    // the slope 0.1/tau, that is 6e-5 s.
+    // Linear interpolation between rows errs by the fraction h^2/(8 tau^2) of the remaining 0.1.
+    // Divided by the slope 0.1/tau, this is a time of 6e-5 s.
     const double response = kTau * std::log(10.0);
     EXPECT_NEAR(Of(metrics, "yaw_rate_response_time"), response, Tolerance(7e-5));
     EXPECT_NEAR(Of(metrics, "lateral_acceleration_response_time"), response, Tolerance(7e-5));
@@ -160,8 +160,8 @@ TEST(StepSteer, OfFirstOrder) {
     EXPECT_NEAR(Of(metrics, "yaw_rate_gain"), 6.0, Tolerance(1e-7));
     EXPECT_NEAR(Of(metrics, "yaw_rate_overshoot"), 0.0, Tolerance(1e-8));
     EXPECT_EQ(Of(metrics, "speed"), 25.0);
-    // In each of 10 control periods of the evaluated 4.99 s the actuator moves toward the command;
-    // only the last one reaches it.
+    // The actuator moves toward the command in 10 control periods of the evaluated 4.99 s, and
+    // reaches the command only in the last one.
     EXPECT_NEAR(metrics.steering_saturated_fraction, 9.0 / 500.0, Tolerance(1.1 / 500.0));
   }
 }
@@ -233,8 +233,8 @@ TEST(SineWithDwell, GivesRatiosAndDisplacement) {
 TEST(SineWithDwell, FailsWhatTurnsOnOrHardlyMoves) {
   EXPECT_EQ(Evaluated(SineWithDwellTestOptions{}, SineWithDwellLog(1.0, 2.0, 4.0, 5.0)).passed,
             false);
-  // The displacement is 0.5 a (1.07 s)^2. It reaches the required 1.83 m only if the acceleration a
-  // is at least 3.2 m/s^2.
+  // The displacement is 0.5 a (1.07 s)^2, so the required 1.83 m need an acceleration of a >= 3.2
+  // m/s^2.
   EXPECT_EQ(Evaluated(SineWithDwellTestOptions{}, SineWithDwellLog(1.0, 0.5, 3.0, 5.0)).passed,
             false);
   const ManeuverMetrics cut =
@@ -286,8 +286,8 @@ TEST(LaneChange, FindsTheSmallestMarginAndItsGate) {
   EXPECT_NEAR(Of(straight, "margin_5"), 1.5 - 0.8 - 0.1, Tolerance(kRounding));
   EXPECT_EQ(Of(straight, "margin_gate"), 1.0);
   EXPECT_EQ(straight.passed, true);
-  // The front end, 3.5 m ahead, reaches 15 m after 0.575 s: the row of 0.58 s. The rear end reaches
-  // 85 m after 4.3 s.
+  // The front end, 3.5 m ahead of the rear axle, reaches x = 15 m after 0.575 s, so the first row
+  // in the gates is at 0.58 s. The rear end reaches x = 85 m after 4.3 s.
   EXPECT_NEAR(Of(straight, "entry_speed"), 19.42, Tolerance(kRounding));
   EXPECT_NEAR(Of(straight, "speed_loss"), 4.3 - 0.58, Tolerance(kStep + kRounding));
   // For a car turned by psi, the front left corner is at 3.5 sin psi + 0.8 cos psi, the rear right
@@ -317,7 +317,7 @@ RunLog BrakingLog(double curvature, double turned) {
     state.pose.x = curvature == 0.0 ? state.distance : std::sin(yaw) / curvature;
     state.pose.y = curvature == 0.0 ? 0.0 : (1.0 - std::cos(yaw)) / curvature;
     state.pose.yaw = yaw + turned * u / 3.0;
-    // The lateral speed of a rear axle without slip.
+    // The lateral speed of the center of gravity if the rear axle does not slip.
     state.lateral_speed = 1.2 * state.yaw_rate;
     row.command.acceleration = t >= 1.0 - 1e-9 ? -8.0 : 0.0;
   });
@@ -417,7 +417,8 @@ TEST(Verdict, NotesSteeringThatIsLimited) {
 }
 
 TEST(DescribeManeuverMetric, KnowsTheLimitsOfStandards) {
-  // Limits of ISO 19365 and FMVSS 126: 35 %, 20 % and 1.83 m (6 ft). ISO 3888: inside the gates.
+  // The limits of ISO 19365 and FMVSS 126 are yaw rate ratios of 35 % and 20 % and a displacement
+  // of 1.83 m (6 ft). ISO 3888 requires that the car stays inside the gates.
   using Relation = StandardLimit::Relation;
   const auto limit = [](const char* name) { return DescribeManeuverMetric(name)->limit; };
   ASSERT_TRUE(limit("yaw_rate_ratio_1_00"));

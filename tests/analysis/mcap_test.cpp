@@ -215,7 +215,7 @@ TEST(Mcap, IsReadByTheOfficialReader) {
   const std::string file = ToMcap(run);
   const std::optional<json> found = ReadOfficially(folder, file);
   SKIP_WITHOUT_READER(found);
-  // The test's own reader, from the first record to the last.
+  // Reads the file with the test's own reader, from the first record to the last.
   const Contents contents = Read(file);
   std::map<std::string, std::size_t> counts;
   for (const Contents::Message& message : contents.messages) {

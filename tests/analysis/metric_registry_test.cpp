@@ -106,7 +106,7 @@ TEST(RegisterMetric, RefusesWhatIsTakenOrMalformed) {
                 HasSubstr("conflicts with"))
         << taken;
   }
-  // Its station would have the same path as that of the clearance.
+  // A metric with a station is refused for the same reason.
   EXPECT_THAT(
       Refused({.path = "cross_track.max", .label = "A", .measure = HalfWay, .located = true}),
       HasSubstr("conflicts with"));
@@ -134,7 +134,7 @@ TEST(RegisterMetric, MakesAMetricLikeAnyOther) {
   EXPECT_THAT(PossibleMetrics(scenario), Contains("test_half_way_s"));
   EXPECT_THAT(PossibleOutputs(scenario), Contains("metrics.*.test_half_way"));
   const RunResult run = RunScenario(scenario);
-  // 1 s at 3 m/s.
+  // The car drives 3 m, for 1 s at 3 m/s.
   EXPECT_EQ(run.verdict.failures,
             std::vector<std::string>{
                 "kinematic: test_half_way 1.5 m exceeds 1 m at s = 1.5 m, t = 0.5 s"});

@@ -49,8 +49,8 @@ TEST(YawRateRatio, IsThatOfTheUndersteerGradient) {
 }
 
 TEST(YawRateRatio, IsNotSaidOfACarThatHardlyTurned) {
-  // With the steering amplitude A, the RMS yaw rate is (10 m/s)/(2.5 m) tan(A)/sqrt(2). It reaches
-  // the threshold of 1e-3 rad/s at A = 0.35e-3 rad.
+  // With the steering amplitude A, the RMS yaw rate is (10 m/s)/(2.5 m) tan(A)/sqrt(2). The RMS
+  // reaches the threshold of 1e-3 rad/s at A = 0.35e-3 rad.
   EXPECT_TRUE(Ratio(10.0, 5e-4, 0.0).has_value());
   EXPECT_FALSE(Ratio(10.0, 2e-4, 0.0).has_value());
   EXPECT_FALSE(Ratio(0.0, 0.1, 0.0).has_value());
@@ -95,8 +95,8 @@ double Saturated(double step, double limit, const std::function<double(int)>& co
 }
 
 TEST(SaturatedFraction, CountsTheRateLimit) {
-  // Turning by 0.08 rad at 0.008 rad per period takes ten periods. The last of them reaches the
-  // command, so only nine are saturated.
+  // Turning by 0.08 rad at 0.008 rad per period takes ten periods. The last of these periods
+  // reaches the command, so only nine periods are saturated.
   EXPECT_EQ(Saturated(0.008, 0.5, [](int i) { return i >= 100 ? 0.08 : 0.0; }), 9.0 / 400.0);
 }
 

@@ -124,7 +124,7 @@ TEST(OutputFolder, LosesWhatAKilledWriterHadNotCompleted) {
   Write(folder.path(), "run", {"metrics.json"}, "old");
   folder.Write(".trackbed.partial/metrics.json", "half");
   folder.Write(".trackbed.partial/manifest.json", "{}");
-  // The last line may be cut off, and then its file was not begun.
+  // The last line may be truncated. The file that it names was then not begun.
   folder.Write(".trackbed.partial/.written", "metrics.json\nmanifest.json\nplan.c");
   folder.Write(".video.1-0.trackbed.mp4", "half");
   const auto film = LockFolderOf(folder.path() / "video.mp4", folder.path());
@@ -226,7 +226,7 @@ TEST(OutputFolder, OfSomebodyElsesFilesIsRefused) {
   { const OutputFolder page(folder.path(), OutputFolder::For::kAddition); }
 }
 
-// A folder with a result has files of its user, too: names of results that it does not have.
+// The user may have files in the folder of a result, under names that other results use.
 TEST(OutputFolder, OfAResultKeepsFilesOfOthers) {
   const std::vector<std::string> own{"metrics.json", "model.xml"};
   for (const std::string& name : run_folder::AllNames()) {
@@ -382,7 +382,8 @@ TEST(RemoveResults, GoesThroughNoLink) {
   EXPECT_EQ(ReadFile(folder.path() / "mine/metrics.json"), "a");
 }
 
-// Names from input become file names elsewhere (FileNameOf); a path that gets so far is refused.
+// Other functions convert names from inputs to file names (FileNameOf), so ResultWriter rejects
+// names that are paths.
 TEST(ResultWriter, TakesPlainFileNamesOnly) {
   const TempFolder folder;
   folder.Write("victim.xml", "mine");

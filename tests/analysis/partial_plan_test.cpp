@@ -10,7 +10,8 @@
 #include "trackbed/core/file.h"
 #include "trackbed/planning/sampling/rrt_planner.h"
 
-// A plan that covers only part of the route is driven to its end and not reported as an arrival.
+// Tests plans that cover only part of the route: the car drives to the end of the plan, and the run
+// is not reported as an arrival.
 namespace trackbed {
 namespace {
 

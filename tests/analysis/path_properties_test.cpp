@@ -53,8 +53,9 @@ TEST(PathProperties, OfALineAndAnArc) {
   EXPECT_EQ(Property("clearance_min_m", plan), std::nullopt);
 }
 
-// kappa(d) = 0.1 - 0.02 d over 10 m: half of it to the left, half to the right. The integral of its
-// square is 2 (0.1^2 5/3), that of its absolute value 2 (0.1 5/2).
+// The curvature kappa(d) = 0.1 - 0.02 d over 10 m turns to the left on the first half and to the
+// right on the second half. The integral of kappa^2 is 2 (0.1^2 5/3), and the integral of |kappa|
+// is 2 (0.1 5/2).
 TEST(PathProperties, OfAClothoidThatTurnsBothWays) {
   const Plan plan = PlanOf({{.length = 10.0, .curvature = 0.1, .sharpness = -0.02}});
   EXPECT_NEAR(*Property("curvature_max_radpm", plan), 0.1, kRounding);
@@ -64,9 +65,9 @@ TEST(PathProperties, OfAClothoidThatTurnsBothWays) {
   EXPECT_NEAR(*Property("curvature_jump_max_radpm", plan), 0.0, kRounding);
 }
 
-// kappa(d) = 0.01 (d - 2) (d - 6) over 8 m, with its minimum -0.04 in the middle. It turns by
-// 32/300 rad three times, to alternating sides, as the integral of (d - 2) (d - 6) is 32/3 from 0
-// to 2, -32/3 from 2 to 6 and 32/3 from 6 to 8.
+// The curvature is kappa(d) = 0.01 (d - 2) (d - 6) over 8 m, with the minimum -0.04 in the middle.
+// The path turns by 32/300 rad three times, to alternating sides: the integral of (d - 2) (d - 6)
+// is 32/3 from 0 to 2, -32/3 from 2 to 6 and 32/3 from 6 to 8.
 TEST(PathProperties, OfAQuadraticCurvatureThatCrossesZeroTwice) {
   const Plan plan =
       PlanOf({{.length = 8.0, .curvature = 0.12, .sharpness = -0.08, .sharpness_rate = 0.02}});
@@ -75,7 +76,7 @@ TEST(PathProperties, OfAQuadraticCurvatureThatCrossesZeroTwice) {
   EXPECT_NEAR(*Property("curvature_rate_max_radpm2", plan), 0.08, kRounding);
   const Plan middle =
       PlanOf({{.length = 8.0, .curvature = 0.0, .sharpness = -0.08, .sharpness_rate = 0.02}});
-  // -0.08 d + 0.01 d^2, least at d = 4: -0.16.
+  // The curvature -0.08 d + 0.01 d^2 is least at d = 4 m, where it is -0.16.
   EXPECT_NEAR(*Property("curvature_max_radpm", middle), 0.16, kRounding);
 }
 

@@ -44,8 +44,8 @@ double Number(const PlantMetrics& metrics, const std::string& path) {
   return 0.0;
 }
 
-/// Straight ahead at 2 m/s for 10 s, with a yaw rate and a lateral acceleration that do not match
-/// this motion.
+/// A recording straight ahead at 2 m/s for 10 s, with a yaw rate and a lateral acceleration that do
+/// not match this motion.
 RecordedDrive Straight() {
   RecordedDrive drive{.name = "straight", .period = 0.1};
   for (int i = 0; i <= 100; ++i) {
@@ -78,7 +78,7 @@ TEST(MeasureAgainstRecord, ComparesAtEqualTime) {
   const RunLog log = Beside(drive);
   const auto metrics = MeasureAgainstRecord(log, drive, {.cg_to_rear = 0.0}, 0.3);
   ASSERT_TRUE(metrics);
-  // Exact except for rounding.
+  // The metrics are exact except for rounding.
   EXPECT_NEAR(metrics->yaw_rate_relative_rms, 0.25, Tolerance(1e-12));
   EXPECT_NEAR(metrics->lateral_acceleration_relative_rms, 0.25, Tolerance(1e-12));
   EXPECT_NEAR(metrics->position_max, 0.1, Tolerance(1e-12));

@@ -33,7 +33,7 @@ TEST(RecoveryTime, IsTheTimeUntilTheCarStaysNearItsPath) {
     return t <= 2.0 ? 0.0 : -0.5 * std::exp(2.0 - t) * std::cos(kPi * (t - 2.0));
   };
   // The swings have amplitudes 0.5 e^-1 and 0.5 e^-2 at 1 s and 2 s, and 0.025 at 3 s. The error
-  // last exceeds 0.05 between 2 s and 3 s, at e^-t |cos(pi t)| = 0.1: t = 2.16.
+  // last exceeds 0.05 between 2 s and 3 s, until e^-t |cos(pi t)| = 0.1 at t = 2.16 s.
   const std::optional<RecoveryMetrics> recovery = Recovery(disturb, swings_back);
   ASSERT_TRUE(recovery);
   EXPECT_EQ(recovery->from, 2.0);

@@ -100,7 +100,8 @@ TEST(RequirementMetrics, AreChecksOfTheVerdictAndMetrics) {
     const PlantMetrics& plant = run.metrics[i];
     SCOPED_TRACE(plant.plant);
     ASSERT_EQ(plant.requirements.size(), 2U);
-    // Computed from the log's rows; |.| and a difference are exact to an ulp of 5.
+    // The reference is computed from the rows of the log. Absolute values and differences are exact
+    // to an ulp of 5.
     double furthest = 0.0;
     double fastest = 0.0;
     for (const LogRow& row : run.logs[i].rows) {

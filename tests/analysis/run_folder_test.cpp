@@ -150,7 +150,7 @@ TEST(RunFolder, RequiresFilesByName) {
 // A file that a run writes and the list lacks would survive the next run into the folder.
 TEST(RunFolder, ListsWhateverARunAndItsComparisonWrite) {
   const TempFolder folder;
-  // Contains searched turns and a replan.
+  // This run contains searched turns and a replan.
   const RunResult run =
       RunScenario(Read("obstacle_appears", {"plan.global={method: fillet, objective: turn_local}",
                                             "drive.time_limit=25", "expect={}"}));

@@ -59,8 +59,8 @@ TEST_P(Routes, PreviewTracksThemOnEveryPlant) {
     EXPECT_EQ(metrics.status, DriveStatus::kArrived);
     EXPECT_LE(metrics.tracking->cross_track_max, 0.15);
     EXPECT_LE(metrics.tracking->goal_distance, 0.5);
-    // The steering rate is measured at the knuckles over 0.1 s. It may exceed the limit by 2 %,
-    // because the servo overshoots.
+    // The steering rate is measured at the knuckles over 0.1 s. The rate may exceed the limit by 2
+    // %, because the servo overshoots.
     EXPECT_LE(metrics.steering_rate_max, 1.02 * 0.15056818181818182);
     EXPECT_GT(metrics.steering_rate_max, 0.05);  // it did steer
   }
@@ -69,8 +69,8 @@ TEST_P(Routes, PreviewTracksThemOnEveryPlant) {
 TEST_P(Routes, StopWhereTheSchedulePredicts) {
   // The expected goal distances were computed independently of this program: with eq. (C.40) of
   // Skackauskas, dissertation, for the rear axle, wheels that follow the schedule exactly, and a
-  // stop after the length of the plan. They are 0.1285 m for route A (three_turns) and 0.0104 m for
-  // route B.
+  // stop after the length of the plan. The expected goal distances are 0.1285 m for route A
+  // (three_turns) and 0.0104 m for route B.
   const bool is_a = std::string(GetParam()) == "three_turns";
   const double converged = is_a ? 0.1285 : 0.0104;
   for (const double period : {0.001, 0.002, 0.004, 0.01, 0.02}) {
@@ -105,8 +105,8 @@ TEST(SteeringCircle, HasTheKinematicRadiusOnContacts) {
   const double radius = 2.7 / std::tan(kPi / 18.0);  // 15.3125 m
   for (const RunLog& log : result.logs) {
     SCOPED_TRACE(log.plant);
-    // A circle through three points a third of a lap apart; the first one lies after the initial
-    // transient.
+    // Computes the radius of the circle through three points a third of a lap apart. The first
+    // point lies after the initial transient.
     const std::size_t n = log.rows.size();
     const Vec2 a = log.rows[n / 4].state.pose.position();
     const Vec2 b = log.rows[n / 2].state.pose.position();
@@ -207,7 +207,8 @@ TEST(WriteRunFolder, TellsWhatTheControllerDidAndWhatItTook) {
   EXPECT_THAT(csv.substr(0, csv.find('\n')),
               testing::EndsWith(
                   ",deviation_x_m,deviation_y_m,deviation_yaw_rad,search_evaluations,search_cost"));
-  // One update per row except the last one, which repeats the controller's data of the row before.
+  // There is one update per row, except for the last row, which repeats the controller's data of
+  // the previous row.
   const auto timing = nlohmann::json::parse(ReadFile(folder.path() / "timing.json"));
   const auto& steering = timing["plants"]["kinematic"]["steering"];
   const std::size_t rows = result.logs.front().rows.size();
@@ -285,9 +286,9 @@ TEST(WriteRunFolder, WritesTheColumnsOfTheContract) {
   for (std::size_t i = 1; i < s.size(); ++i) {
     EXPECT_LE(s[i] - s[i - 1], 0.1 + 1e-9);
   }
-  // One row per control period, the end included: 1 s / 20 ms + 1.
+  // There is one row per control period, including the end of the run: 1 s / 20 ms + 1 rows.
   EXPECT_EQ(ReadCsv(folder.path() / "mujoco.csv").rows(), 51U);
-  // One configuration per 1/60 s, both ends included.
+  // There is one configuration per 1/60 s, including both ends.
   EXPECT_EQ(ReadCsv(folder.path() / "mujoco.state.csv").rows(), 61U);
 }
 

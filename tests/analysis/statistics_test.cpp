@@ -77,8 +77,9 @@ TEST(WilsonInterval, KnowsNothingOfNoTrial) {
   EXPECT_THROW(WilsonInterval(1, 2, 1.0), PreconditionError);
 }
 
-// By definition, as many of the other values lie below a quantile as above, counted here by brute
-// force. Between two members of the sample, quantiles are interpolated linearly.
+// By definition, the fraction p of the other values lies below the quantile p. The test counts
+// these values by brute force. Between two members of the sample, quantiles are interpolated
+// linearly.
 TEST(Quantiles, HaveTheirShareOfTheSampleBelow) {
   EXPECT_EQ(Quantiles({4.0, 1.0, 3.0, 2.0}, {0.0, 0.25, 0.5, 1.0}),
             (std::vector<double>{1.0, 1.75, 2.5, 4.0}));
@@ -171,8 +172,8 @@ TEST(FirstOrderIndices, AreThoseOfIshigamisFunction) {
       // lies within four of them with a probability of 1 - 1/16 000.
       EXPECT_NEAR(indices[i]->index, truth[i], 0.0014 + 4.0 / 1.96 * half) << i;
       // The standard deviation of the index of 16384 samples is about sqrt(1 / 16384) = 0.008, and
-      // less than twice as much for these outputs. Half an interval is 1.96 standard deviations, so
-      // it is below 0.03.
+      // less than twice as much for these outputs. Half an interval is 1.96 standard deviations,
+      // which is below 0.03.
       EXPECT_LT(half, 0.03) << i;
       EXPECT_GT(half, 0.001) << i;
     }
@@ -249,7 +250,7 @@ TEST(ComparePairs, HasTheExactSignTest) {
   EXPECT_THROW(ComparePairs({1.0}, {}, 0.95), PreconditionError);
 }
 
-// Ten pairs whose squared rank differences sum to 194: 1 - 6 194/(10 (100 - 1)).
+// The squared rank differences of the ten pairs sum to 194, so rho is 1 - 6 * 194/(10 (100 - 1)).
 TEST(CorrelateRanks, IsSpearmans) {
   const std::vector<double> a{106, 100, 86, 101, 99, 103, 97, 113, 112, 110};
   const std::vector<double> b{7, 27, 2, 50, 28, 29, 20, 12, 6, 17};
@@ -257,7 +258,7 @@ TEST(CorrelateRanks, IsSpearmans) {
   EXPECT_NEAR(correlation.rho, -29.0 / 165.0, 1e-14);
   EXPECT_LT(correlation.interval.low, correlation.rho);
   EXPECT_GT(correlation.interval.high, correlation.rho);
-  // The two equal values share the mean of their ranks: 4.5/sqrt(4.5 5).
+  // The two equal values share the mean of their ranks, so rho is 4.5/sqrt(4.5 * 5).
   EXPECT_NEAR(CorrelateRanks({1, 2, 2, 3}, {1, 2, 3, 4}, 0.95)->rho, std::sqrt(0.9), 1e-14);
   // Any strictly increasing relation has rho = 1, whatever its shape.
   const RankCorrelation rising =
@@ -276,7 +277,7 @@ TEST(CorrelateRanks, IsNoneOfWhatDoesNotVary) {
 }
 
 // For a bivariate normal distribution with correlation r, rho is 6/pi asin(r/2) (Pearson 1907). The
-// probability that fewer than 178 of 200 intervals of 95 % contain it is 2e-4.
+// probability that fewer than 178 of 200 intervals of 95 % contain rho is 2e-4.
 TEST(CorrelateRanks, HasIntervalsThatContainTheTruth) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal;

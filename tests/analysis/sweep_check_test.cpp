@@ -27,7 +27,8 @@ TEST(CheckStudy, NamesOutputsThatNoRunCanHave) {
             "mean 'metrics.mujoco.cross_track.max'?\n"
             "study.yaml:8:5: outputs[2]: unknown metric 'plan.length'; did you mean "
             "'plan.length_m'?");
-  // Five waypoints make three turns; there are no obstacles, and only the plants of winding.yaml.
+  // The scenario has five waypoints and thus three turns, no obstacles, and only the plants of
+  // winding.yaml.
   EXPECT_THAT(error("  - metrics.mujoco.turns[3].lateral_offset\n"),
               testing::HasSubstr("did you mean 'metrics.mujoco.turns[0].lateral_offset'?"));
   EXPECT_THAT(error("  - metrics.mujoco.clearance_min\n"), testing::HasSubstr("unknown metric "));
@@ -299,7 +300,7 @@ TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
   Study study =
       ReadStudy(std::string(TRACKBED_SOURCE_DIR) + "/scenarios/studies/preview_distance.yaml",
                 {"drive.timestep=0.004", "vehicle.tyre=contact"});
-  // Three of its nine distances: 1, 2.5 and 5 m.
+  // Keep three of the nine distances: 1, 2.5 and 5 m.
   std::vector<Setting>& distances = study.vary.at(0).alternatives;
   distances = {distances.at(0), distances.at(3), distances.at(6)};
   const CheckedStudy checked = CheckStudy(study);
@@ -311,12 +312,12 @@ TEST(PreviewDistance, TooFarAheadCutsTheCorners) {
   EXPECT_EQ(rows[0][1], "passed");
   EXPECT_EQ(rows[1][1], "passed");
   EXPECT_EQ(rows[2][1], "failed");
-  // To first order the cross-track error e obeys e'' + 2/L e' + 2/L^2 e = f. For an arc of radius R
-  // that begins L ahead, f grows as x^2/(L^2 R) over the distance L to its beginning and then
-  // vanishes: e rises to 0.104 L^2/R, 0.57 L into the arc. With a preview of 2.5 m the car is back
-  // on the path before the arc of 16.83 m ends. Terms of higher order change this error by (L/R)^2
-  // = 2 %. Commands are held for 20 ms and the servo lags by 15 ms, together 4 % of L. The
-  // tolerance of 10 % covers all of these effects.
+  // With the preview distance L, the cross-track error e obeys e'' + 2/L e' + 2/L^2 e = f, to first
+  // order. Over the distance L before an arc of radius R, f grows as x^2/(L^2 R); on the arc, f is
+  // 0. The error e therefore rises to 0.104 L^2/R, 0.57 L after the beginning of the arc. With a
+  // preview of 2.5 m the car is back on the path before the arc of 16.83 m ends. Terms of higher
+  // order change this error by (L/R)^2 = 2 %. Commands are held for 20 ms and the servo lags by 15
+  // ms, together 4 % of L. The tolerance of 10 % covers all of these effects.
   const double expected = 0.104 * 2.5 * 2.5 / 16.83;
   for (const std::size_t cross_track : {2U, 3U}) {  // on both plants
     EXPECT_NEAR(std::stod(rows[1][cross_track]), expected, Tolerance(0.1 * expected));

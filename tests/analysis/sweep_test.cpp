@@ -22,7 +22,7 @@ SweepResult SweepStudy(const TempFolder& folder, const std::string& keys,
   return RunSweep(StudyPoints(MakeStudy(folder, keys)), run, options);
 }
 
-/// Passes up to a speed that decreases with the seed; nothing is simulated.
+/// An artificial run, without a simulation, that passes up to a speed that decreases with the seed.
 std::optional<RunOutcome> UpToASpeed(const Scenario& scenario) {
   const double limit = 20.0 - static_cast<double>(scenario.seed);
   const bool passed = scenario.mission.speed <= limit;

@@ -57,7 +57,7 @@ VehicleParams Car() {
 
 TEST(Laps, TakeTheirTimeBetweenCrossingsOfTheLine) {
   const double lap = 2.0 * kPi * kRadius / kSpeed;
-  // 2.4 laps, starting 10 m before the line.
+  // The car drives 2.4 laps, starting 10 m before the line.
   const Plan plan = RingPlan(3);
   const RunLog log = Circle(kRadius, -0.2, kSpeed, 1.0 + 2.4 * lap);
   const std::vector<LapMetrics> laps = MeasureLaps(log, plan);
@@ -73,7 +73,7 @@ TEST(Laps, TakeTheirTimeBetweenCrossingsOfTheLine) {
 }
 
 TEST(Laps, TellAFasterInnerLane) {
-  // A circle with a 3 m smaller radius at the same speed.
+  // The car drives on a circle whose radius is 3 m smaller, at the same speed.
   const std::vector<LapMetrics> laps =
       MeasureLaps(Circle(kRadius - 3.0, -0.2, kSpeed, 40.0), RingPlan(1));
   ASSERT_EQ(laps.size(), 1U);
@@ -149,8 +149,8 @@ TEST(TrackMargin, FindsTheInnerEdgeBetweenTheCorners) {
 }
 
 TEST(TrackLimits, TellHowFarHowLongAndWhere) {
-  // A car 3.5 m outside of the center line. Half of its width is 0.9 m, and its front corners, 3 m
-  // ahead of the rear axle, are even farther outside.
+  // The car drives 3.5 m outside of the center line. Half of its width is 0.9 m, and its front
+  // corners, 3 m ahead of the rear axle, are even farther outside.
   const Plan plan = RingPlan(1);
   const VehicleParams car = Car();
   RunLog log = Circle(kRadius + 3.5, 0.1, kSpeed, 4.0);
@@ -160,7 +160,7 @@ TEST(TrackLimits, TellHowFarHowLongAndWhere) {
   EXPECT_NEAR(std::get<double>(margin->value), -corner, Tolerance(1.1e-3));
   EXPECT_NEAR(std::get<double>(TimeOffTrack({log, plan, car})->value), 4.0, Tolerance(1e-9));
   EXPECT_NEAR(std::get<double>(DistanceOffTrack({log, plan, car})->value), 40.0, Tolerance(1e-9));
-  // Off the track only during the middle second.
+  // The car is off the track only during the middle second.
   const RunLog inside = Circle(kRadius, 0.1, kSpeed, 4.0);
   for (std::size_t i = 0; i < log.rows.size(); ++i) {
     const double time = log.rows[i].state.time;

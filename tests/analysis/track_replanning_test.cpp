@@ -97,8 +97,9 @@ TEST(TrackReplanning, PassesWhatStandsBetweenTheEdges) {
     ExpectKeepsClear(drive, 0.12);
     const std::vector<LapMetrics> laps = MeasureLaps(drive.log, drive.plan);
     ASSERT_EQ(laps.size(), 1U);
-    // The car makes two detours of 2 m to the side and back, each within about 60 m. They lengthen
-    // the lap by about 2 * 2 * 2^2/60 = 0.3 m. The car is also up to 25 % slower for at most 100 m.
+    // The car makes two detours of 2 m to the side and back, each within about 60 m. These detours
+    // lengthen the lap by about 2 * 2 * 2^2/60 = 0.3 m. The car is also up to 25 % slower for at
+    // most 100 m.
     EXPECT_GT(laps[0].time, laps[0].time_planned - 0.2);
     EXPECT_LT(laps[0].time, laps[0].time_planned + 3.0);
   }

@@ -76,7 +76,7 @@ class HeadingDeficit : public ::testing::TestWithParam<Ramp> {};
 TEST_P(HeadingDeficit, OfAStepOnContactsIsTheClosedForm) {
   const Ramp& ramp = GetParam();
   const TempFolder folder;
-  // The Prius with another steering rate.
+  // The model of the Prius with a different steering rate.
   std::string model = ReadFile(std::string(TRACKBED_SOURCE_DIR) + "/models/prius/prius.xml");
   const std::string own = "-0.15056818181818182 0.15056818181818182";
   const std::size_t at = model.find(own);

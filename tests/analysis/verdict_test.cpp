@@ -8,7 +8,7 @@
 #include "tests/tolerance.h"
 #include "trackbed/analysis/run.h"
 
-// Verdicts on whole runs with faults that earlier versions reported as arrived or passed.
+// Tests verdicts on whole runs with faults that earlier versions reported as arrived or passed.
 namespace trackbed {
 namespace {
 
@@ -80,8 +80,8 @@ TEST(Verdict, HoldsASmallCarToItsOwnSize) {
 }
 
 TEST(Verdict, ArrivesWithinAShareOfTheCarsLength) {
-  // Driven open loop, these turns end beside the goal; the scenario's tolerance decides whether
-  // that counts as arrival.
+  // In open loop, the car ends these turns beside the goal. The goal tolerance of the scenario
+  // decides whether the car has arrived.
   const auto status = [](double tolerance) {
     return Drive(
         fmt::format("mission: {{speed: 3, waypoints: [[0, 0], [40, 0], [40, 40]]}}\n"

@@ -279,9 +279,9 @@ class DriveCheck {
              fmt::format("overlaps obstacle {} by {:.4g} m at {:.5g} s; it says {}{}", which,
                          -nearest.gap, nearest.t, status_, record_.passed ? ", passed" : ""));
     }
-    // The smallest distance may occur between two steps; evaluating it at the steps misses at most
-    // half of the relative motion in a step. The footprint of a leaning car here differs from the
-    // program's footprint, which does not lean, by up to `leans` at a corner.
+    // The smallest distance may occur between two steps. Distances at the steps exceed it by at
+    // most half of the relative motion in a step. The footprint of a leaning car here differs from
+    // the program's footprint, which does not lean, by up to `leans` at a corner.
     const double leans = SameYaw() * record_.car.footprint().reach();
     const double missed = 0.5 * nearest.step + 1e-6 + leans;
     missed_ = missed;
@@ -329,7 +329,7 @@ class DriveCheck {
   }
 
   void CheckSteering() {
-    // A collision turns the wheels, too.
+    // Ignore the steering after a collision, because a collision also turns the wheels.
     if (touched_ || drive_.metrics.value("collision", false)) {
       return;
     }
@@ -435,7 +435,8 @@ class DriveCheck {
     return record_.mission.goal.value_or(Point{first.end.x, first.end.y});
   }
 
-  /// A car that stands at the goal has arrived, whatever it is commanded.
+  /// Checks that a car that stands at the goal is not reported as stuck: it has arrived, for any
+  /// command.
   void CheckStuck() {
     const TimedPose& last = rows_.back();
     const Point goal = Goal();

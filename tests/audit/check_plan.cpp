@@ -184,7 +184,7 @@ class PlanCheck {
   }
 
   /// v dv/ds as a mean over each interval, v^2 kappa at the points; combined by the friction
-  /// circle. Gravity counts where it pulls against the car.
+  /// circle. The component of gravity is added if it pulls against the car.
   void CheckAccelerations() {
     const double more = 1.0 + tolerances_.plan_limit;
     Worst driving, braking, lateral, combined, held;
@@ -248,7 +248,7 @@ class PlanCheck {
             kGravity * along / std::hypot(1.0, along), kGravity * across / std::hypot(1.0, across)};
   }
 
-  /// The factor under the more slippery axle.
+  /// Returns the friction factor under the more slippery axle.
   [[nodiscard]] double FactorAt(const PlanRow& row) const {
     const double wheelbase = record_.car.wheelbase;
     return std::min(FactorAt(row.x, row.y), FactorAt(row.x + wheelbase * std::cos(row.yaw),

@@ -5,8 +5,8 @@
 
 #include "tests/audit/record.h"
 
-/// Checks whether the reported results of a run are true, by computing them anew from its recorded
-/// tables.
+/// Checks whether the reported results of a run are true, by computing the results again from the
+/// recorded tables.
 namespace audit {
 
 /// A discrepancy between a reported and a computed result.

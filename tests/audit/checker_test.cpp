@@ -387,7 +387,8 @@ TEST(Checker, FindsAPlanThatLeadsThroughWhatItKnows) {
   EXPECT_THAT(KindsIn(record), ElementsAre("plan_contact"));
 }
 
-/// Two replans, the second 1 m beside the first, while the car keeps to the first line.
+/// There are two replans, the second 1 m beside the first. The car follows the line of the first
+/// replan.
 TEST(Checker, MeasuresFromThePlanThatIsDriven) {
   Record record = GoodRun();
   Table changes(

@@ -28,7 +28,7 @@ struct Car {
   }
 };
 
-/// An area of another friction.
+/// An area with a different friction.
 struct Patch {
   Box area;
   double factor = 1.0;  ///< on the tyre friction

@@ -13,8 +13,8 @@
 #include "tests/support/wrong_number.h"
 #include "trackbed/core/file.h"
 
-// Bounds of time and memory: input files that are not regular, paths and numbers that are too
-// large, and signals in the middle of long work.
+// Tests bounds of time and memory, with input files that are not regular, paths and numbers that
+// are too large, and signals in the middle of long work.
 namespace trackbed {
 namespace {
 

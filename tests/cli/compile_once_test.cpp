@@ -78,13 +78,14 @@ TEST_F(CompileOnce, RunCompilesItsCarOnceForAllPlantsAndFiles) {
   EXPECT_EXIT(RunAndExit(Words("three_turns", {"--mcap"})), testing::ExitedWithCode(1), "");
 }
 
-// The obstacles' scene is built from the compiled car: one model without obstacles, one with them.
+// The scene with obstacles is built from the compiled car, so there are two models, one without
+// obstacles and one with obstacles.
 TEST_F(CompileOnce, ObstaclesTakeOneMoreModel) {
   EXPECT_EXIT(RunAndExit(Words("overtake", {"--mcap"})), testing::ExitedWithCode(2), "");
 }
 
-// Reports use only the finished folder and the model in it: once without visual elements, for the
-// vehicle's parameters, and once with them, for the replay.
+// Reports use only the finished folder and compile its model twice: without visual elements for the
+// vehicle's parameters, and with visual elements for the replay.
 TEST_F(CompileOnce, WhatReadsTheRunFolderCompilesItsModel) {
   EXPECT_EXIT(RunAndExit(Words("three_turns", {"--mcap", "--report"})), testing::ExitedWithCode(3),
               "");

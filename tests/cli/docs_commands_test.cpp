@@ -152,8 +152,8 @@ class Documented : public testing::TestWithParam<Command> {
     fs::create_directory(folder_.path() / "out");
   }
 
-  /// Runs the commands that produce the inputs of `words`: preceding ones on its page, or those of
-  /// the README.
+  /// Runs the commands that produce the inputs of `words`: preceding commands on the same page, or
+  /// commands of the README.
   void Prepare(const std::vector<std::string>& words, const std::vector<std::string>& before) {
     for (const std::string& result : ReadBy(words)) {
       bool is_made = fs::exists(folder_.path() / result);

@@ -74,7 +74,7 @@ TEST(Experiment, OfAnotherMotionHasNoPublishedAngles) {
 }
 
 TEST(Experiment, ListsSearchesThatMissTheAngle) {
-  // A simplex descends from straight wheels; at 2.5 m/s it ends on the bound.
+  // A simplex search descends from straight wheels. At 2.5 m/s, the search ends on the bound.
   const TempFolder folder;
   const Outcome outcome =
       Trackbed(folder, "experiment optimal_steering --searches direct,nelder_mead");

@@ -82,7 +82,7 @@ TEST_F(FullDisk, EndsARunInOneLineWithNothing) {
 
 TEST_F(FullDisk, LeavesAnEarlierRunAsItWas) {
   Trackbed(folder, "run -q -o whole " + Winding());
-  // Room for one run, but not for a second one beside it.
+  // The disk has room for one run, but not for a second run beside the first one.
   const Outcome outcome = WithDisk(std::to_string(KilobytesOf(folder.path() / "whole") + 8) + "k",
                                    TRACKBED_PROGRAM " run -q -o disk/r " + Winding() +
                                        "; cp disk/r/timing.json whole; " +
@@ -124,15 +124,15 @@ TEST_F(FullDisk, LeavesNoPieceOfASweep) {
                                  "outputs: [metrics.kinematic.distance]\n");
   Trackbed(folder, "sweep -q study.yaml -o whole");
   // The sweep needs six pages, one of them for the list of files that it has begun. There is room
-  // for one page, which holds its records; it can resume from them.
+  // for only one page, which holds the records. The sweep can resume from these records.
   const std::string sweep = TRACKBED_PROGRAM " sweep -q study.yaml -o disk/s";
   const Outcome part = WithDisk("4k", sweep);
   EXPECT_EQ(part.code, 2);
   EXPECT_EQ(part.output, "cannot write disk/s/.written: No space left on device\n");
   EXPECT_THAT(NamesIn(folder.path() / "left/s"), UnorderedElementsAre("sweep.records"));
   fs::remove_all(folder.path() / "left");
-  // Room for one sweep and its list of files to remove, but not for another sweep beside it: the
-  // first result stays unchanged.
+  // The disk has room for one sweep and its list of files to remove, but not for a second sweep.
+  // The first result stays unchanged.
   const Outcome second =
       WithDisk("24k", sweep + " && " + sweep + " --restart --set drive.time_limit=0.2");
   EXPECT_EQ(second.code, 2);

@@ -111,7 +111,8 @@ TEST(Sweep, FindsTheHighestValueThatPasses) {
   const Outcome outcome = Trackbed(folder, "sweep study.yaml");
   EXPECT_EQ(outcome.code, 0) << outcome.output;
   const std::string csv = ReadFile(folder.path() / "out/study/sweep.csv");
-  // Eight meters are halved five times until they are at most 0.3 m; both ends are evaluated, too.
+  // The bisection halves an interval of 8 m five times, until it is at most 0.3 m long. Both ends
+  // are evaluated as well, so there are seven runs.
   std::smatch found;
   ASSERT_TRUE(std::regex_match(
       csv, found, std::regex("control\\.distance,status,runs,reason\n([0-9.]+),found,7,\n")))

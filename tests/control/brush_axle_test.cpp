@@ -14,7 +14,8 @@ constexpr double kStiffness = 80e3;     // [N/rad]
 constexpr double kFrictionForce = 6e3;  // [N]
 
 TEST(BrushAxle, HasFialasForceAtItsSlip) {
-  // Fiala 1954, as in Pacejka 2012, (3.12): F = C a - (C a)^2/(3 mu F_z) + (C a)^3/(27 (mu F_z)^2).
+  // The lateral force at the slip angle a is F = C a - (C a)^2/(3 mu F_z) + (C a)^3/(27 (mu F_z)^2)
+  // (Fiala 1954, as in Pacejka 2012, eq. (3.12)).
   for (const double lateral : {1.0, -600.0, 3000.0, -5600.0}) {
     SCOPED_TRACE(lateral);
     const AxleOperation axle = BrushAxleAt(kStiffness, kFrictionForce, {.lateral = lateral});

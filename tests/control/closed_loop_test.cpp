@@ -1,4 +1,4 @@
-// Guarantees of every registered path-following controller.
+// Tests the guarantees of every registered path-following controller.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -27,7 +27,7 @@ void PrintTo(const ControllerEntry& entry, std::ostream* out);
 
 namespace {
 
-/// The state of a car, and the reference that it follows.
+/// The state of a car, and the reference that the car follows.
 struct Case {
   VehicleParams vehicle = ReferenceCar();
   Reference reference;
@@ -86,8 +86,9 @@ class EveryFollower : public testing::TestWithParam<ControllerEntry> {};
 
 INSTANTIATE_TEST_SUITE_P(Table, EveryFollower, testing::ValuesIn(Followers()), CaseName);
 
-// Sines and cosines of paths and poses within 200 m round at 1e-14 m/m. The laws divide by at least
-// 0.1 m, and MPC's program is solved to 1e-9 rad/s over 0.02 s.
+// Tolerance of steering angles [rad]. Rounding of sines and cosines of paths and poses within 200 m
+// is 1e-14 m per meter, and the control laws divide by at least 0.1 m. mpc solves its quadratic
+// program to 1e-9 rad/s over 0.02 s.
 constexpr double kRounding = 1e-9;
 
 TEST_P(EveryFollower, MirroredWorldMirrorsTheSteering) {
@@ -157,8 +158,8 @@ TEST_P(EveryFollower, KeepsTheKinematicCarOnItsCircle) {
 }
 
 TEST_P(EveryFollower, ComesBackToItsPath) {
-  // The kinematic car with its rate limit. After 40 m at most a tenth of the offset is left, and
-  // the car never overshoots by more than its initial offset.
+  // Simulates the kinematic car with its rate limit. After 40 m, at most a tenth of the offset is
+  // left. The car never overshoots by more than its initial offset.
   for (const double offset : {0.3, -0.3}) {
     for (const int direction : {1, -1}) {
       SCOPED_TRACE(fmt::format("offset {}, direction {}", offset, direction));
@@ -177,8 +178,8 @@ TEST_P(EveryFollower, ComesBackFromMetersAway) {
   if (std::string(GetParam().name) == "stanley") {
     GTEST_SKIP() << "is the textbook's law: see its header";
   }
-  // Wheels that turn at omega need some cbrt(e L v/omega), 7 m here, to correct an offset e; 200 m
-  // are many times that.
+  // With the steering rate omega, the car needs a distance of about cbrt(e L v/omega) to correct an
+  // offset e. This is 7 m here, much less than the 200 m of the run.
   std::vector<ControllerOptions> all{GetParam().defaults};
   if (GetParam().defaults.Is<PreviewIntegralOptions>()) {
     all.emplace_back(PreviewIntegralOptions{.weight = PreviewWeight::kNear});
@@ -202,7 +203,8 @@ TEST_P(EveryFollower, ComesBackFromMetersAway) {
 }
 
 TEST_P(EveryFollower, TurnsItsWheelsNoFasterThanTheyCan) {
-  // From beside a path with a curvature step. Commands of lqr and mpc respect the rate limit.
+  // The car starts beside a path with a curvature step. Commands of lqr and mpc respect the rate
+  // limit.
   LoopSetup setup;
   setup.path = Path({}, {{20.0, 0.0, 1}, {40.0, 0.08, 1}});
   setup.start = {0.0, 0.7, 0.1};
@@ -222,7 +224,7 @@ TEST_P(EveryFollower, TurnsItsWheelsNoFasterThanTheyCan) {
 }
 
 TEST_P(EveryFollower, GoesOnAlongTheEndTangent) {
-  // From beside a straight path that ends after 10 m, and for 50 m past its end.
+  // The car starts beside a straight path that ends after 10 m, and drives 50 m past its end.
   LoopSetup setup;
   setup.path = Path({}, {{10.0, 0.0, 1}});
   setup.start = {0.0, 0.2, 0.0};
@@ -235,7 +237,7 @@ TEST_P(EveryFollower, GoesOnAlongTheEndTangent) {
 }
 
 TEST_P(EveryFollower, StandsAndCrawlsWithoutTurningItsWheelsAbout) {
-  // On the path, from rest to 1 m/s.
+  // The car is on the path, at rest or at speeds of up to 1 m/s.
   for (const VehicleParams& vehicle : {ReferenceCar(), ReferenceCarWithTyres()}) {
     for (const double speed : {0.0, 1e-6, 0.01, 0.3, 1.0}) {
       Case at;
@@ -325,8 +327,8 @@ TEST_P(AnyController, TakesNoHeapMemoryAfterItsFirstStep) {
   }
 }
 
-// nlopt.hpp wraps options and vectors: 20 allocations per call (counted), with a margin of one half
-// for other versions of it.
+// Limit of the allocations per call of NLopt. nlopt.hpp wraps options and vectors, which needs 20
+// allocations per call (counted). The margin of one half is for other versions of nlopt.hpp.
 constexpr long kOfOneCall = 30;
 
 TEST(ControllersThatSearch, TakeNLoptsMemoryAlone) {
@@ -334,7 +336,8 @@ TEST(ControllersThatSearch, TakeNLoptsMemoryAlone) {
   const long of_mpc = CountAllocations(MpcOptions{}, ReferenceCar(), 1.0, 0.05);
   EXPECT_GT(of_mpc, 0);
   EXPECT_LT(of_mpc, 199 * 2 * kOfOneCall);
-  // One search per period, independent of its number of evaluations; none on a straight.
+  // There is one search per period, and its allocations do not depend on the number of evaluations.
+  // On a straight, there are no allocations.
   const OptimalSteeringOptions searching{.deviation_limit = 0.0};
   const long of_search = CountAllocations(searching, ReferenceCar(), 0.1, 0.05);
   EXPECT_GT(of_search, 0);

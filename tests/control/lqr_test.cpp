@@ -25,7 +25,7 @@ TEST(Lqr, SettlesOnACircleWithoutErrorAtAnySpeed) {
   // The feed-forward of lqr includes understeer, because lqr's model is the linear single-track
   // car. The remaining error comes from linearizing the tangent of the steering angle and the
   // path's curvature. The error is about the offset times the square of an angle below 0.1 rad, so
-  // it vanishes together with the offset.
+  // the error vanishes together with the offset.
   for (const double speed : {3.0, 10.0, 20.0}) {
     SCOPED_TRACE(speed);
     LoopSetup setup;

@@ -126,8 +126,8 @@ INSTANTIATE_TEST_SUITE_P(Table, GlobalSearches,
 
 TEST_P(GlobalSearches, ByTimeReproduceThePublishedFirstStage) {
   for (const PaperRow& row : kPaper) {
-    // `by_time` is rounded to 0.0005 degrees. Searches must reach it to 0.02 degrees, except esch,
-    // which does not quite reach an optimum on a bound.
+    // `by_time` is rounded to 0.0005 degrees. Searches must reach this angle to 0.02 degrees,
+    // except esch, which does not quite reach an optimum on a bound.
     const double tolerance = GetParam() == SearchMethod::kEsch ? 0.05 : 0.02;
     EXPECT_NEAR(MatchedDegrees(row.speed, Matching::kTime, GetParam()), row.by_time,
                 Tolerance(tolerance))
@@ -268,8 +268,8 @@ TEST_P(EverySearch, LeavesTheBoundOnWhichItBegins) {
 
 TEST(TurnShare, IsTheShareOfTheHeading) {
   // Starting with straight wheels, the heading changes over the distance S by (v/(L omega)) (-ln
-  // cos delta) + (S - ramp) tan(delta)/L. For small angles this is a parabola in delta. Its vertex
-  // is the angle that the wheels reach at the end of S.
+  // cos delta) + (S - ramp) tan(delta)/L. For small angles this is a parabola in delta. The vertex
+  // of the parabola is the angle that the wheels reach at the end of S.
   const VehicleParams car = ReferenceCar();
   SteeringProblem problem = Problem(car, 0.0, 0.0, 3.0);
   const double most = PredictPose(car, 0.0, 1.0, 3.0, 3.0).yaw;
@@ -514,7 +514,7 @@ TEST_P(EverySearch, ReturnsToThePathFromBesideIt) {
   const Path straight{{}, {{100.0, 0.0, 1}}};
   for (const double e : {0.5, -2.0}) {
     const Trace trace = Follow(With(GetParam().method), straight, {0.0, e, 0.0}, 60.0);
-    // The car overshoots the path by at most a fifth of the initial offset. Its final offset is
+    // The car overshoots the path by at most a fifth of the initial offset. The final offset is
     // within the deviation limit of 0.01 m.
     double other_side = 0.0;
     for (const double offset : trace.offsets) {

@@ -57,7 +57,7 @@ TEST(Playback, TakesTheMeanOfTheAcceleration) {
   EXPECT_EQ(*PlaybackAcceleration(time, 1.5, 3.0, 2.0, 0.1), -8.0);
   const PlaybackOptions distance = Replay(PlaybackAxis::kDistance, {kSteering, {}, acceleration});
   EXPECT_NEAR(*PlaybackAcceleration(distance, 0.5, 3.0, 2.0, 0.1), 1.3, Tolerance(kRounding));
-  // At rest: the value at the car's station.
+  // At rest, the acceleration is that at the car's station.
   EXPECT_NEAR(*PlaybackAcceleration(distance, 0.5, 0.0, 2.0, 0.1), 1.0, Tolerance(kRounding));
 }
 

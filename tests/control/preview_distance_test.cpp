@@ -70,7 +70,7 @@ TEST(PreviewDistance, ReachesAStepOfCurvatureAsFarAsTheRampAsks) {
       ASSERT_GT(wanted, 1.1 * 0.75 * car.wheelbase);
       SCOPED_TRACE(fmt::format("curvature {}, direction {}", curvature, direction));
       // The longer preview distance R = `wanted` applies within R of the step on either side. The
-      // rule may take a step to be up to 30 % nearer than it is.
+      // rule may underestimate the distance to a step by up to 30 %.
       for (const double share : {-0.99, -0.5, -0.1, 0.0, 0.1, 0.5, 0.99}) {
         EXPECT_NEAR(Distance(car, path, 50.0 + share * wanted, speed), wanted, Tolerance(kRounding))
             << share;
@@ -161,7 +161,8 @@ TEST(PreviewDistance, ErrorsScaleWithTheCar) {
     const double large = ErrorOnTurn(options, ReferenceCar(), 20.0, 1.6, 2.0);
     const double small = ErrorOnTurn(options, TenthOfACar(), 2.0, 1.6, 0.8, 0.25 * kPeriod);
     EXPECT_GT(large, 0.01);
-    // The point ahead is found to 1e-13 of the station, and the loop is stable.
+    // The search for the point ahead is accurate to 1e-13 of the station. The closed loop is
+    // stable, so this error does not grow.
     EXPECT_NEAR(small, 0.1 * large, Tolerance(1e-9));
   }
 }

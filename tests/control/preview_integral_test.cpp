@@ -48,11 +48,12 @@ TEST(PreviewIntegral, ConstantCurvatureGivesTheKinematicAngle) {
 }
 
 TEST(PreviewIntegral, BesideAStraightIsTheIntegralInClosedForm) {
-  // At offset e from a straight, with heading psi: for small e, f = -e - x psi and A = x^2/(2 L).
-  // The integral of (-e - x psi) x^2 over that of x^4/(2 L), from 0 to R, is -2 L (5/(3 R^2) e +
-  // 5/(4 R) psi). With W = 1 - x/R it is -2 L (5/(2 R^2) e + 3/(2 R) psi). The chord differs from x
-  // by a relative error of (e/x)^2. With e = 1e-5 m and psi = 1e-5 rad, this error is about 1e-9
-  // where x is large compared with e. Smaller x hardly contribute, because A is small there.
+  // At a small offset e from a straight, with heading psi, f = -e - x psi and A = x^2/(2 L). The
+  // integral of (-e - x psi) x^2 over that of x^4/(2 L), from 0 to R, is -2 L (5/(3 R^2) e + 5/(4
+  // R) psi). With the weight W = 1 - x/R, the result is -2 L (5/(2 R^2) e + 3/(2 R) psi). The chord
+  // differs from x by a relative error of (e/x)^2. With e = 1e-5 m and psi = 1e-5 rad, this error
+  // is about 1e-9 where x is large compared with e. Smaller x hardly contribute, because A is small
+  // there.
   const double R = 5.0;
   const Path straight({}, {{100.0, 0.0, 1}});
   const double e = 1e-5;
@@ -114,7 +115,7 @@ TEST(PreviewIntegral, DelayHoldsTheAngleBack) {
     given.push_back(controller->Steer(input));
     wanted.push_back(MakeSteeringController(PreviewIntegralOptions{})->Steer(input));
   }
-  // A delay of 2.5 periods.
+  // The delay is 2.5 periods.
   EXPECT_EQ(given[0], 0.0);
   for (std::size_t i = 3; i < 20; ++i) {
     EXPECT_NEAR(given[i], 0.5 * (wanted[i - 2] + wanted[i - 3]), Tolerance(1e-12));

@@ -26,11 +26,12 @@ double Steer(const PurePursuitOptions& options, const Path& path, const Pose2& p
 }
 
 TEST(PurePursuit, SteersTheCircleThroughThePoint) {
-  // 1 m left of a straight with a lookahead of 4 m: sin(u) = -1/4, curvature -2 e/l^2 = -1/8.
+  // The car is e = 1 m to the left of a straight, and the lookahead distance is l = 4 m. Therefore
+  // sin(u) = -1/4, and the commanded curvature is -2 e/l^2 = -1/8 1/m.
   const Path straight({}, {{100.0, 0.0, 1}});
   EXPECT_NEAR(Steer({.distance = 4.0, .time = 0.0}, straight, {0.0, 1.0, 0.0}, 3.0),
               -std::atan(2.7 / 8.0), Tolerance(1e-11));
-  // On a circle of 20 m the angle is atan(L/R) for any lookahead.
+  // On a circle with the radius R = 20 m, the angle is atan(L/R) for any lookahead distance.
   const Path circle({}, {{100.0, 0.05, 1}});
   for (const double distance : {1.0, 4.0, 15.0}) {
     EXPECT_NEAR(Steer({.distance = distance, .time = 0.0}, circle, {}, 3.0), 0.134189,
@@ -47,7 +48,8 @@ TEST(PurePursuit, LooksFurtherAheadTheFasterItGoes) {
 }
 
 TEST(PurePursuit, SwingsOutWhenItLooksTooNearForItsWheels) {
-  // The limit stated in the header: 1.5 cbrt(e L v/omega) = 5.7 m for 1 m at 3 m/s.
+  // The header states the shortest lookahead distance without oscillation: 1.5 cbrt(e L v/omega),
+  // which is 5.7 m for an offset of e = 1 m at 3 m/s.
   LoopSetup setup;
   setup.path = Path({}, {{300.0, 0.0, 1}});
   setup.start = {0.0, 1.0, 0.0};

@@ -94,10 +94,10 @@ TEST(RearAxleFeedback, KeepsTheSingleTrackCarInASteadyTurn) {
   setup.duration = 25.0;
   const std::vector<LoopRow> rows = Loop(RearAxleFeedbackOptions{}, setup);
   // The feed-forward includes understeer and the rear axle's slip, tan(beta) = 0.0087, to first
-  // order in beta. It neglects that the rear axle's speed is u/cos(beta), which is a curvature
-  // error of kappa beta^2/2. With d = 5.5 m, this causes the cross-track error d^2 kappa beta^2/2 =
-  // 2.3e-5 m. It also neglects beta^3/3 in the slip angle, which causes the cross-track error 2 d
-  // beta^3/3 = 2.4e-6 m.
+  // order in beta. The feed-forward neglects that the rear axle's speed is u/cos(beta), which is a
+  // curvature error of kappa beta^2/2. With d = 5.5 m, this causes the cross-track error d^2 kappa
+  // beta^2/2 = 2.3e-5 m. The feed-forward also neglects beta^3/3 in the slip angle, which causes
+  // the cross-track error 2 d beta^3/3 = 2.4e-6 m.
   EXPECT_LT(LargestOffset(rows, rows.size() * 9 / 10), 2.6e-5);
 }
 

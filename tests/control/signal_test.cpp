@@ -36,7 +36,7 @@ TEST(Signal, MeanIsTheAreaByTheWidth) {
   EXPECT_NEAR(kSawtooth.Mean(0.0, 3.5), (2.0 + 3.0 + 0.75 - 1.0) / 3.5, Tolerance(1e-15));
   EXPECT_NEAR(kSawtooth.Mean(1.5, 2.25), (1.75 + 0.6875) / 0.75, Tolerance(1e-15));
   EXPECT_EQ(kSawtooth.Mean(5.0, 6.0), -1.0);
-  // An empty interval has the value itself as its mean.
+  // The mean over an empty interval is the value of the signal.
   EXPECT_EQ(kSawtooth.Mean(1.25, 1.25), 2.5);
   EXPECT_EQ(kSawtooth.Mean(1.25, 1.0), 2.5);
 }
@@ -58,9 +58,9 @@ TEST(Signal, MeanAgreesWithAFineSum) {
       sum += signal.At(from + (to - from) * (k + 0.5) / kParts);
     }
     // The midpoint rule is exact, except in cells that contain one of six knots. The integral over
-    // such a cell errs by at most c h^2/8. The change of slope is c <= 2 * 2/0.1 = 40, because
-    // values between -1 and 1 are at least 0.1 apart. The cell size is h <= 4/2000 = 0.002. The
-    // mean divides the sum of these errors by the width of the interval, which is at least 0.1.
+    // a cell with a knot errs by at most c h^2/8. The change of slope is c <= 2 * 2/0.1 = 40,
+    // because values between -1 and 1 are at least 0.1 apart. The cell size is h <= 4/2000 = 0.002.
+    // The mean divides the sum of these errors by the width of the interval, which is at least 0.1.
     EXPECT_NEAR(signal.Mean(from, to), sum / kParts,
                 Tolerance(6.0 * 40.0 * 0.002 * 0.002 / 8.0 / 0.1));
   }

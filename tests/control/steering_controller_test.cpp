@@ -327,8 +327,8 @@ TEST(Controllers, OpenLoopsReadTheOdometer) {
 
 TEST(Preview, WithDifferentialDriveCommandsADifferenceOfWheelSpeedsInProportionToTheAngle) {
   // The difference of the wheel speeds is omega_R - omega_L = (2 b v/(R r_w)) sin(u), with the
-  // track width b, the preview distance R and the wheel radius r_w. For small angles u it is
-  // proportional to u.
+  // track width b, the preview distance R and the wheel radius r_w. For small angles u, the
+  // difference is proportional to u.
   const VehicleParams pair = WheelPair();
   const Path path = Straight();
   const Reference reference{path, StopAtEnd(path.length(), 3.0, {3.0, 1.0, 1.5})};

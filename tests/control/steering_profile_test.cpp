@@ -69,7 +69,8 @@ TEST(SineSteering, HasItsPeaksAndZeros) {
   const SineSteeringOptions sine{.amplitude = 0.04, .frequency = 0.4, .cycles = 1.5, .at = 1.0};
   EXPECT_EQ(SteeringAt(sine, 0.5), 0.0);
   EXPECT_EQ(SteeringAt(sine, 1.0), 0.0);
-  // The sine's period is 2.5 s: peaks after a quarter, three quarters and five quarters of it.
+  // The sine has a period of 2.5 s, with peaks after a quarter, three quarters and five quarters of
+  // the period.
   EXPECT_NEAR(SteeringAt(sine, 1.625), 0.04, Tolerance(kRounding));
   EXPECT_NEAR(SteeringAt(sine, 2.875), -0.04, Tolerance(kRounding));
   EXPECT_NEAR(SteeringAt(sine, 4.125), 0.04, Tolerance(kRounding));
@@ -91,7 +92,7 @@ TEST(SineWithDwell, StaysAtItsSecondPeakForTheDwell) {
   const std::vector<double> zeros = Crossings(options, 1.01, 1.0 + period + 0.5 - 1e-3);
   ASSERT_EQ(zeros.size(), 1U);
   EXPECT_NEAR(zeros[0], 1.0 + 0.5 * period, Tolerance(2e-12));
-  // Duration at -A, counted in steps of 10 us. The sine leaves its peak as 1 - x^2/2, so it is
+  // Measures the time at -A in steps of 10 us. The sine leaves its peak as 1 - x^2/2, so it is
   // within 1e-12 of the peak for 1.4e-6/(2 pi f) = 0.3 us on either side.
   constexpr double kStep = 1e-5;
   int at_peak = 0;
@@ -116,8 +117,8 @@ TEST(SineWithDwell, WithoutADwellIsASine) {
   }
 }
 
-/// The frequency of A sin(phi(t)): phi' follows from delta and its derivative by delta'^2 = A^2
-/// phi'^2 (1 - (delta/A)^2).
+/// Returns the frequency phi'/(2 pi) of delta = A sin(phi(t)). phi' follows from delta and its
+/// derivative: delta'^2 = A^2 phi'^2 (1 - (delta/A)^2).
 double InstantaneousFrequency(const SweptSineOptions& options, double time) {
   constexpr double kStep = 1e-6;
   const double value = SteeringAt(options, time) / options.amplitude;
@@ -140,7 +141,7 @@ TEST(SweptSine, SweepsItsFrequency) {
         const double share = tau / options.duration;
         const double f = sweep == Sweep::kLinear ? f0 + (f1 - f0) * share
                                                  : f0 * std::exp(share * std::log(f1 / f0));
-        // Near the peaks the division above loses precision.
+        // Near the peaks, InstantaneousFrequency loses precision by division.
         if (std::abs(SteeringAt(options, 1.0 + tau)) < 0.09) {
           // The tolerance covers the errors of the central difference over 2 us. At both ends the
           // phase of up to 132 rad is rounded by 1.4e-14 rad, which is 2.2e-9 Hz. Rounding of the

@@ -47,13 +47,13 @@ TEST(FileNameOf, KeepsTheEndOfALongName) {
   EXPECT_TRUE(IsFileName(FileNameOf(std::string(5000, '.'))));
 }
 
-// The name is one part of a path, below the folder that it is put in.
+// FileNameOf returns one part of a path, so a file with this name stays in its folder.
 TEST(FileNameOf, NeverLeavesItsFolder) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 20'000; ++i) {
     std::string name(random() % 300, '\0');
     for (char& c : name) {
-      // Half of the bytes are those that paths are made of.
+      // Half of the bytes are characters that have a meaning in paths.
       c = random() % 2 == 0 ? "./\\:~"[random() % 5] : static_cast<char>(random());
     }
     const std::string file = FileNameOf(name);

@@ -125,7 +125,7 @@ class HeldByAGrade : public Unicycle {
 };
 
 TEST(SimulateClosedLoop, ArrivesWhereAGradeHoldsTheCarAtTheGoal) {
-  // The car stands still although it is commanded to drive. Within 0.4 m of the goal, it has
+  // The car stands still although it is commanded to drive. Within 0.4 m of the goal, the car has
   // arrived after 1 s at rest.
   for (const double before : {0.002, 0.1, 0.39}) {
     HeldByAGrade plant({}, before);

@@ -90,7 +90,8 @@ TEST(SteeringDelay, ShiftsTheWheelsByItWhateverTheControlPeriod) {
       ASSERT_EQ(own.size(), 3001U);
       ASSERT_EQ(late.size(), own.size());
       for (std::size_t i = 0; i < own.size(); ++i) {
-        // Exactly equal: the delayed values are the same numbers in the same order.
+        // The values are exactly equal, because the delayed values are the same numbers in the same
+        // order.
         ASSERT_EQ(late[i], i < 65 ? 0.0 : own[i - 65]) << steering << " " << period << " " << i;
       }
       EXPECT_GT(*std::max_element(own.begin(), own.end()), 0.04);

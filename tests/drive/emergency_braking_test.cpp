@@ -97,7 +97,8 @@ TEST(EmergencyBraking, IsGentlerOnASlipperyRoad) {
     EXPECT_NE(outcome.status, DriveStatus::kCollided) << plant;
     EXPECT_LE(outcome.deceleration, limit + Tolerance(1e-9)) << plant;
   }
-  // Detected too late, the wall is hit. Even then the plan does not exceed the road's grip.
+  // The car hits a wall that is detected too late. Even in this case, the plan does not exceed the
+  // grip of the road.
   const Outcome late = Drive("kinematic", 10.0, 9.0, 80.0, "friction: 0.4, ");
   EXPECT_EQ(late.status, DriveStatus::kCollided);
   EXPECT_NEAR(late.planned, limit, Tolerance(1e-6));

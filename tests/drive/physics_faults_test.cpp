@@ -1,4 +1,4 @@
-// Provoked faults of the physics: each ends the run with a status, a cause and a log.
+// Tests provoked faults of the physics. Each fault ends the run with a status, a cause and a log.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

@@ -106,8 +106,8 @@ TEST(Playback, BrakesAsHardAsWasRecordedOnMujocoToo) {
   const RunLog log = Drive(scenario);
   ASSERT_EQ(log.rows.size(), 201U);
   for (const LogRow& row : log.rows) {
-    // The brakes err by 5 % of 6 m/s^2, which the gain of 2/s turns into 0.15 m/s. The braking car
-    // pitches by 2 degrees; over a height of 0.5 m that adds at most 0.02 m/s.
+    // The brakes err by 5 % of 6 m/s^2, which causes a speed error of 0.15 m/s with the gain of 2
+    // 1/s. The braking car pitches by 2 degrees, which adds at most 0.02 m/s at a height of 0.5 m.
     EXPECT_NEAR(row.state.speed, recording.speed.At(row.state.time), Tolerance(0.17));
   }
 }

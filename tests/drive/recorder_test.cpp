@@ -17,7 +17,7 @@ Obstacle Box(const Vec2& velocity = Vec2::Zero()) {
   return {.footprint = {{10.5, 0.0, 0.0}, 1.0, 1.0}, .velocity = velocity};
 }
 
-/// The footprint begins at the rear axle, and its front is 4 m ahead of that.
+/// The footprint begins at the rear axle, and its front is 4 m ahead of the rear axle.
 LoopConfig Config() {
   LoopConfig config{.vehicle = UnicycleParams(), .state_period = 0.1};
   config.configuration_columns = {"x_m", "y_m"};
@@ -74,8 +74,8 @@ TEST(Recorder, SeesAThinWallBetweenTwoSteps) {
   recorder.Sample(plant, 0.0);
   plant.state().pose.x = 20.0;  // 20 m in 0.2 s, 100 m/s
   recorder.Sample(plant, 0.2);
-  // The contact begins no earlier than the front, 4 m ahead of the rear axle, reaches the near side
-  // at 10 m, and no later than the rear axle reaches it.
+  // The first contact is between the time at which the front, 4 m ahead of the rear axle, reaches
+  // the near side of the obstacle at 10 m, and the time at which the rear axle reaches this side.
   ASSERT_TRUE(recorder.contact_time());
   EXPECT_GE(*recorder.contact_time(), 0.0599);
   EXPECT_LE(*recorder.contact_time(), 0.1001);

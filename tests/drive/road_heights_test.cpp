@@ -174,8 +174,8 @@ TEST(RoadHeightsCoasting, SlowACarBySineOfTheGrade) {
   };
   const double grade = 0.05;
   const double slowed = deceleration(Elevation(0.0, grade, 0.0)) - deceleration("");
-  // The inertia of the wheels adds a few percent to the mass. The drag changes by less, because the
-  // speed is lower.
+  // The inertia of the wheels adds a few percent to the mass. The drag decreases with the speed,
+  // but by less.
   EXPECT_NEAR(slowed, kGravity * grade, Tolerance(0.08 * kGravity * grade));
 }
 

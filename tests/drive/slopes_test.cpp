@@ -17,7 +17,7 @@ namespace {
 struct Outcome {
   DriveStatus status = DriveStatus::kArrived;
   double rolled_back = 0.0;    ///< largest [m]
-  double speed_error = 0.0;    ///< where the planned speed is constant, root mean square [m/s]
+  double speed_error = 0.0;    ///< RMS where the planned speed is constant [m/s]
   double goal_distance = 0.0;  ///< at the end [m]
 };
 

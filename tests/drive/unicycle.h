@@ -16,7 +16,8 @@ namespace trackbed {
 
 inline constexpr double kUnicycleWheelbase = 2.0;  // [m]
 
-/// Parameters of the unicycle. It is 4 m long and 2 m wide, so a tenth of its length is 0.4 m.
+/// Parameters of the unicycle. The unicycle is 4 m long and 2 m wide, so a tenth of its length is
+/// 0.4 m.
 inline VehicleParams UnicycleParams() {
   VehicleParams params;
   params.wheelbase = kUnicycleWheelbase;
@@ -28,7 +29,8 @@ inline VehicleParams UnicycleParams() {
 }
 
 /// Obeys the acceleration exactly, turns its wheels to the commanded angle at once, and moves on an
-/// arc of the exact length in each step. Like every plant it never rolls against the gear.
+/// arc of the exact length in each step. Like every plant, the unicycle never rolls against the
+/// gear.
 class Unicycle : public Plant {
  public:
   explicit Unicycle(const StartState& start, double timestep = 0.002) : timestep_(timestep) {

@@ -94,7 +94,8 @@ TEST(Robustness, IsTheShareOfTheLimitThatIsLeft) {
   EXPECT_EQ(RobustnessOf(run).limit, "kinematic: cross_track.max");
   EXPECT_EQ(expecting("{max_cross_track: 10}").value, (10.0 - error) / 10.0);
   EXPECT_EQ(expecting("{max_cross_track: 0.001}").value, (0.001 - error) / 0.001);
-  // The smallest robustness counts. For a bound of 0 it is absolute, in the metric's unit.
+  // The smallest robustness counts. With a bound of 0, the robustness is absolute, in the unit of
+  // the metric.
   const double final = metrics.tracking->cross_track_final;
   EXPECT_EQ(
       expecting("{max_cross_track: 1e4, metrics: [{metric: cross_track.final, max: 0}]}").value,

@@ -68,8 +68,8 @@ TEST_P(EverySearch, KeepsItsRunsAndTheSquare) {
       EXPECT_GE(std::min(point[0], point[1]), 0.0);
       EXPECT_LE(std::max(point[0], point[1]), 1.0);
     }
-    // The best value is a squared distance from the minimum. It must be below the squared radius of
-    // a disk with a quarter of the square's area.
+    // The best value is a squared distance from the minimum. This value must be below the squared
+    // radius of a disk with a quarter of the square's area.
     EXPECT_LT(course.least, 1.0 / (3.141592653589793 * 4.0));
   }
 }
@@ -162,7 +162,7 @@ TEST(SurrogateSearch, ProposesNoPointTwice) {
       std::optional<std::vector<std::optional<double>>> values(std::in_place);
       for (const UnitPoint& point : points) {
         EXPECT_TRUE(all.insert(point).second) << point[0] << " " << point[1];
-        // Half of them are no valid scenarios.
+        // Half of the points are not valid scenarios.
         values->push_back(std::lround(10.0 * (point[0] + point[1])) % 2 == 0
                               ? std::optional(point[0] - 0.3)
                               : std::nullopt);
@@ -173,7 +173,8 @@ TEST(SurrogateSearch, ProposesNoPointTwice) {
   }
 }
 
-/// 0.5 except for a wide basin with a large violation and a narrow one with a small violation.
+/// The robustness is 0.5, except for a wide basin with a large violation and a narrow basin with a
+/// small violation.
 double TwoBasins(const UnitPoint& at) {
   const auto basin = [&](double x, double y, double width) {
     return std::exp(-0.5 * (std::pow(at[0] - x, 2) + std::pow(at[1] - y, 2)) / (width * width));

@@ -35,7 +35,8 @@ TEST(Shrink, ReachesTheBoundaryAlongTheRay) {
                                      By([](const UnitPoint& p) { return 0.7 - p[0] - p[1]; }));
   ASSERT_TRUE(shrunk.complete);
   // The failing region's border is x + y = 0.7; its nearest point is (0.35, 0.35). The result is at
-  // most one tolerance beyond it in each key, and not nearer.
+  // most one tolerance beyond this point in each key, and not nearer to the nominal point than the
+  // border.
   EXPECT_GE(shrunk.distance, 0.35 * std::sqrt(2.0));
   EXPECT_LE(shrunk.distance, 0.35 * std::sqrt(2.0) + kTolerance);
   EXPECT_LT(shrunk.robustness, 0.0);

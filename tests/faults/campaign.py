@@ -225,7 +225,7 @@ class Campaign:
         self.root = tempfile.mkdtemp(prefix="trackbed_faults_")
         self.states = {}
 
-    # What is run.
+    # Running the program.
 
     def start(self, args, env=None, **keys):
         environment = dict(os.environ, TRACKBED_DATA=SOURCE)
@@ -308,7 +308,7 @@ class Campaign:
                 "FAULT_AT": str(at), "FAULT_ERRNO": str(error), "FAULT_LOG": log,
                 "FAULT_HALF": "1" if at % 2 and error >= 0 else ""}
 
-    # What must hold.
+    # Conditions on the files.
 
     def lose(self, case, what, wrong):
         self.losses.append(f"{case.name}: {what}: {wrong}")

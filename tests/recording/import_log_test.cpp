@@ -314,8 +314,8 @@ TEST(ImportLog, PrefersMeasuredSpeedYawRateAndAcceleration) {
   EXPECT_THAT(sample.velocity_V.x(), DoubleNear(1.4, Tolerance(1e-12)));
   EXPECT_THAT(sample.yaw_rate, DoubleNear(0.72, Tolerance(1e-12)));
   EXPECT_THAT(sample.yaw_acceleration, DoubleNear(0.01, Tolerance(1e-10)));
-  // The accelerometer is 1 m ahead of the rear axle. With the yaw rate r, it reads -r^2 * 1 m more
-  // forward and r' * 1 m more to the left.
+  // The accelerometer is 1 m ahead of the rear axle. With the yaw rate r, the accelerometer reads
+  // -r^2 * 1 m more forward and r' * 1 m more to the left.
   EXPECT_THAT(sample.acceleration_V.x(), DoubleNear(0.72 * 0.72, Tolerance(1e-10)));
   EXPECT_THAT(sample.acceleration_V.y(), DoubleNear(0.2 * 9.80665 - 0.01, Tolerance(1e-10)));
 }

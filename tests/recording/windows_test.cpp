@@ -99,9 +99,9 @@ TEST(PredictWindows, EachWindowIsThatPartOfTheWholeDrive) {
     ASSERT_EQ(windows.size(), 4U) << plant;
     EXPECT_THAT(windows[2].start, DoubleNear(2.5, Tolerance(1e-12)));
     EXPECT_EQ(windows[2].states.size(), 101U);
-    // The windows integrate the same equations from the same states as the record. They differ by
-    // rounding, 1e-16 per step over 1000 steps, and by 1e-12 because solver steps are split at
-    // different times.
+    // The windows integrate the same equations from the same states as the record. The states
+    // differ by rounding, 1e-16 per step over 1000 steps, and by 1e-12 because solver steps are
+    // split at different times.
     EXPECT_LT(LargestDistance(windows, drive), Tolerance(1e-9)) << plant;
   }
 }

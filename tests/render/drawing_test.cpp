@@ -193,10 +193,10 @@ TEST(Camera, SideGoesAlongWithoutAJerk) {
   for (int frame = 1; frame <= 60; ++frame) {
     const CameraPose pose = side.pose(subject, 1.0 + frame / 30.0, 1.8);
     const double rate = 30.0 * (pose.azimuth - before);
-    // The heading of the camera is a mean weighted by a triangle of +-0.8 s. Its rate changes by at
-    // most 0.5/0.8 rad/s per second: the step of 0.5 rad/s times the peak of the triangle. The
-    // bound is doubled because the mean has 31 samples 0.05 s apart, while frames are 0.033 s
-    // apart.
+    // The heading of the camera is a mean weighted by a triangle of +-0.8 s. The rate of the
+    // camera's heading changes by at most 0.5/0.8 rad/s per second: the step of 0.5 rad/s times the
+    // peak of the triangle. The bound is doubled because the mean has 31 samples 0.05 s apart,
+    // while frames are 0.033 s apart.
     EXPECT_LT(std::abs(rate - rate_before), 2.0 * 0.5 / 0.8 / 30.0) << frame;
     before = pose.azimuth;
     rate_before = rate;
@@ -226,7 +226,7 @@ TEST(Camera, TopShowsAllOfASmallRouteAndFollowsInALargeOne) {
   EXPECT_GE(width, 40.0);
 
   {
-    // A replan belongs to the route even where it was not driven.
+    // The view includes replans, even parts that were not driven.
     const TempFolder folder;
     CopyPrius(folder.path());
     WritePlant(folder.path(), "mujoco", 1.0, [](double) { return CarPlace{}; });

@@ -113,7 +113,8 @@ class Film : public testing::Test {
 
 TEST_F(Film, HasTheSizeFramesAndDurationAskedFor) {
   const FilmReport report = Make();
-  // Frames at 0, 0.1, ..., 1.0 s: eleven, with the last one at the end of the recording.
+  // The film has eleven frames, at 0, 0.1, ..., 1.0 s. The last frame is at the end of the
+  // recording.
   EXPECT_EQ(report.frames, 11);
   EXPECT_DOUBLE_EQ(report.duration, 1.0);
   EXPECT_EQ(report.car, "mujoco");
@@ -159,7 +160,8 @@ TEST_F(Film, IsAnAnimatedPictureWhereThatIsAskedFor) {
   EXPECT_EQ(apng.frames, 11);
   EXPECT_EQ(apng.width, 97);
   EXPECT_EQ(apng.codec, AV_CODEC_ID_APNG);
-  // acTL: the number of frames, then the number of repetitions (0: endless).
+  // The chunk acTL contains the number of frames and then the number of repetitions (0 for
+  // endless).
   const std::string bytes = ReadFile(output_);
   const std::size_t control = bytes.find("acTL");
   ASSERT_NE(control, std::string::npos);
@@ -171,7 +173,7 @@ TEST_F(Film, IsAnAnimatedPictureWhereThatIsAskedFor) {
   EXPECT_EQ(webp.substr(0, 4), "RIFF");
   EXPECT_EQ(webp.substr(8, 8), "WEBPVP8X");
   EXPECT_EQ(Chunks(webp, "ANIM"), 1);
-  // ANIM: background color and number of repetitions.
+  // The chunk ANIM contains the background color and the number of repetitions.
   EXPECT_EQ(webp.substr(webp.find("ANIM") + 12, 2), std::string(2, '\0'));
   // WebP merges equal frames; these differ.
   EXPECT_EQ(Chunks(webp, "ANMF"), 11);

@@ -186,8 +186,8 @@ TEST(PatchTiles, FollowTheGroundAndCoverThePatch) {
   // The tiles are rectangles, so they overlap slightly on curved ground.
   EXPECT_NEAR(covered, area.length * area.width, Tolerance(0.01 * area.length * area.width));
   // Tiles lie 1 mm above the ground. The curvature of the ground along the grid lines changes this
-  // by up to 1.5 mm, and the twist between the lines by another 1.5 mm. At the sides of the bump,
-  // where tiles have their minimum size, 1 mm is added.
+  // height by up to 1.5 mm, and the twist between the lines by another 1.5 mm. At the sides of the
+  // bump, where tiles have their minimum size, 1 mm is added.
   EXPECT_GT(lowest, Tolerance(-3e-3));
   EXPECT_LT(highest, Tolerance(5e-3));
 }

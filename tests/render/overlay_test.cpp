@@ -263,8 +263,8 @@ class StripTest : public FilmSceneTest {
 TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
   const Image image = DrawAt(1.2);
   // The plot ends a margin of 10 px and half a padding (4 px) above the lower edge of the picture.
-  // It begins 0.4 paddings (3.2 px) and the height of the letters (13.8 px) below the upper edge of
-  // the panel.
+  // The plot begins 0.4 paddings (3.2 px) and the height of the letters (13.8 px) below the upper
+  // edge of the panel.
   const int first = static_cast<int>(std::round(top_ + 3.2 + 0.86 * 16.0));
   const int last = 360 - 10 - 4;
   const int middle = (first + last) / 2;
@@ -282,13 +282,14 @@ TEST_F(StripTest, ShowsWhatIsPlannedAndWhatWasSteeredUntilNow) {
   // The measured angle has no color in the future.
   const std::array<int, 3> later = Brightest(image, column(1.7), middle + 3, last);
   EXPECT_LT(later[0], 30);
-  // The planned steering is zero at first and then to the left. Its color is paler in the future.
+  // The planned steering is zero at first and then to the left. The color of the planned steering
+  // is paler in the future.
   const int between = (first + middle) / 2 + 2;
   EXPECT_LT(image.Pixel(column(0.8), between)[0], 30);
   EXPECT_GT(image.Pixel(column(1.1), between)[0], 100);
   EXPECT_GT(image.Pixel(column(1.7), between)[0], 50);
   EXPECT_LT(image.Pixel(column(1.7), between)[0], image.Pixel(column(1.1), between)[0] - 30);
-  // The cursor.
+  // The cursor is bright.
   EXPECT_GT(image.Pixel(column(1.2), last - 3)[0], 150);
 }
 

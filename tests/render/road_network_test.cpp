@@ -33,7 +33,7 @@ TEST_F(FilmSceneTest, ARoadNetworkHasPavementAndPaintWhereTheFileSays) {
     EXPECT_GT(At(image, x, 3.5)[2], kWhite - 10) << x;
     const std::array<int, 3> yellow = At(image, x, 0.0);
     EXPECT_GT(yellow[0], yellow[2] + 80) << x;
-    // Grass beside the road, which is paved up to 3.5 m to the right.
+    // Beside the road, which is paved up to 3.5 m to the right, is grass.
     const std::array<int, 3> grass = At(image, x, -6.0);
     EXPECT_GT(grass[1], grass[2] + 15) << x;
   }

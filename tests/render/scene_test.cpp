@@ -64,10 +64,10 @@ TEST_F(FilmSceneTest, PaintCastsNoShadowOnItself) {
 TEST_F(FilmSceneTest, TheSunCastsTheCarsShadowToItsRight) {
   const Image lit = Picture("top", 0.0);
   const Image shaded = Picture("top", 0.0, true);
-  // The edge of the roof is 1.5 m high and 0.55 m from the center line. Its shadow is 1.5 * 0.4 /
-  // 0.8 = 0.75 m farther to the right, so y = -1.15 m is in the shade and y = -2.2 m and 1.5 m are
-  // not. The sun provides almost half of the light on flat ground, so the shade is darker by much
-  // more than a quarter.
+  // The edge of the roof is 1.5 m high and 0.55 m from the center line. The shadow of this edge is
+  // 1.5 * 0.4 / 0.8 = 0.75 m farther to the right, so y = -1.15 m is in the shade and y = -2.2 m
+  // and 1.5 m are not. The sun provides almost half of the light on flat ground, so the shade is
+  // darker by much more than a quarter.
   EXPECT_LT(At(shaded, 1.4, -1.15)[1], 0.75 * At(lit, 1.4, -2.2)[1]);
   // In the sun, the brightness of all lamps adds up to 0.37 + 0.22 + 0.60 * 0.8 / 0.943 = 1.10.
   // Rendering in one pass clips the brightness to 1. Rendering in two passes, one of them for the
@@ -95,7 +95,8 @@ TEST_F(FilmSceneTest, ThingsFarFromTheCarCastShadowsToo) {
     WriteFileAtomically(model, with_box);
     const Image lit = Picture(camera, 0.0);
     const Image shaded = Picture(camera, 0.0, true);
-    // Its upper edges, 2 m high, cast shadows 2 * 0.3 / 0.8 = 0.75 m ahead and 1 m to the right.
+    // The upper edges of the cube, 2 m high, cast shadows 2 * 0.3 / 0.8 = 0.75 m ahead and 1 m to
+    // the right.
     EXPECT_LT(At(shaded, x, y - 1.5)[1], 0.75 * At(lit, x, y - 1.5)[1]) << camera;
     EXPECT_GE(At(shaded, x, y - 2.5)[1], At(lit, x, y - 2.5)[1] - 2) << camera;
   }
@@ -132,8 +133,8 @@ TEST_F(FilmSceneTest, SupersamplingSmoothsAndShiftsNothing) {
 
 TEST_F(FilmSceneTest, TheSideCameraHasTheCarInTheMiddle) {
   const Image image = Picture("side", 1.0);
-  // At 1 s the Prius covers x = 2.175 to 6.625, up to z = 1.49. All of it is in the picture, on
-  // both sides of the center, with the front to the right.
+  // At 1 s the Prius covers x = 2.175 to 6.625, up to z = 1.49. The whole car is in the picture, on
+  // both sides of the center, with its front to the right.
   const Pixel tail = Project(*pose_, 2.175, -0.86, 0.7);
   const Pixel nose = Project(*pose_, 6.625, -0.86, 0.7);
   EXPECT_GT(tail.x, kWidth / 10);

@@ -80,7 +80,7 @@ class Reports(PageTest):
         cls.trackbed("report", "slow")
         cls.trackbed("report", "slow", "--film", "beside", "-o", "beside.html")
         cls.trackbed("report", "slow", "quick", "--film", "none", "-o", "both.html")
-        # The runs differ only in speed: by 0.3 m/s where they steer.
+        # The runs differ only in speed, by 0.3 m/s in the turn.
         cls.trackbed("compare", "-q", "slow", "quick", "-o", "judged", "--tolerance", JUDGED, code=3)
         cls.trackbed("report", "judged", "--film", "none")
         cls.trackbed("report", "study")

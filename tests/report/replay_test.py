@@ -136,8 +136,8 @@ class Replay(PageTest):
         points = car_points(run["vehicle"])
         log = log_of(self.root / "minute/mujoco.csv")
         states = log_of(self.root / "minute/mujoco.state.csv")
-        # Without shadows, and without lines on the ground, which the car covers, only the car
-        # itself differs.
+        # Hides the shadows and the lines on the ground, which the car covers, so that only the car
+        # differs between the pictures.
         self.browser.run(
             "for (const car of replay.cars) { car.trail.mesh.material.visible = false;"
             " car.ghost.group.traverse(o => { if (o.material) o.material.visible = false; });"

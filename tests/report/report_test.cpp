@@ -400,7 +400,7 @@ TEST(StudyDifference, IsOfRowsThatSetTheSame) {
   const fs::path before = folder.Write("before/sweep.csv",
                                        "x,status,y,z,reason\n1,passed,1,7,\n2,failed,2,7,\n"
                                        "3,failed,3,7,\n4,passed,,7,\n9,passed,9,7,\n");
-  // The rows in another order, with another output, and without the last row.
+  // The second table has the rows in a different order, a different output, and no last row.
   const fs::path after = folder.Write("after/sweep.csv",
                                       "x,status,w,y,reason\n3,passed,0,5,\n2,passed,0,2,\n"
                                       "1,passed,0,4,\n4,failed,0,1,\n");

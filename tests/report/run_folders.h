@@ -18,7 +18,7 @@ inline void ForgetHashes(const std::filesystem::path& folder) {
   WriteFileAtomically(folder / "manifest.json", R"({"results": {}})");
 }
 
-/// Makes the manifest of a run with the files as they are, so that a verb may replace them.
+/// Writes the manifest of a run for its current files, so that a verb may replace these files.
 inline void RememberHashes(const std::filesystem::path& folder) {
   nlohmann::json manifest;
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
@@ -47,8 +47,8 @@ inline std::filesystem::path DriveCorner(const TempFolder& folder, const std::st
   return out;
 }
 
-/// Repeats the rows of a log until it is `duration` long, with a row each `period` and the original
-/// number of digits.
+/// Repeats the rows of a log until the log is `duration` long, with one row per `period` and the
+/// original number of digits.
 inline void LengthenLog(const std::filesystem::path& file, double duration, double period) {
   const Table log = ReadCsv(file);
   Table longer(log.columns());

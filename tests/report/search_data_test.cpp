@@ -103,7 +103,7 @@ TEST_F(SearchDataTest, CountsWhatWasTriedInEqualIntervals) {
   // With three whole numbers, each one is a bin.
   EXPECT_EQ(search["keys"][2]["tried"].dump(), "[1,4,1]");
   EXPECT_EQ(search["keys"][2]["failed"].dump(), "[1,2,0]");
-  // Only runs of the search itself, not of the shrinking.
+  // `best` contains only runs of the search, not of the shrinking.
   EXPECT_EQ(search["best"].dump(), "[[0,0.5],[1,0.25],[2,-1.0]]");
 }
 

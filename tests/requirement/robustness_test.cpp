@@ -138,8 +138,8 @@ TEST(Robustness, ErrorsNameTheSignalAndTheTime) {
 }
 
 TEST(Robustness, OfALongLogTakesTimeLinearInItsLength) {
-  // 200 000 samples with windows of half of them. Brute force would need 2e10 comparisons per
-  // operator, which exceeds the test's time limit.
+  // The log has 200 000 samples, and the windows have half as many samples. Brute force would need
+  // 2e10 comparisons per operator, which exceeds the test's time limit.
   Table log({"t_s", "x_m"});
   constexpr int kCount = 200000;
   for (int i = 0; i < kCount; ++i) {

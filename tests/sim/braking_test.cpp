@@ -74,9 +74,9 @@ TEST(Braking, HarderThanThatAWheelLocksAndTheCarBrakesNoHarder) {
 }
 
 TEST(Braking, TheBmwsPitchLocksItsRearWheelsABitBelowItsLimit) {
-  // The rear axle limits the BMW, and the pitch transient unloads it more than the steady state. At
-  // 95 % no wheel locks; after a step to the limit, the locked wheels reduce the deceleration by 5
-  // %.
+  // The rear axle limits the braking of the BMW. The pitch transient reduces the load of this axle
+  // more than the steady state. At 95 % no wheel locks; after a step to the limit, the locked
+  // wheels reduce the deceleration by 5 %.
   const double limit = CarWith("bmw320i", {}).params().max_deceleration;
   for (const std::string& plant : kLaws) {
     SCOPED_TRACE(plant);

@@ -136,7 +136,7 @@ TEST(CarGrip, ForcesAreThoseOfTheParameters) {
   const GgvDiagram diagram = ComputeGgv(car, TyreLaw::kAuto, {1.0});
   EXPECT_NEAR(diagram.AccelerationsAt({.speed = params.top_speed}).largest, 0.0, Tolerance(1e-6));
   // The diagram is that of the Magic Formula alone, which has more grip than the bare contacts. At
-  // rest it therefore reaches at least the acceleration of VehicleParams.
+  // rest, the diagram therefore has at least the acceleration of VehicleParams.
   EXPECT_GE(diagram.AccelerationsAt({}).largest, params.max_acceleration - 1e-3);
   // The braking limit of the diagram is that of the brakes: no command brakes harder.
   EXPECT_NEAR(diagram.TyresAt({}).braking, -params.max_deceleration, Tolerance(1e-3));

@@ -388,7 +388,8 @@ TEST(VehicleLimits, TopSpeedIsWhereDragTakesAll) {
   const double rolling = 0.01 * 1317.0 * 9.81 + 4.0 / 0.31075;
   EXPECT_NEAR(prius.top_speed, std::sqrt((1645.0 / 0.31075 - rolling) / (0.5 * 1.225 * 0.561)),
               Tolerance(0.001));
-  // The BMW's top speed from its power: Cardano's formula for k v^3 + R v - P = 0.
+  // The power P limits the top speed of the BMW. Cardano's formula solves k v^3 + R v - P = 0, with
+  // the drag k v^2 and the rolling resistance R.
   const double k = 0.5 * 1.225 * 0.688;
   const double p = 4.0 * 0.5 / 0.344 / k;
   const double q = -92021.0 / k;

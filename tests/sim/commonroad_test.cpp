@@ -1,5 +1,5 @@
-// The BMW 320i compared with CommonRoad's multi-body model of it, with the same steering and speed;
-// the wheel angles are prescribed. tests/data/commonroad/README.md names the source of the
+// Compares the BMW 320i with CommonRoad's multi-body model of this car, with the same steering and
+// speed. The wheel angles are prescribed. tests/data/commonroad/README.md names the source of the
 // reference.
 
 #include <gtest/gtest.h>
@@ -197,7 +197,7 @@ TEST_P(CommonRoad, SteadyTurns) {
     // In the published model, the weight acts 15.6 mm behind the point about which the car turns.
     // This equals an understeer gradient K of 1.13e-4 rad s^2/m (1.24e-4 at 2.5 m/s^2), which
     // changes the yaw rate by the fraction K v^2/L. The assumed aerodynamics push the car's rear
-    // sideways and load its tyres: 3 % at 25 m/s.
+    // sideways and load its tyres, which changes the yaw rate by 3 % at 25 m/s.
     const double v_squared = speeds[i] * speeds[i];
     const bool is_published = kind() == Kind::kPublished;
     const double published = is_published ? 1.3e-4 * v_squared / car.params().wheelbase : 0.0;

@@ -72,7 +72,7 @@ struct Axles {
 
 class Understeer : public testing::TestWithParam<Axles> {
  protected:
-  /// (delta - L/R)/a_y at 20 m/s and about 0.8 m/s^2 [rad/(m/s^2)].
+  /// Understeer gradient (delta - L/R)/a_y at 20 m/s and about 0.8 m/s^2 [rad/(m/s^2)].
   static double Gradient(const Axles& axles) {
     Numerics numerics = kStripped;
     numerics["p_ky1_front"] = -axles.front;
@@ -201,8 +201,8 @@ TEST(MagicFormulaTyres, ParkedCarsStayWhereTheyAre) {
 }
 
 TEST(MagicFormulaTyres, CoastingWheelsSettle) {
-  // A wheel is released after 0.15 s of braking. Without damping it would oscillate at some 120
-  // rad/s; with an explicit slip law it would never stop oscillating.
+  // A wheel is released after 0.15 s of braking. Without damping, the wheel would oscillate at
+  // about 120 rad/s. With an explicit slip law, the oscillation would never stop.
   for (const double timestep : {0.001, 0.002, 0.004, 0.005}) {
     const CarModel car = CarWith("bmw320i", {}, timestep);
     for (const double speed : {1.5, 5.0, 20.0, 40.0}) {
@@ -291,9 +291,9 @@ TEST(MagicFormulaTyres, LeftAndRightAreMirrorImages) {
 }
 
 TEST(MagicFormulaTyres, SlidingNeverGainsEnergy) {
-  // The car slides sideways at 12 m/s without drive or brakes. Its kinetic energy may only
-  // decrease, except for the energy that springs and deflected tyres return in the first bounce:
-  // below 2 % here.
+  // The car slides sideways at 12 m/s without drive or brakes. The kinetic energy of the car may
+  // only decrease, except for the energy that springs and deflected tyres return in the first
+  // bounce, which is below 2 %.
   const CarModel car = CarWith("prius", {});
   const World world;
   const auto plant = On(car, world, {.speed = 12.0});
@@ -318,8 +318,8 @@ TEST(MagicFormulaTyres, SlidingNeverGainsEnergy) {
 }
 
 TEST(MagicFormulaTyres, TheRoadIsThatUnderEachWheel) {
-  // The left wheels are on ice. When braking hard they transmit a tenth of the right wheels' force,
-  // and the car is pulled to the right.
+  // The left wheels are on ice. When the car brakes hard, the left wheels transmit a tenth of the
+  // right wheels' force, so the car turns to the right.
   World world;
   world.friction_patches = {{.area = {{50.0, 5.0, 0.0}, 200.0, 10.0}, .friction = 0.1}};
   for (const char* tyre : {"mujoco:magic_formula", "mujoco:contact"}) {

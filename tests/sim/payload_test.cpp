@@ -89,8 +89,8 @@ TEST(Payload, LoadsTheWheelsAsStaticsSays) {
   // are below 1e-5 m/s^2.
   EXPECT_NEAR(load(0) + load(1) + load(2) + load(3), weight, Tolerance(0.05));
   // Nose up is a negative pitch: the center of gravity moves backward relative to the hubs, under
-  // which the wheels touch. It also sinks by 2 cm on the springs, which changes this shift of 2 mm
-  // by a tenth: 1 N of 11 N.
+  // which the wheels touch. The center of gravity also sinks by 2 cm on the springs. This changes
+  // the backward shift of 2 mm by a tenth, which is 1 N of 11 N.
   const double front = p.mass * kGravity * p.cg_to_rear / p.wheelbase +
                        weight * (height - p.wheel_radius) * std::sin(state.pitch) / p.wheelbase;
   EXPECT_LT(state.pitch, -0.005);

@@ -307,8 +307,8 @@ TEST(MujocoPlant, SteeringFollowsTheActuatorClosely) {
   const auto plant = MakePlant("mujoco", PriusAt({.speed = 3.0}));
   Hold(*plant, 0.4, 3.0, 2.0);  // the wheels are still turning
   const VehicleState moving = plant->Observe();
-  // A servo with lag tau follows a ramp with a delay of rate * tau. The model's tau is 10 ms and
-  // the coupling adds as much: 0.15 rad/s * 20 ms = 0.003 rad.
+  // A servo with lag tau follows a ramp with a delay of rate * tau. In the model, tau is 10 ms and
+  // the coupling adds another 10 ms, so the steering lags by 0.15 rad/s * 20 ms = 0.003 rad.
   EXPECT_NEAR(moving.steering, moving.steering_actuator, Tolerance(0.003));
   Hold(*plant, 0.4, 3.0, 3.0);
   const VehicleState resting = plant->Observe();

@@ -128,8 +128,8 @@ TEST(RoadContact, LoadsChangeAsSmoothlyAsTheGround) {
   // h/L^2 v^2 = 3.1 m/s^2, which needs 110 N. The damper adds 1450 N s/m times the change of speed
   // in two timesteps. On a ground of flat facets, the load would jump by thousands of newtons.
   EXPECT_LT(largest, 200.0);
-  // The load at rest is 3100 N. It decreases by the inertia of a quarter of the car, 330 kg * 3.1
-  // m/s^2 = 1020 N, and by an oscillation.
+  // The load at rest is 3100 N. On the crest, the load decreases by the inertia of a quarter of the
+  // car, 330 kg * 3.1 m/s^2 = 1020 N, and by an oscillation.
   EXPECT_GT(lightest, 1500.0);
 }
 
@@ -152,7 +152,7 @@ TEST(RoadContact, ACarComesToRestAgainAsItStood) {
 }
 
 TEST(RoadContact, FlatStretchesAreAsFlatGround) {
-  // Compares two cars. The world of only one of them has a hump, far away.
+  // Compares two cars. Only one of the two worlds has a hump, which is far away.
   Ground far = kHump;
   far.bumps[0].area.center.x = 1000.0;
   const CarModel flat = PriusOn({});

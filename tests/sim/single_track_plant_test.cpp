@@ -261,8 +261,8 @@ TEST(SingleTrackPlant, TurnsAsTheMagicFormulaCarDoes) {
       const VehicleState& physical = two.physical.back();
       EXPECT_NEAR(linear.lateral_acceleration, acceleration, Tolerance(1e-6));
       // Softer tyres take more of the steering angle. Small angles, the drive force against the
-      // front tyres' drag, and two wheels per axle are also quadratic effects. Together they get a
-      // tolerance as large as the softening of the total slip.
+      // front tyres' drag, and two wheels per axle are also quadratic effects. The tolerance for
+      // all of these effects is as large as the softening of the total slip.
       const double softer = Softening(car.parts().tyres->axle[0], acceleration);
       const double tolerance = (share + 1.0) * softer;
       EXPECT_NEAR(physical.yaw_rate / linear.yaw_rate, 1.0, Tolerance(tolerance));
@@ -305,13 +305,13 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
       apart = std::max(apart, (physical.pose.position() - linear.pose.position()).norm());
     }
     const double rms = std::sqrt(squares / static_cast<double>(two.physical.size()));
-    // MuJoCo's car has effects that the single-track car lacks. They change the tyre forces, and
-    // thereby the fraction of the steering that is slip. The roll angle moves the center of gravity
-    // by the height h times the angle, which changes the acceleration by omega^2 times this
-    // distance. Forces follow the slip with a delay of the relaxation length over u. The errors
-    // from roll and delay are a quarter of a period out of phase. The tyres soften. Wheels of
-    // angular momentum H on a body that rolls at omega roll cause a yaw moment M = H omega roll,
-    // equivalent to a steering angle of M (1/C_f + 1/C_r)/L.
+    // MuJoCo's car has effects that the single-track car lacks. These effects change the tyre
+    // forces, and thereby the fraction of the steering angle that the slip takes. The roll angle
+    // moves the center of gravity by the height h times the angle, which changes the acceleration
+    // by omega^2 times this distance. Forces follow the slip with a delay of the relaxation length
+    // over u. The errors from roll and delay are a quarter of a period out of phase. The tyres
+    // soften. Wheels of angular momentum H on a body that rolls at omega roll cause a yaw moment M
+    // = H omega roll, equivalent to a steering angle of M (1/C_f + 1/C_r)/L.
     const MagicFormula& tyre = car.parts().tyres->axle[0];
     const VehicleParams& params = car.params();
     const double rolls = omega * omega * car.parts().cg_height * roll / acceleration;
@@ -323,8 +323,8 @@ TEST(SingleTrackPlant, WeavesAsTheMagicFormulaCarDoes) {
     const double part =
         share * (std::hypot(rolls, late) + Softening(tyre, acceleration)) + yaws / kSteering;
     EXPECT_LT(rms, Tolerance(part * yaw_rate));
-    // The heading error is the integral of the yaw-rate error. Its mean is not zero, but 1/omega
-    // times the amplitude of the yaw-rate error.
+    // The heading error is the integral of the yaw-rate error. The mean of the heading error is not
+    // zero, but 1/omega times the amplitude of the yaw-rate error.
     EXPECT_LT(apart, Tolerance(part * yaw_rate / omega * kSpeed * 8.0));
   }
 }

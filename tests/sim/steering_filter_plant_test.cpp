@@ -48,7 +48,8 @@ TEST(SteeringFilterPlant, IsTheSameOnEveryPlant) {
     Drive(
         car, *plant, 2.0, [&](double t, const VehicleState&) { return Command{command(t)}; },
         [&](double t, const VehicleState& state) {
-          // MuJoCo sums rates times timesteps: 1000 roundings of numbers below 1.
+          // MuJoCo sums rates times timesteps, so the tolerance covers 1000 roundings of numbers
+          // below 1.
           EXPECT_NEAR(state.steering_actuator, actuator, Tolerance(1e-12))
               << entry.name << " " << t;
           actuator += std::clamp(filter.Pass(command(t)) - actuator, -step, step);

@@ -106,7 +106,8 @@ TEST(Linkage, SharesTheLateralForceBetweenTheFrontTyres) {
     }
   }
   // Together, the front tyres carry about 400 N. The turn transfers 10 % of the load to the outer
-  // tyre, so it carries about 40 N more. The bound of 120 N is three times this difference.
+  // tyre, which therefore carries about 40 N more. The bound of 120 N is three times this
+  // difference.
   EXPECT_LE(std::abs(difference), Tolerance(120.0));
 }
 

@@ -159,8 +159,8 @@ CarModel Trailing(double trail) {
 }
 
 TEST(SteeringLinkage, LoadsTheRackWithWhatTurnsTheWheels) {
-  // Lateral forces act behind the steering axes. They turn the wheels toward straight ahead,
-  // because the servo has a stiffness of only 2e5 N m/rad.
+  // Lateral forces act behind the steering axes. These forces turn the wheels toward straight
+  // ahead, because the servo has a stiffness of only 2e5 N m/rad.
   constexpr double kTrail = 0.05;
   constexpr double kServo = 2e5;
   const CarModel car = Trailing(kTrail);

@@ -56,7 +56,8 @@ INSTANTIATE_TEST_SUITE_P(Wind, OnBothTyres, testing::Values("contact", "magic_fo
                          [](const auto& tyre) { return tyre.param; });
 
 TEST_P(OnBothTyres, AStandingCarIsPushedByHalfRhoVSquaredWhereItsPressureIs) {
-  // Wind of 20 m/s on a car with heading 0.7: 12 m/s along the car and 16 m/s across it.
+  // The wind of 20 m/s meets a car with the heading 0.7 rad at 12 m/s along the car and 16 m/s
+  // across it.
   const double yaw = 0.7;
   const World world{
       .wind = {.velocity = 12.0 * Direction(yaw) + 16.0 * LeftNormal(Direction(yaw))}};

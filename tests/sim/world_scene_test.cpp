@@ -168,9 +168,9 @@ TEST(WithGround, ABallComesToRestOnTheClosedForm) {
       mj_step(car.get(), d.get());
     }
     const int body = mj_name2id(car.get(), mjOBJ_BODY, "ball");
-    // The facets of the height field have the size d = 5 cm. They are lower than the bump, with its
-    // curvature c = 2 pi^2 h/L^2 = 0.12 1/m, by at most c d^2/8 = 4e-5 m. The contact yields by
-    // 1e-6 m.
+    // The facets of the height field have the size d = 5 cm. The facets are lower than the bump,
+    // with its curvature c = 2 pi^2 h/L^2 = 0.12 1/m, by at most c d^2/8 = 4e-5 m. The contact
+    // yields by 1e-6 m.
     EXPECT_NEAR(d->xpos[3 * body + 2], BallHeight(ground, p, r, 0.002), Tolerance(5e-5)) << along;
   }
 }
@@ -224,7 +224,8 @@ double LargestForce(const std::vector<Obstacle>& obstacles, const StartState& st
   return largest;
 }
 
-// A box exactly on the ground would touch it or not depending on the rounding of its corners.
+// Whether a box exactly on the ground touches the ground would depend on the rounding of its
+// corners.
 TEST(WithWorld, MovingObstaclesDoNotTouchTheGround) {
   for (int i = 0; i < 31; ++i) {
     const OrientedBox box{{60.0, 30.0, 0.05 + 0.1 * i}, 4.0, 2.0};

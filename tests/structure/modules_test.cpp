@@ -116,8 +116,8 @@ std::vector<Include> FindIncludes(const Module& module) {
   return includes;
 }
 
-// The compiler enforces that a module includes only headers of modules that it links, as it finds
-// no others (cmake/Module.cmake). MuJoCo's headers, however, are visible to every target.
+// The build (cmake/Module.cmake) lets the compiler find only the headers of modules that a module
+// links. However, MuJoCo's headers are visible to every target.
 TEST(Modules, OnlySimAndRenderIncludeMujoco) {
   std::size_t seen = 0;
   for (const Module& module : Modules()) {

@@ -88,10 +88,10 @@ TEST(ObstacleAppears, IsPassedOnANewPlanAfterTheDelay) {
     EXPECT_EQ(at->tracking->cross_track, 0.0);
     // Stations continue: between two rows the car moves 0.06 m.
     EXPECT_NEAR(at->tracking->s, (at - 1)->tracking->s, 0.07);
-    // Steering is continuous: the commanded angle changes by at most what the actuator can follow
-    // in a period, plus the correction of the previous cross-track error, which the new plan resets
-    // (0.05 m divided by the square of the preview distance, 2.5 m, times twice the wheelbase:
-    // 0.043 rad).
+    // The commanded angle changes by at most the angle that the actuator turns in a period, plus
+    // the correction of the previous cross-track error, which the new plan resets. The correction
+    // is 2 L e/R^2 = 0.043 rad, with the wheelbase L, e = 0.05 m and the preview distance R = 2.5
+    // m.
     EXPECT_NEAR(at->command.steering, (at - 1)->command.steering,
                 Tolerance(0.043 + vehicle.steering_rate * 0.02));
   }

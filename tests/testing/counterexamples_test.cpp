@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 const fs::path kFolder = fs::path(TRACKBED_SOURCE_DIR) / "tests/data/counterexamples";
 
-/// A row of a table on the page; it has no settings if the failure is fixed.
+/// A row of a table on the page, without settings if the failure is fixed.
 struct LimitRow {
   std::string name;
   std::vector<Override> fails_at;

@@ -25,7 +25,8 @@ std::filesystem::path Course(const std::string& name) {
   return std::filesystem::path(TRACKBED_SOURCE_DIR) / "scenarios" / "courses" / (name + ".yaml");
 }
 
-/// A course of scenarios/courses, with its curvatures scaled so that it takes 0.4 g at any speed.
+/// A course of scenarios/courses with curvatures scaled for a lateral acceleration of 0.4 g at
+/// `speed`.
 Scenario CourseAt(const std::string& name, const std::string& car, double speed) {
   Scenario scenario = ReadScenario(Course(name));
   const double share = (scenario.mission.speed * scenario.mission.speed) / (speed * speed);

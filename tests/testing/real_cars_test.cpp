@@ -44,7 +44,7 @@ TEST(RealCar, IsAPlantForMatchers) {
   EXPECT_THAT(run, testing::Not(StaysWithin(kRecordedPlant, "mujoco", 1e-4)));
 }
 
-// Uses recordings that took no part in any fit, with the windows of all of them pooled.
+// Uses the windows of all recordings that were not used in a fit.
 TEST(RealCar, IsPredictedOverTwoSecondsWhereNothingWasFitted) {
   std::vector<double> distances;  // [m]
   for (const char* name : {"dart_free_driving_b", "dart_ramp_neg03"}) {

@@ -55,7 +55,7 @@ TEST(GripModel, OfAPointMassIsTheFrictionCircle) {
 }
 
 TEST(GripModel, LoadTransferDoesNotMatterToFrictionThatIsProportional) {
-  // Each axle transmits mu times its load, however the load is split between its wheels.
+  // Each axle transmits mu times its load, for any distribution of the load between its wheels.
   EXPECT_NEAR(MaxLateralForce(Car(), 1.0, 0.0), kGrip * kGravity, Tolerance(kHalved));
   EXPECT_NEAR(MaxLateralForce(Car(), 0.4, 0.0), 0.4 * kGrip * kGravity, Tolerance(kHalved));
 }

@@ -62,7 +62,8 @@ TEST(KinematicCar, PositiveSteeringTurnsRightwardsInReverse) {
 // --- Differential drive --------------------------------------------------------------------------
 
 TEST(KinematicCar, WithDifferentialDriveIsTheUnicycleOfItsWheelSpeeds) {
-  // A rigid body on two rolling wheels: v = (v_R + v_L)/2, psi' = (v_R - v_L)/b.
+  // A rigid body on two rolling wheels with the speeds v_L and v_R and the track width b has the
+  // speed v = (v_R + v_L)/2 and the yaw rate psi' = (v_R - v_L)/b.
   const VehicleParams pair = WheelPair();
   const double track = 0.6;
   const double time = 2.3;

@@ -63,7 +63,7 @@ const double kRounding = Tolerance(1e-9);
 
 TEST(MagicFormula, SlopesAtZeroAreTheStiffnesses) {
   // The error of a central difference with the step h comes from the third derivative of the
-  // formula. Its fraction of the slope is about (B h)^2 = (20 * 1e-5)^2 = 4e-8.
+  // formula. The relative error of the slope is about (B h)^2 = (20 * 1e-5)^2 = 4e-8.
   constexpr double kStep = 1e-5;
   for (MagicFormula tyre : {Plain(), [] {
                               MagicFormula sensitive = Plain();

@@ -22,7 +22,7 @@ double Cot(double angle) {
 }
 
 TEST(SteeringForCurvature, HasThePrintedTable) {
-  // delta = atan(L/r), printed to 1e-6 rad and 1e-4 deg.
+  // The published table has delta = atan(L/r), rounded to 1e-6 rad and 1e-4 degrees.
   struct Row {
     double radius, steering, degrees;
   };
@@ -64,7 +64,8 @@ TEST(AckermannAngles, InnerWheelTurnsFurther) {
 }
 
 TEST(AckermannAngles, KeepTheCotangentRelation) {
-  // cot outer - cot inner = track/wheelbase, and the bicycle's cotangent lies midway.
+  // The cotangents of the wheel angles differ by track/wheelbase, and their mean is the cotangent
+  // of the steering angle.
   const VehicleParams car = ReferenceCar();
   for (int i = 1; i <= 48; ++i) {
     const double steering = 0.01 * i;
@@ -106,8 +107,9 @@ TEST(BicycleAngle, InvertsAckermannAngles) {
 }
 
 TEST(BicycleAngle, ReadsToeAsNearlyNothing) {
-  // Toe of +-epsilon: each wheel's bicycle angle is epsilon (1 -+ k epsilon), so the mean is at
-  // most k epsilon^2, with k = track/(2 L) = 0.279. The mean of cotangents would give 90 deg.
+  // With a toe angle of +-epsilon, the bicycle angle of each wheel is +-epsilon (1 -+ k epsilon).
+  // The mean is at most k epsilon^2, with k = track/(2 L) = 0.279. The mean of cotangents would
+  // give 90 deg.
   const VehicleParams car = ReferenceCar();
   for (const double toe : {1e-6, -1e-6, 1e-3, -1e-3, 0.02}) {
     SCOPED_TRACE(toe);

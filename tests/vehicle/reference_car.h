@@ -4,8 +4,8 @@
 
 namespace trackbed {
 
-/// The car of Skackauskas et al. 2017 and of listings F.1 and F.2 of Skackauskas, dissertation. Its
-/// numbers are given here, so the upper modules can be tested without a compiled model.
+/// The car of Skackauskas et al. 2017 and of listings F.1 and F.2 of Skackauskas, dissertation.
+/// This function contains the car's numbers, so tests of higher modules need no compiled model.
 inline VehicleParams ReferenceCar() {
   VehicleParams car;
   car.name = "reference_car";

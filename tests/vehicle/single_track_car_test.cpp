@@ -29,7 +29,7 @@ VehicleParams TyredCar(double front = 70e3, double rear = 110e3) {
   return car;
 }
 
-/// K [s^2/m], as defined in the header.
+/// Understeer gradient K [s^2/m], as defined in the header.
 double UndersteerGradient(const VehicleParams& car) {
   return car.mass / car.wheelbase *
          (car.cg_to_rear / car.cornering_stiffness_front -
@@ -238,10 +238,11 @@ TEST(SingleTrackCar, CutOfTimeDoesNotMatter) {
 // --- Low speed, rest and reverse -----------------------------------------------------------------
 
 TEST(SingleTrackCar, SlowCarIsTheKinematicOne) {
-  // The car drives 50 m on a circle. Its radius is larger than the kinematic radius R by dR = R K
-  // u^2/L, a fraction of 3.7e-4 at 0.5 m/s. The end of the arc, R (sin(s/R), 1 - cos(s/R)), moves
-  // by dR times its derivative with respect to R. This is 20 mm at 0.5 m/s and a quarter of 20 mm
-  // at half the speed. The slip of the rear tyres changes this distance by less than 5 %.
+  // The car drives 50 m on a circle. The radius of the circle is larger than the kinematic radius R
+  // by dR = R K u^2/L, a fraction of 3.7e-4 at 0.5 m/s. The end of the arc, R (sin(s/R), 1 -
+  // cos(s/R)), moves by dR times its derivative with respect to R. This is 20 mm at 0.5 m/s and a
+  // quarter of 20 mm at half the speed. The slip of the rear tyres changes this distance by less
+  // than 5 %.
   const VehicleParams car = TyredCar();
   const double steering = 0.3;
   const double radius = car.wheelbase / std::tan(steering);
@@ -288,8 +289,8 @@ TEST(SingleTrackCar, StopsStandsAndBacksUp) {
       ASSERT_EQ(car.state().speed, kinematic.state().speed);
       ASSERT_EQ(car.state().steering, kinematic.state().steering);
       // The curvature and the sideslip of both cars differ by about K u^2/L = 0.5 %. The force that
-      // accelerates the turning car adds a difference of |a| m/C = 1 %. A change of steering takes
-      // effect with a delay of m u/C, 30 ms.
+      // accelerates the turning car adds a difference of |a| m/C = 1 %. A change of the steering
+      // angle takes effect with a delay of m u/C = 30 ms.
       const double rate = kinematic.FullState().yaw_rate;
       ASSERT_NEAR(car.state().yaw_rate, rate, Tolerance(0.02 * std::abs(rate) + 0.004));
       // The car turns by 0.46 rad over 4 m. 1 % of this angle displaces the car by 0.0046 rad * 4 m
@@ -322,8 +323,8 @@ TEST(SingleTrackCar, SlidesAtNoSpeedAtAll) {
     SCOPED_TRACE(speed);
     SingleTrackCar car(TyredCar(), {.speed = speed, .lateral_speed = 0.1, .steering = 0.2});
     car.Step({.steering = 0.2, .gear = speed > 0.0 ? 1 : -1}, 0.02);
-    // In 20 ms the car rolls by |u| * 20 ms. It also slides sideways at 0.1 m/s, which decays at a
-    // rate of about 100/|u| 1/s.
+    // In 20 ms the car rolls by |u| * 20 ms. The car also slides sideways at 0.1 m/s, which decays
+    // at a rate of about 100/|u| 1/s.
     EXPECT_LT(car.state().pose.position().norm(),
               Tolerance((0.02 + 0.1 / 100.0) * std::abs(speed)));
     // The initial lateral speed of 0.1 m/s has decayed: after ten steps of an integrator for stiff

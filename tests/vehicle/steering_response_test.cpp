@@ -68,7 +68,8 @@ TEST(MonotoneCurve, NeverTurnsBack) {
   for (int trial = 0; trial < 50; ++trial) {
     std::vector<Vec2> points{{0.0, 0.0}};
     for (int i = 0; i < 6; ++i) {
-      // Slopes from 0.01 to 100 next to each other, for which a natural spline overshoots.
+      // The slopes vary from 0.01 to 100 between neighboring points, so a natural spline would
+      // overshoot.
       points.emplace_back(points.back() + Vec2(random.Uniform(0.05, 1.0),
                                                std::pow(10.0, random.Uniform(-2.0, 2.0))));
     }

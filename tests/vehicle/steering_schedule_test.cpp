@@ -223,8 +223,9 @@ TEST(TurnHeadingDefect, HasThePrintedValues) {
 }
 
 TEST(TurnHeadingDefect, IsOfFourthOrder) {
-  // -2 ln cos d - d tan d = -d^4/6 - 4 d^6/45 - ...: below 0.1 rad the second term is 0.54 % of the
-  // first, and the third is another ten times smaller.
+  // The series of the defect is -2 ln cos d - d tan d = -d^4/6 - 4 d^6/45 - .... Below 0.1 rad, the
+  // second term is at most 0.54 % of the first term, and the third term is ten times smaller than
+  // the second.
   const double scale = kSpeed / (2.7 * ReferenceCar().steering_rate);
   for (const double steering : {0.02, 0.05, 0.1}) {
     const double first = -scale * std::pow(steering, 4) / 6.0;
@@ -245,8 +246,8 @@ TEST(RampHeading, IsWhatTheCarTurnsOnItsRamp) {
     const KinematicState end = RollOut(ReferenceCar(), Start(), schedule, ramp, 0.05);
     // RollOut integrates the curvature tan(delta)/L with Simpson's rule. The error of the heading
     // is h^4/2880 |d^4/ds^4 tan(delta)/L| S, with the step h = 0.05 m and the length S = 9.7 m.
-    // With tan'''' <= 60 at 0.487 rad and slope^4 = 6.3e-6, it is 6.25e-6/2880 * 60/2.7 * 6.3e-6 *
-    // 9.7 = 3e-12 rad.
+    // With tan'''' <= 60 at 0.487 rad and slope^4 = 6.3e-6, the error is 6.25e-6/2880 * 60/2.7 *
+    // 6.3e-6 * 9.7 = 3e-12 rad.
     EXPECT_NEAR(end.pose.yaw, RampHeading(ReferenceCar(), steering, kSpeed), Tolerance(1e-11));
     EXPECT_NEAR(end.steering, steering, Tolerance(kRounding));
   }
@@ -317,8 +318,9 @@ TEST(RollOut, ChecksItsCaller) {
 TEST(SteeringSchedule, ValueAtTheEndOfThePeriodDrivesTheScheduleAtAnyPeriod) {
   // The controller commands the schedule's value at the end of each period. If a ramp begins inside
   // a period T, after the fraction f of the period, the wheels start f T too early. The heading
-  // errs by v/L * omega f (1 - f) T^2 <= v omega T^2/(4 L). Everything else is exact. Two ramp
-  // starts cause twice that, and the position errs by at most that times the distance.
+  // errs by v/L * omega f (1 - f) T^2 <= v omega T^2/(4 L). Apart from this error, the motion is
+  // exact. Two ramp starts cause twice this error, and the position errs by at most the heading
+  // error times the distance.
   const VehicleParams car = ReferenceCar();
   const double distance = 60.0;
   const SteeringSchedule schedule({{10.013, 30.007, SteeringForCurvature(car, 1.0 / 16.830685)}},

@@ -6,7 +6,8 @@
 
 namespace trackbed {
 
-/// A differential-drive vehicle with b = 0.6 m, r_w = 0.165 m and a turning radius of 0.4 m.
+/// A differential-drive vehicle with the track width b = 0.6 m, the wheel radius r_w = 0.165 m and
+/// a turning radius of 0.4 m.
 inline VehicleParams WheelPair() {
   VehicleParams pair;
   pair.name = "wheel_pair";

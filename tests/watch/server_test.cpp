@@ -155,7 +155,7 @@ TEST_F(ServerOfARun, ClosesConnectionsBeyondItsBound) {
   // The server accepts connections in order, so the earlier ones are accepted before this one.
   EXPECT_EQ(TcpClient(port()).ReadAll(), "");
   clients.clear();
-  // Waits until the server has noticed that they have gone.
+  // Waits until the server has noticed that the clients have gone.
   while (AnswerTo("GET / HTTP/1.1\r\nHost: " + Host() + "\r\nConnection: close\r\n\r\n").empty()) {
   }
 }

@@ -309,7 +309,8 @@ TEST(Watch, ServesAFinishedRun) {
       {out}, {},
       {.serving =
            [&](const std::string& url) {
-             // The server already listens when this is called; it answers once it serves.
+             // The server already listens when it calls `serving`, and answers as soon as it
+             // serves.
              body = std::async(std::launch::async, [url] { return Get(PortOf(url), "/").body(); });
            },
        .interrupted =

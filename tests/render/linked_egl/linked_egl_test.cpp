@@ -19,7 +19,7 @@
 namespace trackbed::render {
 namespace {
 
-/// A current EGL context of such a program.
+/// A current EGL context of the program under test.
 class OwnContext {
  public:
   OwnContext()
