@@ -131,8 +131,8 @@ TEST_P(EveryVerdict, IsTrue) {
   const std::size_t count = NumberFrom("TRACKBED_AUDIT_SCENARIOS").value_or(kDefaultScenarios);
   const char* folder = std::getenv("TRACKBED_AUDIT_FOLDER");
   Tally tally;
-  // Contiguous index ranges: planners alternate by index, so a stride of 16 would see only one
-  // planner.
+  // Each shard takes a contiguous range of indices. Planners alternate by index, so a shard with a
+  // stride of 16 would see only one planner.
   const std::size_t end = (GetParam() + 1) * count / kShards;
   for (std::size_t index = GetParam() * count / kShards; index < end; ++index) {
     if (only && index != *only) {
@@ -150,7 +150,7 @@ TEST_P(EveryVerdict, IsTrue) {
     }
   }
   std::cout << tally.Text() << std::endl;
-  // If nearly everything were rejected, agreement would mean little.
+  // Agreement means little if the program rejects nearly all scenarios.
   if (!only && tally.scenarios >= 30) {
     EXPECT_GE(tally.planned, tally.scenarios / 4);
     EXPECT_GE(tally.passed, tally.scenarios / 12);

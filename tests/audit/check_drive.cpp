@@ -385,8 +385,8 @@ class DriveCheck {
     return rate;
   }
 
-  /// A bound [m/s] on the planned speed, also between the rows of a plan: over a gap d between two
-  /// rows, a plan that accelerates by at most a gains at most 2 a d in v^2.
+  /// Returns an upper bound of the planned speed [m/s], also between the rows of a plan. Over a gap
+  /// d between two rows, a plan that accelerates by at most a increases v^2 by at most 2 a d.
   [[nodiscard]] double HighestPlanned(const Table& plan) const {
     const std::vector<double> s = plan.Column("s_m");
     const std::vector<double> v = plan.Column("speed_mps");

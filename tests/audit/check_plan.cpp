@@ -183,8 +183,9 @@ class PlanCheck {
     }
   }
 
-  /// v dv/ds as a mean over each interval, v^2 kappa at the points; combined by the friction
-  /// circle. The component of gravity is added if it pulls against the car.
+  /// Checks the longitudinal acceleration v dv/ds, as a mean over each interval, the lateral
+  /// acceleration v^2 kappa at the points, and both combined by the friction circle. The component
+  /// of gravity is added if it pulls against the car.
   void CheckAccelerations() {
     const double more = 1.0 + tolerances_.plan_limit;
     Worst driving, braking, lateral, combined, held;

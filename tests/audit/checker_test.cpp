@@ -279,7 +279,8 @@ TEST(Checker, FindsAPlanThatBrakesHarderThanTheCar) {
 }
 
 TEST(Checker, FindsAPlanThatAPatchDoesNotHold) {
-  // The plan brakes at 2 m/s^2 over its last 6.25 m; 0.9 * 0.2 * 9.81 m/s^2 are 1.77.
+  // The plan brakes at 2 m/s^2 over its last 6.25 m, but the patch allows only 0.9 * 0.2 * 9.81 =
+  // 1.77 m/s^2.
   Record record = GoodRun();
   record.mission.patches = {{{{0.0, 37.0, 0.0, 0.5}, 4.0, 3.0, {}}, 0.2}};
   EXPECT_THAT(KindsIn(record), ElementsAre("plan_braking"));
@@ -336,7 +337,8 @@ std::set<std::string> KindsOfPlan(Record record, const Table& plan) {
 
 TEST(Checker, FindsAPlanThatTurnsHarderThanTyresHold) {
   const Record record = GoodRun();
-  // At 0.1/m, 9 m/s takes 8.1 m/s^2 and 10 m/s takes 10 m/s^2; the tyres hold 8.83 m/s^2.
+  // At a curvature of 0.1 1/m, a speed of 9 m/s needs 8.1 m/s^2 and a speed of 10 m/s needs 10
+  // m/s^2. The tyres provide 8.83 m/s^2.
   const auto arc = [](double) { return 0.1; };
   EXPECT_THAT(KindsOfPlan(record, BentPlan(9.0, arc)), IsEmpty());
   EXPECT_THAT(KindsOfPlan(record, BentPlan(10.0, arc)), ElementsAre("plan_lateral"));
@@ -346,7 +348,8 @@ TEST(Checker, FindsAPlanThatTurnsHarderThanTyresHold) {
 
 TEST(Checker, FindsAPlanThatTurnsTheWheelsTooFast) {
   const Record record = GoodRun();
-  // delta = atan(L kappa) is nearly L kappa: at 2 m/s, 0.15 rad/s corresponds to 0.0278 /m^2.
+  // The steering angle atan(L kappa) is nearly L kappa. At 2 m/s, a steering rate of 0.15 rad/s
+  // therefore corresponds to a curvature rate of 0.0278 1/m^2.
   const auto ramp = [](double share) {
     return [share](double s) { return std::min(0.1, share * 0.15 / 2.0 / 2.7 * s); };
   };

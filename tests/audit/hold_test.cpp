@@ -1,4 +1,5 @@
-// Checks the plans of all planners with all layers that plan during the run against the road.
+// Checks the plans of all planners, with all layers that replan during the run, against the limits
+// of the road.
 //
 // Each planner drives one random route on roads of four kinds and three slopes, with and without a
 // payload, past a box that becomes known during the run. All plans are checked from the rows of
@@ -31,7 +32,7 @@ namespace {
 
 using namespace trackbed;
 
-/// A layer that plans during the run.
+/// A layer that replans during the run.
 struct Layer {
   std::string name;
   std::function<void(PlanSpec&)> add;
@@ -61,7 +62,8 @@ std::vector<Layer> Layers() {
   return layers;
 }
 
-/// Friction factors of the whole road; the last one is split: slippery on the left of the route.
+/// Friction factors of the whole road. The last entry stands for a split road, which is slippery to
+/// the left of the route.
 constexpr std::array kRoads{0.15, 0.3, 0.5, 0.0};
 constexpr std::array<std::array<double, 2>, 3> kGrades{{{0.0, 0.0}, {-0.08, 0.03}, {0.08, -0.05}}};
 

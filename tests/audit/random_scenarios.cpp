@@ -177,7 +177,7 @@ struct Generator {
     }
   }
 
-  /// The points of a path of another program, with a little noise.
+  /// The points of a path from a different program, with some noise.
   void PathOfFile(PathFileOptions& options) {
     Pose2 pose{dice.Between(-20.0, 20.0), 0.0, dice.Between(-kPi, kPi)};
     const double step = size * dice.Between(0.3, 1.0);
@@ -385,7 +385,8 @@ struct Generator {
     if (dice.Chance(0.3)) {
       const double at = dice.Between(0.5, 8.0);
       const double side = dice.Between(-1.0, 1.0);
-      // A displacement skips the poses in between, where an obstacle may be.
+      // A displacement skips the poses in between, where an obstacle may be, so it is used only
+      // without obstacles.
       if (scenario.world.obstacles.empty() && dice.Chance(0.5)) {
         disturb.kicks.push_back(
             {.at = at, .displacement = 0.8 * size * side, .impulse = {}, .duration = {}});

@@ -66,7 +66,7 @@ Nearest SweptGap(const Rectangle& footprint, const std::vector<TimedPose>& poses
 /// Distance from a point to the segment between two others [m].
 double DistanceToSegment(const Point& p, const Point& a, const Point& b);
 
-/// A polyline, for distance queries of points that move little from one to the next.
+/// A polyline for distance queries of successive points that are close to each other.
 class Polyline {
  public:
   explicit Polyline(std::vector<Point> points);

@@ -170,7 +170,8 @@ TEST(LongRun, IsRefusedWithItsRows) {
                         "drive.control_period"));
 }
 
-/// Checks a file with one number wrong: a result or a problem in the file, within bounds.
+/// Checks files with one wrong number. The program must print a result or a problem in the file,
+/// within the bounds of time and memory.
 void TrySlips(const TempFolder& folder, const std::string& name, std::size_t from, int count) {
   const std::string text = ReadFile(folder.path() / name);
   std::mt19937_64 random(7);
@@ -224,7 +225,7 @@ std::pair<Outcome, double> Ended(const TempFolder& folder, const std::string& ar
   return {outcome, outcome.code == 9 ? 0.0 : 1e-9 * std::stod(outcome.output)};
 }
 
-/// A scenario whose plan draws two million samples in vain.
+/// A scenario whose planner draws two million samples without finding a path.
 std::string VainSearch() {
   return ScenarioText(
       "mission: {speed: 3, waypoints: [[0, 0], [80, 0]]}\n"

@@ -24,8 +24,9 @@ TEST(Experiment, OptimalSteeringGivesThePublishedTable) {
               HasSubstr("matched by arc length, always within 2.3 % of the primary's "
                         "angle: isres, direct\n"));
 
-  // First stage: the exact minimum of Skackauskas et al. 2017, eqs. (1)-(2), solved independently
-  // of this program for L = 2.7 m, l_g = 1.4 m. Second stage: as printed.
+  // The reference of the first stage is the exact minimum of Skackauskas et al. 2017, eqs. (1)-(2),
+  // solved independently of this program for L = 2.7 m, l_g = 1.4 m. The reference of the second
+  // stage is the published angle.
   const std::map<std::string, double> by_time{
       {"2.5", 11.969}, {"2", 14.890}, {"1.5", 19.655}, {"1", 27.000}};
   const std::map<std::string, std::string> published{
@@ -66,7 +67,7 @@ TEST(Experiment, OfAnotherMotionHasNoPublishedAngles) {
   for (const auto& row : table.rows()) {
     EXPECT_EQ(row[7], "");
     if (row[1] == "arc_length") {
-      EXPECT_NEAR(std::stod(row[3]), -5.0, Tolerance(0.05));  // the turn to the right stays one
+      EXPECT_NEAR(std::stod(row[3]), -5.0, Tolerance(0.05));  // the turn is still to the right
     } else {
       EXPECT_LT(std::stod(row[3]), -5.0);
     }

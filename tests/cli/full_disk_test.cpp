@@ -71,8 +71,8 @@ std::string Winding() {
 }
 
 TEST_F(FullDisk, EndsARunInOneLineWithNothing) {
-  // Room for some files of the run, but not for its plan.csv of 127 kB. A run with missing files
-  // must not look complete.
+  // The disk has room for some files of the run, but not for its plan.csv of 127 kB. A run with
+  // missing files must not look complete.
   const Outcome outcome = WithDisk("64k", TRACKBED_PROGRAM " run -o disk/r " + Winding());
   EXPECT_EQ(outcome.code, 2);
   EXPECT_THAT(outcome.output,

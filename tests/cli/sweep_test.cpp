@@ -117,7 +117,8 @@ TEST(Sweep, FindsTheHighestValueThatPasses) {
   ASSERT_TRUE(std::regex_match(
       csv, found, std::regex("control\\.distance,status,runs,reason\n([0-9.]+),found,7,\n")))
       << csv;
-  // `run` agrees: the found value passes, and a value a tolerance above it fails.
+  // The verb `run` agrees: the found value passes, and a value that is higher by one tolerance
+  // fails.
   const double highest = std::stod(found[1]);
   const auto run_with = [&](double distance) {
     return Trackbed(folder, "run -q " + ScenarioFile("winding") + " --plant kinematic --set " +
@@ -183,7 +184,7 @@ TEST(Sweep, StudiesCanBeCheckedLikeScenarios) {
 
 TEST(Sweep, CtrlCKeepsTheRowsSoFar) {
   const TempFolder folder;
-  // Rows that take minutes. The output folder appears before the first run; the loop gives up after
+  // The rows take minutes. The output folder appears before the first run; the loop gives up after
   // a minute.
   folder.Write("study.yaml", StudyText("set: {drive.plants: [mujoco]}\n"
                                        "vary: {drive.timestep: [0.00001, 0.00002]}\n"));
@@ -339,7 +340,8 @@ std::vector<std::string> NamesIn(const std::filesystem::path& folder) {
 
 TEST(Sweep, KeepsTheRunFoldersThatTheStudyAsksFor) {
   const TempFolder folder;
-  // A preview of 1 m and 2.5 m passes, 10 m fails; the error grows with the distance.
+  // Runs with preview distances of 1 m and 2.5 m pass, and 10 m fails. The error grows with the
+  // distance.
   const auto kept = [&](const std::string& keep) {
     folder.Write("study.yaml", StudyText(kDistances + ("keep: " + keep + "\n")));
     const Outcome outcome = Trackbed(folder, "sweep -q study.yaml --restart -o r");

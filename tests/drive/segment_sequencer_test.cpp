@@ -87,8 +87,9 @@ TEST(StationarySteer, IsOverWhenTheWheelsRest) {
 
 TEST(SegmentSequencer, CountsStationsOnOverSegments) {
   SegmentSequencer sequencer(Drivable(BackAndForth()), StateAt(0.0, 0.0), Options());
-  EXPECT_FALSE(sequencer.stationary_steer().InProgress());  // it starts straight on
-  // The wheelbase leaves 0.75 x 2 m to look within: the car moves on meter by meter.
+  EXPECT_FALSE(sequencer.stationary_steer().InProgress());  // the plan starts straight, so the wheels need not turn
+  // The projection searches near the previous station, within 0.75 wheelbases (1.5 m), so the car
+  // moves by 1 m at a time.
   for (double x = 1.0; x < 9.5; x += 1.0) {
     EXPECT_NEAR(sequencer.Project(StateAt(x, x))->s, x, Tolerance(1e-12));
     EXPECT_FALSE(sequencer.Advance(StateAt(x, x))) << x;

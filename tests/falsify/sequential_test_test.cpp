@@ -16,7 +16,7 @@ SequentialTest After(double probability, int successes, int failures) {
   SequentialTest test(probability, 1.0 - 1e-15);
   const int trials = successes + failures;
   for (int i = 0; i < trials; ++i) {
-    // Evenly mixed: the i-th failure is due at the ratio of failures to trials.
+    // Mixes failures and successes evenly, at the ratio of failures to trials.
     const auto due = [&](int n) { return static_cast<long>(n) * failures / trials; };
     test.Add(due(i + 1) == due(i));
   }
@@ -92,7 +92,7 @@ Verdicts ExactVerdicts(double claimed, double confidence, double truth, int tria
       const double f = static_cast<double>(n) - a;
       const double likelihood = a * std::log(claimed) + f * std::log1p(-claimed);
       const double beta = std::lgamma(a + 1.0) + std::lgamma(f + 1.0) - std::lgamma(n + 2.0);
-      // P(Binomial(n + 1, P) <= s) = I_{1-P}(n + 1 - s, s + 1): the mass of q above P.
+      // The mass of q above P is P(Binomial(n + 1, P) <= s) = I_{1-P}(n + 1 - s, s + 1).
       double above = 0.0;
       double term = std::pow(1.0 - claimed, n + 1);
       for (std::size_t k = 0; k <= s; ++k) {
@@ -147,7 +147,8 @@ TEST(SequentialTest, ErrsAsSeldomInStreams) {
       errors += test.verdict() == wrong ? 1 : 0;
       verdicts += test.verdict() != ProbabilityVerdict::kUndecided ? 1 : 0;
     }
-    // Three standard deviations above the level: 0.1 + 3 sqrt(0.1 0.9 / 4000) = 0.114.
+    // The bound is three standard deviations above the level: 0.1 + 3 sqrt(0.1 * 0.9 / 4000) =
+    // 0.114.
     EXPECT_LE(errors, kStreams * 0.1142) << truth;
     EXPECT_GT(verdicts, kStreams / 100) << truth;
   }

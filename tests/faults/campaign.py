@@ -416,7 +416,7 @@ class Campaign:
             wrong.append(f"says {error!r}")
         return now, wrong
 
-    # What the program stands on. Each returns what is wrong.
+    # Faults in the surroundings of the program.
 
     def in_other_surroundings(self, case):
         def same(what, **env):

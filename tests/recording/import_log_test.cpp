@@ -127,8 +127,8 @@ TEST(ImportLog, FindsTheMotionOnACircleFromALeverArm) {
     EXPECT_THAT(sample.velocity_V.x(), DoubleNear(kSpeed * std::cos(kSlip), slope));
     const VehicleState state = StateOf(sample, car, false);
     EXPECT_THAT(state.lateral_speed, DoubleNear(-kSpeed * std::sin(kSlip) + 0.5 * kRate, slope));
-    // The rear axle's acceleration points to the center. The center of gravity's is l rate^2
-    // smaller in the forward direction.
+    // The rear axle's acceleration points to the center. The forward acceleration of the center of
+    // gravity is smaller by l rate^2.
     EXPECT_THAT(state.lateral_acceleration,
                 DoubleNear(kSpeed * kRate * std::cos(kSlip), curvature));
     EXPECT_THAT(state.longitudinal_acceleration,
@@ -149,8 +149,8 @@ TEST(ImportLog, IsExactForPolynomialsOfItsDegree) {
     for (const RecordedSample& sample : drive.samples) {
       const double t = sample.time;
       const Pose2 pose = parabola(t);
-      // Rounding of 1e-15, amplified by the condition number of the fit, up to 1e3 at the ends for
-      // a value, and by 1/0.15 s for each derivative.
+      // The tolerances cover rounding of 1e-15. The condition number of the fit amplifies this by
+      // up to 1e3 for a value at the ends, and by 1/(0.15 s) for each derivative.
       EXPECT_THAT(sample.pose.x, DoubleNear(pose.x, Tolerance(1e-12)));
       EXPECT_THAT(sample.pose.yaw, DoubleNear(pose.yaw, Tolerance(1e-12)));
       const Vec2 velocity = ToWorld({0.0, 0.0, pose.yaw}, sample.velocity_V);

@@ -90,7 +90,8 @@ TEST(Canvas, DrawsTextOfTheWidthItSays) {
   image.Resize(64, 32);
   Canvas canvas(image, font);
   EXPECT_DOUBLE_EQ(canvas.Text(10, 5, "ab", 20.0, {1, 0, 0}), 30.0);
-  // Two cells of 10 px from x = 10, each white for 5 px; rows 5 to 24.
+  // The text has two cells of 10 px from x = 10 on. Each cell is white for 5 px, in the rows 5 to
+  // 24.
   for (const int x : {10, 14, 20, 24}) {
     EXPECT_EQ(image.Pixel(x, 5)[0], 255) << x;
     EXPECT_EQ(image.Pixel(x, 24)[0], 255) << x;

@@ -105,7 +105,7 @@ TEST_F(EventTest, NewPlansAreTakenWhenTheirFileSays) {
 
 TEST_F(EventTest, TheRateLimitIsReachedWhereTheActuatorTurnsAsFastAsItCanAndIsBehind) {
   // The Prius steers at up to 2.65 / 17.6 rad/s. A step to 0.06 rad at 0.5 s takes 0.3985 s, so the
-  // wheels reach the command in the period that ends at 0.9 s. The way back is slow.
+  // wheels reach the command in the period that ends at 0.9 s. The wheels turn back slowly.
   const double rate = 2.65 / 17.6;
   SetLogColumn(folder_.path(), "mujoco", "steering_command_rad", [](double time) {
     return time < 0.499 ? 0.0 : time < 1.499 ? 0.06 : 0.06 - 0.5 * 2.65 / 17.6 * (time - 1.48);

@@ -195,8 +195,8 @@ TEST_F(Film, ShowsPlantsSideBySide) {
 }
 
 TEST_F(Film, IsTheSameBytesTwice) {
-  // Fresh memory is filled with a pattern, so that reading uninitialized memory shows: libx264 does
-  // so at some widths.
+  // Fills fresh memory with a pattern, so that reading uninitialized memory changes the film.
+  // libx264 reads uninitialized memory at some widths.
   mallopt(M_PERTURB, 0x55);
   Make();
   const std::string first = ReadFile(output_);

@@ -291,7 +291,7 @@ TEST(DrawCaption, TheWindsArrowPointsUpWhereTheCameraLooks) {
                 MiddleOfLight(picture(-wind, azimuth), calm))
         .normalized();
   };
-  // The tolerance of 0.1 covers pixels.
+  // The tolerance of 0.1 covers the size of pixels.
   EXPECT_NEAR((lean({0.0, 5.0}, 0.5 * kPi) - Vec2(0.0, 1.0)).norm(), 0.0, Tolerance(0.1));
   EXPECT_NEAR((lean({5.0, 0.0}, 0.5 * kPi) - Vec2(1.0, 0.0)).norm(), 0.0, Tolerance(0.1));
   EXPECT_NEAR((lean({5.0, 0.0}, 0.0) - Vec2(0.0, 1.0)).norm(), 0.0, Tolerance(0.1));

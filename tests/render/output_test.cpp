@@ -59,7 +59,7 @@ bool HasVideo() {
   return VideoEncoder() != "off";
 }
 
-/// The list of formats that ends every message about them.
+/// The list of formats at the end of every message about formats.
 std::string KnownFormats() {
   return HasVideo()
              ? "; a film is made as .mp4 (video), .webp (animation), .apng (animation), .png "

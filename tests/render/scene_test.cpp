@@ -217,7 +217,8 @@ TEST_F(FilmSceneTest, APlanThatWasGivenUpIsNarrowerAndBelowTheOneInForce) {
 }
 
 TEST_F(FilmSceneTest, NewPlansAreWithinTheSceneHoweverMany) {
-  // 400 plans of 17 points each. They zigzag, so that thinning cannot remove a point.
+  // There are 400 plans of 17 points each. The points zigzag, so that thinning cannot remove a
+  // point.
   std::string rows = "from_t_s,x_m,y_m\n";
   for (int plan = 0; plan < 400; ++plan) {
     for (int i = 0; i <= 16; ++i) {

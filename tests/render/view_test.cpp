@@ -193,9 +193,8 @@ TEST_F(LateralTest, ShowsDistancesTenTimesAsLargeAsStations) {
   Image image;
   image.Resize(400, 220);
   view.Draw(image, font_, 2.0);
-  // The car's orange trace is behind it, 0.4 m to the left. The blue trace of the other plant is
-  // 0.2 m to the right and reaches 2 m farther along the path. Nothing is drawn ahead of both
-  // plants.
+  // Behind the car is its orange trace, 0.4 m to the left. The blue trace of the other plant is 0.2
+  // m to the right and reaches 2 m farther along the path. Nothing is drawn ahead of both plants.
   const auto rgb = [&](int x, int y) {
     const std::uint8_t* pixel = image.Pixel(x, y);
     return std::array<int, 3>{pixel[0], pixel[1], pixel[2]};
@@ -263,7 +262,8 @@ TEST_F(CameraTest, DriverSitsInTheCarAndLooksAhead) {
   const Vec2 seat =
       ToWorld({5.0 * std::sin(1.0), 5.0 - 5.0 * std::cos(1.0), 1.0}, {1.4, 0.45 * 0.8625});
   const Eigen::Vector3d eye = Eye(pose);
-  EXPECT_NEAR(eye.x(), seat.x(), Tolerance(2e-3));  // states are 1/60 s apart: 5 / 8 / 60^2
+  EXPECT_NEAR(eye.x(), seat.x(), Tolerance(2e-3));  // interpolation between states 1/60 s apart
+                                                    // errs by 5 / 8 / 60^2
   EXPECT_NEAR(eye.y(), seat.y(), Tolerance(2e-3));
   EXPECT_NEAR(eye.z(), 0.82 * 1.49, Tolerance(1e-9));
   // The car is not drawn: no paint where its hood would be.

@@ -53,8 +53,8 @@ CarModel Prius() {
   return {ComposeScene(FindModel("prius", ""), {}), "prius"};
 }
 
-/// A row every 0.02 s for `duration`: the car drives along x at 1 m/s, and its actuator lags behind
-/// the command by `short_by(row)` [rad].
+/// A log with a row every 0.02 s for `duration`. The car drives along x at 1 m/s, and its actuator
+/// lags behind the command by `short_by(row)` [rad].
 template <typename ShortBy>
 std::string DriveAlongX(double duration, const ShortBy& short_by) {
   std::string csv = "t_s,x_m,y_m,yaw_rad,steering_command_rad,steering_actuator_rad\n";
@@ -176,7 +176,7 @@ TEST(MotionJson, HoldsTheWindAtTheCar) {
   const ordered_json wind = MotionJson(states, vehicle, world, 100)["wind"];
   EXPECT_THAT(NumbersIn(wind["x"]), testing::ElementsAre(3.0, 3.0, 3.0));
   const std::vector<double> y = NumbersIn(wind["y"]);
-  // 65 535 steps over 5 m/s.
+  // The channel has 65 535 steps over 5 m/s.
   EXPECT_NEAR(y[0], -4.0, Tolerance(1e-4));
   EXPECT_NEAR(y[1], 1.0, Tolerance(1e-4));
   EXPECT_NEAR(y[2], -4.0, Tolerance(1e-4));

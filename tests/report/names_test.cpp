@@ -38,7 +38,7 @@ TEST(NameOfKey, HasTheUnitOfTheKeyTable) {
   EXPECT_EQ(NameOfKey("seed").unit, "");
   EXPECT_EQ(NameOfKey("control.distance").unit, "m");
   EXPECT_EQ(NameOfKey("mission.waypoints[1]").label, "mission.waypoints[1]");
-  // Keys of a list element, and of a section in it.
+  // The keys are those of a list element, and of a section in a list element.
   EXPECT_EQ(NameOfKey("world.wind.gusts[0].y").unit, "m/s");
   EXPECT_EQ(NameOfKey("world.obstacles[12].known_from.range").unit, "m");
 }

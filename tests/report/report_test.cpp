@@ -82,7 +82,8 @@ TEST(ReportData, HoldsTheLogsOfTheRun) {
       const ordered_json& shown = plant["log"][name];
       ASSERT_EQ(shown.size(), values.size()) << name;
       for (std::size_t i = 0; i < values.size(); ++i) {
-        // Half a unit of the sixth digit, or the threshold below which values become zero.
+        // The tolerance is half a unit of the sixth digit, or the threshold below which values
+        // become zero.
         ASSERT_NEAR(shown[i].get<double>(), values[i], std::max(5e-6 * std::abs(values[i]), 5e-7))
             << name << " of row " << i;
       }
@@ -161,8 +162,8 @@ TEST(ReportData, FindsUnmetWhatTheVerdictFinds) {
                   "mujoco: Collision = true", "mujoco: Distance to the goal ≤ 1e-09",
                   "mujoco: Distance traveled ≤ 2", "mujoco: Replans = 1", "mujoco: distanze ≥ 1",
                   "kinematic – mujoco: Maximum distance ≤ 1e-09"));
-  // Lists every bound, the arrival of plants without an expected end, and the limits of steering
-  // rate and overspeed: 6 and 2 of each plant, the arrival of one, 6 more of the other, 2 of both.
+  // The list has 25 entries: every bound, the arrival of plants without an expected end, and the
+  // limits of steering rate and overspeed.
   EXPECT_EQ(data["expectations"].size(), 25U);
   EXPECT_FALSE(data["verdict"].contains("checks"));
 }
@@ -337,15 +338,16 @@ std::string BigStudy(int rows) {
 }
 
 // y = x k with x uniform in (0, 1) and k 1 or 2: the mean is 3/4, the variance E[x^2] E[k^2] - 9/16
-// = 5/6 - 9/16 = 13/48. E[y | k] = k / 2 has a variance of 1/16, E[y | x] = 3 x / 2 of 9/4 / 12 =
-// 3/16: shares of 3/13 and 9/13.
+// = 5/6 - 9/16 = 13/48. E[y | k] = k / 2 has a variance of 1/16, and E[y | x] = 3 x / 2 has a
+// variance of 9/4 / 12 = 3/16. The shares of the variance are 3/13 and 9/13.
 TEST(StudyData, SaysWhatAllRowsSayTogether) {
   const TempFolder folder;
   const ordered_json study = ReportData({folder.Write("study.csv", BigStudy(2000))})["study"];
   const ordered_json& all = study["statistics"];
   EXPECT_EQ(all["rows"], 2000);
   EXPECT_EQ(all["pass_rate"], 0.75);
-  // 0.75 +- 1.96 sqrt(0.75 / 4 / 2000); Wilson's interval is 0.0005 nearer to a half.
+  // The normal approximation of the interval is 0.75 +- 1.96 sqrt(0.75 / 4 / 2000). Wilson's
+  // interval is 0.0005 nearer to a half.
   EXPECT_NEAR(all["pass_interval"][0].get<double>(), 0.75 - 0.019, 1e-3);
   EXPECT_NEAR(all["pass_interval"][1].get<double>(), 0.75 + 0.019, 1e-3);
   ASSERT_EQ(all["outputs"].size(), 2U);
@@ -357,8 +359,8 @@ TEST(StudyData, SaysWhatAllRowsSayTogether) {
   EXPECT_NEAR(y["quantiles"][4][1].get<double>(), 2.0 / 3.0, 0.002);
   EXPECT_EQ(y["distribution"].size(), 200U);
   ASSERT_EQ(y["indices"].size(), 2U);
-  // Evenly spaced values have no random error, but the index subtracts the bias expected for random
-  // ones: with 64 classes of 2000 rows, 0.03 of the remaining variance.
+  // Evenly spaced values have no random error, but the index subtracts the bias that random values
+  // would have. With 64 classes of 2000 rows, the bias is 0.03 of the remaining variance.
   EXPECT_NEAR(y["indices"][0]["index"].get<double>(), 3.0 / 13.0, 0.03);
   EXPECT_NEAR(y["indices"][1]["index"].get<double>(), 9.0 / 13.0, 0.03);
   const ordered_json& means = y["effects"][0]["classes"];

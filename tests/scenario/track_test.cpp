@@ -16,7 +16,7 @@
 #include "trackbed/sim/plant.h"
 #include "trackbed/track/track_file.h"
 
-// Tests the section mission.track. tests/data/bad contains invalid ones.
+// Tests the section mission.track. tests/data/bad contains invalid sections.
 namespace trackbed {
 namespace {
 

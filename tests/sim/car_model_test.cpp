@@ -68,7 +68,8 @@ TEST(Prius, AckermannCouplingFollowsTheClosedForm) {
       const double coupled =
           c[0] + steering * (c[1] + steering * (c[2] + steering * (c[3] + steering * c[4])));
       const FrontAngles exact = AckermannAngles(car.params(), steering);
-      // The quartic is a minimax fit; the model states its residual as 0.00024 rad.
+      // The model's polynomial of fourth degree is a minimax fit. The model states its residual as
+      // 0.00024 rad.
       EXPECT_NEAR(coupled, side[1] == 'l' ? exact.left : exact.right, Tolerance(0.00025));
     }
   }
@@ -273,7 +274,8 @@ struct LimitsByHand {
   [[nodiscard]] double Rolling() const { return mass + 2.0 * Wheels(); }
   [[nodiscard]] double BrakeForce() const { return 2.0 * (brake_front + brake_rear) / radius; }
   [[nodiscard]] double FrontPart() const { return brake_front / (brake_front + brake_rear); }
-  /// Road force over load of the front and the rear axle at a deceleration: the required friction.
+  /// Returns the required friction of the front and the rear axle at a deceleration: the road force
+  /// divided by the load.
   [[nodiscard]] std::array<double, 2> Demand(double a) const {
     const double front = FrontPart() * Rolling() * a - Wheels() * a;
     const double rear = (1.0 - FrontPart()) * Rolling() * a - Wheels() * a;
@@ -317,7 +319,8 @@ TEST(VehicleLimits, BrakingEndsWhereTheFirstAxleWouldLock) {
 }
 
 TEST(VehicleLimits, OnASlipperyRoadTheAxleThatTheSmallerTransferLeavesLightLocksFirst) {
-  // The BMW's brakes are balanced for about half its grip. At full grip the front axle locks first.
+  // The BMW's brakes are balanced for about half its grip. On a road with the friction factor 0.3,
+  // the front axle locks first; at full grip, the rear axle locks first.
   const VehicleParams bmw = Load("bmw320i").params();
   const auto demand = kBmwByHand.Demand(MaxDeceleration(bmw, 0.3));
   EXPECT_NEAR(demand[0], 0.3 * 1.0489, Tolerance(kByHand));

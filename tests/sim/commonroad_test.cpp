@@ -145,9 +145,10 @@ TEST_P(CommonRoad, SteeringManeuvers) {
   for (const char* name : {"step_steer_bmw320i_20mps", "lane_change_bmw320i_15mps"}) {
     const Deviation found = Compare(kind(), name, numerics());
     EXPECT_LE(found.yaw_rate, Tolerance(0.03)) << name;
-    // The reference's tyres slip by the lateral speed at the sprung mass's center of gravity,
-    // including roll, instead of at the axles. With the axle speeds its acceleration would change
-    // by 3.7 % in the step and by 6.5 % in the lane change.
+    // The reference computes the slip of its tyres from the lateral speed of the sprung mass's
+    // center of gravity, including roll, instead of the lateral speeds of the axles. With the
+    // speeds of the axles, its acceleration would change by 3.7 % in the step and by 6.5 % in the
+    // lane change.
     const bool is_step = std::string(name).starts_with("step");
     EXPECT_LE(found.lateral_acceleration, Tolerance(is_step ? 0.05 : 0.07)) << name;
     EXPECT_LE(found.path, Tolerance(0.02)) << name;

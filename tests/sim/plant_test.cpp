@@ -143,7 +143,7 @@ TEST_P(EveryPlant, TakesAFullLockTimeToFullLock) {
         plant->Step({.steering = sign * 1.0, .acceleration = 0.0});
         ++steps;
       }
-      // limit / rate = 3.2337 s, with the required accuracy of 1 %.
+      // Turning to full lock takes limit / rate = 3.2337 s. The required accuracy is 1 %.
       EXPECT_NEAR(steps * 0.002, 3.2337, Tolerance(0.0323)) << "at " << speed << " m/s";
       EXPECT_LE(std::abs(plant->Observe().steering_actuator), limit + 1e-12);
     }
@@ -233,7 +233,7 @@ TEST(MujocoPlant, TyresCarryTheCentripetalForce) {
   const VehicleState state = plant->Observe();
   const FrontAngles front = AckermannAngles(Prius().params(), state.steering);
   const auto& w = *state.wheels;
-  // Sum of the tyre forces along the car's y axis = m a_y.
+  // The tyre forces along the car's y axis add up to m a_y.
   const double lateral =
       w[0].lateral_force * std::cos(front.left) + w[0].longitudinal_force * std::sin(front.left) +
       w[1].lateral_force * std::cos(front.right) + w[1].longitudinal_force * std::sin(front.right) +

@@ -237,8 +237,9 @@ double SlipShare(const VehicleParams& params, double front, double rear, double 
   return slip / (params.wheelbase + slip);
 }
 
-/// Relative increase of the slip over the linear tyre's at a lateral acceleration. From the Magic
-/// Formula sin(C atan(C_alpha alpha/(C D))) = F/D with F/D = a/(mu g), inverted to third order.
+/// Relative increase of the slip angle over that of a linear tyre, at a lateral acceleration a. The
+/// result is the Magic Formula sin(C atan(C_alpha alpha/(C D))) = F/D with F/D = a/(mu g), inverted
+/// to third order.
 double Softening(const MagicFormula& tyre, double acceleration) {
   const double used = acceleration / (tyre.p_dy1 * kGravity);
   return used * used * (1.0 / 6.0 + 1.0 / (3.0 * tyre.p_cy1 * tyre.p_cy1));
@@ -268,7 +269,7 @@ TEST(SingleTrackPlant, TurnsAsTheMagicFormulaCarDoes) {
       EXPECT_NEAR(physical.yaw_rate / linear.yaw_rate, 1.0, Tolerance(tolerance));
       EXPECT_NEAR(physical.lateral_acceleration / linear.lateral_acceleration, 1.0,
                   Tolerance(tolerance));
-      // v = l_r r - u alpha_r: the same tolerance for both terms.
+      // The lateral speed is v = l_r r - u alpha_r. Both terms have the same tolerance.
       const double slip = std::abs(acceleration) / (rear * kGravity);
       EXPECT_NEAR(
           physical.lateral_speed, linear.lateral_speed,

@@ -78,9 +78,9 @@ TEST_P(OnBothTyres, AStandingCarIsPushedByHalfRhoVSquaredWhereItsPressureIs) {
       });
   const double along = 0.5 * kAirDensity * 20.0 * 12.0 * kDragArea;   // 73.5 N
   const double across = 0.5 * kAirDensity * 20.0 * 16.0 * kSideArea;  // 980 N
-  // The tyres balance the wind. The tolerance is 1 % of the larger force: springs that still
-  // settle, and the car's lean of 0.01 rad, through which weight and load have components along its
-  // axes.
+  // The tyres balance the wind. The tolerance is 1 % of the larger force, for springs that still
+  // settle and for the car's lean of 0.01 rad, which gives weight and load components along the
+  // car's axes.
   EXPECT_NEAR(mean.forward, -along, Tolerance(10.0));
   EXPECT_NEAR(mean.left, -across, Tolerance(10.0));
   // The lever arm is that of the center of pressure, 1.68 m ahead of the rear axle: 1646 N m.
@@ -137,8 +137,9 @@ TEST_P(OnBothTyres, AGustOnAStretchPushesTheCarThereAndNotBefore) {
         std::max(acceleration, pushed[i].lateral_acceleration - as_ever[i].lateral_acceleration);
     yaw_rate = std::max(yaw_rate, pushed[i].yaw_rate - as_ever[i].yaw_rate);
   }
-  // 20 m/s across and 20 m/s along meet the car at |a| = 28.3 m/s: 1/2 rho 28.3 * 20 * 5 = 1732 N,
-  // or 1.32 m/s^2 on 1317 kg. The tyres, here bare contacts, already balance most of this force.
+  // The air meets the car at 20 m/s along and 20 m/s across, which is 28.3 m/s in total. The
+  // lateral force of 1/2 rho 28.3 * 20 * 5 = 1732 N accelerates 1317 kg by 1.32 m/s^2. The tyres,
+  // here bare contacts, already balance most of this force.
   EXPECT_GT(acceleration, 0.25);
   EXPECT_LT(acceleration, 1.5);
   // The center of pressure is ahead of the center of gravity, so the nose turns away from the wind.

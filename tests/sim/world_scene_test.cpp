@@ -308,8 +308,8 @@ TEST(StandingPosition, AcrossABumpNoWheelIsInTheGround) {
       nearest =
           std::min(nearest, center[2] - BallHeight(ground, {center[0], center[1]}, 0.31073, 0.01));
     }
-    // Only the point below each hub is on the ground. On a slope of 0.08 the ground ahead of it or
-    // behind it may be higher by R (1 - cos 0.08) = 1 mm. The resulting change of the car's
+    // Only the point below each hub is on the ground. On a slope of 0.08, the ground ahead of or
+    // behind this point may be higher by R (1 - cos 0.08) = 1 mm. The resulting change of the car's
     // inclination hardly moves its hubs.
     EXPECT_GT(nearest, Tolerance(-3e-3)) << x;
     EXPECT_LT(nearest, 0.05) << x;

@@ -121,7 +121,8 @@ TEST(ObstacleAppears, TooLateForAnyWayAroundStopsTheCar) {
     EXPECT_EQ(run.logs[i].status, DriveStatus::kBlocked);
     EXPECT_THAT(run.metrics[i].blocked, testing::StartsWith("stops before the obstacle at ("));
     EXPECT_FALSE(run.metrics[i].clearance->collision);
-    // Measured from the mission's goal, not from the end of the truncated path.
+    // The goal distance is measured from the mission's goal, not from the end of the truncated
+    // path.
     EXPECT_GT(run.metrics[i].tracking->goal_distance, 40.0);
   }
   EXPECT_THAT(run.verdict.failures.at(0), testing::HasSubstr("did not reach the goal: blocked"));

@@ -68,8 +68,8 @@ INSTANTIATE_TEST_SUITE_P(Cars, SCourse,
                          });
 
 TEST_P(SCourse, IsDrivenWithin30Centimeters) {
-  // Two opposed arcs of 0.4 g joined by 15 m ramps. The bound is the lateral room in a lane;
-  // docs/algorithms/control.md lists the measured values.
+  // The course has two opposed arcs with a lateral acceleration of 0.4 g, joined by ramps of 15 m.
+  // The bound is the lateral room in a lane; docs/algorithms/control.md lists the measured values.
   const auto& [car, speed, controller] = GetParam();
   Scenario scenario = CourseAt("s_course", car, speed);
   if (controller == "lqr") {

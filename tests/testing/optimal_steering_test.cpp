@@ -92,8 +92,9 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, OptimallySteeredAgainst,
                          });
 
 TEST_P(OptimallySteeredAgainst, StaysNearItsPathWhereThePlansSteeringAloneDoesNot) {
-  // MuJoCo's car on its contacts. 0.1 m is the lateral room in a car-park lane. If the open loop
-  // has an error above 0.25 m, closing the loop must reduce it at least by a factor of five.
+  // The test uses MuJoCo's car on its contacts. The bound of 0.1 m is the lateral room in a
+  // car-park lane. If the open loop has an error above 0.25 m, closing the loop must reduce it at
+  // least by a factor of five.
   const auto drive = [](const char* method) {
     const auto& [course, disturbance] = GetParam();
     std::vector<std::string> keys = disturbance.keys;

@@ -53,9 +53,9 @@ TEST_P(Scenarios, DriveAsTheyExpectKinematicAgainstContactDynamics) {
   const Scenario scenario = ReadScenario(File(GetParam()));
   const RunResult run = RunScenario(scenario);
   EXPECT_THAT(run, MeetsItsExpectations());
-  // With the same plan at 3 m/s the plants differ by the servo's lag and tyre slip. A path tracking
-  // controller limits that to centimeters; in open loop, on ice or after a collision the stated
-  // bound applies.
+  // With the same plan at 3 m/s the plants differ by the servo's lag and tyre slip. A path-tracking
+  // controller limits this difference to centimeters. In open loop, on ice or after a collision,
+  // the stated bound applies.
   if (!scenario.expect.between.empty()) {
     const std::string name = GetParam();
     const double bound = name == "steering_circle"        ? 1.2

@@ -40,7 +40,8 @@ TEST(GripModel, OfAPointMassIsTheFrictionCircle) {
   const double grip = kGrip * kGravity;
   const GgvDiagram diagram = ComputeGgv(car, {1.0, 0.5});
   for (const double road : {1.0, 0.5}) {
-    // Between tabulated values the model is linear in sin(q), which is exact for the circle.
+    // Between the angles q of the table, GgvDiagram interpolates f_x linearly in sin(q), which is
+    // exact for a circle.
     for (const double lateral : {0.0, 0.3, 0.7, 0.95}) {
       const double left = grip * road * std::sqrt(1.0 - lateral * lateral);
       const TyreRange range = diagram.TyresAt({.road = road, .lateral = lateral * grip * road});

@@ -149,7 +149,8 @@ TEST(DriveClock, PausesAllPlantsAtTheSameTime) {
       comes = true;
       clock.Advance(1, 0.0);
     });
-    // The other plant most probably waits in Advance() afterwards. The test also passes if not.
+    // After this loop, the other plant most probably waits in Advance(). The test also passes if
+    // the plant does not wait yet.
     for (int turn = 0; turn < 1000 || !comes; ++turn) {
       std::this_thread::yield();
     }
