@@ -25,7 +25,7 @@ namespace {
 /// The inputs of MuJoCo in a run: the state at the start and, per physics step, all values that the
 /// plant sets or adds.
 struct Feed {
-  MujocoModel model;  // as driven: with the road's friction
+  MujocoModel model;  // the model of the run, with the road's friction
   std::vector<mjtNum> start_act;
   std::vector<mjtNum> qpos;  // with quaternions normalized by MuJoCo; begins with the start
   std::vector<mjtNum> qvel;

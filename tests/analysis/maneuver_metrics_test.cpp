@@ -16,7 +16,7 @@
 namespace trackbed {
 namespace {
 
-constexpr double kStep = 0.01;  // of all logs [s]
+constexpr double kStep = 0.01;  // period of all logs [s]
 constexpr double kWheelbase = 2.5;
 // Quantities that are linear between rows are exact except for the rounding of sums of some
 // thousand terms.

@@ -44,7 +44,7 @@ struct Contents {
   std::map<std::uint16_t, std::string> schemas;
   std::map<std::uint16_t, Channel> channels;
   std::vector<Message> messages;
-  std::vector<int> codes;  // of all records
+  std::vector<int> codes;  // codes of all records
 };
 
 class Bytes {

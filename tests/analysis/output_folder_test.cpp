@@ -45,7 +45,7 @@ TEST(ResultWriter, ReplacesAResultAsAWhole) {
         {"report.html", "video.mp4", "notes.txt"});
   EXPECT_THAT(folder.Names(),
               UnorderedElementsAre("metrics.json", "model.xml", "manifest.json", "notes.txt",
-                                   "video.mp4"));  // it has no mark of Trackbed's
+                                   "video.mp4"));  // the file has no mark of Trackbed
   EXPECT_EQ(ReadFile(folder.path() / "model.xml"), "new");
   const auto manifest = nlohmann::json::parse(ReadFile(folder.path() / "manifest.json"));
   // printf new | sha256sum
@@ -210,7 +210,7 @@ TEST(OutputFolder, IsNotWrittenThroughLinks) {
 TEST(OutputFolder, OfSomebodyElsesFilesIsRefused) {
   const TempFolder folder;
   folder.Write("notes.txt", "mine");
-  { const OutputFolder mine(folder.path()); }  // none of our files has that name
+  { const OutputFolder mine(folder.path()); }  // no file of Trackbed has this name
   folder.Write("plan.csv", "mine");
   folder.Write("metrics.json", "mine");
   folder.Write("sweep.csv", "mine");  // no run has that name
@@ -495,7 +495,7 @@ TEST(Manifest, KnowsARunByThePlanThatItWasDrivenOn) {
   EXPECT_EQ(refusal(), "");
   Write(folder.path(), "plan", {"plan.csv"}, "b", {"tree.csv"});
   EXPECT_THAT(refusal(), HasSubstr("does not belong to this run"));
-  EXPECT_TRUE(fs::exists(folder.path() / "metrics.json"));  // but it is still there
+  EXPECT_TRUE(fs::exists(folder.path() / "metrics.json"));  // the file still exists
 }
 
 TEST(Reading, TellsThatAResultWasReplacedMeanwhile) {

@@ -62,7 +62,7 @@ TEST_P(Routes, PreviewTracksThemOnEveryPlant) {
     // The steering rate is measured at the knuckles over 0.1 s. The rate may exceed the limit by 2
     // %, because the servo overshoots.
     EXPECT_LE(metrics.steering_rate_max, 1.02 * 0.15056818181818182);
-    EXPECT_GT(metrics.steering_rate_max, 0.05);  // it did steer
+    EXPECT_GT(metrics.steering_rate_max, 0.05);  // the car did steer
   }
 }
 

@@ -228,7 +228,7 @@ TEST(DriveOnce, DrivesEveryPointAsIfItWereAlone) {
         << point.settings[0].key;
     different.insert(Reproducible(outcome->outputs));
   }
-  EXPECT_EQ(different.size(), checked.points.size());  // so that a mix-up would show
+  EXPECT_EQ(different.size(), checked.points.size());  // no two runs are mixed up
 }
 
 TEST(DriveOnce, DisturbsEveryPointInItsOwnWay) {

@@ -98,7 +98,7 @@ TEST_F(Records, LeaveFilesOfOthers) {
     EXPECT_EQ(ReadFile(file()), text);
   }
   std::filesystem::remove(file());
-  SweepRecords::Remove(file());  // there is none
+  SweepRecords::Remove(file());  // no file exists
   { const SweepRecords records = Open(); }
   EXPECT_TRUE(SweepRecords::IsFileOfRecords(file()));
   const std::filesystem::path link = file().string() + ".link";

@@ -73,7 +73,7 @@ TEST(Laps, TakeTheirTimeBetweenCrossingsOfTheLine) {
 }
 
 TEST(Laps, TellAFasterInnerLane) {
-  // The car drives on a circle whose radius is 3 m smaller, at the same speed.
+  // The car follows a circle whose radius is 3 m smaller, at the same speed.
   const std::vector<LapMetrics> laps =
       MeasureLaps(Circle(kRadius - 3.0, -0.2, kSpeed, 40.0), RingPlan(1));
   ASSERT_EQ(laps.size(), 1U);

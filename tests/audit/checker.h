@@ -35,7 +35,7 @@ struct Tolerances {
   /// Fractions by which a plan may exceed a limit. Its columns are sampled every 0.1 m, so checks
   /// use means over such an interval instead of values.
   double plan_limit = 0.02;
-  double plan_rate = 0.05;  ///< of curvature, a second difference of positions
+  double plan_rate = 0.05;  ///< for the steering rate, a difference of curvatures
   /// Fraction by which the actuator may exceed its rate limit: rounding.
   double actuator_rate = 1e-6;
   /// As above for measured wheels, whose tie rods yield a little under load. In 34 passed runs on

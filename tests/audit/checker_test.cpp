@@ -17,7 +17,7 @@ using testing::IsEmpty;
 using trackbed::Table;
 
 constexpr double kSpeed = 5.0;       // [m/s]
-constexpr double kLength = 40.0;     // of the plan, along x [m]
+constexpr double kLength = 40.0;     // length of the plan, along x [m]
 constexpr double kBrake = 2.0;       // [m/s^2]
 constexpr double kPeriod = 0.02;     // [s]
 constexpr double kTimestep = 0.002;  // [s]

@@ -77,7 +77,7 @@ std::vector<ControllerOptions> PathFollowers() {
 struct Generator {
   Dice dice;
   Scenario scenario{};
-  double size = 1.0;  ///< of the car and its surroundings, relative to full size
+  double size = 1.0;  ///< size of the car and its surroundings, relative to full size
 
   void Vehicle() {
     const std::size_t which = dice.Below(8);

@@ -107,7 +107,7 @@ TEST(FalsifyVerb, TakesNoCounterexampleOfAnotherSearch) {
                                  " --plant kinematic -o out/reach/counterexample"
                                  " --set drive.time_limit=0.1 expect={}")
                 .code,
-            3);  // it does not arrive
+            3);  // the car does not arrive
   const Outcome mixed = Trackbed(folder, "report -q out/reach");
   EXPECT_EQ(mixed.code, 2);
   EXPECT_THAT(mixed.output,

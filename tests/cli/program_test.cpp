@@ -139,7 +139,7 @@ TEST(Program, FilmsAFinishedRunFromItsFolder) {
   }
   const Outcome run = Trackbed(
       folder, "run " + ScenarioFile("winding") + " -o r --set drive.time_limit=1 'expect={}'");
-  EXPECT_EQ(run.code, 3);  // it does not arrive within a second
+  EXPECT_EQ(run.code, 3);  // the car does not arrive within a second
   const Outcome film = Trackbed(folder, "render r --size 320x180 --fps 10 --camera top");
   EXPECT_EQ(film.code, 0) << film.output;
   EXPECT_EQ(film.output, "r/video.mp4\n");

@@ -139,7 +139,8 @@ TEST(SimulateClosedLoop, ArrivesWhereAGradeHoldsTheCarAtTheGoal) {
   ConstantController controller(0.0);
   const RunLog log = SimulateClosedLoop(
       plant, controller, Drivable(PlanAlongRoute({{.length = 10.0}}, 0.0)), Config());
-  EXPECT_EQ(log.status, DriveStatus::kStopped);  // it brakes for the goal when the grade stops it
+  EXPECT_EQ(log.status, DriveStatus::kStopped);  // the car brakes for the goal when the grade stops
+                                                 // it
 }
 
 TEST(SimulateClosedLoop, ChangesGearWhereAGradeHoldsTheCarAtACusp) {

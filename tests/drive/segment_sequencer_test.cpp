@@ -87,7 +87,7 @@ TEST(StationarySteer, IsOverWhenTheWheelsRest) {
 
 TEST(SegmentSequencer, CountsStationsOnOverSegments) {
   SegmentSequencer sequencer(Drivable(BackAndForth()), StateAt(0.0, 0.0), Options());
-  EXPECT_FALSE(sequencer.stationary_steer().InProgress());  // the plan starts straight, so the wheels need not turn
+  EXPECT_FALSE(sequencer.stationary_steer().InProgress());  // the plan starts straight ahead
   // The projection searches near the previous station, within 0.75 wheelbases (1.5 m), so the car
   // moves by 1 m at a time.
   for (double x = 1.0; x < 9.5; x += 1.0) {

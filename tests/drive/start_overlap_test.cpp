@@ -35,7 +35,8 @@ TEST(StartOverlap, NamesTheObstacleAndTheDepth) {
               fmt::format("world.obstacles[0] at ({:.4g}, 0.2) overlaps the car, which starts at "
                           "(0, 0), by 0.25 m; move one of them by at least this distance",
                           front + 0.75));
-    EXPECT_EQ(StartOverlap(ScenarioWith(front + 1.0, 0.2, more), car), "");  // it touches the car
+    EXPECT_EQ(StartOverlap(ScenarioWith(front + 1.0, 0.2, more), car), "");  // the obstacle touches
+                                                                             // the car
   }
   EXPECT_NE(StartOverlap(ScenarioWith(0.0, -0.5 * car.width - 0.9, ""), car).find("by 0.1 m"),
             std::string::npos);

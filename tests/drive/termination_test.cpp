@@ -229,7 +229,7 @@ TEST_F(TerminationTest, IsStuckAfterTenSecondsInPlaceAlthoughItIsToMove) {
   };
   EXPECT_EQ(ask(1.0, 0.0), std::nullopt);
   EXPECT_EQ(ask(10.9, 0.009), std::nullopt);
-  EXPECT_EQ(ask(11.0, 0.011), std::nullopt);  // it moves slowly
+  EXPECT_EQ(ask(11.0, 0.011), std::nullopt);  // the car moves slowly
   EXPECT_EQ(ask(20.9, 0.011), std::nullopt);
   to_move_ = false;
   EXPECT_EQ(ask(21.1, 0.011), std::nullopt);

@@ -76,8 +76,8 @@ class Unicycle : public Plant {
 
   [[nodiscard]] VehicleState& state() { return state_; }
 
-  std::vector<Command> commands;  ///< of every step
-  double force = 0.0;             ///< of obstacles [N]
+  std::vector<Command> commands;  ///< commands of all steps
+  double force = 0.0;             ///< contact force of obstacles [N]
   bool is_diverged = false;
   double gap = 0.0;  ///< wheel_gap [m]
 

@@ -110,7 +110,7 @@ TEST(Falsify, SaysWhenNothingFailed) {
   easy.set[1].value = "{max_cross_track: 50}";
   const FalsifyResult result = Falsify(CheckSearch(easy));
   EXPECT_EQ(result.status, FalsifyStatus::kNotFalsified);
-  EXPECT_EQ(result.runs, 11U);  // and the nominal point
+  EXPECT_EQ(result.runs, 11U);  // ten runs and the nominal point
   EXPECT_EQ(result.shrink_runs, 0U);
   EXPECT_FALSE(result.counterexample.has_value());
   EXPECT_GT(result.least.value().robustness, 0.0);

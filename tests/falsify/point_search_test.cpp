@@ -169,7 +169,7 @@ TEST(SurrogateSearch, ProposesNoPointTwice) {
       }
       return values;
     });
-    EXPECT_EQ(all.size(), 121U);  // then all points have been used
+    EXPECT_EQ(all.size(), 121U);  // the search has used all points
   }
 }
 
