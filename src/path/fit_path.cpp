@@ -8,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "src/path/given_shape.h"
 #include "src/path/leg_fit.h"
 #include "src/path/legs.h"
 #include "src/path/points_to_fit.h"
@@ -18,7 +19,8 @@
 // Fits a path to points. The points are divided into legs of one direction of motion (legs.cpp).
 // Each leg is fitted as a forward path in its direction of travel (leg_fit.cpp). A first fit of
 // each leg gives the headings at the cusps between the legs. A second fit of each leg has these
-// headings at its ends, which makes the heading of the whole path continuous.
+// headings at its ends, which makes the heading of the whole path continuous. Headings and
+// curvatures that agree with the points are followed instead (given_shape.cpp).
 
 namespace trackbed {
 namespace {
@@ -62,12 +64,14 @@ double HeadingDifference(const FittedPath& fitted) {
       const bool is_reverse = fitted.path.At(fitted.stations[i]).direction < 0;
       FailFit("",
               fmt::format("the heading of point {} at ({:.6g}, {:.6g}), {:.4g} rad, is opposite to "
-                          "{:.4g} rad, the heading of a car that drives {} there as the file's {} "
-                          "say; correct the headings or the {}, or remove one of their columns",
+                          "{:.4g} rad, the heading of a car that drives {} there as {}",
                           i + 1, point.x(), point.y(), fitted.given.yaw[i], WrapAngle(yaw),
                           is_reverse ? "in reverse" : "forwards",
-                          fitted.given.direction.empty() ? "points" : "directions of motion",
-                          fitted.given.direction.empty() ? "points" : "directions"),
+                          fitted.given.direction.empty()
+                              ? "at the points around it; correct the heading, or remove the "
+                                "column of headings"
+                              : "the file's directions of motion say; correct the headings or the "
+                                "directions, or remove one of their columns"),
               LineOf(fitted.given, i));
     }
     largest = std::max(largest, own);
@@ -80,43 +84,67 @@ double CarHeading(double travel, int direction) {
   return direction > 0 ? travel : WrapAngle(travel + kPi);
 }
 
-/// Returns the mean of angles that are close to each other [rad].
-double MeanAngle(const std::vector<double>& angles) {
+/// Returns the mean of angles that are close to each other [rad]. The weights are above 0.
+double MeanAngle(const std::vector<double>& angles, const std::vector<double>& weights) {
   double sum = 0.0;
-  for (const double angle : angles) {
-    sum += AngleDifference(angle, angles.front());
+  double weight = 0.0;
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    sum += weights[i] * AngleDifference(angles[i], angles.front());
+    weight += weights[i];
   }
-  return angles.front() + sum / static_cast<double>(angles.size());
+  return angles.front() + sum / weight;
+}
+
+/// Estimates the error of the heading at the end of a curve that is fitted to points [rad]: the
+/// mean deviation of the points near this end, over the length of curve that they determine.
+double HeadingError(const FittedPath& fit, bool at_begin) {
+  // Error of a heading from fewer than kManyPoints points, which tell little about the curvature.
+  constexpr std::size_t kManyPoints = 4;
+  constexpr double kFewPointsError = 0.1;   // [rad]
+  constexpr double kSmallestError = 1e-12;  // [rad]
+  if (fit.given.points.size() - fit.repeated - fit.merged < kManyPoints) {
+    return kFewPointsError;
+  }
+  const double length = fit.path.length();
+  const double near = std::min(length, std::max(fit.smoothing_length, 0.1 * length));
+  double sum = 0.0;
+  double count = 0.0;
+  for (std::size_t i = 0; i < fit.stations.size(); ++i) {
+    const double s = fit.stations[i];
+    if (at_begin ? s <= near : s >= length - near) {
+      sum += (fit.path.At(s).pose.position() - fit.given.points[i]).norm();
+      count += 1.0;
+    }
+  }
+  return sum / count / near + kSmallestError;
 }
 
 /// Returns the heading of the car at the cusp between two legs, which are fitted without prescribed
 /// headings.
 double CuspHeading(const PathPoints& given, const std::array<Leg, 2>& legs,
                    const std::array<const FittedPath*, 2>& fits) {
-  // Number of points from which the heading at the end of a curve is certain enough.
-  constexpr std::size_t kManyPoints = 4;
   // Heading difference above which the given headings are no help [rad].
   constexpr double kFar = 0.3;
-  std::vector<double> from_many;
-  std::vector<double> from_all;
+  std::vector<double> headings;
+  std::vector<double> weights;
   std::vector<double> differences;
   for (std::size_t k = 0; k < 2; ++k) {
     const FittedPath& fit = *fits[k];
     const double travel = fit.path.At(k == 0 ? fit.path.length() : 0.0).pose.yaw;
-    from_all.push_back(CarHeading(travel, legs[k].direction));
-    if (fit.given.points.size() - fit.repeated - fit.merged >= kManyPoints) {
-      from_many.push_back(from_all.back());
-    }
+    headings.push_back(CarHeading(travel, legs[k].direction));
+    const double error = HeadingError(fit, k == 1);
+    weights.push_back(1.0 / (error * error));
     for (std::size_t i = legs[k].first; !given.yaw.empty() && i <= legs[k].last; ++i) {
       const double own = fit.path.At(fit.stations[i - legs[k].first]).pose.yaw;
       differences.push_back(AngleDifference(CarHeading(own, legs[k].direction), given.yaw[i]));
     }
   }
-  const double heading = MeanAngle(from_many.empty() ? from_all : from_many);
+  const double heading = MeanAngle(headings, weights);
   if (given.yaw.empty()) {
     return heading;
   }
-  const double from_file = given.yaw[legs[1].first] + MeanAngle(differences);
+  const double from_file = given.yaw[legs[1].first] +
+                           MeanAngle(differences, std::vector<double>(differences.size(), 1.0));
   return std::abs(AngleDifference(from_file, heading)) < kFar ? from_file : heading;
 }
 
@@ -182,7 +210,9 @@ FittedPath JoinLegs(const std::vector<Leg>& legs, const std::vector<FittedPath>&
 FittedPath FitOnce(PathPoints given, const PathFitOptions& options) {
   const std::vector<Leg> legs = FindLegs(given, options.max_deviation);
   FittedPath fitted;
-  if (legs.size() == 1) {
+  if (std::optional<FittedPath> followed = FollowGiven(given, legs, options)) {
+    fitted = std::move(*followed);
+  } else if (legs.size() == 1) {
     fitted = FitLeg(PointsOf(given, legs.front()), options, {});
     if (legs.front().direction < 0) {
       fitted = JoinLegs(legs, {std::move(fitted)});

@@ -226,6 +226,66 @@ TEST(FitReversePath, TurnsBetweenSamples) {
   }
 }
 
+/// Samples of a plan as in plan.csv, with headings and curvatures. At a cusp, the curvature is that
+/// before the cusp.
+PathPoints PlanSamples(const Path& path) {
+  PathPoints given = SamplesOf(path, 0.1);
+  for (const Stations& leg : SplitIntoLegs(path)) {
+    const double count = std::ceil((leg.to - leg.from) / 0.1);
+    for (double i = leg.from == 0.0 ? 0.0 : 1.0; i <= count; i += 1.0) {
+      const double s = std::lerp(leg.from, leg.to, i / count);
+      given.curvature.push_back(path.At(i == count ? s - 1e-12 : s).curvature);
+    }
+  }
+  return given;
+}
+
+// Arcs and lines whose curvatures jump between the samples, as in plans of Reeds-Shepp curves. The
+// tolerance is that of FindsTheLegsFromAnyEvidence.
+TEST(FitReversePath, ReadsAPlanAgain) {
+  std::mt19937 random(3);
+  const auto between = [&](double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+  };
+  for (int run = 0; run < 100; ++run) {
+    SCOPED_TRACE(run);
+    std::vector<Segment> segments;
+    for (int i = 0; i < 6; ++i) {
+      const double side = i % 3 == 1 ? 0.0 : between(0.0, 1.0) < 0.5 ? 0.18 : -0.18;
+      segments.push_back(
+          {.length = between(0.5, 6.0), .curvature = side, .direction = i < 2 || i > 4 ? 1 : -1});
+    }
+    const Path path({between(-1e3, 1e3), between(-1e3, 1e3), between(-3.0, 3.0)}, segments);
+    const FittedPath fitted = FitPath(PlanSamples(path), {});
+    ExpectEqualPaths(fitted.path, path, Tolerance(kExact));
+    EXPECT_EQ(fitted.smoothing_length, 0.0);
+    EXPECT_LE(fitted.path.segments().size(), segments.size());
+  }
+}
+
+// Curvatures that are linear on each leg. Segments between samples are exact, as both ends have the
+// exact heading and curvature.
+TEST(FitReversePath, FollowsCurvaturesThatChange) {
+  std::mt19937 random(5);
+  for (int run = 0; run < 50; ++run) {
+    SCOPED_TRACE(run);
+    const Path path = RandomPath(random);
+    const FittedPath fitted = FitPath(PlanSamples(path), {});
+    EXPECT_EQ(fitted.smoothing_length, 0.0);
+    ExpectEqualPaths(fitted.path, path, Tolerance(kExact));
+  }
+}
+
+TEST(FitReversePath, DoesNotFollowCurvaturesOfAnotherPath) {
+  PathPoints given = PlanSamples(ThreePointTurn());
+  for (double& curvature : given.curvature) {
+    curvature = -curvature;
+  }
+  const FittedPath fitted = FitPath(given, {});
+  EXPECT_GT(fitted.smoothing_length, 0.0);
+  ExpectEqualPaths(fitted.path, ThreePointTurn(), Tolerance(kExact));
+}
+
 TEST(FitReversePath, SaysWhatIsWrong) {
   const PathPoints given = SamplesOf(ThreePointTurn(), 0.3);
   const auto error = [](PathPoints points, const PathFitOptions& options) -> std::string {

@@ -76,7 +76,8 @@ struct FittedPath {
   /// If `reversals` is not empty: a value of max_deviation with which a spline can be fitted, of
   /// about the smallest size [m]; nullopt if it exceeds a tenth of the length of the points.
   std::optional<double> noise_deviation{};
-  /// Smoothing length l of the fitted spline [m]; 0 for a polyline.
+  /// Smoothing length l of the fitted spline [m]; 0 for a polyline, and for a path that follows the
+  /// given headings and curvatures.
   double smoothing_length = 0.0;
   /// Largest difference between a given heading and the heading of the fitted path [rad].
   double heading_difference = 0.0;
@@ -125,6 +126,10 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// the integral 0, so points on one of them are fitted by the line, arc or clothoid itself.
 /// Curvature and curvature rate are continuous. If the curve exceeds max_deviation, l is shortened.
 /// If no curve converges, the path is the quintic spline itself.
+///
+/// If headings and curvatures of an open path agree with the points as exactly as a planner's own
+/// output, no spline is fitted: the path has these headings and curvatures. Where the curvature is
+/// constant on both sides of a step between two points, and differs, it jumps within the step.
 ///
 /// Steps that turn back by more than a right angle within max_deviation are noise, as of a recorder
 /// in a car that stands: a spline is fitted to the centers of these points.

@@ -11,6 +11,7 @@
 #include "trackbed/core/error.h"
 #include "trackbed/path_files/path_file.h"
 #include "trackbed/planning/common/course_schedule.h"
+#include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/feasibility.h"
 
 namespace trackbed {
@@ -18,6 +19,8 @@ namespace {
 
 // Lower bound of the speed caps [m/s]. Next to a stop, the mean of the file's speeds may be lower.
 constexpr double kMinSpeed = 0.1;
+// Lowest speed of the car at a step of curvature [m/s], as of the curve planners.
+constexpr double kMinStepSpeed = 0.3;
 
 bool HasReversePieces(const Path& path) {
   return std::any_of(path.segments().begin(), path.segments().end(),
@@ -55,6 +58,20 @@ std::vector<SpeedCap> CapsOf(const FittedPath& fitted) {
   return caps;
 }
 
+/// Returns whether the curvature jumps between the cusps, as in a planner's path of arcs and lines.
+bool HasCurvatureSteps(const Path& path) {
+  constexpr double kSameCurvature = 1e-6;  // [1/m]
+  const std::vector<Segment>& segments = path.segments();
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    const Segment& before = segments[i - 1];
+    if (before.direction == segments[i].direction &&
+        std::abs(before.CurvatureAt(before.length) - segments[i].curvature) > kSameCurvature) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// A part of the path, between two of its points, on which the speed in the file is 0.
 struct Standstill {
   std::size_t first;
@@ -77,9 +94,10 @@ std::vector<Standstill> FindStandstills(const std::vector<double>& speed) {
 }
 
 /// Returns the stations between the ends of the path at which the speed in the file is 0, apart
-/// from the cusps, at which the car stops anyway.
-std::vector<double> StopsOf(const FittedPath& fitted) {
-  const std::vector<double> cusps = CuspsOf(fitted.path);
+/// from the cusps and the given stops, at which the car stops anyway.
+std::vector<double> StopsOf(const FittedPath& fitted, const std::vector<double>& given) {
+  std::vector<double> cusps = CuspsOf(fitted.path);
+  cusps.insert(cusps.end(), given.begin(), given.end());
   const double near = fitted.options.max_deviation;
   std::vector<double> stops;
   for (const auto& [first, last] : FindStandstills(fitted.given.speed)) {
@@ -138,7 +156,7 @@ std::vector<std::string> SpeedNotes(const FittedPath& fitted, const std::vector<
 SteeringSchedule ScheduleOf(const FittedPath& fitted, const PlanRequest& request,
                             const std::vector<SpeedCap>& caps, const std::vector<double>& stops) {
   const Path& path = fitted.path;
-  if (!fitted.jumps.empty()) {
+  if (!fitted.jumps.empty() || HasCurvatureSteps(path)) {
     return CourseSchedule(request.vehicle, path.segments(), request.speed.speed, caps, stops);
   }
   constexpr double kTurn = 1e-6;  // [m]
@@ -194,10 +212,17 @@ Plan PlanWith(const PathFileOptions& options, const PlanRequest& request) {
     plan.diagnostics.direction_changes = CuspsOf(fitted.path).size();
   }
   const double length = fitted.path.length();
+  if (fitted.jumps.empty() && HasCurvatureSteps(fitted.path)) {
+    StepSpeeds steps = PlanSteps(request.vehicle, fitted.path.segments(), kMinStepSpeed);
+    plan.caps = std::move(steps.caps);
+    plan.stops = std::move(steps.stops);
+  }
   if (options.speeds == PathSpeeds::kFile) {
-    plan.caps = CapsOf(fitted);
-    plan.stops = StopsOf(fitted);
-    plan.notes = SpeedNotes(fitted, plan.stops);
+    const std::vector<SpeedCap> caps = CapsOf(fitted);
+    plan.caps.insert(plan.caps.end(), caps.begin(), caps.end());
+    const std::vector<double> stops = StopsOf(fitted, plan.stops);
+    plan.stops.insert(plan.stops.end(), stops.begin(), stops.end());
+    plan.notes = SpeedNotes(fitted, stops);
   }
   SetSpeeds(plan, request.start_speed, request.speed);
   plan.schedule = ScheduleOf(fitted, request, plan.caps, plan.stops);
@@ -334,8 +359,13 @@ std::string ReversalRemedy(const FittedPath& fitted, const std::string& noise_ke
 }
 
 std::string Describe(const FittedPath& fitted) {
+  const bool is_followed = fitted.options.fit == PathFit::kSpline &&
+                           fitted.smoothing_length == 0.0 && !fitted.given.curvature.empty() &&
+                           !fitted.given.yaw.empty();
   std::string text =
-      fitted.options.fit == PathFit::kSpline
+      is_followed ? fmt::format("headings and curvatures of the file, within {:.3g} m of {} points",
+                                fitted.deviation, fitted.given.points.size())
+      : fitted.options.fit == PathFit::kSpline
           ? fmt::format("spline within {:.3g} m of {} points, smoothing length {:.3g} m",
                         fitted.deviation, fitted.given.points.size(), fitted.smoothing_length)
           : fmt::format("polyline of {} points, within {:.3g} m", fitted.given.points.size(),
