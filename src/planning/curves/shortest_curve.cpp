@@ -9,19 +9,56 @@ namespace {
 /// of a zero angle.
 constexpr double kMinPieceLength = 1e-12;
 
-bool IsThere(const CurvePiece& piece) {
-  return std::abs(piece.sweep) > kMinPieceLength;
+/// A part of a piece with one direction of motion: a ramp, an arc or a straight, in units of r.
+struct Part {
+  double length = 0.0;
+  double curvature = 0.0;
+  double sharpness = 0.0;
+  int direction = 1;
+};
+
+Part Ramp(double from, double to, const CurveRamps& ramps) {
+  return {.length = ramps.sharpness > 0.0 ? std::abs(to - from) / ramps.sharpness : 0.0,
+          .curvature = from,
+          .sharpness = std::copysign(ramps.sharpness, to - from),
+          .direction = ramps.direction};
+}
+
+std::array<Part, 3> PartsOf(const CurvePiece& piece) {
+  const CurveRamps& ramps = piece.ramps;
+  const double curvature = ramps.sharpness > 0.0 ? ramps.peak : static_cast<double>(piece.bend);
+  return {Ramp(ramps.first, ramps.peak, ramps),
+          Part{.length = std::abs(piece.sweep),
+               .curvature = curvature,
+               .direction = piece.sweep < 0.0 ? -1 : 1},
+          Ramp(ramps.peak, ramps.last, ramps)};
+}
+
+bool IsThere(const Part& part) {
+  return part.length > kMinPieceLength;
 }
 
 }  // namespace
+
+double PieceLength(const CurvePiece& piece) {
+  double length = 0.0;
+  for (const Part& part : PartsOf(piece)) {
+    length += part.length;
+  }
+  return length;
+}
 
 std::string CurveWord(const ShortestCurve& curve) {
   std::string word;
   for (int i = 0; i < curve.count; ++i) {
     const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];
-    if (IsThere(piece)) {
-      word += piece.bend == Bend::kLeft ? 'L' : piece.bend == Bend::kRight ? 'R' : 'S';
-      word += piece.sweep > 0.0 ? '+' : '-';
+    int direction = 0;
+    for (const Part& part : PartsOf(piece)) {
+      if (IsThere(part) && part.direction != direction) {
+        direction = part.direction;
+        word += piece.bend == Bend::kLeft ? 'L' : piece.bend == Bend::kRight ? 'R' : 'S';
+        word += direction > 0 ? '+' : '-';
+      }
     }
   }
   return word;
@@ -29,12 +66,15 @@ std::string CurveWord(const ShortestCurve& curve) {
 
 std::vector<Segment> ToSegments(const ShortestCurve& curve) {
   std::vector<Segment> segments;
+  const double r = curve.radius;
   for (int i = 0; i < curve.count; ++i) {
-    const CurvePiece& piece = curve.pieces[static_cast<std::size_t>(i)];
-    if (IsThere(piece)) {
-      segments.push_back({.length = std::abs(piece.sweep) * curve.radius,
-                          .curvature = static_cast<double>(piece.bend) / curve.radius,
-                          .direction = piece.sweep > 0.0 ? 1 : -1});
+    for (const Part& part : PartsOf(curve.pieces[static_cast<std::size_t>(i)])) {
+      if (IsThere(part)) {
+        segments.push_back({.length = part.length * r,
+                            .curvature = part.curvature / r,
+                            .direction = part.direction,
+                            .sharpness = part.sharpness / (r * r)});
+      }
     }
   }
   return segments;

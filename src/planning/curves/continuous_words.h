@@ -1,0 +1,288 @@
+#pragma once
+
+#include <array>
+
+#include "src/planning/curves/clothoid_turns.h"
+
+/// The words of two to four turns of continuous curvature, in units of the smallest radius.
+namespace trackbed {
+
+/// Least length of a straight between two cusps, above the length of pieces that are left out.
+inline constexpr double kMinStraight = 1e-11;
+
+/// What a car can do at a cusp.
+enum class CurveMotion {
+  kForwards,    ///< The car never drives backwards.
+  kContinuous,  ///< The curvature is continuous at cusps.
+  kHybrid,      ///< The curvature steps at cusps.
+};
+
+/// The place between two turns, with a straight if that has a length.
+struct TurnJunction {
+  double yaw = 0.0;         // heading of the car [rad]
+  bool zero_before = true;  // the turn before ends with curvature zero, not with the full one
+  bool zero_after = true;   // the turn behind begins with curvature zero
+  double straight = 0.0;    // length of a straight
+  int direction = 1;        // of motion on the straight
+};
+
+/// A chain of turns, of which the first leaves a state and the last arrives at one.
+struct TurnChain {
+  const TurnEnd* first = nullptr;
+  const TurnEnd* last = nullptr;  // leaves the goal in the opposite direction
+  int turns = 2;
+  std::array<int, 4> side{};
+  std::array<int, 4> direction{};
+  std::array<TurnJunction, 3> junctions{};
+  double length = kNoCurve;
+};
+
+/// Solves the turns and adds their lengths; stops early at `limit`.
+double ChainLength(const TurnCircle& circle, const TurnChain& chain, bool both_ways, double limit);
+
+/// Returns the pieces of a chain.
+ShortestCurve ChainCurve(const TurnCircle& circle, const TurnChain& chain, bool both_ways);
+
+/// Finds the chains between two ends of turns.
+class ChainFinder {
+ public:
+  ChainFinder(const TurnCircle& circle, CurveMotion motion);
+
+  /// Calls `take` with each chain that is shorter than `limit()`.
+  template <typename Limit, typename Take>
+  void Find(const TurnEnd& first, const TurnEnd& last, const Limit& limit, const Take& take) const {
+    const Centers centers(first, last);
+    const auto consider = [&](TurnChain chain) {
+      chain.length = ChainLength(circle_, chain, both_ways(), limit());
+      if (chain.length < limit()) {
+        take(chain);
+      }
+    };
+    WithStraight(centers, limit, consider);
+    OfTurns(centers, consider);
+  }
+
+ private:
+  /// The line from the center of the first turn to the center of the last turn.
+  struct Centers {
+    Centers(const TurnEnd& from, const TurnEnd& to)
+        : first(from), last(to), line(to.center - from.center), square(line.squaredNorm()) {}
+    const TurnEnd& first;
+    const TurnEnd& last;
+    Vec2 line;
+    double square;
+  };
+
+  [[nodiscard]] bool both_ways() const { return motion_ != CurveMotion::kForwards; }
+
+  template <typename Limit, typename Consider>
+  void WithStraight(const Centers& centers, const Limit& limit, const Consider& consider) const;
+  template <typename Consider>
+  void OfTurns(const Centers& centers, const Consider& consider) const;
+  template <typename Consider>
+  void OfThreeTurns(const Centers& centers, bool first_cusp, bool last_cusp,
+                    const Consider& consider) const;
+  template <typename Consider>
+  void OfFourTurns(const Centers& centers, bool outer_cusps, bool inner_cusp,
+                   const Consider& consider) const;
+
+  /// Returns the distance of the centers of two turns that touch.
+  [[nodiscard]] double Link(bool cusp) const { return cusp ? cusp_link_ : 2.0 * radius_; }
+  /// Returns the place where two turns touch whose centers are in the direction `angle`.
+  [[nodiscard]] TurnJunction Touch(double angle, bool cusp, int side, int direction) const;
+  [[nodiscard]] static TurnChain Chain(const Centers& centers, int turns);
+
+  TurnCircle circle_;
+  CurveMotion motion_;
+  double radius_;     // of the circle
+  double mu_;         // angle between the heading and the circle's tangent
+  double cusp_link_;  // distance of the centers of two turns at a cusp
+};
+
+inline TurnChain ChainFinder::Chain(const Centers& centers, int turns) {
+  TurnChain chain{.first = &centers.first, .last = &centers.last, .turns = turns};
+  chain.side[0] = centers.first.side;
+  chain.direction[0] = centers.first.direction;
+  const auto last = static_cast<std::size_t>(turns - 1);
+  chain.side[last] = centers.last.side;
+  chain.direction[last] = -centers.last.direction;
+  return chain;
+}
+
+inline TurnJunction ChainFinder::Touch(double angle, bool cusp, int side, int direction) const {
+  const bool zero = !cusp || motion_ != CurveMotion::kHybrid;
+  return {.yaw = angle + side * (0.5 * kPi) - (cusp ? 0.0 : side * direction * mu_),
+          .zero_before = zero,
+          .zero_after = zero};
+}
+
+/// Words with a straight, possibly with a cusp and a quarter turn at one of its ends or at both, or
+/// with a straight that is driven against the direction of a neighboring turn.
+template <typename Limit, typename Consider>
+void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,
+                               const Consider& consider) const {
+  const TurnEnd& a = centers.first;
+  const TurnEnd& b = centers.last;
+  const bool is_hybrid = motion_ == CurveMotion::kHybrid;
+  const auto add = [&](int cusp_before, int cusp_after, int direction, int along_sign) {
+    const int before = cusp_before != 0 ? -a.direction : a.direction;
+    const int after = cusp_after != 0 ? b.direction : -b.direction;
+    const int side_before = cusp_before != 0 ? -a.side : a.side;
+    const int side_after = cusp_after != 0 ? -b.side : b.side;
+    const bool zero_before = before == direction || !is_hybrid;
+    const bool zero_after = after == direction || !is_hybrid;
+    const double across = side_after * (zero_after ? circle_.across : 1.0) -
+                          side_before * (zero_before ? circle_.across : 1.0);
+    const double turns =
+        (zero_before ? before : 0) * circle_.along + (zero_after ? after : 0) * circle_.along;
+    const double square = centers.square - across * across;
+    if (square < -kTurnRounding * (1.0 + centers.square)) {
+      return;
+    }
+    const double along = along_sign * std::sqrt(std::max(square, 0.0));
+    const double straight = direction * (along - turns) - (cusp_before + cusp_after) * cusp_link_;
+    // Without a straight between two cusps, the curvature would step where the car does not stop.
+    const double least =
+        zero_before || zero_after ? -kTurnRounding * (1.0 + std::abs(along)) : kMinStraight;
+    if (straight < least || straight + a.Least() + b.Least() >= limit()) {
+      return;
+    }
+    const Vec2& d = centers.line;
+    const double yaw = std::atan2(d.y() * along - d.x() * across, d.x() * along + d.y() * across);
+    TurnChain chain = Chain(centers, 2 + cusp_before + cusp_after);
+    std::size_t i = 0;
+    if (cusp_before != 0) {
+      chain.junctions[i] = {yaw - side_before * before * (0.5 * kPi), !is_hybrid, !is_hybrid};
+      chain.side[++i] = side_before;
+      chain.direction[i] = before;
+    }
+    chain.junctions[i] = {yaw, zero_before, zero_after, std::max(straight, 0.0), direction};
+    if (cusp_after != 0) {
+      chain.side[++i] = side_after;
+      chain.direction[i] = after;
+      chain.junctions[i] = {yaw + side_after * after * (0.5 * kPi), !is_hybrid, !is_hybrid};
+    }
+    consider(chain);
+  };
+  const int from = a.direction;
+  const int to = -b.direction;
+  if (from == to) {
+    add(0, 0, from, from);
+    if (both_ways()) {
+      add(0, 0, -from, -from);
+      add(0, 0, -from, from);
+      add(1, 1, -from, -from);
+    }
+  } else if (both_ways()) {
+    add(0, 0, to, to);
+    add(0, 0, from, from);
+    add(1, 0, to, to);
+    add(0, 1, from, from);
+  }
+}
+
+template <typename Consider>
+void ChainFinder::OfTurns(const Centers& centers, const Consider& consider) const {
+  const bool same_side = centers.first.side == centers.last.side;
+  const bool same_direction = centers.first.direction == -centers.last.direction;
+  if (same_side) {
+    if (same_direction) {
+      OfThreeTurns(centers, false, false, consider);
+      if (both_ways()) {
+        OfThreeTurns(centers, true, true, consider);
+      }
+    } else if (both_ways()) {
+      OfThreeTurns(centers, true, false, consider);
+      OfThreeTurns(centers, false, true, consider);
+    }
+  } else if (same_direction) {
+    OfFourTurns(centers, false, false, consider);
+    if (both_ways()) {
+      OfFourTurns(centers, true, false, consider);
+    }
+  } else if (both_ways()) {
+    OfFourTurns(centers, false, true, consider);
+  }
+}
+
+template <typename Consider>
+void ChainFinder::OfThreeTurns(const Centers& centers, bool first_cusp, bool last_cusp,
+                               const Consider& consider) const {
+  const double one = Link(first_cusp);
+  const double two = Link(last_cusp);
+  const double distance = std::sqrt(centers.square);
+  if (distance > (one + two) * (1.0 + kTurnRounding) || distance < std::abs(one - two)) {
+    return;
+  }
+  // Law of cosines; the centers of the outer turns differ unless both links are equal.
+  const double unequal =
+      one == two ? 0.0 : (one - two) * (one + two) / (2.0 * std::max(distance, kTurnRounding));
+  const auto angle = [](double cos) { return std::acos(std::clamp(cos, -1.0, 1.0)); };
+  const double at_first = angle((0.5 * distance + unequal) / one);
+  const double at_last = one == two ? at_first : angle((0.5 * distance - unequal) / two);
+  const double line = std::atan2(centers.line.y(), centers.line.x());
+  TurnChain chain = Chain(centers, 3);
+  chain.side[1] = -chain.side[0];
+  chain.direction[1] = first_cusp ? -chain.direction[0] : chain.direction[0];
+  for (const double sign : {1.0, -1.0}) {
+    chain.junctions[0] =
+        Touch(line + sign * at_first, first_cusp, chain.side[0], chain.direction[0]);
+    chain.junctions[1] = Touch(line - sign * at_last, last_cusp, chain.side[1], chain.direction[1]);
+    consider(chain);
+  }
+}
+
+template <typename Consider>
+void ChainFinder::OfFourTurns(const Centers& centers, bool outer_cusps, bool inner_cusp,
+                              const Consider& consider) const {
+  const double outer = Link(outer_cusps);
+  const double inner = Link(inner_cusp);
+  const double distance = std::sqrt(centers.square);
+  if (distance > (2.0 * outer + inner) * (1.0 + kTurnRounding)) {
+    return;
+  }
+  const double line = std::atan2(centers.line.y(), centers.line.x());
+  TurnChain chain = Chain(centers, 4);
+  for (const std::size_t i : {1U, 2U}) {
+    chain.side[i] = -chain.side[i - 1];
+    const bool cusp = i == 1 ? outer_cusps : inner_cusp;
+    chain.direction[i] = cusp ? -chain.direction[i - 1] : chain.direction[i - 1];
+  }
+  const auto add = [&](double first, double middle, double last) {
+    const std::array<double, 3> angles{first, middle, last};
+    for (std::size_t i = 0; i < 3; ++i) {
+      chain.junctions[i] = Touch(line + angles[i], i == 1 ? inner_cusp : outer_cusps, chain.side[i],
+                                 chain.direction[i]);
+    }
+    consider(chain);
+  };
+  if (outer_cusps) {
+    // The centers form a parallelogram with the middle of the line in its middle.
+    const double cos = distance > 0.0
+                           ? (0.25 * distance * distance + outer * outer - 0.25 * inner * inner) /
+                                 (distance * outer)
+                           : 2.0;
+    if (std::abs(cos) > 1.0 + kTurnRounding) {
+      return;
+    }
+    const double first = std::acos(std::clamp(cos, -1.0, 1.0));
+    const double middle =
+        std::atan2(-2.0 * outer * std::sin(first), distance - 2.0 * outer * std::cos(first));
+    for (const double sign : {1.0, -1.0}) {
+      add(sign * first, sign * middle, sign * first);
+    }
+    return;
+  }
+  // The centers form a trapezoid whose inner link is parallel to the line.
+  for (const double along : {1.0, -1.0}) {
+    const double cos = 0.5 * (distance - along * inner) / outer;
+    if (std::abs(cos) <= 1.0 + kTurnRounding) {
+      const double first = std::acos(std::clamp(cos, -1.0, 1.0));
+      for (const double sign : {1.0, -1.0}) {
+        add(sign * first, along > 0.0 ? 0.0 : kPi, -sign * first);
+      }
+    }
+  }
+}
+
+}  // namespace trackbed

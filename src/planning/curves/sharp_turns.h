@@ -1,0 +1,23 @@
+#pragma once
+
+#include "src/planning/curves/clothoid_turns.h"
+
+/// Words turn-straight-turn of the sharpest turns: every clothoid has the largest sharpness, and
+/// the arc has the smallest curvature that suffices.
+///
+/// Symbols, in units of the smallest radius r: alpha is the heading of the straight, as seen from
+/// the start; a is the deflection of a turn from curvature 0 to curvature 0; d(a) is the distance
+/// between the ends of this turn, in the direction of its mean heading. A turn from another
+/// curvature is the rest of a turn from 0. A word is a root of f(alpha), the distance between the
+/// two turns across the straight. The turns depend continuously on alpha, and vanish with a, so
+/// that nearly straight words need no threshold.
+namespace trackbed {
+
+/// Returns the shortest forward word of two sharpest turns from the origin with the curvature
+/// `start` to `goal`, if it is shorter than `limit`, else a curve of infinite length. The turns
+/// deflect by at most pi more or less than a turn that only straightens the wheels. The goal is in
+/// units of the smallest radius. Roots closer than 0.3 rad to each other may be missed.
+ShortestCurve SharpWord(const TurnCircle& circle, double start, const CurveState& goal,
+                        double limit);
+
+}  // namespace trackbed
