@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/planning/curves/continuous_route.h"
 #include "trackbed/planning/common/curvature_steps.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/curves/drivable_curve.h"
@@ -171,11 +172,38 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
   return route::AlongSegments(std::move(plan), request, std::move(segments), options.min_speed);
 }
 
+/// Plans a path of curves of continuous curvature.
+template <typename Options>
+Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMotion motion) {
+  for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius),
+                       CheckStops(PlannedStops(request), request, options.safe_distance)}) {
+    if (!refused.ok()) {
+      return refused;
+    }
+  }
+  const ContinuousRoute route{.motion = motion,
+                              .objective = options.objective,
+                              .max_steering_rate_fraction = options.max_steering_rate_fraction,
+                              .radius = RadiusFor(request.vehicle, options.radius),
+                              .safe_distance = options.safe_distance,
+                              .min_speed = options.min_speed};
+  return PlanContinuousRoute(route, request);
+}
+
 Plan PlanWith(const DubinsOptions& options, const PlanRequest& request) {
+  if (options.curvature != CurveCurvature::kSteps) {
+    return PlanContinuous(options, request, CurveMotion::kForwards);
+  }
   return PlanCurves(options, request, DubinsWords);
 }
 
 Plan PlanWith(const ReedsSheppOptions& options, const PlanRequest& request) {
+  if (options.curvature != CurveCurvature::kSteps) {
+    return PlanContinuous(options, request,
+                          options.curvature == CurveCurvature::kContinuous
+                              ? CurveMotion::kContinuous
+                              : CurveMotion::kHybrid);
+  }
   // All Reeds-Shepp words to a pose may begin in reverse, which a rolling car cannot drive.
   // Therefore the Dubins words, which begin forwards, are candidates too.
   return PlanCurves(options, request, [](const Pose2& from, const Pose2& to, double radius) {
@@ -202,12 +230,40 @@ void Visit(DiagnosticsVisitor& out, const CurveDiagnostics& own) {
   out.List("curves", own.curves);
 }
 
-void Visit(KeyVisitor& keys, DubinsOptions& options) {
+namespace {
+
+/// Visits the keys that `dubins` and `reeds_shepp` share.
+template <typename Options>
+void VisitKeys(KeyVisitor& keys, Options& options, const EnumNames<CurveCurvature>& curvatures) {
+  static const EnumNames<CurveObjective> objectives{{CurveObjective::kLength, "length"},
+                                                    {CurveObjective::kTime, "time"}};
   route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
+  keys.Field({"curvature", "",
+              "change of curvature between straights and arcs: in steps, at which the car slows "
+              "down or stops, or along clothoids that the steering can follow"},
+             options.curvature, Need::kOptional, curvatures);
+  keys.Field({"max_steering_rate_fraction", "",
+              "maximum fraction of the car's steering rate that clothoids may use"},
+             options.max_steering_rate_fraction, Need::kOptional, Range{.max = 1.0, .above = 0.0});
+  keys.Field({"objective", "",
+              "what curves with clothoids minimize: the length at the mission's speed, or the "
+              "driving time, with slower, sharper turns"},
+             options.objective, Need::kOptional, objectives);
+}
+
+}  // namespace
+
+void Visit(KeyVisitor& keys, DubinsOptions& options) {
+  static const EnumNames<CurveCurvature> names{{CurveCurvature::kSteps, "steps"},
+                                               {CurveCurvature::kContinuous, "continuous"}};
+  VisitKeys(keys, options, names);
 }
 
 void Visit(KeyVisitor& keys, ReedsSheppOptions& options) {
-  route::VisitCurves(keys, options.radius, options.safe_distance, options.min_speed);
+  static const EnumNames<CurveCurvature> names{{CurveCurvature::kSteps, "steps"},
+                                               {CurveCurvature::kContinuous, "continuous"},
+                                               {CurveCurvature::kCuspSteps, "cusp_steps"}};
+  VisitKeys(keys, options, names);
 }
 
 PlannerEntry DubinsPlanner() {

@@ -35,8 +35,14 @@ struct NamedPlanner {
 std::vector<NamedPlanner> CurvePlanners() {
   HybridAStarOptions forwards;
   forwards.reverse = false;
+  DubinsOptions continuous;
+  continuous.curvature = CurveCurvature::kContinuous;
+  ReedsSheppOptions cusp_steps;
+  cusp_steps.curvature = CurveCurvature::kCuspSteps;
   return {{"dubins", DubinsOptions{}},
           {"reeds_shepp", ReedsSheppOptions{}},
+          {"dubins_continuous", continuous},
+          {"reeds_shepp_cusp_steps", cusp_steps},
           {"hybrid_astar", HybridAStarOptions{}},
           {"hybrid_astar_forwards", forwards}};
 }

@@ -10,13 +10,31 @@
 /// Planners that join poses by the shortest possible curves.
 namespace trackbed {
 
+/// How the curvature of a path of curves may change.
+enum class CurveCurvature {
+  kSteps,       ///< It steps between straights and arcs, at a speed that the steering can follow.
+  kContinuous,  ///< It is continuous (continuous_curvature.h).
+  kCuspSteps,   ///< It is continuous except at cusps, where the car turns its wheels at rest.
+};
+
+/// What a planner of curves of continuous curvature minimizes.
+enum class CurveObjective {
+  kLength,  ///< The length of the path, at the speed of the mission.
+  kTime,    ///< The driving time; the car may drive more slowly on sharper turns.
+};
+
 /// Options of the planner `dubins`, which joins the stops of a route by Dubins curves (dubins.h).
 struct DubinsOptions {
   /// Radius of every arc [m]; none: 1.1 times the car's smallest turning radius.
   std::optional<double> radius;
   /// Distance that the car's footprint keeps from obstacles [m], >= 0.
   double safe_distance = 0.3;
-  double min_speed = 0.3;  ///< Lowest speed of the car at a step of curvature [m/s].
+  /// Lowest speed of the car at a step of curvature, or on turns of continuous curvature [m/s].
+  double min_speed = 0.3;
+  CurveCurvature curvature = CurveCurvature::kSteps;  ///< kSteps or kContinuous.
+  /// Fraction of the car's steering rate that curves of continuous curvature use, in (0, 1].
+  double max_steering_rate_fraction = 0.9;
+  CurveObjective objective = CurveObjective::kTime;  ///< Of curves of continuous curvature.
 };
 void Visit(KeyVisitor& keys, DubinsOptions& options);
 
@@ -26,6 +44,9 @@ struct ReedsSheppOptions {
   std::optional<double> radius;
   double safe_distance = 0.3;
   double min_speed = 0.3;
+  CurveCurvature curvature = CurveCurvature::kSteps;
+  double max_steering_rate_fraction = 0.9;
+  CurveObjective objective = CurveObjective::kTime;
 };
 void Visit(KeyVisitor& keys, ReedsSheppOptions& options);
 

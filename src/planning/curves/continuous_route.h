@@ -1,0 +1,24 @@
+#pragma once
+
+#include "src/planning/curves/continuous_words.h"
+#include "trackbed/planning/curves/curve_planners.h"
+
+namespace trackbed {
+
+/// What a planner of curves of continuous curvature is asked for.
+struct ContinuousRoute {
+  CurveMotion motion = CurveMotion::kForwards;
+  CurveObjective objective = CurveObjective::kLength;
+  double max_steering_rate_fraction = 1.0;
+  double radius = 1.0;         // smallest radius [m]
+  double safe_distance = 0.0;  // of the footprint from obstacles [m]
+  double min_speed = 0.1;      // lowest speed of a leg [m/s]
+};
+
+/// Plans a path through the stops of the request whose curvature is continuous, except at cusps of
+/// CurveMotion::kHybrid. Each leg is the cheapest word that is free of obstacles, for the sharpness
+/// that the steering can follow at the speed of the leg. The curvature at each waypoint is the one
+/// of a few choices for which the whole route is cheapest.
+Plan PlanContinuousRoute(const ContinuousRoute& route, const PlanRequest& request);
+
+}  // namespace trackbed

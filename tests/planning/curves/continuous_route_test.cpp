@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "tests/planning/poses.h"
+#include "tests/tolerance.h"
+#include "tests/vehicle/reference_car.h"
+#include "trackbed/core/angle.h"
+#include "trackbed/planning/common/collision_checker.h"
+#include "trackbed/planning/common/plan.h"
+#include "trackbed/planning/common/route.h"
+#include "trackbed/planning/curves/curve_planners.h"
+
+// Routes of continuous curvature, as the planners `dubins` and `reeds_shepp` plan them.
+namespace trackbed {
+namespace {
+
+constexpr double kFraction = 0.9;
+
+template <typename Options>
+Options Continuous(CurveCurvature curvature, CurveObjective objective = CurveObjective::kLength) {
+  Options options;
+  options.curvature = curvature;
+  options.max_steering_rate_fraction = kFraction;
+  options.objective = objective;
+  return options;
+}
+
+struct Planned {
+  const char* name;
+  PlannerEntry entry;
+  PlannerOptions options;
+  bool backwards;
+  bool steps_at_cusps;
+};
+
+std::vector<Planned> Planners(CurveObjective objective = CurveObjective::kLength) {
+  return {{"dubins", DubinsPlanner(),
+           Continuous<DubinsOptions>(CurveCurvature::kContinuous, objective), false, false},
+          {"reeds_shepp", ReedsSheppPlanner(),
+           Continuous<ReedsSheppOptions>(CurveCurvature::kContinuous, objective), true, false},
+          {"reeds_shepp at cusps", ReedsSheppPlanner(),
+           Continuous<ReedsSheppOptions>(CurveCurvature::kCuspSteps, objective), true, true}};
+}
+
+PlanRequest ContinuousRequest(std::vector<Vec2> waypoints, std::vector<double> headings) {
+  PlanRequest request;
+  request.vehicle = ReferenceCar();
+  request.start = {waypoints[0].x(), waypoints[0].y(), headings[0]};
+  request.waypoints = std::move(waypoints);
+  request.headings = std::move(headings);
+  request.speed = {.speed = 3.0, .acceleration = 1.0, .deceleration = 1.5};
+  return request;
+}
+
+PlanRequest RandomRoute(Random& random) {
+  std::vector<Vec2> waypoints;
+  std::vector<double> headings;
+  for (int left = 2 + random.Below(2); left > 0; --left) {
+    const Pose2 pose = RandomPose(random, 25.0);
+    waypoints.push_back(pose.position());
+    headings.push_back(pose.yaw);
+  }
+  return ContinuousRequest(std::move(waypoints), std::move(headings));
+}
+
+/// Checks that the steering can follow the plan, at the speeds of its profile.
+void ExpectFollowable(const Planned& planner, const PlanRequest& request, const Plan& plan) {
+  ASSERT_TRUE(plan.ok()) << planner.name << ": " << plan.reason;
+  EXPECT_TRUE(plan.stops.empty());
+  const VehicleParams& car = request.vehicle;
+  const double most = 1.0 / car.min_turning_radius();
+  double station = 0.0;
+  const Segment* before = nullptr;
+  for (const Segment& segment : plan.reference.path.segments()) {
+    const bool is_cusp = before != nullptr && before->direction != segment.direction;
+    ASSERT_TRUE(planner.backwards || segment.direction > 0);
+    if (before != nullptr && !(is_cusp && planner.steps_at_cusps)) {
+      ASSERT_NEAR(segment.curvature, before->CurvatureAt(before->length), Tolerance(1e-12));
+    }
+    ASSERT_LE(std::abs(segment.CurvatureAt(segment.length)), most);
+    const double rate = kFraction * car.steering_rate * (1.0 + Tolerance(1e-9));
+    for (int i = 0; i <= 4; ++i) {
+      const double at = station + segment.length * i / 4.0;
+      // The steering angle is atan(L kappa).
+      ASSERT_LE(plan.reference.speed.SpeedAt(at) * car.wheelbase * std::abs(segment.sharpness),
+                rate)
+          << planner.name;
+    }
+    station += segment.length;
+    before = &segment;
+  }
+  const std::vector<Pose2> stops = PlannedStops(request);
+  const Path& path = plan.reference.path;
+  // Rounding of sums of a few dozen segments.
+  EXPECT_LE(Apart(path.At(path.length()).pose, stops.back()), Tolerance(1e-9));
+  for (const Pose2& stop : stops) {
+    EXPECT_LE(std::abs(path.Project(stop).cross_track), Tolerance(1e-9));
+  }
+}
+
+TEST(ContinuousRoute, IsFollowedAtTheSpeedOfTheMission) {
+  Random random(1);
+  for (int i = 0; i < 12; ++i) {
+    const PlanRequest request = RandomRoute(random);
+    for (const Planned& planner : Planners()) {
+      const Plan plan = planner.entry.plan(request, planner.options);
+      ExpectFollowable(planner, request, plan);
+      EXPECT_TRUE(plan.caps.empty());
+      const Path& path = plan.reference.path;
+      if (SplitIntoLegs(path).size() == 1) {
+        const double time = StopAtEnd(path.length(), 0.0, request.speed).TimeAt(path.length());
+        EXPECT_NEAR(plan.reference.speed.TimeAt(path.length()), time, Tolerance(1e-9));
+      }
+    }
+  }
+}
+
+TEST(ContinuousRoute, IsNoSlowerForTheObjectiveTime) {
+  Random random(2);
+  for (int i = 0; i < 4; ++i) {
+    const PlanRequest request = RandomRoute(random);
+    const std::vector<Planned> fastest = Planners(CurveObjective::kTime);
+    const std::vector<Planned> shortest = Planners();
+    for (std::size_t k = 0; k < fastest.size(); ++k) {
+      const Plan fast = fastest[k].entry.plan(request, fastest[k].options);
+      ExpectFollowable(fastest[k], request, fast);
+      if (!fastest[k].backwards) {
+        // The time in which the wheels turn at cusps is not part of the profile.
+        const Plan plain = shortest[k].entry.plan(request, shortest[k].options);
+        const auto time = [](const Plan& plan) {
+          return plan.reference.speed.TimeAt(plan.reference.path.length());
+        };
+        EXPECT_LE(time(fast), time(plain) + Tolerance(1e-9));
+      }
+    }
+  }
+}
+
+TEST(ContinuousRoute, BeginsWithTheSteeringOfARollingCar) {
+  Random random(3);
+  for (int i = 0; i < 12; ++i) {
+    PlanRequest request = RandomRoute(random);
+    request.start_speed = 3.0;
+    request.start_steering = random.Uniform(-1.0, 1.0) * request.vehicle.steering_limit;
+    for (const Planned& planner : Planners()) {
+      const Plan plan = planner.entry.plan(request, planner.options);
+      ExpectFollowable(planner, request, plan);
+      const Segment& first = plan.reference.path.segments().front();
+      EXPECT_EQ(first.direction, 1);
+      EXPECT_NEAR(first.curvature, CurvatureForSteering(request.vehicle, request.start_steering),
+                  Tolerance(1e-12));
+    }
+  }
+}
+
+TEST(ContinuousRoute, KeepsClearOfObstacles) {
+  PlanRequest request = ContinuousRequest({{0.0, 0.0}, {40.0, 0.0}}, {0.0, 0.0});
+  request.obstacles = {{{20.0, 0.0, 0.3}, 3.0, 2.0}};
+  for (const Planned& planner : Planners()) {
+    const Plan plan = planner.entry.plan(request, planner.options);
+    ExpectFollowable(planner, request, plan);
+    const CollisionChecker clear(request.vehicle, request.obstacles, 0.3);
+    EXPECT_FALSE(clear.FirstBlocked(plan.reference.path)) << planner.name;
+  }
+}
+
+TEST(ContinuousRoute, NamesTheWaypointThatNoCurveReaches) {
+  PlanRequest request = ContinuousRequest({{0.0, 0.0}, {40.0, 0.0}}, {0.0, 0.0});
+  request.obstacles = {{{20.0, 0.0, 0.0}, 1.0, 400.0}};
+  for (const Planned& planner : Planners()) {
+    const Plan plan = planner.entry.plan(request, planner.options);
+    EXPECT_EQ(plan.status, PlanStatus::kNoPath);
+    EXPECT_NE(plan.reason.find("curves to waypoint 1 collide"), std::string::npos) << plan.reason;
+  }
+}
+
+}  // namespace
+}  // namespace trackbed
