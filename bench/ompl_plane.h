@@ -31,9 +31,10 @@ class Edges : public ob::MotionValidator {
   bool checkMotion(const ob::State* from, const ob::State* to) const override {
     const Vec2 a = StatePosition(from);
     const Vec2 b = StatePosition(to);
-    return std::all_of(
-        problem_.obstacles.begin(), problem_.obstacles.end(),
-        [&](const OrientedBox& obstacle) { return Distance(a, b, obstacle) > problem_.inflation; });
+    return std::all_of(problem_.obstacles.begin(), problem_.obstacles.end(),
+                       [&](const OrientedBox& obstacle) {
+                         return Distance(a, b, obstacle) > problem_.inflation.most;
+                       });
   }
   bool checkMotion(const ob::State* from, const ob::State* to,
                    std::pair<ob::State*, double>& /*last_valid*/) const override {

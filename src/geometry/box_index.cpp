@@ -97,14 +97,38 @@ double BoxIndex::DistanceTo(const OrientedBox& box, double at_most) const {
   return nearest;
 }
 
-bool BoxIndex::KeepsFrom(const Vec2& from, const Vec2& to, double distance) const {
-  const auto is_clear = [&](const OrientedBox& box) { return Distance(from, to, box) > distance; };
+bool BoxIndex::KeepsFrom(const Vec2& from, const Vec2& to, const Inflation& inflation) const {
+  const auto is_clear = [&](std::size_t box) {
+    return Distance(from, to, boxes_[box]) > inflation.From(box);
+  };
   if (!tree_) {
-    return std::all_of(boxes_.begin(), boxes_.end(), is_clear);
+    for (std::size_t i = 0; i < boxes_.size(); ++i) {
+      if (!is_clear(i)) {
+        return false;
+      }
+    }
+    return true;
   }
-  const Bounds bounds = BoundsAround(from.cwiseMin(to), from.cwiseMax(to), distance);
+  const Bounds bounds = BoundsAround(from.cwiseMin(to), from.cwiseMax(to), inflation.most);
   return std::all_of(tree_->tree.qbegin(index::intersects(bounds)), tree_->tree.qend(),
-                     [&](const Entry& near) { return is_clear(boxes_[near.second]); });
+                     [&](const Entry& near) { return is_clear(near.second); });
+}
+
+Inflation InflationAt(const std::vector<Vec2>& points, const std::vector<OrientedBox>& boxes,
+                      double most) {
+  // More than the rounding errors of distances at coordinates of thousands of kilometers [m].
+  constexpr double kMoreThanRounding = 1e-9;
+  Inflation inflation = most;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    for (const Vec2& point : points) {
+      const double distance = Distance(point, point, boxes[i]);
+      if (distance <= inflation.From(i)) {
+        inflation.own.resize(boxes.size(), most);
+        inflation.own[i] = std::max(distance - kMoreThanRounding, 0.0);
+      }
+    }
+  }
+  return inflation;
 }
 
 }  // namespace trackbed

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "tests/geometry/random.h"
+#include "tests/tolerance.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -81,6 +82,38 @@ TEST(BoxIndex, RefusesWhatIsNotFinite) {
   EXPECT_THROW(BoxIndex({nowhere}), PreconditionError);
   EXPECT_THROW(BoxIndex(std::vector<OrientedBox>(20, nowhere)), PreconditionError);
   EXPECT_TRUE(std::isnan(BoxIndex({{{}, 1.0, 1.0}}).DistanceTo(nowhere)));
+}
+
+TEST(Inflation, FreesPointsNearRectangles) {
+  Random random(7);
+  for (int i = 0; i < 200; ++i) {
+    std::vector<OrientedBox> boxes;
+    for (int k = 0; k < 20; ++k) {
+      boxes.push_back(
+          {{random.Uniform(-10.0, 10.0), random.Uniform(-10.0, 10.0), random.Uniform(-3.0, 3.0)},
+           random.Uniform(0.1, 2.0),
+           random.Uniform(0.1, 2.0)});
+    }
+    const std::vector<Vec2> points{{random.Uniform(-9.0, 9.0), random.Uniform(-9.0, 9.0)},
+                                   {random.Uniform(-9.0, 9.0), random.Uniform(-9.0, 9.0)}};
+    constexpr double kMost = 1.5;
+    const Inflation inflation = InflationAt(points, boxes, kMost);
+    const BoxIndex index(boxes);
+    for (const Vec2& point : points) {
+      const bool is_inside = std::any_of(boxes.begin(), boxes.end(), [&](const OrientedBox& box) {
+        return Distance(point, point, box) == 0.0;
+      });
+      EXPECT_EQ(index.KeepsFrom(point, point, inflation), !is_inside);
+    }
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      const double nearest = std::min(Distance(points[0], points[0], boxes[k]),
+                                      Distance(points[1], points[1], boxes[k]));
+      // The inflation is reduced by a nanometer, for rounding.
+      EXPECT_NEAR(inflation.From(k), std::min(nearest, kMost), Tolerance(1.01e-9));
+      EXPECT_LE(inflation.From(k), kMost);
+    }
+  }
+  EXPECT_TRUE(InflationAt({{0.0, 0.0}}, {{{5.0, 0.0, 0.0}, 1.0, 1.0}}, 2.0).own.empty());
 }
 
 }  // namespace

@@ -9,6 +9,25 @@
 
 namespace trackbed {
 
+/// Distances that lines keep from rectangles.
+struct Inflation {
+  /// The same distance [m], >= 0, from every rectangle.
+  Inflation(double distance) : most(distance) {}  // NOLINT(google-explicit-constructor)
+
+  double most = 0.0;  ///< Largest distance from any rectangle [m].
+  /// Distance from each rectangle [m], at most `most`; empty: `most` for all rectangles.
+  std::vector<double> own{};
+
+  /// Returns the distance from a rectangle [m].
+  [[nodiscard]] double From(std::size_t box) const { return own.empty() ? most : own[box]; }
+};
+
+/// Returns the inflation `most` [m], reduced for each rectangle that is nearer than that to one of
+/// the points. A line that begins at such a point and does not come nearer to the rectangle is
+/// free. A point inside a rectangle is not free with any inflation.
+Inflation InflationAt(const std::vector<Vec2>& points, const std::vector<OrientedBox>& boxes,
+                      double most);
+
 /// Computes the distance to the nearest of many rectangles, using an R-tree (Guttman 1984) of the
 /// rectangles' axis-aligned bounding boxes. The index cannot be changed after construction.
 ///
@@ -32,9 +51,9 @@ class BoxIndex {
   [[nodiscard]] double DistanceTo(const OrientedBox& box,
                                   double at_most = std::numeric_limits<double>::infinity()) const;
 
-  /// Whether the line segment between two points is more than `distance` [m] away from every
-  /// rectangle.
-  [[nodiscard]] bool KeepsFrom(const Vec2& from, const Vec2& to, double distance) const;
+  /// Whether the line segment between two points is farther from every rectangle than the
+  /// inflation of the rectangle.
+  [[nodiscard]] bool KeepsFrom(const Vec2& from, const Vec2& to, const Inflation& inflation) const;
 
  private:
   struct Tree;

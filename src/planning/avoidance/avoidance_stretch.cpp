@@ -327,9 +327,9 @@ class StretchFinder {
     for (const OrientedBox& obstacle : request_.obstacles) {
       tree.obstacles.push_back(frame.In(obstacle));
     }
-    const double around = HalfDiagonal(conflict.obstacle) + 2.0 * tree.inflation;
+    const double around = HalfDiagonal(conflict.obstacle) + 2.0 * tree.inflation.most;
     const Vec2 center = frame.In(conflict.obstacle.center.position());
-    const Vec2 margin = Vec2::Constant(tree.inflation);
+    const Vec2 margin = Vec2::Constant(tree.inflation.most);
     tree.low = tree.start.cwiseMin(tree.goal).cwiseMin(center - Vec2::Constant(around)) - margin;
     tree.high = tree.start.cwiseMax(tree.goal).cwiseMax(center + Vec2::Constant(around)) + margin;
     return tree;

@@ -40,6 +40,7 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
     : vehicle_(vehicle),
       boxes_(std::move(boxes)),
       distance_(distance),
+      distances_(boxes_.size(), distance),
       farthest_(std::min(kMaxClearance, vehicle.length)),
       middle_(0.5 * vehicle.length - vehicle.rear_overhang),
       radius_(0.5 * std::hypot(vehicle.length, vehicle.width)),
@@ -56,6 +57,32 @@ CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<Ori
   if (!boxes_.empty()) {
     FillBins();
   }
+}
+
+CollisionChecker::CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes,
+                                   double distance, const Pose2& start)
+    : CollisionChecker(vehicle, std::move(boxes), distance) {
+  const OrientedBox footprint = FootprintAt(vehicle, start);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const double here = Separation(footprint, boxes_[i]);
+    distances_[i] = here < distance ? kShareOfStart * std::max(here, 0.0) : distance;
+  }
+}
+
+double CollisionChecker::inner_radius() const {
+  return std::max(std::min({0.5 * vehicle_.width, vehicle_.rear_overhang,
+                            vehicle_.length - vehicle_.rear_overhang}),
+                  0.0);
+}
+
+bool CollisionChecker::MayBeFree(const Vec2& position) const {
+  for (std::size_t i = 0; i < boxes_.size(); ++i) {
+    const double within = inner_radius() + distances_[i];
+    if (SquareTo(boxes_[i], along_[i], position) < within * within) {
+      return false;
+    }
+  }
+  return true;
 }
 
 void CollisionChecker::FillBins() {
@@ -125,9 +152,9 @@ double CollisionChecker::Clearance(const Pose2& pose, double at_most) const {
     const auto index = static_cast<std::size_t>(i);
     // Skip boxes that are so far from the footprint's center that they neither overlap the
     // footprint nor reduce the clearance.
-    const double within = radius_ + std::max(distance_ + clearance, 0.0);
+    const double within = radius_ + std::max(distances_[index] + clearance, 0.0);
     if (SquareTo(boxes_[index], along_[index], middle) < within * within) {
-      clearance = std::min(clearance, Separation(footprint, boxes_[index]) - distance_);
+      clearance = std::min(clearance, Separation(footprint, boxes_[index]) - distances_[index]);
     }
   }
   return clearance;

@@ -325,7 +325,7 @@ std::vector<Vec2> WithoutCollinearPoints(const std::vector<Vec2>& polyline) {
 }
 
 std::vector<Vec2> Shortcut(const std::vector<Vec2>& polyline, const std::vector<OrientedBox>& boxes,
-                           double inflation) {
+                           const Inflation& inflation) {
   const BoxIndex index(boxes);
   return Without(polyline, [&](const Vec2& from, const Vec2& to) {
     return index.KeepsFrom(from, to, inflation);

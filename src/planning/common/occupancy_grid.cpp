@@ -61,8 +61,9 @@ double CellsIn(const GridArea& area, double cell) {
 }
 
 OccupancyGrid Rasterize(const Pose2& X_WF, const GridArea& area, double cell,
-                        const std::vector<OrientedBox>& boxes_W, double inflation) {
-  TRACKBED_CHECK(cell > 0.0 && inflation >= 0.0, "cells of {} m, inflation {} m", cell, inflation);
+                        const std::vector<OrientedBox>& boxes_W, const Inflation& inflation_of) {
+  TRACKBED_CHECK(cell > 0.0 && inflation_of.most >= 0.0, "cells of {} m, inflation {} m", cell,
+                 inflation_of.most);
   const Vec2 first = FirstCell(area, cell);
   const Vec2 count = CellCounts(area, cell);
   TRACKBED_CHECK(count.minCoeff() >= 1.0 && count.prod() <= kMaxCells, "{} x {} cells", count.x(),
@@ -75,7 +76,9 @@ OccupancyGrid Rasterize(const Pose2& X_WF, const GridArea& area, double cell,
   grid.rows = static_cast<int>(count.y());
   grid.occupied.assign(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows),
                        0);
-  for (const OrientedBox& box : boxes_W) {
+  for (std::size_t i = 0; i < boxes_W.size(); ++i) {
+    const OrientedBox& box = boxes_W[i];
+    const double inflation = inflation_of.From(i);
     TRACKBED_REQUIRE(box.center.position().allFinite() && std::isfinite(box.center.yaw) &&
                          std::isfinite(box.length) && std::isfinite(box.width),
                      "Rasterize: a box of {} x {} m at {}, {}, yaw {}; must be finite", box.length,

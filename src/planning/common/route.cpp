@@ -109,9 +109,8 @@ Plan AlongPolyline(Plan plan, const PlanRequest& request, const std::vector<Vec2
     limits.waypoints = request.waypoints;
     limits.max_gap = *request.max_waypoint_miss;
   }
-  RoundedCorners rounded =
-      RoundCornersOrTurnBehind(request.vehicle, points, limits,
-                               CollisionChecker(request.vehicle, request.obstacles, safe_distance));
+  RoundedCorners rounded = RoundCornersOrTurnBehind(request.vehicle, points, limits,
+                                                    CheckerFromStart(request, safe_distance));
   if (rounded.status != PlanStatus::kOk) {
     return Refused(rounded.status, rounded.reason);
   }
@@ -151,8 +150,23 @@ std::string NearestObstacle(const VehicleParams& vehicle, const Pose2& pose,
                      distance);
 }
 
+CollisionChecker CheckerFromStart(const PlanRequest& request, double safe_distance) {
+  return {request.vehicle, request.obstacles, safe_distance, request.start};
+}
+
+std::vector<Vec2> GoalsOutsideObstacles(const PlanRequest& request, const CollisionChecker& clear) {
+  std::vector<Vec2> goals;
+  std::copy_if(request.waypoints.begin() + 1, request.waypoints.end(), std::back_inserter(goals),
+               [&](const Vec2& waypoint) { return clear.MayBeFree(waypoint); });
+  return goals;
+}
+
+Plan CheckStart(const PlanRequest& request, double safe_distance) {
+  return CheckStops({request.start}, request, safe_distance);
+}
+
 Plan CheckStops(const std::vector<Pose2>& stops, const PlanRequest& request, double safe_distance) {
-  const CollisionChecker clear(request.vehicle, request.obstacles, safe_distance);
+  const CollisionChecker clear = CheckerFromStart(request, safe_distance);
   for (std::size_t i = 0; i < stops.size(); ++i) {
     if (!clear.IsFree(stops[i])) {
       const std::string why =

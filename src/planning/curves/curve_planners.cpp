@@ -133,7 +133,7 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
                    .min_speed = options.min_speed,
                    .radius = RadiusFor(request.vehicle, options.radius),
                    .road = request.friction};
-  const CollisionChecker clear(request.vehicle, request.obstacles, options.safe_distance);
+  const CollisionChecker clear = route::CheckerFromStart(request, options.safe_distance);
   const std::vector<Pose2> stops = PlannedStops(request);
   if (Plan refused = CheckStops(stops, request, options.safe_distance); !refused.ok()) {
     return refused;

@@ -57,7 +57,7 @@ std::vector<Vec2> WaypointsOnGrid(const OccupancyGrid& grid, const GridPath& way
 /// Plans a path that begins with the polyline `points` and continues by A* from the last of these
 /// points through all waypoints after the first.
 Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const OccupancyGrid& grid,
-              double inflation, std::vector<Vec2> points) {
+              const Inflation& inflation, std::vector<Vec2> points) {
   const bool round = options.corners == Corners::kRound;
   Plan plan;
   AStarDiagnostics found;
@@ -72,7 +72,7 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
                      fmt::format("from waypoint {} to {}: {}, after {} cells of {:.3g} m; "
                                  "obstacles are inflated by {:.3g} m",
                                  i - 1, i, ToString(way.status), way.expansions, options.cell,
-                                 inflation + CellInflation(options)));
+                                 inflation.most + CellInflation(options)));
     }
     std::vector<Vec2> leg = WaypointsOnGrid(grid, way, goal);
     leg.front() = points.back();
@@ -118,7 +118,7 @@ std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request) {
   return ways;
 }
 
-bool IsFree(const std::vector<Vec2>& points, const BoxIndex& boxes, double inflation) {
+bool IsFree(const std::vector<Vec2>& points, const BoxIndex& boxes, const Inflation& inflation) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (!boxes.KeepsFrom(points[i - 1], points[i], inflation)) {
       return false;
@@ -127,9 +127,55 @@ bool IsFree(const std::vector<Vec2>& points, const BoxIndex& boxes, double infla
   return true;
 }
 
+/// Plans on a grid around the obstacles. The grid frees the cells of waypoints that are nearer to
+/// an obstacle than the inflation, and the cell at which the search begins.
+class GridPlanner {
+ public:
+  GridPlanner(const AStarOptions& options, const PlanRequest& request, const GridArea& area,
+              double inflation)
+      : options_(options),
+        request_(request),
+        area_(area),
+        inflation_(inflation),
+        goals_(route::GoalsOutsideObstacles(
+            request, route::CheckerFromStart(request, options.safe_distance))),
+        grid_(MakeGrid(inflation + CellInflation(options))) {}
+
+  /// Plans a path that begins with the polyline `points`, of which all points after the first one
+  /// are farther from obstacles than the inflation, or as far as the search allows.
+  [[nodiscard]] Plan From(const std::vector<Vec2>& points) const {
+    std::vector<Vec2> ends = goals_;
+    ends.push_back(points.back());
+    std::vector<Vec2> cells;
+    for (const Vec2& end : ends) {
+      cells.push_back(grid_.CellCenter(static_cast<std::size_t>(grid_.CellAt(end))));
+    }
+    const Inflation lines = InflationAt(ends, request_.obstacles, inflation_);
+    const Inflation on_grid = InflationAt(cells, request_.obstacles, grid_inflation());
+    return PlanGrid(options_, request_, on_grid.own.empty() ? grid_ : MakeGrid(on_grid), lines,
+                    points);
+  }
+
+ private:
+  [[nodiscard]] double grid_inflation() const { return inflation_ + CellInflation(options_); }
+
+  [[nodiscard]] OccupancyGrid MakeGrid(const Inflation& inflation) const {
+    return Rasterize(request_.start, area_, options_.cell, request_.obstacles, inflation);
+  }
+
+  const AStarOptions& options_;
+  const PlanRequest& request_;
+  GridArea area_;
+  double inflation_;
+  std::vector<Vec2> goals_;
+  OccupancyGrid grid_;
+};
+
 Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
-  if (Plan refused = CheckRoute(request); !refused.ok()) {
-    return refused;
+  for (Plan refused : {CheckRoute(request), route::CheckStart(request, options.safe_distance)}) {
+    if (!refused.ok()) {
+      return refused;
+    }
   }
   const double inflation = 0.5 * request.vehicle.width + options.safe_distance +
                            (options.corners == Corners::kRound ? options.corner_room : 0.0);
@@ -145,9 +191,8 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
                    fmt::format("{:.3g} cells of {:.3g} m; must be at most {:.3g}",
                                CellsIn(area, options.cell), options.cell, kMaxCells));
   }
-  const OccupancyGrid grid = Rasterize(request.start, area, options.cell, request.obstacles,
-                                       inflation + CellInflation(options));
-  Plan direct = PlanGrid(options, request, grid, inflation, {request.start.position()});
+  const GridPlanner planner(options, request, area, inflation);
+  Plan direct = planner.From({request.start.position()});
   const std::vector<Excess> excesses =
       direct.ok() ? FindExcesses(direct, request) : std::vector<Excess>{};
   // Ignore violations that a lower speed removes, because such violations do not depend on the
@@ -159,11 +204,12 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
     return direct;
   }
   const BoxIndex obstacles(request.obstacles);
+  const Inflation leaving = InflationAt({request.start.position()}, request.obstacles, inflation);
   for (const std::vector<Vec2>& way : departures) {
-    if (!IsFree(way, obstacles, inflation)) {
+    if (!IsFree(way, obstacles, leaving)) {
       continue;
     }
-    Plan plan = PlanGrid(options, request, grid, inflation, way);
+    Plan plan = planner.From(way);
     if (plan.ok() && MakeFeasible(plan, request).ok()) {
       return plan;
     }

@@ -111,15 +111,14 @@ Plan PlanWith(const HybridAStarOptions& options, const PlanRequest& request) {
       return refused;
     }
   }
-  const Route route{
-      .options = options,
-      .request = request,
-      .stops = PlannedStops(request),
-      .drive = {.speed = std::max(request.speed.speed, options.min_speed),
-                .min_speed = options.min_speed,
-                .radius = RadiusFor(request.vehicle, options.radius),
-                .road = request.friction},
-      .clear = CollisionChecker(request.vehicle, request.obstacles, options.safe_distance)};
+  const Route route{.options = options,
+                    .request = request,
+                    .stops = PlannedStops(request),
+                    .drive = {.speed = std::max(request.speed.speed, options.min_speed),
+                              .min_speed = options.min_speed,
+                              .radius = RadiusFor(request.vehicle, options.radius),
+                              .road = request.friction},
+                    .clear = route::CheckerFromStart(request, options.safe_distance)};
   Plan plan;
   HybridAStarDiagnostics diagnostics;
   std::vector<Segment> segments;

@@ -45,7 +45,7 @@ class Searches {
         problem_(problem),
         options_(options),
         radius_(options.radius.value_or(1.1 * vehicle.min_turning_radius())),
-        clear_(vehicle, problem.obstacles, options.safe_distance),
+        clear_(vehicle, problem.obstacles, options.safe_distance, problem.start),
         area_(AreaAround(problem.start, {problem.start.position(), problem.goal.position()},
                          problem.obstacles, options.margin)) {}
 
@@ -124,14 +124,18 @@ class Searches {
 
   /// Makes a grid in which a cell is occupied if the rear-axle center cannot be at any point of the
   /// cell. In such a cell, every point is closer to an obstacle than the permitted minimum: the
-  /// distance from the rear-axle center to the nearest side of the footprint, plus the safe
+  /// distance from the rear-axle center to the nearest side of the footprint, plus the required
   /// distance.
   [[nodiscard]] std::shared_ptr<const OccupancyGrid> MakeGrid(double cell) const {
-    const double nearest_side = std::min(
-        {0.5 * vehicle_.width, vehicle_.rear_overhang, vehicle_.length - vehicle_.rear_overhang});
-    const double inflation = nearest_side + options_.safe_distance - 0.5 * std::sqrt(2.0) * cell;
+    const auto inflated_by = [&](double distance) {
+      return std::max(clear_.inner_radius() + distance - 0.5 * std::sqrt(2.0) * cell, 0.0);
+    };
+    Inflation inflation = inflated_by(options_.safe_distance);
+    for (const double distance : clear_.distances()) {
+      inflation.own.push_back(inflated_by(distance));
+    }
     return std::make_shared<const OccupancyGrid>(
-        Rasterize(problem_.start, area_, cell, problem_.obstacles, std::max(inflation, 0.0)));
+        Rasterize(problem_.start, area_, cell, problem_.obstacles, inflation));
   }
 
   static std::shared_ptr<const GridDistance> DistanceTo(

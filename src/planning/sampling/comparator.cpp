@@ -36,11 +36,11 @@ std::vector<Vec2> Rest(const std::vector<Vec2>& way, const Vec2& position) {
 }  // namespace
 
 PathScore ScorePath(const std::vector<Vec2>& way, const Vec2& position,
-                    const std::vector<OrientedBox>& obstacles, double inflation,
+                    const std::vector<OrientedBox>& obstacles, const Inflation& inflation,
                     const WindScoring& wind, const ComparatorOptions& options) {
-  TRACKBED_CHECK(!way.empty() && options.collision_penalty >= 0.0 && inflation >= 0.0,
+  TRACKBED_CHECK(!way.empty() && options.collision_penalty >= 0.0 && inflation.most >= 0.0,
                  "a path of {} points, penalty {}, inflation {}", way.size(),
-                 options.collision_penalty, inflation);
+                 options.collision_penalty, inflation.most);
   const std::vector<Vec2> rest = Rest(way, position);
   PathScore score;
   score.length = (position - rest.front()).norm();

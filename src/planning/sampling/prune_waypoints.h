@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/corners.h"
 #include "trackbed/planning/sampling/smoothing.h"
 
@@ -21,7 +22,7 @@ struct PruningProblem {
   /// Whether the last leg of the path is also the last leg of the whole polyline.
   bool last_leg = true;
   const std::vector<OrientedBox>& obstacles;
-  double inflation = 0.0;  ///< Distance that the path must keep from all obstacles [m].
+  Inflation inflation = 0.0;  ///< Distance that the path must keep from the obstacles.
   const WindScoring& wind;
   double corner_cost = 0.0;  ///< Cost of each line of the path, which penalizes corners [m].
   /// Returns the minimum tangent length [m] of a corner for its heading change |h| [rad]; see

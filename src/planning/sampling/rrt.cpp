@@ -157,11 +157,11 @@ RrtResult PlanRrt(const RrtProblem& problem, const RrtOptions& options, std::uin
   TRACKBED_CHECK(IsWithin(problem, problem.start) && IsWithin(problem, problem.goal),
                  "start ({}, {}) or goal ({}, {}) outside the box", problem.start.x(),
                  problem.start.y(), problem.goal.x(), problem.goal.y());
-  TRACKBED_CHECK(options.iterations >= 0 && options.expand_distance > 0.0 &&
-                     options.goal_bias >= 0.0 && options.goal_bias <= 1.0 &&
-                     problem.inflation >= 0.0,
-                 "iterations {}, expand distance {}, goal bias {}, inflation {}",
-                 options.iterations, options.expand_distance, options.goal_bias, problem.inflation);
+  TRACKBED_CHECK(
+      options.iterations >= 0 && options.expand_distance > 0.0 && options.goal_bias >= 0.0 &&
+          options.goal_bias <= 1.0 && problem.inflation.most >= 0.0,
+      "iterations {}, expand distance {}, goal bias {}, inflation {}", options.iterations,
+      options.expand_distance, options.goal_bias, problem.inflation.most);
   return Tree(problem, options, seed).Grow();
 }
 

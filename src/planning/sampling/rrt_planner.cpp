@@ -208,7 +208,7 @@ Plan RefusedAs(const TreePath& way, const Forest& forest) {
   return route::Refused(
       PlanStatus::kBudgetUsedUp,
       fmt::format("ends {:.3g} m from waypoint {}; obstacles are inflated by {:.3g} m", way.left,
-                  way.goals + 1, forest.task.inflation));
+                  way.goals + 1, forest.task.inflation.most));
 }
 
 Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
@@ -295,7 +295,7 @@ void RecordBudget(const Forest& forest, const Try& best, const std::string& budg
 
 Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
   const SamplingTask task = MakeTask(options, request);
-  if (Plan refused = CheckLeadIn(task); !refused.ok()) {
+  if (Plan refused = CheckLeadIn(task, request, options.safe_distance); !refused.ok()) {
     return refused;
   }
   const CornerTangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));

@@ -276,9 +276,9 @@ RrtStarResult PlanRrtStar(const RrtStarProblem& problem, const RrtStarOptions& o
                  "start ({}, {}) or goal ({}, {}) outside a finite box", problem.start.x(),
                  problem.start.y(), problem.goal.x(), problem.goal.y());
   TRACKBED_CHECK(options.iterations >= 0 && options.step >= 0.0 && options.goal_bias >= 0.0 &&
-                     options.goal_bias <= 1.0 && problem.inflation >= 0.0,
+                     options.goal_bias <= 1.0 && problem.inflation.most >= 0.0,
                  "iterations {}, step {}, goal bias {}, inflation {}", options.iterations,
-                 options.step, options.goal_bias, problem.inflation);
+                 options.step, options.goal_bias, problem.inflation.most);
   RrtStarOptions filled = options;
   if (options.step == 0.0) {
     filled.step = 0.2 * (problem.high - problem.low).norm();

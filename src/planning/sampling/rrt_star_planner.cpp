@@ -40,7 +40,7 @@ Plan StarRefused(const RrtStarPlannerOptions& options, const SamplingTask& task,
                   "obstacles are inflated by {:.3g} m",
                   waypoint, tree.iterations,
                   tree.iterations < options.iterations ? ", the last of those allowed" : "", left,
-                  task.inflation));
+                  task.inflation.most));
 }
 
 /// Appends the nodes of a tree to `tree`, in the world frame. The parent of the root is the root
@@ -123,7 +123,7 @@ Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& reque
 
 Plan PlanStarTrees(const RrtStarPlannerOptions& options, const PlanRequest& request) {
   const SamplingTask task = MakeStarTask(options, request);
-  if (Plan refused = CheckLeadIn(task); !refused.ok()) {
+  if (Plan refused = CheckLeadIn(task, request, options.safe_distance); !refused.ok()) {
     return refused;
   }
   const CornerTangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));

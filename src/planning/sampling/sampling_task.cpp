@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "src/planning/sampling/prune_waypoints.h"
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/route.h"
 
 namespace trackbed {
@@ -37,8 +38,16 @@ SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequ
   for (const OrientedBox& box : request.obstacles) {
     task.obstacles.push_back({InFrame(frame, box.center), box.length, box.width});
   }
-  task.inflation = 0.5 * request.vehicle.width + options.safe_distance +
-                   (options.corners == Corners::kRound ? options.corner_room : 0.0);
+  const double inflation = 0.5 * request.vehicle.width + options.safe_distance +
+                           (options.corners == Corners::kRound ? options.corner_room : 0.0);
+  const CollisionChecker clear = route::CheckerFromStart(request, options.safe_distance);
+  std::vector<Vec2> ends{task.lead};
+  for (const Vec2& goal : route::GoalsOutsideObstacles(request, clear)) {
+    ends.push_back(ToLocal(frame, goal));
+  }
+  task.inflation = InflationAt(ends, task.obstacles, inflation);
+  task.lead_inflation = InflationAt({{0.0, 0.0}}, task.obstacles, inflation);
+  task.goal_distance = clear.inner_radius() + options.safe_distance;
   std::vector<Vec2> points = task.goals;
   points.push_back(task.lead);
   task.area = AreaAround({}, points, task.obstacles, options.margin);
@@ -53,24 +62,26 @@ SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequ
   return task;
 }
 
-Plan CheckLeadIn(const SamplingTask& task) {
-  const bool is_free =
-      std::all_of(task.obstacles.begin(), task.obstacles.end(), [&](const OrientedBox& box) {
-        return Distance({0.0, 0.0}, task.lead, box) > task.inflation;
-      });
-  return is_free
-             ? Plan{}
-             : route::Refused(
-                   PlanStatus::kStartBlocked,
-                   fmt::format(
-                       "an obstacle is closer than {:.3g} m to the first {:.3g} m of straight path",
-                       task.inflation, task.lead.x()));
+Plan CheckLeadIn(const SamplingTask& task, const PlanRequest& request, double safe_distance) {
+  if (Plan refused = route::CheckStart(request, safe_distance); !refused.ok()) {
+    return refused;
+  }
+  const double length = task.lead.x();
+  if (BoxIndex(task.obstacles).KeepsFrom({0.0, 0.0}, task.lead, task.lead_inflation) ||
+      route::CheckerFromStart(request, safe_distance)
+          .IsFree(request.start, Segment{.length = length})) {
+    return {};
+  }
+  return route::Refused(
+      PlanStatus::kStartBlocked,
+      fmt::format("an obstacle is closer than {:.3g} m to the first {:.3g} m of straight path",
+                  task.lead_inflation.most, length));
 }
 
 Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint) {
-  return route::Refused(
-      PlanStatus::kGoalBlocked,
-      fmt::format("an obstacle is closer than {:.3g} m to waypoint {}", task.inflation, waypoint));
+  return route::Refused(PlanStatus::kGoalBlocked,
+                        fmt::format("an obstacle is closer than {:.3g} m to waypoint {}",
+                                    task.goal_distance, waypoint));
 }
 
 CornerTangents::CornerTangents(const VehicleParams& vehicle, double speed) {

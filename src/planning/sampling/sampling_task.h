@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "trackbed/core/angle.h"
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/corners.h"
 #include "trackbed/planning/common/occupancy_grid.h"
 #include "trackbed/planning/common/plan.h"
@@ -22,8 +23,12 @@ struct SamplingTask {
   Vec2 lead{0.0, 0.0};  ///< Root of the first tree, equal to the end of the initial straight [m].
   std::vector<Vec2> goals;  ///< Goals of the trees, in the order of the mission.
   std::vector<OrientedBox> obstacles;
-  double inflation = 0.0;
-  GridArea area;  ///< Area from which the planners sample.
+  /// Distance of lines from obstacles in the search, reduced where the lead or a goal is nearer.
+  Inflation inflation = 0.0;
+  /// Distance of the initial straight from obstacles, reduced where the start is nearer.
+  Inflation lead_inflation = 0.0;
+  double goal_distance = 0.0;  ///< Smallest distance of a goal from obstacles [m].
+  GridArea area;               ///< Area from which the planners sample.
   WindScoring wind;
 };
 
@@ -39,9 +44,10 @@ struct SamplingTaskOptions {
 
 SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequest& request);
 
-/// Checks whether the initial straight is free. If the straight is blocked, returns a failed plan
-/// with the reason.
-Plan CheckLeadIn(const SamplingTask& task);
+/// Checks whether the car is clear of obstacles at its start, and whether the initial straight is
+/// free: for a point that keeps its distance, or for the car's footprint. If not, returns a failed
+/// plan with the reason.
+Plan CheckLeadIn(const SamplingTask& task, const PlanRequest& request, double safe_distance);
 
 /// Tangent lengths of corners at the lowest speed, tabulated by heading change.
 class CornerTangents {

@@ -22,7 +22,7 @@ double SegmentScore(const Vec2& from, const Vec2& to, const WindScoring& scoring
 class Smoother {
  public:
   Smoother(const std::vector<Vec2>& path, const std::vector<OrientedBox>& obstacles,
-           double inflation, const WindScoring& wind, const SmoothingOptions& options)
+           const Inflation& inflation, const WindScoring& wind, const SmoothingOptions& options)
       : original_(path),
         smooth_(path),
         obstacles_(obstacles),
@@ -74,7 +74,7 @@ class Smoother {
   const std::vector<Vec2>& original_;
   std::vector<Vec2> smooth_;
   BoxIndex obstacles_;
-  double inflation_;
+  const Inflation& inflation_;
   const WindScoring& wind_;
   const SmoothingOptions& options_;
   bool windless_;
@@ -97,14 +97,14 @@ double WindScore(const std::vector<Vec2>& path, const WindScoring& scoring) {
 }
 
 SmoothingResult SmoothPath(const std::vector<Vec2>& path, const std::vector<OrientedBox>& obstacles,
-                           double inflation, const WindScoring& wind,
+                           const Inflation& inflation, const WindScoring& wind,
                            const SmoothingOptions& options) {
   CheckSpeed(wind);
   const double step = options.data + 2.0 * options.smoothness;
   TRACKBED_CHECK(options.data >= 0.0 && options.smoothness >= 0.0 && step > 0.0 && step < 1.0 &&
-                     options.tolerance > 0.0 && options.sweeps >= 0 && inflation >= 0.0,
+                     options.tolerance > 0.0 && options.sweeps >= 0 && inflation.most >= 0.0,
                  "data {}, smoothness {}, tolerance {}, sweeps {}, inflation {}", options.data,
-                 options.smoothness, options.tolerance, options.sweeps, inflation);
+                 options.smoothness, options.tolerance, options.sweeps, inflation.most);
   return Smoother(path, obstacles, inflation, wind, options).Run();
 }
 

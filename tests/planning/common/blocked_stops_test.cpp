@@ -26,13 +26,24 @@ Plan Check(const PlanRequest& request, double safe_distance) {
 TEST(CheckStops, NamesTheNearestObstacleItsDistanceAndTheRequiredOne) {
   const VehicleParams car = ReferenceCar();
   const double front = car.length - car.rear_overhang;
-  // The near side of the second box is 0.25 m ahead of the car's front.
-  const Plan plan = Check(RouteWith({{0.0, 9.0}, {front + 1.25, 0.0}}), 0.5);
+  // The rear side of the second box is 0.25 m ahead of the front of a car at the goal.
+  const Plan plan = Check(RouteWith({{0.0, 9.0}, {40.0 + front + 1.25, 0.0}}), 0.5);
+  EXPECT_EQ(plan.status, PlanStatus::kGoalBlocked);
+  EXPECT_EQ(plan.reason,
+            fmt::format("waypoint 1 is blocked: the obstacle at ({:.4g}, 0) is 0.25 m from the "
+                        "car's footprint; safe_distance is 0.5 m",
+                        40.0 + front + 1.25));
+  EXPECT_TRUE(Check(RouteWith({{40.0 + front + 1.25, 0.0}}), 0.25 - 1e-9).ok());
+}
+
+TEST(CheckStops, LetsTheCarLeaveAnObstacleThatItDoesNotOverlap) {
+  const double front = ReferenceCar().length - ReferenceCar().rear_overhang;
+  EXPECT_TRUE(Check(RouteWith({{front + 1.01, 0.0}}), 0.5).ok());
+  const Plan plan = Check(RouteWith({{front + 0.99, 0.0}}), 0.5);
   EXPECT_EQ(plan.status, PlanStatus::kStartBlocked);
-  EXPECT_EQ(plan.reason, fmt::format("the start is blocked: the obstacle at ({:.4g}, 0) is 0.25 m "
-                                     "from the car's footprint; safe_distance is 0.5 m",
-                                     front + 1.25));
-  EXPECT_TRUE(Check(RouteWith({{front + 1.25, 0.0}}), 0.25 - 1e-9).ok());
+  EXPECT_EQ(plan.reason, fmt::format("the start is blocked: the obstacle at ({:.4g}, 0) overlaps "
+                                     "the car's footprint by 0.01 m; safe_distance is 0.5 m",
+                                     front + 0.99));
 }
 
 TEST(CheckStops, NamesTheDepthOfAnOverlap) {

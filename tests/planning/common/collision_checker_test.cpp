@@ -159,6 +159,30 @@ TEST(CollisionChecker, FindsABoxInTheWayOfACarOfAMillimeter) {
   EXPECT_FALSE(clear.IsFree(Pose2{}, Segment{.length = 1e-2}));
 }
 
+TEST(CollisionChecker, LetsTheCarLeaveItsStart) {
+  Random random(11);
+  for (int i = 0; i < 500; ++i) {
+    const std::vector<OrientedBox> boxes = RandomBoxes(random, 5, 8.0);
+    const Pose2 start{random.Uniform(-5.0, 5.0), random.Uniform(-5.0, 5.0),
+                      random.Uniform(-3.0, 3.0)};
+    const Pose2 other{random.Uniform(-5.0, 5.0), random.Uniform(-5.0, 5.0),
+                      random.Uniform(-3.0, 3.0)};
+    constexpr double kDistance = 0.7;
+    const CollisionChecker clear(ReferenceCar(), boxes, kDistance, start);
+    bool overlaps = false;
+    double expected = CollisionChecker::kMaxClearance;
+    for (const OrientedBox& box : boxes) {
+      const double at_start = Separation(FootprintAt(ReferenceCar(), start), box);
+      overlaps = overlaps || at_start < 0.0;
+      expected = std::min(expected,
+                          Separation(FootprintAt(ReferenceCar(), other), box) -
+                              (at_start < kDistance ? std::max(0.5 * at_start, 0.0) : kDistance));
+    }
+    EXPECT_EQ(clear.IsFree(start), !overlaps);
+    EXPECT_NEAR(clear.Clearance(other), expected, Tolerance(1e-12));
+  }
+}
+
 TEST(CollisionChecker, IsFreeWithoutBoxes) {
   const CollisionChecker clear(ReferenceCar(), {}, 0.5);
   EXPECT_EQ(clear.Clearance({}), CollisionChecker::kMaxClearance);

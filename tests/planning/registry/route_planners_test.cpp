@@ -347,6 +347,69 @@ TEST_P(EveryRoutePlanner, StopsWhereItChangesDirection) {
 INSTANTIATE_TEST_SUITE_P(Table, EveryRoutePlanner, ::testing::ValuesIn(Planning()),
                          [](const auto& test) { return std::string(test.param.name); });
 
+/// A request from the origin along x to a goal 60 m ahead and 8 m to the left, with one obstacle
+/// near the start.
+PlanRequest From(const OrientedBox& near) {
+  PlanRequest request = Between({0.0, 0.0, 0.0}, {60.0, 8.0, 0.3}, {near});
+  request.speed.speed = 4.0;
+  return request;
+}
+
+/// Obstacles at a distance [m] from the car at the origin: behind it, across; on its left and on
+/// its right, as long as a car or a wall; and at a corner of the car.
+std::vector<OrientedBox> BoxesNearTheOrigin(double distance) {
+  const VehicleParams car = ReferenceCar();
+  const double beside = 0.5 * car.width + distance;
+  const double behind = car.rear_overhang + distance;
+  return {{{-behind - 0.5, 0.0, 0.0}, 1.0, 3.0},  {{-behind - 0.1, 5.0, 0.0}, 0.2, 30.0},
+          {{1.0, beside + 0.9, 0.0}, 4.5, 1.8},   {{1.0, -beside - 0.9, 0.0}, 4.5, 1.8},
+          {{0.0, -beside - 0.1, 0.0}, 40.0, 0.2}, {{-behind - 0.5, beside + 0.5, 0.0}, 1.0, 1.0}};
+}
+
+TEST_P(EveryRoutePlanner, LeavesAnObstacleNearTheStart) {
+  for (const double distance : {0.2, 0.15, 0.4, 0.5}) {
+    for (const OrientedBox& near : BoxesNearTheOrigin(distance)) {
+      // Without a search, curves begin with an arc: the car cannot first drive past an obstacle.
+      const bool is_beside = std::abs(near.center.x) < 1.5;
+      if (is_beside && !GetParam().searches) {
+        continue;
+      }
+      const PlanRequest request = From(near);
+      const double apart = Separation(FootprintAt(request.vehicle, request.start), near);
+      const Plan plan = Make(request);
+      ASSERT_TRUE(plan.ok()) << distance << " m, at " << near.center.x << ", " << near.center.y
+                             << ": " << plan.reason;
+      const Path& path = plan.reference.path;
+      for (double s = 0.0; s < path.length(); s += 0.05) {
+        // Between the planner's own checks the footprint's farthest corner may come 1.8 cm nearer.
+        ASSERT_GE(Separation(FootprintAt(request.vehicle, path.At(s).pose), near),
+                  (apart < kSafe ? 0.5 * apart : kSafe) - Tolerance(0.018))
+            << "s = " << s;
+      }
+    }
+  }
+}
+
+TEST_P(EveryRoutePlanner, ReachesAGoalBesideAnObstacle) {
+  const VehicleParams car = ReferenceCar();
+  for (const double distance : {0.35, 0.6, 1.5}) {
+    for (const double side : {1.0, -1.0}) {
+      // The route is straight, and the obstacle is as long as the car.
+      const PlanRequest request =
+          Between({0.0, 0.0, 0.0}, {50.0, 0.0, 0.0},
+                  {{{51.0, side * (0.5 * car.width + distance + 0.9), 0.0}, 4.5, 1.8}});
+      const Plan plan = Make(request);
+      ASSERT_TRUE(plan.ok()) << distance << ": " << plan.reason;
+      ExpectClear(request, plan);
+    }
+  }
+}
+
+TEST_P(EveryRoutePlanner, RefusesAStartOrAGoalInsideAnObstacle) {
+  EXPECT_EQ(Make(From({{1.0, 0.5, 0.3}, 0.5, 0.5})).status, PlanStatus::kStartBlocked);
+  EXPECT_EQ(Make(From({{60.0, 8.0, 0.3}, 0.5, 0.5})).status, PlanStatus::kGoalBlocked);
+}
+
 // --- Properties of single planners ---------------------------------------------------------------
 
 TEST(CurvePlanners, TakeAnotherWordWhereTheShortestIsBlocked) {

@@ -37,7 +37,7 @@ using Polygon = bg::model::polygon<Point, false>;
 /// The obstacles of a problem, with distances computed by Boost.Geometry.
 class Surroundings {
  public:
-  explicit Surroundings(const RrtStarProblem& problem) : inflation_(problem.inflation) {
+  explicit Surroundings(const RrtStarProblem& problem) : inflation_(problem.inflation.most) {
     for (const OrientedBox& box : problem.obstacles) {
       Polygon& polygon = polygons_.emplace_back();
       for (const Vec2& corner : box.Corners()) {
@@ -83,7 +83,7 @@ class Surroundings {
 double ShortestWay(const RrtStarProblem& problem) {
   const Surroundings surroundings(problem);
   constexpr double kHalfStep = kPi / 180.0;
-  const double radius = problem.inflation / std::cos(kHalfStep) * (1.0 + 1e-9);
+  const double radius = problem.inflation.most / std::cos(kHalfStep) * (1.0 + 1e-9);
   std::vector<Vec2> points{problem.start, problem.goal};
   for (const OrientedBox& box : problem.obstacles) {
     const auto corners = box.Corners();

@@ -33,7 +33,7 @@ bool IsFreeDensely(const Vec2& from, const Vec2& to, const RrtProblem& problem) 
       const Vec2 own = ToLocal(box.center, p);
       const double dx = std::max(std::abs(own.x()) - 0.5 * box.length, 0.0);
       const double dy = std::max(std::abs(own.y()) - 0.5 * box.width, 0.0);
-      if (std::hypot(dx, dy) <= problem.inflation) {
+      if (std::hypot(dx, dy) <= problem.inflation.most) {
         return false;
       }
     }

@@ -17,10 +17,32 @@ class CollisionChecker {
   /// Upper bound of the result of farthest(), which applies to long cars [m].
   static constexpr double kMaxClearance = 4.0;
 
+  /// Fraction of the distance at the start that a car which leaves a box must keep. A car that
+  /// turns away from a wall beside it cannot keep the whole distance: its rear swings toward the
+  /// wall.
+  static constexpr double kShareOfStart = 0.5;
+
   /// `distance` [m], >= 0, is the required distance of the footprint from every box. Throws
   /// PreconditionError if a box has a number that is not finite. The required memory grows with the
   /// area over which the boxes are spread, but no further beyond an extent of about 2 km for a car.
   CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance);
+
+  /// Same as above, for a car that may leave the pose `start`. From a box that is nearer to the
+  /// footprint at `start` than `distance`, the car need only keep the fraction kShareOfStart of the
+  /// distance it has there. The start is free unless a box overlaps the footprint there.
+  CollisionChecker(const VehicleParams& vehicle, std::vector<OrientedBox> boxes, double distance,
+                   const Pose2& start);
+
+  /// Returns the required distance of the footprint from each box [m], >= 0.
+  [[nodiscard]] const std::vector<double>& distances() const { return distances_; }
+
+  /// Returns the radius of the largest circle around the middle of the rear axle inside the
+  /// footprint [m]; 0 if the rear axle is not inside the footprint.
+  [[nodiscard]] double inner_radius() const;
+
+  /// Returns whether the car may be clear of all boxes with the middle of its rear axle at
+  /// `position`: the circle of inner_radius() is. If not, no heading is free there.
+  [[nodiscard]] bool MayBeFree(const Vec2& position) const;
 
   /// Returns the largest value that Clearance can return [m]: the car's length, or kMaxClearance if
   /// the car is longer.
@@ -51,8 +73,9 @@ class CollisionChecker {
  private:
   VehicleParams vehicle_;
   std::vector<OrientedBox> boxes_;
-  std::vector<Vec2> along_;  // Unit vectors along the lengths of the boxes.
-  double distance_;
+  std::vector<Vec2> along_;        // Unit vectors along the lengths of the boxes.
+  double distance_;                // Largest of the required distances.
+  std::vector<double> distances_;  // Required distance from each box.
   double farthest_;
   double middle_;  // Distance from the rear axle forward to the middle of the footprint.
   double radius_;  // Radius of the circle around the footprint.

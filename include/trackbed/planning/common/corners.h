@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/path/path.h"
 #include "trackbed/path/reference.h"
 #include "trackbed/planning/common/collision_checker.h"
@@ -105,9 +106,9 @@ RoundedCorners RoundCornersOrTurnBehind(const VehicleParams& vehicle,
 std::vector<Vec2> WithoutCollinearPoints(const std::vector<Vec2>& polyline);
 
 /// Shortens a polyline greedily from its start. Removes points at which the polyline continues
-/// straight. Replaces a part of the polyline by a straight segment if this segment is more than
-/// `inflation` [m] away from every box.
+/// straight. Replaces a part of the polyline by a straight segment if this segment keeps more than
+/// `inflation` from the boxes.
 std::vector<Vec2> Shortcut(const std::vector<Vec2>& polyline, const std::vector<OrientedBox>& boxes,
-                           double inflation);
+                           const Inflation& inflation);
 
 }  // namespace trackbed

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/geometry/pose.h"
 
@@ -47,11 +48,11 @@ inline constexpr double kMaxCells = 2e7;
 double CellsIn(const GridArea& area, double cell);
 
 /// Makes a grid that covers an area given in the frame X_WF, with the middle of a cell at the
-/// frame's origin. A cell is occupied if its middle is at most `inflation` [m] away from a box. The
+/// frame's origin. A cell is occupied if its middle is not farther from a box than `inflation`. The
 /// computing time is proportional to the number of cells in all boxes, each enlarged by
 /// `inflation`. Throws InternalError if the grid would have more than kMaxCells cells, and
 /// PreconditionError if a box is not finite.
 OccupancyGrid Rasterize(const Pose2& X_WF, const GridArea& area, double cell,
-                        const std::vector<OrientedBox>& boxes_W, double inflation);
+                        const std::vector<OrientedBox>& boxes_W, const Inflation& inflation);
 
 }  // namespace trackbed

@@ -5,7 +5,7 @@ namespace trackbed {
 /// How planning ended.
 enum class PlanStatus {
   kOk,
-  kTooFewWaypoints,     ///< The route has fewer than three waypoints.
+  kTooFewWaypoints,     ///< The route has fewer waypoints than the planner needs.
   kDuplicateWaypoints,  ///< A leg has zero length.
   kUTurn,               ///< Two legs point in opposite directions, so that no fillet can join them.
   /// The turn is tighter than the car can steer, or no radius of a turn fits on the legs.
@@ -16,7 +16,8 @@ enum class PlanStatus {
   kSearchFailed,  ///< The numerical search found no solution that meets the constraints.
   /// The wheels would have to start turning before the route begins (D_1 < 0).
   kSteersBeforeStart,
-  /// The car starts too near to an obstacle, or at a place where the Frenet frame is undefined.
+  /// The car starts in or too near to an obstacle, or at a place where the Frenet frame is
+  /// undefined.
   kStartBlocked,
   kGoalBlocked,   ///< An obstacle is too near to the goal or a waypoint.
   kNoPath,        ///< No path exists, or no path of the required kind exists.

@@ -36,14 +36,25 @@ Plan CheckPoses(const PlanRequest& request);
 /// Returns a rejected plan if the requested turning radius is too small for the car.
 Plan CheckRadius(const VehicleParams& vehicle, const std::optional<double>& radius);
 
+/// Returns the checker for plans that keep `safe_distance` [m] from the obstacles of the request.
+/// From an obstacle that is nearer to the car at its start, the car may leave: it keeps at least
+/// half the distance that it has at the start.
+CollisionChecker CheckerFromStart(const PlanRequest& request, double safe_distance);
+
+/// Returns the waypoints after the first at which the car may be clear of obstacles.
+std::vector<Vec2> GoalsOutsideObstacles(const PlanRequest& request, const CollisionChecker& clear);
+
 /// Describes the obstacle nearest to the car's footprint at `pose`, for people: its center, its
 /// distance from the footprint or the depth of the overlap, and the required `distance` [m]. The
 /// list of obstacles must not be empty.
 std::string NearestObstacle(const VehicleParams& vehicle, const Pose2& pose,
                             const std::vector<OrientedBox>& obstacles, double distance);
 
+/// Returns a rejected plan if an obstacle of the request overlaps the car's footprint at the start.
+Plan CheckStart(const PlanRequest& request, double safe_distance);
+
 /// Returns a rejected plan if the car's footprint would be closer to an obstacle of the request
-/// than `safe_distance` [m] at one of the stops. The plan's reason names the obstacle.
+/// than CheckerFromStart allows at one of the stops. The plan's reason names the obstacle.
 Plan CheckStops(const std::vector<Pose2>& stops, const PlanRequest& request, double safe_distance);
 
 /// Returns the turning radius for planning [m]: the requested radius if given, else 1.1 times the

@@ -5,6 +5,7 @@
 #include <functional>
 #include <vector>
 
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/geometry/pose.h"
 #include "trackbed/planning/common/plan.h"
@@ -23,7 +24,7 @@ struct RrtStarProblem {
   /// Largest x and y of the sampled box [m]; the box must contain start and goal.
   Vec2 high{0.0, 0.0};
   std::vector<OrientedBox> obstacles;
-  double inflation = 0.0;  ///< Smallest permitted distance of the path from any obstacle [m], >= 0.
+  Inflation inflation = 0.0;  ///< Smallest permitted distance of the path from the obstacles.
 };
 
 struct RrtStarOptions {

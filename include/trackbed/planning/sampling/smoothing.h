@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "trackbed/geometry/box_index.h"
 #include "trackbed/geometry/oriented_box.h"
 #include "trackbed/geometry/pose.h"
 #include "trackbed/world/wind.h"
@@ -59,7 +60,7 @@ struct SmoothingResult {
 /// rounded. Throws InternalError if an option is out of range. Computing time: O(sweeps x points x
 /// obstacles).
 SmoothingResult SmoothPath(const std::vector<Vec2>& path, const std::vector<OrientedBox>& obstacles,
-                           double inflation, const WindScoring& wind,
+                           const Inflation& inflation, const WindScoring& wind,
                            const SmoothingOptions& options);
 
 }  // namespace trackbed
