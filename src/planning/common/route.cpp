@@ -87,8 +87,10 @@ Plan CheckPoses(const PlanRequest& request) {
 void Complete(Plan& plan, const PlanRequest& request) {
   const Path& path = plan.reference.path;
   SetSpeeds(plan, request.start_speed, request.speed);
-  plan.schedule =
-      CourseSchedule(request.vehicle, path.segments(), request.speed.speed, plan.caps, plan.stops);
+  // A car that starts faster than the mission passes the first steps of curvature while it slows
+  // down.
+  const double fastest = std::max(request.speed.speed, request.start_speed);
+  plan.schedule = CourseSchedule(request.vehicle, path.segments(), fastest, plan.caps, plan.stops);
   plan.goal = path.At(path.length()).pose;
   plan.diagnostics.direction_changes = SplitIntoLegs(path).size() - 1;
 }
