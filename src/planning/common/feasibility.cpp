@@ -27,10 +27,6 @@ namespace trackbed {
 namespace {
 
 constexpr double kMinPlanSpeed = 0.1;  // Minimum speed of a plan; a slower plan is refused [m/s].
-// Tolerance of the start position [m]; for a wheelbase below 1 m, multiplied by the wheelbase in
-// meters.
-constexpr double kSamePlace = 1e-3;
-constexpr double kSameHeading = 1e-3;  // [rad]
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
 /// Keeps the largest excess over the limit of one quantity.
@@ -68,14 +64,9 @@ bool IsAtLimit(const Plan& plan, const PlanRequest& request) {
 }
 
 void CheckStart(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
-  const PathPoint first = plan.reference.path.At(0.0);
-  WorstExcess place("initial position error", "m", Remedy::kNone);
-  place.Take((first.pose.position() - request.start.position()).norm(),
-             kSamePlace * std::min(1.0, request.vehicle.wheelbase), 0.0);
-  place.AddTo(found);
-  WorstExcess heading("initial heading error", "rad", Remedy::kNone);
-  heading.Take(std::abs(AngleDifference(first.pose.yaw, request.start.yaw)), kSameHeading, 0.0);
-  heading.AddTo(found);
+  for (Excess& excess : start_excess::Displacement(plan, request)) {
+    found.push_back(std::move(excess));
+  }
   if (std::optional<Excess> step = start_excess::SteeringStep(plan, request)) {
     found.push_back(std::move(*step));
   }

@@ -6,11 +6,16 @@
 #include <cmath>
 
 #include "src/planning/common/feasible_speeds.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/planning/common/road_hold.h"
 
 namespace trackbed::start_excess {
 namespace {
 
+/// Tolerance of the start position [m]; for a wheelbase below 1 m, multiplied by the wheelbase in
+/// meters.
+constexpr double kSamePlace = 1e-3;
+constexpr double kSameHeading = 1e-3;  // [rad]
 /// Tolerance of the start steering [rad].
 constexpr double kSteeringTolerance = 1e-3;
 
@@ -24,6 +29,35 @@ double RoundDown(double number) {
 }
 
 }  // namespace
+
+std::vector<Excess> Displacement(const Plan& plan, const PlanRequest& request) {
+  const Pose2 first = plan.reference.path.At(0.0).pose;
+  const double away = (first.position() - request.start.position()).norm();
+  const double turned = std::abs(AngleDifference(first.yaw, request.start.yaw));
+  const double same_place = kSamePlace * std::min(1.0, request.vehicle.wheelbase);
+  constexpr double kRounding = 1.0 + feasible_speeds::kRounding;
+  std::vector<Excess> found;
+  if (away > same_place * kRounding) {
+    found.push_back({.what = "initial position error",
+                     .required = away,
+                     .limit = same_place,
+                     .unit = "m",
+                     .hint = fmt::format("the path begins at ({:.10g}, {:.10g}), the car at "
+                                         "({:.10g}, {:.10g}); set mission.start.x and y to the "
+                                         "path's beginning, or remove them",
+                                         first.x, first.y, request.start.x, request.start.y)});
+  }
+  if (turned > kSameHeading * kRounding) {
+    found.push_back({.what = "initial heading error",
+                     .required = turned,
+                     .limit = kSameHeading,
+                     .unit = "rad",
+                     .hint = fmt::format("the path begins with a heading of {0:.4g} rad, the car "
+                                         "with {1:.4g} rad; set mission.start.yaw: {0:.4g}",
+                                         WrapAngle(first.yaw), WrapAngle(request.start.yaw))});
+  }
+  return found;
+}
 
 std::optional<Excess> SteeringStep(const Plan& plan, const PlanRequest& request) {
   const VehicleParams& vehicle = request.vehicle;

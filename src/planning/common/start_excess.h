@@ -10,6 +10,10 @@
 /// Explains why a plan cannot begin in the start state of the car, for MakeFeasible.
 namespace trackbed::start_excess {
 
+/// Returns an excess for each of position and heading in which the path begins elsewhere than the
+/// car. The hints give the values that fit.
+std::vector<Excess> Displacement(const Plan& plan, const PlanRequest& request);
+
 /// Returns an excess if the car rolls, and its start steering differs from the steering angle with
 /// which the path begins. Returns nullopt if the car cannot steer the start of the path at all,
 /// because the excess of the steering angle is the cause then. The hint gives the start steering
