@@ -131,24 +131,23 @@ void CheckSteeringRate(const Plan& plan, const PlanRequest& request, std::vector
 
 void CheckAcceleration(const Plan& plan, const PlanRequest& request, std::vector<Excess>& found) {
   const Path& path = plan.reference.path;
-  const RoadHold road(request);
   WorstExcess braking("deceleration", "m/s^2", Remedy::kGentlerBraking);
   WorstExcess driving("acceleration", "m/s^2", Remedy::kGentlerDriving);
+  const std::vector<AccelerationCap> grip = feasible_speeds::GripAlong(path, request);
   const std::vector<SpeedProfile::Knot>& knots = plan.reference.speed.knots();
+  std::size_t first = 0;
   for (std::size_t i = 1; i < knots.size(); ++i) {
     const SpeedProfile::Knot& a = knots[i - 1];
     const SpeedProfile::Knot& b = knots[i];
     const double change = (b.speed * b.speed - a.speed * a.speed) / (2.0 * (b.s - a.s));
-    const double looks =
-        road.uniform() ? 1.0
-                       : std::max(2.0, std::ceil((b.s - a.s) / feasible_speeds::kCheckSpacing));
-    for (double look = 0.0; look <= looks; look += 1.0) {
-      const double s = std::lerp(a.s, b.s, look / looks);
-      if (change < 0.0) {
-        braking.Take(-change, road.Braking(path, s), s);
-      } else {
-        driving.Take(change, road.Driving(path, s), s);
-      }
+    constexpr double kSameStation = 2e-9;  // [m]
+    while (first + 1 < grip.size() && grip[first].to <= a.s + kSameStation) {
+      ++first;
+    }
+    for (std::size_t k = first; k < grip.size() && grip[k].from < b.s - kSameStation; ++k) {
+      const double s = std::max(a.s, grip[k].from);
+      braking.Take(-change, grip[k].deceleration, s);
+      driving.Take(change, grip[k].acceleration, s);
     }
     braking.Take(-change, kMaxBrakingFactor * request.speed.deceleration, a.s);
   }

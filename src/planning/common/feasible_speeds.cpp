@@ -7,9 +7,9 @@
 namespace trackbed::feasible_speeds {
 namespace {
 
-/// Returns the share of the road's grip; infinite if the grip is unknown (0).
-double Allowed(double grip, double share) {
-  return grip > 0.0 ? share * grip : std::numeric_limits<double>::infinity();
+/// Returns the grip of the road; infinite if the grip is unknown (0).
+double Known(double grip) {
+  return grip > 0.0 ? grip : std::numeric_limits<double>::infinity();
 }
 
 }  // namespace
@@ -80,21 +80,31 @@ std::vector<SpeedCap> CapsFor(const Plan& plan, const PlanRequest& request) {
   return caps;
 }
 
-std::vector<AccelerationCap> SectionsOfLessGrip(const Path& path, const PlanRequest& request,
-                                                const GripShares& shares) {
+std::vector<AccelerationCap> GripAlong(const Path& path, const PlanRequest& request) {
   const RoadHold road(request);
   const auto at = [&](double s) {
-    return AccelerationCap{s, s, Allowed(road.Driving(path, s), shares.driving),
-                           Allowed(road.Braking(path, s), shares.braking)};
+    return AccelerationCap{s, s, Known(road.Driving(path, s)), Known(road.Braking(path, s))};
   };
-  std::vector<AccelerationCap> sections;
-  const double count = road.uniform() ? 1.0 : std::ceil(path.length() / kCheckSpacing);
   AccelerationCap from = at(0.0);
-  for (double i = 1.0; i <= count; i += 1.0) {
-    const AccelerationCap to = at(path.length() * (i / count));
-    const AccelerationCap section{from.from, to.to, std::min(from.acceleration, to.acceleration),
-                                  std::min(from.deceleration, to.deceleration)};
+  if (road.uniform()) {
+    return {{0.0, path.length(), from.acceleration, from.deceleration}};
+  }
+  std::vector<AccelerationCap> pieces;
+  ForEachPiece(path, request.vehicle, kCheckSpacing, [&](const PathPiece& piece) {
+    const AccelerationCap to = at(piece.stations.to);
+    pieces.push_back({piece.stations.from, to.to, std::min(from.acceleration, to.acceleration),
+                      std::min(from.deceleration, to.deceleration)});
     from = to;
+  });
+  return pieces;
+}
+
+std::vector<AccelerationCap> SectionsOfLessGrip(const Path& path, const PlanRequest& request,
+                                                const GripShares& shares) {
+  std::vector<AccelerationCap> sections;
+  for (AccelerationCap section : GripAlong(path, request)) {
+    section.acceleration *= shares.driving;
+    section.deceleration *= shares.braking;
     if (section.acceleration >= request.speed.acceleration &&
         section.deceleration >= request.speed.deceleration) {
       continue;
@@ -123,19 +133,22 @@ std::vector<SpeedCap> CapsInBends(const Plan& plan, const PlanRequest& request) 
     bend.clear();
     is_exceeded = false;
   };
+  const std::vector<AccelerationCap> grip = GripAlong(path, request);
+  std::size_t next = 0;
   ForEachPiece(path, request.vehicle, kCheckSpacing, [&](const PathPiece& piece) {
+    const AccelerationCap& along_path = grip[road.uniform() ? 0 : next++];
     if (piece.curvature == 0.0) {
       finish_bend();
       return;
     }
     const auto [from, to] = piece.stations;
     const double curvature = path.At(0.5 * (from + to)).curvature;
+    const double driving =
+        std::min(request.speed.acceleration, kBendShares.driving * along_path.acceleration);
+    const double braking =
+        std::min(request.speed.deceleration, kBendShares.braking * along_path.deceleration);
     double lateral = std::numeric_limits<double>::infinity();
     for (const double s : {from, to}) {
-      const double driving =
-          std::min(request.speed.acceleration, Allowed(road.Driving(path, s), kBendShares.driving));
-      const double braking =
-          std::min(request.speed.deceleration, Allowed(road.Braking(path, s), kBendShares.braking));
       for (const double along : {-braking, driving}) {
         lateral = std::min(lateral, road.LateralBeside(path, s, curvature, along));
       }

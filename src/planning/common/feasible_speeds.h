@@ -63,8 +63,14 @@ struct GripShares {
 /// Shares that leave grip for bends: about 1/sqrt(2).
 inline constexpr GripShares kBendShares{0.7, 0.7};
 
-/// Returns the sections of the path on which the given shares of the road's grip allow less than
-/// the limits of the request. Samples the grip every kCheckSpacing.
+/// Returns the largest acceleration and deceleration on each piece of the path (ForEachPiece with
+/// kCheckSpacing), the smaller values of both ends of the piece; infinite if they are unknown. The
+/// checks and the speeds of a plan use the same pieces. Hence a plan within these limits passes the
+/// checks, wherever the edge of a slippery patch lies.
+std::vector<AccelerationCap> GripAlong(const Path& path, const PlanRequest& request);
+
+/// Returns the sections of the path on which the given shares of GripAlong are less than the limits
+/// of the request.
 std::vector<AccelerationCap> SectionsOfLessGrip(const Path& path, const PlanRequest& request,
                                                 const GripShares& shares);
 

@@ -67,13 +67,25 @@ double RoadHold::Lateral(const Path& path, double s, double curvature) const {
                          against);
 }
 
+double RoadHold::BesideSlope(double along, double road, const Tilt& tilt) const {
+  const double grip_along = request_.vehicle.friction_longitudinal * kGravity * road;
+  const double grip_across = MaxLateralAcceleration(request_.vehicle, road);
+  if (!(grip_along > 0.0) || !(grip_across > 0.0)) {
+    return along;
+  }
+  const double share = std::min(1.0, kGravity * std::abs(tilt.left) / grip_across);
+  return std::min(along, grip_along * std::sqrt(1.0 - share * share));
+}
+
 double RoadHold::Braking(const Path& path, double s) const {
   if (uniform()) {
     return MaxDeceleration(request_.vehicle, request_.friction);
   }
   const PathPoint at = path.At(s);
   const Tilt tilt = TiltAt(at);
-  return SubtractGravity(MaxDeceleration(request_.vehicle, Factor(at.pose) * tilt.load), -tilt.up);
+  const double road = Factor(at.pose) * tilt.load;
+  return SubtractGravity(BesideSlope(MaxDeceleration(request_.vehicle, road), road, tilt),
+                         -tilt.up);
 }
 
 double RoadHold::Driving(const Path& path, double s) const {
@@ -82,7 +94,8 @@ double RoadHold::Driving(const Path& path, double s) const {
   }
   const PathPoint at = path.At(s);
   const Tilt tilt = TiltAt(at);
-  return SubtractGravity(MaxAcceleration(request_.vehicle, Factor(at.pose) * tilt.load), tilt.up);
+  const double road = Factor(at.pose) * tilt.load;
+  return SubtractGravity(BesideSlope(MaxAcceleration(request_.vehicle, road), road, tilt), tilt.up);
 }
 
 RoadHold::Demand RoadHold::DemandAt(const Path& path, double s, double along, double side) const {
@@ -129,8 +142,15 @@ RoadHold::Pull RoadHold::Slope(const Path& path, double s) const {
                                                      ? MaxDeceleration(request_.vehicle, road)
                                                      : MaxAcceleration(request_.vehicle, road)};
   const Pull across{kGravity * std::abs(tilt.left), MaxLateralAcceleration(request_.vehicle, road)};
+  const double grip_along = request_.vehicle.friction_longitudinal * kGravity * road;
+  const double share = grip_along > 0.0 && across.hold > 0.0
+                           ? std::hypot(along.pull / grip_along, across.pull / across.hold)
+                           : 0.0;
+  const double steepest = std::hypot(along.pull, across.pull);
+  const Pull total{steepest, share > 0.0 ? steepest / share : 0.0};
   const auto ratio = [](const Pull& each) { return each.hold > 0.0 ? each.pull / each.hold : 0.0; };
-  return ratio(along) > ratio(across) ? along : across;
+  return std::max({across, along, total},
+                  [&](const Pull& a, const Pull& b) { return ratio(a) < ratio(b); });
 }
 
 RoadHoldLimits MinRoadHold(const Path& path, Stations within, const PlanRequest& request) {

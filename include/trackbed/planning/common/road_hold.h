@@ -12,7 +12,8 @@ namespace trackbed {
 /// along and across the path, times the friction factor of the road. The load on the tyres is the
 /// load on a flat road times cos(theta). Gravity reduces three limits: the deceleration downhill,
 /// the acceleration uphill, and the lateral acceleration where gravity pulls toward the outside of
-/// a bend. Gravity never raises any limit of the car.
+/// a bend. On a cross slope, gravity also uses a part of the friction ellipse, which reduces the
+/// acceleration and the deceleration on a straight. Gravity never raises any limit of the car.
 class RoadHold {
  public:
   /// Keeps a reference to the request, and uses its vehicle, friction, friction patches and ground.
@@ -59,9 +60,9 @@ class RoadHold {
     double hold = 0.0;  ///< Largest pull that the car can hold [m/s^2]; 0: unknown.
   };
 
-  /// Returns gravity's pull along or across the path, whichever is closer to the pull that the car
-  /// can hold. If gravity's pull exceeds the pull that the car can hold, the car slides. Returns
-  /// {0, 0} on flat ground.
+  /// Returns gravity's pull along the path, across the path or in both directions together,
+  /// whichever is closest to the pull that the car can hold. If gravity's pull exceeds the pull
+  /// that the car can hold, the car slides. Returns {0, 0} on flat ground.
   [[nodiscard]] Pull Slope(const Path& path, double s) const;
 
   [[nodiscard]] bool flat() const { return flat_; }
@@ -91,6 +92,9 @@ class RoadHold {
 
   /// Computes grip and required accelerations at a station; `side` has the sign of the curvature.
   [[nodiscard]] Demand DemandAt(const Path& path, double s, double along, double side) const;
+  /// Returns the acceleration `along` the path [m/s^2], or what the friction ellipse leaves of it
+  /// beside gravity's pull across the path. `road` is the factor on the tyres' friction.
+  [[nodiscard]] double BesideSlope(double along, double road, const Tilt& tilt) const;
   [[nodiscard]] double Factor(const Pose2& pose) const;
   [[nodiscard]] Tilt TiltAt(const PathPoint& at) const;
 
