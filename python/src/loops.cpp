@@ -284,8 +284,6 @@ void BindObservation(py::module_& module) {
 void BindLoops(py::module_& module) {
   BindObservation(module);
   py::class_<Prepared, std::shared_ptr<Prepared>>(module, "Prepared")
-      .def_property_readonly("timestep",
-                             [](const Prepared& p) { return p.scenario->drive.timestep; })
       .def_property_readonly("period",
                              [](const Prepared& p) { return p.scenario->drive.control_period; })
       .def_property_readonly("steering_limit",

@@ -110,7 +110,6 @@ void BindRuns(py::module_& module) {
       .def_property_readonly("plants", [](const Scenario& s) { return s.drive.plants; })
       .def_property_readonly("yaml", [](const Scenario& s) { return ResolvedYaml(s); });
   module.def("load", &Load);
-  module.def("find_scenario", &FindScenario);
 
   py::class_<RunResult, std::shared_ptr<RunResult>>(module, "RunResult")
       .def_property_readonly("name", [](const RunResult& run) { return run.scenario.name; })

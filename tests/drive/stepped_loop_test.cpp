@@ -123,7 +123,7 @@ TEST(SteppedLoop, FollowsTheCommandsThatItIsGiven) {
 }
 
 TEST(SteppedLoop, LeavesTheSpeedToThePlanWithoutAnAcceleration) {
-  const Planned planned("three_turns");
+  const Planned planned("three_turns", {"mission.start.speed=0"});
   SteppedLoop loop = planned.Loop("kinematic");
   SteppedLoop own = planned.Loop("kinematic");
   loop.Step(0.0, std::nullopt);
@@ -134,7 +134,7 @@ TEST(SteppedLoop, LeavesTheSpeedToThePlanWithoutAnAcceleration) {
 
 // The schedule of an open-loop run steers the car only if the loop's own controller steers.
 TEST(SteppedLoop, GivenCommandsReplaceTheScheduleOfAnOpenLoopRun) {
-  const Planned planned("driven_turns", {"control.steering={method: schedule}"});
+  const Planned planned("three_turns", {"control.method=schedule"});
   SteppedLoop loop = planned.Loop("kinematic");
   for (int period = 0; period < 100; ++period) {
     loop.Step(-0.2, 1.0);
