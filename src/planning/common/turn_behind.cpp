@@ -1,16 +1,21 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "src/planning/common/fewer_corners.h"
 #include "trackbed/core/angle.h"
 #include "trackbed/planning/common/corners.h"
+#include "trackbed/planning/common/waypoint_miss.h"
 
-// Rounds polylines that turn too sharply at a waypoint. A curve on the inner side of a sharp turn
-// passes far from the waypoint, and no curve joins legs that point in opposite directions. In these
-// cases, the path leads straight through the waypoint, turns by one or two quarters behind it, and
-// returns to the next point of the polyline. The added legs have just the length that the curves of
-// the added corners need. The corners are driven at the highest speed at which a quarter turn still
-// reaches the largest curvature, or, if this is too wide, at the lowest speed.
+// Rounds polylines that turn too sharply at a waypoint. Where waypoints are close to each other,
+// the path leaves out those that it passes within the bound anyway. A curve on the inner side of a
+// sharp turn passes far from the waypoint, and no curve joins legs that point in opposite
+// directions. In these cases, the path leads straight through the waypoint, turns by one or two
+// quarters behind it, and returns to the next point of the polyline. The added legs have just the
+// length that the curves of the added corners need. The corners are driven at the highest speed at
+// which a quarter turn still reaches the largest curvature, or, if this is too wide, at the lowest
+// speed.
 
 namespace trackbed {
 namespace {
@@ -121,13 +126,11 @@ std::optional<std::vector<Vec2>> TurnBehind(const VehicleParams& vehicle,
   return std::nullopt;
 }
 
-}  // namespace
-
-RoundedCorners RoundCornersOrTurnBehind(const VehicleParams& vehicle,
-                                        const std::vector<Vec2>& polyline,
-                                        const CornerLimits& limits, const CollisionChecker& clear) {
-  std::vector<Vec2> points = polyline;
-  RoundedCorners rounded = RoundCorners(vehicle, points, limits, clear);
+/// Adds turns behind waypoints to a polyline until no corner at a waypoint is too sharp. `rounded`
+/// are the corners of the polyline itself.
+RoundedCorners TurnBehindSharpCorners(const VehicleParams& vehicle, std::vector<Vec2> points,
+                                      RoundedCorners rounded, const CornerLimits& limits,
+                                      const CollisionChecker& clear) {
   for (std::size_t i = 0; rounded.sharp_corner && i < limits.waypoints.size(); ++i) {
     const auto turned = TurnBehind(vehicle, points, *rounded.sharp_corner, limits, clear);
     if (!turned) {
@@ -138,6 +141,64 @@ RoundedCorners RoundCornersOrTurnBehind(const VehicleParams& vehicle,
     rounded = RoundCorners(vehicle, points, limits, clear);
   }
   return rounded;
+}
+
+/// Returns the polyline, and then the polyline with longer and longer first legs, which continue
+/// straight beyond the first point. On the longer legs, a rolling car can slow down to the lowest
+/// speed.
+std::vector<std::vector<Vec2>> WithLongerStarts(const std::vector<Vec2>& polyline,
+                                                const CornerLimits& limits) {
+  std::vector<std::vector<Vec2>> starts{polyline};
+  const Vec2 leg = polyline[1] - polyline[0];
+  const double squares =
+      limits.start_speed * limits.start_speed - limits.min_speed * limits.min_speed;
+  const double braking = std::max(0.0, squares) / (2.0 * limits.deceleration);
+  for (const double radii : {0.1, 0.2, 0.4, 0.8, 1.6}) {
+    const double length = braking + radii / limits.max_curvature;
+    if (length > leg.norm()) {
+      starts.push_back(polyline);
+      starts.back().insert(starts.back().begin() + 1, polyline[0] + length * leg.normalized());
+    }
+  }
+  return starts;
+}
+
+bool PassesWaypoints(const Path& path, const CornerLimits& limits) {
+  const auto miss = LargestWaypointMiss(path, limits.waypoints);
+  return !miss || miss->distance <= limits.max_gap + kSameMiss;
+}
+
+}  // namespace
+
+RoundedCorners RoundCornersOrTurnBehind(const VehicleParams& vehicle,
+                                        const std::vector<Vec2>& polyline,
+                                        const CornerLimits& limits, const CollisionChecker& clear) {
+  const RoundedCorners as_given = RoundCorners(vehicle, polyline, limits, clear);
+  const bool is_bounded = limits.waypoints.size() > 1;
+  if (as_given.status == PlanStatus::kOk || as_given.status == PlanStatus::kCollides ||
+      !is_bounded) {
+    return as_given;
+  }
+  std::vector<std::vector<Vec2>> candidates;
+  for (const std::vector<Vec2>& points : WithLongerStarts(polyline, limits)) {
+    std::vector<Vec2> fewer = LeaveOutCloseWaypoints(vehicle, points, limits);
+    if (fewer != polyline) {
+      candidates.push_back(std::move(fewer));
+    }
+  }
+  // A turn behind a waypoint is the longest way.
+  for (const bool turns_behind : {false, true}) {
+    for (const std::vector<Vec2>& points : candidates) {
+      RoundedCorners rounded = RoundCorners(vehicle, points, limits, clear);
+      if (turns_behind) {
+        rounded = TurnBehindSharpCorners(vehicle, points, std::move(rounded), limits, clear);
+      }
+      if (rounded.status == PlanStatus::kOk && PassesWaypoints(rounded.path, limits)) {
+        return rounded;
+      }
+    }
+  }
+  return TurnBehindSharpCorners(vehicle, polyline, as_given, limits, clear);
 }
 
 }  // namespace trackbed

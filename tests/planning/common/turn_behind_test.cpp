@@ -110,6 +110,54 @@ TEST(RoundCornersOrTurnBehind, PassesEveryWaypointOfSharpRoutes) {
   }
 }
 
+/// Points on an arc to the left, `spacing` [m] apart.
+std::vector<Vec2> PointsOnArc(double radius, double spacing, std::size_t count) {
+  std::vector<Vec2> points;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double angle = static_cast<double>(i) * spacing / radius;
+    points.emplace_back(radius * std::sin(angle), radius * (1.0 - std::cos(angle)));
+  }
+  return points;
+}
+
+TEST(RoundCornersOrTurnBehind, FollowsABendOfClosePoints) {
+  Random random(2);
+  for (int i = 0; i < 60; ++i) {
+    const double radius = random.Uniform(12.0, 60.0);
+    const auto count = static_cast<std::size_t>(random.Uniform(4.0, 12.0));
+    // At least 5 m in all: the slowest curve of a gentle corner needs a meter or two of each leg.
+    const double spacing = random.Uniform(5.0 / static_cast<double>(count - 1), 5.0);
+    const std::vector<Vec2> route = PointsOnArc(radius, spacing, count);
+    CornerLimits limits = Limits(route, 4.5);
+    limits.deceleration = 1.5;
+    // From 3 m/s, the car needs 3 m to slow down, and some meters to turn.
+    const double length = spacing * static_cast<double>(count - 1);
+    limits.start_speed = length > 15.0 && i % 2 == 0 ? 3.0 : 0.0;
+    const RoundedCorners rounded =
+        RoundCornersOrTurnBehind(ReferenceCar(), route, limits, NothingAround());
+    ASSERT_EQ(rounded.status, PlanStatus::kOk) << i << ": " << rounded.reason;
+    for (const Vec2& point : route) {
+      EXPECT_LE(SampledDistance(rounded.path, point), limits.max_gap + Tolerance(kHalfSample)) << i;
+    }
+    // A path that turns behind a waypoint is longer by a full turn at least.
+    EXPECT_LT(rounded.path.length(), length + 2.0 * kPi / limits.max_curvature)
+        << i << ": " << count << " points " << spacing << " m apart, radius " << radius;
+  }
+}
+
+TEST(RoundCornersOrTurnBehind, LeavesOutNoWaypointBeyondTheBound) {
+  // The detour to the second waypoint is needed for a bound below its distance of 3 m.
+  const std::vector<Vec2> route{{0, 0}, {30, 0}, {33, 3}, {36, 0}, {66, 0}};
+  for (const double max_gap : {1.0, 4.0}) {
+    const RoundedCorners rounded =
+        RoundCornersOrTurnBehind(ReferenceCar(), route, Limits(route, max_gap), NothingAround());
+    ASSERT_EQ(rounded.status, PlanStatus::kOk) << rounded.reason;
+    for (const Vec2& point : route) {
+      EXPECT_LE(SampledDistance(rounded.path, point), max_gap + Tolerance(kHalfSample));
+    }
+  }
+}
+
 TEST(RoundCornersOrTurnBehind, TurnsToTheSideThatIsFree) {
   const std::vector<Vec2> route{{0, 0}, {60, 0}, {0, 20}};
   for (const double side : {1.0, -1.0}) {
