@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/planning/common/feasible_speeds.h"
+#include "trackbed/planning/common/road_hold.h"
+
 namespace trackbed {
 namespace {
 
@@ -30,6 +33,38 @@ std::vector<Segment> Straightening(const PlanRequest& request) {
   return SegmentsThrough(points);
 }
 
+/// Returns the length of a straight from a pose on which a car at the start speed slows down to
+/// `speed` [m]. On a slippery road, the car uses the share of the grip that leaves room for bends,
+/// because a plan with a bend on this road uses no more.
+double BrakingLength(const PlanRequest& request, const Pose2& from, double speed) {
+  const double deceleration = request.speed.deceleration;
+  const double squares = std::max(0.0, request.start_speed * request.start_speed - speed * speed);
+  const double shortest = squares / (2.0 * deceleration);
+  const RoadHold road(request);
+  constexpr double kLongest = 50.0;  // times the shortest length
+  const Path straight(from, {{.length = kLongest * shortest + feasible_speeds::kCheckSpacing}});
+  const auto braking = [&](double s) {
+    const double grip = road.Braking(straight, s);
+    return grip > 0.0 ? std::min(deceleration, feasible_speeds::kBendShares.braking * grip)
+                      : deceleration;
+  };
+  if (road.uniform()) {
+    return squares / (2.0 * braking(0.0));
+  }
+  double left = squares;
+  double s = 0.0;
+  double before = braking(s);
+  while (left > 0.0 && s < kLongest * shortest) {
+    const double after = braking(s + feasible_speeds::kCheckSpacing);
+    const double length =
+        std::min(feasible_speeds::kCheckSpacing, left / (2.0 * std::min(before, after)));
+    left -= 2.0 * std::min(before, after) * length;
+    s += length;
+    before = after;
+  }
+  return s;
+}
+
 }  // namespace
 
 LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond) {
@@ -40,9 +75,9 @@ LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond) {
   if (std::abs(request.start_steering) > kStraightSteering) {
     lead.segments = Straightening(request);
   }
-  const double v = request.start_speed;
-  const double straight =
-      std::max(0.0, v * v - speed * speed) / (2.0 * request.speed.deceleration) + beyond;
+  const Path straightening(request.start, lead.segments);
+  const Pose2 behind = straightening.At(straightening.length()).pose;
+  const double straight = BrakingLength(request, behind, speed) + beyond;
   if (straight > 0.0) {
     lead.segments.push_back({.length = straight});
   }
@@ -50,6 +85,27 @@ LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond) {
   lead.length = path.length();
   lead.end = path.At(lead.length).pose;
   return lead;
+}
+
+std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request) {
+  const double radius = request.vehicle.min_turning_radius();
+  const double braking = BrakingLength(request, request.start, 0.0);
+  const Vec2 ahead = Direction(request.start.yaw);
+  const Vec2 from = request.start.position();
+  std::vector<std::vector<Vec2>> ways;
+  for (const double radii : {0.5, 1.0, 2.0}) {
+    ways.push_back({from, from + (braking + radii * radius) * ahead});
+  }
+  for (const double radii : {1.5, 2.5}) {
+    for (const double side : {1.0, -1.0}) {
+      // Add polylines with one quarter turn and with two quarter turns.
+      const Vec2 corner = from + (braking + radii * radius) * ahead;
+      const Vec2 beside = corner + 2.0 * side * radii * radius * LeftNormal(ahead);
+      ways.push_back({from, corner, beside});
+      ways.push_back({from, corner, beside, beside - 2.0 * radii * radius * ahead});
+    }
+  }
+  return ways;
 }
 
 }  // namespace trackbed

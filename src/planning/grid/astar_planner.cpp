@@ -7,6 +7,7 @@
 
 #include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/route.h"
 #include "trackbed/planning/grid/astar.h"
 
@@ -93,31 +94,6 @@ Plan PlanGrid(const AStarOptions& options, const PlanRequest& request, const Occ
                               options.safe_distance, options.min_speed);
 }
 
-/// Returns polylines that leave the start in the direction of the car's heading, the shortest
-/// first. Some of these polylines also make one or two quarter turns, because the goal may be
-/// behind the car.
-std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request) {
-  const double radius = request.vehicle.min_turning_radius();
-  const double braking =
-      0.5 * request.start_speed * request.start_speed / request.speed.deceleration;
-  const Vec2 ahead = Direction(request.start.yaw);
-  const Vec2 from = request.start.position();
-  std::vector<std::vector<Vec2>> ways;
-  for (const double radii : {0.5, 1.0, 2.0}) {
-    ways.push_back({from, from + (braking + radii * radius) * ahead});
-  }
-  for (const double radii : {1.5, 2.5}) {
-    for (const double side : {1.0, -1.0}) {
-      // Add polylines with one quarter turn and with two quarter turns.
-      const Vec2 corner = from + (braking + radii * radius) * ahead;
-      const Vec2 beside = corner + 2.0 * side * radii * radius * LeftNormal(ahead);
-      ways.push_back({from, corner, beside});
-      ways.push_back({from, corner, beside, beside - 2.0 * radii * radius * ahead});
-    }
-  }
-  return ways;
-}
-
 bool IsFree(const std::vector<Vec2>& points, const BoxIndex& boxes, const Inflation& inflation) {
   for (std::size_t i = 1; i < points.size(); ++i) {
     if (!boxes.KeepsFrom(points[i - 1], points[i], inflation)) {
@@ -195,12 +171,12 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
   Plan direct = planner.From({request.start.position()});
   const std::vector<Excess> excesses =
       direct.ok() ? FindExcesses(direct, request) : std::vector<Excess>{};
-  // Ignore violations that a lower speed removes, because such violations do not depend on the
-  // initial heading.
-  const bool begins_right = std::all_of(excesses.begin(), excesses.end(), [](const Excess& excess) {
-    return excess.remedy != Remedy::kNone;
+  const auto wrong_start = std::find_if(excesses.begin(), excesses.end(), [](const Excess& excess) {
+    return excess.remedy == Remedy::kNone;
   });
-  if ((direct.ok() && begins_right) || options.corners == Corners::kRefuse) {
+  const bool begins_right = wrong_start == excesses.end();
+  if (options.corners == Corners::kRefuse ||
+      (direct.ok() && begins_right && MakeFeasible(direct, request).ok())) {
     return direct;
   }
   const BoxIndex obstacles(request.obstacles);
@@ -214,7 +190,7 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
       return plan;
     }
   }
-  if (!direct.ok()) {
+  if (!direct.ok() || begins_right) {
     return direct;
   }
   return Refused(
@@ -222,9 +198,7 @@ Plan PlanWith(const AStarOptions& options, const PlanRequest& request) {
       fmt::format(
           "the path is not feasible: {}; no path was found that starts at the car's heading of "
           "{:.3g} rad{}",
-          ToString(*std::find_if(excesses.begin(), excesses.end(),
-                                 [](const Excess& e) { return e.remedy == Remedy::kNone; })),
-          request.start.yaw,
+          ToString(*wrong_start), request.start.yaw,
           request.start_speed > 0.0
               ? fmt::format(" and leaves room to slow down from {:.3g} m/s", request.start_speed)
               : ""));

@@ -18,7 +18,14 @@ struct LeadIn {
 
 /// Computes the lead-in, the first meters of a plan, for the car of a request. On the lead-in, the
 /// car first straightens its wheels at the start speed. Then the car continues straight, slows down
-/// to `speed` [m/s] with the deceleration of the request, and drives another `beyond` [m].
+/// to `speed` [m/s] with the deceleration of the request, or less where the road is slippery, and
+/// drives another `beyond` [m].
 LeadIn ComputeLeadIn(const PlanRequest& request, double speed, double beyond);
+
+/// Returns polylines that leave the start in the direction of the car's heading, the shortest
+/// first. A rolling car can stop on the first leg of each. Some of these polylines also make one or
+/// two quarter turns, because the first waypoint may be behind the car. Each turn has room for the
+/// car's smallest radius.
+std::vector<std::vector<Vec2>> DeparturePolylines(const PlanRequest& request);
 
 }  // namespace trackbed
