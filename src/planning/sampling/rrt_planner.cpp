@@ -57,13 +57,15 @@ std::vector<OptionProblem> CheckDetour(const RrtPlannerOptions& options) {
   return problems;
 }
 
-SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& request) {
+SamplingTask MakeTask(const RrtPlannerOptions& options, const PlanRequest& request,
+                      const std::vector<Vec2>& departure) {
   return MakeSamplingTask({.corners = options.corners,
                            .safe_distance = options.safe_distance,
                            .corner_room = options.corner_room,
                            .margin = options.margin,
                            .lead_in = options.lead_in,
-                           .wind_weight = options.wind_weight},
+                           .wind_weight = options.wind_weight,
+                           .departure = departure},
                           request);
 }
 
@@ -123,11 +125,8 @@ TreePath GrowPath(const Forest& forest, std::uint64_t seed, long& samples) {
   const SamplingTask& task = forest.task;
   const Pose2& frame = forest.request.start;
   TreePath way;
-  way.points.emplace_back(0.0, 0.0);
-  if (task.lead.x() > 0.0) {
-    way.points.push_back(task.lead);
-  }
-  Vec2 from = task.lead;
+  way.points = task.departure;
+  Vec2 from = task.departure.back();
   for (const Vec2& goal : task.goals) {
     const RrtResult tree =
         PlanRrt({.start = from,
@@ -169,6 +168,7 @@ TreePath GrowPath(const Forest& forest, std::uint64_t seed, long& samples) {
 struct Try {
   TreePath way;
   Plan plan;
+  std::optional<Plan> rejected{};  ///< The plan before MakeFeasible rejected it.
   PathScore score;
 
   [[nodiscard]] bool is_partial() const { return way.status != RrtStatus::kReached; }
@@ -211,12 +211,19 @@ Plan RefusedAs(const TreePath& way, const Forest& forest) {
                   way.goals + 1, forest.task.inflation.most));
 }
 
-Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points) {
+/// Returns the plan along the points, or the reason why it is not feasible. Then `rejected` gets
+/// the plan.
+Plan PlanAlongRoute(const Forest& forest, const std::vector<Vec2>& points,
+                    std::optional<Plan>& rejected) {
   Plan plan = route::AlongPolyline({}, forest.request, InWorld(forest.request.start, points),
                                    forest.options.corners, forest.options.safe_distance,
                                    forest.options.min_speed);
   Plan tested = MakeFeasible(plan, forest.request);
-  return tested.ok() ? plan : tested;
+  if (tested.ok()) {
+    return plan;
+  }
+  rejected = plan.ok() ? std::optional(std::move(plan)) : std::nullopt;
+  return tested;
 }
 
 /// Plans a partial path that ends at the tree's node nearest to the next goal, because the tree did
@@ -240,7 +247,7 @@ void UsePartialPath(const Forest& forest, Try& next) {
     if (points.size() < 2) {
       break;  // the car would not move
     }
-    next.plan = PlanAlongRoute(forest, points);
+    next.plan = PlanAlongRoute(forest, points, next.rejected);
     if (next.plan.ok()) {
       next.way.points = points;
       next.way.left = (goal - points.back()).norm();
@@ -257,7 +264,7 @@ Try TryTree(const Forest& forest, std::uint64_t seed, long& samples) {
   Try next;
   next.way = GrowPath(forest, seed, samples);
   if (!next.is_partial()) {
-    next.plan = PlanAlongRoute(forest, next.way.points);
+    next.plan = PlanAlongRoute(forest, next.way.points, next.rejected);
   } else if (MayBePartial(forest.options) && !next.way.nearest.empty()) {
     UsePartialPath(forest, next);
   } else {
@@ -293,10 +300,11 @@ void RecordBudget(const Forest& forest, const Try& best, const std::string& budg
   }
 }
 
-Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
-  const SamplingTask task = MakeTask(options, request);
+TreesPlan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request,
+                    const std::vector<Vec2>& departure) {
+  const SamplingTask task = MakeTask(options, request, departure);
   if (Plan refused = CheckLeadIn(task, request, options.safe_distance); !refused.ok()) {
-    return refused;
+    return {std::move(refused)};
   }
   const CornerTangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));
   Forest forest{options, request, task, tangents, {}};
@@ -334,7 +342,7 @@ Plan PlanTrees(const RrtPlannerOptions& options, const PlanRequest& request) {
   if (plan.ok()) {
     plan.tree = std::move(best->way.tree);
   }
-  return plan;
+  return {std::move(plan), std::move(best->rejected)};
 }
 
 Plan PlanWith(const RrtPlannerOptions& options, const PlanRequest& request) {

@@ -13,13 +13,15 @@
 namespace trackbed {
 namespace {
 
-SamplingTask MakeStarTask(const RrtStarPlannerOptions& options, const PlanRequest& request) {
+SamplingTask MakeStarTask(const RrtStarPlannerOptions& options, const PlanRequest& request,
+                          const std::vector<Vec2>& departure) {
   return MakeSamplingTask({.corners = options.corners,
                            .safe_distance = options.safe_distance,
                            .corner_room = options.corner_room,
                            .margin = options.margin,
                            .lead_in = options.lead_in,
-                           .wind_weight = 0.0},
+                           .wind_weight = 0.0,
+                           .departure = departure},
                           request);
 }
 
@@ -85,17 +87,14 @@ RrtStarResult GrowLeg(const RrtStarPlannerOptions& options, const SamplingTask& 
 
 /// Plans a path through all waypoints, with one tree per leg. Stores the legs of the plan in
 /// `diagnostics`.
-Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& request,
-                  const SamplingTask& task, const CornerTangents& tangents, std::uint64_t seed,
-                  RrtStarPlanDiagnostics& diagnostics, long& samples) {
+TreesPlan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& request,
+                       const SamplingTask& task, const CornerTangents& tangents, std::uint64_t seed,
+                       RrtStarPlanDiagnostics& diagnostics, long& samples) {
   diagnostics.legs.clear();
   const BoxIndex obstacles(task.obstacles);
-  std::vector<Vec2> points{{0.0, 0.0}};
-  if (task.lead.x() > 0.0) {
-    points.push_back(task.lead);
-  }
+  std::vector<Vec2> points = task.departure;
   std::vector<TreeNode> tree;
-  Vec2 from = task.lead;
+  Vec2 from = points.back();
   for (std::size_t i = 0; i < task.goals.size(); ++i) {
     const RrtStarResult found = GrowLeg(options, task, obstacles, from, task.goals[i], seed + i,
                                         request.max_samples - samples);
@@ -106,7 +105,7 @@ Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& reque
                                 .cost = found.ok() ? std::optional(found.cost) : std::nullopt,
                                 .path = InWorld(request.start, found.path)});
     if (!found.ok()) {
-      return StarRefused(options, task, found, i + 1);
+      return {StarRefused(options, task, found, i + 1)};
     }
     AddNodes(found, request.start, tree);
     AddPruned(task, tangents, options.corner_cost, found.path, i + 1 == task.goals.size(), points);
@@ -115,23 +114,25 @@ Plan PlanStarTree(const RrtStarPlannerOptions& options, const PlanRequest& reque
   Plan plan = route::AlongPolyline({}, request, InWorld(request.start, points), options.corners,
                                    options.safe_distance, options.min_speed);
   if (Plan tested = MakeFeasible(plan, request); !tested.ok()) {
-    return tested;
+    return {tested, plan.ok() ? std::optional(std::move(plan)) : std::nullopt};
   }
   plan.tree = std::move(tree);
-  return plan;
+  return {std::move(plan)};
 }
 
-Plan PlanStarTrees(const RrtStarPlannerOptions& options, const PlanRequest& request) {
-  const SamplingTask task = MakeStarTask(options, request);
+TreesPlan PlanStarTrees(const RrtStarPlannerOptions& options, const PlanRequest& request,
+                        const std::vector<Vec2>& departure) {
+  const SamplingTask task = MakeStarTask(options, request, departure);
   if (Plan refused = CheckLeadIn(task, request, options.safe_distance); !refused.ok()) {
-    return refused;
+    return {std::move(refused)};
   }
   const CornerTangents tangents(request.vehicle, std::min(options.min_speed, request.speed.speed));
   RrtStarPlanDiagnostics diagnostics;
-  Plan plan;
+  TreesPlan found;
+  Plan& plan = found.plan;
   long samples = 0;
   for (int i = 0; i < options.trees && (i == 0 || samples < request.max_samples); ++i) {
-    plan =
+    found =
         PlanStarTree(options, request, task, tangents,
                      request.seed + (static_cast<std::uint64_t>(i) << 32U), diagnostics, samples);
     diagnostics.trees.push_back({plan.status, plan.reason});
@@ -141,7 +142,7 @@ Plan PlanStarTrees(const RrtStarPlannerOptions& options, const PlanRequest& requ
   }
   plan.diagnostics.planner = std::move(diagnostics);
   plan.diagnostics.samples = samples;
-  return plan;
+  return found;
 }
 
 Plan PlanStar(const RrtStarPlannerOptions& options, const PlanRequest& request) {

@@ -28,20 +28,37 @@ double StraightStart(double lead_in, const PlanRequest& request) {
   return std::min(lead_in, 0.5 * ToLocal(request.start, request.waypoints.at(1)).norm());
 }
 
+std::vector<std::vector<Vec2>> DeparturesToNearWaypoint(const PlanRequest& request) {
+  std::vector<std::vector<Vec2>> departures = DeparturePolylines(request);
+  double longest = 0.0;
+  for (const std::vector<Vec2>& points : departures) {
+    longest = std::max(longest, ToLocal(request.start, points[1]).x());
+  }
+  const double ahead = ToLocal(request.start, request.waypoints.at(1)).x();
+  return ahead < longest ? departures : std::vector<std::vector<Vec2>>{};
+}
+
 SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequest& request) {
   const Pose2& frame = request.start;
   SamplingTask task;
   for (std::size_t i = 1; i < request.waypoints.size(); ++i) {
     task.goals.push_back(ToLocal(frame, request.waypoints[i]));
   }
-  task.lead.x() = StraightStart(options.lead_in, request);
+  task.departure.emplace_back(0.0, 0.0);
+  if (const double straight = StraightStart(options.lead_in, request);
+      options.departure.empty() && straight > 0.0) {
+    task.departure.emplace_back(straight, 0.0);
+  }
+  for (std::size_t i = 1; i < options.departure.size(); ++i) {
+    task.departure.push_back(ToLocal(frame, options.departure[i]));
+  }
   for (const OrientedBox& box : request.obstacles) {
     task.obstacles.push_back({InFrame(frame, box.center), box.length, box.width});
   }
   const double inflation = 0.5 * request.vehicle.width + options.safe_distance +
                            (options.corners == Corners::kRound ? options.corner_room : 0.0);
   const CollisionChecker clear = route::CheckerFromStart(request, options.safe_distance);
-  std::vector<Vec2> ends{task.lead};
+  std::vector<Vec2> ends{task.departure.back()};
   for (const Vec2& goal : route::GoalsOutsideObstacles(request, clear)) {
     ends.push_back(ToLocal(frame, goal));
   }
@@ -49,7 +66,8 @@ SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequ
   task.lead_inflation = InflationAt({{0.0, 0.0}}, task.obstacles, inflation);
   task.goal_distance = clear.inner_radius() + options.safe_distance;
   std::vector<Vec2> points = task.goals;
-  points.push_back(task.lead);
+  const std::ptrdiff_t after_start = task.departure.size() > 1 ? 1 : 0;
+  points.insert(points.end(), task.departure.begin() + after_start, task.departure.end());
   task.area = AreaAround({}, points, task.obstacles, options.margin);
   task.wind = {.wind = request.wind, .speed = request.speed.speed, .weight = options.wind_weight};
   task.wind.wind.velocity = DirectionInFrame(frame, request.wind.velocity);
@@ -66,10 +84,18 @@ Plan CheckLeadIn(const SamplingTask& task, const PlanRequest& request, double sa
   if (Plan refused = route::CheckStart(request, safe_distance); !refused.ok()) {
     return refused;
   }
-  const double length = task.lead.x();
-  if (BoxIndex(task.obstacles).KeepsFrom({0.0, 0.0}, task.lead, task.lead_inflation) ||
-      route::CheckerFromStart(request, safe_distance)
-          .IsFree(request.start, Segment{.length = length})) {
+  const BoxIndex obstacles(task.obstacles);
+  const std::vector<Vec2>& points = task.departure;
+  double length = 0.0;
+  bool is_free = true;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec2& from = points[i > 0 ? i - 1 : 0];
+    length += (points[i] - from).norm();
+    is_free = is_free && obstacles.KeepsFrom(from, points[i], task.lead_inflation);
+  }
+  const bool is_straight = points.size() <= 2;
+  if (is_free || (is_straight && route::CheckerFromStart(request, safe_distance)
+                                     .IsFree(request.start, Segment{.length = length}))) {
     return {};
   }
   return route::Refused(

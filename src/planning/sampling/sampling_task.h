@@ -9,6 +9,8 @@
 #include "trackbed/core/angle.h"
 #include "trackbed/geometry/box_index.h"
 #include "trackbed/planning/common/corners.h"
+#include "trackbed/planning/common/feasibility.h"
+#include "trackbed/planning/common/lead_in.h"
 #include "trackbed/planning/common/occupancy_grid.h"
 #include "trackbed/planning/common/plan.h"
 #include "trackbed/planning/sampling/smoothing.h"
@@ -20,12 +22,15 @@ namespace trackbed {
 
 /// The mission in the car's start frame.
 struct SamplingTask {
-  Vec2 lead{0.0, 0.0};  ///< Root of the first tree, equal to the end of the initial straight [m].
+  /// First points of the path [m], from the start to the root of the first tree. The first leg is
+  /// the initial straight.
+  std::vector<Vec2> departure{};
   std::vector<Vec2> goals;  ///< Goals of the trees, in the order of the mission.
   std::vector<OrientedBox> obstacles;
-  /// Distance of lines from obstacles in the search, reduced where the lead or a goal is nearer.
+  /// Distance of lines from obstacles in the search, reduced where the departure
+  /// ends or a goal is nearer.
   Inflation inflation = 0.0;
-  /// Distance of the initial straight from obstacles, reduced where the start is nearer.
+  /// Distance of the departure from obstacles, reduced where the start is nearer.
   Inflation lead_inflation = 0.0;
   double goal_distance = 0.0;  ///< Smallest distance of a goal from obstacles [m].
   GridArea area;               ///< Area from which the planners sample.
@@ -40,13 +45,15 @@ struct SamplingTaskOptions {
   double margin = 0.0;
   double lead_in = 0.0;
   double wind_weight = 0.0;
+  /// First points of the path in the world frame [m]; empty: an initial straight (`lead_in`).
+  std::vector<Vec2> departure{};
 };
 
 SamplingTask MakeSamplingTask(const SamplingTaskOptions& options, const PlanRequest& request);
 
-/// Checks whether the car is clear of obstacles at its start, and whether the initial straight is
-/// free: for a point that keeps its distance, or for the car's footprint. If not, returns a failed
-/// plan with the reason.
+/// Checks whether the car is clear of obstacles at its start, and whether the first points of the
+/// path are free: for a point that keeps its distance or, on a straight, for the car's footprint.
+/// If not, returns a failed plan with the reason.
 Plan CheckLeadIn(const SamplingTask& task, const PlanRequest& request, double safe_distance);
 
 /// Tangent lengths of corners at the lowest speed, tabulated by heading change.
@@ -78,48 +85,81 @@ Plan GoalBlocked(const SamplingTask& task, std::size_t waypoint);
 /// first waypoint after the start.
 double StraightStart(double lead_in, const PlanRequest& request);
 
+/// Returns DeparturePolylines if the first waypoint is behind or beside the car, or so near that
+/// the car passes it before it is slow enough to turn; otherwise nothing.
+std::vector<std::vector<Vec2>> DeparturesToNearWaypoint(const PlanRequest& request);
+
 /// Number of initial straights that PlanWithLeadIn tries.
 inline constexpr int kLeadIns = 3;
+
+/// The plan of one call of `plan_trees`.
+struct TreesPlan {
+  Plan plan;
+  /// The best plan before MakeFeasible rejected it; none if no plan was rejected. Explains the
+  /// rejection.
+  std::optional<Plan> rejected{};
+};
+
+/// Returns whether another start of the path may lead to a plan.
+inline bool IsTooNear(const Plan& plan) {
+  return plan.status == PlanStatus::kTurnTooTight || plan.status == PlanStatus::kInfeasible ||
+         plan.status == PlanStatus::kUTurn || plan.status == PlanStatus::kWaypointMissed;
+}
 
 /// Plans with `plan_trees`. If the plan of a rolling car fails because its first corner is too
 /// near, PlanWithLeadIn retries with up to `tries` longer initial straights. The first retry uses
 /// the longest initial straight, on which the car can stop. If an obstacle blocks the longest
-/// straight, the next retries add only a half or a quarter of the additional length. For these
-/// shorter straights, PlanWithLeadIn grows only one tree each, because many refused missions have
-/// no plan at all.
+/// straight, the next retries add only a half or a quarter of the additional length. The last
+/// retries begin with DeparturesToNearWaypoint, unless the options have no initial straight, or
+/// allow only one retry. All retries but the first grow only one tree each, because many refused
+/// missions have no plan at all. A rejection of the first plan is explained (Refusal::kExplained).
 template <typename Options, typename PlanTrees>
 Plan PlanWithLeadIn(const Options& options, const PlanRequest& request, const PlanTrees& plan_trees,
                     int tries) {
   PlanRequest left = request;
-  Plan plan = plan_trees(options, left);
-  long samples = plan.diagnostics.samples;
-  const bool too_near =
-      plan.status == PlanStatus::kTurnTooTight || plan.status == PlanStatus::kInfeasible;
-  if (!too_near || options.corners == Corners::kRefuse || request.start_speed == 0.0) {
+  TreesPlan first = plan_trees(options, left, std::vector<Vec2>{});
+  Plan plan = std::move(first.plan);
+  if (!IsTooNear(plan) || options.corners == Corners::kRefuse) {
     return plan;
   }
+  long samples = plan.diagnostics.samples;
+  const auto retry = [&](const Options& changed, const std::vector<Vec2>& departure) {
+    left.max_samples = request.max_samples - samples;
+    Plan again = plan_trees(changed, left, departure).plan;
+    samples += again.diagnostics.samples;
+    if (again.ok()) {
+      plan = std::move(again);
+    }
+    return plan.ok();
+  };
   double more = 0.5 * request.start_speed * request.start_speed / request.speed.deceleration +
                 request.vehicle.min_turning_radius();
   // Skip lengths that were tried before, because the same initial straight would give the same
   // trees.
   std::vector<double> tried{StraightStart(options.lead_in, request)};
-  for (int i = 0; i < tries; ++i, more *= 0.5) {
+  for (int i = 0; i < tries && !plan.ok() && request.start_speed > 0.0; ++i, more *= 0.5) {
     Options longer = options;
     longer.lead_in += more;
     longer.trees = i == 0 ? options.trees : 1;
     const double straight = StraightStart(longer.lead_in, request);
-    if (samples >= request.max_samples ||
-        std::find(tried.begin(), tried.end(), straight) != tried.end()) {
-      continue;
+    if (samples < request.max_samples &&
+        std::find(tried.begin(), tried.end(), straight) == tried.end()) {
+      tried.push_back(straight);
+      retry(longer, {});
     }
-    tried.push_back(straight);
-    left.max_samples = request.max_samples - samples;
-    Plan again = plan_trees(longer, left);
-    samples += again.diagnostics.samples;
-    if (again.ok()) {
-      plan = std::move(again);
-      break;
+  }
+  if (!plan.ok() && options.lead_in > 0.0 && tries >= kLeadIns) {
+    Options once = options;
+    once.trees = 1;
+    for (const std::vector<Vec2>& departure : DeparturesToNearWaypoint(request)) {
+      if (samples >= request.max_samples || retry(once, departure)) {
+        break;
+      }
     }
+  }
+  if (plan.status == PlanStatus::kInfeasible && first.rejected) {
+    Plan explained = MakeFeasible(std::move(*first.rejected), request, Refusal::kExplained);
+    plan.reason = explained.reason;
   }
   plan.diagnostics.samples = samples;
   return plan;

@@ -1,5 +1,6 @@
 #include "src/planning/sampling/sampling_task.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -39,11 +40,14 @@ double Longer() {
 
 std::vector<Asked> AskedWhenRefused(const PlanRequest& request, PlanStatus status) {
   std::vector<Asked> asked;
-  const auto refuse = [&](const Options& options, const PlanRequest&) {
-    asked.push_back({options.lead_in, options.trees});
-    Plan plan;
-    plan.status = status;
-    return plan;
+  const auto refuse = [&](const Options& options, const PlanRequest&,
+                          const std::vector<Vec2>& departure) {
+    if (departure.empty()) {
+      asked.push_back({options.lead_in, options.trees});
+    }
+    TreesPlan found;
+    found.plan.status = status;
+    return found;
   };
   EXPECT_EQ(PlanWithLeadIn(Options{}, request, refuse, kLeadIns).status, status);
   return asked;
@@ -69,6 +73,41 @@ TEST(PlanWithLeadIn, TriesNoOtherWhereALongerOneDoesNotHelp) {
   PlanRequest standing = Rolling(100.0);
   standing.start_speed = 0.0;
   EXPECT_EQ(AskedWhenRefused(standing, PlanStatus::kTurnTooTight).size(), 1U);
+}
+
+TEST(PlanWithLeadIn, LeavesACarThatHeadsElsewhereByATurn) {
+  PlanRequest standing = Rolling(-100.0);  // the waypoint is behind the car
+  standing.start_speed = 0.0;
+  std::vector<std::vector<Vec2>> departures;
+  const auto accept_turns = [&](const Options&, const PlanRequest&,
+                                const std::vector<Vec2>& departure) {
+    departures.push_back(departure);
+    TreesPlan found;
+    found.plan.status = departure.size() > 2 ? PlanStatus::kOk : PlanStatus::kUTurn;
+    return found;
+  };
+  EXPECT_TRUE(PlanWithLeadIn(Options{}, standing, accept_turns, kLeadIns).ok());
+  EXPECT_TRUE(departures.front().empty());
+  EXPECT_EQ(departures.back().size(), 3U);
+  // A waypoint far ahead needs no turn.
+  standing.waypoints[1].x() = 100.0;
+  departures.clear();
+  EXPECT_FALSE(PlanWithLeadIn(Options{}, standing, accept_turns, kLeadIns).ok());
+  EXPECT_EQ(departures.size(), 1U);
+}
+
+TEST(PlanWithLeadIn, NamesTheStartSpeedThatFits) {
+  // On 1 m, a car can stop with twice the deceleration of 1.5 m/s^2 from sqrt(2 3 1) = 2.45 m/s.
+  const PlanRequest request = Rolling(1.0);
+  const auto too_short = [&](const Options&, const PlanRequest&, const std::vector<Vec2>&) {
+    Plan plan;
+    plan.reference.path = Path({}, {{.length = 1.0}});
+    SetSpeeds(plan, request.start_speed, request.speed);
+    return TreesPlan{MakeFeasible(plan, request), plan};
+  };
+  const Plan plan = PlanWithLeadIn(Options{}, request, too_short, kLeadIns);
+  EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
+  EXPECT_THAT(plan.reason, testing::HasSubstr("set mission.start.speed to at most 2.4"));
 }
 
 TEST(StraightStart, EndsHalfWayToTheFirstWaypointAtMost) {
