@@ -259,10 +259,12 @@ TEST(Feasibility, GivesTheStartSpeedForAShortPath) {
 
 TEST(Feasibility, RefusesAPathThatBeginsElsewhere) {
   PlanRequest request = Request(3.0, {{0.0, 0.0}, {40.0, 0.0}, {40.0, 40.0}});
-  request.start.x = -20.0;
+  request.start = {-20.0, 0.0, 0.5};
   const Plan plan = MakePlan(request, FilletOptions{});
   EXPECT_EQ(plan.status, PlanStatus::kInfeasible);
-  EXPECT_NE(plan.reason.find("initial position error 20 m"), std::string::npos) << plan.reason;
+  EXPECT_THAT(plan.reason, testing::HasSubstr("initial position error 20 m"));
+  EXPECT_THAT(plan.reason, testing::HasSubstr("begins at (0, 0), the car at (-20, 0)"));
+  EXPECT_THAT(plan.reason, testing::HasSubstr("set mission.start.yaw: 0)"));
 }
 
 TEST(Feasibility, RefusesToBrakeHarderThanTheSpeedControlDoes) {
