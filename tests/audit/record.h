@@ -36,9 +36,12 @@ struct Patch {
 
 /// The task that the scenario sets.
 struct Mission {
-  TimedPose start;                          ///< rear axle at t = 0
-  double start_speed = 0.0;                 ///< [m/s]
-  double start_steering = 0;                ///< [rad]
+  TimedPose start;            ///< rear axle at t = 0
+  double start_speed = 0.0;   ///< [m/s]
+  double start_steering = 0;  ///< [rad]
+  std::vector<Point> waypoints{};
+  std::vector<double> headings{};           ///< at the waypoints; empty: any [rad]
+  double speed = 0.0;                       ///< [m/s]
   std::optional<Point> goal{};              ///< the last waypoint; none: the plan's end
   std::optional<double> goal_heading{};     ///< [rad]
   double acceleration = 0.0;                ///< upper limit of plans [m/s^2]
@@ -75,7 +78,13 @@ struct Drive {
 struct Record {
   std::string name;
   bool plan_ok = false;
-  std::string blocked{};          ///< why the plan ends before the goal, or empty
+  std::string status{};   ///< of the plan, as in plan.json
+  std::string reason{};   ///< why there is no plan, or empty
+  std::string blocked{};  ///< why the plan ends before the goal, or empty
+  std::string partial{};  ///< why the search ended before the goal, or empty
+  std::vector<std::string> notes{};
+  std::vector<double> stops{};    ///< stations at which the wheels turn at rest [m]
+  double planning_time = 0.0;     ///< [s]
   trackbed::Table plan{{"s_m"}};  ///< plan.csv
   bool passed = false;            ///< the verdict
   std::vector<Drive> drives{};

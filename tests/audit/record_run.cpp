@@ -111,6 +111,11 @@ Mission MissionFrom(const trackbed::Scenario& scenario, const trackbed::VehicleP
                   .leans_on_slope = scenario.disturb.payload.has_value() &&
                                     !trackbed::IsFlat(scenario.world.ground),
                   .road_friction = scenario.world.friction};
+  for (const trackbed::Vec2& point : scenario.mission.waypoints) {
+    mission.waypoints.push_back({point.x(), point.y()});
+  }
+  mission.headings = scenario.mission.headings;
+  mission.speed = scenario.mission.speed;
   if (!scenario.mission.waypoints.empty()) {
     const trackbed::Vec2& goal = scenario.mission.waypoints.back();
     mission.goal = Point{goal.x(), goal.y()};
@@ -149,21 +154,41 @@ Mission MissionFrom(const trackbed::Scenario& scenario, const trackbed::VehicleP
   return mission;
 }
 
+Record RecordOfPlan(const trackbed::Scenario& scenario, const trackbed::CarModel& model,
+                    const trackbed::RunResult& result) {
+  const trackbed::Plan& plan = result.plan;
+  Record record{.name = scenario.name,
+                .plan_ok = plan.ok(),
+                .status = trackbed::ToString(plan.status),
+                .reason = plan.reason,
+                .blocked = plan.blocked,
+                .partial = plan.partial,
+                .notes = plan.notes,
+                .stops = plan.stops,
+                .planning_time = result.planning_time};
+  record.car = CarFrom(model);
+  record.mission = MissionFrom(scenario, model.unladen());
+  record.plan = Table(kPlanColumns);
+  if (record.plan_ok) {
+    AddPlan(record.plan, plan, std::nullopt);
+  }
+  return record;
+}
+
 }  // namespace
+
+Record RecordPlan(const trackbed::Scenario& scenario, trackbed::CarCache& cars) {
+  trackbed::CheckScenario(scenario);
+  const std::shared_ptr<const trackbed::CarModel> model = cars.Load(scenario);
+  return RecordOfPlan(scenario, *model, trackbed::PlanRun(scenario, *model));
+}
 
 Record RecordRun(trackbed::Scenario scenario) {
   scenario.drive.state_period = scenario.drive.timestep;
   trackbed::CheckScenario(scenario);
   const trackbed::CarModel model = trackbed::LoadCar(scenario);
   const trackbed::RunResult result = trackbed::RunScenario(scenario, model);
-  Record record{
-      .name = scenario.name, .plan_ok = result.plan.ok(), .blocked = result.plan->blocked};
-  record.car = CarFrom(model);
-  record.mission = MissionFrom(scenario, model.unladen());
-  record.plan = Table(kPlanColumns);
-  if (record.plan_ok) {
-    AddPlan(record.plan, result.plan, std::nullopt);
-  }
+  Record record = RecordOfPlan(scenario, model, result);
   const nlohmann::json metrics = trackbed::MetricsJson(result);
   record.passed = metrics.at("verdict").at("passed").get<bool>();
   for (const trackbed::RunLog& log : result.logs) {

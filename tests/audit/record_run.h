@@ -2,6 +2,7 @@
 
 #include "tests/audit/record.h"
 #include "trackbed/analysis/run.h"
+#include "trackbed/drive/car_cache.h"
 
 namespace audit {
 
@@ -9,5 +10,8 @@ namespace audit {
 /// physics step, regardless of the scenario's state_period. Throws InputError like
 /// trackbed::RunScenario.
 Record RecordRun(trackbed::Scenario scenario);
+
+/// Only plans a scenario, without driving it; the record has no drives. Reads cars from `cars`.
+Record RecordPlan(const trackbed::Scenario& scenario, trackbed::CarCache& cars);
 
 }  // namespace audit
