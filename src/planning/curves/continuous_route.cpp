@@ -27,6 +27,9 @@ namespace {
 /// Cost of a change of direction [m], equal to that of hybrid A*.
 constexpr double kCuspPenalty = 5.0;
 
+/// Share of the tyres' grip on turns; the rest is left for braking and for corrections.
+constexpr double kGripShare = 0.5;
+
 /// Lowest speed of a leg as a fraction of the mission's speed, and the ratio of neighboring
 /// choices.
 constexpr double kSlowest = 0.2;
@@ -105,10 +108,10 @@ class RoutePlanner {
 
   /// The largest curvature at `speed` [1/m].
   [[nodiscard]] double MaxCurvature(double speed) const {
-    const double grip =
-        MaxLateralAcceleration(request_.vehicle, request_.friction) / (speed * speed);
-    const double most = 1.0 / route_.radius;
-    return grip > 0.0 ? std::min(most, grip) : most;
+    const double grip = kGripShare * MaxLateralAcceleration(request_.vehicle, request_.friction);
+    const double most = grip > 0.0 ? std::min(grip, route_.max_lateral_acceleration)
+                                   : route_.max_lateral_acceleration;
+    return std::min(1.0 / route_.radius, most / (speed * speed));
   }
 
   /// The limits of a leg; a car that starts with sharper steering may keep it on its first leg.
@@ -143,8 +146,12 @@ class RoutePlanner {
         return curves.DubinsWords(start, goal);
       case CurveMotion::kContinuous:
         return curves.ReedsSheppWords(start, goal);
-      case CurveMotion::kHybrid:
-        return curves.HybridReedsSheppWords(start, goal);
+      case CurveMotion::kHybrid: {
+        std::vector<ShortestCurve> words = curves.HybridReedsSheppWords(start, goal);
+        const std::vector<ShortestCurve> continuous = curves.ReedsSheppWords(start, goal);
+        words.insert(words.end(), continuous.begin(), continuous.end());
+        return words;
+      }
     }
     return {};
   }

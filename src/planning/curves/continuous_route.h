@@ -9,6 +9,7 @@ namespace trackbed {
 struct ContinuousRoute {
   CurveMotion motion = CurveMotion::kForwards;
   CurveObjective objective = CurveObjective::kLength;
+  double max_lateral_acceleration = 1.0;  // [m/s^2]
   double max_steering_rate_fraction = 1.0;
   double radius = 1.0;         // smallest radius [m]
   double safe_distance = 0.0;  // of the footprint from obstacles [m]

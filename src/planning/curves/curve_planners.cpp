@@ -175,7 +175,7 @@ Plan PlanCurves(const Options& options, const PlanRequest& request, const Words&
 /// Plans a path of curves of continuous curvature.
 template <typename Options>
 Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMotion motion) {
-  for (Plan refused : {CheckRoute(request), CheckRadius(request.vehicle, options.radius),
+  for (Plan refused : {CheckPoses(request), CheckRadius(request.vehicle, options.radius),
                        CheckStops(PlannedStops(request), request, options.safe_distance)}) {
     if (!refused.ok()) {
       return refused;
@@ -183,6 +183,7 @@ Plan PlanContinuous(const Options& options, const PlanRequest& request, CurveMot
   }
   const ContinuousRoute route{.motion = motion,
                               .objective = options.objective,
+                              .max_lateral_acceleration = options.max_lateral_acceleration,
                               .max_steering_rate_fraction = options.max_steering_rate_fraction,
                               .radius = RadiusFor(request.vehicle, options.radius),
                               .safe_distance = options.safe_distance,
@@ -242,6 +243,8 @@ void VisitKeys(KeyVisitor& keys, Options& options, const EnumNames<CurveCurvatur
               "change of curvature between straights and arcs: in steps, at which the car slows "
               "down or stops, or along clothoids that the steering can follow"},
              options.curvature, Need::kOptional, curvatures);
+  keys.Field({"max_lateral_acceleration", "m/s^2", "maximum lateral acceleration with clothoids"},
+             options.max_lateral_acceleration, Need::kOptional, kPositive);
   keys.Field({"max_steering_rate_fraction", "",
               "maximum fraction of the car's steering rate that clothoids may use"},
              options.max_steering_rate_fraction, Need::kOptional, Range{.max = 1.0, .above = 0.0});

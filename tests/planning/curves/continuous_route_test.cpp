@@ -118,6 +118,44 @@ TEST(ContinuousRoute, IsFollowedAtTheSpeedOfTheMission) {
   }
 }
 
+TEST(ContinuousRoute, KeepsTheLateralAcceleration) {
+  Random random(5);
+  for (int i = 0; i < 6; ++i) {
+    PlanRequest request = RandomRoute(random);
+    request.speed.speed = 12.0;
+    for (const Planned& planner : Planners(CurveObjective::kTime)) {
+      const Plan plan = planner.entry.plan(request, planner.options);
+      ExpectFollowable(planner, request, plan);
+      for (const PathPoint& point : plan.reference.path.Sample(0.1)) {
+        const double speed = plan.reference.speed.SpeedAt(point.s);
+        // The default of max_lateral_acceleration; half of the grip is more.
+        ASSERT_LE(speed * speed * std::abs(point.curvature), 3.0 * (1.0 + Tolerance(1e-9)))
+            << planner.name << " at " << point.s;
+      }
+    }
+  }
+}
+
+TEST(ContinuousRoute, IsNotLongerWhereTheCurvatureMayStep) {
+  Random random(4);
+  for (int i = 0; i < 20; ++i) {
+    const Pose2 from = RandomPose(random, 15.0);
+    const Pose2 to = RandomPose(random, 15.0);
+    const PlanRequest request =
+        ContinuousRequest({from.position(), to.position()}, {from.yaw, to.yaw});
+    double before = HUGE_VAL;
+    // From forwards only to the largest freedom; a change of direction costs 5 m.
+    for (const Planned& planner : Planners()) {
+      const Plan plan = planner.entry.plan(request, planner.options);
+      ASSERT_TRUE(plan.ok()) << plan.reason;
+      const Path& path = plan.reference.path;
+      const double cost = path.length() + 5.0 * static_cast<double>(SplitIntoLegs(path).size() - 1);
+      EXPECT_LE(cost, before + Tolerance(1e-9)) << planner.name;
+      before = cost;
+    }
+  }
+}
+
 TEST(ContinuousRoute, IsNoSlowerForTheObjectiveTime) {
   Random random(2);
   for (int i = 0; i < 4; ++i) {

@@ -32,6 +32,9 @@ struct DubinsOptions {
   /// Lowest speed of the car at a step of curvature, or on turns of continuous curvature [m/s].
   double min_speed = 0.3;
   CurveCurvature curvature = CurveCurvature::kSteps;  ///< kSteps or kContinuous.
+  /// Largest lateral acceleration on curves of continuous curvature [m/s^2], > 0; at most half of
+  /// the tyres' grip applies anyway.
+  double max_lateral_acceleration = 3.0;
   /// Fraction of the car's steering rate that curves of continuous curvature use, in (0, 1].
   double max_steering_rate_fraction = 0.9;
   CurveObjective objective = CurveObjective::kTime;  ///< Of curves of continuous curvature.
@@ -45,6 +48,7 @@ struct ReedsSheppOptions {
   double safe_distance = 0.3;
   double min_speed = 0.3;
   CurveCurvature curvature = CurveCurvature::kSteps;
+  double max_lateral_acceleration = 3.0;
   double max_steering_rate_fraction = 0.9;
   CurveObjective objective = CurveObjective::kTime;
 };
