@@ -141,8 +141,8 @@ class RoutePlanner {
     const ContinuousCurves curves(limits);
     const CurveState start{stops_[leg], from};
     const CurveState goal{stops_[leg + 1], to};
-    // Curved waypoints are for cars that drive on; the words with cusps from and to curved states
-    // are many and hardly ever better.
+    // The words with cusps from and to curved states are many; a route of four legs would take
+    // seconds.
     const bool is_curved = to != 0.0 || (leg > 0 && from != 0.0);
     switch (is_curved ? CurveMotion::kForwards : route_.motion) {
       case CurveMotion::kForwards:
