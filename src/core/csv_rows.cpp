@@ -2,6 +2,7 @@
 
 #include <csv.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <memory>
@@ -14,6 +15,7 @@
 namespace trackbed {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 constexpr std::size_t kMaxColumns = 4096;
 constexpr std::size_t kMaxCellLength = std::size_t{1} << 16U;
 
@@ -135,6 +137,9 @@ char FindDelimiter(const std::filesystem::path& file) {
     return false;
   });
   std::string_view rest = begin;
+  if (rest.starts_with(kByteOrderMark)) {
+    rest.remove_prefix(kByteOrderMark.size());
+  }
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
     const std::string_view line = rest.substr(0, end);
@@ -185,7 +190,6 @@ void ReadCsvRows(const std::filesystem::path& file, const CsvLimits& limits, Pro
   };
   CommentFilter comments(reader, parser);
   const auto take_block = [&](std::string_view block) {
-    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (std::exchange(at_begin, false) && block.starts_with(kByteOrderMark)) {
       block.remove_prefix(kByteOrderMark.size());
     }
@@ -241,7 +245,9 @@ class NamedRows {
     if (cells.front().starts_with('#')) {
       // Comments between the rows cannot contain the names.
       if (columns_ == 0 && !is_broken_) {
-        comments_.push_back({CommentCells(cells.front(), delimiter_), line});
+        // A comment after spaces is split into cells already.
+        const std::string text = fmt::format("{}", fmt::join(cells, std::string(1, delimiter_)));
+        comments_.push_back({CommentCells(text, delimiter_), line});
         constexpr std::size_t kMaxComments = 100;
         comments_.erase(comments_.begin(), comments_.end() - static_cast<std::ptrdiff_t>(std::min(
                                                                  comments_.size(), kMaxComments)));

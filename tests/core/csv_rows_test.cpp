@@ -49,6 +49,8 @@ TEST(ReadCsvTable, TakesNamesFromACommentBeforeNumbers) {
   EXPECT_THAT(TableText("1,2\n3,4\n"), HasSubstr("no column names"));
   EXPECT_THAT(TableText("# only a comment\n1,2\n"), HasSubstr("no column names"));
   EXPECT_EQ(TableText("# a,b\n"), "no names");
+  EXPECT_EQ(TableText(" # a,b\n1,2\n"), "1:a|b\n2:1|2\n");
+  EXPECT_EQ(TableText("\xEF\xBB\xBF# x, y, z\n# a;b\n1;2\n"), "2:a|b\n3:1|2\n");
 }
 
 // A comment may contain quotes, which would otherwise begin a cell.
