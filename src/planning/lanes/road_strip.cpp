@@ -47,6 +47,27 @@ bool IsShort(const Road& road, double from, double to) {
   return most * (to - from) < kMaxTurn || to - from < kMinLength;
 }
 
+/// Returns the height of a road's profile. Beside the lanes, which are between the lateral
+/// coordinates `right` and `left`, the profile continues straight for 2 m, and then level: the
+/// file's polynomials may end at the lanes.
+double ShapeBeside(const Road& road, double s, double t, double right, double left) {
+  if (road.shape.empty()) {
+    return 0.0;
+  }
+  constexpr double kStraight = 2.0;  // [m]
+  constexpr double kStep = 1e-3;     // of the difference quotient at the border [m]
+  const double border = std::clamp(t, right, left);
+  const double height = ShapeHeight(road, s, border);
+  const double beside = std::clamp(t - border, -kStraight, kStraight);
+  if (beside == 0.0) {
+    return height;
+  }
+  const double inside = border - std::copysign(std::min(kStep, left - right), beside);
+  return inside == border
+             ? height
+             : height + beside * (height - ShapeHeight(road, s, inside)) / (border - inside);
+}
+
 void Cut(const Road& road, double from, double to, double before, double after,
          std::vector<RoadStrip>& strips) {
   if (IsShort(road, from, to)) {
@@ -146,8 +167,7 @@ std::optional<RoadStrip::Place> RoadStrip::Locate(const Vec2& point_W) const {
     const double run = on + kLevelingLength * (1.0 - std::exp((on - beyond) / kLevelingLength));
     const auto [right, left] = Borders(s);
     return Place{.s = s,
-                 .z = height.value + t * across.z() +
-                      ShapeHeight(*road_, s, std::clamp(t, right, left)) +
+                 .z = height.value + t * across.z() + ShapeBeside(*road_, s, t, right, left) +
                       std::copysign(run, along) * height.slope / stretch,
                  .beside = std::max({0.0, right - t, t - left}),
                  .beyond = beyond,

@@ -12,6 +12,7 @@
 
 #include "src/planning/lanes/coarse_ground.h"
 #include "src/planning/lanes/road_strip.h"
+#include "src/planning/lanes/surface_error.h"
 #include "trackbed/core/error.h"
 
 // Makes a smooth terrain from the road surfaces along a route. First, the algorithm cuts the
@@ -328,39 +329,6 @@ bool IsLevelRoute(const RoadNetwork& network, const std::vector<LaneStretch>& ro
   });
 }
 
-/// Returns an error message if no ground can be made from the road at this station; otherwise an
-/// empty text.
-std::string GroundError(const Road& road, double s) {
-  const CubicValue height = road.elevation.At(s);
-  const double roll = road.superelevation.At(s).value;
-  constexpr double kMaxSlope = 1.0;  // equal to the limit for bumps of the world's ground
-  if (!(std::abs(height.slope) <= kMaxSlope && std::abs(std::tan(roll)) <= kMaxSlope &&
-        std::cos(roll) > 0.0)) {
-    return fmt::format(
-        "road {} at s = {:.4g} m has a grade of {:.3g} and a superelevation of {:.3g} rad; must be "
-        "at most 45 degrees steep",
-        road.id, s, height.slope, roll);
-  }
-  constexpr double kMaxHeight = 1e4;  // [m]
-  if (!(std::abs(height.value) <= kMaxHeight)) {
-    return fmt::format(
-        "road {} at s = {:.4g} m is {:.3g} m high; must be at least {} and at most {}", road.id, s,
-        height.value, -kMaxHeight, kMaxHeight);
-  }
-  constexpr double kMaxLaneBorder = 50.0;  // [m]
-  const std::size_t section = road.SectionAt(s);
-  for (const Lane& lane : road.sections[section].lanes) {
-    const double border = LaneBordersAt(road, section, lane.id, s, s).outer.value;
-    if (IsDrivable(lane) && !(std::abs(border) <= kMaxLaneBorder)) {
-      return fmt::format(
-          "lane {} of road {} reaches {:.4g} m from the reference line at s = {:.4g} m; must be at "
-          "most {} m on roads that are not level",
-          lane.id, road.id, std::abs(border), s, kMaxLaneBorder);
-    }
-  }
-  return "";
-}
-
 /// Returns an error message if no ground can be made from the roads; otherwise an empty text.
 std::string GroundError(const RoadNetwork& network, const Stretches& needed) {
   double length = 0.0;
@@ -373,7 +341,7 @@ std::string GroundError(const RoadNetwork& network, const Stretches& needed) {
     for (const Stretch& stretch : stretches) {
       length += stretch.to - stretch.from;
       for (double s = stretch.from; s <= stretch.to; s += 1.0) {
-        if (std::string why = GroundError(road, s); !why.empty()) {
+        if (std::string why = SurfaceError(road, s); !why.empty()) {
           return why;
         }
       }

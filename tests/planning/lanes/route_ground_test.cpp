@@ -79,7 +79,7 @@ TEST(RouteGround, HasTheProfileAcrossTheRoad) {
   for (double t = -3.4; t < 3.5; t += 0.2) {
     const double away = std::abs(t);
     const double height = away > 0.5 ? -0.025 * (away - 0.5) : 0.025 * (0.25 - t * t);
-    // The ground of the route may deviate from the lanes by 1 cm; on planes it interpolates.
+    // The ground of the route may deviate from the lanes by 1 cm; it interpolates on planes.
     EXPECT_NEAR(ground.terrain->At({50.0, t}).height, height, Tolerance(away > 1.0 ? 1e-6 : 0.01))
         << t;
   }
@@ -246,16 +246,24 @@ TEST(RouteGround, RefusesRoutesOverThemselvesButNotOtherRoadsThere) {
 }
 
 TEST(RouteGround, RefusesWhatIsNotRead) {
-  EXPECT_THAT(OnStraight("<lateralProfile><shape s='0' t='0' a='0' b='0' c='0' d='0'/>"
+  EXPECT_THAT(OnStraight("<lateralProfile><crossfall side='both' s='0' a='0.02' b='0' c='0' d='0'/>"
                          "</lateralProfile>")
                   .failure,
-              HasSubstr("road 1 has heights that are not read: shape"));
+              HasSubstr("road 1 has heights that are not read: crossfall"));
 }
 
 TEST(RouteGround, RefusesWallsAndWhatIsTooLarge) {
   EXPECT_THAT(OnStraight(Elevation(0.0, 1.5, 0.0)).failure,
               HasSubstr("must be at most 45 degrees steep"));
   EXPECT_THAT(OnStraight(Roll(3.0)).failure, HasSubstr("must be at most 45 degrees steep"));
+  EXPECT_THAT(OnStraight("<lateralProfile><shape s='0' t='-8' a='0' b='1.5' c='0' d='0'/>"
+                         "</lateralProfile>")
+                  .failure,
+              HasSubstr("road 1 at s = 0 m has a slope of 1.5 across lane"));
+  EXPECT_THAT(OnStraight("<lateralProfile><shape s='0' t='-8' a='1e8' b='0' c='0' d='0'/>"
+                         "</lateralProfile>")
+                  .failure,
+              HasSubstr("road 1 at s = 0 m is 1e+08 m high"));
   EXPECT_THAT(OnStraight(Elevation(1e9, 0.1, 0.0)).failure,
               HasSubstr("is 1e+09 m high; must be at least -10000 and at most 10000"));
   RoadText road;
