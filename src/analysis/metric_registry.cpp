@@ -339,9 +339,12 @@ PlantMetrics AllMetrics(const Scenario& scenario, const std::string& plant) {
     metrics.laps.resize(static_cast<std::size_t>(scenario.mission.track->laps));
   }
   for (const MetricEntry& entry : Metrics()) {
-    // Metrics of track limits exist only for runs on a track.
+    // Metrics of track limits exist only for runs on a track, and metrics of road limits only for
+    // routes over lanes.
     const bool of_track = entry.path.starts_with("track_limits.");
-    if (entry.measure && (!of_track || scenario.mission.track)) {
+    const bool of_road = entry.path.starts_with("road_limits.");
+    if (entry.measure && (!of_track || scenario.mission.track) &&
+        (!of_road || !scenario.mission.route.empty())) {
       metrics.measured.emplace_back(entry.path, MetricReading{0.0, {}});
     }
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "src/analysis/predicted_time.h"
+#include "src/analysis/road_metrics.h"
 #include "src/analysis/sideslip.h"
 #include "src/analysis/track_metrics.h"
 
@@ -184,6 +185,11 @@ std::vector<MetricEntry> BuiltInMetrics() {
                         "m",
                         {},
                         SmallestTrackMargin})),
+      Headline(Located({"road_limits.margin_min",
+                        "Smallest distance from the road's edges (negative: beyond)",
+                        "m",
+                        {},
+                        SmallestRoadMargin})),
       {"track_limits.time_off", "Time off the track", "s", {}, TimeOffTrack},
       {"track_limits.distance_off", "Distance off the track", "m", {}, DistanceOffTrack},
   };

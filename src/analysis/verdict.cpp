@@ -199,6 +199,15 @@ void JudgePlant(const PlantExpectation& expect, const PlantMetrics& metrics, Ver
       AddCheck(std::move(own), verdict);
     }
   };
+  const auto is_measured = [&](std::string_view metric) {
+    return std::any_of(metrics.measured.begin(), metrics.measured.end(),
+                       [&](const auto& own) { return own.first == metric; });
+  };
+  for (const char* edges : {"track_limits.margin_min", "road_limits.margin_min"}) {
+    if (is_measured(edges)) {
+      check(expect.min_clearance, Relation::kAtLeast, edges, "clearance from the edges");
+    }
+  }
   if (metrics.clearance) {
     check(expect.min_clearance, Relation::kAtLeast, "clearance_min", "clearance");
     if (expect.collision) {

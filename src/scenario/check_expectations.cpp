@@ -72,21 +72,30 @@ void CheckMetrics(Diagnostics& c) {
 
 /// Rejects expectations on quantities that the run does not measure. For example, cross-track
 /// errors are measured only in scenarios with a plan, and clearances are measured only in scenarios
-/// with obstacles.
+/// with obstacles, or with the edges of a track or of roads.
 void CheckMeasuredQuantities(Diagnostics& c) {
   const bool has_path = c.scenario.plan || !c.CouldReadPlan({"method"});
   const bool has_obstacles =
       HasObstacles(c.scenario.world) || !c.CouldRead({"world.obstacles", "world.map"});
+  const MissionSpec& mission = c.scenario.mission;
+  const bool has_edges =
+      mission.track || !mission.route.empty() || !c.CouldRead({"mission.track", "mission.route"});
   ForEachExpectation(c, [&](const std::string& key, const PlantExpectation& expectation) {
     if (!has_path && (expectation.reach_goal || expectation.max_cross_track ||
                       expectation.rms_cross_track || expectation.max_heading_error)) {
       c.AddError(key, "goal and path expectations need a plan");
     }
-    if (!has_obstacles && (expectation.min_clearance || expectation.collision.value_or(false))) {
-      c.AddError(key, c.scenario.world.map
-                          ? "min_clearance and collision need obstacles; no cell of world.map is "
-                            "blocked"
-                          : "min_clearance and collision need world.obstacles or world.map");
+    if (has_obstacles) {
+      return;
+    }
+    const char* none = c.scenario.world.map ? "; no cell of world.map is blocked" : "";
+    if (expectation.min_clearance && !has_edges) {
+      c.AddError(key, fmt::format("min_clearance needs world.obstacles, world.map, mission.track "
+                                  "or mission.route{}",
+                                  none));
+    }
+    if (expectation.collision.value_or(false)) {
+      c.AddError(key, fmt::format("collision needs world.obstacles or world.map{}", none));
     }
   });
 }

@@ -185,7 +185,9 @@ inline void Visit(KeyVisitor& a, PlantExpectation& expect) {
           expect.rms_cross_track, kNonNegative);
   a.Field({"max_heading_error", "rad", "maximum heading error"}, expect.max_heading_error,
           kNonNegative);
-  a.Field({"min_clearance", "m", "minimum distance of the car's footprint from obstacles"},
+  a.Field({"min_clearance", "m",
+           "minimum distance of the car's footprint from obstacles, blocked cells of the map, and "
+           "the edges of the track or of the roads of mission.route"},
           expect.min_clearance, kNonNegative);
   a.Field({"collision", "", "whether the car must hit an obstacle"}, expect.collision);
   a.List({"metrics", "", "bounds on other metrics"}, expect.metrics);

@@ -82,6 +82,7 @@ Plan PlanWith(const LaneRouteOptions& options, const PlanRequest& request) {
     return route::Refused(PlanStatus::kTurnTooTight, why);
   }
   Plan plan;
+  plan.roads = request.lanes.network;
   plan.diagnostics.planner =
       LaneRouteDiagnostics{.stretches = std::move(found.stretches), .deviation = found.deviation};
   return route::AlongSegments(std::move(plan), request, found.path.segments(), options.min_speed);

@@ -149,7 +149,9 @@ struct Plan {
   /// steering schedule has the steering rate of the motion; the path itself may need a higher
   /// steering rate between the samples.
   bool sampled = false;
-  PlannedLaps laps;            ///< Laps of a plan on a track.
+  PlannedLaps laps;  ///< Laps of a plan on a track.
+  /// Roads on whose lanes the plan leads; null if the plan does not follow lanes.
+  std::shared_ptr<const RoadNetwork> roads{};
   std::vector<TreeNode> tree;  ///< Nodes of all RRT and RRT* trees, one tree after the other.
 
   [[nodiscard]] bool ok() const { return status == PlanStatus::kOk; }
