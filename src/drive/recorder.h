@@ -15,7 +15,8 @@ class Recorder {
  public:
   /// World, vehicle and hooks of `config` must outlive the Recorder, which keeps references to all
   /// three. If `keeps_rows` is false, the log contains only the last row.
-  Recorder(const LoopConfig& config, std::vector<std::string> controller_columns, bool keeps_rows);
+  Recorder(const LoopConfig& config, std::vector<std::string> controller_columns,
+           bool keeps_rows = true);
 
   /// Records the plant's state at `time` [s]. Call Sample at the start of the run and after every
   /// physics step.
