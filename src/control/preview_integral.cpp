@@ -59,34 +59,17 @@ class PreviewIntegral final : public SteeringController {
     const VehicleParams& vehicle = input.vehicle;
     const Path& path = input.reference.path;
     const int direction = path.BendAt(input.station).direction;
-    const double speed = std::abs(input.state.speed);
-    const double spread = std::sqrt(OffsetGain());
-    const double shortest =
-        options_.distance ? *options_.distance : spread * PreviewDistance(input, options_.delay);
-    const double distance =
-        std::max({shortest, options_.time * speed, spread * ReturnDistance(input)});
+    const double distance = Distance(input, direction);
     if (const std::optional<double> steering = turn_round_.Steer(input, distance)) {
       return Delayed(*steering, input);
     }
-    const bool dynamic =
-        direction > 0 && input.state.speed >= kMinDynamicSpeed && HasTyres(vehicle);
-
-    using Gauss = boost::math::quadrature::gauss<double, 10>;
     double moved = 0.0;
     double square = 0.0;
-    for (std::size_t i = 0; i < Gauss::abscissa().size(); ++i) {
-      for (const double side : {-1.0, 1.0}) {
-        const double share = 0.5 * (1.0 + side * Gauss::abscissa()[i]);
-        const double way = share * distance;
-        const Responses responses =
-            dynamic ? SingleTrackResponses(input, way / speed) : KinematicResponses(input, way);
-        const double importance =
-            Gauss::weights()[i] * (options_.weight == PreviewWeight::kNear ? 1.0 - share : 1.0);
-        const double across =
-            way * std::sin(PreviewAngle(path, input.state.pose, input.station, way));
-        moved += importance * (across - responses.free) * responses.step;
-        square += importance * responses.step * responses.step;
-      }
+    for (const Node& node : Nodes(input, direction, distance)) {
+      const double across =
+          node.way * std::sin(PreviewAngle(path, input.state.pose, input.station, node.way));
+      moved += node.weight * (across - node.responses.free) * node.responses.step;
+      square += node.weight * node.responses.step * node.responses.step;
     }
     // In reverse gear, steering to the right turns the direction of motion to the left.
     const double wanted = direction * std::atan(moved / square);
@@ -94,11 +77,80 @@ class PreviewIntegral final : public SteeringController {
   }
 
  private:
+  /// A node of the quadrature over the previewed path.
+  struct Node {
+    double way = 0.0;     // Distance ahead [m].
+    double weight = 0.0;  // Weight of the quadrature times the weight W of the previewed point.
+    Responses responses;
+  };
+  using Gauss = boost::math::quadrature::gauss<double, 10>;
+
+  /// Returns the nodes of the quadrature over the preview distance, on a car with the model that
+  /// suits its speed.
+  [[nodiscard]] std::array<Node, 10> Nodes(const ControlInput& input, int direction,
+                                           double distance) const {
+    const bool dynamic = IsDynamic(input, direction);
+    std::array<Node, 10> nodes;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const double side = i % 2 == 0 ? -1.0 : 1.0;
+      const double share = 0.5 * (1.0 + side * Gauss::abscissa()[i / 2]);
+      const double way = share * distance;
+      nodes[i] = {
+          way,
+          Gauss::weights()[i / 2] * (options_.weight == PreviewWeight::kNear ? 1.0 - share : 1.0),
+          dynamic ? SingleTrackResponses(input, way / std::abs(input.state.speed))
+                  : KinematicResponses(input, way)};
+    }
+    return nodes;
+  }
+
+  [[nodiscard]] static bool IsDynamic(const ControlInput& input, int direction) {
+    return direction > 0 && input.state.speed >= kMinDynamicSpeed && HasTyres(input.vehicle);
+  }
+
+  /// Returns the preview distance R [m].
+  [[nodiscard]] double Distance(const ControlInput& input, int direction) const {
+    const double single = std::max(options_.distance ? 0.0 : PreviewDistance(input, options_.delay),
+                                   ReturnDistance(input));
+    return std::max({options_.distance.value_or(0.0), options_.time * std::abs(input.state.speed),
+                     DistanceOfEqualGain(input, direction, single)});
+  }
+
+  /// Returns the preview distance R [m] for which this law responds to an offset with the gain 2
+  /// L/R_1^2 of the single-point law with the preview distance R_1 = `single`. For the kinematic
+  /// car, R/R_1 is the square root of the ratio of the gains at equal distances. Tyres respond
+  /// late, so A(eta) is smaller than for the kinematic car, and the gain int A W/int A^2 W is
+  /// larger. R is then longer: with the kinematic ratio, a car whose steering rate is limited would
+  /// weave about its path for ever.
+  [[nodiscard]] double DistanceOfEqualGain(const ControlInput& input, int direction,
+                                           double single) const {
+    double distance = std::sqrt(KinematicGainRatio()) * single;
+    // The gain is nearly proportional to R^-2.5, so each iteration divides the error by -4.
+    constexpr int kIterations = 5;
+    constexpr double kTolerance = 0.01;
+    for (int i = 0; i < kIterations && IsDynamic(input, direction); ++i) {
+      double moved = 0.0;
+      double square = 0.0;
+      for (const Node& node : Nodes(input, direction, distance)) {
+        moved += node.weight * node.responses.step;
+        square += node.weight * node.responses.step * node.responses.step;
+      }
+      const double ratio = moved / square * single * single / (2.0 * input.vehicle.wheelbase);
+      if (ratio < 1.0 + kTolerance && i == 0) {
+        break;  // stiff tyres: the kinematic ratio holds
+      }
+      distance *= std::sqrt(ratio);
+      if (std::abs(ratio - 1.0) < kTolerance) {
+        break;
+      }
+    }
+    return distance;
+  }
+
   /// Returns the ratio of this law's gain on a lateral offset to the gain of the single-point law
-  /// with the same preview distance. For the kinematic car, the gain is R^2/2 times the ratio of
-  /// the integrals of A W and A^2 W. For equal damping, the preview distance must be proportional
-  /// to the square root of the gain ratio.
-  [[nodiscard]] double OffsetGain() const {
+  /// with the same preview distance, for the kinematic car: R^2/2 times the ratio of the integrals
+  /// of A W and A^2 W.
+  [[nodiscard]] double KinematicGainRatio() const {
     return options_.weight == PreviewWeight::kNear ? 5.0 / 2.0 : 5.0 / 3.0;
   }
 

@@ -138,5 +138,23 @@ TEST(PreviewIntegral, ADriverNeedsPreviewForHisDelay) {
   EXPECT_GT(late(0.4, 0.4), 0.3);
 }
 
+TEST(PreviewIntegral, SettlesOnTyresAfterAKick) {
+  // With the preview distance of the kinematic car, the gain on an offset would be 2.5 times as
+  // high at 15 m/s, and the limited steering rate would keep the car weaving by 3 m.
+  for (const double speed : {5.0, 10.0, 12.0, 15.0, 20.0, 30.0}) {
+    for (const double offset : {0.1, 0.3, 1.0, 3.0}) {
+      SCOPED_TRACE(fmt::format("{} m/s, {} m", speed, offset));
+      LoopSetup setup;
+      setup.path = Path({}, {{2000.0, 0.0, 1}});
+      setup.start = {0.0, offset, 0.0};
+      setup.vehicle = ReferenceCarWithTyres();
+      setup.speed = speed;
+      setup.duration = 40.0;
+      const std::vector<LoopRow> rows = Loop(PreviewIntegralOptions{}, setup);
+      EXPECT_LT(LargestOffset(rows, rows.size() * 3 / 4), 0.01 * offset);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace trackbed
