@@ -32,9 +32,8 @@ struct Line {
   std::size_t before = 0;
 };
 
-}  // namespace
-
-std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem) {
+/// Finds the best points of a way, as described at PruneWaypoints, in O(n^3) of its n points.
+std::vector<Vec2> PruneWindow(const std::vector<Vec2>& way, const PruningProblem& problem) {
   const std::size_t n = way.size();
   const bool windy = problem.wind.weight != 0.0 && !IsCalm(problem.wind.wind);
   const BoxIndex obstacles(problem.obstacles);
@@ -81,6 +80,26 @@ std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProb
     from = before;
   }
   std::reverse(few.begin(), few.end());
+  return few;
+}
+
+}  // namespace
+
+std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem) {
+  std::vector<Vec2> few{way.front()};
+  for (std::size_t begin = 0; begin + 1 < way.size();) {
+    const std::size_t end = std::min(begin + kPruningWindow, way.size() - 1);
+    const auto at = [&](std::size_t i) { return way.begin() + static_cast<std::ptrdiff_t>(i); };
+    PruningProblem own = problem;
+    if (few.size() > 1) {
+      own.before = few[few.size() - 2];
+      own.first_leg = problem.first_leg && !problem.before && few.size() == 2;
+    }
+    own.last_leg = problem.last_leg && end + 1 == way.size();
+    const std::vector<Vec2> pruned = PruneWindow({at(begin), at(end) + 1}, own);
+    few.insert(few.end(), pruned.begin() + 1, pruned.end());
+    begin = end;
+  }
   return few;
 }
 

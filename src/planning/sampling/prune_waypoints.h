@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -30,12 +31,17 @@ struct PruningProblem {
   std::function<double(double)> tangent;
 };
 
+/// The number of lines of a path that PruneWaypoints considers at once.
+inline constexpr std::size_t kPruningWindow = 300;
+
 /// Finds the cheapest path along collision-free straight lines that visits a subset of the given
 /// points in their order. The cost of a path is its length, minus the wind score, plus the corner
 /// cost for each line. As in RoundCorners, each corner may use half of each of the two adjacent
 /// lines. The result contains a corner that does not fit on the adjacent lines only if every
 /// possible path contains such a corner. PruneWaypoints assumes that the lines of the given path
-/// are collision-free. For n points, the computing time is O(n^3) plus O(n^2 x obstacles).
+/// are collision-free. Paths of more than kPruningWindow lines are divided into windows of this
+/// number of lines; the result then contains the ends of all windows, and is the cheapest path only
+/// within each window. The computing time per window of n points is O(n^3) plus O(n^2 x obstacles).
 std::vector<Vec2> PruneWaypoints(const std::vector<Vec2>& way, const PruningProblem& problem);
 
 /// Splits a path into pieces that are so short that the wind is nearly uniform along each piece.

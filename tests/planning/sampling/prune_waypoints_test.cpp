@@ -141,6 +141,19 @@ TEST(FewCorners, OfAStraightWayAreNone) {
   EXPECT_EQ(PruneWaypoints(two.way, two.problem()), two.way);
 }
 
+TEST(FewCorners, OfALongWayAreFoundInWindows) {
+  // A zigzag of 1 m over 4 windows. Straight lines are shorter, and windows meet at their ends.
+  Case one{.corner_cost = 1.0};
+  for (std::size_t i = 0; i <= 4 * kPruningWindow; ++i) {
+    one.way.emplace_back(static_cast<double>(i), i % 2 == 0 ? 0.0 : 1.0);
+  }
+  std::vector<Vec2> expected;
+  for (std::size_t i = 0; i <= 4; ++i) {
+    expected.push_back(one.way[i * kPruningWindow]);
+  }
+  EXPECT_EQ(PruneWaypoints(one.way, one.problem()), expected);
+}
+
 TEST(InPieces, AreShortAndTheSameWay) {
   const std::vector<Vec2> way{{0.0, 0.0}, {2.5, 0.0}, {2.5, 0.5}};
   const std::vector<Vec2> pieces = InPieces(way);
