@@ -89,9 +89,9 @@ class Track {
   /// over the searched part of the center line.
   [[nodiscard]] TrackPlace Locate(const Vec2& point, std::optional<double> near = {}) const;
 
-  /// Returns a car's state in the Frenet frame of the center line, at the nearest part of the center
-  /// line whose direction is within pi/2 of the car's heading. This part differs from that of
-  /// Locate where the track crosses itself. Returns nullopt if the track has no such part, or if
+  /// Returns a car's state in the Frenet frame of the center line, at the nearest part of the
+  /// center line whose direction is within pi/2 of the car's heading. This part differs from that
+  /// of Locate where the track crosses itself. Returns nullopt if the track has no such part, or if
   /// the frame is undefined, as in trackbed::ToFrenet. The cost is 0.2 us per meter of the track.
   [[nodiscard]] std::optional<FrenetState> ToFrenet(const MotionState& motion) const;
 
