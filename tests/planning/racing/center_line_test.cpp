@@ -211,8 +211,8 @@ TEST(CenterLine, StartsWhereTheTrackCrossesItself) {
     EXPECT_NEAR(std::remainder(last + share * lap, lap), 0.0, 0.3) << yaw;
   }
   request.start = {0.0, 0.0, kPi / 2.0};  // 135 degrees from both directions
-  EXPECT_THAT(MakePlan(request, CenterLineOptions{}).reason,
-              HasSubstr("does not look along the track"));
+  const Plan refused = MakePlan(request, CenterLineOptions{});
+  EXPECT_THAT(refused.reason, HasSubstr("does not look along the track"));
 }
 
 TEST(CenterLine, RefusesWithAReason) {
