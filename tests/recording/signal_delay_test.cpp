@@ -10,7 +10,7 @@
 
 // Tests the delay between two signals on sums of sines, for which the true delay is known.
 namespace trackbed {
-namespace {
+namespace signal_delay_test {
 
 constexpr double kPeriod = 0.01;  // [s]
 
@@ -94,5 +94,5 @@ TEST(SignalDelay, IsUnknownWhereTheSignalsDoNotTell) {
   EXPECT_TRUE(!found || found->standard_error > std::abs(found->delay));
 }
 
-}  // namespace
+}  // namespace signal_delay_test
 }  // namespace trackbed
