@@ -103,7 +103,7 @@ void CompareRrt(benchmark::State& state, const RrtStarProblem& map, int budget) 
 
 /// The map with its goal walled in, so that every search uses its whole budget.
 RrtStarProblem WalledIn(RrtStarProblem map) {
-  const double reach = 2.0 * map.inflation + 0.5;
+  const double reach = 2.0 * map.inflation.most + 0.5;
   for (const double side : {-1.0, 1.0}) {
     const Vec2 goal = map.goal;
     map.obstacles.push_back({{goal.x() + side * reach, goal.y(), 0.0}, 0.2, 2.0 * reach + 0.2});

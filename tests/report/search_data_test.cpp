@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/report/run_folders.h"
+#include "tests/support/error_text.h"
 #include "trackbed/report/report.h"
 
 namespace trackbed {
@@ -122,7 +123,7 @@ TEST_F(SearchDataTest, IsOfASearchThatBrokeNothing) {
 
 TEST_F(SearchDataTest, TellsOfAFileThatIsNotOfTheseRuns) {
   const auto error = [&](const ordered_json& outcome) {
-    return ErrorMessage([&] { Data(outcome.dump()); });
+    return ErrorText([&] { Data(outcome.dump()); });
   };
   EXPECT_THAT(error(ordered_json::object()), HasSubstr("falsify.json: "));
   ordered_json longer = Outcome();
