@@ -28,19 +28,6 @@ double Weight(double b, double c, double e, double shift, double slip) {
   return shift == 0.0 ? kept : kept / std::cos(Shape(c, e, b * shift));
 }
 
-/// Returns the factor by which slips on a road with the friction factor `road` are multiplied to
-/// get similar slips on a road with the factor 1. The factor is 1/road, but no slip is enlarged
-/// beyond that of a locked wheel, kappa = -1, or of a wheel that moves sideways, alpha = pi/2. Both
-/// slips have the same factor, because their ratio is the direction in which the tyre slides.
-double SimilarSlip(const TyreSlip& slip, double road) {
-  if (road >= 1.0) {
-    return 1.0 / road;
-  }
-  constexpr double kSideways = std::numbers::pi / 2.0;
-  const double share = std::max(std::abs(slip.ratio), std::abs(slip.angle) / kSideways);
-  return share > road ? std::max(1.0, 1.0 / share) : 1.0 / road;
-}
-
 /// Returns the cosine of atan(x).
 double CosAtan(double x) {
   return 1.0 / std::sqrt(1.0 + x * x);
@@ -158,17 +145,13 @@ TyreForce EvaluateTyreForce(const MagicFormula& t, double load, double road, con
     const double norm = std::hypot(f_x0 / d_x, f_y0 / d_y);
     return {f_x0 / std::max(1.0, norm), f_y0 / std::max(1.0, norm)};
   }
-  // A tyre slides at smaller slips on a slippery road. The pure forces take this into account by
-  // B = K/(C D), the weighting factors of combined slip by similar slips.
-  const double similar = SimilarSlip(slip, road);
-  const double kappa = similar * slip.ratio;
-  const double alpha = similar * slip.angle;
-  const double b_xa = t.r_bx1 * CosAtan(t.r_bx2 * kappa);
-  const double b_yk = t.r_by1 * CosAtan(t.r_by2 * (alpha - t.r_by3));
-  const double d_vyk = mu_y * load * (t.r_vy1 + t.r_vy3 * gamma) * CosAtan(t.r_vy4 * alpha);
-  const double s_vyk = d_vyk == 0.0 ? 0.0 : d_vyk * std::sin(t.r_vy5 * std::atan(t.r_vy6 * kappa));
-  return {Weight(b_xa, t.r_cx1, t.r_ex1, t.r_hx1, alpha) * f_x0,
-          Weight(b_yk, t.r_cy1, t.r_ey1, t.r_hy1, kappa) * f_y0 + s_vyk};
+  const double b_xa = t.r_bx1 * CosAtan(t.r_bx2 * slip.ratio);
+  const double b_yk = t.r_by1 * CosAtan(t.r_by2 * (slip.angle - t.r_by3));
+  const double d_vyk = mu_y * load * (t.r_vy1 + t.r_vy3 * gamma) * CosAtan(t.r_vy4 * slip.angle);
+  const double s_vyk =
+      d_vyk == 0.0 ? 0.0 : d_vyk * std::sin(t.r_vy5 * std::atan(t.r_vy6 * slip.ratio));
+  return {Weight(b_xa, t.r_cx1, t.r_ex1, t.r_hx1, slip.angle) * f_x0,
+          Weight(b_yk, t.r_cy1, t.r_ey1, t.r_hy1, slip.ratio) * f_y0 + s_vyk};
 }
 
 }  // namespace trackbed

@@ -122,47 +122,22 @@ TEST(MagicFormula, SlidesAsTheLawSays) {
 }
 
 TEST(MagicFormula, CombinedForceStaysOnTheEllipseOrWithinTheLawsSurplus) {
-  // Scans slips up to a locked wheel, and slips up to the share `road` of a locked wheel, because a
-  // tyre on a slippery road reaches its largest force at smaller slips.
-  const auto largest = [](const MagicFormula& tyre, double road, double mu_x, double mu_y) {
+  const auto largest = [](const MagicFormula& tyre, double mu_x, double mu_y) {
     double norm = 0.0;
-    for (const double share : {road, 1.0}) {
-      for (int k = -100; k <= 100; ++k) {
-        for (int a = -78; a <= 78; ++a) {
-          const TyreForce force = EvaluateTyreForce(
-              tyre, 3000.0, road,
-              {.ratio = 0.01 * k * share, .angle = 0.02 * a * share, .shift = 1.0});
-          norm = std::max(norm, std::hypot(force.longitudinal / (road * mu_x * 3000.0),
-                                           force.lateral / (road * mu_y * 3000.0)));
-        }
+    for (int k = -100; k <= 100; ++k) {
+      for (int a = -78; a <= 78; ++a) {
+        const TyreForce force = EvaluateTyreForce(
+            tyre, 3000.0, 1.0, {.ratio = 0.01 * k, .angle = 0.02 * a, .shift = 1.0});
+        norm = std::max(norm, std::hypot(force.longitudinal / (mu_x * 3000.0),
+                                         force.lateral / (mu_y * 3000.0)));
       }
     }
     return norm;
   };
-  for (const double road : {0.05, 0.1, 0.3, 0.6, 1.0}) {
-    EXPECT_LE(largest(Plain(), road, 1.1, 0.9), 1.0 + Tolerance(1e-12)) << road;
-    const double bmw = largest(Bmw(), road, 1.1739, 1.0489);
-    // The coefficients of the tyre cause the excess: on a dry road, the same scan of the bare
-    // formula gives 1.1247.
-    EXPECT_LE(bmw, 1.13) << road;
-    EXPECT_GE(bmw, 1.10) << road;
-  }
-}
-
-TEST(MagicFormula, IsSimilarOnSlipperyRoads) {
-  // F(road, road kappa, road alpha) = road F(1, kappa, alpha) without camber and shifts.
-  for (const double road : {0.05, 0.3, 0.8}) {
-    for (const double kappa : {-1.0, -0.1, 0.0, 0.03, 0.4}) {
-      for (const double alpha : {-0.3, -0.02, 0.0, 0.1, 1.0}) {
-        const TyreForce dry =
-            EvaluateTyreForce(Bmw(), 3000.0, 1.0, {.ratio = kappa, .angle = alpha, .shift = 0.0});
-        const TyreForce slippery = EvaluateTyreForce(
-            Bmw(), 3000.0, road, {.ratio = road * kappa, .angle = road * alpha, .shift = 0.0});
-        EXPECT_NEAR(slippery.longitudinal, road * dry.longitudinal, kRounding);
-        EXPECT_NEAR(slippery.lateral, road * dry.lateral, kRounding);
-      }
-    }
-  }
+  EXPECT_LE(largest(Plain(), 1.1, 0.9), 1.0 + Tolerance(1e-12));
+  const double bmw = largest(Bmw(), 1.1739, 1.0489);
+  EXPECT_LE(bmw, 1.13);  // due to the coefficients: 1.1247 by the same scan of the bare formula
+  EXPECT_GE(bmw, 1.10);
 }
 
 TEST(MagicFormula, PullsNothingWithoutLoad) {

@@ -18,12 +18,6 @@
 ///                                                   K_y = p_ky1 F_z0 sin(2 atan(F_z/(p_ky2 F_z0)))
 /// The forces in combined slip are F_x = G_x(alpha) F_x0 and F_y = G_y(kappa) F_y0 + S_vyk. Each
 /// factor G is a cosine function of the slip in the other direction, with the coefficients r_*.
-///
-/// A friction factor `road` of the road multiplies mu_x and mu_y. For the factors G and S_vyk, both
-/// slips are divided by `road`, or by as much as makes one of them the slip of full sliding,
-/// |kappa| = 1 or |alpha| = pi/2. Up to full sliding, without camber and shifts,
-/// F(road, kappa, alpha) = road F(1, kappa/road, alpha/road), as in the similarity method (Pacejka
-/// 2012, section 4.2).
 namespace trackbed {
 
 /// The coefficients of the Magic Formula, under their standard names. A coefficient that a car's
@@ -105,11 +99,10 @@ struct TyreForce {
 /// Guarantees: the tyre force is 0 if the tyre has no load (F_z <= 0). The lateral force F_y is an
 /// odd function of (alpha, gamma), except for the r_* shifts, which represent the asymmetry of a
 /// tyre. With r_* coefficients, the combined force may exceed the friction ellipse, for example by
-/// 12 % for CommonRoad's BMW, at every friction factor. This excess is a property of the Magic
-/// Formula. For a tyre without r_* coefficients, a force outside the friction ellipse is scaled
-/// back onto the ellipse. The shifts depend on the sign of gamma; this dependence is smoothed over
-/// half a mrad, because a jump would be unphysical. The aligning moment and turn slip are not
-/// modeled. Cost: about 0.2 us.
+/// 12 % for CommonRoad's BMW. This excess is a property of the Magic Formula. For a tyre without
+/// r_* coefficients, a force outside the friction ellipse is scaled back onto the ellipse. The
+/// shifts depend on the sign of gamma; this dependence is smoothed over half a mrad, because a jump
+/// would be unphysical. The aligning moment and turn slip are not modeled. Cost: about 0.2 us.
 TyreForce EvaluateTyreForce(const MagicFormula& tyre, double load, double road,
                             const TyreSlip& slip);
 
