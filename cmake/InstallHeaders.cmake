@@ -1,5 +1,6 @@
 # Installs the public headers and all headers of Trackbed that they include. Install.cmake sets
 # include_folder, destination and public_headers, the names of public headers below trackbed/.
+cmake_policy(SET CMP0057 NEW) # for IN_LIST
 list(TRANSFORM public_headers PREPEND trackbed/)
 set(found ${public_headers})
 while(public_headers)

@@ -8,6 +8,7 @@
 #include "src/cli/verbs.h"
 #include "trackbed/analysis/sweep.h"
 #include "trackbed/core/error.h"
+#include "trackbed/drive/drive.h"
 #include "trackbed/falsify/falsify.h"
 #include "trackbed/identify/identify.h"
 
@@ -42,7 +43,8 @@ void AddCheck(const Command& command) {
             static_cast<void>(CheckSearch(std::move(study)));
           }
         } else {
-          RefuseOverlapAtStart(file.string(), options->scenario.Read(file));
+          const Scenario scenario = options->scenario.Read(file);
+          RefuseOverlapAtStart(file.string(), scenario, LoadCar(scenario).params());
         }
         if (!options->scenario.quiet) {
           Print("{}: ok\n", file.string());

@@ -33,10 +33,10 @@ int RunPlanVerb(const PlanOptions& options) {
   if (!scenario.plan) {
     throw InputError(Problem{options.file, 0, 0, "plan", "missing; 'trackbed plan' needs one"});
   }
-  RefuseOverlapAtStart(options.file, scenario);
   const fs::path out =
       options.out.empty() ? fs::path("out") / scenario.name : fs::path(options.out);
   const CarModel car = LoadCar(scenario);
+  RefuseOverlapAtStart(options.file, scenario, car.params());
   const OutputFolder folder(out, FileNamesOfVerb("plan"));
   const RunResult planned = PlanRun(scenario, car);
   const Plan& plan = planned.plan;

@@ -24,7 +24,11 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
   std::vector<ScenarioRun> runs;
   for (const std::string& file : files) {
     Scenario scenario = options.Read(file);
-    RefuseOverlapAtStart(file, scenario);
+    auto car = std::make_shared<const CarModel>(LoadCar(scenario));
+    RefuseOverlapAtStart(file, scenario, car->params());
+    if (files.size() > 1) {
+      car.reset();  // do not keep the cars of many scenarios in memory
+    }
     const fs::path folder = out.empty()        ? parent / scenario.name
                             : files.size() > 1 ? fs::path(out) / scenario.name
                                                : fs::path(out);
@@ -36,13 +40,14 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
                                 scenario.name, folder.string())});
       }
     }
-    runs.push_back({std::move(scenario), folder});
+    runs.push_back({std::move(scenario), folder, std::move(car)});
   }
   return runs;
 }
 
-void RefuseOverlapAtStart(const std::string& file, const Scenario& scenario) {
-  if (std::string why = StartOverlap(scenario, LoadCar(scenario).params()); !why.empty()) {
+void RefuseOverlapAtStart(const std::string& file, const Scenario& scenario,
+                          const VehicleParams& vehicle) {
+  if (std::string why = StartOverlap(scenario, vehicle); !why.empty()) {
     throw InputError(Problem{.file = file, .key = "mission.start", .message = std::move(why)});
   }
 }
@@ -69,7 +74,8 @@ int ForEachRun(const std::vector<ScenarioRun>& runs,
 }
 
 DrivenScenario DriveScenario(const ScenarioRun& run, bool quiet) {
-  const CarModel car = LoadCar(run.scenario);
+  const auto loaded = run.car ? run.car : std::make_shared<const CarModel>(LoadCar(run.scenario));
+  const CarModel& car = *loaded;
   std::vector<std::string> names = run_folder::AllNames();
   for (const SceneAsset& asset : car.scene().assets) {
     names.push_back(asset.name);

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,6 +18,8 @@ namespace trackbed::cli {
 struct ScenarioRun {
   Scenario scenario;
   std::filesystem::path folder;
+  /// Compiled car; null if DriveScenario is to load it.
+  std::shared_ptr<const CarModel> car{};
 };
 
 /// Reads all scenario files before the first run, so that an error in the last file is found early.
@@ -29,7 +32,8 @@ std::vector<ScenarioRun> ReadScenarioRuns(const std::vector<std::string>& files,
                                           const std::filesystem::path& parent);
 
 /// Throws InputError if an obstacle overlaps the car at the start of the run.
-void RefuseOverlapAtStart(const std::string& file, const Scenario& scenario);
+void RefuseOverlapAtStart(const std::string& file, const Scenario& scenario,
+                          const VehicleParams& vehicle);
 
 /// Calls `work` for each run, but starts no further run after Ctrl-C. After Ctrl-C, ForEachRun
 /// prints the number of skipped runs to stderr. ForEachRun returns the largest exit code that

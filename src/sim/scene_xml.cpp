@@ -42,17 +42,36 @@ XMLElement* FindInWorld(XMLElement& parent, std::string_view kind, std::string_v
 
 namespace {
 
+/// Whether an element or the elements in it are joints.
+bool HasJoint(const XMLElement& element) {
+  const std::string_view kind = element.Name();
+  if (kind == "joint" || kind == "freejoint") {
+    return true;
+  }
+  for (const XMLElement* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    if (HasJoint(*child)) {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Whether the elements in `parent` (a body, a frame or the world) contain only bodies with an
-/// <inertial> element, and no element that makes further bodies.
-bool ContainsOnlyGivenMasses(const XMLElement& parent) {
+/// <inertial> element, and no element that makes further bodies. The mass of a body that is fixed
+/// to the world has no effect; `is_fixed` states whether `parent` is fixed.
+bool ContainsOnlyGivenMasses(const XMLElement& parent, bool is_fixed) {
   for (const XMLElement* child = parent.FirstChildElement(); child != nullptr;
        child = child->NextSiblingElement()) {
     const std::string_view kind = child->Name();
+    if (is_fixed && kind == "body" && !HasJoint(*child)) {
+      continue;
+    }
     if (kind == "body" && child->FirstChildElement("inertial") == nullptr) {
       return false;
     }
     if ((kind == "body" || kind == "frame" || kind == "replicate") &&
-        !ContainsOnlyGivenMasses(*child)) {
+        !ContainsOnlyGivenMasses(*child, is_fixed && kind != "body")) {
       return false;
     }
     if (kind == "composite" || kind == "flexcomp" || kind == "attach") {
@@ -74,7 +93,7 @@ bool GivesAllMasses(const std::string& xml) {
     if (kind == "compiler" && child->Attribute("inertiafromgeom") != nullptr) {
       return false;
     }
-    if (kind == "worldbody" && !ContainsOnlyGivenMasses(*child)) {
+    if (kind == "worldbody" && !ContainsOnlyGivenMasses(*child, true)) {
       return false;
     }
   }

@@ -496,7 +496,8 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& test) { return test.param.name; });
 
 TEST(ImportLog, NoticesAndRemovesTheDelayOfASignal) {
-  // The gyroscope's filter delays the yaw rate by 0.24 s.
+  // The gyroscope's filter delays the yaw rate by 0.24 s. Weaving holds the yaw rate over each row
+  // of 0.02 s, so that the pose is 0.01 s late, and the yaw rate lags the pose by 0.23 s.
   const std::string csv = Weaving([&](double t, const Pose2& pose) {
     return fmt::format("{},{},{},{},{},{},0", t, pose.x, pose.y, pose.yaw, 2.0,
                        1.5 * std::sin(t - 0.24));
@@ -505,23 +506,24 @@ TEST(ImportLog, NoticesAndRemovesTheDelayOfASignal) {
   map.yaw_rate.emplace();
   map.yaw_rate->column = "r";
   EXPECT_THAT(Import(csv, map).notes, Contains(testing::ContainsRegex(
-                                          "yaw_rate lags the motion of the pose by 0.24[0-9]* s "
+                                          "yaw_rate lags the motion of the pose by 0.23[0-9]* s "
                                           "[+]- 0.01 s: shift it with --align, or set "
-                                          "yaw_rate.delay: 0.24")));
+                                          "yaw_rate.delay: 0.23")));
   map.align = true;
   const RecordedDrive aligned = Import(csv, map);
   EXPECT_THAT(aligned.notes, Contains(HasSubstr("shifted by this delay")));
   // The delay is found to a tenth of its resolution, half the distance between two rows. The yaw
   // rate changes by at most 1.5 rad/s^2.
-  EXPECT_NEAR(aligned.At(5.0).yaw_rate, 1.5 * std::sin(5.0), Tolerance(1.5 * 0.1 * 0.01));
+  EXPECT_NEAR(aligned.At(5.0).yaw_rate, 1.5 * std::sin(5.0 - 0.01), Tolerance(1.5 * 0.1 * 0.01));
   map.align = false;
-  map.yaw_rate->delay = 0.24;
+  map.yaw_rate->delay = 0.23;
   for (const std::string& note : Import(csv, map).notes) {
     EXPECT_THAT(note, testing::Not(HasSubstr("yaw_rate lags")));
   }
 }
 
 TEST(ImportLog, NotesHowLateTheCarTurns) {
+  // The steering is 0.15 s early, and the pose of Weaving is 0.01 s late.
   const std::string csv = Weaving([&](double t, const Pose2& pose) {
     return fmt::format("{},{},{},{},{},{},{}", t, pose.x, pose.y, pose.yaw, 2.0, 0.0,
                        std::atan(0.3 * 1.5 * std::sin(t + 0.15) / 2.0));
@@ -530,7 +532,7 @@ TEST(ImportLog, NotesHowLateTheCarTurns) {
   map.steering.emplace();
   map.steering->column = "steer";
   EXPECT_THAT(Import(csv, map).notes,
-              Contains(testing::ContainsRegex("the yaw rate follows steering by 0.1[45][0-9]* s")));
+              Contains(testing::ContainsRegex("the yaw rate follows steering by 0.16[0-9]* s")));
 }
 
 TEST(ImportLog, NoticesACompassHeading) {
