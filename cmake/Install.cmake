@@ -41,10 +41,13 @@ endforeach()
 set(public_headers
     trackbed.h
     analysis/compare_runs.h
+    analysis/margins.h
     analysis/metric_registry.h
+    analysis/path_properties.h
     analysis/run_folder.h
     analysis/statistics.h
     analysis/suite.h
+    core/angle.h
     core/version.h
     falsify/falsify.h
     falsify/verify.h
@@ -57,8 +60,14 @@ set(public_headers
     road_network/lane_route.h
     road_network/open_drive.h
     track/track_file.h
+    planning/common/course_schedule.h
+    planning/common/curvature_steps.h
     planning/curves/dubins.h
     planning/curves/reeds_shepp.h
+    planning/grid/astar.h
+    planning/grid/map_grid.h
+    planning/path_file/path_check.h
+    sim/mujoco_error.h
     testing/falsify_testing.h
     testing/scenario_testing.h
     watch/watch.h)
