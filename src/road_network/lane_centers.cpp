@@ -13,12 +13,12 @@
 
 // Joins the centers of a route's lanes to a path. The center line of a lane is the reference line
 // of the road plus a lateral offset, which is measured across the road's surface and projected to
-// the plane. In a lane change, a quintic polynomial blends the offsets of
-// the two lanes. The algorithm splits the lane centers into pieces, at the stations where one
-// polynomial of the OpenDRIVE file ends and the next polynomial begins. Each piece is sampled at
-// points with exact heading and curvature. Kinks of at most 0.2 rad are rounded over 0.5 m on
-// either side. The algorithm rejects a route whose lane centers have gaps or larger kinks, and a
-// path that deviates too far from the lane centers.
+// the plane. In a lane change, a quintic polynomial blends the offsets of the two lanes. The
+// algorithm splits the lane centers into pieces, at the stations where one polynomial of the
+// OpenDRIVE file ends and the next polynomial begins. Each piece is sampled at points with exact
+// heading and curvature. Kinks of at most 0.2 rad are rounded over 0.5 m on either side, and
+// negligible steps of curvature become ramps. The algorithm rejects a route whose lane centers have
+// gaps or larger kinks, and a path that deviates too far from the lane centers.
 
 namespace trackbed {
 namespace {
@@ -27,6 +27,13 @@ namespace {
 constexpr double kSpacing = 0.25;
 constexpr double kKink = 1e-6;    // Largest kink that is not rounded [rad].
 constexpr double kMaxKink = 0.2;  // Largest kink that is rounded [rad].
+// Largest step of curvature that is rounded as a kink is [1/m]: rounding moves the line by 1e-3/24
+// m, 0.04 mm. Joints of a bank or of a climb on a bank, and rounded numbers in a file, cause such
+// steps. A planner would reserve time for turning the wheels at each step.
+constexpr double kCurvatureStep = 1e-3;
+// Change of the curvature that counts as 0 [1/m]; a curvature of this size turns a line of 100 km
+// by 1e-4 rad.
+constexpr double kSameCurvature = 1e-9;
 // Length of the center line that rounding replaces on either side of a kink [m].
 constexpr double kRounding = 0.5;
 constexpr double kMaxDeviation = 0.05;  // [m]
@@ -188,12 +195,14 @@ class Joiner {
       return fmt::format("the lanes' centers are {:.3g} m apart (at most {} m)", gap,
                          kMaxDeviation);
     }
-    if (std::abs(kink) <= kKink) {
+    const double step = std::abs(piece.front().curve.curvature - end.curvature);
+    const bool is_rounded_step = step > kSameCurvature && step <= kCurvatureStep;
+    if (std::abs(kink) <= kKink && !is_rounded_step) {
       runs_.push_back(std::move(piece));
       return "";
     }
-    // Remove the points around the kink that the rounding replaces, but keep the first point of the
-    // line and the last point of the new piece.
+    // Remove the points around the joint that the rounding replaces, but keep the first point of
+    // the line and the last point of the new piece.
     while (before.size() > 1 && before.back().curve.s > end.s - kRounding) {
       before.pop_back();
     }
@@ -215,19 +224,16 @@ class Joiner {
         points.push_back(point.curve);
       }
       for (Segment& segment : SegmentsThrough(points)) {
-        // Curvature change that counts as 0 [1/m]; a curvature of this size turns a line of 100 km
-        // by 1e-4 rad.
-        constexpr double kEqualityTolerance = 1e-9;
         const double change = std::abs(segment.sharpness) * segment.length +
                               std::abs(segment.sharpness_rate) * segment.length * segment.length;
-        if (change < kEqualityTolerance) {
+        if (change < kSameCurvature) {
           segment.sharpness = 0.0;
           segment.sharpness_rate = 0.0;
         }
         Segment* before = segments.empty() ? nullptr : &segments.back();
-        if (before != nullptr && change < kEqualityTolerance && before->sharpness == 0.0 &&
+        if (before != nullptr && change < kSameCurvature && before->sharpness == 0.0 &&
             before->sharpness_rate == 0.0 &&
-            std::abs(before->curvature - segment.curvature) < kEqualityTolerance) {
+            std::abs(before->curvature - segment.curvature) < kSameCurvature) {
           before->length += segment.length;
         } else {
           segments.push_back(segment);

@@ -287,6 +287,33 @@ TEST(LaneRoute, HasTheHeadingAndCurvatureOfLanesOnABank) {
   }
 }
 
+// At the joint, the second derivative of the roll angle r steps by 6e-4 rad/m^2. The curvature of a
+// lane at t = -2 m, t cos(r) from the reference line, steps by about t sin(r) times as much,
+// 1.2e-4 1/m. The lane is joined without this step, because a planner would slow down for it.
+TEST(LaneRoute, RoundsSmallStepsOfCurvature) {
+  RoadText road;
+  road.geometry =
+      "<geometry s='0' x='0' y='0' hdg='0' length='100'><arc curvature='0.01'/></geometry>";
+  road.heights =
+      "<lateralProfile><superelevation s='0' a='0.1' b='0' c='0' d='0'/>"
+      "<superelevation s='50' a='0.1' b='0' c='-0.0003' d='0'/></lateralProfile>";
+  const RoadNetwork network = ParseNetwork(road.Xml());
+  const Road& own = network.roads.at("1");
+  const CubicValue center = LaneBordersAt(own, -1, 50.0).Center();
+  const double before = SurfaceLineAt(own, center, 50.0, 25.0).curvature;
+  const double after = SurfaceLineAt(own, center, 50.0, 75.0).curvature;
+  EXPECT_GT(std::abs(after - before), 1e-4);  // the road has the step
+  const LaneRoute route = FindLaneRoute(network, {{"1", -1, 5.0}, {"1", -1, 95.0}});
+  ASSERT_TRUE(route.ok()) << route.failure;
+  const std::vector<Segment>& segments = route.path.segments();
+  for (std::size_t i = 1; i < segments.size(); ++i) {
+    // SegmentsThrough passes its points with the rounding of a few operations on 0.01 1/m.
+    EXPECT_NEAR(segments[i - 1].CurvatureAt(segments[i - 1].length), segments[i].curvature,
+                Tolerance(1e-12))
+        << i;
+  }
+}
+
 /// Three roads of 100 m in a row along the x axis. The lanes of the middle one are `lanes`.
 std::string ThreeRoads(const std::string& lanes) {
   std::string all;
