@@ -14,7 +14,7 @@ namespace trackbed::run_checks {
 
 /// A check of a run.
 struct RunCheck {
-  std::string description;  ///< What the run must do, such as "tracks its path within 0.1 m".
+  std::string description;  ///< Condition on the run, such as "tracks its path within 0.1 m".
   /// Returns why a run that has a plan fails the check; empty if the run passes.
   std::function<std::vector<std::string>(const RunResult&)> failures;
 };
