@@ -11,7 +11,7 @@ namespace audit {
 
 /// A mission that a person could draw, on an open plane without obstacles.
 struct OrdinaryRoute {
-  std::string shape;  ///< What the route looks like, such as "hairpin".
+  std::string shape;  ///< Kind of the route's shape, such as "hairpin".
   trackbed::Scenario scenario;
 };
 

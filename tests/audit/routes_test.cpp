@@ -61,7 +61,7 @@ bool IsListed(const Finding& finding, const RoutePlanner& planner, const Record&
   return finding.kind == "not_passed" && is_icy && record.drives.front().has_wheels;
 }
 
-/// What became of the routes of a campaign.
+/// Numbers of routes of a campaign by result.
 struct RouteTally {
   std::map<std::string, std::size_t> by_planner;  ///< "dubins ok", "fillet turn_too_tight", …
   std::map<std::string, std::size_t> findings;

@@ -60,7 +60,7 @@ class TurnsRound : public ::testing::TestWithParam<ControllerEntry> {};
 TEST_P(TurnsRound, FromAnyHeadingAndOffset) {
   // Until the wheels are at full lock, the car drives at most v delta_max/omega; on the circle of
   // full lock, it moves at most another radius away from any line. From an offset of 3 m, the
-  // laws may first drive on toward the path, within their preview distance.
+  // controllers may first drive toward the path for at most their preview distance.
   const VehicleParams car = ReferenceCar();
   const double speed = 1.0;
   const double turning = speed * car.steering_limit / car.steering_rate + car.min_turning_radius();
@@ -100,7 +100,7 @@ TEST_P(TurnsRound, ToOneSideUnderNoise) {
 }
 
 TEST_P(TurnsRound, ToTheShorterSideInBothGears) {
-  // To the left of the target's line if the car heads just short of the opposite direction. A car
+  // The shorter side is the left if the car must turn left by slightly less than pi. A car
   // in reverse turns its heading to the left with its wheels to the right.
   for (const int direction : {1, -1}) {
     for (const double side : {1.0, -1.0}) {

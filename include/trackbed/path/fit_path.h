@@ -16,7 +16,7 @@ struct PathPoints {
   std::vector<double> yaw;   ///< Headings of the car at the points [rad].
   /// Curvatures of the path at the points, positive to the left [1/m].
   std::vector<double> curvature;
-  std::vector<double> speed;  ///< Speeds of the car at the points [m/s], >= 0, also in reverse.
+  std::vector<double> speed;  ///< Speeds of the car at the points [m/s], >= 0, in both gears.
   /// Line numbers of the points in the file, from 1, for error messages.
   std::vector<int> lines{};
   /// Directions of motion at the points: +1 forwards, -1 backwards, 0 unknown, as where the car
@@ -104,11 +104,11 @@ PathPoints AtRearAxle(PathPoints given, double ahead);
 /// The points are divided into legs of one direction of motion, by their directions and, where
 /// these are missing, by their headings: the car drives in reverse where its heading is opposite to
 /// the step to the next point. A leg that is shorter than max_deviation counts as noise. The car
-/// changes its direction at points, the cusps of the path. Each leg is fitted as a curve of its
-/// own. At a cusp, the heading is continuous; it is the given heading, corrected by the mean
-/// difference of the curves from the given headings, or the mean of the curves' headings. The
-/// curvature may jump at a cusp, where the car stands. A path without directions and headings has
-/// one forward leg.
+/// changes its direction at points, the cusps of the path. Each leg is fitted as a separate curve.
+/// At a cusp, the heading is continuous; it is the given heading, corrected by the mean difference
+/// of the curves from the given headings, or the mean of the curves' headings. The curvature may
+/// jump at a cusp, where the car stands. A path without directions and headings has one forward
+/// leg.
 ///
 /// Because a Path has a continuous heading, each corner of a polyline becomes an arc. The arc is at
 /// most 2 mm long, is within 1 mm of the corner, and is far too tight for any car.

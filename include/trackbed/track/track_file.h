@@ -19,7 +19,7 @@ struct TrackReading {
 /// A track, and notes about how it was read.
 struct TrackFile {
   Track track;
-  /// What differs from the file, with line numbers: narrowed edges, a repeated first point, and the
+  /// Differences from the file, with line numbers: narrowed edges, a repeated first point, and the
   /// columns if their names are not those of TUM.
   std::vector<std::string> notes;
 };

@@ -65,8 +65,8 @@ inline constexpr GripShares kBendShares{0.7, 0.7};
 
 /// Returns the largest acceleration and deceleration on each piece of the path (ForEachPiece with
 /// kCheckSpacing), the smaller values of both ends of the piece; infinite if they are unknown. The
-/// checks and the speeds of a plan use the same pieces. Hence a plan within these limits passes the
-/// checks, wherever the edge of a slippery patch lies.
+/// checks and the speeds of a plan use the same pieces. A plan within these limits therefore passes
+/// the checks for every position of the edge of a slippery patch.
 std::vector<AccelerationCap> GripAlong(const Path& path, const PlanRequest& request);
 
 /// Returns the sections of the path on which the given shares of GripAlong are less than the limits

@@ -5,7 +5,7 @@
 
 namespace trackbed {
 
-/// What a planner of curves of continuous curvature is asked for.
+/// Requirements on a route of continuous curvature.
 struct ContinuousRoute {
   CurveMotion motion = CurveMotion::kForwards;
   CurveObjective objective = CurveObjective::kLength;

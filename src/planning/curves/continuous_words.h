@@ -10,7 +10,7 @@ namespace trackbed {
 /// Least length of a straight between two cusps, above the length of pieces that are left out.
 inline constexpr double kMinStraight = 1e-11;
 
-/// What a car can do at a cusp.
+/// Abilities of the car at a cusp.
 enum class CurveMotion {
   kForwards,    ///< The car never drives backwards.
   kContinuous,  ///< The curvature is continuous at cusps.
@@ -116,8 +116,9 @@ inline TurnJunction ChainFinder::Touch(double angle, bool cusp, int side, int di
           .zero_after = zero};
 }
 
-/// Words with a straight, possibly with a cusp and a quarter turn at one of its ends or at both, or
-/// with a straight that is driven against the direction of a neighboring turn.
+/// Finds the words with a straight. A word may have a cusp and a quarter turn at one end of the
+/// straight or at both ends, and may drive the straight in the direction opposite to a neighboring
+/// turn.
 template <typename Limit, typename Consider>
 void ChainFinder::WithStraight(const Centers& centers, const Limit& limit,
                                const Consider& consider) const {

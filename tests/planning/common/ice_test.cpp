@@ -1,4 +1,5 @@
-// Tests that plans from rest are slowed down until the road holds them, wherever ice lies.
+// Tests that plans from rest are slowed down until the road holds them, for every position of the
+// ice.
 
 #include <gtest/gtest.h>
 

@@ -17,7 +17,7 @@ enum class CurveCurvature {
   kCuspSteps,   ///< It is continuous except at cusps, where the car turns its wheels at rest.
 };
 
-/// What a planner of curves of continuous curvature minimizes.
+/// Quantity that a planner of curves of continuous curvature minimizes.
 enum class CurveObjective {
   kLength,  ///< The length of the path, at the speed of the mission.
   kTime,    ///< The driving time; the car may drive more slowly on sharper turns.
