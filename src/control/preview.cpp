@@ -28,12 +28,13 @@ class Preview final : public SteeringController {
     const double shortest = options_.distance ? *options_.distance : PreviewDistance(input);
     const double distance =
         std::max({shortest, options_.time * std::abs(input.state.speed), ReturnDistance(input)});
-    if (const std::optional<double> steering = turn_round_.Steer(input, distance)) {
+    const double angle =
+        PreviewAngle(input.reference.path, input.state.pose, input.station, distance);
+    if (const std::optional<double> steering = turn_round_.Steer(input, angle)) {
       return *steering;
     }
     const int direction = input.reference.path.BendAt(input.station).direction;
-    const double u = PreviewAngle(input.reference.path, input.state.pose, input.station, distance) -
-                     (options_.slip ? RearSlip(input) : 0.0);
+    const double u = angle - (options_.slip ? RearSlip(input) : 0.0);
     // In reverse gear, steering to the right turns the direction of motion to the left.
     const double bend =
         direction * 2.0 / distance * (options_.law == PreviewLaw::kLinear ? u : std::sin(u));

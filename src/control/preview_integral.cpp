@@ -60,7 +60,8 @@ class PreviewIntegral final : public SteeringController {
     const Path& path = input.reference.path;
     const int direction = path.BendAt(input.station).direction;
     const double distance = Distance(input, direction);
-    if (const std::optional<double> steering = turn_round_.Steer(input, distance)) {
+    const double angle = PreviewAngle(path, input.state.pose, input.station, distance);
+    if (const std::optional<double> steering = turn_round_.Steer(input, angle)) {
       return Delayed(*steering, input);
     }
     double moved = 0.0;

@@ -25,10 +25,10 @@ class PurePursuit final : public SteeringController {
     const Path& path = input.reference.path;
     const double shortest = options_.distance ? *options_.distance : Lookahead(input);
     const double distance = std::max(shortest, options_.time * std::abs(input.state.speed));
-    if (const std::optional<double> steering = turn_round_.Steer(input, distance)) {
+    const double u = PreviewAngle(path, input.state.pose, input.station, distance);
+    if (const std::optional<double> steering = turn_round_.Steer(input, u)) {
       return *steering;
     }
-    const double u = PreviewAngle(path, input.state.pose, input.station, distance);
     const double steering = std::atan(2.0 * input.vehicle.wheelbase * std::sin(u) / distance);
     const double limit = input.vehicle.steering_limit;
     // In reverse gear, steering to the right turns the direction of motion to the left.

@@ -44,13 +44,11 @@ double TurnRoundLimit(const VehicleParams& vehicle, double speed) {
   return std::clamp(std::abs(steering), 0.0, vehicle.steering_limit);
 }
 
-std::optional<double> TurnRound::Steer(const ControlInput& input, double distance) {
+std::optional<double> TurnRound::Steer(const ControlInput& input, double u) {
   const Path& path = input.reference.path;
-  const double heading_error =
-      AngleDifference(input.state.pose.yaw, path.At(input.station).pose.yaw);
-  const double u = PreviewAngle(path, input.state.pose, input.station, distance);
   // The angle from the direction of the path to P is u + psi.
-  if (std::cos(u) >= 0.0 || std::cos(u + heading_error) < 0.0) {
+  if (std::cos(u) >= 0.0 ||
+      std::cos(u + AngleDifference(input.state.pose.yaw, path.At(input.station).pose.yaw)) < 0.0) {
     side_ = 0.0;
     return std::nullopt;
   }
@@ -70,7 +68,8 @@ std::optional<double> TurnRound::Steer(const ControlInput& input) {
     side_ = 0.0;
     return std::nullopt;
   }
-  return Steer(input, std::max(PreviewDistance(input), ReturnDistance(input)));
+  return Steer(input, PreviewAngle(input.reference.path, input.state.pose, input.station,
+                                   std::max(PreviewDistance(input), ReturnDistance(input))));
 }
 
 }  // namespace trackbed

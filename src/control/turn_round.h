@@ -28,9 +28,9 @@ double TurnRoundLimit(const VehicleParams& vehicle, double speed);
 /// behind.
 class TurnRound {
  public:
-  /// Returns the commanded steering angle [rad] if the car must turn round, otherwise nullopt. P is
-  /// the point of PreviewAngle at `distance` [m] > 0. Call Steer once per control period.
-  std::optional<double> Steer(const ControlInput& input, double distance);
+  /// Returns the commanded steering angle [rad] if the car must turn round, otherwise nullopt. `u`
+  /// is the angle of P [rad], from PreviewAngle. Call Steer once per control period.
+  std::optional<double> Steer(const ControlInput& input, double u);
 
   /// Calls Steer with the default preview distance, for controllers without a preview point.
   std::optional<double> Steer(const ControlInput& input);
