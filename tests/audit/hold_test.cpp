@@ -67,7 +67,8 @@ std::vector<Layer> Layers() {
 constexpr std::array kRoads{0.15, 0.3, 0.5, 0.0};
 constexpr std::array<std::array<double, 2>, 3> kGrades{{{0.0, 0.0}, {-0.08, 0.03}, {0.08, -0.05}}};
 
-/// The random route of a planner, without other random settings.
+/// The random route of a planner, without other random settings. The route is long enough that the
+/// box on the way does not overlap the car at the start.
 Scenario RouteOf(std::size_t planner) {
   Scenario scenario = RandomScenario(planner, 0);
   for (int attempt = 1; attempt < 50; ++attempt) {
@@ -84,7 +85,9 @@ Scenario RouteOf(std::size_t planner) {
     scenario.drive.time_limit = 20.0;
     try {
       CheckScenario(scenario);
-      if (PlanScenario(scenario, LoadCar(scenario)).ok()) {
+      const CarModel car = LoadCar(scenario);
+      const FeasiblePlan plan = PlanScenario(scenario, car);
+      if (plan.ok() && plan->reference.path.length() > 3.0 * car.params().length) {
         return scenario;
       }
     } catch (const InputError&) {
@@ -134,7 +137,9 @@ TEST_P(WhatARoadHolds, IsNotExceededByAnyPlan) {
       if (kRoads[road] == 0.0) {
         const Pose2 middle = alone->reference.path.At(0.5 * alone->reference.path.length()).pose;
         const double length = car.params().length;
-        const Vec2 left = ToWorld(middle, {0.0, 0.75 * length});
+        // The right edge of the patch is 0.05 lengths to the right of the route. On a straight
+        // route that coincides with the edge, rounding would decide which points are on the patch.
+        const Vec2 left = ToWorld(middle, {0.0, 0.7 * length});
         scenario.world.friction_patches = {
             {{{left.x(), left.y(), middle.yaw}, 4.0 * length, 1.5 * length}, 0.2}};
       }
