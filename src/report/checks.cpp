@@ -44,7 +44,7 @@ ordered_json CheckRows(const JsonValue& verdict) {
     const ShownName name = is_pair ? NameOfComparison(metric) : NameOfMetric(metric);
     const std::optional<JsonValue> formula = check.Find("formula");
     const std::string relation = check.At("relation").Text();
-    const ordered_json& bound = check.At("bound").Scalar();
+    const ordered_json bound = check.At("bound").Scalar();
     rows.push_back({{"of", plant},
                     {"metric", metric},
                     {"what", formula ? RequirementLabel(name, formula->Text()) : name.label},
