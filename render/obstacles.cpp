@@ -8,6 +8,7 @@
 #include "render/events.h"
 #include "render/scene.h"
 #include "render/scene_handle.h"
+#include "trackbed/core/angle.h"
 #include "trackbed/sim/mujoco_handles.h"
 
 // Draws each obstacle with an appearance that depends on the obstacle's size (ChooseLook). An
@@ -17,6 +18,17 @@
 // is drawn.
 namespace trackbed::render {
 namespace {
+
+/// Returns the distance that an obstacle drives through its poses in the direction `yaw`, relative
+/// to its heading [m]; negative against this direction.
+double DrivenAlong(const Obstacle& obstacle, double yaw) {
+  double sum = 0.0;
+  for (std::size_t i = 1; i < obstacle.motion.size(); ++i) {
+    const Pose2& from = obstacle.motion[i - 1].pose;
+    sum += Direction(from.yaw + yaw).dot(obstacle.motion[i].pose.position() - from.position());
+  }
+  return sum;
+}
 
 // Time for which the outline of an obstacle stays visible after the planner has detected it [s].
 constexpr double kOutlineDuration = 1.5;
@@ -287,9 +299,14 @@ class Obstacles : public Overlay {
   }
 
   /// Returns the direction, 1 or -1, in which an obstacle drawn as a car faces along the box's
-  /// longer side, from the obstacle's velocity.
+  /// longer side: the direction in which the obstacle drives farther.
   [[nodiscard]] double ForwardOf(std::size_t i, const Block& block) const {
-    const Vec2& velocity = recording_.world.obstacles[i].velocity;
+    const Obstacle& obstacle = recording_.world.obstacles[i];
+    if (!obstacle.motion.empty()) {
+      return DrivenAlong(obstacle, block.half[0] >= block.half[1] ? 0.0 : 0.5 * kPi) < 0.0 ? -1.0
+                                                                                           : 1.0;
+    }
+    const Vec2& velocity = obstacle.velocity;
     const int side = block.half[0] >= block.half[1] ? 0 : 1;
     const double along = velocity.x() * block.axes(0, side) + velocity.y() * block.axes(1, side);
     return along < 0.0 ? -1.0 : 1.0;

@@ -21,8 +21,9 @@ ConfigurationLog::ConfigurationLog(const std::vector<std::string>& columns, cons
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
     if (obstacle.moves()) {
-      AddMoving(fmt::format("obstacle_{}_x_m", i), obstacle.velocity.x());
-      AddMoving(fmt::format("obstacle_{}_y_m", i), obstacle.velocity.y());
+      AddMoving(fmt::format("obstacle_{}_x_m", i), obstacle, &Pose2::x);
+      AddMoving(fmt::format("obstacle_{}_y_m", i), obstacle, &Pose2::y);
+      AddMoving(fmt::format("obstacle_{}_yaw_rad", i), obstacle, &Pose2::yaw);
     }
   }
 }
@@ -39,16 +40,17 @@ void ConfigurationLog::Record(const Plant& plant, double time) {
   const std::vector<double> configuration = plant.Configuration();
   row_.assign(1, time);
   row_.insert(row_.end(), configuration.begin(), configuration.end());
-  for (const auto& [column, speed] : moving_) {
-    row_[column] = speed * time;
+  for (const Moving& moving : moving_) {
+    row_[moving.column] = MotionAt(moving.obstacle, time).displacement.*moving.coordinate;
   }
   table_.AddRow(row_);
   next_ = static_cast<long>(std::floor((time + 5e-7) / period_)) + 1;
 }
 
-void ConfigurationLog::AddMoving(const std::string& column, double speed) {
+void ConfigurationLog::AddMoving(const std::string& column, const Obstacle& obstacle,
+                                 double Pose2::*coordinate) {
   if (const int found = table_.Find(column); found >= 0) {
-    moving_.emplace_back(static_cast<std::size_t>(found), speed);
+    moving_.push_back({static_cast<std::size_t>(found), obstacle, coordinate});
   }
 }
 

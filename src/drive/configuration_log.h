@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,14 +28,20 @@ class ConfigurationLog {
   Table Take() { return std::move(table_); }
 
  private:
-  void AddMoving(const std::string& column, double speed);
+  /// A column of a moving obstacle, which contains one coordinate of the obstacle's displacement.
+  struct Moving {
+    std::size_t column = 0;
+    Obstacle obstacle;
+    double Pose2::*coordinate = nullptr;
+  };
+
+  void AddMoving(const std::string& column, const Obstacle& obstacle, double Pose2::*coordinate);
 
   double period_;
   long next_ = 0;
   Table table_;
   std::vector<double> row_;  // The last row of the table of configurations.
-  // Table column of each moving obstacle, and the obstacle's speed [m/s].
-  std::vector<std::pair<std::size_t, double>> moving_;
+  std::vector<Moving> moving_;
 };
 
 }  // namespace trackbed

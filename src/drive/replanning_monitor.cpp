@@ -152,7 +152,7 @@ std::vector<MovingBox> ReplanningMonitor::KnownObstacles(const VehicleState& sta
         !knowledge_[i].avoided && driving_.on_route &&
         IsForAvoider(options_.replanning, options_.vehicle, path, station, box);
     if (!for_avoider) {
-      known.push_back({box, obstacle.velocity});
+      known.push_back({box, MotionAt(obstacle, state.time).velocity});
     }
   }
   for (const OrientedBox& wall : MapWalls(options_.world)) {

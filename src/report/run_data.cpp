@@ -178,8 +178,16 @@ ordered_json WorldJson(const World& world) {
                     {"patches", ordered_json::array()}};
   for (const Obstacle& obstacle : world.obstacles) {
     ordered_json box = BoxJson(obstacle.footprint);
-    box["vx"] = Rounded(obstacle.velocity.x());
-    box["vy"] = Rounded(obstacle.velocity.y());
+    const Vec2 velocity = MotionAt(obstacle, 0.0).velocity;
+    box["vx"] = Rounded(velocity.x());
+    box["vy"] = Rounded(velocity.y());
+    if (obstacle.until) {
+      box["until"] = Rounded(*obstacle.until);
+    }
+    for (const TimedPose& at : obstacle.motion) {
+      box["motion"].push_back(
+          {Rounded(at.time), Rounded(at.pose.x), Rounded(at.pose.y), Rounded(at.pose.yaw)});
+    }
     box["height"] = Rounded(obstacle.height);
     box["known_later"] = obstacle.known_from_time || obstacle.known_from_range;
     json["obstacles"].push_back(box);

@@ -130,16 +130,62 @@ void CheckGusts(Diagnostics& c) {
   }
 }
 
+/// Largest speed of an obstacle [m/s], as of world.obstacles[N].velocity.
+constexpr double kMaxObstacleSpeed = 100.0;
+/// Permitted difference of poses that must be the same [m] and [rad].
+constexpr double kSamePlace = 1e-3;
+
+/// Checks the poses through which an obstacle moves.
+void CheckMotion(Diagnostics& c, const Obstacle& obstacle, const std::string& key) {
+  const std::vector<TimedPose>& motion = obstacle.motion;
+  if (motion.empty()) {
+    return;
+  }
+  if (obstacle.velocity != Vec2::Zero()) {
+    c.AddError(key + ".velocity", "give velocity or motion, not both");
+  }
+  if (motion.size() == 1) {
+    c.AddError(key + ".motion", "needs at least two poses; give box and velocity instead");
+    return;
+  }
+  for (std::size_t i = 1; i < motion.size(); ++i) {
+    const std::string at = fmt::format("{}.motion[{}]", key, i);
+    const double duration = motion[i].time - motion[i - 1].time;
+    const double distance = (motion[i].pose.position() - motion[i - 1].pose.position()).norm();
+    if (!(duration > 0.0)) {
+      c.AddError(at + ".time", fmt::format("{} s is not later than {} s of the pose before",
+                                           motion[i].time, motion[i - 1].time));
+      return;
+    }
+    if (distance > kMaxObstacleSpeed * duration) {
+      c.AddError(at, fmt::format("{:.4g} m from the pose before in {:.4g} s is {:.4g} m/s; must be "
+                                 "at most {} m/s",
+                                 distance, duration, distance / duration, kMaxObstacleSpeed));
+    }
+  }
+  const Pose2 apart = MotionAt(obstacle, 0.0).displacement;
+  if (std::hypot(apart.x, apart.y) > kSamePlace ||
+      std::abs(AngleDifference(apart.yaw, 0.0)) > kSamePlace) {
+    const Pose2& box = obstacle.footprint.center;
+    c.AddError(key + ".box",
+               fmt::format("differs from the pose of motion at 0 s; omit x, y and yaw, or give "
+                           "x: {:.6g}, y: {:.6g}, yaw: {:.6g}",
+                           box.x + apart.x, box.y + apart.y, box.yaw + apart.yaw));
+  }
+}
+
 void CheckObstacles(Diagnostics& c) {
   for (std::size_t i = 0; i < c.scenario.world.obstacles.size(); ++i) {
     const Obstacle& obstacle = c.scenario.world.obstacles[i];
     if (obstacle.known_from_time && obstacle.known_from_range) {
       c.AddError(fmt::format("world.obstacles[{}].known_from", i), "give time or range, not both");
     }
+    const char* motion = obstacle.motion.empty() ? "velocity" : "motion";
     if (obstacle.moves() && !IsFlat(c.scenario.world.ground)) {
-      c.AddError(fmt::format("world.obstacles[{}].velocity", i),
+      c.AddError(fmt::format("world.obstacles[{}].{}", i, motion),
                  "moving obstacles need a flat world.ground");
     }
+    CheckMotion(c, obstacle, fmt::format("world.obstacles[{}]", i));
   }
 }
 

@@ -1,5 +1,9 @@
 #pragma once
 
+#include <algorithm>
+#include <optional>
+#include <vector>
+
 #include "src/scenario/visit_map.h"
 #include "trackbed/world/world.h"
 
@@ -108,13 +112,51 @@ inline void Visit(KeyVisitor& a, World& world) {
   }
 }
 
+/// Whether the times of a motion increase over at least two poses, so that the motion can be
+/// evaluated.
+inline bool IsPiecewise(const std::vector<TimedPose>& motion) {
+  return motion.size() >= 2 && std::adjacent_find(motion.begin(), motion.end(),
+                                                  [](const TimedPose& a, const TimedPose& b) {
+                                                    return a.time >= b.time;
+                                                  }) == motion.end();
+}
+
 /// Keys of the section `box` of an obstacle.
 struct BoxKeys {
   Obstacle& obstacle;
 };
 
+/// Reads the box of an obstacle that moves through poses: the center is the pose at time 0 unless
+/// the keys repeat it.
+inline void VisitMovingBox(KeyVisitor& a, Obstacle& obstacle) {
+  OrientedBox& box = obstacle.footprint;
+  box.center = {};
+  const Pose2 start = MotionAt(obstacle, 0.0).displacement;
+  std::optional<double> x;
+  std::optional<double> y;
+  std::optional<double> yaw;
+  a.Field({"x", "m", "center of the rectangle"}, x, kMap);
+  a.Field({"y", "m", "center of the rectangle"}, y, kMap);
+  a.Field({"yaw", "rad", "direction of its length"}, yaw, kDirection);
+  a.Field({"length", "m", "along its own x axis"}, box.length, Need::kRequired, kSize);
+  a.Field({"width", "m", "along its own y axis"}, box.width, Need::kRequired, kSize);
+  box.center = {x.value_or(start.x), y.value_or(start.y), yaw.value_or(start.yaw)};
+}
+
+inline void Visit(KeyVisitor& a, TimedPose& at) {
+  a.Field({"time", "s", "simulation time, later than that of the pose before"}, at.time,
+          Need::kRequired, kNonNegative);
+  a.Field({"x", "m", "center of the box"}, at.pose.x, Need::kRequired, kMap);
+  a.Field({"y", "m", "center of the box"}, at.pose.y, Need::kRequired, kMap);
+  a.Field({"yaw", "rad", "direction of its length"}, at.pose.yaw, Need::kRequired, kDirection);
+}
+
 inline void Visit(KeyVisitor& a, BoxKeys& keys) {
-  Visit(a, keys.obstacle.footprint);
+  if (a.mode() == KeyVisitor::Mode::kRead && IsPiecewise(keys.obstacle.motion)) {
+    VisitMovingBox(a, keys.obstacle);
+  } else {
+    Visit(a, keys.obstacle.footprint);
+  }
   a.Field({"height", "m", "height above the ground"}, keys.obstacle.height, Need::kOptional, kSize);
 }
 
@@ -140,10 +182,16 @@ inline void Visit(KeyVisitor& a, KnownFromKeys& keys) {
 }
 
 inline void Visit(KeyVisitor& a, Obstacle& obstacle) {
+  const bool writes = a.mode() == KeyVisitor::Mode::kWrite;
+  if (!writes || !obstacle.motion.empty()) {
+    a.List({"motion", "", "poses through which the box moves; default: constant velocity"},
+           obstacle.motion);
+  }
   BoxKeys keys{obstacle};
   a.Section({"box", "", "box on the ground"}, keys, Need::kRequired);
-  const bool writes = a.mode() == KeyVisitor::Mode::kWrite;
-  if (!writes || obstacle.moves()) {
+  a.Field({"until", "s", "time after which the box is gone; default: never"}, obstacle.until,
+          kNonNegative);
+  if (!writes || obstacle.velocity != Vec2::Zero()) {
     VelocityKeys velocity{obstacle.velocity};
     a.Section({"velocity", "", "velocity of the box, without rotation; default: static"}, velocity);
   }

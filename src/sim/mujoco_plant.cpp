@@ -84,15 +84,17 @@ MujocoPlant::MujocoPlant(const PlantSetup& setup, TyreSupport support)
   yaw_ = start.pose.yaw;
   for (std::size_t i = 0; i < world_.obstacles.size(); ++i) {
     const Obstacle& obstacle = world_.obstacles[i];
-    for (const auto& [axis, speed] :
-         {std::pair("x", obstacle.velocity.x()), std::pair("y", obstacle.velocity.y())}) {
-      if (obstacle.moves()) {
-        const std::string name = fmt::format("obstacle_{}_{}", i, axis);
-        const int joint = mj_name2id(model_.get(), mjOBJ_JOINT, name.c_str());
-        TRACKBED_CHECK(joint >= 0, "the scene has no joint '{}'", name);
-        sliders_.push_back({model_->jnt_qposadr[joint], model_->jnt_dofadr[joint], speed});
-      }
+    if (!obstacle.moves()) {
+      continue;
     }
+    const auto joint_of = [&](const char* axis) {
+      const std::string name = fmt::format("obstacle_{}_{}", i, axis);
+      const int joint = mj_name2id(model_.get(), mjOBJ_JOINT, name.c_str());
+      TRACKBED_CHECK(joint >= 0, "the scene has no joint '{}'", name);
+      return MovedJoint{model_->jnt_qposadr[joint], model_->jnt_dofadr[joint]};
+    };
+    movers_.push_back({i, joint_of("x"), joint_of("y"),
+                       obstacle.motion.empty() ? std::nullopt : std::optional(joint_of("yaw"))});
   }
 }
 
@@ -138,9 +140,17 @@ void MujocoPlant::Step(const Command& command) {
 /// Sets moving obstacles to their planned positions and speeds; a collision does not change the
 /// motion of an obstacle.
 void MujocoPlant::MoveObstacles() {
-  for (const Slider& slider : sliders_) {
-    data_->qpos[slider.qpos] = slider.speed * data_->time;
-    data_->qvel[slider.dof] = slider.speed;
+  const auto move = [&](const MovedJoint& joint, double position, double velocity) {
+    data_->qpos[joint.qpos] = position;
+    data_->qvel[joint.dof] = velocity;
+  };
+  for (const Mover& mover : movers_) {
+    const ObstacleMotion motion = MotionAt(world_.obstacles[mover.obstacle], data_->time);
+    move(mover.x, motion.displacement.x, motion.velocity.x());
+    move(mover.y, motion.displacement.y, motion.velocity.y());
+    if (mover.yaw) {
+      move(*mover.yaw, motion.displacement.yaw, motion.yaw_rate);
+    }
   }
 }
 

@@ -87,11 +87,18 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   [[nodiscard]] double Drag() const;
 
  private:
-  /// A slide joint along which an obstacle moves: indices of the joint in qpos and qvel, and speed.
-  struct Slider {
+  /// Indices in qpos and qvel of a joint whose motion is prescribed.
+  struct MovedJoint {
     int qpos = -1;
     int dof = -1;
-    double speed = 0.0;  // [m/s]
+  };
+
+  /// The joints along which an obstacle of the world moves.
+  struct Mover {
+    std::size_t obstacle = 0;
+    MovedJoint x;
+    MovedJoint y;
+    std::optional<MovedJoint> yaw;
   };
 
   void MoveObstacles();
@@ -108,7 +115,7 @@ class MujocoPlant : public Plant, private MujocoSimulation {
   const CarModel& car_;
   const World& world_;
   RoadContact ground_;
-  std::vector<Slider> sliders_;
+  std::vector<Mover> movers_;
   std::vector<bool> is_obstacle_;  // For each geom of the model, whether it is an obstacle.
   // For each geom of the model, whether it belongs to the car.
   std::vector<bool> is_of_car_;

@@ -230,17 +230,34 @@ Scene WithGround(const Scene& car_scene, const Ground& ground) {
 /// Mass of an obstacle [kg], so large that no car can move the obstacle.
 constexpr double kHeavy = 1e6;
 
-/// Inserts a body that can slide over the ground along the joints `name`_x and `name`_y. All joint
-/// attributes are set explicitly, so that the defaults in the car's file do not apply.
-XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2& place) {
+/// A joint along which an obstacle moves.
+struct ObstacleJoint {
+  const char* suffix;
+  const char* type;
+  const char* axis;
+};
+
+/// Returns the joints of a moving obstacle. Only an obstacle that moves through poses can rotate.
+std::vector<ObstacleJoint> JointsOf(const Obstacle& obstacle) {
+  std::vector<ObstacleJoint> joints{{"x", "slide", "1 0 0"}, {"y", "slide", "0 1 0"}};
+  if (!obstacle.motion.empty()) {
+    joints.push_back({"yaw", "hinge", "0 0 1"});
+  }
+  return joints;
+}
+
+/// Inserts a body that can move over the ground along joints such as `name`_x. All joint attributes
+/// are set explicitly, so that the defaults in the car's file do not apply.
+XMLElement* InsertSlider(XMLElement& bodies, const std::string& name, const Vec2& place,
+                         const std::vector<ObstacleJoint>& joints) {
   XMLElement* body = bodies.InsertNewChildElement("body");
   body->SetAttribute("name", name.c_str());
   body->SetAttribute("pos", Numbers({place.x(), place.y(), 0.0}).c_str());
-  for (const auto& [axis, direction] : {std::pair("x", "1 0 0"), std::pair("y", "0 1 0")}) {
+  for (const ObstacleJoint& each : joints) {
     XMLElement* joint = body->InsertNewChildElement("joint");
-    joint->SetAttribute("name", (name + "_" + axis).c_str());
-    joint->SetAttribute("type", "slide");
-    joint->SetAttribute("axis", direction);
+    joint->SetAttribute("name", (name + "_" + each.suffix).c_str());
+    joint->SetAttribute("type", each.type);
+    joint->SetAttribute("axis", each.axis);
     for (const char* nothing : {"damping", "stiffness", "armature", "frictionloss", "ref"}) {
       joint->SetAttribute(nothing, 0);
     }
@@ -347,6 +364,7 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
 
   XMLElement* bodies = root.InsertNewChildElement("worldbody");
   std::vector<std::string> sliders;
+  std::size_t joint_count = 0;
   for (std::size_t i = 0; i < world.obstacles.size(); ++i) {
     const Obstacle& obstacle = world.obstacles[i];
     const OrientedBox& box = obstacle.footprint;
@@ -357,7 +375,9 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
     XMLElement* parent = bodies;
     Vec2 origin = Vec2::Zero();
     if (obstacle.moves()) {
-      parent = InsertSlider(*bodies, name, place);
+      const std::vector<ObstacleJoint> joints = JointsOf(obstacle);
+      parent = InsertSlider(*bodies, name, place, joints);
+      joint_count += joints.size();
       origin = place;
       sliders.push_back(name);
     }
@@ -378,7 +398,7 @@ Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const 
   }
   AddWalls(*bodies, world);
   ExcludeContacts(root, sliders);
-  ExtendKeyframes(root, 2 * static_cast<int>(sliders.size()));
+  ExtendKeyframes(root, static_cast<int>(joint_count));
   Scene scene = car_scene;
   scene.xml = Print(document);
   scene.lines.clear();

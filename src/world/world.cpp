@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "trackbed/core/angle.h"
 #include "trackbed/core/error.h"
 
 namespace trackbed {
@@ -55,8 +56,57 @@ OrientedBox FootprintAt(const VehicleParams& vehicle, const Pose2& pose) {
   return {{middle.x(), middle.y(), pose.yaw}, vehicle.length, vehicle.width};
 }
 
+namespace {
+
+/// A piece of an obstacle's motion, from one pose to the next.
+struct MotionPiece {
+  TimedPose from;
+  TimedPose to;
+  Vec2 velocity;    // [m/s]
+  double yaw_rate;  // [rad/s]
+};
+
+/// Returns the piece of a motion at `time`: the first or the last piece beyond the ends.
+MotionPiece PieceAt(const std::vector<TimedPose>& motion, double time) {
+  const auto after =
+      std::upper_bound(motion.begin() + 1, motion.end() - 1, time,
+                       [](double t, const TimedPose& pose) { return t < pose.time; });
+  const TimedPose& from = *(after - 1);
+  const TimedPose& to = *after;
+  const double duration = to.time - from.time;
+  return {from, to, (to.pose.position() - from.pose.position()) / duration,
+          AngleDifference(to.pose.yaw, from.pose.yaw) / duration};
+}
+
+}  // namespace
+
+ObstacleMotion MotionAt(const Obstacle& obstacle, double time) {
+  if (obstacle.until && time > *obstacle.until) {
+    constexpr double kGone = 1e6;  // [m]
+    return {.displacement = {kGone, 0.0, 0.0}};
+  }
+  if (obstacle.motion.empty()) {
+    return {
+        {obstacle.velocity.x() * time, obstacle.velocity.y() * time, 0.0}, obstacle.velocity, 0.0};
+  }
+  const MotionPiece piece = PieceAt(obstacle.motion, time);
+  const double since = time - piece.from.time;
+  const double rotated = std::clamp(since, 0.0, piece.to.time - piece.from.time);
+  const Vec2 place = piece.from.pose.position() + since * piece.velocity;
+  const Pose2& start = obstacle.footprint.center;
+  return {{place.x() - start.x, place.y() - start.y,
+           piece.from.pose.yaw + rotated * piece.yaw_rate - start.yaw},
+          piece.velocity,
+          rotated == since ? piece.yaw_rate : 0.0};
+}
+
 OrientedBox FootprintAt(const Obstacle& obstacle, double time) {
-  return MovingBox{obstacle.footprint, obstacle.velocity}.At(time);
+  const Pose2 moved = MotionAt(obstacle, time).displacement;
+  OrientedBox box = obstacle.footprint;
+  box.center.x += moved.x;
+  box.center.y += moved.y;
+  box.center.yaw += moved.yaw;
+  return box;
 }
 
 bool IsKnown(const Obstacle& obstacle, double time, const OrientedBox& footprint) {
@@ -88,6 +138,23 @@ std::optional<double> Clearance(const World& world, const VehicleParams& vehicle
 
 namespace {
 
+/// Returns the largest speed of a point of an obstacle between two times [m/s].
+double MaxSpeed(const Obstacle& obstacle, double from, double to) {
+  if (obstacle.motion.empty()) {
+    return obstacle.velocity.norm();
+  }
+  const double radius = 0.5 * std::hypot(obstacle.footprint.length, obstacle.footprint.width);
+  double fastest = 0.0;
+  for (double time = from;;) {
+    const MotionPiece piece = PieceAt(obstacle.motion, time);
+    fastest = std::max(fastest, piece.velocity.norm() + std::abs(piece.yaw_rate) * radius);
+    if (piece.to.time >= to || piece.to.time <= time) {
+      return fastest;
+    }
+    time = piece.to.time;
+  }
+}
+
 /// Returns an upper bound of the distance by which a point of the footprint moves relative to an
 /// obstacle between two samples [m].
 double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
@@ -96,7 +163,7 @@ double MaxRelativeMotion(const World& world, const VehicleParams& vehicle,
       std::max(vehicle.length - vehicle.rear_overhang, vehicle.rear_overhang), 0.5 * vehicle.width);
   double fastest = 0.0;
   for (const Obstacle& obstacle : world.obstacles) {
-    fastest = std::max(fastest, obstacle.velocity.norm());
+    fastest = std::max(fastest, MaxSpeed(obstacle, from.time, to.time));
   }
   return (to.pose.position() - from.pose.position()).norm() +
          reach * std::abs(to.pose.yaw - from.pose.yaw) + fastest * (to.time - from.time);

@@ -251,6 +251,15 @@ TEST(WithWorld, ObstaclesTouchTheCar) {
   EXPECT_GT(LargestForce({obstacle}, {}), 1000.0);
 }
 
+TEST(WithWorld, ObstaclesThatMoveThroughPosesTouchTheCar) {
+  // The box comes from the side and turns toward the car. From 0.2 s on, its end touches the car.
+  Obstacle obstacle{.footprint = {{5.5, 3.0, 0.0}, 4.0, 1.0}};
+  obstacle.motion = {{0.0, {5.5, 3.0, 0.0}}, {0.2, {5.5, 3.0, 0.0}}, {0.4, {4.0, 1.5, 1.5}}};
+  EXPECT_GT(LargestForce({obstacle}, {}), 1000.0);
+  obstacle.until = 0.1;
+  EXPECT_EQ(LargestForce({obstacle}, {}), 0.0);
+}
+
 /// Distances of the tyres' centers from the plane of a grade.
 std::array<double, 4> TyreDistances(const CarModel& car, const mjData& d, const Ground& ground) {
   std::array<double, 4> distances{};

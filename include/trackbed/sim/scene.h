@@ -91,12 +91,12 @@ Scene ComposeScene(const std::filesystem::path& car_file, const SceneOptions& op
 Scene WithGround(const Scene& car_scene, const Ground& ground);
 
 /// Adds the world's obstacles `obstacle_0`, `obstacle_1`, … to the scene, as fixed boxes. An
-/// obstacle with a velocity is a box that moves along joints such as `obstacle_0_x` and
-/// `obstacle_0_y`. The walls of the world's map (`obstacle_wall_0`, …) are fixed boxes on flat
-/// ground. The body `chassis` of the car gets a box geom `shell`, which can touch obstacles but
-/// nothing else. The geom `shell` has the length and width of the car's footprint. The geom `shell`
-/// extends vertically from one tenth of the car's height up to the roof. Obstacles stand on the
-/// world's ground. If the world has no obstacles, the scene is unchanged.
+/// obstacle that moves is a box on joints such as `obstacle_0_x`, `obstacle_0_y` and, if it can
+/// rotate, `obstacle_0_yaw`. The walls of the world's map (`obstacle_wall_0`, …) are fixed boxes on
+/// flat ground. The body `chassis` of the car gets a box geom `shell`, which can touch obstacles
+/// but nothing else. The geom `shell` has the length and width of the car's footprint. The geom
+/// `shell` extends vertically from one tenth of the car's height up to the roof. Obstacles stand on
+/// the world's ground. If the world has no obstacles, the scene is unchanged.
 Scene WithObstacles(const Scene& car_scene, const VehicleParams& vehicle, const World& world);
 
 /// Adds the world's ground and obstacles to the scene.

@@ -15,7 +15,14 @@ namespace trackbed {
 
 struct OpenDriveFile;
 
-/// An obstacle: a box on the ground, which is static or moves without rotation.
+/// The pose of a moving obstacle at one time.
+struct TimedPose {
+  double time = 0.0;  ///< Time [s].
+  Pose2 pose;         ///< Pose of the middle of the obstacle's footprint.
+};
+
+/// An obstacle: a box on the ground, which is static, moves at a constant velocity without
+/// rotation, or moves through given poses.
 struct Obstacle {
   OrientedBox footprint;  ///< Footprint of the box at time 0.
   double height = 1.0;    ///< Height of the box [m], > 0.
@@ -25,9 +32,17 @@ struct Obstacle {
   std::optional<double> known_from_time;  ///< Time [s].
   /// Distance from the car's footprint within which planners learn of the obstacle [m].
   std::optional<double> known_from_range;
-  Vec2 velocity = Vec2::Zero();  ///< Constant velocity of the box in the world [m/s].
+  /// Constant velocity of the box in the world [m/s]; zero if the box moves through poses.
+  Vec2 velocity = Vec2::Zero();
+  /// Poses through which the box moves, with increasing times; empty, or at least two. The box
+  /// moves from each pose to the next at a constant velocity and a constant yaw rate, and turns by
+  /// less than pi. Before the first and after the last pose, the box keeps the velocity of the
+  /// adjacent piece and does not rotate. The center of `footprint` is the pose at time 0.
+  std::vector<TimedPose> motion{};
+  /// Time after which the obstacle is gone: 1000 km away [s]. Default: never.
+  std::optional<double> until{};
 
-  [[nodiscard]] bool moves() const { return velocity != Vec2::Zero(); }
+  [[nodiscard]] bool moves() const { return !motion.empty() || until || velocity != Vec2::Zero(); }
 };
 
 /// The look of the road that is drawn along the plan in videos and other pictures. The drawn road
@@ -86,6 +101,17 @@ Vec2 WindAt(const World& world, const Vec2& point_W, double time);
 
 /// Returns the footprint of a car whose rear-axle center is at `pose`.
 OrientedBox FootprintAt(const VehicleParams& vehicle, const Pose2& pose);
+
+/// The motion of an obstacle at one time.
+struct ObstacleMotion {
+  /// Displacement from the center of the obstacle's footprint at time 0, and rotation since then.
+  Pose2 displacement;
+  Vec2 velocity = Vec2::Zero();  ///< Velocity in the world [m/s].
+  double yaw_rate = 0.0;         ///< Yaw rate [rad/s].
+};
+
+/// Returns the motion of an obstacle at `time` [s]. The cost is logarithmic in the number of poses.
+ObstacleMotion MotionAt(const Obstacle& obstacle, double time);
 
 /// Returns the footprint of an obstacle at `time` [s].
 OrientedBox FootprintAt(const Obstacle& obstacle, double time);

@@ -25,6 +25,26 @@ function extentOfMap() {
   };
 }
 
+/** Whether an obstacle moves. */
+const isMoving = (obstacle) => Boolean(obstacle.motion) || obstacle.until !== undefined || obstacle.vx !== 0 || obstacle.vy !== 0;
+
+/** Returns the pose of an obstacle at a time [s]. */
+function obstaclePose(obstacle, time) {
+  const { motion, until } = obstacle;
+  if (time > until) return { x: obstacle.x + 1e6, y: obstacle.y, yaw: obstacle.yaw };
+  if (!motion) return { x: obstacle.x + obstacle.vx * time, y: obstacle.y + obstacle.vy * time, yaw: obstacle.yaw };
+  const next = Math.min(Math.max(motion.findIndex((pose) => pose[0] > time), 0) || motion.length - 1, motion.length - 1);
+  const i = time < motion[0][0] ? 1 : next;
+  const [from, to] = [motion[i - 1], motion[i]];
+  const share = (time - from[0]) / (to[0] - from[0]);
+  const turned = Math.min(Math.max(share, 0), 1);
+  return {
+    x: from[1] + share * (to[1] - from[1]),
+    y: from[2] + share * (to[2] - from[2]),
+    yaw: from[3] + turned * Math.atan2(Math.sin(to[3] - from[3]), Math.cos(to[3] - from[3])),
+  };
+}
+
 function lineText(x, y, count) {
   let text = '';
   for (let i = 0; i < count; ++i) text += `${i ? 'L' : 'M'}${x[i]} ${y[i]}`;
@@ -164,7 +184,7 @@ function drawMap(parent) {
         .attr('transform', `rotate(${(walls.yaw * 180) / Math.PI})`);
     }
     for (const obstacle of run.world.obstacles.filter((o) => fresh('obstacle', o))) {
-      const moves = obstacle.vx !== 0 || obstacle.vy !== 0;
+      const moves = isMoving(obstacle);
       const way = moves && world.append('path').attr('class', 'obstacle-way');
       const shape = world.append('g').attr('class', moves ? 'obstacle moving' : 'obstacle')
         .attr('transform', placed(obstacle));
@@ -208,7 +228,10 @@ function drawMap(parent) {
   /** Draws the elements that grow while a run is in progress. */
   function drawGrown() {
     for (const { obstacle, way } of moving) {
-      way.attr('d', `M${obstacle.x} ${obstacle.y}l${obstacle.vx * duration} ${obstacle.vy * duration}`);
+      const end = Math.min(duration, obstacle.until === undefined ? duration : obstacle.until);
+      const inner = (obstacle.motion || []).map(([time]) => time).filter((time) => time > 0 && time < end);
+      const poses = [0, ...inner, end].map((time) => obstaclePose(obstacle, time));
+      way.attr('d', lineText(poses.map(({ x }) => x), poses.map(({ y }) => y), poses.length));
     }
     tracks.forEach((track, i) => {
       const fresh = layers[i].newPlans.selectAll('path').data(track.newPlans).enter();
@@ -328,9 +351,7 @@ function drawMap(parent) {
       layers[i].trail.attr('d', `${lineText(ways[i].x, ways[i].y, row + 1)}L${pose.x} ${pose.y}`);
     });
     for (const { obstacle, shape } of moving) {
-      shape.attr('transform', placed({
-        x: obstacle.x + obstacle.vx * time, y: obstacle.y + obstacle.vy * time, yaw: obstacle.yaw,
-      }));
+      shape.attr('transform', placed(obstaclePose(obstacle, time)));
     }
   });
   bus.on('visibility.map', () => tracks.forEach((track, i) => {

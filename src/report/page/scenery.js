@@ -310,12 +310,18 @@ function wallsMesh({ yaw, height, boxes }, extent) {
   return mesh;
 }
 
+/** Returns the distance that an obstacle drives forward through its poses; negative if it drives backward. */
+function driven(motion) {
+  return d3.sum(d3.pairs(motion), ([from, to]) =>
+    Math.cos(from[3]) * (to[1] - from[1]) + Math.sin(from[3]) * (to[2] - from[2]));
+}
+
 /**
  * Makes the shape of an obstacle: a car if the obstacle moves and has the size of a car, otherwise
  * a box.
  */
 function obstacleShape(box, make) {
-  const [moves, isCar] = [box.vx !== 0 || box.vy !== 0, box.length > 3 && box.length < 6 && box.width > 1.4 && box.width < 2.3];
+  const [moves, isCar] = [isMoving(box), box.length > 3 && box.length < 6 && box.width > 1.4 && box.width < 2.3];
   const { car } = runs[0];
   if (!(moves && isCar && make)) {
     const mesh = new THREE.Mesh(new THREE.BoxBufferGeometry(box.length, box.width, box.height), new THREE.MeshLambertMaterial({ color: 0xc9a24a }));
@@ -332,7 +338,8 @@ function obstacleShape(box, make) {
   vehicle.group.position.x = -along * (car.length / 2 - car.rear_overhang);
   // The model of a vehicle faces along the x axis. If the obstacle moves against its x axis, the
   // car model is turned around.
-  const facing = Math.cos(Math.atan2(box.vy, box.vx) - box.yaw) < 0 ? Math.PI : 0;
+  const backward = box.motion ? driven(box.motion) < 0 : Math.cos(Math.atan2(box.vy, box.vx) - box.yaw) < 0;
+  const facing = backward ? Math.PI : 0;
   const holder = new THREE.Group();
   vehicle.group.position.applyAxisAngle(new THREE.Vector3(0, 0, 1), facing);
   vehicle.group.rotation.z = facing;
@@ -358,8 +365,9 @@ function makeObstacle(scene, box, height, make) {
   }
   scene.add(node);
   const place = (time) => {
-    const [x, y] = [box.x + box.vx * time, box.y + box.vy * time];
+    const { x, y, yaw } = obstaclePose(box, time);
     node.position.set(x, y, height(x, y));
+    node.rotation.z = yaw;
   };
   place(0);
   return {
